@@ -1,0 +1,60 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace sprag
+{
+  /// Friction coefficient mu and its derivative with respect to the sliding speed [s/mm].
+  struct FrictionValue
+  {
+    double coefficient;
+    double derivative;
+  };
+
+  /// mu independent of speed.
+  struct CoulombFriction
+  {
+    double coefficient = 0.73; ///< >= 0
+  };
+
+  /// Abrasion-resistant cork on aluminium, Yamaguchi & Yoshida eqs. 13-15, speed in mm/s:
+  ///   mu = -9.235e-6 v^2 + 4.422e-3 v + 0.3491  (0 <= v < 200)
+  ///   mu = -7.086e-7 v^2 + 1.058e-3 v + 0.6809  (200 <= v < 750)
+  ///   mu = 1.076                                (750 <= v)
+  struct CorkOnAluminium
+  {
+  };
+
+  /// mu over speed from a file, joined by a monotone cubic (PCHIP) and constant beyond its ends.
+  class TabulatedFriction
+  {
+  public:
+    /// `speeds` [mm/s] start at >= 0 and increase; `coefficients` >= 0; at least 4 rows. Throws InputError otherwise.
+    TabulatedFriction(std::vector<double> speeds, std::vector<double> coefficients);
+
+    FrictionValue value(double speed) const;
+
+  private:
+    class Interpolant;
+    std::shared_ptr<const Interpolant> interpolant;
+  };
+
+  /// Which speed mu depends on: the true material sliding speed, or the drive's (the paper's choice).
+  enum class FrictionSpeed
+  {
+    sliding,
+    drive
+  };
+
+  struct FrictionLaw
+  {
+    std::variant<CoulombFriction, CorkOnAluminium, TabulatedFriction> law = CorkOnAluminium{};
+    FrictionSpeed speed                                                   = FrictionSpeed::sliding;
+  };
+
+  /// mu and dmu/d|v| at a sliding speed |v| >= 0 [mm/s]. mu(0) is the cone in stick.
+  FrictionValue friction_coefficient(const FrictionLaw &law, double speed);
+} // namespace sprag

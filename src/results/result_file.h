@@ -1,0 +1,58 @@
+#pragma once
+
+#include "results/columns.h"
+
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace sprag
+{
+  /// A named scalar or text with its unit and meaning, for /summary and /meta.
+  struct Entry
+  {
+    std::string name;
+    std::variant<double, std::string> value;
+    std::string unit; ///< "1" where dimensionless, empty for text
+    std::string description;
+  };
+
+  /// Points of the friction face (fixed for a run): lever coordinates of the undeformed nodes and their weights.
+  struct FacePoints
+  {
+    std::vector<double> xi;     ///< along the lever, from the pivot [mm]
+    std::vector<double> weight; ///< area of the face carried by the point [mm^2]
+  };
+
+  /// State of the friction face at one written step, an entry per point of FacePoints.
+  struct FaceState
+  {
+    double time = 0.;             ///< [s]
+    double x    = 0.;             ///< [mm]
+    std::vector<double> pressure; ///< [MPa]
+    std::vector<double> traction; ///< friction on the lever along -d [MPa]
+  };
+
+  /// `result.h5`: /table/<column>, /face, /summary, /parameters, /meta. Appends are flushed, so that the file can be read while
+  /// the run goes on (HDF5 single-writer-multiple-reader) and after it is killed. Throws AnalysisError when HDF5 fails.
+  class ResultFile
+  {
+  public:
+    /// Creates or replaces the file. `parameters` is the full .prm text as used. No points: no /face.
+    ResultFile(const std::string &path, const std::string &parameters, const FacePoints &points);
+    ResultFile(ResultFile &&) noexcept;
+    ~ResultFile();
+
+    void append(const Row &row);
+
+    void append(const FaceState &state);
+
+    /// Writes /summary and /meta and closes the file. To be called once, also after a failed analysis.
+    void finish(const std::vector<Entry> &summary, const std::vector<Entry> &meta);
+
+  private:
+    struct Implementation;
+    std::unique_ptr<Implementation> implementation;
+  };
+} // namespace sprag
