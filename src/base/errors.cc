@@ -13,9 +13,9 @@ namespace sprag
     }
   } // namespace
 
-  InputError::InputError(std::vector<std::string> messages)
-      : std::runtime_error(joined(messages))
-      , messages(std::move(messages))
+  InputError::InputError(std::vector<std::string> all_messages)
+      : std::runtime_error(joined(all_messages))
+      , messages(std::move(all_messages))
   {
   }
 

@@ -10,7 +10,7 @@ namespace sprag
   class InputError : public std::runtime_error
   {
   public:
-    explicit InputError(std::vector<std::string> messages);
+    explicit InputError(std::vector<std::string> all_messages);
     explicit InputError(const std::string &message);
 
     /// One message a mistake, each naming file, parameter, value and rule.
