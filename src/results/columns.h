@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <limits>
 #include <string>
+#include <vector>
 
 namespace sprag
 {
@@ -29,6 +30,7 @@ namespace sprag
     indentation,
     cone_violation,
     elastic_slip,
+    friction_power,
     friction_work,
     drive_work,
     spring_energy,
@@ -48,11 +50,14 @@ namespace sprag
   struct ColumnInfo
   {
     std::string name;
-    std::string unit;
+    std::string unit; ///< "1" where dimensionless
     std::string description;
   };
 
   const ColumnInfo &column_info(Column column);
+
+  /// Every Column in the order of the enumeration.
+  const std::vector<ColumnInfo> &all_columns();
 
   /// One accepted step.
   class Row

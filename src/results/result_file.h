@@ -34,17 +34,24 @@ namespace sprag
     std::vector<double> traction; ///< friction on the lever along -d [MPa]
   };
 
-  /// `result.h5`: /table/<column>, /face, /summary, /parameters, /meta. Appends are flushed, so that the file can be read while
-  /// the run goes on (HDF5 single-writer-multiple-reader) and after it is killed. Throws AnalysisError when HDF5 fails.
+  /// `result.h5`: /table/<column>, /face, /summary, /parameters, /meta. The file can be read while the run goes on (HDF5
+  /// single-writer-multiple-reader) and after it is killed: what is appended is flushed at once; of rows that come within 5 ms of
+  /// the last flush several are flushed together. Throws AnalysisError when HDF5 fails. To be destroyed before MPI is finalised.
   class ResultFile
   {
   public:
-    /// Creates or replaces the file. `parameters` is the full .prm text as used. No points: no /face.
-    ResultFile(const std::string &path, const std::string &parameters, const FacePoints &points);
+    /// Creates or replaces the file; throws InputError if that cannot be done. `parameters` is the full .prm text as used.
+    /// No points: no /face. The table has one column a ColumnInfo; other than all_columns() for the slope sweeps.
+    ResultFile(const std::string &path, const std::string &parameters, const FacePoints &points,
+               const std::vector<ColumnInfo> &columns = all_columns());
     ResultFile(ResultFile &&) noexcept;
     ~ResultFile();
 
+    /// For a file with all_columns().
     void append(const Row &row);
+
+    /// A value for each of the columns given to the constructor.
+    void append(const std::vector<double> &row);
 
     void append(const FaceState &state);
 

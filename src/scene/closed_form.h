@@ -17,44 +17,40 @@ namespace sprag
   };
 
   /// Requires x with the contact point on the lever's side of the pivot, see pivot_contact().
-  Kinematics
-  kinematics(const Geometry &geometry, double x);
+  Kinematics kinematics(const Geometry &geometry, double x);
+
+  /// Material sliding speed of the cylinder along the lever, v cos th - e dth/dt [mm/s], signed.
+  double sliding_speed(const Geometry &geometry, double x, double v);
+
+  /// mu at x while moving at v, by the speed that the scene's law refers to.
+  FrictionValue sliding_friction(const Scene &scene, double x, double v);
 
   struct ClosedFormState
   {
     Kinematics contact;
-    double     v_rel; ///< sliding speed of the cylinder along the lever, v cos th - e dth/dt [mm/s], signed
-    double     mu;
-    double     P; ///< along n [N], eq. 5 with J = 0
-    double     F; ///< on the lever along -d [N], eq. 4
-    double     Q; ///< along x [N], eq. 6
+    double v_rel; ///< sliding_speed()
+    double mu;
+    double P; ///< along n [N], eq. 5 with J = 0
+    double F; ///< on the lever along -d [N], eq. 4
+    double Q; ///< along x [N], eq. 6
   };
 
   /// State at x while moving at v [mm/s], v != 0 for a direction. Infinite or negative forces where s + sgn(v) mu e <= 0.
-  ClosedFormState
-  closed_form(const Scene &scene, double x, double v);
+  ClosedFormState closed_form(const Scene &scene, double x, double v);
 
   /// Representative slope C_Q = dQ/dx at x = 0 [N/mm], eqs. 10-12 (with the sign of dth/dx mended), sign = +1 or -1.
-  double
-  representative_slope(const Geometry &geometry, double spring_stiffness, double coefficient, int sign);
+  double representative_slope(const Geometry &geometry, double spring_stiffness, double coefficient, int sign);
 
   /// C_Q R l / k, eqs. 20-22.
-  double
-  dimensionless_slope(const Geometry &geometry, double coefficient, int sign);
-
-  /// The geometry with h = 0 and the given e/R and th0 [rad] (R = 1 mm), eq. 23; none where the cylinder reaches the pivot, l <= R.
-  std::optional<Geometry>
-  geometry_of_inclination(double offset_ratio, double inclination);
+  double dimensionless_slope(const Geometry &geometry, double coefficient, int sign);
 
   /// th0 above which the backward stroke no longer damps, atan mu [rad], eq. 25.
-  double
-  critical_inclination(double coefficient);
+  double critical_inclination(double coefficient);
 
   /// Smallest x at which the cylinder touches the pivot: (l-x)^2 + h^2 = R^2 [mm].
-  double
-  pivot_contact(const Geometry &geometry);
+  double pivot_contact(const Geometry &geometry);
 
-  /// First position on the drive at which the moving-back lever locks, s <= mu e with the scene's mu(v).
+  /// Where on the drive the lever locks while moving back, s <= mu e with the scene's mu(v).
   struct Locking
   {
     double x;
@@ -62,11 +58,12 @@ namespace sprag
     double mu;
   };
 
-  /// None if the whole drive is free of it.
-  std::optional<Locking>
-  locking(const Scene &scene);
+  /// The first instant of the drive at which it does, to 0.1 mm; none if the whole drive is free of it.
+  std::optional<Locking> locking(const Scene &scene);
 
   /// Integral of Q dx over the drive, whole cycles [N mm]; equals the friction work.
-  double
-  loop_area(const Scene &scene);
+  double loop_area(const Scene &scene);
+
+  /// Integral of F v_rel dt over the drive [N mm].
+  double friction_work(const Scene &scene);
 } // namespace sprag

@@ -58,8 +58,8 @@ namespace sprag
     DrivePoint at(double time, Side side = Side::before) const;
 
     /// The end of a step from `time` that moves x by at most `dx` > 0 [mm]: the first later time at which |x - x(time)| = dx,
-    /// the next reversal, or the end of the drive, whichever comes first. A remainder of less than 1e-3 dx before a
-    /// reversal or the end is taken along, so that those are hit exactly and never by a sliver of a step.
+    /// the next reversal, the beginning or end of a rest, or the end of the drive, whichever comes first. A remainder of less
+    /// than 1e-3 dx before a reversal or the end is taken along, so that those are hit exactly and never by a sliver of a step.
     DrivePoint step(double time, double dx) const;
 
   private:

@@ -1,0 +1,350 @@
+#!/usr/bin/python3
+"""Draws result folders of sprag: forces over time and x, the contact, sweeps of the slope."""
+
+import argparse
+import sys
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402  (after the choice of what draws)
+import numpy as np  # noqa: E402
+
+from results import NotAResult, read_result  # noqa: E402
+
+MILLIMETRE = 1 / 25.4
+ONE_COLUMN = 85 * MILLIMETRE
+TWO_COLUMNS = 170 * MILLIMETRE
+
+# Colours told apart by the colour-blind (Okabe & Ito), and with each a line style for prints without colour.
+COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
+LINES = ("-", (0, (6, 1.5)), (0, (6, 1.5, 1.2, 1.5)), (0, (3, 1.2)), (0, (3, 1, 1, 1, 1, 1)), (0, (8, 1, 2, 1)), (0, (1.5, 1)))
+MARKERS = ("o", "s", "^", "D", "v", "P", "X")
+
+SYMBOLS = {
+    "time": "$t$",
+    "x": "$x$",
+    "P": "$P$",
+    "Q": "$Q$",
+    "mu": r"$\mu$",
+    "v_rel": r"$v_\mathrm{rel}$",
+    "theta0": r"$\theta_0$",
+    "slope_forward": "$C_Q$",
+    "slope_backward": "$C_Q$",
+    "dimensionless_forward": r"$\bar C_Q = C_Q R\,l/k$",
+    "dimensionless_backward": r"$\bar C_Q = C_Q R\,l/k$",
+}
+
+
+def use_print_style():
+    plt.rcParams.update(
+        {
+            "font.size": 8,
+            "axes.labelsize": 8,
+            "axes.linewidth": 0.6,
+            "axes.grid": True,
+            "axes.axisbelow": True,
+            "grid.color": "0.88",
+            "grid.linewidth": 0.5,
+            "lines.linewidth": 1.2,
+            "legend.fontsize": 7,
+            "legend.frameon": False,
+            "legend.handlelength": 2.8,
+            "xtick.direction": "in",
+            "ytick.direction": "in",
+            "pdf.fonttype": 42,
+            "figure.constrained_layout.use": True,
+        }
+    )
+
+
+def look(index):
+    """Colour and line of the index-th curve."""
+    return {"color": COLOURS[index % len(COLOURS)], "linestyle": LINES[index % len(LINES)]}
+
+
+def label(units, column):
+    """Axis label with the unit as the file gives it."""
+    symbol = SYMBOLS.get(column, column.replace("_", " "))
+    unit = units.get(column, "1")
+    if unit in ("", "1"):
+        return symbol
+    return f"{symbol} [{unit.replace('^2', '$^2$').replace('^3', '$^3$')}]"
+
+
+def set_labels(axes, units, over, column):
+    axes.set_xlabel(label(units, over))
+    axes.set_ylabel(label(units, column))
+
+
+def panel_letter(axes, letter):
+    axes.set_title(f"({letter})", loc="left", fontsize=8)
+
+
+def show_legend(axes, **arguments):
+    """A legend where there is more than one thing to tell apart."""
+    if len(axes.get_legend_handles_labels()[0]) > 1:
+        axes.legend(**arguments)
+
+
+# Forces
+
+
+def draw_column(axes, result, over, column, index):
+    """A column over another, and dashed what the closed form has to say on it."""
+    axes.plot(result.table[over], result.table[column], label=result.name, **look(index))
+    reference = f"{column}_closed_form"
+    if result.has(reference):
+        named = "closed form" in axes.get_legend_handles_labels()[1]
+        axes.plot(
+            result.table[over],
+            result.table[reference],
+            color="black",
+            linestyle=(0, (4, 4)),
+            linewidth=0.8,
+            label=None if named else "closed form",
+        )
+
+
+def forces_over_time(results):
+    """x, P and Q over time (Fig. 7 of the paper)."""
+    figure, panels = plt.subplots(3, 1, sharex=True, figsize=(ONE_COLUMN, 120 * MILLIMETRE))
+    for axes, column, letter in zip(panels, ("x", "P", "Q"), "abc"):
+        for index, result in enumerate(results):
+            draw_column(axes, result, "time", column, index)
+        axes.set_ylabel(label(results[0].units, column))
+        panel_letter(axes, letter)
+    panels[-1].set_xlabel(label(results[0].units, "time"))
+    figure.align_ylabels()
+    show_legend(panels[1])
+    return figure
+
+
+def forces_over_x(results):
+    """P and Q over x with the direction of motion and the line C_Q x (Figs. 8 and 9 of the paper)."""
+    figure, panels = plt.subplots(1, 2, figsize=(TWO_COLUMNS, 72 * MILLIMETRE))
+    for axes, column, letter in zip(panels, ("P", "Q"), "ab"):
+        for index, result in enumerate(results):
+            draw_column(axes, result, "x", column, index)
+        set_labels(axes, results[0].units, "x", column)
+        panel_letter(axes, letter)
+    draw_slopes(panels[1], results)
+    for axes, column in zip(panels, ("P", "Q")):
+        draw_directions(axes, results[0], column)
+    panels[1].axhline(0, color="black", linewidth=0.5)
+    show_legend(panels[1])
+    return figure
+
+
+def draw_slopes(axes, results):
+    """The dotted line Q = C_Q x of eq. 16; one for all results that share it."""
+    slopes = {round(r.summary["slope_forward"], 9): r for r in results if "slope_forward" in r.summary}
+    for slope, result in slopes.items():
+        end = np.nanmax(result.table["x"])
+        name = f"$C_Q x$, $C_Q$ = {slope:.4f} {result.entry_units['slope_forward']}"
+        axes.plot([0, end], [0, slope * end], color="black", linestyle=":", linewidth=1.2, label=name)
+
+
+def draw_directions(axes, result, column):
+    """An arrow along the first stroke each way."""
+    x, y = result.table["x"], result.table[column]
+    for sign in (1, -1):
+        stroke = first_stroke(x, sign)
+        if len(stroke) > 2:
+            draw_arrow(axes, x[stroke], y[stroke])
+
+
+def first_stroke(x, sign):
+    """Indices of the first run of steps in one direction."""
+    moving = np.flatnonzero(sign * np.diff(x) > 0)
+    if len(moving) == 0:
+        return moving
+    gaps = np.flatnonzero(np.diff(moving) > 1)
+    last = moving[gaps[0]] if len(gaps) else moving[-1]
+    return np.arange(moving[0] + 1, last + 2)
+
+
+def draw_arrow(axes, x, y):
+    """An arrow head on the curve halfway along the stroke."""
+    path = np.cumsum(np.abs(np.diff(x, prepend=x[0])))
+    tail, head = np.interp(path[-1] * np.array((0.46, 0.56)), path, np.arange(len(x)))
+    steps = np.arange(len(x))
+    ends = [(np.interp(at, steps, x), np.interp(at, steps, y)) for at in (tail, head)]
+    if np.isfinite(ends).all():
+        axes.annotate(
+            "",
+            xy=ends[1],
+            xytext=ends[0],
+            arrowprops={"arrowstyle": "-|>", "color": "black", "linewidth": 1, "mutation_scale": 10},
+        )
+
+
+# Contact
+
+
+def contact(result):
+    """Pressure along the friction face at a few x; contact width, penetration and indentation over x."""
+    figure, panels = plt.subplots(2, 2, figsize=(TWO_COLUMNS, 120 * MILLIMETRE))
+    draw_pressures(panels[0], result.face)
+    draw_widths(panels[1][0], result)
+    draw_depths(panels[1][1], result)
+    for axes, letter in zip(panels.flat, "abcd"):
+        panel_letter(axes, letter)
+    return figure
+
+
+def draw_pressures(panels, face, count=5):
+    """Along the whole path of the contact, and each about its own centre."""
+    chosen = chosen_steps(face, count)
+    if not chosen:
+        return
+    for index, step in enumerate(chosen):
+        patch = pressed_points(face, step)
+        xi, pressure, centre = face.xi[patch], face.pressure[step][patch], centre_of_pressure(face, step)
+        panels[0].plot(xi, pressure, label=f"{face.x[step]:.3g} {face.units['x']}", **look(index))
+        panels[1].plot(xi - centre, pressure, marker=MARKERS[index], markersize=2.5, **look(index))
+    panels[0].set_ylim(top=1.5 * panels[0].get_ylim()[1])  # room for the legend
+    panels[0].set_xlabel(f"lever coordinate $\\xi$ [{face.units['xi']}]")
+    panels[1].set_xlabel(f"$\\xi$ minus the centre of pressure [{face.units['xi']}]")
+    for axes in panels:
+        axes.set_ylabel(f"pressure [{face.units['pressure']}]")
+    panels[0].legend(title="forward, $x$ =", title_fontsize=7, ncol=3, loc="upper center")
+
+
+def chosen_steps(face, count):
+    """Steps of the first forward stroke with contact, spread over x."""
+    stroke = first_stroke(face.x, 1)
+    stroke = stroke[face.pressure[stroke].max(axis=1) > 0] if len(stroke) else stroke
+    if len(stroke) == 0:
+        return []
+    wanted = np.linspace(face.x[stroke[-1]] / count, face.x[stroke[-1]], count)
+    return sorted({int(stroke[np.abs(face.x[stroke] - x).argmin()]) for x in wanted})
+
+
+def centre_of_pressure(face, step):
+    force = face.weight * face.pressure[step]
+    return np.sum(force * face.xi) / np.sum(force)
+
+
+def pressed_points(face, step):
+    """The points under pressure and one more on either side."""
+    pressed = np.flatnonzero(face.pressure[step] > 0)
+    return slice(max(pressed[0] - 1, 0), pressed[-1] + 2)
+
+
+def draw_widths(axes, result):
+    axes.plot(result.table["x"], result.table["contact_width"], **look(0))
+    set_labels(axes, result.units, "x", "contact_width")
+    axes.set_ylim(bottom=0)
+
+
+def draw_depths(axes, result):
+    """The layer's compression and the numerical overlap, which should be far smaller."""
+    for index, column in enumerate(("indentation", "penetration")):
+        depth = result.table[column]
+        axes.semilogy(result.table["x"], np.where(depth > 0, depth, np.nan), label=column, **look(index))
+    set_labels(axes, result.units, "x", "penetration")
+    axes.set_ylabel(f"depth [{result.units['penetration']}]")
+    show_legend(axes)
+
+
+# Sweeps of the slope
+
+
+def slope_sweep(result):
+    """The dimensionless slope over mu (Fig. 10 of the paper) or theta0 (Fig. 11)."""
+    return slopes_over_coefficient([result]) if "mu" in result.table else slopes_over_inclination(result)
+
+
+def slope_panels(units, over):
+    figure, panels = plt.subplots(1, 2, figsize=(TWO_COLUMNS, 70 * MILLIMETRE))
+    for axes, direction, letter in zip(panels, ("forward", "backward"), "ab"):
+        set_labels(axes, units, over, f"dimensionless_{direction}")
+        axes.set_title(f"({letter}) {direction}", loc="left", fontsize=8)
+        axes.axhline(0, color="black", linewidth=0.5)
+    return figure, panels
+
+
+def slopes_over_coefficient(results, names=None):
+    figure, panels = slope_panels(results[0].units, "mu")
+    for axes, direction in zip(panels, ("forward", "backward")):
+        for index, result in enumerate(results):
+            name = names[index] if names else result.name
+            axes.plot(result.table["mu"], result.table[f"dimensionless_{direction}"], label=name, **look(index))
+        axes.set_xlim(left=0)
+        show_legend(axes)
+    return figure
+
+
+def slopes_over_inclination(result):
+    figure, panels = slope_panels({**result.units, "theta0": "deg"}, "theta0")
+    ratios = result.table["offset_ratio"]
+    for axes, direction in zip(panels, ("forward", "backward")):
+        for index, ratio in enumerate(np.unique(ratios)):
+            rows = ratios == ratio
+            theta0 = np.degrees(result.table["theta0"][rows])
+            axes.plot(theta0, result.table[f"dimensionless_{direction}"][rows], label=f"{ratio:g}", **look(index))
+        axes.set_xlim(left=0)
+        axes.legend(title="$e/R$", title_fontsize=7)
+    return figure
+
+
+# Pictures into files
+
+
+def draw(results):
+    """{picture name: figure} for one or several results."""
+    sweeps = [result for result in results if result.is_sweep]
+    if sweeps and len(results) > 1:
+        raise NotAResult(f"{sweeps[0].folder}: a sweep of the slope is drawn by itself")
+    if sweeps:
+        return {"slope": slope_sweep(sweeps[0])}
+    empty = [result for result in results if len(result.table["time"]) == 0]
+    if empty:
+        raise NotAResult(f"{empty[0].folder}: no step is finished yet")
+    pictures = {"forces-over-time": forces_over_time(results), "forces-over-x": forces_over_x(results)}
+    if len(results) == 1 and results[0].face is not None:
+        pictures["contact"] = contact(results[0])
+    return pictures
+
+
+def save(pictures, folder, formats=("png",), dpi=300):
+    """Writes every figure in every format and says which."""
+    folder.mkdir(parents=True, exist_ok=True)
+    for name, figure in pictures.items():
+        for ending in formats:
+            path = folder / f"{name}.{ending}"
+            figure.savefig(path, dpi=dpi)
+            print(path)
+        plt.close(figure)
+
+
+def read_arguments(arguments):
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("folders", nargs="+", metavar="DIR", type=Path, help="result folder, holding result.h5")
+    parser.add_argument("--output", type=Path, metavar="PICTURE_DIR", help="default: the only result folder, or the current one")
+    parser.add_argument("--format", default="png", help="png, pdf or svg, or several: png,pdf")
+    options = parser.parse_args(arguments)
+    options.format = options.format.split(",")
+    unknown = set(options.format) - {"png", "pdf", "svg"}
+    if unknown:
+        parser.error(f"unknown format {', '.join(sorted(unknown))}: png, pdf or svg")
+    if options.output is None:
+        options.output = options.folders[0] if len(options.folders) == 1 else Path(".")
+    return options
+
+
+def main(arguments=None):
+    options = read_arguments(arguments)
+    use_print_style()
+    try:
+        save(draw([read_result(folder) for folder in options.folders]), options.output, options.format)
+    except (NotAResult, OSError) as error:
+        print(f"plot.py: {error}", file=sys.stderr)
+        return 2
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,140 @@
+"""Reads result.h5 as written by sprag, finished or not."""
+
+from dataclasses import dataclass, field
+from pathlib import Path
+import re
+import time
+from typing import Optional
+
+import h5py
+import numpy as np
+
+
+class NotAResult(Exception):
+    """The folder holds no result of sprag; the text says which and why."""
+
+
+@dataclass
+class Face:
+    """The friction face; pressure and traction are [written steps x points]."""
+
+    xi: np.ndarray
+    weight: np.ndarray
+    time: np.ndarray
+    x: np.ndarray
+    pressure: np.ndarray
+    traction: np.ndarray
+    units: dict
+
+
+@dataclass
+class Result:
+    """One result folder."""
+
+    folder: Path
+    table: dict  # column -> array, all equally long
+    units: dict  # column -> unit
+    descriptions: dict  # column -> meaning
+    parameters: str
+    summary: dict = field(default_factory=dict)  # empty while the run goes on
+    meta: dict = field(default_factory=dict)
+    entry_units: dict = field(default_factory=dict)  # of summary and meta
+    face: Optional[Face] = None
+    finished: bool = False
+
+    @property
+    def name(self):
+        return self.folder.resolve().name
+
+    @property
+    def is_sweep(self):
+        """Slopes over mu or theta0 instead of steps of time."""
+        return "time" not in self.table
+
+    def has(self, column):
+        """Whether a column is there and holds at least one number."""
+        return column in self.table and bool(np.isfinite(self.table[column]).any())
+
+    def parameter(self, section, name):
+        """The text of a parameter as used; KeyError if there is none."""
+        found = re.search(
+            rf"^subsection {re.escape(section)}\n(?:(?!end$).*\n)*?\s*set {re.escape(name)}\s*=([^#\n]*)",
+            self.parameters,
+            re.MULTILINE,
+        )
+        if not found:
+            raise KeyError(f"{section}/{name}")
+        return found.group(1).strip()
+
+
+def open_result(path, attempts=5):
+    """The open h5py.File; swmr=True where a run still writes it or was killed."""
+    for attempt in range(attempts):
+        for arguments in ({}, {"swmr": True}):
+            try:
+                return h5py.File(path, "r", **arguments)
+            except OSError as error:
+                reason = error
+        if not h5py.is_hdf5(path):
+            break
+        time.sleep(0.2)  # between the last row and the summary the file is shut for a moment
+    raise NotAResult(f"{path}: cannot be read as HDF5 ({reason})")
+
+
+def read_result(folder):
+    """The Result in a folder. Throws NotAResult."""
+    folder = Path(folder)
+    path = folder / "result.h5"
+    if not path.is_file():
+        raise NotAResult(f"{folder}: no result.h5 there")
+    with open_result(path) as file:
+        if file.attrs.get("format") != "sprag result" or "table" not in file:
+            raise NotAResult(f"{path}: not a result of sprag")
+        table = _equally_long({name: data[:] for name, data in file["table"].items()})
+        result = Result(
+            folder=folder,
+            table=table,
+            units=_attributes(file["table"], "unit"),
+            descriptions=_attributes(file["table"], "description"),
+            parameters=file["parameters"].asstr()[()],
+            finished="summary" in file,
+        )
+        if result.finished:
+            result.summary = _entries(file["summary"])
+            result.meta = _entries(file["meta"])
+            result.entry_units = {**_attributes(file["summary"], "unit"), **_attributes(file["meta"], "unit")}
+        if "face" in file:
+            result.face = _read_face(file["face"])
+        return result
+
+
+def _read_face(group):
+    steps = _equally_long({name: group[name][:] for name in ("time", "x", "pressure", "traction")})
+    order = np.argsort(group["xi"][:])
+    return Face(
+        xi=group["xi"][:][order],
+        weight=group["weight"][:][order],
+        time=steps["time"],
+        x=steps["x"],
+        pressure=steps["pressure"][:, order],
+        traction=steps["traction"][:, order],
+        units=_attributes(group, "unit"),
+    )
+
+
+def _equally_long(arrays):
+    """A run killed between two columns leaves a last row that is not complete."""
+    length = min((len(values) for values in arrays.values()), default=0)
+    return {name: values[:length] for name, values in arrays.items()}
+
+
+def _attributes(group, attribute):
+    return {name: data.attrs.get(attribute, "") for name, data in group.items()}
+
+
+def _entries(group):
+    return {name: _value(data) for name, data in group.items()}
+
+
+def _value(data):
+    return data.asstr()[()] if h5py.check_string_dtype(data.dtype) else data[()]

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "results/columns.h"
+#include "scene/scene.h"
+
+#include <functional>
+
+namespace sprag
+{
+  /// The closed form along the scene's drive, in steps of at most Analysis/Step; at every reversal two rows, before and after.
+  /// Works are integrated within each step to 1e-12.
+  void run_closed_form(const Scene &scene, const std::function<void(const Row &)> &sink);
+} // namespace sprag

@@ -1,0 +1,200 @@
+#include "analysis/quasi_static.h"
+
+#include "analysis/newton.h"
+#include "base/errors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <sstream>
+
+namespace sprag
+{
+  namespace
+  {
+    constexpr double growth         = 1.5;
+    constexpr double cut            = 0.25;
+    constexpr double stick_fraction = 0.1; ///< of the travel through stick, the first step after a reversal
+
+    struct StepCost
+    {
+      unsigned int iterations    = 0;
+      unsigned int augmentations = 0;
+    };
+
+    /// Newton from the predictor; if it fails, once more from the stick predictor.
+    bool equilibrate(Model &model, State &trial, const State &accepted, const bool reversed, StepCost &cost)
+    {
+      const State guess = trial;
+      for (const bool stick_first : { reversed, !reversed })
+      {
+        trial             = guess;
+        const auto result = solve_equilibrium(model, trial, accepted, stick_first);
+        cost.iterations += result.iterations;
+        if (result.converged)
+          return true;
+      }
+      return false;
+    }
+
+    /// Augments until no point overlaps by more than the tolerance.
+    bool augment(Model &model, State &trial, const State &accepted, const ContactSettings &settings, StepCost &cost)
+    {
+      while (model.penetration() > settings.penetration_tolerance)
+      {
+        if (++cost.augmentations > settings.maximum_augmentations)
+          return false;
+        model.augment(trial);
+        if (!equilibrate(model, trial, accepted, false, cost))
+          return false;
+      }
+      return true;
+    }
+
+    /// The state at the end of a step, or none where no equilibrium was found.
+    std::optional<State> solve_step(Model &model, const State &accepted, const DrivePoint &drive,
+                                    const QuasiStaticSettings &settings, const bool reversed, StepCost &cost)
+    {
+      State trial = accepted;
+      trial.drive = drive;
+      model.predict(trial, accepted);
+      try
+      {
+        if (!equilibrate(model, trial, accepted, reversed, cost))
+          return {};
+        if (settings.contact.enforcement == Enforcement::augmented_lagrangian &&
+            !augment(model, trial, accepted, settings.contact, cost))
+          return {};
+      }
+      catch (const AnalysisError &)
+      {
+        return {}; // an element turned inside out or a singular tangent: a shorter step may avoid it
+      }
+      return trial;
+    }
+
+    Row observe(const Model &model, const State &state)
+    {
+      Row row;
+      row[Column::time]          = state.drive.time;
+      row[Column::x]             = state.drive.x;
+      row[Column::v]             = state.drive.v;
+      row[Column::friction_work] = 0.;
+      row[Column::drive_work]    = 0.;
+      model.observe(state, row);
+      return row;
+    }
+
+    /// Trapezoidal rule, but across a reversal the friction power jumps and its value at the end of the step stands for it.
+    void add_work(const Row &before, const bool reversed, Row &row)
+    {
+      const double dt             = row[Column::time] - before[Column::time];
+      const double dx             = row[Column::x] - before[Column::x];
+      const double power_at_start = reversed ? row[Column::friction_power] : before[Column::friction_power];
+      row[Column::friction_work]  = before[Column::friction_work] + 0.5 * dt * (power_at_start + row[Column::friction_power]);
+      row[Column::drive_work]     = before[Column::drive_work] + 0.5 * dx * (before[Column::Q] + row[Column::Q]);
+      row[Column::step]           = dx;
+    }
+
+    [[noreturn]] void give_up(const Row &last, const double dx)
+    {
+      std::ostringstream message;
+      message << "no equilibrium beyond x = " << last[Column::x] << " mm (v = " << last[Column::v]
+              << " mm/s, P = " << last[Column::P] << " N): the last step tried was " << dx << " mm. ";
+      if (last[Column::v] < 0. && last[Column::F] < 0.)
+        message << "Moving back, a lever with s <= mu e locks (here s = " << last[Column::s] << " mm, mu = " << last[Column::mu]
+                << "). ";
+      message << "Try a smaller friction coefficient or offset, a smaller Analysis/Step, a smaller Contact/Penalty or a finer "
+                 "Mesh/Face size.";
+      throw AnalysisError(message.str());
+    }
+
+    struct Progression
+    {
+      State state;
+      Row row;
+    };
+
+    /// Steady sliding at the start of the drive: the end of a step that leads there, of which nothing is counted.
+    Progression begin(Model &model, const Drive &drive, const QuasiStaticSettings &settings)
+    {
+      const DrivePoint start = drive.at(0.);
+      const double sense     = drive.step(0., settings.step).x < start.x ? -1. : 1.;
+      const double speed     = drive.peak_speed();
+      const State before = model.initial_state({ start.time - settings.step / speed, start.x - sense * settings.step, start.v });
+      StepCost cost;
+      auto state = solve_step(model, before, start, settings, false, cost);
+      if (!state)
+        throw AnalysisError("no equilibrium at the start of the drive. Try a smaller Contact/Penalty or a finer Mesh/Face size.");
+      state->contact = model.memory();
+      Row row        = observe(model, *state);
+      return { std::move(*state), row };
+    }
+
+    /// One accepted step of at most dx, which is cut back where no equilibrium is found.
+    Progression advance(Model &model, const Drive &drive, const QuasiStaticSettings &settings, const Progression &from,
+                        const bool reversed, double &dx)
+    {
+      StepCost cost;
+      const double time = from.state.drive.time;
+      auto next         = solve_step(model, from.state, drive.step(time, dx), settings, reversed, cost);
+      while (!next)
+      {
+        if (dx * cut < settings.minimum_step)
+          give_up(from.row, dx);
+        dx *= cut;
+        next = solve_step(model, from.state, drive.step(time, dx), settings, reversed, cost);
+      }
+      next->contact = model.memory();
+      Row row       = observe(model, *next);
+      add_work(from.row, reversed, row);
+      row[Column::iterations]    = cost.iterations;
+      row[Column::augmentations] = cost.augmentations;
+      return { std::move(*next), row };
+    }
+  } // namespace
+
+  double stick_stiffness(Model &model, const State &accepted)
+  {
+    const double probe = 1e-6;
+    State trial        = accepted;
+    Row before, after;
+    model.evaluate(trial, accepted, FrictionMode::stick);
+    model.observe(trial, before);
+    if (before[Column::P] <= 0.)
+      return 0.;
+    trial.drive.x += probe;
+    trial.drive.time += probe;
+    model.evaluate(trial, accepted, FrictionMode::stick);
+    trial.coordinates += model.correction();
+    model.evaluate(trial, accepted, FrictionMode::stick);
+    model.observe(trial, after);
+    return (after[Column::F] - before[Column::F]) / probe;
+  }
+
+  double run_quasi_static(Model &model, const Drive &drive, const QuasiStaticSettings &settings, const StepSink &sink)
+  {
+    Progression now = begin(model, drive, settings);
+    sink(now.state, now.row);
+
+    const auto &reversals     = drive.reversals();
+    double dx                 = settings.step;
+    double reported_stiffness = 0.;
+    while (now.state.drive.time < drive.duration())
+    {
+      const bool reversed = std::binary_search(reversals.begin(), reversals.end(), now.state.drive.time);
+      if (reversed)
+      {
+        const double stiffness = stick_stiffness(model, now.state);
+        if (reported_stiffness == 0.)
+          reported_stiffness = stiffness;
+        if (stiffness > 0.)
+          dx = std::clamp(stick_fraction * 2. * std::abs(now.row[Column::F]) / stiffness, settings.minimum_step, settings.step);
+      }
+      now = advance(model, drive, settings, now, reversed, dx);
+      sink(now.state, now.row);
+      dx = std::min(settings.step, growth * dx);
+    }
+    return reported_stiffness;
+  }
+} // namespace sprag

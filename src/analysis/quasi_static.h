@@ -1,0 +1,29 @@
+#pragma once
+
+#include "model/model.h"
+#include "scene/scene.h"
+
+#include <functional>
+
+namespace sprag
+{
+  struct QuasiStaticSettings
+  {
+    double step         = 1.;   ///< largest change of x in a step [mm]
+    double minimum_step = 1e-6; ///< [mm]
+    ContactSettings contact;
+  };
+
+  /// Called with every accepted state, the first included, right after the model evaluated it.
+  using StepSink = std::function<void(const State &state, const Row &row)>;
+
+  /// Stiffness dF/dx of the lever in stick, with all points under pressure stuck: of layer, tangential penalty and body in series
+  /// [N/mm]. 0 where the contact is open. Evaluates the model.
+  double stick_stiffness(Model &model, const State &accepted);
+
+  /// Moves the model along the drive through equilibria, inertia left out. Steps are cut back where the equilibrium is not found
+  /// and grow again; every reversal is hit exactly, and after it the steps resolve the passage through stick. Contact history is
+  /// committed with accepted steps alone. Throws AnalysisError, after the last accepted step was handed on, where no step of the
+  /// least size succeeds. Returns stick_stiffness() at the first reversal, 0 if there is none.
+  double run_quasi_static(Model &model, const Drive &drive, const QuasiStaticSettings &settings, const StepSink &sink);
+} // namespace sprag

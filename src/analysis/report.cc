@@ -1,0 +1,186 @@
+#include "analysis/report.h"
+
+#include "scene/closed_form.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <iomanip>
+#include <ostream>
+#include <stdexcept>
+
+namespace sprag
+{
+  namespace
+  {
+    constexpr double settling = 2.; ///< travel after a reversal in which stick hides the closed form [mm]
+
+    using Rows = std::vector<const Row *>;
+
+    /// Rows of one direction of motion, without those within `apart` of the last reversal [mm].
+    Rows stroke(const std::vector<Row> &rows, const int direction, const double apart)
+    {
+      Rows result;
+      double turned_at = std::numeric_limits<double>::quiet_NaN();
+      for (std::size_t i = 0; i < rows.size(); ++i)
+      {
+        const double v = rows[i][Column::v];
+        if (i > 0 && v * rows[i - 1][Column::v] < 0.)
+          turned_at = rows[i - 1][Column::x];
+        if (v * direction > 0. && !(std::abs(rows[i][Column::x] - turned_at) < apart))
+          result.push_back(&rows[i]);
+      }
+      return result;
+    }
+
+    double largest(const Rows &rows, const std::function<double(const Row &)> &value)
+    {
+      double result = 0.;
+      for (const Row *row : rows)
+        if (const double size = std::abs(value(*row)); size > result)
+          result = size;
+      return result;
+    }
+
+    double signed_peak(const Rows &rows, const Column column)
+    {
+      double result = 0.;
+      for (const Row *row : rows)
+        if (std::abs((*row)[column]) > std::abs(result))
+          result = (*row)[column];
+      return result;
+    }
+
+    double deviation(const Rows &rows, const Column column, const Column reference)
+    {
+      const double peak = largest(rows, [&](const Row &row) { return row[reference]; });
+      const double off  = largest(rows, [&](const Row &row) { return row[column] - row[reference]; });
+      return peak > 0. ? off / peak : std::numeric_limits<double>::quiet_NaN();
+    }
+
+    /// C of the least-squares fit Q = C x + D x^2 over 0 < x <= 10 mm; NaN with fewer than three rows there.
+    double slope_at_zero(const Rows &rows)
+    {
+      double a = 0., b = 0., c = 0., p = 0., q = 0.;
+      unsigned int n = 0;
+      for (const Row *row : rows)
+        if (const double x = (*row)[Column::x]; x > 0. && x <= 10.)
+        {
+          const double Q = (*row)[Column::Q];
+          a += x * x;
+          b += x * x * x;
+          c += x * x * x * x;
+          p += x * Q;
+          q += x * x * Q;
+          ++n;
+        }
+      return n < 3 ? std::numeric_limits<double>::quiet_NaN() : (p * c - q * b) / (a * c - b * b);
+    }
+
+    double sum(const std::vector<Row> &rows, const Column column)
+    {
+      double total = 0.;
+      for (const auto &row : rows)
+        if (!std::isnan(row[column]))
+          total += row[column];
+      return total;
+    }
+
+    void add_stroke(const Rows &rows, const Rows &settled, const std::string &way, std::vector<Entry> &entries)
+    {
+      const std::string on = " on the " + way + " stroke";
+      entries.push_back({ "peak_P_" + way, signed_peak(rows, Column::P), "N", "largest normal force" + on });
+      entries.push_back({ "peak_Q_" + way, signed_peak(rows, Column::Q), "N", "largest quasi-friction force" + on });
+      entries.push_back({ "slope_" + way, slope_at_zero(rows), "N/mm", "C_Q, slope of Q at x = 0 fitted over 10 mm" + on });
+      const std::string apart = on + ", relative to the stroke's peak, the first 2 mm after a reversal apart";
+      entries.push_back({ "deviation_P_" + way, deviation(settled, Column::P, Column::P_closed_form), "1",
+                          "largest deviation of P from the closed form" + apart });
+      entries.push_back({ "deviation_Q_" + way, deviation(settled, Column::Q, Column::Q_closed_form), "1",
+                          "largest deviation of Q from the closed form" + apart });
+      entries.push_back({ "deviation_theta_" + way, deviation(settled, Column::theta, Column::theta_closed_form), "1",
+                          "largest deviation of theta from the closed form" + apart });
+    }
+  } // namespace
+
+  void add_closed_form(const Scene &scene, Row &row)
+  {
+    if (row[Column::v] == 0.)
+      return;
+    const auto state               = closed_form(scene, row[Column::x], row[Column::v]);
+    row[Column::theta_closed_form] = state.contact.theta;
+    if (state.P < 0. || !std::isfinite(state.P))
+      return;
+    row[Column::P_closed_form] = state.P;
+    row[Column::Q_closed_form] = state.Q;
+  }
+
+  std::vector<Entry> summary_of(const Scene &scene, const std::vector<Row> &rows)
+  {
+    std::vector<Entry> entries;
+    for (const auto &[direction, way] : { std::pair<int, std::string>{ 1, "forward" }, { -1, "backward" } })
+      if (const auto all = stroke(rows, direction, 0.); !all.empty())
+        add_stroke(all, stroke(rows, direction, settling), way, entries);
+
+    const Row &last         = rows.back();
+    const double work       = last[Column::drive_work];
+    const double dissipated = last[Column::friction_work];
+    const double stored     = last[Column::spring_energy] + last[Column::elastic_energy] - rows.front()[Column::spring_energy] -
+                          rows.front()[Column::elastic_energy];
+    entries.push_back({ "drive_work", work, "N mm", "integral of Q over x; the loop area after whole cycles" });
+    entries.push_back({ "friction_work", dissipated, "N mm", "work dissipated by friction" });
+    entries.push_back(
+        { "energy_residual", work - dissipated - stored, "N mm", "drive work less friction work and change of stored energy" });
+    const auto all_rows = [&]
+    {
+      Rows result;
+      for (const auto &row : rows)
+        result.push_back(&row);
+      return result;
+    }();
+    const double penetration = largest(all_rows, [](const Row &row) { return row[Column::penetration]; });
+    entries.push_back({ "penetration", penetration, "mm", "largest numerical overlap of cylinder and friction face" });
+    if (scene.layer.thickness > 0.)
+      entries.push_back({ "penetration_share", penetration / scene.layer.thickness, "1",
+                          "largest overlap over the thickness of the friction layer" });
+    entries.push_back({ "cone_violation", largest(all_rows, [](const Row &row) { return row[Column::cone_violation]; }), "1",
+                        "largest excess of friction over the cone, relative to mu times the peak pressure" });
+    entries.push_back({ "elastic_slip", largest(all_rows, [](const Row &row) { return row[Column::elastic_slip]; }), "mm",
+                        "largest elastic slip of the tangential penalty" });
+    entries.push_back({ "steps", static_cast<double>(rows.size()) - 1., "1", "accepted steps" });
+    entries.push_back({ "iterations", sum(rows, Column::iterations), "1", "Newton iterations" });
+    entries.push_back({ "augmentations", sum(rows, Column::augmentations), "1", "augmentations of the contact multipliers" });
+    entries.push_back({ "augmentations_worst", largest(all_rows, [](const Row &row) { return row[Column::augmentations]; }), "1",
+                        "augmentations of the worst step" });
+    return entries;
+  }
+
+  double value_of(const std::vector<Entry> &entries, const std::string &name)
+  {
+    const auto entry = std::find_if(entries.begin(), entries.end(), [&](const Entry &e) { return e.name == name; });
+    if (entry == entries.end())
+      throw std::out_of_range("no entry '" + name + "'");
+    return std::get<double>(entry->value);
+  }
+
+  double largest_deviation(const std::vector<Entry> &summary)
+  {
+    double result = 0.;
+    for (const auto &entry : summary)
+      if (entry.name.rfind("deviation_", 0) == 0)
+        result = std::max(result, std::get<double>(entry.value));
+    return result;
+  }
+
+  void print_summary(std::ostream &stream, const std::vector<Entry> &summary)
+  {
+    for (const auto &entry : summary)
+    {
+      stream << "  " << std::left << std::setw(26) << entry.name << ' ' << std::right;
+      if (const double *number = std::get_if<double>(&entry.value))
+        stream << std::setw(13) << std::setprecision(6) << *number << ' ' << (entry.unit == "1" ? "" : entry.unit);
+      else
+        stream << std::get<std::string>(entry.value);
+      stream << '\n';
+    }
+  }
+} // namespace sprag

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "results/result_file.h"
+#include "scene/scene.h"
+
+#include <iosfwd>
+#include <vector>
+
+namespace sprag
+{
+  /// Fills the closed form's columns at the row's x and v, where the scene has a closed form there.
+  void add_closed_form(const Scene &scene, Row &row);
+
+  /// What the run says of itself at its end: peaks of P and Q each way, slopes C_Q of the rows near x = 0, loop area and friction
+  /// work, largest deviations from the closed form relative to the stroke's peak (the first 2 mm after a reversal apart),
+  /// penetration and cone violation, cost in iterations.
+  std::vector<Entry> summary_of(const Scene &scene, const std::vector<Row> &rows);
+
+  /// Value of an entry of a summary; throws std::out_of_range if there is none.
+  double value_of(const std::vector<Entry> &entries, const std::string &name);
+
+  /// Largest of the deviations of P, Q and theta on both strokes in a summary [-].
+  double largest_deviation(const std::vector<Entry> &summary);
+
+  /// A short table for people.
+  void print_summary(std::ostream &stream, const std::vector<Entry> &summary);
+} // namespace sprag

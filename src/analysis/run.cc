@@ -1,0 +1,172 @@
+#include "analysis/run.h"
+
+#include "analysis/closed_form.h"
+#include "analysis/quasi_static.h"
+#include "analysis/recorder.h"
+#include "analysis/slope.h"
+#include "base/errors.h"
+#include "fe/field_frames.h"
+#include "fe/lever_model.h"
+
+#include <deal.II/base/mpi.h>
+
+#include <cmath>
+#include <iostream>
+#include <optional>
+#include <sstream>
+
+namespace sprag
+{
+  namespace
+  {
+    using Timer = dealii::TimerOutput;
+
+    void run_slope(const Scene &scene, const RunOptions &options)
+    {
+      Timer timer(std::cout, Timer::never, Timer::cpu_and_wall_times);
+      const auto sweep = slope_sweep(scene);
+      prepare_folder(options.folder);
+      ResultFile file(options.folder + "/result.h5", scene.parameters_text, {}, sweep.columns);
+      for (const auto &row : sweep.rows)
+        file.append(row);
+      file.finish({ { "status", std::string("completed"), "", "how the run ended" } }, process_entries(timer));
+    }
+
+    /// Exit status 1 for a run that ended but is too far from the closed form.
+    void check_deviation(const Scene &scene, const std::vector<Entry> &summary)
+    {
+      const double limit = scene.analysis.maximum_deviation;
+      const double found = largest_deviation(summary);
+      if (limit > 0. && found > limit)
+      {
+        std::ostringstream message;
+        message << "the deviation from the closed form, " << found << ", is larger than Analysis/Maximum deviation = " << limit
+                << ". Try a finer Mesh/Face size or a stiffer lever, or admit more.";
+        throw AnalysisError(message.str());
+      }
+    }
+
+    /// Runs `steps`, finishes the record whatever happens and hands a failure on.
+    template <typename Steps, typename Meta>
+    void record_run(const Scene &scene, Recorder &recorder, const Steps &steps, const Meta &meta)
+    {
+      try
+      {
+        steps();
+      }
+      catch (const AnalysisError &error)
+      {
+        recorder.finish(error.what(), meta());
+        throw;
+      }
+      check_deviation(scene, recorder.finish("completed", meta()));
+    }
+
+    void run_closed_form_model(const Scene &scene, const RunOptions &options)
+    {
+      Timer timer(std::cout, Timer::never, Timer::cpu_and_wall_times);
+      Recorder recorder(scene, options.folder, options.quiet, {});
+      record_run(
+          scene, recorder, [&] { run_closed_form(scene, [&](const Row &row) { recorder.record(row); }); },
+          [&] { return process_entries(timer); });
+    }
+
+    std::vector<Entry> model_entries(const Scene &scene, const LeverModel &model)
+    {
+      const auto &body           = model.elastic_body();
+      const auto [mass, inertia] = body.mass_and_inertia(scene.lever.density);
+      const auto &[normal, slip] = model.penalties();
+      return { { "cells", static_cast<double>(body.dofs().get_triangulation().n_active_cells()), "1", "cells of the mesh" },
+               { "degrees_of_freedom", static_cast<double>(body.n_dofs()), "1", "displacements, those of the hub included" },
+               { "face_nodes", static_cast<double>(body.face_nodes().size()), "1", "nodes of the friction face that can touch" },
+               { "penalty", normal, "N/mm^3", "normal penalty in use" },
+               { "tangential_penalty", slip, "N/mm^3", "tangential penalty in use" },
+               { "lever_mass", mass, "t", "mass of lever, layer and hub at the lever's density" },
+               { "lever_inertia", inertia, "t mm^2", "their moment of inertia about the pivot" } };
+    }
+
+    void print_model(const Scene &scene, const LeverModel &model)
+    {
+      const auto &body = model.elastic_body();
+      std::cout << "Finite elements: " << body.n_dofs() << " displacements of degree " << scene.mesh.degree << ", plane "
+                << (scene.analysis.plane == PlaneState::stress ? "stress" : "strain") << ", "
+                << (scene.lever.material == MaterialModel::linear ? "linear" : "neo-Hookean") << "; " << body.face_nodes().size()
+                << " contact points; penalty " << model.penalties().normal << " N/mm^3\n"
+                << std::flush;
+    }
+
+    /// Whether the fields of a state are asked for; `last` is the path at the last frame [mm].
+    bool wants_fields(const Scene &scene, const State &state, const double travelled, double &last)
+    {
+      if (scene.output.fields == FieldOutput::none)
+        return false;
+      const auto &reversals = scene.drive.reversals();
+      const bool turning =
+          std::binary_search(reversals.begin(), reversals.end(), state.drive.time) || state.drive.time >= scene.drive.duration();
+      const bool due = scene.output.fields == FieldOutput::interval && travelled >= last + scene.output.field_interval - 1e-9;
+      if (turning || due)
+        last = travelled;
+      return turning || due;
+    }
+
+    void run_finite_element(const Scene &scene, const RunOptions &options)
+    {
+      Timer timer(std::cout, Timer::never, Timer::cpu_and_wall_times);
+      dealii::Triangulation<2> triangulation;
+      {
+        const Timer::Scope scope(timer, "mesh");
+        make_mesh(scene, triangulation);
+      }
+      std::optional<LeverModel> model;
+      {
+        const Timer::Scope scope(timer, "model");
+        model.emplace(triangulation, lever_properties(scene));
+      }
+      Recorder recorder(scene, options.folder, options.quiet, model->face_points());
+      if (!options.quiet)
+        print_model(scene, *model);
+      auto meta = model_entries(scene, *model);
+      std::optional<FieldFrames> frames;
+      if (scene.output.fields != FieldOutput::none)
+        frames.emplace(model->elastic_body(), options.folder);
+
+      double travelled = 0., last_frame = 0., x = scene.drive.at(0.).x, stick = 0.;
+      const auto write = [&](const State &state, const Row &row)
+      {
+        const Timer::Scope scope(timer, "output");
+        recorder.record(row);
+        recorder.record(model->face_state(state));
+        travelled += std::abs(state.drive.x - x);
+        x = state.drive.x;
+        if (wants_fields(scene, state, travelled, last_frame))
+          frames->write(model->body_displacement(state), state.drive.time);
+      };
+      QuasiStaticSettings settings{ scene.analysis.step, scene.analysis.minimum_step, scene.contact };
+      record_run(
+          scene, recorder,
+          [&]
+          {
+            const Timer::Scope scope(timer, "steps_and_output");
+            stick = run_quasi_static(*model, scene.drive, settings, write);
+          },
+          [&]
+          {
+            meta.push_back(
+                { "stick_stiffness", stick, "N/mm", "tangential stiffness of layer and penalty in stick at the first reversal" });
+            const auto process = process_entries(timer);
+            meta.insert(meta.end(), process.begin(), process.end());
+            return meta;
+          });
+    }
+  } // namespace
+
+  void run(const Scene &scene, const RunOptions &options)
+  {
+    if (scene.analysis.type == AnalysisType::slope)
+      run_slope(scene, options);
+    else if (scene.analysis.model == ModelType::closed_form)
+      run_closed_form_model(scene, options);
+    else
+      run_finite_element(scene, options);
+  }
+} // namespace sprag

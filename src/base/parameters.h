@@ -1,0 +1,58 @@
+#pragma once
+
+#include "base/rule.h"
+
+#include <functional>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace sprag
+{
+  // Parameter files as dealii::ParameterHandler knows them, except that every mistake in them is found, not only the first.
+
+  /// A declared entry of a parameter file. Names hold neither '/' nor '='.
+  struct Parameter
+  {
+    std::string section;
+    std::string name;
+    std::string default_value;
+    Rule rule;
+    std::string meaning;                            ///< with the symbol it has in the paper
+    std::function<void(const std::string &)> store; ///< takes a value that keeps the rule
+  };
+
+  /// "Section/Name".
+  std::string full_name(const Parameter &parameter);
+
+  /// Meaning, unit and range.
+  std::string documentation(const Parameter &parameter);
+
+  /// A value given by the user and where: "FILE:LINE" or "--set".
+  struct Setting
+  {
+    std::string place;
+    std::string value;
+  };
+
+  /// What a parameter file and the overrides say.
+  struct Settings
+  {
+    std::string file;                     ///< as given by the user
+    std::map<std::string, Setting> given; ///< by full name; only declared parameters and values that keep their rule
+    std::set<std::string> doubtful;       ///< full names whose value is unknown because of a mistake
+    std::vector<std::string> mistakes;    ///< a line each: "PLACE: Section/Name = value: RULE"
+  };
+
+  /// Reads the file, then the overrides "Section/Name=value", the later of two with the same name counting. Throws nothing: an
+  /// unreadable file is a mistake too.
+  Settings read_settings(const std::string &file, const std::vector<std::string> &overrides,
+                         const std::vector<Parameter> &declared);
+
+  /// Adds the mistake that the parameter with this full name breaks `rule`, with its place and the value in use.
+  void add_mistake(Settings &settings, const std::vector<Parameter> &declared, const std::string &name, const std::string &rule);
+
+  /// Every parameter with its documentation as a comment, in .prm form: the given values, defaults elsewhere. Reads back.
+  std::string parameters_text(const std::vector<Parameter> &declared, const std::map<std::string, Setting> &given);
+} // namespace sprag

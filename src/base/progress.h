@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <iosfwd>
+#include <limits>
+#include <string>
+
+namespace sprag
+{
+  /// What a line of progress tells beside the share done; NaN: left out.
+  struct ProgressFields
+  {
+    double x                = std::numeric_limits<double>::quiet_NaN(); ///< [mm]
+    double P                = std::numeric_limits<double>::quiet_NaN(); ///< [N]
+    double Q                = std::numeric_limits<double>::quiet_NaN(); ///< [N]
+    unsigned int iterations = 0;                                        ///< of the last step
+  };
+
+  /// Where the lines go and what they may look like there.
+  enum class ProgressStyle
+  {
+    terminal, ///< one line, redrawn in place at most ten times a second
+    log,      ///< a line every tenth of the way
+    quiet     ///< nothing
+  };
+
+  /// The style for the standard error stream.
+  ProgressStyle progress_style(bool quiet);
+
+  /// How far a run has come and how long it will still take. The time left assumes that the rest goes as fast as what is done.
+  class Progress
+  {
+  public:
+    /// Seconds from any fixed instant on.
+    using Clock = std::function<double()>;
+
+    /// `total` > 0 in the unit of update()'s `done`; the stream has to outlive the object.
+    Progress(std::ostream &stream, ProgressStyle style, double total);
+    Progress(std::ostream &stream, ProgressStyle style, double total, Clock clock);
+
+    /// Ends the line, whatever became of the run.
+    ~Progress();
+
+    Progress(const Progress &)            = delete;
+    Progress &operator=(const Progress &) = delete;
+
+    void update(double done, const ProgressFields &fields);
+
+    /// Shows the last update and ends the line. Nothing may follow.
+    void finish();
+
+  private:
+    std::string line(double share, const ProgressFields &fields) const;
+    void redraw();
+    void log(double share, const ProgressFields &fields);
+
+    std::ostream &stream;
+    const ProgressStyle style;
+    const double total;
+    const Clock clock;
+    const double start;
+    double last_drawn = -std::numeric_limits<double>::infinity();
+    int logged_tenths = 0;
+    std::size_t width = 0; ///< of what stands in the terminal's line
+    std::string latest;    ///< the line to be shown next or last
+    bool finished = false;
+  };
+} // namespace sprag

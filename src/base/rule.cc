@@ -1,0 +1,140 @@
+#include "base/rule.h"
+
+#include "base/text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace sprag
+{
+  namespace
+  {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+
+    bool contains(const Interval &interval, const double value)
+    {
+      return (interval.has_low ? value >= interval.low : value > interval.low) &&
+             (interval.has_high ? value <= interval.high : value < interval.high);
+    }
+
+    std::string description(const Interval &interval)
+    {
+      std::string text;
+      if (interval.low > -infinity)
+        text += (interval.has_low ? " >= " : " > ") + number_text(interval.low);
+      if (interval.high < infinity)
+        text += (text.empty() ? "" : " and") + std::string(interval.has_high ? " <= " : " < ") + number_text(interval.high);
+      return text;
+    }
+
+    std::vector<std::string> split_at_commas(const std::string &text)
+    {
+      std::vector<std::string> parts;
+      std::istringstream stream(text);
+      for (std::string part; std::getline(stream, part, ',');)
+        parts.push_back(trimmed(part));
+      return parts;
+    }
+
+    std::optional<std::string> number_violation(const Rule &rule, const std::string &value)
+    {
+      const auto number = leading_number(value);
+      if (number && !number->rest.empty())
+        return "must be " + description(rule) + " and nothing else: leave out '" + number->rest + "', " +
+               (rule.unit.empty() ? "it has no unit" : rule.unit + " is meant");
+      const bool whole = rule.kind != Rule::Kind::integer || (number && number->value == std::floor(number->value));
+      if (!number || !whole || !contains(rule.interval, number->value))
+        return "must be " + description(rule) + (rule.unit.empty() ? "" : " [" + rule.unit + "]");
+      return std::nullopt;
+    }
+
+    std::optional<std::string> list_violation(const Rule &rule, const std::string &value)
+    {
+      const auto parts = split_at_commas(value);
+      Rule each        = rule;
+      each.kind        = Rule::Kind::number;
+      const bool kept  = std::all_of(parts.begin(), parts.end(), [&](const auto &part) { return !number_violation(each, part); });
+      return kept && !parts.empty() ? std::nullopt : std::make_optional("must be " + description(rule));
+    }
+
+    std::optional<std::string> choice_violation(const Rule &rule, const std::string &value)
+    {
+      if (std::find(rule.choices.begin(), rule.choices.end(), value) != rule.choices.end())
+        return std::nullopt;
+      return "must be " + description(rule) + did_you_mean(nearest(value, rule.choices));
+    }
+  } // namespace
+
+  Interval any_number()
+  {
+    return {};
+  }
+
+  Interval above(const double low)
+  {
+    return { low, infinity, false, true };
+  }
+
+  Interval at_least(const double low)
+  {
+    return { low, infinity, true, true };
+  }
+
+  Interval between(const double low, const double high)
+  {
+    return { low, high, false, false };
+  }
+
+  std::string description(const Rule &rule)
+  {
+    switch (rule.kind)
+    {
+    case Rule::Kind::number:
+      return "a number" + description(rule.interval);
+    case Rule::Kind::integer:
+      return "an integer" + description(rule.interval);
+    case Rule::Kind::number_or_auto:
+      return "auto or a number" + description(rule.interval);
+    case Rule::Kind::numbers:
+      return "numbers" + description(rule.interval) + ", separated by commas";
+    case Rule::Kind::choice:
+    {
+      std::string text = "one of ";
+      for (const auto &choice : rule.choices)
+        text += (&choice == &rule.choices.front() ? "" : " | ") + choice;
+      return text;
+    }
+    case Rule::Kind::text:
+      break;
+    }
+    return "a text";
+  }
+
+  std::optional<std::string> violation(const Rule &rule, const std::string &value)
+  {
+    switch (rule.kind)
+    {
+    case Rule::Kind::number_or_auto:
+      return value == "auto" ? std::nullopt : number_violation(rule, value);
+    case Rule::Kind::number:
+    case Rule::Kind::integer:
+      return number_violation(rule, value);
+    case Rule::Kind::numbers:
+      return list_violation(rule, value);
+    case Rule::Kind::choice:
+      return choice_violation(rule, value);
+    case Rule::Kind::text:
+      break;
+    }
+    return std::nullopt;
+  }
+
+  std::vector<double> list_of_numbers(const std::string &value)
+  {
+    std::vector<double> numbers;
+    for (const auto &part : split_at_commas(value))
+      numbers.push_back(leading_number(part)->value);
+    return numbers;
+  }
+} // namespace sprag

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace sprag
+{
+  struct Interval
+  {
+    double low    = -std::numeric_limits<double>::infinity();
+    double high   = std::numeric_limits<double>::infinity();
+    bool has_low  = true; ///< whether `low` itself belongs to it
+    bool has_high = true;
+  };
+
+  Interval any_number();
+  Interval above(double low);
+  Interval at_least(double low);
+  /// Open at both ends.
+  Interval between(double low, double high);
+
+  /// What the text of a parameter's value must be.
+  struct Rule
+  {
+    enum class Kind
+    {
+      number,
+      integer,
+      number_or_auto,
+      numbers, ///< separated by commas, at least one
+      choice,
+      text ///< anything
+    };
+
+    Kind kind = Kind::text;
+    Interval interval;                ///< number kinds
+    std::string unit;                 ///< number kinds; empty: dimensionless
+    std::vector<std::string> choices; ///< choice
+  };
+
+  /// The rule in words, without the unit: "a number > 0", "one of a | b".
+  std::string description(const Rule &rule);
+
+  /// None where `value` keeps the rule, otherwise what it must be, and, for a number with something behind it, that it must
+  /// stand alone and the unit that is meant.
+  std::optional<std::string> violation(const Rule &rule, const std::string &value);
+
+  /// The numbers of a comma-separated list that keeps its rule.
+  std::vector<double> list_of_numbers(const std::string &value);
+} // namespace sprag

@@ -1,0 +1,93 @@
+#include "base/text.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <numeric>
+
+namespace sprag
+{
+  namespace
+  {
+    bool same_letter(const char a, const char b)
+    {
+      return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
+    }
+
+    std::size_t edit_distance(const std::string &a, const std::string &b)
+    {
+      // Row i of the table of distances between the first i letters of a and the first j of b.
+      std::vector<std::size_t> row(b.size() + 1);
+      std::iota(row.begin(), row.end(), 0);
+      for (std::size_t i = 1; i <= a.size(); ++i)
+      {
+        std::size_t diagonal = row[0];
+        row[0]               = i;
+        for (std::size_t j = 1; j <= b.size(); ++j)
+        {
+          const std::size_t replaced = diagonal + (same_letter(a[i - 1], b[j - 1]) ? 0 : 1);
+          diagonal                   = row[j];
+          row[j]                     = std::min({ replaced, row[j] + 1, row[j - 1] + 1 });
+        }
+      }
+      return row.back();
+    }
+  } // namespace
+
+  std::string trimmed(const std::string &text)
+  {
+    const char *const white = " \t\r\n\v\f";
+    const auto begin        = text.find_first_not_of(white);
+    if (begin == std::string::npos)
+      return "";
+    return text.substr(begin, text.find_last_not_of(white) - begin + 1);
+  }
+
+  std::string number_text(const double value)
+  {
+    std::array<char, 32> buffer;
+    const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
+    return std::string(buffer.data(), result.ptr);
+  }
+
+  std::string rounded_text(const double value)
+  {
+    std::array<char, 32> buffer;
+    std::snprintf(buffer.data(), buffer.size(), "%.6g", value);
+    return buffer.data();
+  }
+
+  std::optional<LeadingNumber> leading_number(const std::string &text)
+  {
+    const std::string all = trimmed(text);
+    // from_chars, unlike strtod, heeds no locale, but knows no plus sign either.
+    const std::size_t sign = all.size() > 1 && all[0] == '+' && all[1] != '-' ? 1 : 0;
+    const char *const end  = all.data() + all.size();
+    double value           = 0.;
+    const auto result      = std::from_chars(all.data() + sign, end, value);
+    if (result.ec != std::errc() || !std::isfinite(value))
+      return std::nullopt;
+    return LeadingNumber{ value, trimmed(std::string(result.ptr, end)) };
+  }
+
+  std::optional<std::string> nearest(const std::string &name, const std::vector<std::string> &candidates)
+  {
+    std::optional<std::string> best;
+    std::size_t smallest = std::max<std::size_t>(name.size() / 2, 1) + 1;
+    for (const auto &candidate : candidates)
+      if (const auto distance = edit_distance(name, candidate); distance < smallest)
+      {
+        smallest = distance;
+        best     = candidate;
+      }
+    return best;
+  }
+
+  std::string did_you_mean(const std::optional<std::string> &candidate)
+  {
+    return candidate ? "; did you mean '" + *candidate + "'?" : "";
+  }
+} // namespace sprag

@@ -1,0 +1,250 @@
+#include "fe/elastic_body.h"
+
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/dofs/dof_tools.h>
+#include <deal.II/fe/fe_q.h>
+#include <deal.II/fe/fe_values.h>
+#include <deal.II/fe/mapping_q1.h>
+#include <deal.II/lac/dynamic_sparsity_pattern.h>
+#include <deal.II/numerics/vector_tools.h>
+
+#include <algorithm>
+
+namespace sprag
+{
+  using namespace dealii;
+
+  namespace
+  {
+    template <int dim>
+    Tensor<2, dim> identity()
+    {
+      return Tensor<2, dim>(unit_symmetric_tensor<dim>());
+    }
+
+    template <int dim>
+    Stress<dim> stress(const MaterialModel model, const Lame &constants, const Tensor<2, dim> &displacement_gradient)
+    {
+      return model == MaterialModel::linear ? linear_elastic<dim>(constants, displacement_gradient)
+                                            : neo_hookean<dim>(constants, identity<dim>() + displacement_gradient);
+    }
+
+    template <int dim>
+    double energy_density(const MaterialModel model, const Lame &constants, const Tensor<2, dim> &displacement_gradient)
+    {
+      return model == MaterialModel::linear
+                 ? 0.5 * scalar_product(linear_elastic<dim>(constants, displacement_gradient).piola, displacement_gradient)
+                 : neo_hookean_energy<dim>(constants, identity<dim>() + displacement_gradient);
+    }
+  } // namespace
+
+  template <int dim>
+  ElasticBody<dim>::ElasticBody(const Triangulation<dim> &triangulation, BodyProperties body_properties)
+      : properties(std::move(body_properties))
+      , fe(FE_Q<dim>(properties.degree), dim)
+      , dof_handler(triangulation)
+  {
+    dof_handler.distribute_dofs(fe);
+    find_constraints();
+    find_face_nodes();
+  }
+
+  template <int dim>
+  void ElasticBody<dim>::find_constraints()
+  {
+    VectorTools::interpolate_boundary_values(dof_handler, boundary_id::hub, Functions::ZeroFunction<dim>(dim), constraints);
+    std::vector<types::global_dof_index> indices(fe.n_dofs_per_cell());
+    for (const auto &cell : dof_handler.active_cell_iterators())
+      if (cell->material_id() == material_id::hub)
+      {
+        cell->get_dof_indices(indices);
+        for (const auto index : indices)
+          constraints.add_line(index);
+      }
+    constraints.close();
+  }
+
+  template <int dim>
+  void ElasticBody<dim>::find_face_nodes()
+  {
+    FEFaceValues<dim> values(fe, QGauss<dim - 1>(properties.degree + 1),
+                             update_values | update_JxW_values | update_normal_vectors);
+
+    std::map<std::array<unsigned int, dim>, FaceNode<dim>> nodes;
+    std::vector<types::global_dof_index> indices(fe.n_dofs_per_cell());
+    for (const auto &cell : dof_handler.active_cell_iterators())
+      for (const unsigned int f : cell->face_indices())
+        if (cell->face(f)->at_boundary() && cell->face(f)->boundary_id() == boundary_id::friction_face)
+        {
+          values.reinit(cell, f);
+          cell->get_dof_indices(indices);
+          const auto material = properties.constants.find(cell->material_id());
+          AssertThrow(material != properties.constants.end(), ExcMessage("a cell at the friction face has no material"));
+          const double depth = cell->measure() / cell->face(f)->measure();
+          stiffness_of_face  = std::max(stiffness_of_face, material->second.young_modulus / depth);
+
+          for (unsigned int i = 0; i < fe.n_dofs_per_face(); i += dim)
+          {
+            std::array<unsigned int, dim> dofs;
+            for (unsigned int d = 0; d < dim; ++d)
+              dofs[d] = indices[fe.face_to_cell_index(i + d, f)];
+            if (constraints.is_constrained(dofs[0]))
+              continue;
+            const Point<dim> position =
+                MappingQ1<dim>().transform_unit_to_real_cell(cell, fe.get_unit_support_points()[fe.face_to_cell_index(i, f)]);
+            auto &node = nodes.try_emplace(dofs, FaceNode<dim>{ position, 0., dofs }).first->second;
+            for (const unsigned int q : values.quadrature_point_indices())
+              node.weight += properties.width * values.shape_value(fe.face_to_cell_index(i, f), q) * values.JxW(q);
+          }
+        }
+    for (const auto &entry : nodes)
+      face.push_back(entry.second);
+    std::sort(face.begin(), face.end(), [](const auto &a, const auto &b) { return a.position[0] < b.position[0]; });
+  }
+
+  template <int dim>
+  unsigned int ElasticBody<dim>::n_dofs() const
+  {
+    return dof_handler.n_dofs();
+  }
+
+  template <int dim>
+  const std::vector<FaceNode<dim>> &ElasticBody<dim>::face_nodes() const
+  {
+    return face;
+  }
+
+  template <int dim>
+  double ElasticBody<dim>::face_stiffness() const
+  {
+    return stiffness_of_face;
+  }
+
+  template <int dim>
+  const DoFHandler<dim> &ElasticBody<dim>::dofs() const
+  {
+    return dof_handler;
+  }
+
+  template <int dim>
+  const BodyProperties &ElasticBody<dim>::body_properties() const
+  {
+    return properties;
+  }
+
+  template <int dim>
+  void ElasticBody<dim>::reinit(PETScWrappers::SparseMatrix &matrix, const unsigned int extra) const
+  {
+    const unsigned int n = n_dofs() + extra;
+    DynamicSparsityPattern pattern(n, n);
+    DoFTools::make_sparsity_pattern(dof_handler, pattern, constraints, true);
+    for (unsigned int e = n_dofs(); e < n; ++e)
+    {
+      pattern.add(e, e);
+      for (const auto &node : face)
+        for (const unsigned int dof : node.dofs)
+        {
+          pattern.add(e, dof);
+          pattern.add(dof, e);
+        }
+    }
+    matrix.reinit(pattern);
+  }
+
+  template <int dim>
+  void ElasticBody<dim>::assemble(const Vector<double> &displacement, PETScWrappers::SparseMatrix &matrix,
+                                  Vector<double> &forces) const
+  {
+    FEValues<dim> values(fe, QGauss<dim>(properties.degree + 1), update_gradients | update_JxW_values);
+    const unsigned int n = fe.n_dofs_per_cell();
+
+    FullMatrix<double> cell_matrix(n, n);
+    Vector<double> cell_forces(n);
+    Vector<double> cell_displacement(n);
+    std::vector<types::global_dof_index> indices(n);
+    std::vector<Tensor<1, dim>> gradients(n);
+    for (const auto &cell : dof_handler.active_cell_iterators())
+    {
+      if (cell->material_id() == material_id::hub)
+        continue;
+      const Lame constants = plane_constants(properties.constants.at(cell->material_id()), properties.plane);
+      values.reinit(cell);
+      cell->get_dof_indices(indices);
+      for (unsigned int i = 0; i < n; ++i)
+        cell_displacement[i] = displacement[indices[i]];
+      cell_matrix = 0.;
+      cell_forces = 0.;
+      for (const unsigned int q : values.quadrature_point_indices())
+      {
+        Tensor<2, dim> gradient;
+        for (unsigned int i = 0; i < n; ++i)
+        {
+          gradients[i] = values.shape_grad(i, q);
+          gradient[fe.system_to_component_index(i).first] += cell_displacement[i] * gradients[i];
+        }
+        const double volume = values.JxW(q) * properties.width;
+        const auto at_point = stress<dim>(properties.material, constants, gradient);
+        for (unsigned int j = 0; j < n; ++j)
+        {
+          const unsigned int component_j = fe.system_to_component_index(j).first;
+          cell_forces[j] += volume * (at_point.piola[component_j] * gradients[j]);
+          Tensor<1, dim * dim> d_piola;
+          for (unsigned int a = 0; a < dim * dim; ++a)
+            for (unsigned int d = 0; d < dim; ++d)
+              d_piola[a] += volume * at_point.tangent[a][component_j * dim + d] * gradients[j][d];
+          for (unsigned int i = 0; i < n; ++i)
+          {
+            const unsigned int row = fe.system_to_component_index(i).first * dim;
+            for (unsigned int d = 0; d < dim; ++d)
+              cell_matrix(i, j) += gradients[i][d] * d_piola[row + d];
+          }
+        }
+      }
+      constraints.distribute_local_to_global(cell_matrix, cell_forces, indices, matrix, forces);
+    }
+    for (const auto &line : constraints.get_lines())
+    {
+      matrix.add(line.index, line.index, 1.);
+      forces[line.index] = 0.;
+    }
+    matrix.compress(VectorOperation::add);
+  }
+
+  template <int dim>
+  double ElasticBody<dim>::energy(const Vector<double> &displacement) const
+  {
+    FEValues<dim> values(fe, QGauss<dim>(properties.degree + 1), update_gradients | update_JxW_values);
+    std::vector<Tensor<2, dim>> gradients(values.n_quadrature_points);
+    double sum = 0.;
+    for (const auto &cell : dof_handler.active_cell_iterators())
+      if (cell->material_id() != material_id::hub)
+      {
+        const Lame constants = plane_constants(properties.constants.at(cell->material_id()), properties.plane);
+        values.reinit(cell);
+        values[FEValuesExtractors::Vector(0)].get_function_gradients(displacement, gradients);
+        for (const unsigned int q : values.quadrature_point_indices())
+          sum += energy_density<dim>(properties.material, constants, gradients[q]) * values.JxW(q) * properties.width;
+      }
+    return sum;
+  }
+
+  template <int dim>
+  std::array<double, 2> ElasticBody<dim>::mass_and_inertia(const double density) const
+  {
+    FEValues<dim> values(fe, QGauss<dim>(2), update_quadrature_points | update_JxW_values);
+    std::array<double, 2> result{};
+    for (const auto &cell : dof_handler.active_cell_iterators())
+    {
+      values.reinit(cell);
+      for (const unsigned int q : values.quadrature_point_indices())
+      {
+        const double mass = density * values.JxW(q) * properties.width;
+        result[0] += mass;
+        result[1] += mass * values.quadrature_point(q).square();
+      }
+    }
+    return result;
+  }
+
+  template class ElasticBody<2>;
+} // namespace sprag

@@ -1,0 +1,166 @@
+#include "fe/lever_model.h"
+
+#include "scene/closed_form.h"
+
+#include <cmath>
+
+namespace sprag
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// A penalty this much stiffer than face and mesh leaves an overlap of about 1/factor of the layer's compression.
+    constexpr double penalty_factor = 50.;
+
+    ContactPenalties penalties_of(const ElasticBody<2> &body, const ContactSettings &settings)
+    {
+      const double normal = settings.penalty.value_or(penalty_factor * body.face_stiffness());
+      return { normal, settings.tangential_penalty.value_or(normal) };
+    }
+
+    FaceContact make_contact(const ElasticBody<2> &body, const LeverProperties &properties)
+    {
+      return { body.face_nodes(), properties.obstacle, properties.friction, properties.contact.enforcement,
+               penalties_of(body, properties.contact) };
+    }
+    std::variant<FaceCompliance, FullStiffness> make_system(const ElasticBody<2> &body, const LeverProperties &properties)
+    {
+      using System = std::variant<FaceCompliance, FullStiffness>;
+      if (properties.solution == Solution::automatic && properties.body.material == MaterialModel::linear)
+        return System(std::in_place_type<FaceCompliance>, body);
+      return System(std::in_place_type<FullStiffness>, body);
+    }
+  } // namespace
+
+  LeverProperties lever_properties(const Scene &scene)
+  {
+    LeverProperties result;
+    result.body.degree    = scene.mesh.degree;
+    result.body.plane     = scene.analysis.plane;
+    result.body.material  = scene.lever.material;
+    result.body.width     = scene.lever.width;
+    result.body.constants = { { material_id::lever, { scene.lever.young_modulus, scene.lever.poisson_ratio } },
+                              { material_id::layer, { scene.layer.young_modulus, scene.layer.poisson_ratio } } };
+
+    const Geometry geometry = scene.geometry;
+    result.obstacle         = [geometry](const LeverPoint &point, double x, double theta)
+    { return circle_contact(geometry, point, x, theta); };
+    result.centre          = [geometry](double x, double theta) { return cylinder_centre(geometry, x, theta).xi; };
+    result.ideal_theta     = [geometry](double x) { return kinematics(geometry, x).theta; };
+    result.spring          = { scene.spring_stiffness, kinematics(geometry, 0.).theta };
+    result.friction        = scene.friction;
+    result.contact         = scene.contact;
+    result.solution        = scene.analysis.solution;
+    result.layer_thickness = scene.layer.thickness;
+    return result;
+  }
+
+  LeverModel::LeverModel(const Triangulation<2> &triangulation, LeverProperties lever)
+      : properties(std::move(lever))
+      , body(triangulation, properties.body)
+      , contact(make_contact(body, properties))
+      , system(make_system(body, properties))
+  {
+  }
+
+  State LeverModel::initial_state(const DrivePoint &drive) const
+  {
+    State state;
+    state.drive = drive;
+    state.coordinates.reinit(std::visit([](const auto &s) { return s.n_coordinates(); }, system));
+    state.coordinates[state.coordinates.size() - 1] = properties.ideal_theta(drive.x);
+    state.contact.resize(body.face_nodes().size());
+    for (std::size_t i = 0; i < state.contact.size(); ++i)
+    {
+      const auto &position  = body.face_nodes()[i].position;
+      state.contact[i].slip = properties.obstacle({ position[0], position[1] }, drive.x, properties.ideal_theta(drive.x)).slip;
+    }
+    return state;
+  }
+
+  void LeverModel::predict(State &trial, const State &accepted) const
+  {
+    trial.coordinates[trial.coordinates.size() - 1] +=
+        properties.ideal_theta(trial.drive.x) - properties.ideal_theta(accepted.drive.x);
+  }
+
+  Unbalance LeverModel::evaluate(const State &trial, const State &accepted, const FrictionMode mode)
+  {
+    const auto &q = trial.coordinates;
+    return std::visit(
+        [&](auto &s)
+        {
+          contact.evaluate(s.face_displacement(q), q[q.size() - 1], trial, accepted, mode);
+          return Unbalance{ s.unbalance(q, contact, properties.spring), contact.overlap() };
+        },
+        system);
+  }
+
+  Vector<double> LeverModel::correction()
+  {
+    return std::visit([&](auto &s) { return s.correction(contact, properties.spring); }, system);
+  }
+
+  double LeverModel::movement(const Vector<double> &correction) const
+  {
+    const double arm          = body.face_nodes().back().position[0];
+    Vector<double> in_lengths = correction;
+    in_lengths[in_lengths.size() - 1] *= arm;
+    return in_lengths.linfty_norm();
+  }
+
+  double LeverModel::penetration() const
+  {
+    return contact.penetration();
+  }
+
+  void LeverModel::augment(State &trial) const
+  {
+    contact.augment(trial.contact);
+  }
+
+  std::vector<ContactMemory> LeverModel::memory() const
+  {
+    return contact.memory();
+  }
+
+  void LeverModel::observe(const State &trial, Row &row) const
+  {
+    const auto &q              = trial.coordinates;
+    const double theta         = q[q.size() - 1];
+    const double turn          = theta - properties.spring.rest;
+    row[Column::theta]         = theta;
+    row[Column::spring_energy] = 0.5 * properties.spring.stiffness * turn * turn;
+    contact.observe(properties.layer_thickness, row);
+    row[Column::centre_offset] = row[Column::s] - properties.centre(trial.drive.x, theta);
+    row[Column::Q]             = row[Column::P] * std::sin(theta) + row[Column::F] * std::cos(theta);
+    if (properties.body.material != MaterialModel::linear)
+      row[Column::elastic_energy] = body.energy(body_displacement(trial));
+  }
+
+  FacePoints LeverModel::face_points() const
+  {
+    return contact.points();
+  }
+
+  FaceState LeverModel::face_state(const State &trial) const
+  {
+    return contact.state(trial.drive);
+  }
+
+  const ContactPenalties &LeverModel::penalties() const
+  {
+    return contact.penalties();
+  }
+
+  const ElasticBody<2> &LeverModel::elastic_body() const
+  {
+    return body;
+  }
+
+  Vector<double> LeverModel::body_displacement(const State &state) const
+  {
+    return std::visit([&](const auto &s) { return s.body_displacement(state.coordinates, contact); }, system);
+  }
+} // namespace sprag

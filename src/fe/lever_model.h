@@ -1,0 +1,59 @@
+#pragma once
+
+#include "fe/full_stiffness.h"
+#include "fe/mesh.h"
+
+#include <memory>
+#include <variant>
+
+namespace sprag
+{
+  /// Everything that makes a meshed lever but its mesh.
+  struct LeverProperties
+  {
+    BodyProperties body;
+    Obstacle obstacle;
+    std::function<double(double)> ideal_theta;    ///< inclination that first guesses follow, over x [rad]
+    std::function<double(double, double)> centre; ///< lever coordinate of the obstacle's centre over x and theta [mm]
+    HubSpring spring;
+    FrictionLaw friction;
+    ContactSettings contact;
+    Solution solution      = Solution::automatic;
+    double layer_thickness = 0.; ///< [mm]
+  };
+
+  LeverProperties lever_properties(const Scene &scene);
+
+  /// Meshed lever on its hub and rotational spring against a rigid obstacle: Model in lever axes, which turn with the hub.
+  class LeverModel : public Model
+  {
+  public:
+    /// `triangulation` must outlive the model. Throws InputError for properties that exclude each other.
+    LeverModel(const dealii::Triangulation<2> &triangulation, LeverProperties properties);
+
+    State initial_state(const DrivePoint &drive) const override;
+    void predict(State &trial, const State &accepted) const override;
+    Unbalance evaluate(const State &trial, const State &accepted, FrictionMode mode) override;
+    dealii::Vector<double> correction() override;
+    double movement(const dealii::Vector<double> &correction) const override;
+    double penetration() const override;
+    void augment(State &trial) const override;
+    std::vector<ContactMemory> memory() const override;
+    void observe(const State &trial, Row &row) const override;
+    FacePoints face_points() const override;
+    FaceState face_state(const State &trial) const override;
+
+    const ContactPenalties &penalties() const;
+
+    const ElasticBody<2> &elastic_body() const;
+
+    /// Displacement of all degrees of freedom at the last evaluation, in lever axes [mm].
+    dealii::Vector<double> body_displacement(const State &state) const;
+
+  private:
+    const LeverProperties properties;
+    const ElasticBody<2> body;
+    FaceContact contact;
+    std::variant<FaceCompliance, FullStiffness> system;
+  };
+} // namespace sprag

@@ -1,0 +1,47 @@
+#pragma once
+
+#include "scene/scene.h"
+
+#include <deal.II/base/tensor.h>
+
+namespace sprag
+{
+  /// Elastic constants [MPa]. E > 0, -1 < nu < 0.5.
+  struct ElasticConstants
+  {
+    double young_modulus;
+    double poisson_ratio;
+  };
+
+  /// Lame's constants of a plane problem: sigma = lambda tr(eps) I + 2 mu eps with the in-plane strain alone.
+  /// Plane stress replaces lambda by 2 lambda mu / (lambda + 2 mu).
+  struct Lame
+  {
+    double lambda;
+    double mu;
+  };
+
+  Lame plane_constants(const ElasticConstants &constants, PlaneState plane);
+
+  /// First Piola-Kirchhoff stress P [MPa] and tangent dP_iJ/dF_kL, a row i * dim + J, a column k * dim + L.
+  template <int dim>
+  struct Stress
+  {
+    dealii::Tensor<2, dim> piola;
+    dealii::Tensor<2, dim * dim> tangent;
+  };
+
+  /// sigma = lambda tr(eps) I + 2 mu eps with eps the symmetric part of the displacement gradient.
+  template <int dim>
+  Stress<dim> linear_elastic(const Lame &constants, const dealii::Tensor<2, dim> &displacement_gradient);
+
+  /// Compressible neo-Hookean solid, W = mu/2 (tr F^T F - dim) - mu ln J + lambda/2 (ln J)^2; in two dimensions plane strain.
+  ///   P = mu (F - F^-T) + lambda ln J F^-T
+  /// Throws AnalysisError where J <= 0, so that the step is cut back.
+  template <int dim>
+  Stress<dim> neo_hookean(const Lame &constants, const dealii::Tensor<2, dim> &deformation_gradient);
+
+  /// W of neo_hookean [mJ/mm^3].
+  template <int dim>
+  double neo_hookean_energy(const Lame &constants, const dealii::Tensor<2, dim> &deformation_gradient);
+} // namespace sprag

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <deal.II/lac/full_matrix.h>
+#include <deal.II/lac/petsc_sparse_matrix.h>
+#include <deal.II/lac/vector.h>
+
+#include <petscmat.h>
+
+#include <vector>
+
+namespace sprag
+{
+  /// LU factors of a sequential PETSc matrix by MUMPS. Every return status is checked: MUMPS fails silently otherwise.
+  /// All functions throw AnalysisError, naming the status, when a factorisation or solve fails.
+  class Mumps
+  {
+  public:
+    Mumps()                         = default;
+    Mumps(const Mumps &)            = delete;
+    Mumps &operator=(const Mumps &) = delete;
+    ~Mumps();
+
+    /// Factorises; the ordering is kept for matrices of the same pattern.
+    void factorise(const dealii::PETScWrappers::SparseMatrix &matrix);
+
+    /// Factorises and returns the Schur complement on `indices`, which stay in that order: the stiffness left on them when all
+    /// others are eliminated. Solves with the whole matrix remain possible.
+    dealii::FullMatrix<double> factorise_with_schur_complement(const dealii::PETScWrappers::SparseMatrix &matrix,
+                                                               const std::vector<unsigned int> &indices);
+
+    void solve(const dealii::Vector<double> &right_hand_side, dealii::Vector<double> &solution) const;
+
+  private:
+    void check(PetscErrorCode code, const char *what) const;
+    void check_factor(const char *what) const;
+    void numeric(const dealii::PETScWrappers::SparseMatrix &matrix);
+
+    Mat factor = nullptr;
+  };
+} // namespace sprag

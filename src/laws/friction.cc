@@ -1,0 +1,59 @@
+#include "laws/friction.h"
+
+#include "base/errors.h"
+#include "base/monotone_cubic.h"
+#include "base/text.h"
+
+#include <algorithm>
+
+namespace sprag
+{
+  class TabulatedFriction::Interpolant : public MonotoneCubic
+  {
+  public:
+    using MonotoneCubic::MonotoneCubic;
+  };
+
+  TabulatedFriction::TabulatedFriction(std::vector<double> speeds, std::vector<double> coefficients)
+      : interpolant(std::make_shared<const Interpolant>(speeds, coefficients))
+  {
+    if (speeds.front() < 0.)
+      throw InputError("row 1: speed " + number_text(speeds.front()) + " mm/s: must be >= 0");
+    const auto negative = std::find_if(coefficients.begin(), coefficients.end(), [](const double mu) { return mu < 0.; });
+    if (negative != coefficients.end())
+      throw InputError("row " + std::to_string(negative - coefficients.begin() + 1) + ": coefficient " + number_text(*negative) +
+                       ": must be >= 0");
+  }
+
+  FrictionValue TabulatedFriction::value(const double speed) const
+  {
+    return { interpolant->value(speed), interpolant->derivative(speed) };
+  }
+
+  namespace
+  {
+    FrictionValue value_of(const CoulombFriction &law, const double /*speed*/)
+    {
+      return { law.coefficient, 0. };
+    }
+
+    FrictionValue value_of(const CorkOnAluminium & /*law*/, const double v)
+    {
+      if (v < 200.)
+        return { (-9.235e-6 * v + 4.422e-3) * v + 0.3491, -2. * 9.235e-6 * v + 4.422e-3 };
+      if (v < 750.)
+        return { (-7.086e-7 * v + 1.058e-3) * v + 0.6809, -2. * 7.086e-7 * v + 1.058e-3 };
+      return { 1.076, 0. };
+    }
+
+    FrictionValue value_of(const TabulatedFriction &law, const double speed)
+    {
+      return law.value(speed);
+    }
+  } // namespace
+
+  FrictionValue friction_coefficient(const FrictionLaw &law, const double speed)
+  {
+    return std::visit([speed](const auto &choice) { return value_of(choice, speed); }, law.law);
+  }
+} // namespace sprag

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "model/contact_point.h"
+#include "scene/scene.h"
+
+namespace sprag
+{
+  // Lever axes: xi along d = (-cos th, sin th) away from the pivot, eta along n = (sin th, cos th) from cylinder to lever.
+
+  struct LeverPoint
+  {
+    double xi;
+    double eta;
+  };
+
+  /// Centre (x, 0) of the cylinder in lever axes [mm].
+  LeverPoint cylinder_centre(const Geometry &geometry, double x, double theta);
+
+  /// A point of the lever against the rigid circle that translates with x and does not rotate. Coordinates: displacement of the
+  /// point along xi and eta, rotation theta. With r the vector from centre to point and beta its angle from eta towards xi:
+  ///   gap = |r| - R,   slip = R (beta - theta),
+  /// the arc along which the circle has passed the point, so large sliding and large rotation are exact.
+  ContactKinematics<3> circle_contact(const Geometry &geometry, const LeverPoint &point, double x, double theta);
+} // namespace sprag

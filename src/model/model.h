@@ -1,0 +1,66 @@
+#pragma once
+
+#include "model/contact_point.h"
+#include "results/columns.h"
+#include "results/result_file.h"
+#include "scene/drive.h"
+
+#include <deal.II/lac/vector.h>
+
+#include <vector>
+
+namespace sprag
+{
+  /// Where a model is. The analysis owns it: a step works on a copy that is kept only when it is accepted.
+  struct State
+  {
+    DrivePoint drive;
+    dealii::Vector<double> coordinates; ///< generalised coordinates of the model
+    std::vector<ContactMemory> contact; ///< an entry per contact point
+  };
+
+  /// Size of the unbalance at a trial state, and what a correction must be small against.
+  struct Unbalance
+  {
+    double norm;    ///< falls to round-off at equilibrium; unit of the model's choice, for the line search alone
+    double overlap; ///< largest p / penalty over the contact points [mm]
+  };
+
+  /// Quasi-static mechanics of a scene at one fidelity. Analyses know nothing of bodies, meshes and dimensions.
+  class Model
+  {
+  public:
+    virtual ~Model() = default;
+
+    virtual State initial_state(const DrivePoint &drive) const = 0;
+
+    /// First guess of the coordinates at `trial.drive`, from the accepted state in them.
+    virtual void predict(State &trial, const State &accepted) const = 0;
+
+    /// Evaluates the equilibrium of `trial` for a step from `accepted`; correction() and friends refer to the last call.
+    virtual Unbalance evaluate(const State &trial, const State &accepted, FrictionMode mode) = 0;
+
+    /// Solves the linearised equilibrium. Throws AnalysisError if the factorisation fails.
+    virtual dealii::Vector<double> correction() = 0;
+
+    /// Largest movement of a material point that a correction means [mm].
+    virtual double movement(const dealii::Vector<double> &correction) const = 0;
+
+    /// Largest overlap of body and obstacle [mm].
+    virtual double penetration() const = 0;
+
+    /// Multipliers of the next augmentation from the tractions of the last evaluation.
+    virtual void augment(State &trial) const = 0;
+
+    /// Memory of the contact points at the end of the step that the last evaluation belongs to.
+    virtual std::vector<ContactMemory> memory() const = 0;
+
+    /// Fills the columns of mechanics from the last evaluation.
+    virtual void observe(const State &trial, Row &row) const = 0;
+
+    /// Points of the friction face and their tractions at the last evaluation.
+    virtual FacePoints face_points() const = 0;
+
+    virtual FaceState face_state(const State &trial) const = 0;
+  };
+} // namespace sprag

@@ -1,0 +1,50 @@
+#include "results/columns.h"
+
+namespace sprag
+{
+  const std::vector<ColumnInfo> &all_columns()
+  {
+    // Each text goes into the result file as it stands: it has to be understood there, without this program.
+    static const std::vector<ColumnInfo> columns = {
+      { "time", "s", "time, starting at 0" },
+      { "x", "mm", "position of the cylinder's centre, growing towards the pivot" },
+      { "v", "mm/s", "speed of the cylinder dx/dt; at a reversal that of the stroke the row belongs to" },
+      { "theta", "rad", "absolute inclination of the lever at its hub" },
+      { "s", "mm", "lever coordinate of the centre of pressure, from the pivot; NaN where the contact is open" },
+      { "P", "N", "normal force: resultant on the lever along n of the hub's theta; 0 where the contact is open" },
+      { "F", "N", "friction force: resultant on the lever along -d of the hub's theta; 0 where the contact is open" },
+      { "Q", "N", "x-force of the cylinder on the lever, Q = P sin(theta) + F cos(theta); negative on the return" },
+      { "normal_resultant", "N", "sum of the local normal tractions over the friction face" },
+      { "friction_resultant", "N",
+        "sum of the local friction tractions over the friction face; its ratio to normal_resultant is mu in full sliding" },
+      { "v_rel", "mm/s",
+        "pressure-weighted material sliding speed of the cylinder along the lever; NaN where the contact is open" },
+      { "mu", "1", "friction coefficient at v_rel" },
+      { "centre_offset", "mm", "s minus the lever coordinate of the cylinder's centre; by it F/P in lever axes differs from mu" },
+      { "contact_width", "mm", "length of the friction face with pressure > 0, its edges interpolated; 0 where open" },
+      { "penetration", "mm", "largest numerical overlap of cylinder and friction face" },
+      { "indentation", "mm", "largest physical compression of the friction layer" },
+      { "cone_violation", "1",
+        "largest |t| - mu p over the points of the friction face, relative to mu times the largest pressure" },
+      { "elastic_slip", "mm", "largest elastic slip of the tangential penalty" },
+      { "friction_power", "N mm/s", "work per time dissipated by friction at the end of the step" },
+      { "friction_work", "N mm", "work dissipated by friction since the start" },
+      { "drive_work", "N mm", "work of the drive since the start, integral of Q dx" },
+      { "spring_energy", "N mm", "energy of the rotational spring, k (theta - theta0)^2 / 2" },
+      { "elastic_energy", "N mm", "elastic energy of lever and friction layer" },
+      { "P_closed_form", "N", "P of the closed form at this x and direction" },
+      { "Q_closed_form", "N", "Q of the closed form at this x and direction" },
+      { "theta_closed_form", "rad", "theta of the closed form at this x" },
+      { "step", "mm", "change of x in the step" },
+      { "active_points", "1", "points of the friction face in contact" },
+      { "iterations", "1", "Newton iterations in the step" },
+      { "augmentations", "1", "augmentations of the contact multipliers in the step" }
+    };
+    return columns;
+  }
+
+  const ColumnInfo &column_info(const Column column)
+  {
+    return all_columns().at(static_cast<std::size_t>(column));
+  }
+} // namespace sprag

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+namespace sprag
+{
+  /// Disk space kept for a file that grows. HDF5 does not survive a write that fails half way, neither the process nor what was
+  /// written before: so the end of the space has to be noticed ahead of it.
+  class DiskReserve
+  {
+  public:
+    /// Creates the file where there is none. Throws AnalysisError with the system's reason.
+    explicit DiskReserve(const std::string &path);
+
+    DiskReserve(DiskReserve &&other) noexcept;
+    DiskReserve &operator=(DiskReserve &&) = delete;
+
+    /// Gives back what the file did not use.
+    ~DiskReserve();
+
+    /// Makes sure that the file can grow by this many bytes and be closed after; throws AnalysisError if it cannot. File systems
+    /// that cannot reserve are taken at their word that there is space.
+    void cover(std::size_t bytes);
+
+  private:
+    void reserve(std::size_t end) const;
+
+    std::string path;
+    int descriptor;
+    std::size_t reserved = 0; ///< from the start of the file
+  };
+} // namespace sprag

@@ -1,0 +1,256 @@
+#include "results/result_file.h"
+
+#include "base/errors.h"
+#include "results/disk_reserve.h"
+#include "results/hdf5.h"
+
+#include <deal.II/base/exceptions.h>
+
+#include <chrono>
+#include <filesystem>
+#include <optional>
+
+namespace sprag
+{
+  namespace
+  {
+    constexpr std::size_t table_chunk = 256;
+
+    // A flush costs about 0.4 ms: nothing beside a finite-element step, much beside a row of the closed form.
+    constexpr std::chrono::milliseconds flush_interval(5);
+
+    void describe(const hdf5::Handle &dataset, const std::string &unit, const std::string &description)
+    {
+      hdf5::write_attribute(dataset, "unit", unit);
+      hdf5::write_attribute(dataset, "description", description);
+    }
+
+    // Chunks and descriptions that a flush or the entries of /summary and /meta bring along with the numbers themselves.
+    constexpr std::size_t overhead = 256 * 1024;
+
+    void clear_the_way(const std::string &path)
+    {
+      // Somebody who still reads the old file keeps it.
+      std::error_code ignored;
+      if (std::filesystem::is_regular_file(path, ignored))
+        std::filesystem::remove(path, ignored);
+      DiskReserve(path).cover(overhead);
+    }
+
+    hdf5::Handle create(const std::string &path)
+    {
+      try
+      {
+        clear_the_way(path);
+        return hdf5::create_file(path);
+      }
+      catch (const AnalysisError &error)
+      {
+        throw InputError(error.what());
+      }
+    }
+
+    hdf5::Series create_series(const hdf5::Handle &group, const ColumnInfo &column)
+    {
+      hdf5::Series series(group, column.name, table_chunk);
+      describe(series.handle(), column.unit, column.description);
+      return series;
+    }
+
+    hdf5::Series create_rows(const hdf5::Handle &group, const ColumnInfo &column, const std::size_t width)
+    {
+      hdf5::Series series = hdf5::Series::of_rows(group, column.name, width);
+      describe(series.handle(), column.unit, column.description);
+      return series;
+    }
+
+    void write_values(const hdf5::Handle &group, const ColumnInfo &column, const std::vector<double> &values)
+    {
+      describe(hdf5::write_dataset(group, column.name, values), column.unit, column.description);
+    }
+
+    void write_entries(const hdf5::Handle &file, const std::string &name, const std::vector<Entry> &entries)
+    {
+      const hdf5::Handle group = hdf5::create_group(file, name);
+      for (const Entry &entry : entries)
+        std::visit([&](const auto &value)
+                   { describe(hdf5::write_dataset(group, entry.name, value), entry.unit, entry.description); },
+                   entry.value);
+    }
+
+    /// /table
+    class Table
+    {
+    public:
+      Table(const hdf5::Handle &file, const std::vector<ColumnInfo> &columns)
+          : pending(columns.size())
+      {
+        const hdf5::Handle group = hdf5::create_group(file, "table");
+        for (const ColumnInfo &column : columns)
+          series.push_back(create_series(group, column));
+      }
+
+      void append(const std::vector<double> &row)
+      {
+        Assert(row.size() == series.size(), dealii::ExcDimensionMismatch(row.size(), series.size()));
+        for (std::size_t i = 0; i < row.size(); ++i)
+          pending[i].push_back(row[i]);
+      }
+
+      std::size_t pending_bytes() const
+      {
+        return pending.empty() ? 0 : pending.size() * pending.front().size() * sizeof(double);
+      }
+
+      void write()
+      {
+        for (std::size_t i = 0; i < series.size(); ++i)
+        {
+          series[i].append(pending[i]);
+          pending[i].clear();
+        }
+      }
+
+    private:
+      std::vector<hdf5::Series> series;
+      std::vector<std::vector<double>> pending; ///< rows not yet written, by column
+    };
+
+    /// /face
+    class Face
+    {
+    public:
+      Face(const hdf5::Handle &file, const FacePoints &points)
+          : Face(hdf5::create_group(file, "face"), points.xi.size())
+      {
+        write_values(group, { "xi", "mm", "lever coordinate of the undeformed point, from the pivot" }, points.xi);
+        write_values(group, { "weight", "mm^2", "area of the friction face carried by the point" }, points.weight);
+      }
+
+      void append(const FaceState &state)
+      {
+        time.append({ state.time });
+        x.append({ state.x });
+        pressure.append(state.pressure);
+        traction.append(state.traction);
+      }
+
+    private:
+      Face(hdf5::Handle face_group, const std::size_t n_points)
+          : group(std::move(face_group))
+          , time(create_series(group, { "time", "s", "time of the written step" }))
+          , x(create_series(group, { "x", "mm", "position of the cylinder at the written step" }))
+          , pressure(create_rows(group, { "pressure", "MPa", "contact pressure, written steps x points" }, n_points))
+          , traction(create_rows(group, { "traction", "MPa", "friction traction on the lever along -d, written steps x points" },
+                                 n_points))
+      {
+      }
+
+      hdf5::Handle group;
+      hdf5::Series time;
+      hdf5::Series x;
+      hdf5::Series pressure;
+      hdf5::Series traction;
+    };
+  } // namespace
+
+  struct ResultFile::Implementation
+  {
+    /// What is open while rows are appended.
+    struct Writer
+    {
+      DiskReserve reserve; // given back after the file is closed
+      hdf5::Handle file;
+      Table table;
+      std::optional<Face> face;
+      std::chrono::steady_clock::time_point last_flush = {};
+
+      void flush()
+      {
+        reserve.cover(overhead + table.pending_bytes());
+        table.write();
+        hdf5::flush(file);
+        last_flush = std::chrono::steady_clock::now();
+      }
+    };
+
+    std::string path;
+    std::optional<Writer> writer;
+  };
+
+  ResultFile::ResultFile(const std::string &path, const std::string &parameters, const FacePoints &points,
+                         const std::vector<ColumnInfo> &columns)
+      : implementation(std::make_unique<Implementation>())
+  {
+    hdf5::Handle file = create(path);
+    DiskReserve reserve(path);
+    reserve.cover(overhead + parameters.size());
+    hdf5::write_attribute(file, "format", std::string("sprag result"));
+    hdf5::write_attribute(file, "format_version", 1.);
+    describe(hdf5::write_dataset(file, "parameters", parameters), "", "every parameter as used, in .prm form");
+    Table table(file, columns);
+    std::optional<Face> face;
+    if (!points.xi.empty())
+      face.emplace(file, points);
+    hdf5::start_swmr_write(file);
+    implementation->path = path;
+    implementation->writer.emplace(
+        Implementation::Writer{ std::move(reserve), std::move(file), std::move(table), std::move(face), {} });
+  }
+
+  ResultFile::ResultFile(ResultFile &&) noexcept = default;
+
+  ResultFile::~ResultFile()
+  {
+    if (implementation && implementation->writer)
+      try
+      {
+        implementation->writer->flush();
+      }
+      catch (const AnalysisError &)
+      {
+        // The run is being abandoned for a reason of its own.
+      }
+  }
+
+  void ResultFile::append(const Row &row)
+  {
+    std::vector<double> values;
+    values.reserve(n_columns);
+    for (std::size_t i = 0; i < n_columns; ++i)
+      values.push_back(row[static_cast<Column>(i)]);
+    append(values);
+  }
+
+  void ResultFile::append(const std::vector<double> &row)
+  {
+    Assert(implementation->writer, dealii::ExcMessage("The result file is finished."));
+    Implementation::Writer &writer = *implementation->writer;
+    writer.table.append(row);
+    if (std::chrono::steady_clock::now() - writer.last_flush >= flush_interval)
+      writer.flush();
+  }
+
+  void ResultFile::append(const FaceState &state)
+  {
+    Assert(implementation->writer && implementation->writer->face, dealii::ExcMessage("The result file has no open /face."));
+    Implementation::Writer &writer = *implementation->writer;
+    writer.reserve.cover(overhead + 2 * state.pressure.size() * sizeof(double));
+    writer.face->append(state);
+    writer.flush();
+  }
+
+  void ResultFile::finish(const std::vector<Entry> &summary, const std::vector<Entry> &meta)
+  {
+    Assert(implementation->writer, dealii::ExcMessage("The result file is finished already."));
+    // Nothing can be created in a file that others may be reading along: close it and open it anew.
+    implementation->writer->flush();
+    implementation->writer.reset();
+    DiskReserve reserve(implementation->path);
+    reserve.cover(overhead);
+    hdf5::Handle file = hdf5::open_file(implementation->path);
+    write_entries(file, "summary", summary);
+    write_entries(file, "meta", meta);
+    file.close();
+  }
+} // namespace sprag

@@ -1,0 +1,147 @@
+#include "scene/closed_form.h"
+
+#include <boost/math/quadrature/gauss_kronrod.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace sprag
+{
+  namespace
+  {
+    double arm(const Geometry &geometry)
+    {
+      return geometry.cylinder_radius - geometry.interface_offset;
+    }
+
+    /// dQ/dtheta * dtheta/dx of eqs. 10-12 for a spring of unit stiffness [1/mm].
+    double slope_per_stiffness(const Geometry &geometry, const double coefficient, const int sign)
+    {
+      const double theta = kinematics(geometry, 0.).theta;
+      const double s     = arm(geometry) * std::cos(theta) - geometry.pivot_height;
+      const double sine  = std::sin(theta);
+      const double dP    = sine / (s + sign * coefficient * geometry.interface_offset * sine);
+      return (sign * coefficient * std::cos(theta) + sine) * dP * sine * sine / s;
+    }
+
+    /// Integral over time of f(x(t), v(t)), piece by piece between the instants where the drive turns.
+    double integral_over_drive(const Drive &drive, const std::function<double(const DrivePoint &)> &power)
+    {
+      std::vector<double> ends = drive.reversals();
+      ends.push_back(drive.duration());
+      double begin = 0.;
+      double sum   = 0.;
+      for (const double end : ends)
+      {
+        sum += boost::math::quadrature::gauss_kronrod<double, 31>::integrate(
+            [&](const double time) { return power(drive.at(time)); }, begin, end, 12, 1e-12);
+        begin = end;
+      }
+      return sum;
+    }
+
+    /// s - mu e while moving back at v < 0, positive where the lever slides [mm].
+    double locking_margin(const Scene &scene, const DrivePoint &point)
+    {
+      const auto contact = kinematics(scene.geometry, point.x);
+      const double mu    = sliding_friction(scene, point.x, point.v).coefficient;
+      return contact.s - mu * scene.geometry.interface_offset;
+    }
+  } // namespace
+
+  Kinematics kinematics(const Geometry &geometry, const double x)
+  {
+    const double a     = geometry.pivot_distance - x;
+    const double h     = geometry.pivot_height;
+    const double theta = std::asin(arm(geometry) / std::hypot(a, h)) - std::atan2(h, a);
+    const double s     = a * std::cos(theta) - h * std::sin(theta);
+    return { theta, s, std::sin(theta) / s };
+  }
+
+  double sliding_speed(const Geometry &geometry, const double x, const double v)
+  {
+    const auto contact = kinematics(geometry, x);
+    return v * (std::cos(contact.theta) - geometry.interface_offset * contact.theta_x);
+  }
+
+  FrictionValue sliding_friction(const Scene &scene, const double x, const double v)
+  {
+    const bool of_drive = scene.friction.speed == FrictionSpeed::drive;
+    return friction_coefficient(scene.friction, std::abs(of_drive ? v : sliding_speed(scene.geometry, x, v)));
+  }
+
+  ClosedFormState closed_form(const Scene &scene, const double x, const double v)
+  {
+    ClosedFormState state;
+    const auto &geometry = scene.geometry;
+    const double sign    = std::copysign(1., v);
+    const double theta_0 = kinematics(geometry, 0.).theta;
+    state.contact        = kinematics(geometry, x);
+    state.v_rel          = sliding_speed(geometry, x, v);
+    state.mu             = sliding_friction(scene, x, v).coefficient;
+    state.P              = scene.spring_stiffness * (state.contact.theta - theta_0) /
+              (state.contact.s + sign * state.mu * geometry.interface_offset);
+    state.F = sign * state.mu * state.P;
+    state.Q = state.P * std::sin(state.contact.theta) + state.F * std::cos(state.contact.theta);
+    return state;
+  }
+
+  double representative_slope(const Geometry &geometry, const double spring_stiffness, const double coefficient, const int sign)
+  {
+    return spring_stiffness * slope_per_stiffness(geometry, coefficient, sign);
+  }
+
+  double dimensionless_slope(const Geometry &geometry, const double coefficient, const int sign)
+  {
+    return geometry.cylinder_radius * geometry.pivot_distance * slope_per_stiffness(geometry, coefficient, sign);
+  }
+
+  double critical_inclination(const double coefficient)
+  {
+    return std::atan(coefficient);
+  }
+
+  double pivot_contact(const Geometry &geometry)
+  {
+    const double R = geometry.cylinder_radius;
+    const double h = geometry.pivot_height;
+    return geometry.pivot_distance - std::sqrt(std::max(0., R * R - h * h));
+  }
+
+  std::optional<Locking> locking(const Scene &scene)
+  {
+    const double search_step = 0.1;
+    const auto &drive        = scene.drive;
+    for (DrivePoint point = drive.at(0.); point.time < drive.duration();)
+    {
+      const double begin = point.time;
+      point              = drive.step(point.time, search_step);
+      if (!(point.x < drive.at(begin).x))
+        continue;
+      for (const double time : { begin, point.time })
+      {
+        const auto at = drive.at(time, time == begin ? Drive::Side::after : Drive::Side::before);
+        if (locking_margin(scene, at) <= 0.)
+          return Locking{ at.x, kinematics(scene.geometry, at.x).s, sliding_friction(scene, at.x, at.v).coefficient };
+      }
+    }
+    return {};
+  }
+
+  double loop_area(const Scene &scene)
+  {
+    return integral_over_drive(scene.drive,
+                               [&](const DrivePoint &point) { return closed_form(scene, point.x, point.v).Q * point.v; });
+  }
+
+  double friction_work(const Scene &scene)
+  {
+    return integral_over_drive(scene.drive,
+                               [&](const DrivePoint &point)
+                               {
+                                 const auto state = closed_form(scene, point.x, point.v);
+                                 return state.F * state.v_rel;
+                               });
+  }
+} // namespace sprag

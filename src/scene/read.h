@@ -1,0 +1,17 @@
+#pragma once
+
+#include "scene/scene.h"
+
+#include <string>
+#include <vector>
+
+namespace sprag
+{
+  /// Reads a parameter file and the overrides "Section/Name=value", which count more. Paths in the file are relative to its
+  /// folder. Throws InputError holding every mistake, each as "FILE:LINE: Section/Name = value: RULE", FILE alone where a
+  /// default is at fault and "--set" for an override.
+  Scene read_scene(const std::string &file, const std::vector<std::string> &overrides = {});
+
+  /// Every parameter with its default and documentation, in .prm form.
+  std::string default_parameters_text();
+} // namespace sprag

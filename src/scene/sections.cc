@@ -1,0 +1,231 @@
+#include "scene/sections.h"
+
+#include "base/text.h"
+
+#include <algorithm>
+
+namespace sprag
+{
+  namespace
+  {
+    template <typename T>
+    using Choices = std::vector<std::pair<std::string, T>>;
+
+    /// Collects the parameters of one section, each bound to the variable it sets.
+    class Section
+    {
+    public:
+      Section(std::vector<Parameter> &all, std::string section_name)
+          : parameters(all)
+          , name(std::move(section_name))
+      {
+      }
+
+      void number(const std::string &entry, double &value, const Interval &interval, const std::string &unit,
+                  const std::string &meaning)
+      {
+        add(entry, number_text(value), { Rule::Kind::number, interval, unit, {} }, meaning,
+            [&value](const auto &text) { value = leading_number(text)->value; });
+      }
+
+      void integer(const std::string &entry, unsigned int &value, const Interval &interval, const std::string &meaning)
+      {
+        add(entry, std::to_string(value), { Rule::Kind::integer, interval, "", {} }, meaning,
+            [&value](const auto &text) { value = static_cast<unsigned int>(leading_number(text)->value); });
+      }
+
+      void number_or_auto(const std::string &entry, std::optional<double> &value, const Interval &interval,
+                          const std::string &unit, const std::string &meaning)
+      {
+        add(entry, "auto", { Rule::Kind::number_or_auto, interval, unit, {} }, meaning,
+            [&value](const auto &text)
+            { value = text == "auto" ? std::nullopt : std::make_optional(leading_number(text)->value); });
+      }
+
+      void numbers(const std::string &entry, std::vector<double> &values, const Interval &interval, const std::string &meaning)
+      {
+        std::string text;
+        for (const double value : values)
+          text += (text.empty() ? "" : ", ") + number_text(value);
+        add(entry, text, { Rule::Kind::numbers, interval, "", {} }, meaning,
+            [&values](const auto &list) { values = list_of_numbers(list); });
+      }
+
+      void text(const std::string &entry, std::string &value, const std::string &meaning)
+      {
+        add(entry, value, {}, meaning, [&value](const auto &given) { value = given; });
+      }
+
+      template <typename T>
+      void choice(const std::string &entry, T &value, const Choices<T> &choices, const std::string &meaning)
+      {
+        Rule rule;
+        rule.kind = Rule::Kind::choice;
+        std::string present;
+        for (const auto &[word, meant] : choices)
+        {
+          rule.choices.push_back(word);
+          if (meant == value)
+            present = word;
+        }
+        add(entry, present, rule, meaning,
+            [&value, choices](const auto &text) {
+              value = std::find_if(choices.begin(), choices.end(), [&](const auto &pair) { return pair.first == text; })->second;
+            });
+      }
+
+    private:
+      std::vector<Parameter> &parameters;
+      const std::string name;
+
+      void add(const std::string &entry, const std::string &value, const Rule &rule, const std::string &meaning,
+               const std::function<void(const std::string &)> &store)
+      {
+        parameters.push_back({ name, entry, value, rule, meaning, store });
+      }
+    };
+
+    void analysis(Section section, AnalysisSettings &settings)
+    {
+      section.choice<AnalysisType>("Type", settings.type,
+                                   { { "quasi-static", AnalysisType::quasi_static }, { "slope", AnalysisType::slope } },
+                                   "Follow the drive without inertia, or sweep the representative slope C_Q");
+      section.choice<ModelType>("Model", settings.model,
+                                { { "closed form", ModelType::closed_form }, { "finite element", ModelType::finite_element } },
+                                "Rigid lever with ideal contact (eqs. 4-9), or the deformable lever");
+      section.integer("Dimension", settings.dimension, { 2., 3. }, "Dimension of the finite elements");
+      section.choice<PlaneState>("Plane", settings.plane, { { "stress", PlaneState::stress }, { "strain", PlaneState::strain } },
+                                 "Plane stress or plane strain of lever and friction layer");
+      section.choice<Solution>("Solution", settings.solution,
+                               { { "automatic", Solution::automatic }, { "general", Solution::general } },
+                               "Factorise once where the material is linear, or in every iteration");
+      section.number("Step", settings.step, above(0.), "mm", "Largest change of x in a step");
+      section.number("Minimum step", settings.minimum_step, above(0.), "mm", "Change of x below which the analysis gives up");
+      section.number("Maximum deviation", settings.maximum_deviation, at_least(0.), "",
+                     "Largest admissible deviation of P, Q and theta from the closed form; 0 admits any");
+    }
+
+    void geometry(Section section, Geometry &settings)
+    {
+      section.number("Cylinder radius", settings.cylinder_radius, above(0.), "mm", "R, radius of the cylinder");
+      section.number("Interface offset", settings.interface_offset, at_least(0.), "mm",
+                     "e, from the pivot to the friction interface, at right angles to it; less than R");
+      section.number("Pivot distance", settings.pivot_distance, above(0.), "mm",
+                     "l, from the origin to the pivot along x; more than R");
+      section.number("Pivot height", settings.pivot_height, any_number(), "mm",
+                     "h, of the pivot above the x-axis; less than R - e");
+    }
+
+    void drive(Section section, DriveSettings &settings)
+    {
+      section.choice<DriveProfile>(
+          "Profile", settings.profile,
+          { { "triangle", DriveProfile::triangle }, { "harmonic", DriveProfile::harmonic }, { "table", DriveProfile::table } },
+          "Motion of the cylinder: constant speed, 1 - cos, or a file; a table needs none of the other numbers");
+      section.number("Start", settings.start, at_least(0.), "mm", "x at the beginning");
+      section.number("Stroke", settings.stroke, above(0.), "mm", "x at the turning point, met exactly; more than Start");
+      section.number("Speed", settings.speed, above(0.), "mm/s", "v, speed of the triangle or peak speed of the harmonic motion");
+      section.number("Cycles", settings.cycles, above(0.), "", "How often from Start to Stroke and back; 0.5 is there only");
+      section.text("Table", settings.table, "File with the columns time [s] and x [mm], relative to the folder of this one");
+    }
+
+    void friction(Section section, FrictionSettings &settings)
+    {
+      section.choice<FrictionChoice>("Law", settings.law,
+                                     { { "Coulomb", FrictionChoice::coulomb },
+                                       { "cork on aluminium", FrictionChoice::cork_on_aluminium },
+                                       { "table", FrictionChoice::table } },
+                                     "Friction coefficient: constant, eqs. 13-15, or from a file");
+      section.number("Coefficient", settings.coefficient, at_least(0.), "", "mu of the Coulomb law");
+      section.text("Table", settings.table, "File with the columns speed [mm/s] and mu [-], relative to the folder of this one");
+      section.choice<FrictionSpeed>("Speed", settings.speed,
+                                    { { "sliding", FrictionSpeed::sliding }, { "drive", FrictionSpeed::drive } },
+                                    "Speed that mu depends on: of sliding, or the drive's (the paper's choice)");
+    }
+
+    void lever(Section section, Lever &settings)
+    {
+      section.number("Length", settings.length, above(0.), "mm", "From the pivot to the tip");
+      section.number("Depth", settings.depth, above(0.), "mm", "Of the metal, without the friction layer");
+      section.number("Width", settings.width, above(0.), "mm", "Out of plane");
+      section.number("Young's modulus", settings.young_modulus, above(0.), "MPa", "E of the metal");
+      section.number("Poisson's ratio", settings.poisson_ratio, between(-1., 0.5), "", "nu of the metal");
+      section.number("Density", settings.density, above(0.), "t/mm3", "rho of the metal");
+      section.choice<MaterialModel>("Material", settings.material,
+                                    { { "linear", MaterialModel::linear }, { "neo-Hookean", MaterialModel::neo_hookean } },
+                                    "Of lever and friction layer: small strain, or finite strain (plane strain only)");
+    }
+
+    void friction_layer(Section section, FrictionLayer &settings)
+    {
+      section.number("Thickness", settings.thickness, at_least(0.), "mm", "Of the cork sheet; 0: none");
+      section.number("Young's modulus", settings.young_modulus, above(0.), "MPa", "E of the layer");
+      section.number("Poisson's ratio", settings.poisson_ratio, between(-1., 0.5), "", "nu of the layer");
+    }
+
+    void contact(Section section, ContactSettings &settings)
+    {
+      section.choice<Enforcement>(
+          "Enforcement", settings.enforcement,
+          { { "penalty", Enforcement::penalty }, { "augmented Lagrangian", Enforcement::augmented_lagrangian } },
+          "How overlap of cylinder and lever is prevented");
+      section.number_or_auto("Penalty", settings.penalty, above(0.), "N/mm3", "Pressure over overlap; auto: from mesh and layer");
+      section.number_or_auto("Tangential penalty", settings.tangential_penalty, above(0.), "N/mm3",
+                             "Friction traction over elastic slip; auto: equal to the normal one");
+      section.number("Penetration tolerance", settings.penetration_tolerance, above(0.), "mm",
+                     "Largest overlap left by the augmented Lagrangian");
+      section.integer("Maximum augmentations", settings.maximum_augmentations, { 1., 1000. },
+                      "Of the augmented Lagrangian in a step");
+    }
+
+    void mesh(Section section, MeshSettings &settings)
+    {
+      section.number("Face size", settings.face_size, above(0.), "mm", "Element length along the friction face");
+      section.integer("Degree", settings.degree, { 1., 2. }, "Of the polynomials");
+      section.text("File", settings.file,
+                   "A .geo or .msh file instead of the built-in lever, relative to the folder of this one");
+    }
+
+    void output(Section section, OutputSettings &settings)
+    {
+      section.choice<FieldOutput>("Fields", settings.fields,
+                                  { { "none", FieldOutput::none },
+                                    { "turning points", FieldOutput::turning_points },
+                                    { "interval", FieldOutput::interval } },
+                                  "When displacement and stress are written: never, at reversals and the end, or in between too");
+      section.number("Field interval", settings.field_interval, above(0.), "mm", "Travel of x between written fields");
+    }
+
+    void slope(Section section, SlopeSettings &settings, double &maximum_inclination)
+    {
+      section.choice<SlopeSweep>(
+          "Sweep", settings.sweep, { { "coefficient", SlopeSweep::coefficient }, { "inclination", SlopeSweep::inclination } },
+          "C_Q over mu for the geometry given (Fig. 10), or over theta_0 for a list of e/R at one mu (Fig. 11)");
+      section.integer("Number of points", settings.number_of_points, { 2., 1e6 }, "Of each curve");
+      section.number("Maximum coefficient", settings.maximum_coefficient, above(0.), "", "Largest mu of the sweep over mu");
+      section.number("Maximum inclination", maximum_inclination, between(0., 90.), "deg",
+                     "Largest theta_0 of the sweep over theta_0");
+      section.numbers("Offset ratios", settings.offset_ratios, { 0., 1., true, false }, "e/R of the curves over theta_0");
+    }
+  } // namespace
+
+  std::vector<Parameter> scene_parameters(SceneSettings &settings)
+  {
+    Scene &scene = settings.scene;
+    std::vector<Parameter> all;
+    analysis({ all, "Analysis" }, scene.analysis);
+    geometry({ all, "Geometry" }, scene.geometry);
+    drive({ all, "Drive" }, settings.drive);
+    friction({ all, "Friction" }, settings.friction);
+    lever({ all, "Lever" }, scene.lever);
+    friction_layer({ all, "Friction layer" }, scene.layer);
+    Section(all, "Rotational spring")
+        .number("Stiffness", scene.spring_stiffness, above(0.), "N mm/rad",
+                "k, moment of the leaf springs over the lever's rotation");
+    contact({ all, "Contact" }, scene.contact);
+    mesh({ all, "Mesh" }, scene.mesh);
+    output({ all, "Output" }, scene.output);
+    slope({ all, "Slope" }, scene.slope, settings.maximum_inclination);
+    return all;
+  }
+} // namespace sprag

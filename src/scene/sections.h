@@ -1,0 +1,50 @@
+#pragma once
+
+#include "base/parameters.h"
+#include "scene/scene.h"
+
+#include <string>
+#include <vector>
+
+namespace sprag
+{
+  /// Drive as given in text.
+  struct DriveSettings
+  {
+    DriveProfile profile = DriveProfile::triangle;
+    double start         = 0.;
+    double stroke        = 65.;
+    double speed         = 112.;
+    double cycles        = 1.;
+    std::string table;
+  };
+
+  enum class FrictionChoice
+  {
+    coulomb,
+    cork_on_aluminium,
+    table
+  };
+
+  /// Friction as given in text.
+  struct FrictionSettings
+  {
+    FrictionChoice law  = FrictionChoice::cork_on_aluminium;
+    double coefficient  = CoulombFriction().coefficient;
+    FrictionSpeed speed = FrictionSpeed::sliding;
+    std::string table;
+  };
+
+  /// What a parameter file fills in: a scene whose drive and friction law are still to be made.
+  struct SceneSettings
+  {
+    Scene scene;
+    DriveSettings drive;
+    FrictionSettings friction;
+    double maximum_inclination = 60.; ///< [deg]
+  };
+
+  /// Every parameter of a scene file. Defaults are the present values in `settings`, where `store` writes to; `settings` must
+  /// outlive the result.
+  std::vector<Parameter> scene_parameters(SceneSettings &settings);
+} // namespace sprag

@@ -1,0 +1,268 @@
+#include "base/parameters.h"
+
+#include "base/csv.h"
+#include "base/errors.h"
+#include "base/text.h"
+
+#include <cmath>
+#include <deal.II/base/parameter_handler.h>
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <sstream>
+
+using namespace sprag;
+
+namespace
+{
+  std::string written(const std::string &text, const std::string &name = "scene.prm")
+  {
+    const auto *const test = testing::UnitTest::GetInstance()->current_test_info();
+    const auto folder      = std::filesystem::path(testing::TempDir()) / "sprag" / test->test_suite_name() / test->name();
+    std::filesystem::create_directories(folder);
+    const auto file = (folder / name).string();
+    std::ofstream(file) << text;
+    return file;
+  }
+
+  Rule number(const Interval &interval, const std::string &unit = "")
+  {
+    return { Rule::Kind::number, interval, unit, {} };
+  }
+
+  std::vector<Parameter> declared()
+  {
+    return { { "Geometry", "Cylinder radius", "56", number(above(0.), "mm"), "Radius R", {} },
+             { "Geometry", "Pivot height", "0", number(any_number(), "mm"), "Height h", {} },
+             { "Drive", "Profile", "triangle", { Rule::Kind::choice, {}, "", { "triangle", "harmonic" } }, "Motion", {} },
+             { "Drive", "Table", "", {}, "File", {} },
+             { "Friction", "Coefficient", "0.73", number(at_least(0.)), "mu", {} },
+             { "Mesh", "Degree", "2", { Rule::Kind::integer, { 1., 2. }, "", {} }, "Degree", {} },
+             { "Mesh", "Penalty", "auto", { Rule::Kind::number_or_auto, above(0.), "N/mm3", {} }, "Penalty", {} },
+             { "Mesh", "Ratios", "0, 0.5", { Rule::Kind::numbers, { 0., 1., true, false }, "", {} }, "Ratios", {} } };
+  }
+
+  Settings read(const std::string &text, const std::vector<std::string> &overrides = {})
+  {
+    return read_settings(written(text), overrides, declared());
+  }
+
+  /// The mistakes with the folder of the file left out.
+  std::vector<std::string> mistakes(const std::string &text, const std::vector<std::string> &overrides = {})
+  {
+    const Settings settings  = read(text, overrides);
+    const std::string folder = std::filesystem::path(settings.file).parent_path().string() + "/";
+    std::vector<std::string> result;
+    for (auto message : settings.mistakes)
+    {
+      for (auto found = message.find(folder); found != std::string::npos; found = message.find(folder))
+        message.erase(found, folder.size());
+      result.push_back(message);
+    }
+    return result;
+  }
+
+  using Messages = std::vector<std::string>;
+} // namespace
+
+TEST(Parameters, GivenValuesAreReadWithTheirPlaces)
+{
+  const auto settings = read("# a comment\n"
+                             "subsection  Geometry # another\n"
+                             "  set Cylinder   radius = 21.1 # mm\n"
+                             "end\r\n"
+                             "SUBSECTION Drive\n"
+                             "  SET Profile \\\n"
+                             "    = harmonic\n"
+                             "  set Table = a b/c=d.csv\n"
+                             "END\n");
+  EXPECT_TRUE(settings.mistakes.empty());
+  ASSERT_EQ(settings.given.size(), 3u);
+  EXPECT_EQ(settings.given.at("Geometry/Cylinder radius").value, "21.1");
+  EXPECT_EQ(settings.given.at("Geometry/Cylinder radius").place, settings.file + ":3");
+  EXPECT_EQ(settings.given.at("Drive/Profile").value, "harmonic");
+  EXPECT_EQ(settings.given.at("Drive/Profile").place, settings.file + ":6");
+  EXPECT_EQ(settings.given.at("Drive/Table").value, "a b/c=d.csv");
+}
+
+TEST(Parameters, OverridesCountMoreThanTheFileAndLaterOnesMost)
+{
+  const auto settings = read("subsection Geometry\n set Pivot height = 1\nend\n",
+                             { "Geometry/Pivot height=2", "Geometry/Pivot height = 3", "Drive/Table=a=b/c" });
+  EXPECT_TRUE(settings.mistakes.empty());
+  EXPECT_EQ(settings.given.at("Geometry/Pivot height").value, "3");
+  EXPECT_EQ(settings.given.at("Geometry/Pivot height").place, "--set");
+  EXPECT_EQ(settings.given.at("Drive/Table").value, "a=b/c");
+}
+
+TEST(Parameters, UnknownNamesAreReportedWithTheNearest)
+{
+  EXPECT_EQ(mistakes("subsection Geometry\n set Cylinder radus = 5\n set Nothing like it at all = 5\nend\n"),
+            (Messages{ "scene.prm:2: Geometry/Cylinder radus = 5: no such parameter; did you mean 'Cylinder radius'?",
+                       "scene.prm:3: Geometry/Nothing like it at all = 5: no such parameter" }));
+  EXPECT_EQ(mistakes("subsection Geometry\n set Coefficient = 5\nend\n"),
+            (Messages{ "scene.prm:2: Geometry/Coefficient = 5: no such parameter; did you mean 'Friction/Coefficient'?" }));
+}
+
+TEST(Parameters, UnknownSectionsAreReportedOnceAndStillRead)
+{
+  EXPECT_EQ(mistakes("subsection geometri\n set Cylinder radius = -5\nend\nsubsection Completely other\n set A = 1\nend\n"),
+            (Messages{ "scene.prm:1: subsection geometri: no such subsection; did you mean 'Geometry'?",
+                       "scene.prm:2: Geometry/Cylinder radius = -5: must be a number > 0 [mm]",
+                       "scene.prm:4: subsection Completely other: no such subsection" }));
+}
+
+TEST(Parameters, NumbersMustStandAlone)
+{
+  EXPECT_EQ(mistakes("subsection Geometry\n set Cylinder radius = 56 mm\nend\n"),
+            (Messages{ "scene.prm:2: Geometry/Cylinder radius = 56 mm: must be a number > 0 and nothing else: "
+                       "leave out 'mm', mm is meant" }));
+  EXPECT_EQ(mistakes("subsection Friction\n set Coefficient = 73%\nend\n"),
+            (Messages{ "scene.prm:2: Friction/Coefficient = 73%: must be a number >= 0 and nothing else: "
+                       "leave out '%', it has no unit" }));
+}
+
+TEST(Parameters, NumbersMustBeFiniteAndInRange)
+{
+  for (const std::string value : { "nan", "inf", "-inf", "1e999", "", "big", "0", "-56", "--5", "+-5", "0x10", "5,6" })
+  {
+    const auto found = mistakes("subsection Geometry\n set Cylinder radius = " + value + "\nend\n");
+    ASSERT_EQ(found.size(), 1u) << value;
+    EXPECT_EQ(found[0].rfind("scene.prm:2: Geometry/Cylinder radius = " + value + ": must be a number > 0", 0), 0u) << found[0];
+  }
+  for (const std::string value : { "56", "+56", "5.6e1", ".5", "5.", "1E-3" })
+    EXPECT_TRUE(mistakes("subsection Geometry\n set Cylinder radius = " + value + "\nend\n").empty()) << value;
+}
+
+TEST(Parameters, IntegersListsChoicesAndAutoKeepTheirRules)
+{
+  EXPECT_EQ(mistakes("subsection Mesh\n set Degree = 1.5\n set Penalty = automatic\n set Ratios = 0.1, 1\nend\n"
+                     "subsection Drive\n set Profile = harmonics\nend\n"),
+            (Messages{ "scene.prm:2: Mesh/Degree = 1.5: must be an integer >= 1 and <= 2",
+                       "scene.prm:3: Mesh/Penalty = automatic: must be auto or a number > 0 [N/mm3]",
+                       "scene.prm:4: Mesh/Ratios = 0.1, 1: must be numbers >= 0 and < 1, separated by commas",
+                       "scene.prm:7: Drive/Profile = harmonics: must be one of triangle | harmonic; did you mean 'harmonic'?" }));
+  EXPECT_TRUE(mistakes("subsection Mesh\n set Degree = 1\n set Penalty = auto\n set Ratios = 0.1,0.9\nend\n").empty());
+}
+
+TEST(Parameters, BrokenStructureIsReported)
+{
+  EXPECT_EQ(mistakes("set Coefficient = 1\n"),
+            (Messages{ "scene.prm:1: Coefficient = 1: must stand inside a subsection; did you mean 'Friction/Coefficient'?" }));
+  EXPECT_EQ(mistakes("subsection Drive\n"), (Messages{ "scene.prm:1: subsection Drive: must be closed by a line 'end'" }));
+  EXPECT_EQ(mistakes("subsection Drive\nsubsection Mesh\nend\n"),
+            (Messages{ "scene.prm:2: subsection Mesh: subsection Drive must be closed by a line 'end' before it" }));
+  EXPECT_EQ(mistakes("subsection Drive\nend\nend\n"), (Messages{ "scene.prm:3: end: no subsection is open" }));
+  EXPECT_EQ(mistakes("subsection Drive\nend Drive\n"), (Messages{ "scene.prm:2: end Drive: 'end' must stand alone" }));
+  EXPECT_EQ(mistakes("subsection Mesh\n set Degree 1\nend\n"),
+            (Messages{ "scene.prm:2: set Degree 1: must have the form set Name = value" }));
+  EXPECT_EQ(mistakes("subsection Mesh\n sett Degree = 1\nend\n"),
+            (Messages{ "scene.prm:2: sett Degree = 1: must begin with subsection, set, end or #; did you mean 'set'?" }));
+  EXPECT_EQ(mistakes("include other.prm\n"),
+            (Messages{ "scene.prm:1: include other.prm: other files are not included: write their lines here or use --set" }));
+}
+
+TEST(Parameters, SettingTwiceIsReported)
+{
+  EXPECT_EQ(mistakes("subsection Mesh\n set Degree = 1\nend\nsubsection Mesh\n set Degree = 2\nend\n"),
+            (Messages{ "scene.prm:5: Mesh/Degree = 2: must be set once only, it is at scene.prm:2 already" }));
+}
+
+TEST(Parameters, MistakesInOverridesAreReported)
+{
+  EXPECT_EQ(mistakes("", { "Degree=1", "Mesh/Degree", "Mesh/Degre=1", "Mash/Degree=3", "Mesh/Degree=2 nodes" }),
+            (Messages{ "--set: Degree=1: must have the form Section/Name=value",
+                       "--set: Mesh/Degree: must have the form Section/Name=value",
+                       "--set: Mesh/Degre = 1: no such parameter; did you mean 'Degree'?",
+                       "--set: Mash/Degree = 3: no such section; did you mean 'Mesh'?",
+                       "--set: Mesh/Degree = 3: must be an integer >= 1 and <= 2",
+                       "--set: Mesh/Degree = 2 nodes: must be an integer >= 1 and <= 2 and nothing else: "
+                       "leave out 'nodes', it has no unit" }));
+}
+
+TEST(Parameters, FilesThatCannotBeReadAreReported)
+{
+  EXPECT_EQ(read_settings("/nowhere/scene.prm", {}, declared()).mistakes, (Messages{ "/nowhere/scene.prm: cannot be read" }));
+  const auto folder = testing::TempDir();
+  EXPECT_EQ(read_settings(folder, {}, declared()).mistakes, (Messages{ folder + ": is a folder: must be a parameter file" }));
+  const auto binary = written(std::string("ELF\0\1\n", 6), "program");
+  EXPECT_EQ(read_settings(binary, {}, declared()).mistakes, (Messages{ binary + ": is not a text: must be a parameter file" }));
+}
+
+TEST(Parameters, DoubtIsRememberedForWhatWasMeant)
+{
+  const auto settings = read("subsection Geometry\n set Cylinder radus = 5\nend\nsubsection Mesh\n set Degree = x\nend\n");
+  EXPECT_EQ(settings.doubtful, (std::set<std::string>{ "Geometry/Cylinder radius", "Mesh/Degree" }));
+}
+
+TEST(Parameters, LaterMistakesNamePlaceAndValueInUse)
+{
+  auto settings = read("subsection Geometry\n set Cylinder radius = 5\nend\n", { "Mesh/Degree=1" });
+  add_mistake(settings, declared(), "Geometry/Cylinder radius", "must be more");
+  add_mistake(settings, declared(), "Geometry/Pivot height", "must be more");
+  add_mistake(settings, declared(), "Mesh/Degree", "must be more");
+  EXPECT_EQ(settings.mistakes,
+            (Messages{ settings.file + ":2: Geometry/Cylinder radius = 5: must be more",
+                       settings.file + ": Geometry/Pivot height = 0: must be more", "--set: Mesh/Degree = 1: must be more" }));
+}
+
+TEST(Parameters, PrintedTextReadsBackHereAndInDealII)
+{
+  const auto given = read("", { "Geometry/Cylinder radius=21.1", "Drive/Table=a b.csv", "Mesh/Penalty=1000" }).given;
+  const auto text  = parameters_text(declared(), given);
+  EXPECT_NE(text.find("Radius R [mm]: a number > 0."), std::string::npos) << text;
+
+  const auto again = read(text);
+  EXPECT_TRUE(again.mistakes.empty()) << again.mistakes[0];
+  EXPECT_EQ(again.given.size(), declared().size());
+  EXPECT_EQ(parameters_text(declared(), again.given), text);
+
+  dealii::ParameterHandler handler;
+  for (const auto &parameter : declared())
+  {
+    handler.enter_subsection(parameter.section);
+    handler.declare_entry(parameter.name, parameter.default_value);
+    handler.leave_subsection();
+  }
+  EXPECT_NO_THROW(handler.parse_input_from_string(text));
+  handler.enter_subsection("Geometry");
+  EXPECT_EQ(handler.get("Cylinder radius"), "21.1");
+}
+
+TEST(Text, NearestNameToleratesHalfOfItsLetters)
+{
+  EXPECT_EQ(nearest("stifness", { "Strength", "Stiffness" }), "Stiffness");
+  EXPECT_EQ(nearest("Xyzw", { "Strength", "Stiffness" }), std::nullopt);
+}
+
+TEST(Text, NumbersReadBackExactly)
+{
+  for (const double value : { 0.1, 1. / 3., 7.4e4, 2.7e-9, -5., 1e300 })
+    EXPECT_EQ(leading_number(number_text(value))->value, value);
+}
+
+TEST(Csv, ColumnsMayBeSeparatedByCommasOrWhiteSpace)
+{
+  const auto table =
+      read_two_columns(written("# measured\nspeed, mu\n0, 0.3\n10 0.5 # a comment\n\n20;0.7\r\n1e2\t0.9\n", "mu.csv"));
+  EXPECT_EQ(table.first, (std::vector<double>{ 0., 10., 20., 100. }));
+  EXPECT_EQ(table.second, (std::vector<double>{ 0.3, 0.5, 0.7, 0.9 }));
+}
+
+TEST(Csv, EveryFaultyLineIsNamed)
+{
+  const auto file = written("v, mu\n0, 0.3\n1\n2, 0.5, 7\nx, y\n3, 0.5\n", "mu.csv");
+  try
+  {
+    read_two_columns(file);
+    FAIL();
+  }
+  catch (const InputError &error)
+  {
+    EXPECT_EQ(error.messages, (Messages{ file + ":3: 1: must be two numbers", file + ":4: 2, 0.5, 7: must be two numbers",
+                                         file + ":5: x, y: must be two numbers" }));
+  }
+  EXPECT_THROW(read_two_columns("/nowhere/mu.csv"), InputError);
+  EXPECT_THROW(read_two_columns(testing::TempDir()), InputError);
+  EXPECT_THROW(read_two_columns(written("# nothing\n", "empty.csv")), InputError);
+}

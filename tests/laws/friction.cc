@@ -1,0 +1,97 @@
+#include "laws/friction.h"
+
+#include "base/errors.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
+
+using namespace sprag;
+
+namespace
+{
+  FrictionLaw law_of(decltype(FrictionLaw::law) choice)
+  {
+    return { std::move(choice), FrictionSpeed::sliding };
+  }
+
+  void expect_derivative(const FrictionLaw &law, const double speed)
+  {
+    // Central differences of a cubic with third derivative below 1e-6 err by less than h^2 1e-6 plus round-off 1e-16/h.
+    const double h          = 1e-3;
+    const double difference = friction_coefficient(law, speed + h).coefficient - friction_coefficient(law, speed - h).coefficient;
+    EXPECT_NEAR(friction_coefficient(law, speed).derivative, difference / (2. * h), 1e-11) << "speed " << speed;
+  }
+
+  const TabulatedFriction measured({ 10., 100., 200., 400., 800. }, { 0.3, 0.7, 0.7, 0.9, 1.0 });
+} // namespace
+
+TEST(Friction, CoulombIsTheSameAtEverySpeed)
+{
+  const auto law = law_of(CoulombFriction{ 0.73 });
+  for (const double speed : { 0., 1., 112., 1e4 })
+  {
+    EXPECT_EQ(friction_coefficient(law, speed).coefficient, 0.73);
+    EXPECT_EQ(friction_coefficient(law, speed).derivative, 0.);
+  }
+}
+
+TEST(Friction, CorkOnAluminiumHasThePapersValues)
+{
+  const auto law = law_of(CorkOnAluminium{});
+  EXPECT_DOUBLE_EQ(friction_coefficient(law, 0.).coefficient, 0.3491);
+  EXPECT_NEAR(friction_coefficient(law, 112.).coefficient, 0.72852016, 1e-12);
+  EXPECT_NEAR(friction_coefficient(law, 200.).coefficient, -7.086e-7 * 4e4 + 1.058e-3 * 200. + 0.6809, 1e-12);
+  EXPECT_EQ(friction_coefficient(law, 750.).coefficient, 1.076);
+  EXPECT_EQ(friction_coefficient(law, 5000.).coefficient, 1.076);
+}
+
+TEST(Friction, CorkOnAluminiumHardlyJumpsAtItsJoints)
+{
+  const auto law  = law_of(CorkOnAluminium{});
+  const auto jump = [&](const double joint)
+  { return friction_coefficient(law, joint).coefficient - friction_coefficient(law, std::nextafter(joint, 0.)).coefficient; };
+  EXPECT_NEAR(std::abs(jump(200.)), 5.6e-5, 1e-6);
+  EXPECT_NEAR(std::abs(jump(750.)), 1.9e-4, 1e-5);
+}
+
+TEST(Friction, DerivativesAgreeWithFiniteDifferences)
+{
+  for (const double speed : { 1., 112., 199., 201., 500., 749., 751. })
+    expect_derivative(law_of(CorkOnAluminium{}), speed);
+  for (const double speed : { 5., 11., 60., 150., 250., 399., 700., 900. })
+    expect_derivative(law_of(measured), speed);
+}
+
+TEST(Friction, TableMeetsItsRowsAndIsConstantBeyondThem)
+{
+  const auto law = law_of(measured);
+  EXPECT_DOUBLE_EQ(friction_coefficient(law, 100.).coefficient, 0.7);
+  EXPECT_DOUBLE_EQ(friction_coefficient(law, 800.).coefficient, 1.0);
+  EXPECT_DOUBLE_EQ(friction_coefficient(law, 0.).coefficient, 0.3);
+  EXPECT_EQ(friction_coefficient(law, 0.).derivative, 0.);
+  EXPECT_DOUBLE_EQ(friction_coefficient(law, 1e4).coefficient, 1.0);
+  EXPECT_EQ(friction_coefficient(law, 1e4).derivative, 0.);
+}
+
+TEST(Friction, TableNeverOvershootsItsRows)
+{
+  const auto law = law_of(measured);
+  double before  = 0.;
+  for (double speed = 0.; speed <= 900.; speed += 0.5)
+  {
+    const double mu = friction_coefficient(law, speed).coefficient;
+    EXPECT_GE(mu, before - 1e-14);
+    EXPECT_LE(mu, 1.0 + 1e-14);
+    before = mu;
+  }
+}
+
+TEST(Friction, TableThatIsNoneIsRefused)
+{
+  EXPECT_THROW(TabulatedFriction({ 0., 1., 2. }, { 1., 1., 1. }), InputError);
+  EXPECT_THROW(TabulatedFriction({ 0., 1., 2., 3. }, { 1., 1., 1. }), InputError);
+  EXPECT_THROW(TabulatedFriction({ 0., 1., 1., 3. }, { 1., 1., 1., 1. }), InputError);
+  EXPECT_THROW(TabulatedFriction({ -1., 1., 2., 3. }, { 1., 1., 1., 1. }), InputError);
+  EXPECT_THROW(TabulatedFriction({ 0., 1., 2., 3. }, { 1., -0.1, 1., 1. }), InputError);
+  EXPECT_THROW(TabulatedFriction({ 0., 1., 2., 3. }, { 1., std::nan(""), 1., 1. }), InputError);
+}

@@ -1,0 +1,270 @@
+#include "results/result_file.h"
+
+#include "base/errors.h"
+
+#include <array>
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+using namespace sprag;
+
+namespace
+{
+  const FacePoints three_points = { { 10., 20., 30. }, { 1., 2., 1. } };
+
+  /// A folder of its own for every test, removed afterwards.
+  class ResultFileTest : public testing::Test
+  {
+  protected:
+    ResultFileTest()
+        : folder(std::filesystem::temp_directory_path() /
+                 ("sprag-" + std::to_string(getpid()) + testing::UnitTest::GetInstance()->current_test_info()->name()))
+    {
+      std::filesystem::create_directories(folder);
+    }
+
+    ~ResultFileTest() override
+    {
+      std::filesystem::remove_all(folder);
+    }
+
+    std::string path() const
+    {
+      return (folder / "result.h5").string();
+    }
+
+    /// What Python prints, `f` being the file opened by h5py with the given further arguments.
+    std::string h5py(const std::string &statements, const std::string &arguments = "") const
+    {
+      return output_of("/usr/bin/python3 -c 'import h5py\nf = h5py.File(\"" + path() + "\"" + arguments + ")\n" + statements +
+                       "' 2>&1");
+    }
+
+    static std::string output_of(const std::string &command)
+    {
+      std::FILE *pipe = popen(command.c_str(), "r");
+      std::string output;
+      std::array<char, 256> buffer;
+      while (std::fgets(buffer.data(), static_cast<int>(buffer.size()), pipe) != nullptr)
+        output += buffer.data();
+      pclose(pipe);
+      return output;
+    }
+
+    std::filesystem::path folder;
+  };
+
+  Row row(const double time)
+  {
+    Row values;
+    values[Column::time] = time;
+    values[Column::x]    = 112. * time;
+    values[Column::Q]    = -2. * time;
+    return values;
+  }
+
+  FaceState face_state(const double time)
+  {
+    return { time, 112. * time, { 0., time, 0. }, { 0., 0.5 * time, 0. } };
+  }
+
+  void write_rows(ResultFile &file, const int n_rows)
+  {
+    for (int i = 0; i < n_rows; ++i)
+    {
+      file.append(row(i));
+      file.append(face_state(i));
+    }
+  }
+
+  const std::string print_progress =
+      "print(len(f[\"table/time\"]), f[\"table/x\"][-1], f[\"face/pressure\"].shape, f[\"face/pressure\"][-1, 1])";
+} // namespace
+
+TEST_F(ResultFileTest, RoundTrip)
+{
+  ResultFile file(path(), "set A = µ\n", three_points);
+  write_rows(file, 300); // more than a chunk
+  file.finish({ { "slope_forward", 0.0804711777, "N/mm", "representative slope" } },
+              { { "version", std::string("0.1.0"), "", "of sprag" }, { "cells", 12., "1", "of the mesh" } });
+
+  EXPECT_EQ(h5py("print(len(f[\"table\"]), len(f[\"table/Q\"]), f[\"table/Q\"][299], f[\"table/P\"][0])"),
+            std::to_string(n_columns) + " 300 -598.0 nan\n");
+  EXPECT_EQ(h5py("print(f[\"face/xi\"][:], f[\"face/weight\"][:], f[\"face/x\"][2], f[\"face/traction\"][299, :])"),
+            "[10. 20. 30.] [1. 2. 1.] 224.0 [  0.  149.5   0. ]\n");
+  EXPECT_EQ(h5py("print(f[\"parameters\"].asstr()[()])"), "set A = µ\n\n");
+  EXPECT_EQ(h5py("print(f[\"summary/slope_forward\"][()], f[\"meta/version\"].asstr()[()], f[\"meta/cells\"][()])"),
+            "0.0804711777 0.1.0 12.0\n");
+  EXPECT_EQ(h5py("print(f.attrs[\"format\"], f.attrs[\"format_version\"])"), "sprag result 1.0\n");
+}
+
+TEST_F(ResultFileTest, EveryDatasetHasUnitAndDescription)
+{
+  ResultFile file(path(), "", three_points);
+  file.finish({ { "loop_area", 1., "N mm", "area of the loop" } }, { { "version", std::string("1"), "", "of sprag" } });
+
+  EXPECT_EQ(h5py("f.visititems(lambda name, o: isinstance(o, h5py.Dataset) and not "
+                 "(isinstance(o.attrs[\"unit\"], str) and o.attrs[\"description\"]) and print(name))"),
+            "");
+  EXPECT_EQ(h5py("print(*(f[n].attrs[\"unit\"] for n in "
+                 "(\"table/theta\", \"table/Q\", \"face/weight\", \"summary/loop_area\", \"table/mu\")))"),
+            "rad N mm^2 N mm 1\n");
+}
+
+TEST_F(ResultFileTest, ReadableWhileWritten)
+{
+  ResultFile file(path(), "set A = 1\n", three_points);
+  EXPECT_EQ(h5py("print(len(f[\"table/time\"]))", ", swmr=True"), "0\n");
+  write_rows(file, 5);
+  EXPECT_EQ(h5py(print_progress, ", swmr=True"), "5 448.0 (5, 3) 4.0\n");
+  usleep(10000);
+  file.append(row(5.));
+  EXPECT_EQ(h5py("print(f[\"table/time\"][:], f[\"table/Q\"].attrs[\"unit\"], f[\"parameters\"].asstr()[()])", ", swmr=True"),
+            "[0. 1. 2. 3. 4. 5.] N set A = 1\n\n");
+}
+
+TEST_F(ResultFileTest, FollowedByAReaderWhileWritten)
+{
+  ResultFile file(path(), "", {});
+  file.append(row(0.));
+  const std::string answer = (folder / "answer").string();
+  const std::string go     = (folder / "go").string();
+  std::FILE *reader =
+      popen(("/usr/bin/python3 -c 'import h5py, os, time\nf = h5py.File(\"" + path() +
+             "\", swmr=True)\nt = f[\"table/time\"]\nn = len(t)\nprint(n, file=open(\"" + answer + "\", \"w\"), flush=True)\n" +
+             "while not os.path.exists(\"" + go + "\"): time.sleep(0.01)\nt.refresh()\nprint(n, len(t), t[-1])'")
+                .c_str(),
+            "r");
+  while (!std::filesystem::exists(answer) || std::filesystem::file_size(answer) == 0)
+    usleep(10000);
+  usleep(10000);
+  file.append(row(7.));
+  std::ofstream(go) << "go";
+  std::array<char, 64> line{};
+  EXPECT_NE(std::fgets(line.data(), static_cast<int>(line.size()), reader), nullptr);
+  pclose(reader);
+  EXPECT_STREQ(line.data(), "1 2 7.0\n");
+}
+
+TEST_F(ResultFileTest, ReadableAfterTheWriterIsKilled)
+{
+  const pid_t writer = fork();
+  if (writer == 0)
+  {
+    ResultFile file(path(), "set A = 1\n", three_points);
+    write_rows(file, 20);
+    raise(SIGKILL);
+  }
+  int status = 0;
+  waitpid(writer, &status, 0);
+  ASSERT_TRUE(WIFSIGNALED(status));
+
+  EXPECT_EQ(h5py(print_progress, ", swmr=True"), "20 2128.0 (20, 3) 19.0\n");
+  EXPECT_EQ(output_of("h5clear -s " + path() + " && h5dump -d /table/time " + path() + " | grep -c ', 19$'"), "1\n");
+  EXPECT_EQ(h5py(print_progress), "20 2128.0 (20, 3) 19.0\n");
+}
+
+TEST_F(ResultFileTest, UnfinishedFileKeepsItsRows)
+{
+  {
+    ResultFile file(path(), "", three_points);
+    write_rows(file, 3);
+  }
+  EXPECT_EQ(h5py("print(len(f[\"table/time\"]), \"summary\" in f)"), "3 False\n");
+}
+
+TEST_F(ResultFileTest, FinishedFileIsReadByH5dump)
+{
+  ResultFile file(path(), "set A = 1\n", three_points);
+  write_rows(file, 2);
+  file.finish({}, {});
+  EXPECT_EQ(output_of("h5dump -d /table/Q " + path() + " | grep -c -e 'NATIVE_DOUBLE\\|IEEE_F64LE'"), "1\n");
+}
+
+TEST_F(ResultFileTest, ColumnsOfItsOwn)
+{
+  ResultFile file(path(), "", {}, { { "mu", "1", "friction coefficient" }, { "slope_forward", "N/mm", "C_Q" } });
+  file.append(std::vector<double>{ 0.73, 0.08 });
+  file.finish({}, {});
+  EXPECT_EQ(h5py("print(sorted(f[\"table\"]), f[\"table/slope_forward\"][:], \"face\" in f)"),
+            "['mu', 'slope_forward'] [0.08] False\n");
+}
+
+TEST_F(ResultFileTest, ReplacesAnOlderFile)
+{
+  std::ofstream(path()) << "not HDF5";
+  ResultFile(path(), "", {}).finish({}, {});
+  EXPECT_EQ(h5py("print(sorted(f))"), "['meta', 'parameters', 'summary', 'table']\n");
+}
+
+TEST_F(ResultFileTest, UnwritablePathIsTheUsersMistake)
+{
+  for (const std::string place : { "/missing/result.h5", "/file/result.h5", "" })
+  {
+    std::ofstream(folder / "file") << "";
+    try
+    {
+      ResultFile(folder.string() + place, "", {});
+      FAIL() << place;
+    }
+    catch (const InputError &error)
+    {
+      EXPECT_NE(std::string(error.what()).find(folder.string() + place), std::string::npos) << error.what();
+    }
+  }
+}
+
+TEST_F(ResultFileTest, FullDiskEndsTheAnalysisAndKeepsTheRows)
+{
+  const pid_t writer = fork();
+  if (writer == 0)
+  {
+    const rlimit limit = { 2000000, 2000000 };
+    setrlimit(RLIMIT_FSIZE, &limit);
+    bool refused = false;
+    {
+      ResultFile file(path(), "", three_points);
+      try
+      {
+        write_rows(file, 100000);
+      }
+      catch (const AnalysisError &error)
+      {
+        refused = std::string(error.what()).find("File too large") != std::string::npos;
+      }
+    }
+    std::exit(refused ? 0 : 1);
+  }
+  int status = 0;
+  waitpid(writer, &status, 0);
+  EXPECT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 0);
+  EXPECT_EQ(h5py("t = f[\"table/time\"][:]\nprint(len(t) > 300, t[-1] == len(t) - 1)"), "True True\n");
+}
+
+TEST_F(ResultFileTest, NoMoreDiskThanNeeded)
+{
+  ResultFile file(path(), "", three_points);
+  write_rows(file, 3);
+  file.finish({}, {});
+  struct stat status = {};
+  ASSERT_EQ(stat(path().c_str(), &status), 0);
+  EXPECT_LT(status.st_blocks * 512, status.st_size + 65536);
+}
+
+TEST_F(ResultFileTest, ManyRows)
+{
+  constexpr int n_rows = 100000;
+  ResultFile file(path(), "", {});
+  for (int i = 0; i < n_rows; ++i)
+    file.append(row(i));
+  file.finish({}, {});
+  EXPECT_EQ(h5py("print(len(f[\"table/Q\"]), f[\"table/Q\"][-1])"), "100000 -199998.0\n");
+}
