@@ -24,10 +24,12 @@ namespace sprag
     Vector<double> forces(body.n_dofs());
     body.reinit(stiffness, 0);
     body.assemble(Vector<double>(body.n_dofs()), stiffness, forces);
-    LAPACKFullMatrix<double> schur;
-    schur = factors.factorise_with_schur_complement(stiffness, face_dofs(body));
+    const auto condensed = factors.factorise_with_schur_complement(stiffness, face_dofs(body));
+    LAPACKFullMatrix<double> schur(n_coordinates() - 1);
+    schur = condensed;
     schur.set_property(LAPACKSupport::symmetric);
     schur.invert();
+    compliance.reinit(schur.m(), schur.n());
     compliance = schur;
     mismatch.reinit(n_coordinates());
   }
