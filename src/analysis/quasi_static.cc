@@ -12,9 +12,12 @@ namespace sprag
 {
   namespace
   {
-    constexpr double growth         = 1.5;
-    constexpr double cut            = 0.25;
-    constexpr double stick_fraction = 0.1; ///< of the travel through stick, the first step after a reversal
+    constexpr double growth = 1.5;
+    constexpr double cut    = 0.25;
+    // The passage through stick after a reversal is about (|F+| + |F-|) / k_t long; its steps are these shares of it.
+    constexpr double first_share   = 0.02;
+    constexpr double largest_share = 0.125;
+    constexpr double passages      = 3.; ///< after so many the contact slides fully, whichever way it slid more
 
     struct StepCost
     {
@@ -23,13 +26,13 @@ namespace sprag
     };
 
     /// Newton from the predictor; if it fails, once more from the stick predictor.
-    bool equilibrate(Model &model, State &trial, const State &accepted, const bool reversed, StepCost &cost)
+    bool equilibrate(Model &model, State &trial, const State &accepted, const bool stick_first, StepCost &cost)
     {
       const State guess = trial;
-      for (const bool stick_first : { reversed, !reversed })
+      for (const bool predict_stick : { stick_first, !stick_first })
       {
         trial             = guess;
-        const auto result = solve_equilibrium(model, trial, accepted, stick_first);
+        const auto result = solve_equilibrium(model, trial, accepted, predict_stick);
         cost.iterations += result.iterations;
         if (result.converged)
           return true;
@@ -53,14 +56,14 @@ namespace sprag
 
     /// The state at the end of a step, or none where no equilibrium was found.
     std::optional<State> solve_step(Model &model, const State &accepted, const DrivePoint &drive,
-                                    const QuasiStaticSettings &settings, const bool reversed, StepCost &cost)
+                                    const QuasiStaticSettings &settings, const bool stick_first, StepCost &cost)
     {
       State trial = accepted;
       trial.drive = drive;
       model.predict(trial, accepted);
       try
       {
-        if (!equilibrate(model, trial, accepted, reversed, cost))
+        if (!equilibrate(model, trial, accepted, stick_first, cost))
           return {};
         if (settings.contact.enforcement == Enforcement::augmented_lagrangian &&
             !augment(model, trial, accepted, settings.contact, cost))
@@ -109,6 +112,26 @@ namespace sprag
       throw AnalysisError(message.str());
     }
 
+    bool is_reversal(const Drive &drive, const double time)
+    {
+      return std::binary_search(drive.reversals().begin(), drive.reversals().end(), time);
+    }
+
+    /// Where the contact goes from sliding one way to sliding the other [mm].
+    struct Passage
+    {
+      double begin  = 0.;
+      double length = 0.;
+    };
+
+    /// The friction force on the far side is not known beforehand; that of the near side stands for it.
+    Passage passage_after(const Row &row, const double stick_stiffness)
+    {
+      if (!(stick_stiffness > 0.))
+        return {};
+      return { row[Column::x], 2. * std::abs(row[Column::F]) / stick_stiffness };
+    }
+
     struct Progression
     {
       State state;
@@ -133,17 +156,17 @@ namespace sprag
 
     /// One accepted step of at most dx, which is cut back where no equilibrium is found.
     Progression advance(Model &model, const Drive &drive, const QuasiStaticSettings &settings, const Progression &from,
-                        const bool reversed, double &dx)
+                        const bool reversed, const bool sticking, double &dx)
     {
       StepCost cost;
       const double time = from.state.drive.time;
-      auto next         = solve_step(model, from.state, drive.step(time, dx), settings, reversed, cost);
+      auto next         = solve_step(model, from.state, drive.step(time, dx), settings, sticking, cost);
       while (!next)
       {
         if (dx * cut < settings.minimum_step)
           give_up(from.row, dx);
         dx *= cut;
-        next = solve_step(model, from.state, drive.step(time, dx), settings, reversed, cost);
+        next = solve_step(model, from.state, drive.step(time, dx), settings, sticking, cost);
       }
       next->contact = model.memory();
       Row row       = observe(model, *next);
@@ -177,21 +200,24 @@ namespace sprag
     Progression now = begin(model, drive, settings);
     sink(now.state, now.row);
 
-    const auto &reversals     = drive.reversals();
     double dx                 = settings.step;
     double reported_stiffness = 0.;
+    Passage passage;
     while (now.state.drive.time < drive.duration())
     {
-      const bool reversed = std::binary_search(reversals.begin(), reversals.end(), now.state.drive.time);
+      const bool reversed = is_reversal(drive, now.state.drive.time);
       if (reversed)
       {
         const double stiffness = stick_stiffness(model, now.state);
+        passage                = passage_after(now.row, stiffness);
+        dx                     = std::clamp(first_share * passage.length, settings.minimum_step, settings.step);
         if (reported_stiffness == 0.)
           reported_stiffness = stiffness;
-        if (stiffness > 0.)
-          dx = std::clamp(stick_fraction * 2. * std::abs(now.row[Column::F]) / stiffness, settings.minimum_step, settings.step);
       }
-      now = advance(model, drive, settings, now, reversed, dx);
+      const bool sticking = std::abs(now.row[Column::x] - passage.begin) < passages * passage.length;
+      if (sticking)
+        dx = std::clamp(largest_share * passage.length, settings.minimum_step, dx);
+      now = advance(model, drive, settings, now, reversed, sticking, dx);
       sink(now.state, now.row);
       dx = std::min(settings.step, growth * dx);
     }
