@@ -49,8 +49,8 @@ install_packages()
   if [ "$(id -u)" -ne 0 ]; then
     # sudo may ask for a password only where there is somebody to answer.
     if ! command -v sudo >/dev/null || ! { sudo -n true 2>/dev/null || { [ -t 0 ] && [ -t 2 ] && sudo -v; }; }; then
-      say "Packages are missing and only root can install them:" \
-        $'\n\n'"  apt-get update && apt-get install -y --no-install-recommends ${missing[*]}"$'\n'
+      say "Packages are missing, and only root can install them:"
+      say "  apt-get update && apt-get install -y --no-install-recommends ${missing[*]}"
       return 1
     fi
     as_root=(sudo env)
@@ -69,12 +69,13 @@ install_packages()
 build() # TARGET
 {
   local target=$1 log=$build_dir/build.log
-  say "Building (a few minutes the first time, log: $log)"
   : >"$log"
   # A cache from another place, left by a moved or copied folder, would build that place.
   if [ ! -e "$build_dir/build.ninja" ] || ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$project" "$build_dir/CMakeCache.txt"; then
     (cd "$project" && run_logged "$log" "Configuring" cmake --preset release --fresh) || return
   fi
+  # Said only where there is something to wait for.
+  [ -e "$build_dir/sprag" ] || say "Building, which takes a few minutes the first time (log: $log)"
   run_logged "$log" "Building" cmake --build "$build_dir" --target "$target"
 }
 

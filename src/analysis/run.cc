@@ -78,7 +78,8 @@ namespace sprag
       const auto &[normal, slip] = model.penalties();
       return { { "cells", static_cast<double>(body.dofs().get_triangulation().n_active_cells()), "1", "cells of the mesh" },
                { "degrees_of_freedom", static_cast<double>(body.n_dofs()), "1", "displacements, those of the hub included" },
-               { "face_nodes", static_cast<double>(body.face_nodes().size()), "1", "nodes of the friction face that can touch" },
+               { "face_points", static_cast<double>(body.friction_face().points.size()), "1",
+                 "integration points of the friction face" },
                { "penalty", normal, "N/mm^3", "normal penalty in use" },
                { "tangential_penalty", slip, "N/mm^3", "tangential penalty in use" },
                { "lever_mass", mass, "t", "mass of lever, layer and hub at the lever's density" },
@@ -90,8 +91,8 @@ namespace sprag
       const auto &body = model.elastic_body();
       std::cout << "Finite elements: " << body.n_dofs() << " displacements of degree " << scene.mesh.degree << ", plane "
                 << (scene.analysis.plane == PlaneState::stress ? "stress" : "strain") << ", "
-                << (scene.lever.material == MaterialModel::linear ? "linear" : "neo-Hookean") << "; " << body.face_nodes().size()
-                << " contact points; penalty " << model.penalties().normal << " N/mm^3\n"
+                << (scene.lever.material == MaterialModel::linear ? "linear" : "neo-Hookean") << "; "
+                << body.friction_face().points.size() << " contact points; penalty " << model.penalties().normal << " N/mm^3\n"
                 << std::flush;
     }
 

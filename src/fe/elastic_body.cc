@@ -46,7 +46,7 @@ namespace sprag
   {
     dof_handler.distribute_dofs(fe);
     find_constraints();
-    find_face_nodes();
+    face = find_friction_face(dof_handler, constraints, properties);
   }
 
   template <int dim>
@@ -65,59 +65,15 @@ namespace sprag
   }
 
   template <int dim>
-  void ElasticBody<dim>::find_face_nodes()
-  {
-    FEFaceValues<dim> values(fe, QGauss<dim - 1>(properties.degree + 1),
-                             update_values | update_JxW_values | update_normal_vectors);
-
-    std::map<std::array<unsigned int, dim>, FaceNode<dim>> nodes;
-    std::vector<types::global_dof_index> indices(fe.n_dofs_per_cell());
-    for (const auto &cell : dof_handler.active_cell_iterators())
-      for (const unsigned int f : cell->face_indices())
-        if (cell->face(f)->at_boundary() && cell->face(f)->boundary_id() == boundary_id::friction_face)
-        {
-          values.reinit(cell, f);
-          cell->get_dof_indices(indices);
-          const auto material = properties.constants.find(cell->material_id());
-          AssertThrow(material != properties.constants.end(), ExcMessage("a cell at the friction face has no material"));
-          const double depth = cell->measure() / cell->face(f)->measure();
-          stiffness_of_face  = std::max(stiffness_of_face, material->second.young_modulus / depth);
-
-          for (unsigned int i = 0; i < fe.n_dofs_per_face(); i += dim)
-          {
-            std::array<unsigned int, dim> dofs;
-            for (unsigned int d = 0; d < dim; ++d)
-              dofs[d] = indices[fe.face_to_cell_index(i + d, f)];
-            if (constraints.is_constrained(dofs[0]))
-              continue;
-            const Point<dim> position =
-                MappingQ1<dim>().transform_unit_to_real_cell(cell, fe.get_unit_support_points()[fe.face_to_cell_index(i, f)]);
-            auto &node = nodes.try_emplace(dofs, FaceNode<dim>{ position, 0., dofs }).first->second;
-            for (const unsigned int q : values.quadrature_point_indices())
-              node.weight += properties.width * values.shape_value(fe.face_to_cell_index(i, f), q) * values.JxW(q);
-          }
-        }
-    for (const auto &entry : nodes)
-      face.push_back(entry.second);
-    std::sort(face.begin(), face.end(), [](const auto &a, const auto &b) { return a.position[0] < b.position[0]; });
-  }
-
-  template <int dim>
   unsigned int ElasticBody<dim>::n_dofs() const
   {
     return dof_handler.n_dofs();
   }
 
   template <int dim>
-  const std::vector<FaceNode<dim>> &ElasticBody<dim>::face_nodes() const
+  const FrictionFace<dim> &ElasticBody<dim>::friction_face() const
   {
     return face;
-  }
-
-  template <int dim>
-  double ElasticBody<dim>::face_stiffness() const
-  {
-    return stiffness_of_face;
   }
 
   template <int dim>
@@ -141,7 +97,7 @@ namespace sprag
     for (unsigned int e = n_dofs(); e < n; ++e)
     {
       pattern.add(e, e);
-      for (const auto &node : face)
+      for (const auto &node : face.nodes)
         for (const unsigned int dof : node.dofs)
         {
           pattern.add(e, dof);

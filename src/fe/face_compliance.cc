@@ -11,7 +11,7 @@ namespace sprag
     std::vector<unsigned int> face_dofs(const ElasticBody<2> &body)
     {
       std::vector<unsigned int> result;
-      for (const auto &node : body.face_nodes())
+      for (const auto &node : body.friction_face().nodes)
         result.insert(result.end(), node.dofs.begin(), node.dofs.end());
       return result;
     }
@@ -36,7 +36,7 @@ namespace sprag
 
   unsigned int FaceCompliance::n_coordinates() const
   {
-    return 2 * static_cast<unsigned int>(body.face_nodes().size()) + 1;
+    return 2 * static_cast<unsigned int>(body.friction_face().nodes.size()) + 1;
   }
 
   Vector<double> FaceCompliance::face_displacement(const Vector<double> &coordinates) const
@@ -44,81 +44,69 @@ namespace sprag
     return Vector<double>(coordinates.begin(), coordinates.end() - 1);
   }
 
+  void FaceCompliance::add_response(const std::vector<unsigned int> &nodes, const Vector<double> &loads,
+                                    Vector<double> &displacement) const
+  {
+    for (unsigned int a = 0; a < 2 * nodes.size(); ++a)
+    {
+      const unsigned int loaded = 2 * nodes[a / 2] + a % 2;
+      for (unsigned int i = 0; i + 1 < displacement.size(); ++i)
+        displacement[i] += compliance(loaded, i) * loads[a];
+    }
+  }
+
   double FaceCompliance::unbalance(const Vector<double> &coordinates, const FaceContact &contact, const HubSpring &spring)
   {
+    const auto &forces          = contact.forces();
     const unsigned int rotation = n_coordinates() - 1;
     mismatch                    = coordinates;
     mismatch *= -1.;
-    for (std::size_t a = 0; a < contact.active().size(); ++a)
-    {
-      const unsigned int node = contact.active()[a];
-      const auto load         = contact.nodes()[node].weight * contact.responses()[a].force;
-      for (unsigned int d = 0; d < 2; ++d)
-        for (unsigned int i = 0; i < rotation; ++i)
-          mismatch[i] += compliance(2 * node + d, i) * load[d];
-    }
-    mismatch[rotation] = contact.resultant().moment / spring.stiffness - (coordinates[rotation] - spring.rest);
-
-    const double arm = body.face_nodes().back().position[0];
-    return std::sqrt(mismatch.norm_sqr() + (arm * arm - 1.) * mismatch[rotation] * mismatch[rotation]);
+    add_response(forces.nodes, forces.values, mismatch);
+    mismatch[rotation] = forces.values[forces.values.size() - 1] / spring.stiffness - (coordinates[rotation] - spring.rest);
+    return std::sqrt(mismatch.norm_sqr() + (spring.arm * spring.arm - 1.) * mismatch[rotation] * mismatch[rotation]);
   }
 
   Vector<double> FaceCompliance::correction(const FaceContact &contact, const HubSpring &spring) const
   {
-    const auto &active          = contact.active();
-    const unsigned int n_active = 2 * static_cast<unsigned int>(active.size());
+    const auto &forces          = contact.forces();
+    const auto n_loaded         = 2 * static_cast<unsigned int>(forces.nodes.size());
     const unsigned int rotation = n_coordinates() - 1;
-    const auto row              = [&](const unsigned int i) { return 2 * active[i / 2] + i % 2; };
+    const auto index            = [&](const unsigned int i) { return 2 * forces.nodes[i / 2] + i % 2; };
 
-    // (1 - C df/du) du - C df/dtheta dtheta = C f - u on the active nodes; (1 - dm/dtheta / k) dtheta - dm/du / k du = rest.
-    LAPACKFullMatrix<double> matrix(n_active + 1);
-    Vector<double> solution(n_active + 1);
-    for (unsigned int a = 0; a < active.size(); ++a)
+    // (1 - C df/du) du - C df/dtheta dtheta = C f - u on the loaded nodes; (1 - dm/dtheta / k) dtheta - dm/du / k du = rest.
+    FullMatrix<double> loaded_compliance(n_loaded + 1, n_loaded + 1);
+    for (unsigned int i = 0; i < n_loaded; ++i)
+      for (unsigned int j = 0; j < n_loaded; ++j)
+        loaded_compliance(i, j) = compliance(index(i), index(j));
+    loaded_compliance(n_loaded, n_loaded) = 1. / spring.stiffness;
+    FullMatrix<double> product(n_loaded + 1, n_loaded + 1);
+    loaded_compliance.mmult(product, forces.tangent);
+
+    LAPACKFullMatrix<double> matrix(n_loaded + 1);
+    Vector<double> change(n_loaded + 1);
+    for (unsigned int i = 0; i <= n_loaded; ++i)
     {
-      const auto tangent = contact.nodes()[active[a]].weight * contact.responses()[a].tangent;
-      for (unsigned int i = 0; i < n_active; ++i)
-      {
-        const double from_along  = compliance(row(i), 2 * active[a]);
-        const double from_across = compliance(row(i), 2 * active[a] + 1);
-        for (unsigned int d = 0; d < 2; ++d)
-          matrix(i, 2 * a + d) = -(from_along * tangent[0][d] + from_across * tangent[1][d]);
-        matrix(i, n_active) -= from_along * tangent[0][2] + from_across * tangent[1][2];
-      }
-      for (unsigned int d = 0; d < 2; ++d)
-        matrix(n_active, 2 * a + d) = -tangent[2][d] / spring.stiffness;
-      matrix(n_active, n_active) -= tangent[2][2] / spring.stiffness;
-    }
-    for (unsigned int i = 0; i <= n_active; ++i)
-    {
-      matrix(i, i) += 1.;
-      solution[i] = mismatch[i < n_active ? row(i) : rotation];
+      for (unsigned int j = 0; j <= n_loaded; ++j)
+        matrix(i, j) = (i == j ? 1. : 0.) - product(i, j);
+      change[i] = mismatch[i < n_loaded ? index(i) : rotation];
     }
     matrix.compute_lu_factorization();
-    matrix.solve(solution);
+    matrix.solve(change);
 
+    Vector<double> loads(n_loaded + 1);
+    forces.tangent.vmult(loads, change);
     Vector<double> result = mismatch;
-    result[rotation]      = solution[n_active];
-    for (unsigned int a = 0; a < active.size(); ++a)
-    {
-      const auto tangent = contact.nodes()[active[a]].weight * contact.responses()[a].tangent;
-      const Tensor<1, 3> change({ solution[2 * a], solution[2 * a + 1], solution[n_active] });
-      const auto load = tangent * change;
-      for (unsigned int d = 0; d < 2; ++d)
-        for (unsigned int i = 0; i < rotation; ++i)
-          result[i] += compliance(2 * active[a] + d, i) * load[d];
-    }
+    result[rotation]      = change[n_loaded];
+    add_response(forces.nodes, loads, result);
     return result;
   }
 
   Vector<double> FaceCompliance::body_displacement(const Vector<double> &, const FaceContact &contact) const
   {
+    const auto &forces = contact.forces();
     Vector<double> loads(body.n_dofs());
-    for (std::size_t a = 0; a < contact.active().size(); ++a)
-    {
-      const auto &node = contact.nodes()[contact.active()[a]];
-      for (unsigned int d = 0; d < 2; ++d)
-        loads[node.dofs[d]] = node.weight * contact.responses()[a].force[d];
-    }
+    for (unsigned int i = 0; i < 2 * forces.nodes.size(); ++i)
+      loads[body.friction_face().nodes[forces.nodes[i / 2]].dofs[i % 2]] = forces.values[i];
     Vector<double> result;
     factors.solve(loads, result);
     return result;

@@ -10,6 +10,7 @@ namespace sprag
   {
     double stiffness; ///< k [N mm/rad], > 0
     double rest;      ///< inclination without moment [rad]
+    double arm;       ///< length that turns a rotation into a movement [mm], > 0
   };
 
   /// Newton iteration for a linear body, factorised once. Coordinates: displacement of the face nodes (two entries a node) and
@@ -36,6 +37,10 @@ namespace sprag
     dealii::Vector<double> body_displacement(const dealii::Vector<double> &coordinates, const FaceContact &contact) const;
 
   private:
+    /// Adds C `loads` (two a node) to `displacement`.
+    void add_response(const std::vector<unsigned int> &nodes, const dealii::Vector<double> &loads,
+                      dealii::Vector<double> &displacement) const;
+
     const ElasticBody<2> &body;
     Mumps factors;
     dealii::FullMatrix<double> compliance;

@@ -1,10 +1,14 @@
 #include "fe/face_contact.h"
 
+#include <deal.II/lac/lapack_full_matrix.h>
+
 #include <algorithm>
 #include <cmath>
 
 namespace sprag
 {
+  using namespace dealii;
+
   namespace
   {
     /// The law seen by one step: with the drive's speed mu is a constant of the step.
@@ -14,211 +18,225 @@ namespace sprag
         return friction;
       return { CoulombFriction{ friction_coefficient(friction, std::abs(drive_speed)).coefficient }, FrictionSpeed::drive };
     }
+
+    unsigned int place_of(const unsigned int node, const std::vector<unsigned int> &nodes)
+    {
+      return static_cast<unsigned int>(std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin());
+    }
   } // namespace
 
-  FaceContact::FaceContact(std::vector<FaceNode<2>> nodes, Obstacle obstacle_, FrictionLaw friction_,
-                           const Enforcement enforcement_, const ContactPenalties penalties)
-      : face(std::move(nodes))
+  FaceContact::FaceContact(const ElasticBody<2> &body_, Obstacle obstacle_, FrictionLaw friction_, const Enforcement enforcement_,
+                           const ContactPenalties penalties)
+      : body(body_)
       , obstacle(std::move(obstacle_))
       , friction(std::move(friction_))
       , enforcement(enforcement_)
       , stiffness(penalties)
-      , gap(face.size())
-      , slip(face.size())
   {
   }
 
-  void FaceContact::evaluate(const dealii::Vector<double> &face_displacement, const double theta, const State &trial,
+  Tensor<1, 2> FaceContact::displacement(const unsigned int point) const
+  {
+    Tensor<1, 2> result;
+    for (const auto &[node, shape] : body.friction_face().points[point].nodes)
+    {
+      result[0] += shape * nodal_displacement[2 * node];
+      result[1] += shape * nodal_displacement[2 * node + 1];
+    }
+    return result;
+  }
+
+  LeverPoint FaceContact::position(const unsigned int point) const
+  {
+    const auto moved = body.friction_face().points[point].position + displacement(point);
+    return { moved[0], moved[1] };
+  }
+
+  /// The gap changes by no more than the distance along a patch, so a first point further off than that keeps all of them open.
+  bool FaceContact::is_near(const FacePatch &patch) const
+  {
+    return obstacle(position(patch.begin), x, theta).gap < 1.5 * patch.length;
+  }
+
+  FaceContact::PointState FaceContact::evaluate_point(const unsigned int q, const ContactLaw &law, const FrictionMode mode) const
+  {
+    PointState state;
+    const auto &memory   = start[q];
+    state.index          = q;
+    state.position       = position(q);
+    const auto contact   = obstacle(state.position, x, theta);
+    state.gap            = contact.gap;
+    state.trial_pressure = memory.normal_multiplier - stiffness.normal * contact.gap;
+    state.slip_change    = contact.slip - memory.slip;
+    if (state.trial_pressure > 0.)
+      state.response = contact_response(contact, memory, law, mode);
+    const double held  = enforcement == Enforcement::penalty ? 0. : memory.traction;
+    state.elastic_slip = state.trial_pressure > 0. ? std::abs(state.response.traction - held) / stiffness.tangential : 0.;
+    return state;
+  }
+
+  void FaceContact::evaluate(const Vector<double> &displacement_of_nodes, const double hub_theta, const State &trial,
                              const State &accepted, const FrictionMode mode)
   {
-    displacement = face_displacement;
-    start        = trial.contact;
-    duration     = trial.drive.time - accepted.drive.time;
-    active_nodes.clear();
-    active_responses.clear();
-    // A state at rest, with no step behind it, can have no slip.
-    const FrictionMode used = duration > 0. ? mode : FrictionMode::stick;
-    const ContactLaw law    = { stiffness.normal, stiffness.tangential, law_of_step(friction, trial.drive.v), duration };
-    for (unsigned int i = 0; i < face.size(); ++i)
-    {
-      const LeverPoint point{ face[i].position[0] + displacement[2 * i], face[i].position[1] + displacement[2 * i + 1] };
-      const auto kinematics = obstacle(point, trial.drive.x, theta);
-      gap[i]                = kinematics.gap;
-      slip[i]               = kinematics.slip;
-      if (trial_pressure(i) > 0.)
+    nodal_displacement   = displacement_of_nodes;
+    theta                = hub_theta;
+    x                    = trial.drive.x;
+    start                = trial.contact;
+    step_duration        = trial.drive.time - accepted.drive.time;
+    const ContactLaw law = { stiffness.normal, stiffness.tangential, law_of_step(friction, trial.drive.v), step_duration };
+    // A state with no step behind it can have no slip.
+    const FrictionMode used = step_duration > 0. ? mode : FrictionMode::stick;
+    states.clear();
+    for (const auto &patch : body.friction_face().patches)
+      if (is_near(patch))
+        for (unsigned int q = patch.begin; q < patch.end; ++q)
+          states.push_back(evaluate_point(q, law, used));
+    sum_forces();
+  }
+
+  void FaceContact::sum_forces()
+  {
+    const auto &points = body.friction_face().points;
+    summed.nodes.clear();
+    for (const auto &state : states)
+      if (state.trial_pressure > 0.)
+        for (const auto &entry : points[state.index].nodes)
+          summed.nodes.push_back(entry.first);
+    std::sort(summed.nodes.begin(), summed.nodes.end());
+    summed.nodes.erase(std::unique(summed.nodes.begin(), summed.nodes.end()), summed.nodes.end());
+
+    const auto rotation = 2 * static_cast<unsigned int>(summed.nodes.size());
+    summed.values.reinit(rotation + 1);
+    summed.tangent.reinit(rotation + 1, rotation + 1);
+    for (const auto &state : states)
+      if (state.trial_pressure > 0.)
       {
-        active_nodes.push_back(i);
-        active_responses.push_back(contact_response(kinematics, start[i], law, used));
+        const auto &point  = points[state.index];
+        const auto force   = point.weight * state.response.force;
+        const auto tangent = point.weight * state.response.tangent;
+        summed.values[rotation] += force[2];
+        summed.tangent(rotation, rotation) += tangent[2][2];
+        for (const auto &[node, shape] : point.nodes)
+        {
+          const unsigned int i = 2 * place_of(node, summed.nodes);
+          for (unsigned int d = 0; d < 2; ++d)
+          {
+            summed.values[i + d] += shape * force[d];
+            summed.tangent(i + d, rotation) += shape * tangent[d][2];
+            summed.tangent(rotation, i + d) += shape * tangent[2][d];
+          }
+          for (const auto &[other_node, other_shape] : point.nodes)
+          {
+            const unsigned int j = 2 * place_of(other_node, summed.nodes);
+            for (unsigned int d = 0; d < 2; ++d)
+              for (unsigned int e = 0; e < 2; ++e)
+                summed.tangent(i + d, j + e) += shape * other_shape * tangent[d][e];
+          }
+        }
       }
-    }
   }
 
-  const std::vector<FaceNode<2>> &FaceContact::nodes() const
+  const ContactForces &FaceContact::forces() const
   {
-    return face;
+    return summed;
   }
 
-  const std::vector<unsigned int> &FaceContact::active() const
+  double FaceContact::largest_weighted_overlap() const
   {
-    return active_nodes;
-  }
-
-  const std::vector<ContactResponse<3>> &FaceContact::responses() const
-  {
-    return active_responses;
-  }
-
-  ContactResultant FaceContact::resultant() const
-  {
-    dealii::Tensor<1, 3> sum;
-    for (std::size_t a = 0; a < active_nodes.size(); ++a)
-      sum += face[active_nodes[a]].weight * active_responses[a].force;
-    return { sum[0], sum[1], sum[2] };
-  }
-
-  double FaceContact::trial_pressure(const unsigned int node) const
-  {
-    return start[node].normal_multiplier - stiffness.normal * gap[node];
+    const auto &points = body.friction_face().points;
+    const auto n       = static_cast<unsigned int>(summed.nodes.size());
+    Vector<double> overlap(n);
+    Vector<double> area(n);
+    for (const auto &state : states)
+      for (const auto &[node, shape] : points[state.index].nodes)
+        if (const unsigned int i = place_of(node, summed.nodes); i < n && summed.nodes[i] == node)
+        {
+          area[i] += points[state.index].weight * shape;
+          if (state.trial_pressure > 0.)
+            overlap[i] -= points[state.index].weight * shape * state.gap;
+        }
+    double largest = 0.;
+    for (unsigned int i = 0; i < n; ++i)
+      largest = std::max(largest, std::abs(overlap[i] / area[i]));
+    return largest;
   }
 
   double FaceContact::penetration() const
   {
+    if (enforcement == Enforcement::augmented_lagrangian)
+      return largest_weighted_overlap();
     double largest = 0.;
-    for (const unsigned int i : active_nodes)
-      largest = std::max(largest, -gap[i]);
+    for (const auto &state : states)
+      largest = std::max(largest, -state.gap);
     return largest;
   }
 
   double FaceContact::overlap() const
   {
     double largest = 0.;
-    for (const auto &response : active_responses)
-      largest = std::max(largest, response.pressure / stiffness.normal);
+    for (const auto &state : states)
+      largest = std::max(largest, state.response.pressure / stiffness.normal);
     return largest;
+  }
+
+  /// Least-squares fit of a traction by a finite-element function on the face, over the points under pressure; an entry per
+  /// state.
+  std::vector<double> FaceContact::projected(double ContactResponse<3>::*traction) const
+  {
+    const auto n = static_cast<unsigned int>(summed.nodes.size());
+    std::vector<double> result(states.size());
+    if (n == 0)
+      return result;
+    LAPACKFullMatrix<double> mass(n);
+    Vector<double> nodal(n);
+    const auto &points = body.friction_face().points;
+    for (const auto &state : states)
+      if (state.trial_pressure > 0.)
+        for (const auto &[node, shape] : points[state.index].nodes)
+        {
+          const double weight  = points[state.index].weight;
+          const unsigned int i = place_of(node, summed.nodes);
+          nodal[i] += weight * shape * (state.response.*traction);
+          for (const auto &[other_node, other_shape] : points[state.index].nodes)
+            mass(i, place_of(other_node, summed.nodes)) += weight * shape * other_shape;
+        }
+    // A node whose support the contact hardly reaches has no say of its own.
+    const double ridge = 1e-9 * points.front().weight;
+    for (unsigned int i = 0; i < n; ++i)
+      mass(i, i) += ridge;
+    mass.compute_lu_factorization();
+    mass.solve(nodal);
+    for (std::size_t a = 0; a < states.size(); ++a)
+      if (states[a].trial_pressure > 0.)
+        for (const auto &[node, shape] : points[states[a].index].nodes)
+          result[a] += shape * nodal[place_of(node, summed.nodes)];
+    return result;
   }
 
   void FaceContact::augment(std::vector<ContactMemory> &memory) const
   {
     for (auto &point : memory)
+      point.normal_multiplier = point.traction = 0.;
+    const auto pressures = projected(&ContactResponse<3>::pressure);
+    const auto tractions = projected(&ContactResponse<3>::traction);
+    for (std::size_t a = 0; a < states.size(); ++a)
     {
-      point.normal_multiplier = 0.;
-      point.traction          = 0.;
-    }
-    for (std::size_t a = 0; a < active_nodes.size(); ++a)
-    {
-      memory[active_nodes[a]].normal_multiplier = active_responses[a].pressure;
-      memory[active_nodes[a]].traction          = active_responses[a].traction;
+      memory[states[a].index].normal_multiplier = pressures[a];
+      memory[states[a].index].traction          = tractions[a];
     }
   }
 
   std::vector<ContactMemory> FaceContact::memory() const
   {
-    std::vector<ContactMemory> result(face.size());
-    augment(result);
-    for (unsigned int i = 0; i < face.size(); ++i)
-    {
-      result[i].slip = slip[i];
-      if (enforcement == Enforcement::penalty)
-        result[i].normal_multiplier = 0.;
-    }
+    std::vector<ContactMemory> result(start.size());
+    if (enforcement == Enforcement::augmented_lagrangian)
+      augment(result);
+    else
+      for (const auto &state : states)
+        result[state.index].traction = state.response.traction;
+    for (unsigned int q = 0; q < result.size(); ++q)
+      result[q].slip = obstacle(position(q), x, theta).slip;
     return result;
-  }
-
-  double FaceContact::contact_width() const
-  {
-    double width = 0.;
-    for (unsigned int i = 0; i + 1 < face.size(); ++i)
-    {
-      const double length = face[i + 1].position[0] - face[i].position[0];
-      const double left   = trial_pressure(i);
-      const double right  = trial_pressure(i + 1);
-      if (left > 0. && right > 0.)
-        width += length;
-      else if (left > 0. || right > 0.)
-        width += length * std::max(left, right) / (std::max(left, right) - std::min(left, right));
-    }
-    return width;
-  }
-
-  double FaceContact::indentation(const double centre, const double half_width, const double layer_thickness) const
-  {
-    if (layer_thickness == 0.)
-      return 0.;
-    const auto normal_displacement = [&](const double xi)
-    {
-      const auto after = std::lower_bound(face.begin(), face.end(), xi,
-                                          [](const auto &node, const double value) { return node.position[0] < value; });
-      const auto i =
-          static_cast<unsigned int>(std::clamp<std::ptrdiff_t>(after - face.begin(), 1, static_cast<int>(face.size()) - 1));
-      const double begin = face[i - 1].position[0];
-      const double share = std::clamp((xi - begin) / (face[i].position[0] - begin), 0., 1.);
-      return (1. - share) * displacement[2 * i - 1] + share * displacement[2 * i + 1];
-    };
-    const double aside = half_width + 4. * layer_thickness;
-    return normal_displacement(centre) - 0.5 * (normal_displacement(centre - aside) + normal_displacement(centre + aside));
-  }
-
-  double FaceContact::cone_violation() const
-  {
-    double excess = 0.;
-    double peak   = 0.;
-    for (const auto &response : active_responses)
-    {
-      excess = std::max(excess, std::abs(response.traction) - response.mu * response.pressure);
-      peak   = std::max(peak, response.mu * response.pressure);
-    }
-    return peak > 0. ? excess / peak : 0.;
-  }
-
-  double FaceContact::elastic_slip() const
-  {
-    double largest = 0.;
-    for (std::size_t a = 0; a < active_nodes.size(); ++a)
-    {
-      const double held = enforcement == Enforcement::penalty ? 0. : start[active_nodes[a]].traction;
-      largest           = std::max(largest, std::abs(active_responses[a].traction - held) / stiffness.tangential);
-    }
-    return largest;
-  }
-
-  void FaceContact::observe(const double layer_thickness, Row &row) const
-  {
-    double force = 0., friction_force = 0., position = 0., speed = 0., mu = 0., power = 0., energy = 0.;
-    for (std::size_t a = 0; a < active_nodes.size(); ++a)
-    {
-      const unsigned int i = active_nodes[a];
-      const auto &response = active_responses[a];
-      const double normal  = face[i].weight * response.pressure;
-      const double rate    = duration > 0. ? (slip[i] - start[i].slip) / duration : 0.;
-      force += normal;
-      friction_force += face[i].weight * response.traction;
-      position += normal * (face[i].position[0] + displacement[2 * i]);
-      speed += normal * rate;
-      mu += normal * response.mu;
-      power += face[i].weight * response.traction * rate;
-      energy += 0.5 * face[i].weight * (response.force[0] * displacement[2 * i] + response.force[1] * displacement[2 * i + 1]);
-    }
-    const auto total                = resultant();
-    row[Column::P]                  = total.across;
-    row[Column::F]                  = -total.along;
-    row[Column::normal_resultant]   = force;
-    row[Column::friction_resultant] = friction_force;
-    row[Column::friction_power]     = power;
-    row[Column::elastic_energy]     = energy;
-    row[Column::contact_width]      = contact_width();
-    row[Column::penetration]        = penetration();
-    row[Column::cone_violation]     = cone_violation();
-    row[Column::elastic_slip]       = elastic_slip();
-    row[Column::active_points]      = static_cast<double>(active_nodes.size());
-    row[Column::indentation]        = 0.;
-    if (force > 0.)
-    {
-      row[Column::s]           = position / force;
-      row[Column::mu]          = mu / force;
-      row[Column::indentation] = indentation(position / force, 0.5 * row[Column::contact_width], layer_thickness);
-      if (duration > 0.)
-        row[Column::v_rel] = speed / force;
-    }
   }
 
   const ContactPenalties &FaceContact::penalties() const
@@ -226,29 +244,18 @@ namespace sprag
     return stiffness;
   }
 
-  FacePoints FaceContact::points() const
+  const std::vector<FaceContact::PointState> &FaceContact::points() const
   {
-    FacePoints result;
-    for (const auto &node : face)
-    {
-      result.xi.push_back(node.position[0]);
-      result.weight.push_back(node.weight);
-    }
-    return result;
+    return states;
   }
 
-  FaceState FaceContact::state(const DrivePoint &drive) const
+  double FaceContact::duration() const
   {
-    FaceState result;
-    result.time = drive.time;
-    result.x    = drive.x;
-    result.pressure.resize(face.size());
-    result.traction.resize(face.size());
-    for (std::size_t a = 0; a < active_nodes.size(); ++a)
-    {
-      result.pressure[active_nodes[a]] = active_responses[a].pressure;
-      result.traction[active_nodes[a]] = active_responses[a].traction;
-    }
-    return result;
+    return step_duration;
+  }
+
+  const ElasticBody<2> &FaceContact::elastic_body() const
+  {
+    return body;
   }
 } // namespace sprag

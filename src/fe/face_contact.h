@@ -12,14 +12,6 @@ namespace sprag
   /// coordinates (displacement along xi, along eta, theta).
   using Obstacle = std::function<ContactKinematics<3>(const LeverPoint &point, double x, double theta)>;
 
-  /// Resultant of the contact on the lever in lever axes.
-  struct ContactResultant
-  {
-    double along;  ///< force along xi [N]
-    double across; ///< force along eta [N]
-    double moment; ///< work-conjugate to theta [N mm]
-  };
-
   /// [N/mm^3], > 0
   struct ContactPenalties
   {
@@ -27,63 +19,88 @@ namespace sprag
     double tangential;
   };
 
-  /// Contact along the friction face, at its nodes: there a multiplier each can be met exactly. Weights are the nodes' shares of
-  /// the face's area, which integrates a pressure of the elements' degree exactly.
+  /// Generalised contact forces on the nodes that points under pressure move, and on the hub rotation.
+  struct ContactForces
+  {
+    std::vector<unsigned int> nodes;    ///< increasing
+    dealii::Vector<double> values;      ///< two a node: along xi, along eta [N]; last the moment [N mm]
+    dealii::FullMatrix<double> tangent; ///< their derivative by displacements of the nodes and theta, unsymmetric
+  };
+
+  /// Contact along the friction face, integrated over points denser than the nodes. In the augmented Lagrangian method the
+  /// multiplier is a finite-element function on the face, so that it meets as many conditions as the face can fulfil: the overlap
+  /// weighted with each node's shape function vanishes.
   class FaceContact
   {
   public:
-    FaceContact(std::vector<FaceNode<2>> nodes, Obstacle obstacle, FrictionLaw friction, Enforcement enforcement,
+    /// The body must outlive the contact.
+    FaceContact(const ElasticBody<2> &body, Obstacle obstacle, FrictionLaw friction, Enforcement enforcement,
                 ContactPenalties penalties);
 
-    /// Tractions at the displacement (two entries a node) and rotation, in a step that began at `accepted`.
+    /// Tractions at the displacement of the face nodes (two entries a node) and the rotation, in a step that began at `accepted`.
     void evaluate(const dealii::Vector<double> &displacement, double theta, const State &trial, const State &accepted,
                   FrictionMode mode);
 
-    const std::vector<FaceNode<2>> &nodes() const;
+    const ContactForces &forces() const;
 
-    /// Nodes under pressure at the last evaluation, increasing, and their responses in the same order.
-    const std::vector<unsigned int> &active() const;
-    const std::vector<ContactResponse<3>> &responses() const;
-
-    ContactResultant resultant() const;
-
-    /// Largest overlap [mm] and largest p / penalty [mm].
+    /// Largest overlap [mm]: of a point (penalty), or weighted with a node's shape function (augmented Lagrangian).
     double penetration() const;
+
+    /// Largest p / penalty [mm].
     double overlap() const;
 
+    /// Multipliers of the next augmentation.
     void augment(std::vector<ContactMemory> &memory) const;
 
+    /// Memory of the points at the end of the step.
     std::vector<ContactMemory> memory() const;
-
-    /// Columns that follow from tractions and positions; `layer_thickness` [mm] tells what counts as indentation.
-    void observe(double layer_thickness, Row &row) const;
 
     const ContactPenalties &penalties() const;
 
-    FacePoints points() const;
+    /// What the last evaluation found at an integration point.
+    struct PointState
+    {
+      unsigned int index;  ///< in FrictionFace::points
+      LeverPoint position; ///< deformed, lever axes
+      double gap;
+      double trial_pressure; ///< lambda - eps g: the pressure where positive [MPa]
+      double slip_change;    ///< in the step [mm]
+      double elastic_slip;   ///< of the tangential penalty [mm]
+      ContactResponse<3> response;
+    };
 
-    FaceState state(const DrivePoint &drive) const;
+    /// The points of all patches near the obstacle, increasing; those elsewhere are open.
+    const std::vector<PointState> &points() const;
+
+    /// Displacement along xi and eta of an integration point at the last evaluation [mm].
+    dealii::Tensor<1, 2> displacement(unsigned int point) const;
+
+    /// Duration of the step of the last evaluation [s].
+    double duration() const;
+
+    const ElasticBody<2> &elastic_body() const;
 
   private:
-    double trial_pressure(unsigned int node) const;
-    double contact_width() const;
-    double indentation(double centre, double half_width, double layer_thickness) const;
-    double cone_violation() const;
-    double elastic_slip() const;
+    LeverPoint position(unsigned int point) const;
+    bool is_near(const FacePatch &patch) const;
+    PointState evaluate_point(unsigned int q, const ContactLaw &law, FrictionMode mode) const;
+    void sum_forces();
+    double largest_weighted_overlap() const;
+    std::vector<double> projected(double ContactResponse<3>::*traction) const;
 
-    const std::vector<FaceNode<2>> face;
+    const ElasticBody<2> &body;
     const Obstacle obstacle;
     const FrictionLaw friction;
     const Enforcement enforcement;
     const ContactPenalties stiffness;
 
     // Of the last evaluation.
-    dealii::Vector<double> displacement;
     std::vector<ContactMemory> start; ///< memory and multipliers it used
-    std::vector<double> gap;
-    std::vector<double> slip;
-    std::vector<unsigned int> active_nodes;
-    std::vector<ContactResponse<3>> active_responses;
-    double duration = 0.;
+    dealii::Vector<double> nodal_displacement;
+    double theta         = 0.;
+    double x             = 0.;
+    double step_duration = 0.;
+    std::vector<PointState> states;
+    ContactForces summed;
   };
 } // namespace sprag

@@ -10,6 +10,11 @@ namespace sprag
     body.reinit(matrix, 1);
   }
 
+  unsigned int FullStiffness::index_of(const ContactForces &forces, const unsigned int i) const
+  {
+    return i / 2 < forces.nodes.size() ? body.friction_face().nodes[forces.nodes[i / 2]].dofs[i % 2] : body.n_dofs();
+  }
+
   unsigned int FullStiffness::n_coordinates() const
   {
     return body.n_dofs() + 1;
@@ -17,11 +22,11 @@ namespace sprag
 
   Vector<double> FullStiffness::face_displacement(const Vector<double> &coordinates) const
   {
-    const auto n_nodes = static_cast<unsigned int>(body.face_nodes().size());
+    const auto n_nodes = static_cast<unsigned int>(body.friction_face().nodes.size());
     Vector<double> result(2 * n_nodes);
     for (unsigned int i = 0; i < n_nodes; ++i)
       for (unsigned int d = 0; d < 2; ++d)
-        result[2 * i + d] = coordinates[body.face_nodes()[i].dofs[d]];
+        result[2 * i + d] = coordinates[body.friction_face().nodes[i].dofs[d]];
     return result;
   }
 
@@ -35,30 +40,21 @@ namespace sprag
 
     residual.reinit(n_coordinates());
     residual -= internal;
-    residual[rotation] += contact.resultant().moment;
-    for (std::size_t a = 0; a < contact.active().size(); ++a)
-    {
-      const auto &node = contact.nodes()[contact.active()[a]];
-      for (unsigned int d = 0; d < 2; ++d)
-        residual[node.dofs[d]] += node.weight * contact.responses()[a].force[d];
-    }
-    const double arm = body.face_nodes().back().position[0];
-    return std::sqrt(residual.norm_sqr() + (1. / (arm * arm) - 1.) * residual[rotation] * residual[rotation]);
+    const auto &forces = contact.forces();
+    for (unsigned int i = 0; i < forces.values.size(); ++i)
+      residual[index_of(forces, i)] += forces.values[i];
+    return std::sqrt(residual.norm_sqr() + (1. / (spring.arm * spring.arm) - 1.) * residual[rotation] * residual[rotation]);
   }
 
   Vector<double> FullStiffness::correction(const FaceContact &contact, const HubSpring &spring)
   {
     const unsigned int rotation = body.n_dofs();
     matrix.add(rotation, rotation, spring.stiffness);
-    for (std::size_t a = 0; a < contact.active().size(); ++a)
-    {
-      const auto &node                       = contact.nodes()[contact.active()[a]];
-      const auto tangent                     = node.weight * contact.responses()[a].tangent;
-      const std::array<unsigned int, 3> dofs = { { node.dofs[0], node.dofs[1], rotation } };
-      for (unsigned int i = 0; i < 3; ++i)
-        for (unsigned int j = 0; j < 3; ++j)
-          matrix.add(dofs[i], dofs[j], -tangent[i][j]);
-    }
+    const auto &forces = contact.forces();
+    for (unsigned int i = 0; i < forces.values.size(); ++i)
+      for (unsigned int j = 0; j < forces.values.size(); ++j)
+        if (forces.tangent(i, j) != 0.)
+          matrix.add(index_of(forces, i), index_of(forces, j), -forces.tangent(i, j));
     matrix.compress(VectorOperation::add);
     factors.factorise(matrix);
     Vector<double> result;

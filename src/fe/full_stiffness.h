@@ -24,6 +24,9 @@ namespace sprag
     dealii::Vector<double> body_displacement(const dealii::Vector<double> &coordinates, const FaceContact &contact) const;
 
   private:
+    /// Coordinate of the i-th of the contact forces.
+    unsigned int index_of(const ContactForces &forces, unsigned int i) const;
+
     const ElasticBody<2> &body;
     Mumps factors;
     dealii::PETScWrappers::SparseMatrix matrix;

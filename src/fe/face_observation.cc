@@ -1,0 +1,152 @@
+#include "fe/face_observation.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sprag
+{
+  namespace
+  {
+    using PointState = FaceContact::PointState;
+
+    /// Length under pressure, the edges where the trial pressure, linear between the points, changes sign [mm].
+    double contact_width(const std::vector<PointState> &points)
+    {
+      double width = 0.;
+      for (std::size_t q = 0; q + 1 < points.size(); ++q)
+      {
+        const double length = points[q + 1].position.xi - points[q].position.xi;
+        const double left   = points[q].trial_pressure;
+        const double right  = points[q + 1].trial_pressure;
+        if (left > 0. && right > 0.)
+          width += length;
+        else if (left > 0. || right > 0.)
+          width += length * std::max(left, right) / (std::max(left, right) - std::min(left, right));
+      }
+      return width;
+    }
+
+    /// Displacement along eta at xi, linear between the points [mm].
+    double deflection(const FaceContact &contact, const double xi)
+    {
+      const auto &points   = contact.elastic_body().friction_face().points;
+      const auto is_before = [](const auto &point, const double value) { return point.position[0] < value; };
+      const auto after     = std::lower_bound(points.begin() + 1, points.end() - 1, xi, is_before);
+      const auto before    = after - 1;
+      const double share   = std::clamp((xi - before->position[0]) / (after->position[0] - before->position[0]), 0., 1.);
+      const auto index     = static_cast<unsigned int>(before - points.begin());
+      return (1. - share) * contact.displacement(index)[1] + share * contact.displacement(index + 1)[1];
+    }
+
+    double indentation(const FaceContact &contact, const double centre, const double width, const double layer_thickness)
+    {
+      if (layer_thickness == 0.)
+        return 0.;
+      const double aside = 0.5 * width + 4. * layer_thickness;
+      return deflection(contact, centre) - 0.5 * (deflection(contact, centre - aside) + deflection(contact, centre + aside));
+    }
+
+    double cone_violation(const std::vector<PointState> &points)
+    {
+      double excess = 0.;
+      double peak   = 0.;
+      for (const auto &point : points)
+      {
+        const auto &response = point.response;
+        excess               = std::max(excess, std::abs(response.traction) - response.mu * response.pressure);
+        peak                 = std::max(peak, response.mu * response.pressure);
+      }
+      return peak > 0. ? excess / peak : 0.;
+    }
+
+    /// Sums over the points under pressure.
+    struct Sums
+    {
+      double normal = 0., friction = 0., position = 0., speed = 0., mu = 0., power = 0., energy = 0., active = 0.;
+      double elastic_slip = 0.; ///< the largest
+    };
+
+    Sums sum(const FaceContact &contact)
+    {
+      Sums sums;
+      const double dt = contact.duration();
+      for (const auto &point : contact.points())
+      {
+        if (!(point.trial_pressure > 0.))
+          continue;
+        const double area   = contact.elastic_body().friction_face().points[point.index].weight;
+        const double normal = area * point.response.pressure;
+        const auto moved    = contact.displacement(point.index);
+        const double rate   = dt > 0. ? point.slip_change / dt : 0.;
+        sums.normal += normal;
+        sums.friction += area * point.response.traction;
+        sums.position += normal * point.position.xi;
+        sums.speed += normal * rate;
+        sums.mu += normal * point.response.mu;
+        sums.power += area * point.response.traction * rate;
+        sums.energy += 0.5 * area * (point.response.force[0] * moved[0] + point.response.force[1] * moved[1]);
+        sums.active += 1.;
+        sums.elastic_slip = std::max(sums.elastic_slip, point.elastic_slip);
+      }
+      return sums;
+    }
+  } // namespace
+
+  void observe_face(const FaceContact &contact, const double layer_thickness, Row &row)
+  {
+    const auto &points              = contact.points();
+    const Sums sums                 = sum(contact);
+    row[Column::normal_resultant]   = sums.normal;
+    row[Column::friction_resultant] = sums.friction;
+    row[Column::friction_power]     = sums.power;
+    row[Column::elastic_energy]     = sums.energy;
+    row[Column::active_points]      = sums.active;
+    row[Column::elastic_slip]       = sums.elastic_slip;
+    row[Column::contact_width]      = contact_width(points);
+    row[Column::penetration]        = contact.penetration();
+    row[Column::cone_violation]     = cone_violation(points);
+    row[Column::P]                  = 0.;
+    row[Column::F]                  = 0.;
+    for (std::size_t i = 0; i < contact.forces().nodes.size(); ++i)
+    {
+      row[Column::F] -= contact.forces().values[2 * static_cast<unsigned int>(i)];
+      row[Column::P] += contact.forces().values[2 * static_cast<unsigned int>(i) + 1];
+    }
+    row[Column::indentation] = 0.;
+    if (sums.normal > 0.)
+    {
+      row[Column::s]           = sums.position / sums.normal;
+      row[Column::mu]          = sums.mu / sums.normal;
+      row[Column::indentation] = indentation(contact, row[Column::s], row[Column::contact_width], layer_thickness);
+      if (contact.duration() > 0.)
+        row[Column::v_rel] = sums.speed / sums.normal;
+    }
+  }
+
+  FacePoints face_points(const ElasticBody<2> &body)
+  {
+    FacePoints result;
+    for (const auto &point : body.friction_face().points)
+    {
+      result.xi.push_back(point.position[0]);
+      result.weight.push_back(point.weight);
+    }
+    return result;
+  }
+
+  FaceState face_state(const FaceContact &contact, const DrivePoint &drive)
+  {
+    FaceState result;
+    result.time         = drive.time;
+    result.x            = drive.x;
+    const std::size_t n = contact.elastic_body().friction_face().points.size();
+    result.pressure.resize(n);
+    result.traction.resize(n);
+    for (const auto &point : contact.points())
+    {
+      result.pressure[point.index] = point.response.pressure;
+      result.traction[point.index] = point.response.traction;
+    }
+    return result;
+  }
+} // namespace sprag

@@ -1,0 +1,121 @@
+#include "fe/friction_face.h"
+
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/fe/fe_values.h>
+#include <deal.II/fe/mapping_q1.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace sprag
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// Two Gauss points in each part integrate a uniform pressure against quadratic shape functions exactly.
+    unsigned int number_of_parts(const double length, const double spacing)
+    {
+      return static_cast<unsigned int>(std::clamp(std::ceil(length / (2. * spacing)), 4., 24.));
+    }
+
+    /// Collects the faces of cells one by one.
+    template <int dim>
+    class Collector
+    {
+    public:
+      Collector(const DoFHandler<dim> &dof_handler, const AffineConstraints<double> &constraints_,
+                const BodyProperties &properties_)
+          : constraints(constraints_)
+          , properties(properties_)
+          , fe(dof_handler.get_fe())
+      {
+      }
+
+      void add(const typename DoFHandler<dim>::active_cell_iterator &cell, const unsigned int f)
+      {
+        const double length = cell->face(f)->diameter();
+        const double depth  = cell->measure() / cell->face(f)->measure();
+        const double E      = properties.constants.at(cell->material_id()).young_modulus;
+        stiffness           = std::max(stiffness, E / depth);
+
+        auto &values = values_for(number_of_parts(length, properties.point_spacing));
+        values.reinit(cell, f);
+        std::vector<FacePoint<dim>> points;
+        for (const unsigned int q : values.quadrature_point_indices())
+          points.push_back({ values.quadrature_point(q), properties.width * values.JxW(q), {} });
+        add_nodes(cell, f, values, points);
+        std::sort(points.begin(), points.end(), [](const auto &a, const auto &b) { return a.position[0] < b.position[0]; });
+        cells.push_back({ std::move(points), length });
+      }
+
+      FrictionFace<dim> face()
+      {
+        std::sort(cells.begin(), cells.end(),
+                  [](const auto &a, const auto &b) { return a.first.front().position[0] < b.first.front().position[0]; });
+        FrictionFace<dim> result;
+        result.nodes     = nodes;
+        result.stiffness = stiffness;
+        for (const auto &[points, length] : cells)
+        {
+          const auto begin = static_cast<unsigned int>(result.points.size());
+          result.points.insert(result.points.end(), points.begin(), points.end());
+          result.patches.push_back({ begin, static_cast<unsigned int>(result.points.size()), length });
+        }
+        return result;
+      }
+
+    private:
+      FEFaceValues<dim> &values_for(const unsigned int parts)
+      {
+        const UpdateFlags flags = update_values | update_JxW_values | update_quadrature_points;
+        return values_by_parts.try_emplace(parts, fe, QIterated<dim - 1>(QGauss<1>(2), parts), flags).first->second;
+      }
+
+      void add_nodes(const typename DoFHandler<dim>::active_cell_iterator &cell, const unsigned int f,
+                     const FEFaceValues<dim> &values, std::vector<FacePoint<dim>> &points)
+      {
+        std::vector<types::global_dof_index> indices(fe.n_dofs_per_cell());
+        cell->get_dof_indices(indices);
+        for (unsigned int i = 0; i < fe.n_dofs_per_face(); i += dim)
+        {
+          const unsigned int in_cell = fe.face_to_cell_index(i, f);
+          std::array<unsigned int, dim> dofs;
+          for (unsigned int d = 0; d < dim; ++d)
+            dofs[d] = indices[fe.face_to_cell_index(i + d, f)];
+          if (constraints.is_constrained(dofs[0]))
+            continue;
+          const auto node = index_by_dof.try_emplace(dofs[0], static_cast<unsigned int>(nodes.size()));
+          if (node.second)
+            nodes.push_back({ MappingQ1<dim>().transform_unit_to_real_cell(cell, fe.get_unit_support_points()[in_cell]), dofs });
+          for (const unsigned int q : values.quadrature_point_indices())
+            points[q].nodes.emplace_back(node.first->second, values.shape_value(in_cell, q));
+        }
+      }
+
+      const AffineConstraints<double> &constraints;
+      const BodyProperties &properties;
+      const FiniteElement<dim> &fe;
+      std::map<unsigned int, FEFaceValues<dim>> values_by_parts;
+      std::map<unsigned int, unsigned int> index_by_dof;
+      std::vector<FaceNode<dim>> nodes;
+      std::vector<std::pair<std::vector<FacePoint<dim>>, double>> cells; ///< points and length
+      double stiffness = 0.;
+    };
+  } // namespace
+
+  template <int dim>
+  FrictionFace<dim> find_friction_face(const DoFHandler<dim> &dof_handler, const AffineConstraints<double> &constraints,
+                                       const BodyProperties &properties)
+  {
+    Collector<dim> collector(dof_handler, constraints, properties);
+    for (const auto &cell : dof_handler.active_cell_iterators())
+      for (const unsigned int f : cell->face_indices())
+        if (cell->face(f)->at_boundary() && cell->face(f)->boundary_id() == boundary_id::friction_face)
+          collector.add(cell, f);
+    return collector.face();
+  }
+
+  template FrictionFace<2> find_friction_face(const DoFHandler<2> &, const AffineConstraints<double> &, const BodyProperties &);
+} // namespace sprag
