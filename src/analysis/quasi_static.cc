@@ -138,22 +138,6 @@ namespace sprag
       Row row;
     };
 
-    /// Steady sliding at the start of the drive: the end of a step that leads there, of which nothing is counted.
-    Progression begin(Model &model, const Drive &drive, const QuasiStaticSettings &settings)
-    {
-      const DrivePoint start = drive.at(0.);
-      const double sense     = drive.step(0., settings.step).x < start.x ? -1. : 1.;
-      const double speed     = drive.peak_speed();
-      const State before = model.initial_state({ start.time - settings.step / speed, start.x - sense * settings.step, start.v });
-      StepCost cost;
-      auto state = solve_step(model, before, start, settings, false, cost);
-      if (!state)
-        throw AnalysisError("no equilibrium at the start of the drive. Try a smaller Contact/Penalty or a finer Mesh/Face size.");
-      state->contact = model.memory();
-      Row row        = observe(model, *state);
-      return { std::move(*state), row };
-    }
-
     /// One accepted step of at most dx, which is cut back where no equilibrium is found.
     Progression advance(Model &model, const Drive &drive, const QuasiStaticSettings &settings, const Progression &from,
                         const bool reversed, const bool sticking, double &dx)
@@ -174,6 +158,26 @@ namespace sprag
       row[Column::iterations]    = cost.iterations;
       row[Column::augmentations] = cost.augmentations;
       return { std::move(*next), row };
+    }
+
+    /// The state in which the drive begins: just touching at x = 0, further on as reached by sliding there from x = 0.
+    Progression begin(Model &model, const Drive &drive, const QuasiStaticSettings &settings)
+    {
+      const DrivePoint start = drive.at(0.);
+      Progression now{ model.initial_state({ 0., 0., drive.peak_speed() }), {} };
+      if (start.x > 0.)
+      {
+        const Drive approach(DriveProfile::triangle, 0., start.x, drive.peak_speed(), 0.5);
+        double dx = settings.step;
+        for (now.state.drive = approach.at(0.); now.state.drive.time < approach.duration();
+             dx              = std::min(settings.step, growth * dx))
+          now = advance(model, approach, settings, now, false, false, dx);
+      }
+      else
+        model.evaluate(now.state, now.state, FrictionMode::stick);
+      now.state.drive = start;
+      now.row         = observe(model, now.state);
+      return now;
     }
   } // namespace
 

@@ -117,6 +117,8 @@ namespace sprag
   std::vector<Entry> summary_of(const Scene &scene, const std::vector<Row> &rows)
   {
     std::vector<Entry> entries;
+    if (rows.empty())
+      return entries;
     for (const auto &[direction, way] : { std::pair<int, std::string>{ 1, "forward" }, { -1, "backward" } })
       if (const auto all = stroke(rows, direction, 0.); !all.empty())
         add_stroke(all, stroke(rows, direction, settling), way, entries);

@@ -36,9 +36,8 @@ namespace sprag
       void add(const typename DoFHandler<dim>::active_cell_iterator &cell, const unsigned int f)
       {
         const double length = cell->face(f)->diameter();
-        const double depth  = cell->measure() / cell->face(f)->measure();
-        const double E      = properties.constants.at(cell->material_id()).young_modulus;
-        stiffness           = std::max(stiffness, E / depth);
+        depth               = std::max(depth, cell->measure() / cell->face(f)->measure());
+        young_modulus       = std::max(young_modulus, properties.constants.at(cell->material_id()).young_modulus);
 
         auto &values = values_for(number_of_parts(length, properties.point_spacing));
         values.reinit(cell, f);
@@ -55,8 +54,9 @@ namespace sprag
         std::sort(cells.begin(), cells.end(),
                   [](const auto &a, const auto &b) { return a.first.front().position[0] < b.first.front().position[0]; });
         FrictionFace<dim> result;
-        result.nodes     = nodes;
-        result.stiffness = stiffness;
+        result.nodes         = nodes;
+        result.young_modulus = young_modulus;
+        result.depth         = depth;
         for (const auto &[points, length] : cells)
         {
           const auto begin = static_cast<unsigned int>(result.points.size());
@@ -101,7 +101,8 @@ namespace sprag
       std::map<unsigned int, unsigned int> index_by_dof;
       std::vector<FaceNode<dim>> nodes;
       std::vector<std::pair<std::vector<FacePoint<dim>>, double>> cells; ///< points and length
-      double stiffness = 0.;
+      double young_modulus = 0.;
+      double depth         = 0.;
     };
   } // namespace
 

@@ -44,7 +44,8 @@ namespace sprag
     std::vector<FaceNode<dim>> nodes;
     std::vector<FacePoint<dim>> points; ///< patch by patch, ordered along the first axis
     std::vector<FacePatch> patches;
-    double stiffness = 0.; ///< largest E/h of its cells, h their size normal to the face [N/mm^3]
+    double young_modulus = 0.; ///< largest of its cells [MPa]
+    double depth         = 0.; ///< largest size of its cells normal to the face [mm]
   };
 
   /// Reads the faces marked boundary_id::friction_face. The integration points are denser than the nodes, about

@@ -3,6 +3,7 @@
 #include "fe/face_observation.h"
 #include "scene/closed_form.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace sprag
@@ -11,19 +12,25 @@ namespace sprag
 
   namespace
   {
-    /// A penalty this much stiffer than face and mesh leaves an overlap of about 1/factor of the layer's compression.
-    constexpr double penalty_factor = 50.;
+    /// A penalty this much stiffer than the layer leaves an overlap of a few per cent of the layer's compression. Much stiffer
+    /// ones make a contact narrower than the elements, which then tilts with each of them.
+    constexpr double penalty_factor = 25.;
 
-    ContactPenalties penalties_of(const ElasticBody<2> &body, const ContactSettings &settings)
+    /// Augmentation removes the overlap, the faster the stiffer the penalty.
+    constexpr double augmentation_factor = 100.;
+
+    ContactPenalties penalties_of(const ElasticBody<2> &body, const LeverProperties &properties)
     {
-      const double normal = settings.penalty.value_or(penalty_factor * body.friction_face().stiffness);
-      return { normal, settings.tangential_penalty.value_or(normal) };
+      const auto &face    = body.friction_face();
+      const double depth  = std::max(face.depth, properties.layer_thickness);
+      const double factor = properties.contact.enforcement == Enforcement::penalty ? penalty_factor : augmentation_factor;
+      const double normal = properties.contact.penalty.value_or(factor * face.young_modulus / depth);
+      return { normal, properties.contact.tangential_penalty.value_or(normal) };
     }
 
     FaceContact make_contact(const ElasticBody<2> &body, const LeverProperties &properties)
     {
-      return { body, properties.obstacle, properties.friction, properties.contact.enforcement,
-               penalties_of(body, properties.contact) };
+      return { body, properties.obstacle, properties.friction, properties.contact.enforcement, penalties_of(body, properties) };
     }
     std::variant<FaceCompliance, FullStiffness> make_system(const ElasticBody<2> &body, const LeverProperties &properties)
     {

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "scene/scene.h"
+
+namespace sprag
+{
+  // The two scenes of Table 1 of the paper, with cork on aluminium at the true sliding speed and one stroke 0 .. 65 .. 0 mm
+  // at 112 mm/s.
+
+  inline Scene model_a()
+  {
+    Scene scene;
+    scene.geometry         = { 56., 45.6, 185.5, 0. };
+    scene.spring_stiffness = 7.40e4;
+    scene.drive            = Drive(DriveProfile::triangle, 0., 65., 112., 1.);
+    scene.friction         = { CorkOnAluminium{}, FrictionSpeed::sliding };
+    return scene;
+  }
+
+  inline Scene model_b()
+  {
+    Scene scene            = model_a();
+    scene.geometry         = { 21.1, 0., 193.9, 0. };
+    scene.spring_stiffness = 6.41e4;
+    return scene;
+  }
+
+  inline Scene with_coulomb(Scene scene, const double coefficient)
+  {
+    scene.friction.law = CoulombFriction{ coefficient };
+    return scene;
+  }
+
+  /// The paper's choice, mu by the speed of the drive.
+  inline Scene with_friction_by_drive_speed(Scene scene)
+  {
+    scene.friction.speed = FrictionSpeed::drive;
+    return scene;
+  }
+} // namespace sprag
