@@ -52,10 +52,14 @@ namespace sprag
     return { moved[0], moved[1] };
   }
 
-  /// The gap changes by no more than the distance along a patch, so a first point further off than that keeps all of them open.
+  /// The gap along a straight patch to a convex obstacle lies above its tangent at the first point; the margin covers bending.
   bool FaceContact::is_near(const FacePatch &patch) const
   {
-    return obstacle(position(patch.begin), x, theta).gap < 1.5 * patch.length;
+    const auto begin   = position(patch.begin);
+    const auto end     = position(patch.end - 1);
+    const auto contact = obstacle(begin, x, theta);
+    const double rise  = contact.gap_row[0] * (end.xi - begin.xi) + contact.gap_row[1] * (end.eta - begin.eta);
+    return contact.gap + std::min(0., rise) < 0.02 * patch.length;
   }
 
   FaceContact::PointState FaceContact::evaluate_point(const unsigned int q, const ContactLaw &law, const FrictionMode mode) const

@@ -129,16 +129,6 @@ TEST(ClosedFormRows, FrictionAndNormalForceMakeUpTheForceOnTheDrive)
     }
 }
 
-TEST(ClosedFormRows, ComparingTheClosedFormWithItselfShowsNoDeviation)
-{
-  for (const Row &row : rows_of(model_a()))
-  {
-    EXPECT_EQ(row[Column::P_closed_form], row[Column::P]);
-    EXPECT_EQ(row[Column::Q_closed_form], row[Column::Q]);
-    EXPECT_EQ(row[Column::theta_closed_form], row[Column::theta]);
-  }
-}
-
 TEST(ClosedFormRows, EnergyBalancesInEveryRow)
 {
   for (const Scene &scene : scenes())

@@ -1,0 +1,447 @@
+"""The program from outside: what it refuses, what a failed or killed run leaves behind, its options. Run with /usr/bin/python3;
+environment: SPRAG, the program, and SPRAG_SOURCE, the sources."""
+
+import os
+import shutil
+import signal
+import subprocess
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+SOURCE = Path(os.environ.get("SPRAG_SOURCE", Path(__file__).resolve().parents[2]))
+SPRAG = os.environ.get("SPRAG", str(SOURCE / "build" / "sprag"))
+TIMEOUT = 120  # seconds: a run that hangs is a failed test
+
+CLOSED_FORM = "subsection Analysis\n  set Model = closed form\nend\n"
+COARSE = ("--set", "Mesh/Face size=4", "--set", "Analysis/Step=5")
+
+# A strip of 210 x 20 mm whose lower side is the friction face of model A.
+STRIP = """
+Point(1) = {0, 45.6, 0};
+line[] = Extrude {210, 0, 0} { Point{1}; Layers{52}; };
+area[] = Extrude {0, 20, 0} { Curve{line[1]}; Layers{4}; Recombine; };
+"""
+LEVER = 'Physical Surface("lever") = {area[1]};\n'
+HUB = 'Physical Curve("hub") = {Abs(area[3])};\n'
+FACE = 'Physical Curve("friction face") = {line[1]};\n'
+
+
+def sprag(*arguments, **options):
+    return subprocess.run(
+        [SPRAG, *map(str, arguments)], capture_output=True, text=True, check=False, timeout=TIMEOUT, stdin=subprocess.DEVNULL, **options
+    )
+
+
+def tree(folder):
+    """Path -> content of everything below a folder."""
+    return {path: path.read_bytes() if path.is_file() else None for path in sorted(folder.rglob("*"))}
+
+
+class ProgramTest(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory(prefix="sprag-test-")
+        self.addCleanup(temporary.cleanup)
+        self.folder = Path(temporary.name)
+        self.output = self.folder / "output"
+
+    def write(self, text, name="scene.prm"):
+        path = self.folder / name
+        path.write_text(text)
+        return path
+
+    def refused(self, scene, *options, says, mistakes=None):
+        """Exit 2, every text of `says` on stderr, nothing written: neither a new folder nor into an old one."""
+        before = tree(self.folder)
+        done = sprag(scene, *options, "--output", self.output, cwd=self.folder)
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertEqual(done.stdout, "")
+        for text in says:
+            self.assertIn(text, done.stderr)
+        if mistakes is not None:
+            self.assertEqual(len(done.stderr.splitlines()), mistakes, done.stderr)
+        self.assertEqual(tree(self.folder), before)
+
+        older = self.folder / "older"
+        older.mkdir(exist_ok=True)
+        (older / "result.h5").write_bytes(b"an older result")
+        (older / "fields-0000.h5").write_bytes(b"an older field")
+        before = tree(self.folder)
+        again = sprag(scene, *options, "--output", older, cwd=self.folder)
+        self.assertEqual((again.returncode, again.stderr), (2, done.stderr))
+        self.assertEqual(tree(self.folder), before)
+
+
+class BadScene(ProgramTest):
+    """Mistakes that reading the scene finds."""
+
+    def test_unknown_name(self):
+        scene = self.write("subsection Rotational spring\n  set Stifness = 1\nend\n")
+        self.refused(scene, says=["scene.prm:2: ", "Rotational spring/Stifness", "did you mean 'Stiffness'"], mistakes=1)
+
+    def test_unknown_section(self):
+        scene = self.write("subsection Geometri\n  set Cylinder radius = 56\nend\n")
+        self.refused(scene, says=["scene.prm:1: ", "did you mean 'Geometry'"], mistakes=1)
+
+    def test_unknown_choice(self):
+        scene = self.write("subsection Drive\n  set Profile = harmonical\nend\n")
+        self.refused(scene, says=["scene.prm:2: ", "Drive/Profile = harmonical", "'harmonic'"], mistakes=1)
+
+    def test_number_with_unit(self):
+        scene = self.write("subsection Geometry\n  set Cylinder radius = 56 mm\nend\n")
+        self.refused(scene, says=["scene.prm:2: ", "Geometry/Cylinder radius = 56 mm", "leave out 'mm'"], mistakes=1)
+
+    def test_not_a_number(self):
+        for value in ("nan", "inf", "1e999", "5,5", "", "0x10"):
+            with self.subTest(value=value):
+                scene = self.write(f"subsection Drive\n  set Stroke = {value}\nend\n")
+                self.refused(scene, says=["scene.prm:2: ", "Drive/Stroke"], mistakes=1)
+
+    def test_negative_radius(self):
+        scene = self.write("subsection Geometry\n  set Cylinder radius = -56\nend\n")
+        self.refused(scene, says=["scene.prm:2: ", "Geometry/Cylinder radius = -56", "> 0"], mistakes=1)
+
+    def test_offset_beyond_radius(self):
+        scene = self.write("subsection Geometry\n  set Interface offset = 57\nend\n")
+        self.refused(scene, says=["scene.prm:2: ", "Geometry/Interface offset = 57", "R = 56 mm"], mistakes=1)
+
+    def test_stroke_that_reaches_the_pivot(self):
+        for model in ("closed form", "finite element"):
+            with self.subTest(model=model):
+                scene = self.write("subsection Drive\n  set Stroke = 130\nend\n")
+                says = ["scene.prm:2: ", "Drive/Stroke = 130", "129.5 mm", "reaches the pivot"]
+                self.refused(scene, "--set", f"Analysis/Model={model}", says=says, mistakes=1)
+
+    def test_closed_form_that_locks(self):
+        # s = mu e: at x = 65 mm s is 119.8 mm, and mu e 136.8 mm
+        says = ["Drive/Stroke = 65", "must not lock", "moving back at x = ", "s = ", "<= mu e = 136.8 mm", "mu = 3"]
+        scene = self.write(CLOSED_FORM)
+        self.refused(scene, "--set", "Friction/Law=Coulomb", "--set", "Friction/Coefficient=3", says=says, mistakes=1)
+
+    def test_unreadable_table(self):
+        self.write("time,x\n0,0\n1,one\n", "words.csv")
+        self.write("0,0\n1,1\n", "short.csv")
+        self.write("0,0\n2,1\n1,2\n3,3\n", "order.csv")
+        (self.folder / "folder.csv").mkdir()
+        for name in ("missing.csv", "words.csv", "short.csv", "order.csv", "folder.csv"):
+            for section, choice in (("Drive", "Profile"), ("Friction", "Law")):
+                with self.subTest(name=name, section=section):
+                    scene = self.write(f"subsection {section}\n  set {choice} = table\n  set Table = {name}\nend\n")
+                    self.refused(scene, says=["scene.prm:3: ", f"{section}/Table = ", name])
+
+    def test_table_not_named(self):
+        scene = self.write("subsection Drive\n  set Profile = table\nend\n")
+        self.refused(scene, says=["Drive/Table", "must name a file"], mistakes=1)
+
+    def test_mesh_file_missing(self):
+        scene = self.write("subsection Mesh\n  set File = missing.geo\nend\n")
+        self.refused(scene, says=["scene.prm:2: ", "Mesh/File", "missing.geo", "cannot be read"], mistakes=1)
+
+    def test_neo_hookean_in_plane_stress(self):
+        scene = self.write("subsection Lever\n  set Material = neo-Hookean\nend\n")
+        self.refused(scene, says=["scene.prm:2: ", "Lever/Material", "Analysis/Plane = strain"], mistakes=1)
+
+    def test_all_mistakes_at_once(self):
+        scene = self.write(
+            "subsection Geometry\n"
+            "  set Cylinder radius = -1\n"
+            "  set Pivot hight     = 0\n"
+            "end\n"
+            "subsection Drive\n"
+            "  set Stroke = 65 mm\n"
+            "end\n"
+            "nonsense\n"
+            "subsection Friction\n"
+            "  set Law   = table\n"
+            "  set Table = missing.csv\n"
+            "end\n"
+            "subsection Mesh\n"
+            "  set File = missing.geo\n"
+        )
+        lines = [f"scene.prm:{line}: " for line in (2, 3, 6, 8, 11, 13, 14)]
+        says = [*lines, "--set: Mesh/Degree = 3", "'Pivot height'"]
+        self.refused(scene, "--set", "Mesh/Degree=3", says=says, mistakes=8)
+
+
+class BadMesh(ProgramTest):
+    """Mistakes that show when the mesh is made."""
+
+    def geometry(self, text):
+        self.write(text, "own.geo")
+        return self.write("subsection Mesh\n  set File = own.geo\nend\n")
+
+    def test_good_mesh(self):
+        done = sprag(self.geometry(STRIP + LEVER + HUB + FACE), "--set", "Drive/Stroke=2", "--output", self.output)
+        self.assertEqual((done.returncode, done.stderr.count("own.geo")), (0, 0), done.stderr)
+
+    def test_without_friction_face(self):
+        self.refused(self.geometry(STRIP + LEVER + HUB), says=["own.geo", "no physical curve 'friction face'"], mistakes=1)
+
+    def test_misspelt_friction_face(self):
+        scene = self.geometry(STRIP + LEVER + HUB + FACE.replace("friction face", "friction-face"))
+        self.refused(scene, says=["no physical curve 'friction face'", "curves found: ", "'friction-face'"], mistakes=1)
+
+    def test_all_groups_missing(self):
+        says = ["no physical curve 'friction face'", "no physical surface 'lever'", "no physical curve or surface 'hub'"]
+        self.refused(self.geometry(STRIP), says=says, mistakes=3)
+
+    def test_unknown_surface(self):
+        scene = self.geometry(STRIP + LEVER.replace("lever", "leever") + HUB + FACE)
+        self.refused(scene, says=["unknown physical surface 'leever'", "no physical surface 'lever'"], mistakes=2)
+
+    def test_triangles(self):
+        scene = self.geometry(STRIP.replace("Recombine;", "") + LEVER + HUB + FACE)
+        self.refused(scene, says=["own.geo", "quadrilaterals"], mistakes=1)
+
+    def test_face_elsewhere(self):
+        scene = self.geometry(STRIP.replace("45.6", "40") + LEVER + HUB + FACE)
+        self.refused(scene, says=["friction face", "Geometry/Interface offset"], mistakes=1)
+
+    def test_face_too_short(self):
+        scene = self.geometry(STRIP.replace("210", "150") + LEVER + HUB + FACE)
+        self.refused(scene, says=["friction face", "spans", "sweeps"], mistakes=1)
+
+    def test_no_geometry(self):
+        self.refused(self.geometry("this is no geometry\n"), says=["own.geo"])
+
+
+class BadOutput(ProgramTest):
+    """A folder that cannot be made or written to. Root may write anywhere, so these are places where nobody can."""
+
+    def test_below_a_file(self):
+        file = self.write("text", "file")
+        self.refused_output(file / "output")
+        self.assertEqual(file.read_text(), "text")
+
+    def test_is_a_file(self):
+        file = self.write("text", "file")
+        self.refused_output(file)
+        self.assertEqual(file.read_text(), "text")
+
+    def test_below_proc(self):
+        self.refused_output("/proc/sprag")
+
+    def test_proc_itself(self):
+        self.refused_output("/proc")
+
+    def test_result_is_a_folder(self):
+        (self.folder / "result.h5").mkdir()
+        self.refused_output(self.folder)
+        self.assertEqual(list((self.folder / "result.h5").iterdir()), [])
+
+    def refused_output(self, output):
+        scene = self.write(CLOSED_FORM)
+        before = tree(self.folder)
+        for model in ("closed form", "finite element"):
+            with self.subTest(model=model):
+                done = sprag(scene, *COARSE, "--set", f"Analysis/Model={model}", "--output", output)
+                self.assertEqual(done.returncode, 2, done.stderr)
+                self.assertEqual(done.stdout, "")
+                self.assertIn(str(output), done.stderr)
+                self.assertEqual(tree(self.folder), before)
+
+
+class FailedRun(ProgramTest):
+    """Exit 1, and every finished step can be read."""
+
+    def finished_steps(self):
+        with h5py.File(self.output / "result.h5", "r") as file:
+            table = {name: data[:] for name, data in file["table"].items()}
+            status = file["summary/status"].asstr()[()]
+            self.assertIn("version", file["meta"])
+            self.assertEqual(len(file["face/pressure"]), len(table["x"]))
+        self.assertEqual({len(values) for values in table.values()}, {len(table["x"])})
+        for name in ("x", "P", "F", "Q", "theta"):
+            self.assertTrue(np.isfinite(table[name]).all(), name)
+        return table, status
+
+    def test_flexible_run_that_locks(self):
+        scene = self.write("")
+        changes = ("--set", "Friction/Law=Coulomb", "--set", "Friction/Coefficient=3")
+        done = sprag(scene, *COARSE, *changes, "--output", self.output)
+        self.assertEqual(done.returncode, 1, done.stderr)
+        table, status = self.finished_steps()
+        last = table["x"][-1]
+        self.assertEqual(table["x"].max(), 65)
+        self.assertGreater(last, 60)
+        self.assertIn(f"x = {last:.6g} mm", done.stderr)
+        self.assertIn("locks", done.stderr)
+        self.assertIn(f"x = {last:.6g} mm", status)
+
+    def test_deviation_too_large(self):
+        scene = self.write("")
+        options = ("--set", "Analysis/Maximum deviation=1e-9", "--output", self.output)
+        done = sprag(scene, *COARSE, *options)
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertIn("Analysis/Maximum deviation", done.stderr)
+        table, status = self.finished_steps()
+        self.assertEqual((table["x"].max(), table["x"][-1], status), (65, 0, "completed"))
+
+    def test_deviation_small_enough(self):
+        scene = self.write("")
+        done = sprag(scene, *COARSE, "--set", "Analysis/Maximum deviation=0.2", "--output", self.output)
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+
+class RunGoingOn(ProgramTest):
+    """The result file while its run goes on and after the run was killed."""
+
+    def start(self):
+        scene = self.write("")
+        options = ("--set", "Mesh/Face size=4", "--set", "Analysis/Step=0.005", "--set", "Output/Fields=none")
+        process = subprocess.Popen(
+            [SPRAG, scene, *options, "--output", self.output, "--quiet"], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE
+        )
+        self.addCleanup(process.stderr.close)
+        self.addCleanup(process.wait)
+        self.addCleanup(process.kill)
+        return process
+
+    def rows(self):
+        """x of the rows there are; none where the file is not there yet."""
+        try:
+            with h5py.File(self.output / "result.h5", "r", swmr=True) as file:
+                columns = [file["table"][name][:] for name in ("time", "x", "Q")]
+        except OSError:
+            return np.empty(0)
+        length = min(map(len, columns))
+        for values in columns:
+            self.assertTrue(np.isfinite(values[:length]).all())
+        return columns[1][:length]
+
+    def wait_for(self, process, number):
+        deadline = time.monotonic() + TIMEOUT
+        while time.monotonic() < deadline:
+            self.assertIsNone(process.poll(), "the run ended too early to be watched")
+            if len(rows := self.rows()) >= number:
+                return rows
+            time.sleep(0.02)
+        return self.fail(f"fewer than {number} rows after {TIMEOUT} s")
+
+    def test_reading_along_and_killed(self):
+        process = self.start()
+        first = self.wait_for(process, 3)
+        second = self.wait_for(process, len(first) + 50)
+        self.assertTrue((second[: len(first)] == first).all())
+        process.send_signal(signal.SIGKILL)
+        process.wait()
+
+        path = self.output / "result.h5"
+        left = self.rows()
+        self.assertGreaterEqual(len(left), len(second))
+        self.assertTrue((left[: len(second)] == second).all())
+        self.assertTrue((np.diff(left) > 0).all())
+
+        # Without swmr the file opens once the mark of its writer is taken off.
+        h5clear = shutil.which("h5clear")
+        if h5clear:
+            subprocess.run([h5clear, "-s", path], check=True, capture_output=True)
+            with h5py.File(path, "r") as file:
+                self.assertGreaterEqual(len(file["table/x"]), len(left))
+                self.assertIn("subsection Drive", file["parameters"].asstr()[()])
+
+        # A new run into the same folder starts afresh.
+        done = sprag(self.write(""), *COARSE, "--set", "Drive/Stroke=5", "--output", self.output)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with h5py.File(path, "r") as file:
+            self.assertEqual(file["table/x"][:].max(), 5)
+
+
+class Options(ProgramTest):
+    def test_help_and_version(self):
+        done = sprag("--help")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        for option in ("FILE.prm", "--set", "--output", "--validate", "--print-parameters", "--quiet", "--version"):
+            self.assertIn(option, done.stdout)
+        done = sprag("--version")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertRegex(done.stdout, r"^sprag \d+\.\d+")
+
+    def test_no_file_given(self):
+        self.complains([], "FILE.prm")
+
+    def test_two_files(self):
+        self.complains([self.write(CLOSED_FORM), self.write(CLOSED_FORM, "other.prm")], "other.prm")
+
+    def test_unknown_option(self):
+        self.complains([self.write(CLOSED_FORM), "--outputs", self.output], "--outputs")
+
+    def test_file_missing(self):
+        self.complains([self.folder / "missing.prm"], "missing.prm: cannot be read")
+
+    def test_folder_instead_of_file(self):
+        self.complains([self.folder], "is a folder")
+
+    def test_binary_instead_of_text(self):
+        path = self.folder / "binary.prm"
+        path.write_bytes(bytes(range(256)))
+        self.complains([path], "binary.prm")
+
+    def test_malformed_override(self):
+        scene = self.write(CLOSED_FORM)
+        for text in ("Stroke", "Stroke=1", "Drive/Stroke", "Drive/Strok=1", "Drve/Stroke=1", "=", "/=", ""):
+            with self.subTest(text=text):
+                self.complains([scene, "--set", text], "--set: ")
+        self.complains([scene, "--set"], "--set")
+
+    def complains(self, arguments, text):
+        before = tree(self.folder)
+        done = sprag(*arguments, cwd=self.folder)
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertEqual(done.stdout, "")
+        self.assertIn(text, done.stderr)
+        self.assertEqual(tree(self.folder), before)
+
+    def test_validate_writes_nothing(self):
+        scene = self.write("")
+        before = tree(self.folder)
+        done = sprag(scene, "--validate", "--output", self.output, cwd=self.folder)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertIn("scene.prm", done.stdout)
+        self.assertEqual(tree(self.folder), before)
+        done = sprag(scene, "--validate", "--set", "Drive/Stroke=-1", cwd=self.folder)
+        self.assertEqual(done.returncode, 2)
+
+    def test_printed_parameters_are_input(self):
+        table = self.write("0,0\n1,1\n2,2\n3,1\n", "table.csv")
+        scene = self.write("subsection Drive\n  set Profile = table\n  set Table = table.csv\nend\n" + CLOSED_FORM)
+        printed = sprag(scene, "--set", "Geometry/Cylinder radius=55.5", "--print-parameters", "--output", self.output)
+        self.assertEqual((printed.returncode, printed.stderr), (0, ""))
+        self.assertIn("56", sprag("--print-parameters").stdout)
+        self.assertIn("55.5", printed.stdout)
+        self.assertIn(str(table), printed.stdout)
+        self.assertFalse(self.output.exists())
+        (self.folder / "elsewhere").mkdir()
+        copy = self.write(printed.stdout, "elsewhere/copy.prm")
+        again = sprag(copy, "--print-parameters")
+        self.assertEqual((again.returncode, again.stdout, again.stderr), (0, printed.stdout, ""))
+
+        done = sprag(copy, "--output", self.output)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with h5py.File(self.output / "result.h5", "r") as file:
+            self.assertEqual(file["parameters"].asstr()[()], printed.stdout)
+
+    def test_defaults_are_input(self):
+        scene = self.write(sprag("--print-parameters").stdout)
+        done = sprag(scene, "--validate")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+
+    def test_quiet(self):
+        for model in ("closed form", "finite element"):
+            with self.subTest(model=model):
+                done = sprag(self.write(""), *COARSE, "--set", f"Analysis/Model={model}", "--output", self.output, "--quiet")
+                self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
+
+    def test_default_output_folder(self):
+        done = sprag(self.write(CLOSED_FORM, "first try.prm"), cwd=self.folder)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertTrue((self.folder / "output" / "first try" / "result.h5").is_file())
+        self.assertIn("peak_P_forward", done.stdout)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,121 @@
+"""Every scene of params/ is accepted, runs on a coarse mesh and writes its columns. Run with /usr/bin/python3; environment:
+SPRAG, the program, and SPRAG_SOURCE, the sources."""
+
+import os
+import re
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+SOURCE = Path(os.environ.get("SPRAG_SOURCE", Path(__file__).resolve().parents[2]))
+SPRAG = os.environ.get("SPRAG", str(SOURCE / "build" / "sprag"))
+SCENES = sorted((SOURCE / "params").glob("*.prm"))
+
+# Long ones are cut down: what they are there for is kept.
+COARSE = {"Mesh/Face size": "4", "Analysis/Step": "5"}
+CHANGES = {"neo-hookean-a": {"Drive/Stroke": "10"}}
+
+NEVER_NAN = ("time", "x", "v", "theta", "P", "F", "Q", "drive_work", "friction_work", "spring_energy")
+NEVER_NAN_MESHED = NEVER_NAN + (
+    "normal_resultant",
+    "friction_resultant",
+    "contact_width",
+    "penetration",
+    "indentation",
+    "cone_violation",
+    "elastic_energy",
+    "iterations",
+)
+SWEEPS = {
+    "coefficient": {"mu", "slope_forward", "slope_backward", "dimensionless_forward", "dimensionless_backward"},
+    "inclination": {"theta0", "offset_ratio", "dimensionless_forward", "dimensionless_backward"},
+}
+
+
+def sprag(*arguments):
+    return subprocess.run([SPRAG, *map(str, arguments)], capture_output=True, text=True, check=False, timeout=120)
+
+
+def columns_of_the_program():
+    """Names of the columns in the order of src/results/columns.cc."""
+    text = (SOURCE / "src/results/columns.cc").read_text(encoding="utf-8")
+    return re.findall(r'^\s*\{ "(\w+)", "[^"]*",', text, re.MULTILINE)
+
+
+def parameter(text, section, name):
+    found = re.search(rf"^subsection {section}\n(?:(?!end$).*\n)*?\s*set {name}\s*=([^#\n]*)", text, re.MULTILINE)
+    return found.group(1).strip()
+
+
+class ScenesTest(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory(prefix="sprag-test-")
+        self.addCleanup(temporary.cleanup)
+        self.output = Path(temporary.name) / "output"
+
+    def test_there_are_scenes(self):
+        self.assertLessEqual({"model-a", "model-b"}, {path.stem for path in SCENES})
+
+    def test_all_are_valid(self):
+        for scene in SCENES:
+            with self.subTest(scene=scene.stem):
+                done = sprag(scene, "--validate")
+                self.assertEqual((done.returncode, done.stderr), (0, ""))
+
+    def test_table_1(self):
+        values = {"model-a": ("56", "45.6", "185.5", "0", "7.40e4"), "model-b": ("21.1", "0", "193.9", "0", "6.41e4")}
+        names = ("Cylinder radius", "Interface offset", "Pivot distance", "Pivot height")
+        for scene, expected in values.items():
+            text = sprag(SOURCE / "params" / f"{scene}.prm", "--print-parameters").stdout
+            found = [parameter(text, "Geometry", name) for name in names] + [parameter(text, "Rotational spring", "Stiffness")]
+            self.assertEqual([float(number) for number in found], [float(number) for number in expected])
+
+    def check_sweep(self, file):
+        sweep = parameter(file["parameters"].asstr()[()], "Slope", "Sweep")
+        self.assertEqual(set(file["table"]), SWEEPS[sweep])
+        for name in SWEEPS[sweep]:
+            self.assertTrue(np.isfinite(file["table"][name][:]).any(), name)
+
+    def check_run(self, file):
+        table = file["table"]
+        text = file["parameters"].asstr()[()]
+        self.assertEqual(set(table), set(columns_of_the_program()))
+        meshed = parameter(text, "Analysis", "Model") == "finite element"
+        for name in NEVER_NAN_MESHED if meshed else NEVER_NAN:
+            self.assertTrue(np.isfinite(table[name][:]).all(), name)
+        self.assertEqual(table["time"][0], 0)
+        self.assertEqual(table["x"][:].max(), float(parameter(text, "Drive", "Stroke")))
+        self.assertAlmostEqual(table["x"][-1], 0, places=9)
+        theta = table["theta"][:]
+        resultant = table["P"][:] * np.sin(theta) + table["F"][:] * np.cos(theta)
+        self.assertLess(np.abs(table["Q"][:] - resultant).max(), 1e-12 * np.abs(resultant).max())
+        self.assertGreater(table["Q"][:].max(), 0)
+        self.assertLess(table["Q"][:].min(), 0)
+        self.assertEqual("face" in file, meshed)
+
+    def test_all_run(self):
+        for scene in SCENES:
+            with self.subTest(scene=scene.stem):
+                output = self.output / scene.stem
+                options = []
+                for name, value in {**COARSE, **CHANGES.get(scene.stem, {})}.items():
+                    options += ["--set", f"{name}={value}"]
+                done = sprag(scene, *options, "--output", output, "--quiet")
+                self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
+                with h5py.File(output / "result.h5", "r") as file:
+                    for data in file["table"].values():
+                        self.assertIn("unit", data.attrs)
+                        self.assertTrue(data.attrs["description"])
+                    self.assertEqual(file["summary/status"].asstr()[()], "completed")
+                    self.assertIn("cpu_time", file["meta"])
+                    (self.check_run if "time" in file["table"] else self.check_sweep)(file)
+                    fields = "face" in file
+                self.assertEqual((output / "fields.xdmf").is_file(), fields)
+
+
+if __name__ == "__main__":
+    unittest.main()
