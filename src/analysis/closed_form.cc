@@ -2,19 +2,18 @@
 
 #include "scene/closed_form.h"
 
-#include <boost/math/quadrature/gauss_kronrod.hpp>
-
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace sprag
 {
   namespace
   {
-    /// Direction of motion where v = 0: towards `next`.
-    double velocity_of(const DrivePoint &point, const DrivePoint &next)
+    /// v, or where that is 0 the smallest speed in the direction of dx. A rest keeps the direction it was reached in.
+    double velocity_of(const DrivePoint &point, const double dx, const double direction)
     {
-      return point.v != 0. ? point.v : std::copysign(std::numeric_limits<double>::min(), next.x - point.x);
+      return point.v != 0. ? point.v : std::copysign(std::numeric_limits<double>::min(), dx != 0. ? dx : direction);
     }
 
     Row row_at(const Scene &scene, const DrivePoint &point, const double v)
@@ -35,33 +34,14 @@ namespace sprag
       row[Column::v_rel]              = state.v_rel;
       row[Column::mu]                 = state.mu;
       row[Column::friction_power]     = state.F * state.v_rel;
+      row[Column::P_closed_form]      = state.P;
+      row[Column::Q_closed_form]      = state.Q;
+      row[Column::theta_closed_form]  = state.contact.theta;
       row[Column::spring_energy]      = 0.5 * scene.spring_stiffness * turn * turn;
       for (const auto column : { Column::centre_offset, Column::contact_width, Column::penetration, Column::indentation,
                                  Column::cone_violation, Column::elastic_slip, Column::elastic_energy })
         row[column] = 0.;
       return row;
-    }
-
-    struct Work
-    {
-      double drive    = 0.;
-      double friction = 0.;
-    };
-
-    Work work_between(const Scene &scene, const double begin, const double end)
-    {
-      const auto integral = [&](const auto &power)
-      {
-        return boost::math::quadrature::gauss_kronrod<double, 15>::integrate(
-            [&](const double time)
-            {
-              const auto point = scene.drive.at(time);
-              return power(closed_form(scene, point.x, point.v), point.v);
-            },
-            begin, end, 5, 1e-12);
-      };
-      return { integral([](const ClosedFormState &state, const double v) { return state.Q * v; }),
-               integral([](const ClosedFormState &state, double) { return state.F * state.v_rel; }) };
     }
   } // namespace
 
@@ -80,20 +60,22 @@ namespace sprag
     };
 
     DrivePoint point = drive.at(0., Drive::Side::after);
-    hand_on(point, velocity_of(point, drive.step(0., scene.analysis.step)), 0.);
+    double velocity  = velocity_of(point, drive.step(0., scene.analysis.step).x - point.x, 1.);
+    hand_on(point, velocity, 0.);
     while (point.time < drive.duration())
     {
       const auto next = drive.step(point.time, scene.analysis.step);
       const auto work = work_between(scene, point.time, next.time);
       done.drive += work.drive;
       done.friction += work.friction;
-      const double before = next.v != 0. ? next.v : std::copysign(std::numeric_limits<double>::min(), next.x - point.x);
-      hand_on(next, before, next.x - point.x);
+      velocity = velocity_of(next, next.x - point.x, velocity);
+      hand_on(next, velocity, next.x - point.x);
       point = next;
       if (std::binary_search(reversals.begin(), reversals.end(), point.time))
       {
-        point = drive.at(point.time, Drive::Side::after);
-        hand_on(point, velocity_of(point, drive.step(point.time, scene.analysis.step)), 0.);
+        point    = drive.at(point.time, Drive::Side::after);
+        velocity = velocity_of(point, -velocity, velocity);
+        hand_on(point, velocity, 0.);
       }
     }
   }

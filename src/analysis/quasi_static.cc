@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 #include <sstream>
+#include <string>
 
 namespace sprag
 {
@@ -23,6 +24,7 @@ namespace sprag
     {
       unsigned int iterations    = 0;
       unsigned int augmentations = 0;
+      std::string failure; ///< of the last attempt
     };
 
     /// Newton from the predictor; if it fails, once more from the stick predictor.
@@ -63,16 +65,22 @@ namespace sprag
       model.predict(trial, accepted);
       try
       {
+        cost.failure = "Newton's method does not converge";
         if (!equilibrate(model, trial, accepted, stick_first, cost))
           return {};
+        cost.failure = "augmentation does not converge";
         if (settings.contact.enforcement == Enforcement::augmented_lagrangian &&
             !augment(model, trial, accepted, settings.contact, cost))
           return {};
       }
-      catch (const AnalysisError &)
+      catch (const AnalysisError &error)
       {
-        return {}; // an element turned inside out or a singular tangent: a shorter step may avoid it
+        cost.failure = error.what(); // an element turned inside out or a singular tangent: a shorter step may avoid it
+        return {};
       }
+      cost.failure = model.objection();
+      if (!cost.failure.empty())
+        return {};
       return trial;
     }
 
@@ -99,11 +107,11 @@ namespace sprag
       row[Column::step]           = dx;
     }
 
-    [[noreturn]] void give_up(const Row &last, const double dx)
+    [[noreturn]] void give_up(const Row &last, const double dx, const std::string &failure)
     {
       std::ostringstream message;
       message << "no equilibrium beyond x = " << last[Column::x] << " mm (v = " << last[Column::v]
-              << " mm/s, P = " << last[Column::P] << " N): the last step tried was " << dx << " mm. ";
+              << " mm/s, P = " << last[Column::P] << " N): " << failure << " even in a step of " << dx << " mm. ";
       if (last[Column::v] < 0. && last[Column::F] < 0.)
         message << "Moving back, a lever with s <= mu e locks (here s = " << last[Column::s] << " mm, mu = " << last[Column::mu]
                 << "). ";
@@ -148,7 +156,7 @@ namespace sprag
       while (!next)
       {
         if (dx * cut < settings.minimum_step)
-          give_up(from.row, dx);
+          give_up(from.row, dx, cost.failure);
         dx *= cut;
         next = solve_step(model, from.state, drive.step(time, dx), settings, sticking, cost);
       }

@@ -128,7 +128,7 @@ namespace sprag
     const double dissipated = last[Column::friction_work];
     const double stored     = last[Column::spring_energy] + last[Column::elastic_energy] - rows.front()[Column::spring_energy] -
                           rows.front()[Column::elastic_energy];
-    entries.push_back({ "drive_work", work, "N mm", "integral of Q over x; the loop area after whole cycles" });
+    entries.push_back({ "loop_area", work, "N mm", "integral of Q over x; the loop area after whole cycles" });
     entries.push_back({ "friction_work", dissipated, "N mm", "work dissipated by friction" });
     entries.push_back(
         { "energy_residual", work - dissipated - stored, "N mm", "drive work less friction work and change of stored energy" });

@@ -8,8 +8,8 @@
 
 namespace sprag
 {
-  /// What the lever rubs against, a convex body: kinematics of a point of the lever at drive position x and hub rotation theta, in the
-  /// coordinates (displacement along xi, along eta, theta).
+  /// What the lever rubs against, a convex body: kinematics of a point of the lever at drive position x and hub rotation theta,
+  /// in the coordinates (displacement along xi, along eta, theta).
   using Obstacle = std::function<ContactKinematics<3>(const LeverPoint &point, double x, double theta)>;
 
   /// [N/mm^3], > 0

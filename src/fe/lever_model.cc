@@ -19,6 +19,9 @@ namespace sprag
     /// Augmentation removes the overlap, the faster the stiffer the penalty.
     constexpr double augmentation_factor = 100.;
 
+    /// Compression of the friction face beyond which linear elasticity says nothing.
+    constexpr double largest_strain = 0.5;
+
     ContactPenalties penalties_of(const ElasticBody<2> &body, const LeverProperties &properties)
     {
       const auto &face    = body.friction_face();
@@ -123,6 +126,16 @@ namespace sprag
   double LeverModel::penetration() const
   {
     return contact.penetration();
+  }
+
+  std::string LeverModel::objection() const
+  {
+    // A linear material knows no limit of its own: a lever that locks would be pressed into the cylinder.
+    const double pressure = contact.overlap() * contact.penalties().normal;
+    const double limit    = largest_strain * body.friction_face().young_modulus;
+    if (properties.body.material != MaterialModel::linear || pressure <= limit)
+      return {};
+    return "the pressure on the friction face would exceed " + std::to_string(limit) + " MPa, half of its Young's modulus";
   }
 
   void LeverModel::augment(State &trial) const

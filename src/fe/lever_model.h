@@ -37,6 +37,7 @@ namespace sprag
     dealii::Vector<double> correction() override;
     double movement(const dealii::Vector<double> &correction) const override;
     double penetration() const override;
+    std::string objection() const override;
     void augment(State &trial) const override;
     std::vector<ContactMemory> memory() const override;
     void observe(const State &trial, Row &row) const override;

@@ -7,6 +7,7 @@
 
 #include <deal.II/lac/vector.h>
 
+#include <string>
 #include <vector>
 
 namespace sprag
@@ -48,6 +49,9 @@ namespace sprag
 
     /// Largest overlap of body and obstacle [mm].
     virtual double penetration() const = 0;
+
+    /// Why the state of the last evaluation, though balanced, is beyond what the model can tell; empty if it is not.
+    virtual std::string objection() const = 0;
 
     /// Multipliers of the next augmentation from the tractions of the last evaluation.
     virtual void augment(State &trial) const = 0;

@@ -25,20 +25,13 @@ namespace sprag
       return (sign * coefficient * std::cos(theta) + sine) * dP * sine * sine / s;
     }
 
-    /// Integral over time of f(x(t), v(t)), piece by piece between the instants where the drive turns.
-    double integral_over_drive(const Drive &drive, const std::function<double(const DrivePoint &)> &power)
+    /// Integral over time of a power without a jump in v. Over the unit interval, because the library compares its error there
+    /// with the tolerance times the interval's length.
+    double integral(const std::function<double(double)> &power, const double begin, const double end)
     {
-      std::vector<double> ends = drive.reversals();
-      ends.push_back(drive.duration());
-      double begin = 0.;
-      double sum   = 0.;
-      for (const double end : ends)
-      {
-        sum += boost::math::quadrature::gauss_kronrod<double, 31>::integrate(
-            [&](const double time) { return power(drive.at(time)); }, begin, end, 12, 1e-12);
-        begin = end;
-      }
-      return sum;
+      const double duration = end - begin;
+      return duration * boost::math::quadrature::gauss_kronrod<double, 31>::integrate(
+                            [&](const double part) { return power(begin + part * duration); }, 0., 1., 12, 1e-12);
     }
 
     /// s - mu e while moving back at v < 0, positive where the lever slides [mm].
@@ -129,19 +122,44 @@ namespace sprag
     return {};
   }
 
+  Work work_between(const Scene &scene, const double begin, const double end)
+  {
+    const auto state_at    = [&](const DrivePoint &point) { return closed_form(scene, point.x, point.v); };
+    const auto drive_power = [&](const double time)
+    {
+      const auto point = scene.drive.at(time);
+      return state_at(point).Q * point.v;
+    };
+    const auto friction_power = [&](const double time)
+    {
+      const auto state = state_at(scene.drive.at(time));
+      return state.F * state.v_rel;
+    };
+
+    Work work;
+    const auto add = [&](const double from, const double to)
+    {
+      work.drive += integral(drive_power, from, to);
+      work.friction += integral(friction_power, from, to);
+    };
+    double from = begin;
+    for (const double reversal : scene.drive.reversals())
+      if (from < reversal && reversal < end)
+      {
+        add(from, reversal);
+        from = reversal;
+      }
+    add(from, end);
+    return work;
+  }
+
   double loop_area(const Scene &scene)
   {
-    return integral_over_drive(scene.drive,
-                               [&](const DrivePoint &point) { return closed_form(scene, point.x, point.v).Q * point.v; });
+    return work_between(scene, 0., scene.drive.duration()).drive;
   }
 
   double friction_work(const Scene &scene)
   {
-    return integral_over_drive(scene.drive,
-                               [&](const DrivePoint &point)
-                               {
-                                 const auto state = closed_form(scene, point.x, point.v);
-                                 return state.F * state.v_rel;
-                               });
+    return work_between(scene, 0., scene.drive.duration()).friction;
   }
 } // namespace sprag

@@ -61,7 +61,16 @@ namespace sprag
   /// The first instant of the drive at which it does, to 0.1 mm; none if the whole drive is free of it.
   std::optional<Locking> locking(const Scene &scene);
 
-  /// Integral of Q dx over the drive, whole cycles [N mm]; equals the friction work.
+  struct Work
+  {
+    double drive    = 0.; ///< integral of Q dx [N mm]
+    double friction = 0.; ///< integral of F v_rel dt [N mm]
+  };
+
+  /// Work done from one instant of the drive to another, to 1e-11 where mu(v) is smooth and 1e-8 across its joints.
+  Work work_between(const Scene &scene, double begin, double end);
+
+  /// Integral of Q dx over the drive [N mm]; over whole cycles it equals the friction work.
   double loop_area(const Scene &scene);
 
   /// Integral of F v_rel dt over the drive [N mm].

@@ -1,0 +1,103 @@
+#!/usr/bin/python3
+"""Prints what model A costs, both strokes: CPU time by phase over face size and degree, and ratios between methods. Run it on a
+machine that does nothing else; see README.md."""
+
+import argparse
+import os
+import resource
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import h5py
+
+ROOT = Path(__file__).resolve().parents[2]
+PHASES = ("mesh", "model", "steps_and_output", "output")
+COLUMNS = ("run", "DOF", *PHASES, "in all", "process", "steps", "iterations", "MiB", "ratio")
+WIDTHS = (36, 8, 7, 7, 7, 7, 7, 8, 6, 10, 6, 0)
+
+FINITE_STRAIN = {"Analysis/Step": 10, "Analysis/Plane": "strain", "Lever/Material": "neo-Hookean"}
+LINEAR_STRAIN = {"Analysis/Step": 10, "Analysis/Plane": "strain"}
+
+# name, changes to the scene, name of the run that the ratio of CPU times is to
+RUNS = (
+    ("degree 2, face size 1", {"Mesh/Face size": 1}, "degree 2, face size 0.5"),
+    ("degree 2, face size 0.5", {}, "degree 2, face size 0.5"),
+    ("degree 2, face size 0.25", {"Mesh/Face size": 0.25}, "degree 2, face size 0.5"),
+    ("degree 2, face size 0.125", {"Mesh/Face size": 0.125}, "degree 2, face size 0.5"),
+    ("degree 1, face size 0.5", {"Mesh/Degree": 1}, "degree 2, face size 0.5"),
+    ("augmented Lagrangian", {"Contact/Enforcement": "augmented Lagrangian"}, "degree 2, face size 0.5"),
+    ("factorise once, step 5", {"Analysis/Step": 5}, "factorise once, step 5"),
+    ("general path, step 5", {"Analysis/Step": 5, "Analysis/Solution": "general"}, "factorise once, step 5"),
+    ("plane strain, linear, step 10", LINEAR_STRAIN, "plane strain, linear, step 10"),
+    ("plane strain, neo-Hookean, step 10", FINITE_STRAIN, "plane strain, linear, step 10"),
+)
+
+
+def cpu_of_children():
+    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return usage.ru_utime + usage.ru_stime
+
+
+def run(sprag, changes, output):
+    """{column: number} of one run; its message where it failed."""
+    command = [sprag, ROOT / "params" / "model-a.prm", "--output", output, "--quiet", "--set", "Output/Fields=turning points"]
+    for name, value in changes.items():
+        command += ["--set", f"{name}={value}"]
+    environment = {**os.environ, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
+    before = cpu_of_children()
+    done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
+    process = cpu_of_children() - before
+    if done.returncode != 0:
+        return done.stderr.strip()
+    with h5py.File(output / "result.h5", "r") as file:
+        meta, summary = file["meta"], file["summary"]
+        cost = {phase: meta[f"cpu_time_{phase}"][()] for phase in PHASES}
+        cost["DOF"] = meta["degrees_of_freedom"][()]
+        cost["in all"] = meta["cpu_time"][()]
+        cost["MiB"] = meta["peak_memory"][()]
+        cost["steps"] = summary["steps"][()]
+        cost["iterations"] = summary["iterations"][()]
+    return {**cost, "process": process}
+
+
+def text(column, cost):
+    if column not in cost:
+        return "-"
+    whole = column in ("DOF", "steps", "iterations", "MiB")
+    return f"{cost[column]:.0f}" if whole else f"{cost[column]:.2f}"
+
+
+def print_row(cells):
+    line = cells[0].ljust(WIDTHS[0])
+    for cell, width in zip(cells[1:], WIDTHS[1:]):
+        line += cell.rjust(width) if width else "  " + cell
+    print(line, flush=True)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--sprag", type=Path, default=os.environ.get("SPRAG", ROOT / "build" / "sprag"), help="build/sprag")
+    parser.add_argument("--only", default="", help="runs whose name contains this text, and what they are compared with")
+    options = parser.parse_args()
+
+    chosen = [entry for entry in RUNS if options.only in entry[0]]
+    needed = {name for entry in chosen for name in (entry[0], entry[2])}
+    order = sorted((entry for entry in RUNS if entry[0] in needed), key=lambda entry: entry[0] != entry[2])
+    costs = {}
+    with tempfile.TemporaryDirectory(prefix="sprag-cost-") as folder:
+        print_row([column.replace("steps_and_output", "steps") if i < 6 else column for i, column in enumerate(COLUMNS)])
+        for name, changes, reference in order:
+            cost = run(Path(options.sprag).resolve(), changes, Path(folder) / str(len(costs)))
+            if isinstance(cost, str):
+                print(f"{name}: {cost}", file=sys.stderr)
+                continue
+            costs[name] = cost
+            ratio = cost["process"] / costs[reference]["process"] if reference in costs else float("nan")
+            print_row([name, *(text(column, cost) for column in COLUMNS[1:-1]), f"{ratio:.2f} of '{reference}'"])
+    return 0 if len(costs) == len(order) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,176 @@
+#include "laws/contact.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
+#include <limits>
+
+using namespace sprag;
+
+namespace
+{
+  constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+  const FrictionLaw coulomb = { CoulombFriction{ 0.73 }, FrictionSpeed::sliding };
+  const FrictionLaw cork    = { CorkOnAluminium{}, FrictionSpeed::sliding };
+  const FrictionLaw falling = { TabulatedFriction({ 0., 20., 60., 120., 400. }, { 0.9, 0.85, 0.5, 0.35, 0.3 }),
+                                FrictionSpeed::sliding };
+
+  /// Trial traction whose slip speed is `speed`: the inverse of the return mapping.
+  double trial_of(const double speed, const double pressure, const FrictionLaw &law, const double penalty, const double dt)
+  {
+    return friction_coefficient(law, speed).coefficient * pressure + penalty * dt * speed;
+  }
+
+  // |t| - mu(w) p and w = (|trial| - |t|) / (eps dt) hold together to the round-off of |trial|, which mu(w) sees times
+  // 1 + |mu'| p / (eps dt).
+  void expect_on_cone(const double trial, const double pressure, const FrictionLaw &law, const double penalty, const double dt)
+  {
+    const auto friction = friction_traction(trial, pressure, law, penalty, dt);
+    const double speed  = (std::abs(trial) - std::abs(friction.traction)) / (penalty * dt);
+    const auto mu       = friction_coefficient(law, speed);
+    const double size   = std::abs(trial) * (1. + std::abs(mu.derivative) * pressure / (penalty * dt));
+    EXPECT_TRUE(friction.slipping);
+    EXPECT_EQ(std::signbit(friction.traction), std::signbit(trial));
+    EXPECT_NEAR(std::abs(friction.traction), mu.coefficient * pressure, 1e-14 * size) << "trial " << trial << ", p " << pressure;
+    EXPECT_NEAR(friction.mu, mu.coefficient, 1e-14 * size / pressure);
+  }
+
+  // With w scaled by the law's curvature over eps dt, central differences of relative width h err by h^2 times the change of
+  // the derivative across the traction plus 4 epsilon / h of round-off in a traction that is solved for to 4e-16.
+  void expect_derivatives(const double trial, const double pressure, const FrictionLaw &law, const double penalty,
+                          const double dt)
+  {
+    const auto at = [&](const double t, const double p) { return friction_traction(t, p, law, penalty, dt).traction; };
+    const auto friction = at(trial, pressure);
+    const auto exact    = friction_traction(trial, pressure, law, penalty, dt);
+    ASSERT_EQ(friction, exact.traction);
+    for (const double h : { 1e-3, 1e-4, 1e-5, 1e-6 })
+    {
+      const double amplified = 1. + exact.d_trial * exact.d_trial;
+      const double curvature = 2. * std::pow(trial / (penalty * dt) / 100., 2) * amplified + 1.;
+      const double allowed   = curvature * h * h + 20. * epsilon / h * amplified * (1. + std::abs(trial) / pressure);
+      const double d_trial   = (at(trial * (1. + h), pressure) - at(trial * (1. - h), pressure)) / (2. * h * trial);
+      const double d_p       = (at(trial, pressure * (1. + h)) - at(trial, pressure * (1. - h))) / (2. * h * pressure);
+      EXPECT_NEAR(exact.d_trial, d_trial, allowed) << "trial " << trial << ", p " << pressure << ", h " << h;
+      EXPECT_NEAR(exact.d_pressure, d_p, allowed * std::max(1., std::abs(trial) / pressure))
+          << "trial " << trial << ", p " << pressure << ", h " << h;
+    }
+  }
+} // namespace
+
+TEST(NormalTraction, IsThePositivePartOfMultiplierLessPenaltyTimesGap)
+{
+  EXPECT_DOUBLE_EQ(normal_traction(-0.01, 0., 500.).pressure, 5.);
+  EXPECT_DOUBLE_EQ(normal_traction(0.001, 2., 500.).pressure, 1.5);
+  EXPECT_EQ(normal_traction(0.01, 0., 500.).pressure, 0.);
+  EXPECT_EQ(normal_traction(0.01, 2., 500.).pressure, 0.);
+  EXPECT_EQ(normal_traction(0., 0., 500.).pressure, 0.);
+}
+
+TEST(NormalTraction, DerivativeIsThePenaltyUnderPressureAndZeroApart)
+{
+  EXPECT_EQ(normal_traction(-0.01, 0., 500.).derivative, -500.);
+  EXPECT_EQ(normal_traction(0.001, 2., 500.).derivative, -500.);
+  EXPECT_EQ(normal_traction(0.01, 2., 500.).derivative, 0.);
+}
+
+TEST(FrictionTraction, StickKeepsTheTrialUpToTheConeAtRest)
+{
+  for (const auto &law : { coulomb, cork, falling })
+  {
+    const double limit = friction_coefficient(law, 0.).coefficient * 2.;
+    for (const double trial : { 0., 0.3, limit * (1. - 1e-12), -limit * (1. - 1e-12) })
+    {
+      const auto friction = friction_traction(trial, 2., law, 500., 0.01);
+      EXPECT_FALSE(friction.slipping);
+      EXPECT_EQ(friction.traction, trial);
+      EXPECT_EQ(friction.d_trial, 1.);
+      EXPECT_EQ(friction.d_pressure, 0.);
+      EXPECT_EQ(friction.mu, friction_coefficient(law, 0.).coefficient);
+    }
+  }
+}
+
+TEST(FrictionTraction, SlipUnderCoulombIsMuTimesThePressureOfNow)
+{
+  for (const double trial : { 1.5, 3., -3., 1e3 })
+  {
+    const auto friction = friction_traction(trial, 2., coulomb, 500., 0.01);
+    EXPECT_TRUE(friction.slipping);
+    EXPECT_NEAR(friction.traction, std::copysign(1.46, trial), 4. * epsilon * std::abs(trial));
+    EXPECT_NEAR(friction.d_trial, 0., 1e-14);
+    EXPECT_DOUBLE_EQ(friction.d_pressure, std::copysign(0.73, trial));
+  }
+}
+
+TEST(FrictionTraction, SlipSpeedAndCoefficientAreSolvedTogether)
+{
+  for (const auto &law : { coulomb, cork, falling })
+    for (const double dt : { 1e-5, 1e-3, 1e-2, 1. })
+      for (const double pressure : { 1e-3, 0.5, 4. })
+        for (const double speed : { 1e-3, 1., 50., 112., 199.9, 250., 749., 2000. })
+        {
+          // Where mu falls faster than the penalty's resistance allows there are several answers and the largest may be in stick.
+          const double trial = trial_of(speed, pressure, law, 500., dt);
+          if (trial <= friction_coefficient(law, 0.).coefficient * pressure)
+            continue;
+          expect_on_cone(trial, pressure, law, 500., dt);
+          expect_on_cone(-trial, pressure, law, 500., dt);
+        }
+}
+
+TEST(FrictionTraction, SlipSpeedIsTheOneThatTheTrialWasMadeOf)
+{
+  // mu rises, so the answer is the only one; its error is that of |trial| over eps dt.
+  for (const double speed : { 1., 112., 190., 300., 740., 900. })
+  {
+    const double trial  = trial_of(speed, 0.8, cork, 500., 0.01);
+    const auto friction = friction_traction(trial, 0.8, cork, 500., 0.01);
+    EXPECT_NEAR((trial - friction.traction) / 5., speed, 1e-14 * trial);
+  }
+}
+
+TEST(FrictionTraction, DerivativesAgreeWithFiniteDifferencesOverThreeDecades)
+{
+  for (const auto &law : { coulomb, cork })
+    for (const double pressure : { 0.1, 0.8, 4. })
+      for (const double speed : { 20., 112., 150., 400. })
+        expect_derivatives(trial_of(speed, pressure, law, 500., 0.01), pressure, law, 500., 0.01);
+  // The falling table within the range in which the answer is unique: |mu'| p < eps dt.
+  for (const double speed : { 5., 40., 90., 250. })
+    expect_derivatives(trial_of(speed, 0.8, falling, 500., 0.01), 0.8, falling, 500., 0.01);
+}
+
+TEST(FrictionTraction, DerivativesAreSignedWithTheTrial)
+{
+  const auto forward  = friction_traction(3., 0.8, cork, 500., 0.01);
+  const auto backward = friction_traction(-3., 0.8, cork, 500., 0.01);
+  EXPECT_EQ(forward.traction, -backward.traction);
+  EXPECT_EQ(forward.d_trial, backward.d_trial);
+  EXPECT_EQ(forward.d_pressure, -backward.d_pressure);
+}
+
+TEST(FrictionTraction, IsContinuousAtTheStickLimit)
+{
+  for (const auto &law : { coulomb, cork, falling })
+    for (const double dt : { 1e-2, 1. })
+    {
+      const double limit = friction_coefficient(law, 0.).coefficient * 0.8;
+      for (const double distance : { 1e-3, 1e-6, 1e-9 })
+      {
+        const auto inside  = friction_traction(limit * (1. - distance), 0.8, law, 500., dt);
+        const auto outside = friction_traction(limit * (1. + distance), 0.8, law, 500., dt);
+        EXPECT_FALSE(inside.slipping);
+        EXPECT_TRUE(outside.slipping);
+        EXPECT_NEAR(inside.traction, outside.traction, 2. * limit * distance + 4. * epsilon);
+      }
+    }
+}
+
+TEST(FrictionTraction, OfSeveralAnswersTheLargestIsTaken)
+{
+  // Constant at 0.5 up to 10 mm/s, falling to 0.3 at 20 mm/s; eps dt = 1e-3: at a trial of 0.505 both 0.5 (5 mm/s) and 0.3
+  // (205 mm/s) are on the cone. Loading from stick meets 0.5 first.
+  const FrictionLaw law = { TabulatedFriction({ 0., 5., 10., 20., 400. }, { 0.5, 0.5, 0.5, 0.3, 0.3 }), FrictionSpeed::sliding };
+  EXPECT_NEAR(friction_traction(0.505, 1., law, 1., 1e-3).traction, 0.5, 1e-12);
+}

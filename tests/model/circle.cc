@@ -1,0 +1,137 @@
+#include "model/circle.h"
+
+#include "scene/closed_form.h"
+#include "scenes.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
+
+using namespace sprag;
+
+namespace
+{
+  constexpr unsigned int n = 3;
+  using Coordinates        = dealii::Tensor<1, n>;
+
+  // A raised pivot and a point off the ideal contact: nothing cancels.
+  const Geometry geometry = { 56., 45.6, 185.5, 4. };
+  const LeverPoint rest   = { 150., 45.9 };
+  constexpr double x      = 23.;
+  constexpr double theta  = 0.071;
+
+  ContactKinematics<n> moved(const Coordinates &q)
+  {
+    return circle_contact(geometry, { rest.xi + q[0], rest.eta + q[1] }, x, theta + q[2]);
+  }
+
+  Coordinates along(const unsigned int i, const double h)
+  {
+    Coordinates q;
+    q[i] = h;
+    return q;
+  }
+} // namespace
+
+// Lengths here are about 1, 100 with the rotation's arm; central differences with step h (a rotation h / 100) err by h^2 / 6 of
+// third derivatives and by 1e-14 mm / h of round-off in a gap of some 100 mm positions.
+TEST(Circle, RowsAreTheDerivativesOfGapAndSlip)
+{
+  const auto at_rest = moved({});
+  for (unsigned int i = 0; i < n; ++i)
+    for (const double h : { 1e-2, 1e-3, 1e-4, 1e-5 })
+    {
+      const double step    = i == 2 ? h / 100. : h;
+      const auto right     = moved(along(i, step));
+      const auto left      = moved(along(i, -step));
+      const double allowed = (i == 2 ? 150. : 1.) * (1e-2 * h * h + 5e-14 / h);
+      EXPECT_NEAR(at_rest.gap_row[i], (right.gap - left.gap) / (2. * step), allowed) << i << ", h " << h;
+      EXPECT_NEAR(at_rest.slip_row[i], (right.slip - left.slip) / (2. * step), allowed) << i << ", h " << h;
+    }
+}
+
+TEST(Circle, CurvaturesAreTheDerivativesOfTheRows)
+{
+  const auto at_rest = moved({});
+  for (unsigned int j = 0; j < n; ++j)
+    for (const double h : { 1e-2, 1e-3, 1e-4, 1e-5 })
+    {
+      const double step = j == 2 ? h / 100. : h;
+      const auto right  = moved(along(j, step));
+      const auto left   = moved(along(j, -step));
+      for (unsigned int i = 0; i < n; ++i)
+      {
+        const double scale   = (i == 2 ? 150. : 1.) * (j == 2 ? 150. : 1.);
+        const double allowed = scale * (1e-2 * h * h + 5e-14 / h);
+        EXPECT_NEAR(at_rest.gap_curvature[i][j], (right.gap_row[i] - left.gap_row[i]) / (2. * step), allowed) << i << j;
+        EXPECT_NEAR(at_rest.slip_curvature[i][j], (right.slip_row[i] - left.slip_row[i]) / (2. * step), allowed) << i << j;
+      }
+    }
+}
+
+TEST(Circle, CurvaturesAreSymmetric)
+{
+  const auto at_rest = moved({});
+  for (unsigned int i = 0; i < n; ++i)
+    for (unsigned int j = 0; j < n; ++j)
+    {
+      EXPECT_EQ(at_rest.gap_curvature[i][j], at_rest.gap_curvature[j][i]);
+      EXPECT_EQ(at_rest.slip_curvature[i][j], at_rest.slip_curvature[j][i]);
+    }
+}
+
+// Turning the lever by dtheta moves its point (xi, eta) by (-eta, xi) dtheta past the resting circle.
+TEST(Circle, RotationRowsAreTheMomentsOfTheForceRows)
+{
+  const auto at_rest = moved({});
+  for (const auto &row : { at_rest.gap_row, at_rest.slip_row })
+    EXPECT_NEAR(row[2], rest.xi * row[1] - rest.eta * row[0], 1e-13 * 200.);
+}
+
+TEST(Circle, IdealContactTouchesAtTheClosedFormsPoint)
+{
+  for (const auto &scene : { model_a(), model_b() })
+    for (const double position : { 0., 20., 65. })
+    {
+      const auto ideal   = kinematics(scene.geometry, position);
+      const auto contact = circle_contact(scene.geometry, { ideal.s, scene.geometry.interface_offset }, position, ideal.theta);
+      // Round-off of coordinates of 200 mm; the gap's row is the face's normal.
+      EXPECT_NEAR(contact.gap, 0., 1e-12);
+      EXPECT_NEAR(contact.gap_row[0], 0., 1e-13);
+      EXPECT_NEAR(contact.gap_row[1], 1., 1e-13);
+      EXPECT_NEAR(contact.slip_row[0], 1., 1e-13);
+    }
+}
+
+// The slip coordinate of the point under the ideal contact grows as the obstacle slides along the lever: v cos th - e dth/dt,
+// positive towards the pivot while x grows. Central differences over h = 1e-3 mm: h^2 / 6 of a third derivative below 1e-4.
+TEST(Circle, SlipGrowsAtTheSlidingSpeedOfTheClosedForm)
+{
+  for (const auto &scene : { model_a(), model_b() })
+    for (const double position : { 1., 20., 64. })
+      for (const double speed : { 112., -112. })
+      {
+        const auto ideal    = kinematics(scene.geometry, position);
+        const LeverPoint at = { ideal.s, scene.geometry.interface_offset };
+        const auto slip     = [&](const double time)
+        {
+          const double here = position + speed * time;
+          return circle_contact(scene.geometry, at, here, kinematics(scene.geometry, here).theta).slip;
+        };
+        const double dt = 1e-3 / 112.;
+        EXPECT_NEAR((slip(dt) - slip(-dt)) / (2. * dt), sliding_speed(scene.geometry, position, speed), 1e-7);
+      }
+}
+
+TEST(Circle, LargeRotationOfTheLeverAboutTheCylinderIsArcLength)
+{
+  // A point that stays on the circle at angle phi (lever axes' angle beta - theta) has slip R phi and no gap.
+  for (const double phi : { -0.5, 0., 0.8 })
+  {
+    const auto centre   = cylinder_centre(geometry, x, theta);
+    const double beta   = phi + theta;
+    const LeverPoint at = { centre.xi + 56. * std::sin(beta), centre.eta + 56. * std::cos(beta) };
+    const auto contact  = circle_contact(geometry, at, x, theta);
+    EXPECT_NEAR(contact.gap, 0., 1e-12);
+    EXPECT_NEAR(contact.slip, 56. * phi, 1e-11);
+  }
+}

@@ -1,0 +1,163 @@
+#include "model/contact_point.h"
+
+#include "model/circle.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
+
+using namespace sprag;
+
+namespace
+{
+  constexpr unsigned int n = 3;
+  using Coordinates        = dealii::Tensor<1, n>;
+
+  const Geometry geometry = { 56., 45.6, 185.5, 4. };
+  constexpr double x      = 23.;
+  constexpr double theta  = 0.071;
+
+  /// A point of the lever at a chosen gap [mm], a little aside of the line through the centre along eta.
+  LeverPoint point_at(const double gap)
+  {
+    const auto centre = cylinder_centre(geometry, x, theta);
+    const double beta = 0.03;
+    return { centre.xi + (56. + gap) * std::sin(beta), centre.eta + (56. + gap) * std::cos(beta) };
+  }
+
+  struct Case
+  {
+    double gap;
+    ContactMemory memory;
+    ContactLaw law;
+
+    ContactKinematics<n> kinematics(const Coordinates &q = {}) const
+    {
+      const auto point = point_at(gap);
+      return circle_contact(geometry, { point.xi + q[0], point.eta + q[1] }, x, theta + q[2]);
+    }
+
+    ContactResponse<n> response(const Coordinates &q = {}, const FrictionMode mode = FrictionMode::cone) const
+    {
+      return contact_response(kinematics(q), memory, law, mode);
+    }
+  };
+
+  const FrictionLaw coulomb = { CoulombFriction{ 0.73 }, FrictionSpeed::sliding };
+  const FrictionLaw cork    = { CorkOnAluminium{}, FrictionSpeed::sliding };
+
+  /// Pressure 2 MPa from the gap (`multiplier` + 500 N/mm^3 gap) and a slip of `slip` mm in a step of 1 mm at 112 mm/s.
+  Case make_case(const double multiplier, const double slip, const double traction, const FrictionLaw &friction)
+  {
+    Case result{ (multiplier - 2.) / 500., { multiplier, traction, 0. }, { 500., 300., friction, 1. / 112. } };
+    result.memory.slip = result.kinematics().slip - slip;
+    return result;
+  }
+
+  // Central differences over h (a rotation h / 100) err by h^2 / 6 of the force's third derivative, at most
+  // mu'' (112 /s)^2 500 N/mm^3 = 115 N/mm^5 (2.25 as much over a rotation), and by 500 N/mm^3 of the round-off of gaps of 100 mm
+  // positions over h; both times the arms of the rotation.
+  void expect_tangent(const Case &contact, const FrictionMode mode = FrictionMode::cone)
+  {
+    const auto exact = contact.response({}, mode);
+    for (unsigned int j = 0; j < n; ++j)
+      for (const double h : { 1e-4, 1e-5, 1e-6 })
+      {
+        Coordinates q;
+        q[j]               = j == 2 ? h / 100. : h;
+        const auto right   = contact.response(q, mode);
+        const auto left    = contact.response(-1. * q, mode);
+        const auto divided = (right.force - left.force) / (2. * q[j]);
+        for (unsigned int i = 0; i < n; ++i)
+        {
+          const double arms = (i == 2 ? 150. : 1.) * (j == 2 ? 150. : 1.);
+          EXPECT_NEAR(exact.tangent[i][j], divided[i], arms * (100. * h * h + 500. * 5e-14 / h)) << i << j << ", h " << h;
+        }
+      }
+  }
+} // namespace
+
+TEST(ContactPoint, ForceIsPressureAlongTheGapLessTractionAlongTheSlip)
+{
+  const auto contact    = make_case(0., 0.9, 0., coulomb);
+  const auto kinematics = contact.kinematics();
+  const auto response   = contact.response();
+  EXPECT_NEAR(response.pressure, 2., 1e-10);
+  EXPECT_NEAR(response.traction, 1.46, 1e-10);
+  EXPECT_NEAR((response.force - response.pressure * kinematics.gap_row + response.traction * kinematics.slip_row).norm(), 0.,
+              1e-12);
+}
+
+TEST(ContactPoint, MomentIsThatOfTheForceAboutThePivot)
+{
+  for (const double slip : { 0.001, 0.9, -0.9 })
+  {
+    const auto contact = make_case(0.5, slip, 0.1, cork);
+    const auto point   = point_at(contact.gap);
+    const auto force   = contact.response().force;
+    // theta turns xi into eta; round-off of terms of 300 N/mm.
+    EXPECT_NEAR(force[2], point.xi * force[1] - point.eta * force[0], 1e-12);
+  }
+}
+
+TEST(ContactPoint, OpenPointsCarryNothing)
+{
+  for (const double multiplier : { 0., 0.5 })
+  {
+    auto contact = make_case(multiplier, 0.9, 0.3, cork);
+    contact.gap += 0.0041; // 2 MPa / 500 N/mm^3 and a bit
+    const auto response = contact.response();
+    EXPECT_EQ(response.pressure, 0.);
+    EXPECT_EQ(response.traction, 0.);
+    EXPECT_FALSE(response.slipping);
+    EXPECT_EQ(response.force.norm(), 0.);
+    EXPECT_EQ(response.tangent.norm(), 0.);
+  }
+}
+
+TEST(ContactPoint, SlipFromATractionStopsAtTheConeOfThePresentPressure)
+{
+  const auto contact  = make_case(0., 0.5, -1., coulomb);
+  const auto response = contact.response();
+  EXPECT_TRUE(response.slipping);
+  EXPECT_NEAR(response.traction, 0.73 * response.pressure, 1e-12);
+}
+
+TEST(ContactPoint, StickModeIgnoresTheCone)
+{
+  const auto contact = make_case(0., 0.9, 0.2, coulomb);
+  EXPECT_NEAR(contact.response({}, FrictionMode::stick).traction, 0.2 + 300. * 0.9, 1e-10);
+}
+
+TEST(ContactPoint, TangentInStickIsTheDerivativeOfTheForce)
+{
+  for (const double multiplier : { 0., 0.5, 2.5 })
+    expect_tangent(make_case(multiplier, 0.001, 0.2, cork));
+}
+
+TEST(ContactPoint, TangentInSlipIsTheDerivativeOfTheForce)
+{
+  for (const double multiplier : { 0., 0.5, 2.5 })
+    for (const double slip : { 0.9, -0.9 })
+      for (const auto &law : { coulomb, cork })
+        expect_tangent(make_case(multiplier, slip, 0.2, law));
+}
+
+TEST(ContactPoint, TangentInStickModeIsTheDerivativeOfTheForce)
+{
+  expect_tangent(make_case(0.5, 0.9, 0.2, cork), FrictionMode::stick);
+}
+
+TEST(ContactPoint, TangentApartIsTheDerivativeOfTheForce)
+{
+  auto contact = make_case(0.5, 0.9, 0.2, cork);
+  contact.gap += 0.01;
+  expect_tangent(contact);
+}
+
+TEST(ContactPoint, TangentInSlipCouplesFrictionToThePressureOneWay)
+{
+  // In slip the traction follows mu times the pressure: moving along eta changes the force along xi, but not the other way
+  // round. The two differ by mu times the penalty but for the curvature's part of pressure / R.
+  const auto tangent = make_case(0., 0.9, 0., coulomb).response().tangent;
+  EXPECT_NEAR(std::abs(tangent[0][1] - tangent[1][0]), 0.73 * 500., 2. / 56.);
+}
