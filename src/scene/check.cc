@@ -66,6 +66,17 @@ namespace sprag
       return result;
     }
 
+    /// Beyond this the contact point moves against the cylinder: the friction of eq. 4 would drive.
+    Violations sliding(const Scene &scene)
+    {
+      const double x = scene.drive.maximum();
+      if (sliding_speed(scene.geometry, x, 1.) > 0.)
+        return {};
+      return { { drive_end(scene), with(shape(), { "Drive/Start", "Drive/Profile" }),
+                 "the cylinder must slide along the lever as it moves: at x = " + rounded_text(x) +
+                     " mm, s cos(th) <= e sin(th)" } };
+    }
+
     Violations locked(const Scene &scene)
     {
       const auto found = locking(scene);
@@ -142,6 +153,8 @@ namespace sprag
     Violations positions = geometry(scene.geometry);
     if (positions.empty() && moves)
       positions = drive(scene);
+    if (positions.empty() && moves)
+      append(positions, sliding(scene));
     if (positions.empty() && meshed && scene.mesh.file.empty())
       append(positions, tip(scene));
     if (positions.empty() && moves && !meshed)

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 
 namespace sprag
 {
@@ -21,7 +22,10 @@ namespace sprag
       const double theta = kinematics(geometry, 0.).theta;
       const double s     = arm(geometry) * std::cos(theta) - geometry.pivot_height;
       const double sine  = std::sin(theta);
-      const double dP    = sine / (s + sign * coefficient * geometry.interface_offset * sine);
+      const double lever = s + sign * coefficient * geometry.interface_offset * sine;
+      if (lever <= 0.)
+        return std::numeric_limits<double>::quiet_NaN();
+      const double dP = sine / lever;
       return (sign * coefficient * std::cos(theta) + sine) * dP * sine * sine / s;
     }
 

@@ -38,7 +38,8 @@ namespace sprag
   /// State at x while moving at v [mm/s], v != 0 for a direction. Infinite or negative forces where s + sgn(v) mu e <= 0.
   ClosedFormState closed_form(const Scene &scene, double x, double v);
 
-  /// Representative slope C_Q = dQ/dx at x = 0 [N/mm], eqs. 10-12 (with the sign of dth/dx mended), sign = +1 or -1.
+  /// Representative slope C_Q = dQ/dx at x = 0 [N/mm], eqs. 10-12 (with the sign of dth/dx mended), sign = +1 or -1. NaN where the
+  /// lever locks at x = 0.
   double representative_slope(const Geometry &geometry, double spring_stiffness, double coefficient, int sign);
 
   /// C_Q R l / k, eqs. 20-22.
@@ -47,7 +48,7 @@ namespace sprag
   /// th0 above which the backward stroke no longer damps, atan mu [rad], eq. 25.
   double critical_inclination(double coefficient);
 
-  /// Smallest x at which the cylinder touches the pivot: (l-x)^2 + h^2 = R^2 [mm].
+  /// Smallest x at which the cylinder touches the pivot: (l-x)^2 + h^2 = R^2 [mm]. Requires |h| <= R: else it never does.
   double pivot_contact(const Geometry &geometry);
 
   /// Where on the drive the lever locks while moving back, s <= mu e with the scene's mu(v).

@@ -32,8 +32,9 @@ FACE = 'Physical Curve("friction face") = {line[1]};\n'
 
 
 def sprag(*arguments, **options):
+    command = [SPRAG, *map(str, arguments)]
     return subprocess.run(
-        [SPRAG, *map(str, arguments)], capture_output=True, text=True, check=False, timeout=TIMEOUT, stdin=subprocess.DEVNULL, **options
+        command, capture_output=True, text=True, check=False, timeout=TIMEOUT, stdin=subprocess.DEVNULL, **options
     )
 
 
@@ -84,7 +85,8 @@ class BadScene(ProgramTest):
 
     def test_unknown_name(self):
         scene = self.write("subsection Rotational spring\n  set Stifness = 1\nend\n")
-        self.refused(scene, says=["scene.prm:2: ", "Rotational spring/Stifness", "did you mean 'Stiffness'"], mistakes=1, older=True)
+        says = ["scene.prm:2: ", "Rotational spring/Stifness", "did you mean 'Stiffness'"]
+        self.refused(scene, says=says, mistakes=1, older=True)
 
     def test_unknown_section(self):
         scene = self.write("subsection Geometri\n  set Cylinder radius = 56\nend\n")
@@ -123,7 +125,8 @@ class BadScene(ProgramTest):
         # s = mu e: at x = 65 mm s is 119.8 mm, and mu e 136.8 mm
         says = ["Drive/Stroke = 65", "must not lock", "moving back at x = ", "s = ", "<= mu e = 136.8 mm", "mu = 3"]
         scene = self.write(CLOSED_FORM)
-        self.refused(scene, "--set", "Friction/Law=Coulomb", "--set", "Friction/Coefficient=3", says=says, mistakes=1, older=True)
+        changes = ("--set", "Friction/Law=Coulomb", "--set", "Friction/Coefficient=3")
+        self.refused(scene, *changes, says=says, mistakes=1, older=True)
 
     def test_unreadable_table(self):
         self.write("time,x\n0,0\n1,one\n", "words.csv")
@@ -182,7 +185,8 @@ class BadMesh(ProgramTest):
         self.assertEqual((done.returncode, done.stderr.count("own.geo")), (0, 0), done.stderr)
 
     def test_without_friction_face(self):
-        self.refused(self.geometry(STRIP + LEVER + HUB), says=["own.geo", "no physical curve 'friction face'"], mistakes=1, older=True)
+        says = ["own.geo", "no physical curve 'friction face'"]
+        self.refused(self.geometry(STRIP + LEVER + HUB), says=says, mistakes=1, older=True)
 
     def test_misspelt_friction_face(self):
         scene = self.geometry(STRIP + LEVER + HUB + FACE.replace("friction face", "friction-face"))

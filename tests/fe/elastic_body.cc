@@ -1,0 +1,285 @@
+#include "fe/elastic_body.h"
+
+#include "fe/mumps.h"
+#include "mpi_environment.h"
+#include "verification/block.h"
+
+#include <deal.II/grid/grid_tools.h>
+
+#include <cmath>
+#include <gtest/gtest.h>
+#include <random>
+
+using namespace sprag;
+
+namespace
+{
+  using Matrix       = dealii::PETScWrappers::SparseMatrix;
+  using Vector       = dealii::Vector<double>;
+  const double width = 3.;
+
+  BodyProperties properties_of(const unsigned int degree, const MaterialModel material, const double poisson_ratio)
+  {
+    BodyProperties properties;
+    properties.degree    = degree;
+    properties.plane     = PlaneState::strain;
+    properties.material  = material;
+    properties.width     = width;
+    properties.constants = { { material_id::lever, { 20., poisson_ratio } } };
+    return properties;
+  }
+
+  /// 4 x 2 mm, cells of unequal size and, for generality, not rectangular.
+  void make_small_block(dealii::Triangulation<2> &triangulation)
+  {
+    make_block({ 1., 1.5, 2.6, 4., 5. }, { 0., 0.3, 1.2, 2. }, triangulation);
+    dealii::GridTools::transform(
+        [](const dealii::Point<2> &p) {
+          return dealii::Point<2>(p[0] + 0.1 * std::sin(p[0] * p[1]) * p[1] * (2. - p[1]), p[1]);
+        },
+        triangulation);
+  }
+
+  /// Displacements with none on the held side.
+  Vector random_displacement(const ElasticBody<2> &body, const double size, const unsigned int seed)
+  {
+    std::mt19937 generator(seed);
+    std::uniform_real_distribution<double> uniform(-size, size);
+    Vector result(body.n_dofs());
+    for (auto &value : result)
+      value = uniform(generator);
+    const auto held = dealii::DoFTools::extract_boundary_dofs(body.dofs(), {}, { boundary_id::hub });
+    for (const auto dof : held)
+      result[dof] = 0.;
+    return result;
+  }
+
+  /// Stiffness times `direction` at `displacement`, and the internal forces there.
+  std::pair<Vector, Vector> product_and_forces(const ElasticBody<2> &body, const Vector &displacement, const Vector &direction)
+  {
+    Matrix matrix;
+    body.reinit(matrix, 0);
+    Vector forces(body.n_dofs()), product(body.n_dofs());
+    body.assemble(displacement, matrix, forces);
+    for (const auto &entry : matrix)
+      product[entry.row()] += entry.value() * direction[entry.column()];
+    return { product, forces };
+  }
+} // namespace
+
+TEST(ElasticBody, LinearForcesAreStiffnessTimesDisplacement)
+{
+  dealii::Triangulation<2> triangulation;
+  make_small_block(triangulation);
+  for (const unsigned int degree : { 1u, 2u })
+  {
+    const ElasticBody<2> body(triangulation, properties_of(degree, MaterialModel::linear, 0.3));
+    const auto displacement    = random_displacement(body, 1., 1);
+    const auto [product, forces] = product_and_forces(body, displacement, displacement);
+    Vector difference          = product;
+    difference -= forces;
+    EXPECT_LE(difference.linfty_norm(), 1e-13 * forces.linfty_norm());
+    EXPECT_NEAR(body.energy(displacement), 0.5 * (forces * displacement), 1e-13 * body.energy(displacement));
+  }
+}
+
+// With cells of 0.3 mm displaced by up to 0.03 mm strains are of order 0.1: derivatives of the forces along a direction of unit
+// size change by their own size over some 0.1 mm, so h^2 / 6 of the third one is about 1e2 h^2 of the first.
+TEST(ElasticBody, TangentIsTheDerivativeOfTheForcesAtFiniteStrain)
+{
+  dealii::Triangulation<2> triangulation;
+  make_small_block(triangulation);
+  for (const unsigned int degree : { 1u, 2u })
+  {
+    const ElasticBody<2> body(triangulation, properties_of(degree, MaterialModel::neo_hookean, 0.3));
+    const auto displacement = random_displacement(body, 0.02, 1);
+    const auto direction    = random_displacement(body, 1., 2);
+    const auto product      = product_and_forces(body, displacement, direction).first;
+    for (const double h : { 1e-4, 1e-5, 1e-6 })
+    {
+      Vector right = displacement, left = displacement;
+      right.add(h, direction);
+      left.add(-h, direction);
+      Vector divided = product_and_forces(body, right, direction).second;
+      divided -= product_and_forces(body, left, direction).second;
+      divided /= 2. * h;
+      divided -= product;
+      EXPECT_LE(divided.linfty_norm(), (1e3 * h * h + 1e-14 / h) * product.linfty_norm()) << h;
+    }
+  }
+}
+
+TEST(ElasticBody, ForcesAreTheDerivativeOfTheEnergyAtFiniteStrain)
+{
+  dealii::Triangulation<2> triangulation;
+  make_small_block(triangulation);
+  const ElasticBody<2> body(triangulation, properties_of(2, MaterialModel::neo_hookean, 0.3));
+  const auto displacement = random_displacement(body, 0.02, 1);
+  const auto direction    = random_displacement(body, 1., 2);
+  const double exact      = product_and_forces(body, displacement, direction).second * direction;
+  for (const double h : { 1e-4, 1e-5 })
+  {
+    Vector right = displacement, left = displacement;
+    right.add(h, direction);
+    left.add(-h, direction);
+    // Curvature of the energy along the direction is some 1e4 times `exact` a mm, over 0.1 mm again.
+    EXPECT_NEAR((body.energy(right) - body.energy(left)) / (2. * h), exact, (1e5 * h * h + 1e-12 / h) * std::abs(exact)) << h;
+  }
+}
+
+TEST(ElasticBody, RigidMotionsOfAFreeBodyCostNothing)
+{
+  dealii::Triangulation<2> triangulation;
+  make_small_block(triangulation);
+  for (const auto &face : triangulation.active_face_iterators())
+    if (face->at_boundary())
+      face->set_boundary_id(0);
+  const ElasticBody<2> body(triangulation, properties_of(1, MaterialModel::neo_hookean, 0.3));
+  Vector turned(body.n_dofs());
+  const double angle = 0.7;
+  for (const auto &cell : body.dofs().active_cell_iterators())
+    for (const unsigned int v : cell->vertex_indices())
+    {
+      const auto p                         = cell->vertex(v);
+      turned[cell->vertex_dof_index(v, 0)] = (std::cos(angle) - 1.) * p[0] - std::sin(angle) * p[1] + 5.;
+      turned[cell->vertex_dof_index(v, 1)] = std::sin(angle) * p[0] + (std::cos(angle) - 1.) * p[1] - 2.;
+    }
+  // Round-off of stresses of the size of Young's modulus, 20 MPa, on areas of 3 mm^2.
+  EXPECT_NEAR(body.energy(turned), 0., 1e-11);
+  EXPECT_NEAR(product_and_forces(body, turned, turned).second.linfty_norm(), 0., 1e-11);
+}
+
+TEST(ElasticBody, HeldNodesCarryAnIdentityRow)
+{
+  dealii::Triangulation<2> triangulation;
+  make_small_block(triangulation);
+  const ElasticBody<2> body(triangulation, properties_of(1, MaterialModel::linear, 0.3));
+  Matrix matrix;
+  body.reinit(matrix, 1);
+  Vector forces(body.n_dofs() + 1);
+  body.assemble(random_displacement(body, 1., 1), matrix, forces);
+  for (const auto dof : dealii::DoFTools::extract_boundary_dofs(body.dofs(), {}, { boundary_id::hub }))
+  {
+    EXPECT_EQ(forces[dof], 0.);
+    for (auto entry = matrix.begin(dof); entry != matrix.end(dof); ++entry)
+      EXPECT_EQ(entry->value(), entry->column() == dof ? 1. : 0.);
+  }
+}
+
+TEST(ElasticBody, MassAndInertiaOfARectangleAreExact)
+{
+  dealii::Triangulation<2> triangulation;
+  make_block({ 1., 1.5, 2.6, 4., 5. }, { 0., 0.3, 1.2, 2. }, triangulation);
+  const ElasticBody<2> body(triangulation, properties_of(1, MaterialModel::linear, 0.3));
+  const auto [mass, inertia] = body.mass_and_inertia(2.7e-9);
+  const double expected      = 2.7e-9 * 4. * 2. * width;
+  EXPECT_NEAR(mass, expected, 1e-14 * expected);
+  // (b^2 + h^2) / 12 about the centre at (3, 1)
+  EXPECT_NEAR(inertia, expected * (20. / 12. + 10.), 1e-13 * expected * 12.);
+}
+
+TEST(ElasticBody, PointsOfTheFaceStandForItsAreaAndAreOrdered)
+{
+  dealii::Triangulation<2> triangulation;
+  make_block({ 1., 1.5, 2.6, 4., 5. }, { 0.2, 1.2, 2. }, triangulation);
+  for (const unsigned int degree : { 1u, 2u })
+  {
+    const ElasticBody<2> body(triangulation, properties_of(degree, MaterialModel::linear, 0.3));
+    const auto &face = body.friction_face();
+    double area      = 0.;
+    double last      = 0.;
+    for (const auto &point : face.points)
+    {
+      area += point.weight;
+      EXPECT_GT(point.position[0], last);
+      EXPECT_NEAR(point.position[1], 0.2, 1e-15);
+      last = point.position[0];
+    }
+    EXPECT_NEAR(area, 4. * width, 1e-13 * area);
+    EXPECT_EQ(face.nodes.size(), 4 * degree + 1);
+    EXPECT_EQ(face.patches.size(), 4u);
+    EXPECT_DOUBLE_EQ(face.depth, 1.);
+    EXPECT_EQ(face.young_modulus, 20.);
+  }
+}
+
+// Nodal forces of a uniform pressure on a side of length h: (1, 1) h / 2 at degree 1, (1, 4, 1) h / 6 at degree 2.
+TEST(ElasticBody, UniformPressureIsIntegratedExactly)
+{
+  dealii::Triangulation<2> triangulation;
+  make_block({ 1., 1.5, 2.6 }, { 0., 1. }, triangulation);
+  for (const unsigned int degree : { 1u, 2u })
+  {
+    const ElasticBody<2> body(triangulation, properties_of(degree, MaterialModel::linear, 0.));
+    const auto &face = body.friction_face();
+    std::map<double, double> areas;
+    for (const auto &point : face.points)
+      for (const auto &[node, shape] : point.nodes)
+        areas[face.nodes[node].position[0]] += point.weight * shape / width;
+    const std::vector<double> expected =
+        degree == 1 ? std::vector<double>{ 0.25, 0.8, 0.55 } : std::vector<double>{ 0.5 / 6., 2. / 6., 1.6 / 6., 4.4 / 6., 1.1 / 6. };
+    ASSERT_EQ(areas.size(), expected.size());
+    auto found = areas.begin();
+    for (const double area : expected)
+      EXPECT_NEAR((found++)->second, area, 1e-15);
+  }
+}
+
+// Without Poisson's ratio a pressed block shortens evenly: u = p H / E on the face.
+TEST(ElasticBody, PressedBlockShortensEvenly)
+{
+  dealii::Triangulation<2> triangulation;
+  make_small_block(triangulation);
+  for (const unsigned int degree : { 1u, 2u })
+  {
+    const ElasticBody<2> body(triangulation, properties_of(degree, MaterialModel::linear, 0.));
+    const auto &face = body.friction_face();
+    Matrix matrix;
+    body.reinit(matrix, 0);
+    Vector loads(body.n_dofs()), displacement(body.n_dofs());
+    body.assemble(displacement, matrix, loads);
+    for (const auto &point : face.points)
+      for (const auto &[node, shape] : point.nodes)
+        loads[face.nodes[node].dofs[1]] += 0.5 * point.weight * shape;
+    Mumps factors;
+    factors.factorise(matrix);
+    factors.solve(loads, displacement);
+    for (const auto &node : face.nodes)
+    {
+      EXPECT_NEAR(displacement[node.dofs[1]], 0.5 * 2. / 20., 1e-13);
+      EXPECT_NEAR(displacement[node.dofs[0]], 0., 1e-13);
+    }
+    EXPECT_NEAR(body.energy(displacement), 0.5 * 0.5 * 0.05 * 4. * width, 1e-13);
+  }
+}
+
+TEST(ElasticBody, CellsOfTheHubDoNotMove)
+{
+  dealii::Triangulation<2> triangulation;
+  make_block({ 0., 1., 2., 3. }, { 0., 1. }, triangulation);
+  for (const auto &cell : triangulation.active_cell_iterators())
+    for (const auto &face : cell->face_iterators())
+    {
+      if (face->at_boundary() && face->boundary_id() == boundary_id::hub)
+        face->set_boundary_id(0);
+      if (cell->center()[0] < 1.)
+      {
+        cell->set_material_id(material_id::hub);
+        if (face->at_boundary())
+          face->set_boundary_id(0);
+      }
+    }
+  const ElasticBody<2> body(triangulation, properties_of(1, MaterialModel::linear, 0.3));
+  // Of the four nodes on the lower side the hub holds the first two.
+  EXPECT_EQ(body.friction_face().nodes.size(), 2u);
+  EXPECT_EQ(body.friction_face().patches.size(), 2u);
+  Matrix matrix;
+  body.reinit(matrix, 0);
+  Vector forces(body.n_dofs());
+  body.assemble(forces, matrix, forces);
+  unsigned int held = 0;
+  for (unsigned int i = 0; i < body.n_dofs(); ++i)
+    if (matrix.diag_element(i) == 1.)
+      ++held;
+  EXPECT_EQ(held, 8u);
+}

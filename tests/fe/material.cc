@@ -1,0 +1,130 @@
+#include "fe/material.h"
+
+#include "base/errors.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
+
+using namespace sprag;
+
+namespace
+{
+  using Gradient = dealii::Tensor<2, 2>;
+
+  const Lame constants = plane_constants({ 20., 0.3 }, PlaneState::strain);
+
+  Gradient gradient(const double a, const double b, const double c, const double d)
+  {
+    Gradient result;
+    result[0][0] = a;
+    result[0][1] = b;
+    result[1][0] = c;
+    result[1][1] = d;
+    return result;
+  }
+
+  const std::vector<Gradient> deformations = { gradient(1., 0., 0., 1.), gradient(1.1, 0.2, -0.1, 0.9),
+                                               gradient(0.6, -0.5, 0.7, 1.4), gradient(1.02, 0.01, 0.03, 0.97) };
+
+  Gradient moved(Gradient deformation, const unsigned int i, const double h)
+  {
+    deformation[i / 2][i % 2] += h;
+    return deformation;
+  }
+
+  // Stresses of up to 50 MPa, whose third derivatives for J > 0.8 are below 1e3 MPa: h^2 / 6 of those and 1e-14 MPa / h.
+  double allowed(const double h)
+  {
+    return 200. * h * h + 2e-14 / h;
+  }
+} // namespace
+
+TEST(NeoHookean, StressIsTheDerivativeOfTheEnergy)
+{
+  for (const auto &deformation : deformations)
+    for (unsigned int i = 0; i < 4; ++i)
+      for (const double h : { 1e-3, 1e-4, 1e-5 })
+      {
+        const double difference =
+            neo_hookean_energy<2>(constants, moved(deformation, i, h)) - neo_hookean_energy<2>(constants, moved(deformation, i, -h));
+        EXPECT_NEAR(neo_hookean<2>(constants, deformation).piola[i / 2][i % 2], difference / (2. * h), allowed(h));
+      }
+}
+
+TEST(NeoHookean, TangentIsTheDerivativeOfTheStress)
+{
+  for (const auto &deformation : deformations)
+    for (unsigned int j = 0; j < 4; ++j)
+      for (const double h : { 1e-3, 1e-4, 1e-5 })
+      {
+        const auto right   = neo_hookean<2>(constants, moved(deformation, j, h)).piola;
+        const auto left    = neo_hookean<2>(constants, moved(deformation, j, -h)).piola;
+        const auto tangent = neo_hookean<2>(constants, deformation).tangent;
+        for (unsigned int i = 0; i < 4; ++i)
+          EXPECT_NEAR(tangent[i][j], (right[i / 2][i % 2] - left[i / 2][i % 2]) / (2. * h), 2. * allowed(h)) << i << j;
+      }
+}
+
+// What separates the two at a strain of s is quadratic in it, with second derivatives of about three times the stiffness.
+TEST(NeoHookean, SmallStrainsAreLinear)
+{
+  const auto displacement = gradient(0.3, -0.5, 0.7, 0.4);
+  const double stiffness  = constants.lambda + 2. * constants.mu;
+  for (const double s : { 1e-2, 1e-3, 1e-4, 1e-5, 1e-6 })
+  {
+    const auto linear = linear_elastic<2>(constants, s * displacement).piola;
+    const auto finite = neo_hookean<2>(constants, deformations[0] + s * displacement).piola;
+    EXPECT_LE((finite - linear).norm(), 3. * stiffness * s * s + 1e-14 * stiffness) << s;
+  }
+  const auto difference = neo_hookean<2>(constants, deformations[0]).tangent - linear_elastic<2>(constants, Gradient()).tangent;
+  EXPECT_NEAR(difference.norm(), 0., 1e-14 * stiffness);
+}
+
+TEST(NeoHookean, RotationsCostNothing)
+{
+  for (const double angle : { 0.1, 1., 3. })
+  {
+    const auto rotation = gradient(std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle));
+    EXPECT_NEAR(neo_hookean_energy<2>(constants, rotation), 0., 1e-13);
+    EXPECT_NEAR(neo_hookean<2>(constants, rotation).piola.norm(), 0., 1e-13);
+  }
+}
+
+TEST(NeoHookean, MatterTurnedInsideOutEndsTheStep)
+{
+  EXPECT_THROW(neo_hookean<2>(constants, gradient(-0.1, 0., 0., 1.)), AnalysisError);
+  EXPECT_THROW(neo_hookean<2>(constants, gradient(0., 0., 0., 1.)), AnalysisError);
+}
+
+TEST(LinearElasticity, TangentTimesGradientIsTheStress)
+{
+  const auto displacement = gradient(0.3, -0.5, 0.7, 0.4);
+  const auto stress       = linear_elastic<2>(constants, displacement);
+  for (unsigned int i = 0; i < 4; ++i)
+  {
+    double sum = 0.;
+    for (unsigned int j = 0; j < 4; ++j)
+      sum += stress.tangent[i][j] * displacement[j / 2][j % 2];
+    EXPECT_NEAR(stress.piola[i / 2][i % 2], sum, 1e-13);
+  }
+}
+
+TEST(LinearElasticity, RotationsAreFreeAtSmallAngles)
+{
+  EXPECT_EQ(linear_elastic<2>(constants, gradient(0., -0.3, 0.3, 0.)).piola.norm(), 0.);
+}
+
+// Pulled along one axis with the other free, eps_22 / eps_11 = -lambda / (lambda + 2 mu).
+TEST(PlaneConstants, PullingMeetsYoungsModulus)
+{
+  const auto modulus = [](const Lame &plane)
+  {
+    const double ratio = plane.lambda / (plane.lambda + 2. * plane.mu);
+    return linear_elastic<2>(plane, gradient(1., 0., 0., -ratio)).piola[0][0];
+  };
+  for (const double nu : { 0., 0.33, 0.49 })
+  {
+    EXPECT_NEAR(modulus(plane_constants({ 20., nu }, PlaneState::stress)), 20., 1e-12);
+    EXPECT_NEAR(modulus(plane_constants({ 20., nu }, PlaneState::strain)), 20. / (1. - nu * nu), 1e-12);
+  }
+}

@@ -1,0 +1,148 @@
+#pragma once
+
+#include "analysis/quasi_static.h"
+
+#include <deal.II/base/tensor.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace sprag
+{
+  /// A rigid block with n displacements under a load that follows the drive, pressed against one contact of 1 mm^2.
+  template <int n>
+  class RigidBlock : public Model
+  {
+  public:
+    struct Load
+    {
+      dealii::Tensor<1, n> force;      ///< [N]
+      dealii::Tensor<2, n> derivative; ///< by the displacements [N/mm]
+    };
+
+    struct Properties
+    {
+      std::function<Load(const dealii::Tensor<1, n> &displacement, double x)> load;
+      std::function<ContactKinematics<n>(const dealii::Tensor<1, n> &displacement)> contact;
+      FrictionLaw friction;
+      double penalty;             ///< normal and tangential [N/mm^3]
+      Enforcement enforcement;    ///< augmented Lagrangian carries its multipliers from step to step
+      dealii::Tensor<1, n> start; ///< displacement, touching [mm]
+    };
+
+    explicit RigidBlock(Properties block)
+        : properties(std::move(block))
+    {
+    }
+
+    State initial_state(const DrivePoint &drive) const override
+    {
+      State state;
+      state.drive = drive;
+      state.coordinates.reinit(n);
+      for (int i = 0; i < n; ++i)
+        state.coordinates[i] = properties.start[i];
+      state.contact.resize(1);
+      return state;
+    }
+
+    void predict(State & /*trial*/, const State & /*accepted*/) const override
+    {
+    }
+
+    Unbalance evaluate(const State &trial, const State &accepted, const FrictionMode mode) override
+    {
+      dealii::Tensor<1, n> u;
+      for (int i = 0; i < n; ++i)
+        u[i] = trial.coordinates[i];
+      const auto load       = properties.load(u, trial.drive.x);
+      const double duration = trial.drive.time - accepted.drive.time;
+      point                 = properties.contact(u);
+      response =
+          contact_response(point, trial.contact[0], { properties.penalty, properties.penalty, properties.friction, duration },
+                           duration > 0. ? mode : FrictionMode::stick);
+      external  = load.force;
+      unbalance = load.force + response.force;
+      tangent   = load.derivative + response.tangent;
+      rate      = duration > 0. ? (point.slip - accepted.contact[0].slip) / duration : 0.;
+      return { unbalance.norm(), response.pressure / properties.penalty };
+    }
+
+    dealii::Vector<double> correction() override
+    {
+      const dealii::Tensor<1, n> change = -1. * (invert(tangent) * unbalance);
+      dealii::Vector<double> result(n);
+      for (int i = 0; i < n; ++i)
+        result[i] = change[i];
+      return result;
+    }
+
+    double movement(const dealii::Vector<double> &correction) const override
+    {
+      return correction.linfty_norm();
+    }
+
+    double penetration() const override
+    {
+      return response.pressure > 0. ? std::abs(point.gap) : 0.;
+    }
+
+    std::string objection() const override
+    {
+      return {};
+    }
+
+    void augment(State &trial) const override
+    {
+      trial.contact[0].normal_multiplier = response.pressure;
+      trial.contact[0].traction          = response.traction;
+    }
+
+    std::vector<ContactMemory> memory() const override
+    {
+      return { { properties.enforcement == Enforcement::augmented_lagrangian ? response.pressure : 0., response.traction,
+                 point.slip } };
+    }
+
+    /// P and F are normal force and friction, Q is the load along the first displacement.
+    void observe(const State & /*trial*/, Row &row) const override
+    {
+      row[Column::P]              = response.pressure;
+      row[Column::F]              = response.traction;
+      row[Column::Q]              = external[0];
+      row[Column::penetration]    = penetration();
+      row[Column::friction_power] = response.traction * rate;
+    }
+
+    FacePoints face_points() const override
+    {
+      return { { 0. }, { 1. } };
+    }
+
+    FaceState face_state(const State &trial) const override
+    {
+      return { trial.drive.time, trial.drive.x, { response.pressure }, { response.traction } };
+    }
+
+  private:
+    const Properties properties;
+    ContactKinematics<n> point;
+    ContactResponse<n> response;
+    dealii::Tensor<1, n> external, unbalance;
+    dealii::Tensor<2, n> tangent;
+    double rate = 0.;
+  };
+
+  template <int n>
+  std::vector<Row> run_block(const typename RigidBlock<n>::Properties &properties, const Drive &drive, const double step)
+  {
+    RigidBlock<n> block(properties);
+    QuasiStaticSettings settings;
+    settings.step                = step;
+    settings.contact.enforcement = properties.enforcement;
+    std::vector<Row> rows;
+    run_quasi_static(block, drive, settings, [&](const State &, const Row &row) { rows.push_back(row); });
+    return rows;
+  }
+} // namespace sprag
