@@ -44,16 +44,17 @@ namespace
   {
     if (arguments.file.empty())
     {
-      if (!arguments.print_parameters)
+      if (!arguments.print_parameters || !arguments.overrides.empty())
         throw sprag::InputError("FILE.prm is missing; try --help");
       std::cout << sprag::default_parameters_text();
       return;
     }
     const auto scene = sprag::read_scene(arguments.file, arguments.overrides);
     if (arguments.print_parameters)
+    {
       std::cout << scene.parameters_text;
-    if (arguments.print_parameters)
       return;
+    }
     if (arguments.validate)
     {
       if (!arguments.quiet)
