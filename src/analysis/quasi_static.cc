@@ -13,8 +13,10 @@ namespace sprag
 {
   namespace
   {
-    constexpr double growth = 1.5;
-    constexpr double cut    = 0.25;
+    constexpr double growth               = 1.5;
+    constexpr double cut                  = 0.25;
+    constexpr double largest_speed_change = 0.02; ///< in a step, over the drive's peak speed
+
     // The passage through stick after a reversal is about (|F+| + |F-|) / k_t long; its steps are these shares of it.
     constexpr double first_share   = 0.02;
     constexpr double largest_share = 0.125;
@@ -146,19 +148,32 @@ namespace sprag
       Row row;
     };
 
+    /// A step of at most dx that also resolves how the speed changes, on which mu depends: the slip speed of a step is its mean.
+    DrivePoint end_of_step(const Drive &drive, const double time, double dx)
+    {
+      const double v = drive.at(time, Drive::Side::after).v;
+      auto point     = drive.step(time, dx);
+      while (std::abs(point.v - v) > largest_speed_change * drive.peak_speed())
+      {
+        dx *= 0.5;
+        point = drive.step(time, dx);
+      }
+      return point;
+    }
+
     /// One accepted step of at most dx, which is cut back where no equilibrium is found.
     Progression advance(Model &model, const Drive &drive, const QuasiStaticSettings &settings, const Progression &from,
                         const bool reversed, const bool sticking, double &dx)
     {
       StepCost cost;
       const double time = from.state.drive.time;
-      auto next         = solve_step(model, from.state, drive.step(time, dx), settings, sticking, cost);
+      auto next         = solve_step(model, from.state, end_of_step(drive, time, dx), settings, sticking, cost);
       while (!next)
       {
         if (dx * cut < settings.minimum_step)
           give_up(from.row, dx, cost.failure);
         dx *= cut;
-        next = solve_step(model, from.state, drive.step(time, dx), settings, sticking, cost);
+        next = solve_step(model, from.state, end_of_step(drive, time, dx), settings, sticking, cost);
       }
       next->contact = model.memory();
       Row row       = observe(model, *next);

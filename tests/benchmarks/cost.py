@@ -15,7 +15,7 @@ import h5py
 ROOT = Path(__file__).resolve().parents[2]
 PHASES = ("mesh", "model", "steps_and_output", "output")
 COLUMNS = ("run", "DOF", *PHASES, "in all", "process", "steps", "iterations", "MiB", "ratio")
-WIDTHS = (36, 8, 7, 7, 7, 7, 7, 8, 6, 10, 6, 0)
+WIDTHS = (36, 8, 7, 7, 18, 8, 8, 9, 7, 12, 6, 0)
 
 FINITE_STRAIN = {"Analysis/Step": 10, "Analysis/Plane": "strain", "Lever/Material": "neo-Hookean"}
 LINEAR_STRAIN = {"Analysis/Step": 10, "Analysis/Plane": "strain"}
@@ -63,8 +63,6 @@ def run(sprag, changes, output):
 
 
 def text(column, cost):
-    if column not in cost:
-        return "-"
     whole = column in ("DOF", "steps", "iterations", "MiB")
     return f"{cost[column]:.0f}" if whole else f"{cost[column]:.2f}"
 
@@ -78,25 +76,28 @@ def print_row(cells):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--sprag", type=Path, default=os.environ.get("SPRAG", ROOT / "build" / "sprag"), help="build/sprag")
+    parser.add_argument("--sprag", type=Path, default=Path(os.environ.get("SPRAG", ROOT / "build" / "sprag")), help="build/sprag")
     parser.add_argument("--only", default="", help="runs whose name contains this text, and what they are compared with")
     options = parser.parse_args()
 
     chosen = [entry for entry in RUNS if options.only in entry[0]]
     needed = {name for entry in chosen for name in (entry[0], entry[2])}
-    order = sorted((entry for entry in RUNS if entry[0] in needed), key=lambda entry: entry[0] != entry[2])
+    runs = [entry for entry in RUNS if entry[0] in needed]
     costs = {}
     with tempfile.TemporaryDirectory(prefix="sprag-cost-") as folder:
-        print_row([column.replace("steps_and_output", "steps") if i < 6 else column for i, column in enumerate(COLUMNS)])
-        for name, changes, reference in order:
-            cost = run(Path(options.sprag).resolve(), changes, Path(folder) / str(len(costs)))
+        for name, changes, _ in runs:
+            print(f"... {name}", file=sys.stderr)
+            cost = run(options.sprag.resolve(), changes, Path(folder) / str(len(costs)))
             if isinstance(cost, str):
                 print(f"{name}: {cost}", file=sys.stderr)
-                continue
-            costs[name] = cost
-            ratio = cost["process"] / costs[reference]["process"] if reference in costs else float("nan")
-            print_row([name, *(text(column, cost) for column in COLUMNS[1:-1]), f"{ratio:.2f} of '{reference}'"])
-    return 0 if len(costs) == len(order) else 1
+            else:
+                costs[name] = cost
+    print_row([{"steps_and_output": "steps and output"}.get(column, column) for column in COLUMNS])
+    for name, _, reference in runs:
+        if name in costs and reference in costs:
+            ratio = costs[name]["process"] / costs[reference]["process"]
+            print_row([name, *(text(column, costs[name]) for column in COLUMNS[1:-1]), f"{ratio:.2f} of '{reference}'"])
+    return 0 if len(costs) == len(runs) else 1
 
 
 if __name__ == "__main__":

@@ -18,8 +18,9 @@ namespace sprag
       sizes[0].push_back(xi[i] - xi[i - 1]);
     for (std::size_t i = 1; i < eta.size(); ++i)
       sizes[1].push_back(eta[i] - eta[i - 1]);
-    dealii::GridGenerator::subdivided_hyper_rectangle(triangulation, sizes, { xi.front(), eta.front() },
-                                                      { xi.back(), eta.back() });
+    const dealii::Point<2> begin(xi.front(), eta.front());
+    const dealii::Point<2> end(xi.back(), eta.back());
+    dealii::GridGenerator::subdivided_hyper_rectangle(triangulation, sizes, begin, end);
     for (const auto &cell : triangulation.active_cell_iterators())
     {
       cell->set_material_id(material_id::lever);

@@ -1,0 +1,225 @@
+#include "analysis/closed_form.h"
+#include "scene/closed_form.h"
+#include "verification/run_scene.h"
+
+#include <deal.II/grid/grid_tools.h>
+
+#include <cstdio>
+#include <gtest/gtest.h>
+
+using namespace sprag;
+
+namespace
+{
+  constexpr double mu = 0.73;
+
+  std::vector<Scene> models()
+  {
+    return { with_coulomb(model_a(), mu), with_coulomb(model_b(), mu) };
+  }
+
+  /// mu over speed that is not read in mm/s but in a unit of so many of them.
+  FrictionLaw tabulated(const double unit)
+  {
+    return { TabulatedFriction({ 0. / unit, 50. / unit, 100. / unit, 200. / unit }, { 0.35, 0.55, 0.7, 0.86 }),
+             FrictionSpeed::sliding };
+  }
+
+  /// What every length and every modulus is multiplied with.
+  struct Units
+  {
+    double length;
+    double modulus;
+  };
+
+  Scene in_units(Scene scene, const Units &units)
+  {
+    const double a = units.length;
+    auto &g        = scene.geometry;
+    g              = { a * g.cylinder_radius, a * g.interface_offset, a * g.pivot_distance, a * g.pivot_height };
+    scene.spring_stiffness *= units.modulus * a * a * a;
+    scene.lever.length *= a;
+    scene.lever.depth *= a;
+    scene.lever.width *= a;
+    scene.layer.thickness *= a;
+    scene.lever.young_modulus *= units.modulus;
+    scene.layer.young_modulus *= units.modulus;
+    scene.analysis.step *= a;
+    scene.analysis.minimum_step *= a;
+    scene.contact.penetration_tolerance *= a;
+    scene.mesh.face_size *= a;
+    scene.drive    = Drive(DriveProfile::triangle, 0., a * 65., a * 112., 1.);
+    scene.friction = tabulated(1. / a);
+    return scene;
+  }
+
+  /// Of the scene in other units on the same mesh: the sizes of mesh elements are given in mm.
+  std::vector<Row> run_in_units(const Scene &scene, const Units &units)
+  {
+    const Scene changed = in_units(scene, units);
+    dealii::Triangulation<2> triangulation;
+    make_mesh(scene, triangulation);
+    dealii::GridTools::scale(units.length, triangulation);
+    LeverModel model(triangulation, lever_properties(changed));
+    std::vector<Row> rows;
+    run_quasi_static(model, changed.drive, { changed.analysis.step, changed.analysis.minimum_step, changed.contact },
+                     [&](const State &, const Row &row) { rows.push_back(row); });
+    return rows;
+  }
+
+  /// Rows of a run whose positions and forces are multiplied by constants.
+  void expect_same(const std::vector<Row> &rows, const std::vector<Row> &reference, const double length, const double force,
+                   const double tolerance)
+  {
+    ASSERT_EQ(rows.size(), reference.size());
+    double peak_P = 0., peak_Q = 0., worst = 0.;
+    for (const Row &row : reference)
+    {
+      peak_P = std::max(peak_P, row[Column::P]);
+      peak_Q = std::max(peak_Q, std::abs(row[Column::Q]));
+    }
+    for (std::size_t i = 0; i < rows.size(); ++i)
+    {
+      EXPECT_NEAR(rows[i][Column::x] / length, reference[i][Column::x], tolerance * 65.);
+      EXPECT_NEAR(rows[i][Column::P] / force, reference[i][Column::P], tolerance * peak_P);
+      EXPECT_NEAR(rows[i][Column::Q] / force, reference[i][Column::Q], tolerance * peak_Q);
+      EXPECT_NEAR(rows[i][Column::theta], reference[i][Column::theta], tolerance);
+      worst = std::max(worst, std::abs(rows[i][Column::Q] / force - reference[i][Column::Q]) / peak_Q);
+    }
+    std::printf("largest difference of Q over its peak %.1e\n", worst);
+  }
+
+  constexpr double round_off = 1e-9; ///< of iterations whose last correction is 1e-7 of the overlap, converging quadratically
+
+  const Units metres{ 1e-3, 1e6 };
+  const Units thousandth{ 1e-3, 1. };
+} // namespace
+
+TEST(Units, DoNotMatterToTheClosedForm)
+{
+  for (const Scene &scene : models())
+    for (const Units &units : { metres, thousandth })
+    {
+      std::vector<Row> reference, rows;
+      run_closed_form(in_units(scene, { 1., 1. }), [&](const Row &row) { reference.push_back(row); });
+      run_closed_form(in_units(scene, units), [&](const Row &row) { rows.push_back(row); });
+      expect_same(rows, reference, units.length, units.modulus * units.length * units.length, 1e-12);
+    }
+}
+
+TEST(Units, DoNotMatterToTheFiniteElements)
+{
+  for (Scene scene : models())
+    for (const auto enforcement : { Enforcement::penalty, Enforcement::augmented_lagrangian })
+    {
+      scene.contact.enforcement = enforcement;
+      scene                     = with_face_size(scene, 2.);
+      const auto reference      = run_in_units(scene, { 1., 1. });
+      for (const Units &units : { metres, thousandth })
+        expect_same(run_in_units(scene, units), reference, units.length, units.modulus * units.length * units.length, round_off);
+    }
+}
+
+TEST(Units, ForcesGrowInProportionToAllStiffnesses)
+{
+  for (const Scene &model : models())
+    for (const Scene &scene : { model, with_augmented_lagrangian(model) })
+    {
+      const Scene coarse = with_face_size(scene, 2.);
+      const double c     = 37.;
+      Scene stiffer      = with_stiffness(coarse, c);
+      stiffer.spring_stiffness *= c;
+      expect_same(run_scene(stiffer), run_scene(coarse), 1., c, round_off);
+    }
+}
+
+TEST(Units, SpeedDoesNotMatterToConstantFriction)
+{
+  for (const Scene &model : models())
+  {
+    const Scene scene    = with_face_size(model, 2.);
+    const auto reference = run_scene(scene);
+    expect_same(run_scene(with_drive(scene, Drive(DriveProfile::triangle, 0., 65., 11200., 1.))), reference, 1., 1., round_off);
+  }
+}
+
+TEST(Units, SpeedDoesMatterToFrictionThatDependsOnIt)
+{
+  const Scene scene     = with_face_size(model_a(), 2.);
+  const auto slow       = run_scene(with_drive(scene, Drive(DriveProfile::triangle, 0., 65., 11.2, 0.5))).back();
+  const auto fast       = run_scene(scene);
+  const auto turn       = std::find_if(fast.begin(), fast.end(), [](const Row &row) { return row[Column::x] == 65.; });
+  const double expected = closed_form(scene, 65., 11.2).F / closed_form(scene, 65., 112.).F;
+  // The deviation from the closed form, below 1 %, is much the same for both.
+  EXPECT_NEAR(slow[Column::F] / (*turn)[Column::F], expected, 0.01 * (1. - expected));
+  EXPECT_LT(expected, 0.65);
+}
+
+namespace
+{
+  struct Ledger
+  {
+    double drive, friction, residual;
+  };
+
+  /// A loop between 50 and 60 mm.
+  Ledger ledger_of(const Scene &scene, const double step)
+  {
+    const Scene finer  = with_step(with_drive(scene, Drive(DriveProfile::triangle, 50., 60., 112., 1.)), step);
+    const auto summary = summary_of(finer, run_scene(finer));
+    return { value_of(summary, "loop_area"), value_of(summary, "friction_work"), value_of(summary, "energy_residual") };
+  }
+
+  void expect_ledger(const Scene &scene, const std::vector<double> &steps, const double share)
+  {
+    std::vector<double> residuals;
+    for (const double step : steps)
+    {
+      const auto ledger = ledger_of(scene, step);
+      std::printf("step %-5g drive work %.5f, friction work %.5f, residual %.5f N mm\n", step, ledger.drive, ledger.friction,
+                  ledger.residual);
+      EXPECT_LT(std::abs(ledger.residual), share * step * ledger.friction);
+      residuals.push_back(ledger.residual);
+    }
+  }
+} // namespace
+
+TEST(EnergyLedger, ClosesInProportionToTheStep)
+{
+  for (const Scene &scene : models())
+    expect_ledger(scene, { 1., 0.5 }, 0.01);
+}
+
+TEST(SlowEnergyLedger, ClosesInProportionToTheStep)
+{
+  for (const Scene &scene : models())
+    expect_ledger(scene, { 1., 0.5, 0.2, 0.1, 0.05 }, 0.01);
+}
+
+// P and Q of both strokes at mu and at 0.9 mu: what they change by is the closed form's change but for the change of the
+// deviation between the two, itself a few per cent of the deviation's size, 1 to 2 %.
+TEST(FrictionCoefficient, MovesTheForcesAsTheClosedFormSays)
+{
+  for (const Scene &scene : models())
+  {
+    const Scene more = with_face_size(scene, 1.);
+    const Scene less = with_coulomb(more, 0.9 * mu);
+    for (const double v : { 112., -112. })
+    {
+      // At 65 mm forward, and at the end of a loop that comes back to 40 mm.
+      const Drive drive(DriveProfile::triangle, 40., 65., 112., v > 0. ? 0.5 : 1.);
+      const Row high        = run_scene(with_drive(more, drive)).back();
+      const Row low         = run_scene(with_drive(less, drive)).back();
+      const double x        = high[Column::x];
+      const auto high_form  = closed_form(more, x, v);
+      const auto low_form   = closed_form(less, x, v);
+      const double change_P = high_form.P / low_form.P - 1.;
+      const double change_Q = high_form.Q / low_form.Q - 1.;
+      std::printf("x = %g, v = %g: P changes by %.5f (closed form %.5f), Q by %.5f (%.5f)\n", x, v,
+                  high[Column::P] / low[Column::P] - 1., change_P, high[Column::Q] / low[Column::Q] - 1., change_Q);
+      EXPECT_NEAR(high[Column::P] / low[Column::P] - 1., change_P, 2e-3);
+      EXPECT_NEAR(high[Column::Q] / low[Column::Q] - 1., change_Q, 4e-3);
+      EXPECT_GT(std::abs(change_Q), 0.05);
+    }
+  }
+}
