@@ -42,11 +42,12 @@ namespace sprag
       return result;
     }
 
+    /// Value of largest size among the rows whose friction has turned with the motion.
     double signed_peak(const Rows &rows, const Column column)
     {
       double result = 0.;
       for (const Row *row : rows)
-        if (std::abs((*row)[column]) > std::abs(result))
+        if ((*row)[Column::F] * (*row)[Column::v] >= 0. && std::abs((*row)[column]) > std::abs(result))
           result = (*row)[column];
       return result;
     }
@@ -121,7 +122,13 @@ namespace sprag
       return entries;
     for (const auto &[direction, way] : { std::pair<int, std::string>{ 1, "forward" }, { -1, "backward" } })
       if (const auto all = stroke(rows, direction, 0.); !all.empty())
+      {
         add_stroke(all, stroke(rows, direction, settling), way, entries);
+        const double mu = sliding_friction(scene, 0., direction * scene.drive.peak_speed()).coefficient;
+        entries.push_back({ "representative_slope_" + way,
+                            representative_slope(scene.geometry, scene.spring_stiffness, mu, direction), "N/mm",
+                            "C_Q of the closed form at x = 0 with mu at the drive's peak speed" });
+      }
 
     const Row &last         = rows.back();
     const double work       = last[Column::drive_work];

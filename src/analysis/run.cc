@@ -7,6 +7,7 @@
 #include "base/errors.h"
 #include "fe/field_frames.h"
 #include "fe/lever_model.h"
+#include "scene/closed_form.h"
 
 #include <deal.II/base/mpi.h>
 
@@ -29,7 +30,13 @@ namespace sprag
       ResultFile file(options.folder + "/result.h5", scene.parameters_text, {}, sweep.columns);
       for (const auto &row : sweep.rows)
         file.append(row);
-      file.finish({ { "status", std::string("completed"), "", "how the run ended" } }, process_entries(timer));
+      const double mu                  = friction_coefficient(scene.friction, scene.drive.peak_speed()).coefficient;
+      const std::vector<Entry> summary = { { "critical_inclination", critical_inclination(mu), "rad",
+                                             "th0B = atan mu: steeper, the backward stroke no longer damps" },
+                                           { "status", std::string("completed"), "", "how the run ended" } };
+      file.finish(summary, process_entries(timer));
+      if (!options.quiet)
+        print_summary(std::cout, summary);
     }
 
     /// Exit status 1 for a run that ended but is too far from the closed form.

@@ -36,7 +36,7 @@ namespace
     make_block({ 1., 1.5, 2.6, 4., 5. }, { 0., 0.3, 1.2, 2. }, triangulation);
     dealii::GridTools::transform(
         [](const dealii::Point<2> &p) {
-          return dealii::Point<2>(p[0] + 0.1 * std::sin(p[0] * p[1]) * p[1] * (2. - p[1]), p[1]);
+          return dealii::Point<2>(p[0] + 0.05 * std::sin(p[0] * p[1]) * p[1] * (2. - p[1]) * (p[0] - 1.) * (5. - p[0]), p[1]);
         },
         triangulation);
   }
@@ -150,7 +150,7 @@ TEST(ElasticBody, RigidMotionsOfAFreeBodyCostNothing)
   EXPECT_NEAR(product_and_forces(body, turned, turned).second.linfty_norm(), 0., 1e-11);
 }
 
-TEST(ElasticBody, HeldNodesCarryAnIdentityRow)
+TEST(ElasticBody, HeldNodesAreNotMovedByAnything)
 {
   dealii::Triangulation<2> triangulation;
   make_small_block(triangulation);
@@ -163,7 +163,10 @@ TEST(ElasticBody, HeldNodesCarryAnIdentityRow)
   {
     EXPECT_EQ(forces[dof], 0.);
     for (auto entry = matrix.begin(dof); entry != matrix.end(dof); ++entry)
-      EXPECT_EQ(entry->value(), entry->column() == dof ? 1. : 0.);
+      if (entry->column() == dof)
+        EXPECT_GT(entry->value(), 0.);
+      else
+        EXPECT_EQ(entry->value(), 0.);
   }
 }
 
@@ -280,7 +283,11 @@ TEST(ElasticBody, CellsOfTheHubDoNotMove)
   body.assemble(Vector(body.n_dofs()), matrix, forces);
   unsigned int held = 0;
   for (unsigned int i = 0; i < body.n_dofs(); ++i)
-    if (matrix.diag_element(i) == 1.)
-      ++held;
+  {
+    bool couples = false;
+    for (auto entry = matrix.begin(i); entry != matrix.end(i); ++entry)
+      couples = couples || (entry->column() != i && entry->value() != 0.);
+    held += couples ? 0 : 1;
+  }
   EXPECT_EQ(held, 8u);
 }
