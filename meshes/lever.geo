@@ -68,7 +68,7 @@ EndIf
 If (offset > 0)
   Point(1) = {0, 0, 0};
   Line(1) = {1, layer_thickness > 0 ? 2 : 3};
-  Transfinite Curve {1} = Max(2, Ceil(offset / 5)) + 1;
+  Transfinite Curve {1} = Max(2, Ceil(offset / hub_length)) + 1;
   hub_arm[] = Extrude {-hub_length, 0, 0} { Curve{1}; Layers{2}; Recombine; };
   hub[] += hub_arm[1];
 EndIf

@@ -9,7 +9,7 @@ namespace sprag
     constexpr unsigned int maximum_iterations = 40;
     constexpr unsigned int maximum_halvings   = 6;
     constexpr double relative_tolerance       = 1e-7;
-    constexpr double round_off                = 1e-12; ///< [mm], of positions of some hundred mm
+    constexpr double round_off                = 5e-15; ///< of positions, over the size of the scene
 
     struct SearchResult
     {
@@ -44,7 +44,7 @@ namespace sprag
     {
       const auto correction = model.correction();
       const double movement = model.movement(correction);
-      if (movement <= relative_tolerance * unbalance.overlap + round_off)
+      if (movement <= relative_tolerance * unbalance.overlap + round_off * model.length_scale())
       {
         trial.coordinates += correction;
         model.evaluate(trial, accepted, FrictionMode::cone);

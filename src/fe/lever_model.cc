@@ -123,6 +123,11 @@ namespace sprag
     return in_lengths.linfty_norm();
   }
 
+  double LeverModel::length_scale() const
+  {
+    return properties.spring.arm;
+  }
+
   double LeverModel::penetration() const
   {
     return contact.penetration();

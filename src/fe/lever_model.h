@@ -36,6 +36,7 @@ namespace sprag
     Unbalance evaluate(const State &trial, const State &accepted, FrictionMode mode) override;
     dealii::Vector<double> correction() override;
     double movement(const dealii::Vector<double> &correction) const override;
+    double length_scale() const override;
     double penetration() const override;
     std::string objection() const override;
     void augment(State &trial) const override;

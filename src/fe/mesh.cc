@@ -131,7 +131,7 @@ namespace sprag
     /// Part of the friction face under the cylinder during the drive, with room for the contact's width [mm].
     std::array<double, 2> swept_face(const Scene &scene)
     {
-      const double room    = 5.;
+      const double room    = 0.1 * scene.geometry.cylinder_radius;
       const double nearest = kinematics(scene.geometry, scene.drive.maximum()).s - room;
       const double largest = kinematics(scene.geometry, scene.drive.minimum()).s + room;
       return { { std::max(nearest, scene.mesh.face_size), std::min(largest, scene.lever.length - scene.mesh.face_size) } };
@@ -144,6 +144,8 @@ namespace sprag
                                                                        { "lever_depth", scene.lever.depth },
                                                                        { "offset", scene.geometry.interface_offset },
                                                                        { "layer_thickness", scene.layer.thickness },
+                                                                       { "hub_length", 0.5 * scene.lever.depth },
+                                                                       { "largest", 0.15 * scene.lever.depth },
                                                                        { "face_size", scene.mesh.face_size },
                                                                        { "sweep_begin", sweep[0] },
                                                                        { "sweep_end", sweep[1] } };

@@ -47,6 +47,9 @@ namespace sprag
     /// Largest movement of a material point that a correction means [mm].
     virtual double movement(const dealii::Vector<double> &correction) const = 0;
 
+    /// Size of the scene, against which positions are rounded off [mm].
+    virtual double length_scale() const = 0;
+
     /// Largest overlap of body and obstacle [mm].
     virtual double penetration() const = 0;
 

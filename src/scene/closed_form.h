@@ -38,8 +38,8 @@ namespace sprag
   /// State at x while moving at v [mm/s], v != 0 for a direction. Infinite or negative forces where s + sgn(v) mu e <= 0.
   ClosedFormState closed_form(const Scene &scene, double x, double v);
 
-  /// Representative slope C_Q = dQ/dx at x = 0 [N/mm], eqs. 10-12 (with the sign of dth/dx mended), sign = +1 or -1. NaN where the
-  /// lever locks at x = 0.
+  /// Representative slope C_Q = dQ/dx at x = 0 [N/mm], eqs. 10-12 (with the sign of dth/dx mended), sign = +1 or -1. NaN where
+  /// the lever locks at x = 0.
   double representative_slope(const Geometry &geometry, double spring_stiffness, double coefficient, int sign);
 
   /// C_Q R l / k, eqs. 20-22.

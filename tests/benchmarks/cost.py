@@ -76,7 +76,8 @@ def print_row(cells):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--sprag", type=Path, default=Path(os.environ.get("SPRAG", ROOT / "build" / "sprag")), help="build/sprag")
+    default = Path(os.environ.get("SPRAG", ROOT / "build" / "sprag"))
+    parser.add_argument("--sprag", type=Path, default=default, help="the program; default $SPRAG or build/sprag")
     parser.add_argument("--only", default="", help="runs whose name contains this text, and what they are compared with")
     options = parser.parse_args()
 

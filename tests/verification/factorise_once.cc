@@ -1,3 +1,4 @@
+#include "analysis/newton.h"
 #include "analysis/quasi_static.h"
 #include "fe/lever_model.h"
 #include "mpi_environment.h"
@@ -5,55 +6,102 @@
 
 #include <cmath>
 #include <gtest/gtest.h>
+#include <optional>
 
 using namespace sprag;
 
 namespace
 {
-  std::vector<Row> run(const Solution solution, const Enforcement enforcement)
+  /// A coarse model A.
+  class Meshed
   {
-    Scene scene               = model_a();
-    scene.mesh.face_size      = 2.;
-    scene.analysis.step       = 5.;
-    scene.analysis.solution   = solution;
-    scene.contact.enforcement = enforcement;
+  public:
+    Meshed(const Solution solution, const Enforcement enforcement, const double face_size)
+    {
+      scene.mesh.face_size      = face_size;
+      scene.analysis.solution   = solution;
+      scene.contact.enforcement = enforcement;
+      make_mesh(scene, triangulation);
+      model.emplace(triangulation, lever_properties(scene));
+    }
+
+    Scene scene = model_a();
     dealii::Triangulation<2> triangulation;
-    make_mesh(scene, triangulation);
-    LeverModel model(triangulation, lever_properties(scene));
+    std::optional<LeverModel> model;
+  };
+
+  /// Where the accepted steps of a whole run end.
+  std::vector<DrivePoint> run(Meshed &meshed)
+  {
+    std::vector<DrivePoint> drive;
+    const QuasiStaticSettings settings{ 5., 1e-6, meshed.scene.contact };
+    run_quasi_static(*meshed.model, meshed.scene.drive, settings,
+                     [&](const State &state, const Row &) { drive.push_back(state.drive); });
+    return drive;
+  }
+
+  /// Through the very positions of `drive`, with augmentations down to 1e-6 mm where the model has multipliers.
+  std::vector<Row> follow(Meshed &meshed, const std::vector<DrivePoint> &drive)
+  {
+    auto &model       = *meshed.model;
+    const bool augmented = meshed.scene.contact.enforcement == Enforcement::augmented_lagrangian;
     std::vector<Row> rows;
-    const QuasiStaticSettings settings{ scene.analysis.step, scene.analysis.minimum_step, scene.contact };
-    run_quasi_static(model, scene.drive, settings, [&](const State &, const Row &row) { rows.push_back(row); });
+    State accepted = model.initial_state(drive.front());
+    for (const auto &point : drive)
+    {
+      State trial = accepted;
+      trial.drive = point;
+      model.predict(trial, accepted);
+      const State guess = trial;
+      if (!solve_equilibrium(model, trial, accepted, false).converged)
+      {
+        trial = guess;
+        EXPECT_TRUE(solve_equilibrium(model, trial, accepted, true).converged) << "x " << point.x;
+      }
+      for (unsigned int i = 0; augmented && model.penetration() > meshed.scene.contact.penetration_tolerance && i < 20; ++i)
+      {
+        model.augment(trial);
+        EXPECT_TRUE(solve_equilibrium(model, trial, accepted, false).converged) << "x " << point.x;
+      }
+      Row row;
+      model.observe(trial, row);
+      rows.push_back(row);
+      trial.contact = model.memory();
+      accepted      = trial;
+    }
     return rows;
   }
 
-  // Both iterate the same equations to corrections below 1e-7 of the overlap, with quadratic convergence: 1e-8 of the peak is
-  // asked for.
-  void expect_same_answers(const Enforcement enforcement)
+  // Both solve the same equations to corrections below 1e-7 of the overlap where convergence is quadratic: what is left is
+  // round-off. The steps are the same; those that run_quasi_static() chooses after a reversal depend on round-off.
+  void expect_same_answers(const Enforcement enforcement, const double face_size)
   {
-    const auto once    = run(Solution::automatic, enforcement);
-    const auto general = run(Solution::general, enforcement);
-    ASSERT_EQ(once.size(), general.size());
-    ASSERT_GT(once.size(), 26u);
+    Meshed once(Solution::automatic, enforcement, face_size);
+    Meshed general(Solution::general, enforcement, face_size);
+    const auto drive = run(once);
+    const auto fast  = follow(once, drive);
+    const auto slow  = follow(general, drive);
+    ASSERT_GT(fast.size(), 26u);
     for (const auto column : { Column::P, Column::Q, Column::theta, Column::elastic_energy })
     {
-      double peak = 0.;
-      for (const auto &row : once)
-        peak = std::max(peak, std::abs(row[column]));
+      double peak    = 0.;
       double largest = 0.;
-      for (std::size_t i = 0; i < once.size(); ++i)
-        largest = std::max(largest, std::abs(once[i][column] - general[i][column]) / peak);
-      EXPECT_LE(largest, 1e-8) << column_info(column).name;
+      for (const auto &row : fast)
+        peak = std::max(peak, std::abs(row[column]));
+      for (std::size_t i = 0; i < fast.size(); ++i)
+        largest = std::max(largest, std::abs(fast[i][column] - slow[i][column]));
+      EXPECT_GT(peak, 0.);
+      EXPECT_LE(largest, 1e-8 * peak) << column_info(column).name;
     }
-    EXPECT_LT(once.back()[Column::Q], 0.);
   }
 } // namespace
 
 TEST(FactoriseOnce, MeetsTheGeneralPathThroughTheReversal)
 {
-  expect_same_answers(Enforcement::penalty);
+  expect_same_answers(Enforcement::penalty, 2.);
 }
 
 TEST(FactoriseOnce, MeetsTheGeneralPathWithMultipliersSlow)
 {
-  expect_same_answers(Enforcement::augmented_lagrangian);
+  expect_same_answers(Enforcement::augmented_lagrangian, 1.);
 }
