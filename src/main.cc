@@ -1,5 +1,6 @@
 #include "analysis/run.h"
 #include "base/errors.h"
+#include "base/interrupt.h"
 #include "scene/read.h"
 
 #include <deal.II/base/mpi.h>
@@ -57,6 +58,7 @@ namespace
     }
     if (arguments.validate)
     {
+      sprag::validate(scene);
       if (!arguments.quiet)
         std::cout << arguments.file << ": valid\n";
       return;
@@ -82,6 +84,7 @@ int main(int argc, char **argv)
   {
     int no_arguments = 1;
     dealii::Utilities::MPI::MPI_InitFinalize mpi(no_arguments, argv, 1);
+    sprag::catch_interrupts();
     execute(arguments);
     return success;
   }

@@ -80,7 +80,7 @@ namespace sprag
         cost.failure = error.what(); // an element turned inside out or a singular tangent: a shorter step may avoid it
         return {};
       }
-      cost.failure = model.objection();
+      cost.failure = model.objection(trial);
       if (!cost.failure.empty())
         return {};
       return trial;
@@ -114,10 +114,7 @@ namespace sprag
       std::ostringstream message;
       message << "no equilibrium beyond x = " << last[Column::x] << " mm (v = " << last[Column::v]
               << " mm/s, P = " << last[Column::P] << " N): " << failure << " even in a step of " << dx << " mm. ";
-      if (last[Column::v] < 0. && last[Column::F] < 0.)
-        message << "Moving back, a lever with s <= mu e locks (here s = " << last[Column::s] << " mm, mu = " << last[Column::mu]
-                << "). ";
-      message << "Try a smaller friction coefficient or offset, a smaller Analysis/Step, a smaller Contact/Penalty or a finer "
+      message << "Try a smaller friction coefficient or offset; if it is not the mechanics, a smaller Contact/Penalty or a finer "
                  "Mesh/Face size.";
       throw AnalysisError(message.str());
     }

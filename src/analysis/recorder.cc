@@ -1,6 +1,7 @@
 #include "analysis/recorder.h"
 
 #include "base/errors.h"
+#include "base/interrupt.h"
 
 #include <deal.II/base/utilities.h>
 
@@ -27,14 +28,26 @@ namespace sprag
     return length + std::abs(drive.at(drive.duration()).x - x);
   }
 
+  void require_writable(const std::string &folder)
+  {
+    namespace fs = std::filesystem;
+    std::error_code ignored;
+    fs::path existing = fs::absolute(folder);
+    while (!fs::exists(existing, ignored) && existing.has_relative_path())
+      existing = existing.parent_path();
+    if (!fs::is_directory(existing, ignored))
+      throw InputError("--output = " + folder + ": " + existing.string() + " is not a folder");
+    if (::access(existing.c_str(), W_OK) != 0)
+      throw InputError("--output = " + folder + ": " + existing.string() + " cannot be written to");
+  }
+
   void prepare_folder(const std::string &folder)
   {
+    require_writable(folder);
     std::error_code error;
     std::filesystem::create_directories(folder, error);
-    if (error || !std::filesystem::is_directory(folder))
-      throw InputError("--output = " + folder + ": the folder cannot be made" + (error ? ": " + error.message() : ""));
-    if (::access(folder.c_str(), W_OK) != 0)
-      throw InputError("--output = " + folder + ": the folder cannot be written to");
+    if (error)
+      throw InputError("--output = " + folder + ": the folder cannot be made: " + error.message());
   }
 
   std::vector<Entry> process_entries(dealii::TimerOutput &timer)
@@ -74,6 +87,8 @@ namespace sprag
     if (!rows.empty())
       travel += std::abs(row[Column::x] - rows.back()[Column::x]);
     rows.push_back(row);
+    if (interrupted())
+      throw AnalysisError("interrupted; every finished step is kept");
     const double iterations = row[Column::iterations];
     progress.update(travel, { row[Column::x], row[Column::P], row[Column::Q],
                               std::isnan(iterations) ? 0u : static_cast<unsigned int>(iterations) });

@@ -34,6 +34,9 @@ namespace sprag
   /// Length of the drive's path [mm].
   double path_length(const Drive &drive);
 
+  /// Throws InputError if the folder could not be made or written to; makes nothing.
+  void require_writable(const std::string &folder);
+
   /// Makes the folder if needed; throws InputError if nothing can be written there.
   void prepare_folder(const std::string &folder);
 

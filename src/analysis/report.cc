@@ -176,7 +176,12 @@ namespace sprag
     double result = 0.;
     for (const auto &entry : summary)
       if (entry.name.rfind("deviation_", 0) == 0)
-        result = std::max(result, std::get<double>(entry.value));
+      {
+        const double deviation = std::get<double>(entry.value);
+        if (std::isnan(deviation))
+          return deviation;
+        result = std::max(result, deviation);
+      }
     return result;
   }
 

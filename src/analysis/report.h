@@ -19,7 +19,7 @@ namespace sprag
   /// Value of an entry of a summary; throws std::out_of_range if there is none.
   double value_of(const std::vector<Entry> &entries, const std::string &name);
 
-  /// Largest of the deviations of P, Q and theta on both strokes in a summary [-].
+  /// Largest of the deviations of P, Q and theta on both strokes in a summary [-]; NaN if one could not be told.
   double largest_deviation(const std::vector<Entry> &summary);
 
   /// A short table for people.

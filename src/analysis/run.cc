@@ -44,7 +44,7 @@ namespace sprag
     {
       const double limit = scene.analysis.maximum_deviation;
       const double found = largest_deviation(summary);
-      if (limit > 0. && found > limit)
+      if (limit > 0. && !(found <= limit))
       {
         std::ostringstream message;
         message << "the deviation from the closed form, " << found << ", is larger than Analysis/Maximum deviation = " << limit
@@ -120,6 +120,7 @@ namespace sprag
     void run_finite_element(const Scene &scene, const RunOptions &options)
     {
       Timer timer(std::cout, Timer::never, Timer::cpu_and_wall_times);
+      require_writable(options.folder);
       dealii::Triangulation<2> triangulation;
       {
         const Timer::Scope scope(timer, "mesh");
@@ -167,6 +168,14 @@ namespace sprag
           });
     }
   } // namespace
+
+  void validate(const Scene &scene)
+  {
+    if (scene.analysis.type != AnalysisType::quasi_static || scene.analysis.model != ModelType::finite_element)
+      return;
+    dealii::Triangulation<2> triangulation;
+    make_mesh(scene, triangulation);
+  }
 
   void run(const Scene &scene, const RunOptions &options)
   {

@@ -92,8 +92,11 @@ namespace sprag
   void ElasticBody<dim>::reinit(PETScWrappers::SparseMatrix &matrix, const unsigned int extra) const
   {
     const unsigned int n = n_dofs() + extra;
+    DynamicSparsityPattern of_body(n_dofs(), n_dofs());
     DynamicSparsityPattern pattern(n, n);
-    DoFTools::make_sparsity_pattern(dof_handler, pattern, constraints, true);
+    DoFTools::make_sparsity_pattern(dof_handler, of_body, constraints, true);
+    for (const auto &entry : of_body)
+      pattern.add(entry.row(), entry.column());
     for (unsigned int e = n_dofs(); e < n; ++e)
     {
       pattern.add(e, e);

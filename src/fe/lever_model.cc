@@ -1,5 +1,6 @@
 #include "fe/lever_model.h"
 
+#include "base/text.h"
 #include "fe/face_observation.h"
 #include "scene/closed_form.h"
 
@@ -60,13 +61,14 @@ namespace sprag
     const Geometry geometry = scene.geometry;
     result.obstacle         = [geometry](const LeverPoint &point, double x, double theta)
     { return circle_contact(geometry, point, x, theta); };
-    result.centre          = [geometry](double x, double theta) { return cylinder_centre(geometry, x, theta).xi; };
-    result.ideal_theta     = [geometry](double x) { return kinematics(geometry, x).theta; };
-    result.spring          = { scene.spring_stiffness, kinematics(geometry, 0.).theta, geometry.pivot_distance };
-    result.friction        = scene.friction;
-    result.contact         = scene.contact;
-    result.solution        = scene.analysis.solution;
-    result.layer_thickness = scene.layer.thickness;
+    result.centre           = [geometry](double x, double theta) { return cylinder_centre(geometry, x, theta).xi; };
+    result.ideal_theta      = [geometry](double x) { return kinematics(geometry, x).theta; };
+    result.spring           = { scene.spring_stiffness, kinematics(geometry, 0.).theta, geometry.pivot_distance };
+    result.friction         = scene.friction;
+    result.contact          = scene.contact;
+    result.solution         = scene.analysis.solution;
+    result.layer_thickness  = scene.layer.thickness;
+    result.interface_offset = geometry.interface_offset;
     return result;
   }
 
@@ -133,14 +135,21 @@ namespace sprag
     return contact.penetration();
   }
 
-  std::string LeverModel::objection() const
+  std::string LeverModel::objection(const State &trial) const
   {
-    // A linear material knows no limit of its own: a lever that locks would be pressed into the cylinder.
+    Row row;
+    observe_face(contact, properties.layer_thickness, row);
+    const double s    = row[Column::s];
+    const double mu_e = row[Column::mu] * properties.interface_offset;
+    if (trial.drive.v < 0. && row[Column::F] < 0. && s <= mu_e)
+      return "the lever locks: moving back, s = " + rounded_text(s) + " mm <= mu e = " + rounded_text(mu_e) + " mm";
+
+    // A linear material knows no limit of its own.
     const double pressure = contact.overlap() * contact.penalties().normal;
     const double limit    = largest_strain * body.friction_face().young_modulus;
-    if (properties.body.material != MaterialModel::linear || pressure <= limit)
-      return {};
-    return "the pressure on the friction face would exceed " + std::to_string(limit) + " MPa, half of its Young's modulus";
+    if (properties.body.material == MaterialModel::linear && pressure > limit)
+      return "the pressure on the friction face exceeds " + rounded_text(limit) + " MPa, half of its Young's modulus";
+    return {};
   }
 
   void LeverModel::augment(State &trial) const

@@ -18,8 +18,9 @@ namespace sprag
     HubSpring spring;
     FrictionLaw friction;
     ContactSettings contact;
-    Solution solution      = Solution::automatic;
-    double layer_thickness = 0.; ///< [mm]
+    Solution solution       = Solution::automatic;
+    double layer_thickness  = 0.; ///< [mm]
+    double interface_offset = 0.; ///< e [mm]
   };
 
   LeverProperties lever_properties(const Scene &scene);
@@ -38,7 +39,7 @@ namespace sprag
     double movement(const dealii::Vector<double> &correction) const override;
     double length_scale() const override;
     double penetration() const override;
-    std::string objection() const override;
+    std::string objection(const State &trial) const override;
     void augment(State &trial) const override;
     std::vector<ContactMemory> memory() const override;
     void observe(const State &trial, Row &row) const override;

@@ -1,6 +1,7 @@
 #include "fe/mesh.h"
 
 #include "base/errors.h"
+#include "base/text.h"
 #include "fe/elastic_body.h"
 #include "scene/closed_form.h"
 
@@ -208,37 +209,67 @@ namespace sprag
       }
     }
 
-    /// The face must lie where the scene's geometry has it, or the cylinder would miss it.
-    void check_position(const Scene &scene, const Triangulation<2> &triangulation)
+    /// Bounding box of the friction face, empty if lower > upper.
+    struct FaceExtent
     {
-      double lowest  = std::numeric_limits<double>::max();
-      double highest = std::numeric_limits<double>::lowest();
-      double begin   = lowest;
-      double end     = highest;
+      Point<2> lower{ std::numeric_limits<double>::max(), std::numeric_limits<double>::max() };
+      Point<2> upper{ std::numeric_limits<double>::lowest(), std::numeric_limits<double>::lowest() };
+    };
+
+    FaceExtent extent_of_friction_face(const Triangulation<2> &triangulation)
+    {
+      FaceExtent extent;
       for (const auto &cell : triangulation.active_cell_iterators())
         for (const auto &face : cell->face_iterators())
           if (face->at_boundary() && face->boundary_id() == boundary_id::friction_face)
             for (unsigned int v = 0; v < 2; ++v)
-            {
-              lowest  = std::min(lowest, face->vertex(v)[1]);
-              highest = std::max(highest, face->vertex(v)[1]);
-              begin   = std::min(begin, face->vertex(v)[0]);
-              end     = std::max(end, face->vertex(v)[0]);
-            }
+              for (unsigned int d = 0; d < 2; ++d)
+              {
+                extent.lower[d] = std::min(extent.lower[d], face->vertex(v)[d]);
+                extent.upper[d] = std::max(extent.upper[d], face->vertex(v)[d]);
+              }
+      return extent;
+    }
+
+    /// The face must lie where the scene's geometry has it, or the cylinder would miss it.
+    void check_position(const Scene &scene, const Triangulation<2> &triangulation)
+    {
+      const auto extent    = extent_of_friction_face(triangulation);
       const auto &geometry = scene.geometry;
+      const auto &file     = scene.mesh.file;
       const double e       = geometry.interface_offset;
+      const double small   = 1e-6 * geometry.cylinder_radius;
+      if (extent.lower[0] > extent.upper[0])
+        throw InputError(file + ": no side of 'lever' or 'layer' lies on the curve 'friction face'");
+
       std::vector<std::string> mistakes;
-      if (lowest < e - 1e-6 * geometry.cylinder_radius || lowest > e + 1e-6 * geometry.cylinder_radius)
-        mistakes.push_back(scene.mesh.file + ": the curve 'friction face' begins at " + std::to_string(lowest) +
-                           " mm off the pivot, but Geometry/Interface offset = " + std::to_string(e));
+      if (extent.lower[1] < e - small || extent.upper[1] > e + small)
+        mistakes.push_back(file + ": the curve 'friction face' lies " + rounded_text(extent.lower[1]) + " to " +
+                           rounded_text(extent.upper[1]) +
+                           " mm off the pivot, but Geometry/Interface offset = " + rounded_text(e));
       const double first = kinematics(geometry, scene.drive.maximum()).s;
       const double last  = kinematics(geometry, scene.drive.minimum()).s;
-      if (begin > first || end < last)
-        mistakes.push_back(scene.mesh.file + ": the curve 'friction face' spans " + std::to_string(begin) + " to " +
-                           std::to_string(end) + " mm from the pivot, but the contact sweeps " + std::to_string(first) + " to " +
-                           std::to_string(last) + " mm");
+      if (extent.lower[0] > first || extent.upper[0] < last)
+        mistakes.push_back(file + ": the curve 'friction face' spans " + rounded_text(extent.lower[0]) + " to " +
+                           rounded_text(extent.upper[0]) + " mm from the pivot, but the contact sweeps " + rounded_text(first) +
+                           " to " + rounded_text(last) + " mm");
       if (!mistakes.empty())
         throw InputError(mistakes);
+    }
+
+    void read(const std::string &file, std::istream &stream, Triangulation<2> &triangulation)
+    {
+      try
+      {
+        GridIn<2> reader(triangulation);
+        reader.read_msh(stream);
+      }
+      catch (const dealii::ExceptionBase &)
+      {
+        throw InputError(file +
+                         ": the mesh cannot be used: a surface is in two physical groups, a physical curve lies inside the " +
+                         "body, or cells do not match along a common side");
+      }
     }
   } // namespace
 
@@ -247,8 +278,7 @@ namespace sprag
     const TemporaryFile output;
     const GroupIds ids = run_gmsh(scene, output.path);
     std::ifstream stream(output.path);
-    GridIn<2> reader(triangulation);
-    reader.read_msh(stream);
+    read(scene.mesh.file, stream, triangulation);
     rename_ids(ids, triangulation);
     check_position(scene, triangulation);
   }

@@ -54,7 +54,7 @@ namespace sprag
     virtual double penetration() const = 0;
 
     /// Why the state of the last evaluation, though balanced, is beyond what the model can tell; empty if it is not.
-    virtual std::string objection() const = 0;
+    virtual std::string objection(const State &trial) const = 0;
 
     /// Multipliers of the next augmentation from the tractions of the last evaluation.
     virtual void augment(State &trial) const = 0;

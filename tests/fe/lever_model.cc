@@ -147,7 +147,6 @@ namespace
       model.evaluate(trial, accepted, FrictionMode::cone);
       Vector left = model.correction();
       left.add(h, direction);
-      std::cout << "h " << h << " left " << model.movement(left) / h << std::endl;
       EXPECT_LE(model.movement(left), (1e3 * h + 1e-12 / h) * h) << "h " << h;
     }
   }

@@ -1,5 +1,4 @@
 #include "analysis/newton.h"
-#include "analysis/quasi_static.h"
 #include "fe/lever_model.h"
 #include "mpi_environment.h"
 #include "scenes.h"
@@ -30,13 +29,14 @@ namespace
     std::optional<LeverModel> model;
   };
 
-  /// Where the accepted steps of a whole run end.
-  std::vector<DrivePoint> run(Meshed &meshed)
+  /// Forward to 65 mm and back to the beginning at 112 mm/s, with small steps through stick.
+  std::vector<DrivePoint> there_and_back()
   {
     std::vector<DrivePoint> drive;
-    const QuasiStaticSettings settings{ 5., 1e-6, meshed.scene.contact };
-    run_quasi_static(*meshed.model, meshed.scene.drive, settings,
-                     [&](const State &state, const Row &) { drive.push_back(state.drive); });
+    for (const double x : { 0., 5., 10., 20., 30., 40., 50., 60., 65. })
+      drive.push_back({ x / 112., x, 112. });
+    for (const double back : { 1e-3, 3e-3, 6e-3, 0.01, 0.02, 0.04, 0.1, 1., 5., 10., 20., 30., 40., 50., 60., 65. })
+      drive.push_back({ (65. + back) / 112., 65. - back, -112. });
     return drive;
   }
 
@@ -73,15 +73,14 @@ namespace
   }
 
   // Both solve the same equations to corrections below 1e-7 of the overlap where convergence is quadratic: what is left is
-  // round-off. The steps are the same; those that run_quasi_static() chooses after a reversal depend on round-off.
+  // round-off.
   void expect_same_answers(const Enforcement enforcement, const double face_size)
   {
     Meshed once(Solution::automatic, enforcement, face_size);
     Meshed general(Solution::general, enforcement, face_size);
-    const auto drive = run(once);
+    const auto drive = there_and_back();
     const auto fast  = follow(once, drive);
     const auto slow  = follow(general, drive);
-    ASSERT_GT(fast.size(), 26u);
     for (const auto column : { Column::P, Column::Q, Column::theta, Column::elastic_energy })
     {
       double peak    = 0.;

@@ -48,7 +48,7 @@ namespace
     scene.analysis.minimum_step *= a;
     scene.contact.penetration_tolerance *= a;
     scene.mesh.face_size *= a;
-    scene.drive    = Drive(DriveProfile::triangle, 0., a * 65., a * 112., 1.);
+    scene.drive    = Drive(DriveProfile::triangle, a * 30., a * 65., a * 112., 1.);
     scene.friction = tabulated(1. / a);
     return scene;
   }
@@ -67,29 +67,41 @@ namespace
     return rows;
   }
 
-  /// Rows of a run whose positions and forces are multiplied by constants.
+  /// Rows of a run whose positions and forces are multiplied by constants: those of the first stroke one by one, and the last.
+  /// Of those in between the analysis chooses the places, by a stiffness that it finds by a difference.
   void expect_same(const std::vector<Row> &rows, const std::vector<Row> &reference, const double length, const double force,
-                   const double tolerance)
+                   const double tolerance, const double tolerance_at_end)
   {
-    ASSERT_EQ(rows.size(), reference.size());
-    double peak_P = 0., peak_Q = 0., worst = 0.;
+    double peak_P = 0., peak_Q = 0.;
     for (const Row &row : reference)
     {
       peak_P = std::max(peak_P, row[Column::P]);
       peak_Q = std::max(peak_Q, std::abs(row[Column::Q]));
     }
-    for (std::size_t i = 0; i < rows.size(); ++i)
+    const auto expect_row = [&](const Row &row, const Row &other, const double share)
     {
-      EXPECT_NEAR(rows[i][Column::x] / length, reference[i][Column::x], tolerance * 65.);
-      EXPECT_NEAR(rows[i][Column::P] / force, reference[i][Column::P], tolerance * peak_P);
-      EXPECT_NEAR(rows[i][Column::Q] / force, reference[i][Column::Q], tolerance * peak_Q);
-      EXPECT_NEAR(rows[i][Column::theta], reference[i][Column::theta], tolerance);
-      worst = std::max(worst, std::abs(rows[i][Column::Q] / force - reference[i][Column::Q]) / peak_Q);
-    }
-    std::printf("largest difference of Q over its peak %.1e\n", worst);
+      EXPECT_NEAR(row[Column::x] / length, other[Column::x], 1e-12 * 65.);
+      EXPECT_NEAR(row[Column::P] / force, other[Column::P], share * peak_P);
+      EXPECT_NEAR(row[Column::Q] / force, other[Column::Q], share * peak_Q);
+      EXPECT_NEAR(row[Column::theta], other[Column::theta], share);
+      return std::max(std::abs(row[Column::P] / force - other[Column::P]) / peak_P,
+                      std::abs(row[Column::Q] / force - other[Column::Q]) / peak_Q);
+    };
+    double largest = 0.;
+    for (std::size_t i = 0; reference.at(i)[Column::v] > 0.; ++i)
+      largest = std::max(largest, expect_row(rows.at(i), reference[i], tolerance));
+    const double at_end = expect_row(rows.back(), reference.back(), tolerance_at_end);
+    std::printf("largest difference of P and Q over their peaks: %.1e forward, %.1e at the end\n", largest, at_end);
   }
 
   constexpr double round_off = 1e-9; ///< of iterations whose last correction is 1e-7 of the overlap, converging quadratically
+
+  /// At the end of the return stroke: full sliding has no memory of the steps, but the overlap left by augmentation, up to
+  /// 1e-6 mm, depends on them; over s (theta - theta_0), 2 mm or more.
+  double tolerance_at_end(const Enforcement enforcement)
+  {
+    return enforcement == Enforcement::penalty ? round_off : 1e-6;
+  }
 
   const Units metres{ 1e-3, 1e6 };
   const Units thousandth{ 1e-3, 1. };
@@ -103,7 +115,7 @@ TEST(Units, DoNotMatterToTheClosedForm)
       std::vector<Row> reference, rows;
       run_closed_form(in_units(scene, { 1., 1. }), [&](const Row &row) { reference.push_back(row); });
       run_closed_form(in_units(scene, units), [&](const Row &row) { rows.push_back(row); });
-      expect_same(rows, reference, units.length, units.modulus * units.length * units.length, 1e-12);
+      expect_same(rows, reference, units.length, units.modulus * units.length * units.length, 1e-12, 1e-12);
     }
 }
 
@@ -116,7 +128,8 @@ TEST(Units, DoNotMatterToTheFiniteElements)
       scene                     = with_face_size(scene, 2.);
       const auto reference      = run_in_units(scene, { 1., 1. });
       for (const Units &units : { metres, thousandth })
-        expect_same(run_in_units(scene, units), reference, units.length, units.modulus * units.length * units.length, round_off);
+        expect_same(run_in_units(scene, units), reference, units.length, units.modulus * units.length * units.length, round_off,
+                    tolerance_at_end(enforcement));
     }
 }
 
@@ -125,11 +138,11 @@ TEST(Units, ForcesGrowInProportionToAllStiffnesses)
   for (const Scene &model : models())
     for (const Scene &scene : { model, with_augmented_lagrangian(model) })
     {
-      const Scene coarse = with_face_size(scene, 2.);
+      const Scene coarse = with_face_size(with_drive(scene, Drive(DriveProfile::triangle, 30., 65., 112., 1.)), 2.);
       const double c     = 37.;
       Scene stiffer      = with_stiffness(coarse, c);
       stiffer.spring_stiffness *= c;
-      expect_same(run_scene(stiffer), run_scene(coarse), 1., c, round_off);
+      expect_same(run_scene(stiffer), run_scene(coarse), 1., c, round_off, tolerance_at_end(scene.contact.enforcement));
     }
 }
 
@@ -137,9 +150,10 @@ TEST(Units, SpeedDoesNotMatterToConstantFriction)
 {
   for (const Scene &model : models())
   {
-    const Scene scene    = with_face_size(model, 2.);
-    const auto reference = run_scene(scene);
-    expect_same(run_scene(with_drive(scene, Drive(DriveProfile::triangle, 0., 65., 11200., 1.))), reference, 1., 1., round_off);
+    const Scene scene = with_face_size(model, 2.);
+    const auto run_at = [&](const double speed)
+    { return run_scene(with_drive(scene, Drive(DriveProfile::triangle, 30., 65., speed, 1.))); };
+    expect_same(run_at(11200.), run_at(112.), 1., 1., round_off, round_off);
   }
 }
 

@@ -83,12 +83,17 @@ namespace sprag
       return correction.linfty_norm();
     }
 
+    double length_scale() const override
+    {
+      return 1.;
+    }
+
     double penetration() const override
     {
       return response.pressure > 0. ? std::abs(point.gap) : 0.;
     }
 
-    std::string objection() const override
+    std::string objection(const State &) const override
     {
       return {};
     }

@@ -1,0 +1,100 @@
+#pragma once
+
+#include "analysis/newton.h"
+#include "fe/lever_model.h"
+#include "verification/block.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <gtest/gtest.h>
+#include <utility>
+
+namespace sprag
+{
+  /// A rigid plane at height y(x), its material at xi = c(x).
+  inline Obstacle rigid_plane(std::function<double(double)> height, std::function<double(double)> place)
+  {
+    return [=](const LeverPoint &point, const double x, double)
+    {
+      ContactKinematics<3> result;
+      result.gap         = point.eta - height(x);
+      result.gap_row[1]  = 1.;
+      result.slip        = point.xi - place(x);
+      result.slip_row[0] = 1.;
+      return result;
+    };
+  }
+
+  /// A rigid circle whose centre moves over x. The body's axes rest.
+  inline Obstacle rigid_circle(const double radius, std::function<LeverPoint(double)> centre)
+  {
+    return [=](const LeverPoint &point, const double x, double)
+    {
+      const auto at           = centre(x);
+      const Geometry geometry = { radius, 0., at.xi, -at.eta };
+      auto result             = circle_contact(geometry, point, 0., 0.);
+      for (unsigned int i = 0; i < 3; ++i)
+      {
+        result.gap_row[i] *= i == 2 ? 0. : 1.;
+        result.slip_row[i] *= i == 2 ? 0. : 1.;
+        result.gap_curvature[2][i] = result.gap_curvature[i][2] = 0.;
+        result.slip_curvature[2][i] = result.slip_curvature[i][2] = 0.;
+      }
+      return result;
+    };
+  }
+
+  /// A block, see make_block(), against an obstacle, its axes held.
+  inline LeverProperties block_properties(Obstacle obstacle, const double coefficient)
+  {
+    LeverProperties result;
+    result.body.plane  = PlaneState::strain;
+    result.obstacle    = std::move(obstacle);
+    result.ideal_theta = [](double) { return 0.; };
+    result.centre      = [](double, double) { return 0.; };
+    result.spring      = { 1e9, 0., 1. };
+    result.friction    = { CoulombFriction{ coefficient }, FrictionSpeed::sliding };
+    return result;
+  }
+
+  /// The accepted state at drive position x (also its time), from `accepted`; augments where `model` has multipliers.
+  inline State step_to(Model &model, const State &accepted, const double x, const ContactSettings &contact)
+  {
+    State trial = accepted;
+    trial.drive = { x, x, 1. };
+    EXPECT_TRUE(solve_equilibrium(model, trial, accepted, false).converged) << "x " << x;
+    if (contact.enforcement == Enforcement::augmented_lagrangian)
+      for (unsigned int i = 0; model.penetration() > contact.penetration_tolerance; ++i)
+      {
+        model.augment(trial);
+        const bool converged = i < contact.maximum_augmentations && solve_equilibrium(model, trial, accepted, false).converged;
+        EXPECT_TRUE(converged) << "x " << x << ", penetration " << model.penetration();
+        if (!converged)
+          break;
+      }
+    trial.contact = model.memory();
+    return trial;
+  }
+
+  /// A profile along the face: position, pressure and traction of the points under pressure.
+  struct FaceProfile
+  {
+    std::vector<double> xi, pressure, traction;
+  };
+
+  inline FaceProfile profile(const Model &model, const State &state)
+  {
+    const auto points = model.face_points();
+    const auto face   = model.face_state(state);
+    FaceProfile result;
+    for (std::size_t q = 0; q < points.xi.size(); ++q)
+      if (face.pressure[q] > 0.)
+      {
+        result.xi.push_back(points.xi[q]);
+        result.pressure.push_back(face.pressure[q]);
+        result.traction.push_back(face.traction[q]);
+      }
+    return result;
+  }
+} // namespace sprag
