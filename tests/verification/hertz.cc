@@ -33,66 +33,69 @@ namespace
     return *std::max_element(values.begin(), values.end());
   }
 
+  struct Elements
+  {
+    unsigned int degree;
+    Enforcement enforcement;
+    double penalty; ///< [N/mm^3]
+  };
+
   // A half plane under a rigid cylinder: a^2 = 4 P' R / (pi E*), p0 = 2 P' / (pi a), p = p0 sqrt(1 - (x/a)^2), E* = E/(1-nu^2),
   // with P' as found (an approach is not defined in two dimensions). Taken for granted there and not here: the block is 40 a
   // wide and 20 a deep, which changes the curvature under the contact by some (a / depth)^2 = 0.25 %; the circle is no parabola,
-  // (a/R)^2 / 4 = 0.06 %; cells of a / 20 leave edges uncertain by a part of their size; the penalty lets the surfaces overlap
-  // by 0.02 % of the sagitta.
-  void expect_hertz(const unsigned int degree, const Enforcement enforcement, const double poisson_ratio)
+  // (a/R)^2 / 4 = 0.06 %; of cells of a / 40 the one at the edge has p fall to 0 too early or late by up to half its size,
+  // 1.25 % of a; the penalty lets the surfaces overlap by p0 / eps, up to 0.5 % of the sagitta a^2 / 2R. Inside 0.9 a, beyond the
+  // reach of the cell at the edge, all this leaves 1 % of p0.
+  void expect_hertz(const Elements &elements, const double poisson_ratio)
   {
     const double radius = 20.;
     dealii::Triangulation<2> triangulation;
-    make_block(mirrored(graded_parts(0.05, 1.3, 1.25, 20.)), graded_parts(0.05, 0.5, 1.25, 20.), triangulation);
-    auto properties               = block_properties({}, 0.);
-    properties.body.degree        = degree;
-    properties.body.width         = 3.;
-    properties.body.point_spacing = 0.005;
-    properties.body.constants     = { { material_id::lever, { 100., poisson_ratio } } };
-    properties.contact.enforcement = enforcement;
-    properties.contact.penalty     = enforcement == Enforcement::penalty ? 4e5 : 2e4;
+    make_block(mirrored(graded_parts(0.025, 1.2, 1.25, 20.)), graded_parts(0.025, 0.3, 1.25, 20.), triangulation);
+    auto properties                = block_properties({}, 0.);
+    properties.body.degree         = elements.degree;
+    properties.body.width          = 3.;
+    properties.body.point_spacing  = 0.002;
+    properties.body.constants      = { { material_id::lever, { 100., poisson_ratio } } };
+    properties.contact.enforcement = elements.enforcement;
+    properties.contact.penalty     = elements.penalty;
     const auto outcome             = indented(triangulation, properties, 0.09, radius);
 
     const double modulus = 100. / (1. - poisson_ratio * poisson_ratio);
     const double a       = std::sqrt(4. * outcome.load * radius / (pi * modulus));
     const double p0      = 2. * outcome.load / (pi * a);
-    std::cout << "a " << outcome.half_width << " / " << a << ", p0 " << largest(outcome.face.pressure) << " / " << p0 << std::endl;
     EXPECT_GT(a, 0.8);
-    EXPECT_LT(a, 1.2);
-    EXPECT_NEAR(outcome.half_width, a, 0.01 * a);
+    EXPECT_LT(a, 1.1);
+    EXPECT_NEAR(outcome.half_width, a, 0.0125 * a);
     double worst = 0.;
     for (std::size_t q = 0; q < outcome.face.xi.size(); ++q)
     {
       const double share = outcome.face.xi[q] / a;
-      if (std::abs(share) < 0.95)
-      {
-        const double p = p0 * std::sqrt(1. - share * share);
-        worst          = std::max(worst, std::abs(outcome.face.pressure[q] - p) / p0);
-      }
+      if (std::abs(share) < 0.9)
+        worst = std::max(worst, std::abs(outcome.face.pressure[q] - p0 * std::sqrt(1. - share * share)) / p0);
     }
-    std::cout << "worst " << worst << std::endl;
-    EXPECT_LE(worst, 0.02);
-    EXPECT_NEAR(largest(outcome.face.pressure), p0, 0.02 * p0);
+    EXPECT_LE(worst, 0.01);
+    std::cout << "a " << outcome.half_width << " / " << a << ", p0 " << largest(outcome.face.pressure) << " / " << p0 << " worst " << worst << std::endl;
   }
 } // namespace
 
 TEST(Hertz, RigidCylinderOnAHalfPlaneByPenalty)
 {
-  expect_hertz(2, Enforcement::penalty, 0.3);
+  expect_hertz({ 2, Enforcement::penalty, 4e4 }, 0.3);
 }
 
 TEST(Hertz, RigidCylinderOnAHalfPlaneByMultipliers)
 {
-  expect_hertz(2, Enforcement::augmented_lagrangian, 0.3);
+  expect_hertz({ 2, Enforcement::augmented_lagrangian, 2e4 }, 0.3);
 }
 
 TEST(Hertz, RigidCylinderOnAHalfPlaneOfDegree1)
 {
-  expect_hertz(1, Enforcement::penalty, 0.);
+  expect_hertz({ 1, Enforcement::penalty, 2e4 }, 0.);
 }
 
 // A thin layer bonded to a rigid base, nu = 0: each column of it carries p = (E/t) (delta - x^2 / 2R), so that
 // a = sqrt(2 R delta), P' = 4/3 (E/t) delta a. Shear between the columns is left out: it spreads the load by some t/3 at the
-// edges, where the pressure is small: relative (t / 3a)^2 in the profile, t / 3a in the width. Here a = 20 t.
+// edges: t / 3a = 1.7 % of the width, and 2 t / 3a = 3.3 % of the pressure at most, which falls there with 2 p0 / a. Here a = 20 t.
 TEST(Hertz, RigidCylinderOnAThinBondedLayer)
 {
   const double thickness = 1., delta = 0.1, radius = 2000., modulus = 20.;
@@ -108,7 +111,7 @@ TEST(Hertz, RigidCylinderOnAThinBondedLayer)
             << 4. / 3. * modulus / thickness * delta * a << ", p0 " << largest(outcome.face.pressure) << " / "
             << modulus / thickness * delta << std::endl;
   EXPECT_NEAR(outcome.load, 4. / 3. * modulus / thickness * delta * a, 0.01 * outcome.load);
-  EXPECT_NEAR(outcome.half_width, a, 0.02 * a);
+  EXPECT_NEAR(outcome.half_width, a, 0.017 * a);
   double worst = 0.;
   for (std::size_t q = 0; q < outcome.face.xi.size(); ++q)
   {
@@ -116,6 +119,6 @@ TEST(Hertz, RigidCylinderOnAThinBondedLayer)
     const double p = modulus / thickness * std::max(0., delta - x * x / (2. * radius));
     worst          = std::max(worst, std::abs(outcome.face.pressure[q] - p) / (modulus * delta / thickness));
   }
-  std::cout << "worst " << worst << std::endl;
-  EXPECT_LE(worst, 0.02);
+  EXPECT_LE(worst, 0.033);
+  EXPECT_NEAR(largest(outcome.face.pressure), modulus / thickness * delta, 2e-3 * modulus / thickness * delta);
 }

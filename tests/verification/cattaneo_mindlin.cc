@@ -1,0 +1,99 @@
+#include "mpi_environment.h"
+#include "pressed_block.h"
+
+using namespace sprag;
+
+namespace
+{
+  constexpr double pi          = 3.14159265358979323846;
+  constexpr double radius      = 20.;
+  constexpr double coefficient = 0.4;
+  constexpr double penalty     = 4e4;
+  constexpr double cell        = 0.025;
+  // Nearly incompressible, as a rigid circle asks for: in plane strain pressure then moves the surface along the face by no more
+  // than (1 - 2 nu) / (2 (1 - nu)) = 2 % of what traction does.
+  constexpr ElasticConstants elastic = { 100., 0.49 };
+
+  /// Pressed in by 0.07 mm while x goes from 0 to 1, then moved along the face by -0.012 mm (x - 1).
+  LeverPoint centre(const double x)
+  {
+    return { -0.012 * std::max(0., x - 1.), 0.07 * std::min(x, 1.) - radius };
+  }
+
+  LeverProperties properties_of(const double friction)
+  {
+    auto properties               = block_properties(rigid_circle(radius, centre), friction);
+    properties.body.point_spacing = 0.002;
+    properties.body.constants     = { { material_id::lever, elastic } };
+    properties.contact.penalty    = penalty;
+    return properties;
+  }
+
+  struct Outcome
+  {
+    double P; ///< [N], width 1 mm
+    double Q; ///< magnitude of the friction force [N]
+    FaceProfile face;
+  };
+
+  /// Pressed without friction, then moved along up to each of `positions` in turn.
+  std::vector<Outcome> loaded(const std::vector<double> &positions, const double friction)
+  {
+    dealii::Triangulation<2> triangulation;
+    make_block(mirrored(graded_parts(cell, 1.2, 1.25, 20.)), graded_parts(cell, 0.3, 1.25, 20.), triangulation);
+    State state;
+    {
+      const auto properties = properties_of(0.);
+      LeverModel model(triangulation, properties);
+      state = model.initial_state({ 0., 0., 1. });
+      for (const double x : { 0.1, 0.25, 0.5, 0.75, 1. })
+        state = step_to(model, state, x, properties.contact);
+    }
+    const auto properties = properties_of(friction);
+    LeverModel model(triangulation, properties);
+    std::vector<Outcome> outcomes;
+    for (const double x : positions)
+    {
+      state = step_to(model, state, x, properties.contact);
+      Row row;
+      model.observe(state, row);
+      outcomes.push_back({ row[Column::P], std::abs(row[Column::F]), profile(model, state) });
+    }
+    return outcomes;
+  }
+
+  /// Half the length between the outermost points off the cone.
+  double stick_half_width(const FaceProfile &face, const double friction)
+  {
+    double begin = 1e300, end = -1e300;
+    for (std::size_t q = 0; q < face.xi.size(); ++q)
+      if (std::abs(face.traction[q]) < friction * face.pressure[q] * (1. - 1e-9))
+      {
+        begin = std::min(begin, face.xi[q]);
+        end   = std::max(end, face.xi[q]);
+      }
+    return std::max(0., 0.5 * (end - begin));
+  }
+} // namespace
+
+TEST(CattaneoMindlin, SlipEntersFromTheEdgesAsTheTangentialLoadGrows)
+{
+  const auto outcomes = loaded({ 1.1, 1.25, 1.5, 2., 2.5, 3.,3.5,4. }, coefficient);
+  for (const auto &outcome : outcomes)
+  {
+    const double modulus = elastic.young_modulus / (1. - elastic.poisson_ratio * elastic.poisson_ratio);
+    const double a       = std::sqrt(4. * outcome.P * radius / (pi * modulus));
+    const double p0      = 2. * outcome.P / (pi * a);
+    const double c       = a * std::sqrt(1. - outcome.Q / (coefficient * outcome.P));
+    double worst         = 0.;
+    for (std::size_t q = 0; q < outcome.face.xi.size(); ++q)
+    {
+      const double x   = outcome.face.xi[q];
+      const auto circle = [](const double r, const double at) { return std::sqrt(std::max(0., r * r - at * at)); };
+      const double traction = coefficient * p0 / a * (circle(a, x) - circle(c, x));
+      if (std::abs(x) < 0.9 * a)
+      worst = std::max(worst, std::abs(std::abs(outcome.face.traction[q]) - traction) / (coefficient * p0));
+    }
+    std::cout << "Q/muP " << outcome.Q / (coefficient * outcome.P) << " a " << a << " c " << stick_half_width(outcome.face, coefficient) << " / " << c << " worst " << worst << std::endl;
+  }
+}
