@@ -203,7 +203,7 @@ namespace sprag
 
   double stick_stiffness(Model &model, const State &accepted)
   {
-    const double probe = 1e-6;
+    const double probe = 1e-8 * model.length_scale();
     State trial        = accepted;
     Row before, after;
     model.evaluate(trial, accepted, FrictionMode::stick);

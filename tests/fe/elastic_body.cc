@@ -35,9 +35,8 @@ namespace
   {
     make_block({ 1., 1.5, 2.6, 4., 5. }, { 0., 0.3, 1.2, 2. }, triangulation);
     dealii::GridTools::transform(
-        [](const dealii::Point<2> &p) {
-          return dealii::Point<2>(p[0] + 0.05 * std::sin(p[0] * p[1]) * p[1] * (2. - p[1]) * (p[0] - 1.) * (5. - p[0]), p[1]);
-        },
+        [](const dealii::Point<2> &p)
+        { return dealii::Point<2>(p[0] + 0.05 * std::sin(p[0] * p[1]) * p[1] * (2. - p[1]) * (p[0] - 1.) * (5. - p[0]), p[1]); },
         triangulation);
   }
 
@@ -75,9 +74,9 @@ TEST(ElasticBody, LinearForcesAreStiffnessTimesDisplacement)
   for (const unsigned int degree : { 1u, 2u })
   {
     const ElasticBody<2> body(triangulation, properties_of(degree, MaterialModel::linear, 0.3));
-    const auto displacement    = random_displacement(body, 1., 1);
+    const auto displacement      = random_displacement(body, 1., 1);
     const auto [product, forces] = product_and_forces(body, displacement, displacement);
-    Vector difference          = product;
+    Vector difference            = product;
     difference -= forces;
     EXPECT_LE(difference.linfty_norm(), 1e-13 * forces.linfty_norm());
     EXPECT_NEAR(body.energy(displacement), 0.5 * (forces * displacement), 1e-13 * body.energy(displacement));
@@ -220,8 +219,8 @@ TEST(ElasticBody, UniformPressureIsIntegratedExactly)
     for (const auto &point : face.points)
       for (const auto &[node, shape] : point.nodes)
         areas[face.nodes[node].position[0]] += point.weight * shape / width;
-    const std::vector<double> expected =
-        degree == 1 ? std::vector<double>{ 0.25, 0.8, 0.55 } : std::vector<double>{ 0.5 / 6., 2. / 6., 1.6 / 6., 4.4 / 6., 1.1 / 6. };
+    const std::vector<double> expected = degree == 1 ? std::vector<double>{ 0.25, 0.8, 0.55 }
+                                                     : std::vector<double>{ 0.5 / 6., 2. / 6., 1.6 / 6., 4.4 / 6., 1.1 / 6. };
     ASSERT_EQ(areas.size(), expected.size());
     auto found = areas.begin();
     for (const double area : expected)

@@ -45,8 +45,8 @@ TEST(NeoHookean, StressIsTheDerivativeOfTheEnergy)
     for (unsigned int i = 0; i < 4; ++i)
       for (const double h : { 1e-3, 1e-4, 1e-5 })
       {
-        const double difference =
-            neo_hookean_energy<2>(constants, moved(deformation, i, h)) - neo_hookean_energy<2>(constants, moved(deformation, i, -h));
+        const double difference = neo_hookean_energy<2>(constants, moved(deformation, i, h)) -
+                                  neo_hookean_energy<2>(constants, moved(deformation, i, -h));
         EXPECT_NEAR(neo_hookean<2>(constants, deformation).piola[i / 2][i % 2], difference / (2. * h), allowed(h));
       }
 }

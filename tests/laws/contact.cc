@@ -40,7 +40,7 @@ namespace
   void expect_derivatives(const double trial, const double pressure, const FrictionLaw &law, const double penalty,
                           const double dt)
   {
-    const auto at = [&](const double t, const double p) { return friction_traction(t, p, law, penalty, dt).traction; };
+    const auto at       = [&](const double t, const double p) { return friction_traction(t, p, law, penalty, dt).traction; };
     const auto friction = at(trial, pressure);
     const auto exact    = friction_traction(trial, pressure, law, penalty, dt);
     ASSERT_EQ(friction, exact.traction);

@@ -43,7 +43,7 @@ namespace
   /// Through the very positions of `drive`, with augmentations down to 1e-6 mm where the model has multipliers.
   std::vector<Row> follow(Meshed &meshed, const std::vector<DrivePoint> &drive)
   {
-    auto &model       = *meshed.model;
+    auto &model          = *meshed.model;
     const bool augmented = meshed.scene.contact.enforcement == Enforcement::augmented_lagrangian;
     std::vector<Row> rows;
     State accepted = model.initial_state(drive.front());

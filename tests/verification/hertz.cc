@@ -45,7 +45,8 @@ namespace
   // wide and 20 a deep, which changes the curvature under the contact by some (a / depth)^2 = 0.25 %; the circle is no parabola,
   // (a/R)^2 / 4 = 0.06 %; of cells of a / 40 the one at the edge has p fall to 0 too early or late by up to half its size,
   // 1.25 % of a; the penalty lets the surfaces overlap by p0 / eps, up to 0.5 % of the sagitta a^2 / 2R. Inside 0.9 a, beyond the
-  // reach of the cell at the edge, all this leaves 1 % of p0.
+  // reach of the cell at the edge, all this leaves 1 % of p0. Cells of degree 1 are chords: between nodes the circle stands out
+  // by h^2 / 8R more, eps times that in pressure.
   void expect_hertz(const Elements &elements, const double poisson_ratio)
   {
     const double radius = 20.;
@@ -73,8 +74,8 @@ namespace
       if (std::abs(share) < 0.9)
         worst = std::max(worst, std::abs(outcome.face.pressure[q] - p0 * std::sqrt(1. - share * share)) / p0);
     }
-    EXPECT_LE(worst, 0.01);
-    std::cout << "a " << outcome.half_width << " / " << a << ", p0 " << largest(outcome.face.pressure) << " / " << p0 << " worst " << worst << std::endl;
+    const double ripple = elements.degree == 1 ? elements.penalty * 0.025 * 0.025 / (8. * radius) / p0 : 0.;
+    EXPECT_LE(worst, 0.01 + ripple);
   }
 } // namespace
 
@@ -95,7 +96,8 @@ TEST(Hertz, RigidCylinderOnAHalfPlaneOfDegree1)
 
 // A thin layer bonded to a rigid base, nu = 0: each column of it carries p = (E/t) (delta - x^2 / 2R), so that
 // a = sqrt(2 R delta), P' = 4/3 (E/t) delta a. Shear between the columns is left out: it spreads the load by some t/3 at the
-// edges: t / 3a = 1.7 % of the width, and 2 t / 3a = 3.3 % of the pressure at most, which falls there with 2 p0 / a. Here a = 20 t.
+// edges: t / 3a = 1.7 % of the width, and 2 t / 3a = 3.3 % of the pressure at most, which falls there with 2 p0 / a. Here a = 20
+// t.
 TEST(Hertz, RigidCylinderOnAThinBondedLayer)
 {
   const double thickness = 1., delta = 0.1, radius = 2000., modulus = 20.;
@@ -107,9 +109,6 @@ TEST(Hertz, RigidCylinderOnAThinBondedLayer)
   properties.contact.penalty    = 2e4; // 0.1 % of the layer's compression
   const auto outcome            = indented(triangulation, properties, delta, radius);
   const double a                = std::sqrt(2. * radius * delta);
-  std::cout << "a " << outcome.half_width << " / " << a << ", P " << outcome.load << " / "
-            << 4. / 3. * modulus / thickness * delta * a << ", p0 " << largest(outcome.face.pressure) << " / "
-            << modulus / thickness * delta << std::endl;
   EXPECT_NEAR(outcome.load, 4. / 3. * modulus / thickness * delta * a, 0.01 * outcome.load);
   EXPECT_NEAR(outcome.half_width, a, 0.017 * a);
   double worst = 0.;

@@ -28,12 +28,12 @@ namespace
   {
     dealii::Triangulation<2> triangulation;
     make_patch(triangulation);
-    auto properties                = block_properties(rigid_plane([](double x) { return 0.1 * x; }, [](double) { return 0.; }), 0.3);
-    properties.body.degree         = degree;
-    properties.body.width          = 5.;
-    properties.body.constants      = { { material_id::lever, { modulus, 0. } }, { material_id::layer, { modulus, 0. } } };
-    properties.contact.enforcement = enforcement;
-    properties.contact.penalty     = penalty;
+    auto properties           = block_properties(rigid_plane([](double x) { return 0.1 * x; }, [](double) { return 0.; }), 0.3);
+    properties.body.degree    = degree;
+    properties.body.width     = 5.;
+    properties.body.constants = { { material_id::lever, { modulus, 0. } }, { material_id::layer, { modulus, 0. } } };
+    properties.contact.enforcement           = enforcement;
+    properties.contact.penalty               = penalty;
     properties.contact.penetration_tolerance = 1e-10;
     LeverModel model(triangulation, properties);
     State state = model.initial_state({ 0., 0., 1. });

@@ -1,0 +1,114 @@
+#pragma once
+
+#include "base/errors.h"
+#include "model/model.h"
+
+#include <cmath>
+#include <functional>
+
+namespace sprag
+{
+  /// One coordinate q with the equilibrium equation residual(q, x) = 0, without contact. What it can be asked to do wrong is
+  /// decided by the tests.
+  class ToyModel : public Model
+  {
+  public:
+    struct Value
+    {
+      double residual;
+      double derivative;
+    };
+
+    std::function<Value(double q, double x)> equation = [](double at, double drive) { return Value{ drive - at, -1. }; };
+    std::function<bool(double from, double to)> fails = [](double, double) { return false; }; ///< whether a step has no solution
+    std::function<std::string(double x)> objects      = [](double) { return std::string(); };
+
+    bool history_intact = true; ///< whether every trial began at the accepted history
+
+    State initial_state(const DrivePoint &drive) const override
+    {
+      State state;
+      state.drive = drive;
+      state.coordinates.reinit(1);
+      state.contact.resize(1);
+      state.contact[0].slip = drive.x;
+      return state;
+    }
+
+    void predict(State & /*trial*/, const State & /*accepted*/) const override
+    {
+    }
+
+    Unbalance evaluate(const State &trial, const State &accepted, const FrictionMode /*mode*/) override
+    {
+      q    = trial.coordinates[0];
+      x    = trial.drive.x;
+      from = accepted.drive.x;
+      // Trial states must start from the accepted one, untouched by whatever was rejected before.
+      if (accepted.contact[0].slip != accepted.drive.x || trial.contact[0].slip != accepted.contact[0].slip)
+        history_intact = false;
+      value = equation(q, x);
+      return { std::abs(value.residual), 1. };
+    }
+
+    dealii::Vector<double> correction() override
+    {
+      if (fails(from, x))
+        throw AnalysisError("no solution here");
+      dealii::Vector<double> result(1);
+      result[0] = -value.residual / value.derivative;
+      return result;
+    }
+
+    double movement(const dealii::Vector<double> &correction) const override
+    {
+      return correction.linfty_norm();
+    }
+
+    double length_scale() const override
+    {
+      return 1.;
+    }
+
+    double penetration() const override
+    {
+      return 0.;
+    }
+
+    std::string objection(const State &trial) const override
+    {
+      return objects(trial.drive.x);
+    }
+
+    void augment(State & /*trial*/) const override
+    {
+    }
+
+    std::vector<ContactMemory> memory() const override
+    {
+      return { { 0., 0., x } };
+    }
+
+    void observe(const State & /*trial*/, Row &row) const override
+    {
+      row[Column::P]              = 0.;
+      row[Column::F]              = 0.;
+      row[Column::Q]              = q;
+      row[Column::friction_power] = 0.;
+    }
+
+    FacePoints face_points() const override
+    {
+      return {};
+    }
+
+    FaceState face_state(const State & /*trial*/) const override
+    {
+      return {};
+    }
+
+  private:
+    double q = 0., x = 0., from = 0.;
+    Value value{};
+  };
+} // namespace sprag
