@@ -15,6 +15,7 @@ namespace sprag
   {
     constexpr double growth               = 1.5;
     constexpr double cut                  = 0.25;
+    constexpr double stalled_overlap      = 100.; ///< admitted after all augmentations, over the tolerance
     constexpr double largest_speed_change = 0.02; ///< in a step, over the drive's peak speed
 
     // The passage through stick after a reversal is about (|F+| + |F-|) / k_t long; its steps are these shares of it.
@@ -49,8 +50,9 @@ namespace sprag
     {
       while (model.penetration() > settings.penetration_tolerance)
       {
+        // Where the edge of the contact flips between two nodes the overlap stalls; it is small then, and reported.
         if (++cost.augmentations > settings.maximum_augmentations)
-          return false;
+          return model.penetration() <= stalled_overlap * settings.penetration_tolerance;
         model.augment(trial);
         if (!equilibrate(model, trial, accepted, false, cost))
           return false;

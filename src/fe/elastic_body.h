@@ -17,7 +17,7 @@
 namespace sprag
 {
   /// A meshed elastic body in axes in which its hub does not move. Displacement degrees of freedom are numbered from 0;
-  /// those of the hub are held at 0 and carry an identity row.
+  /// those of the hub are held at 0.
   template <int dim>
   class ElasticBody
   {
