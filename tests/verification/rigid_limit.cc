@@ -51,10 +51,10 @@ namespace
   }
 } // namespace
 
-// What is left at a coarse mesh: with an aluminium lever and 1 mm of cork P is 0.4 to 0.7 % off, a thousandth of which
-// is 1e-5; the contact, then narrower than the 0.01 to 0.03 mm between the integration points, adds half their distance over s,
-// 1e-4 at most. Q takes up half a distance as a turn of the contact by 0.015 / R too: 7e-4 for B. A deviation of a whole face
-// size in s would be 9e-3.
+// What is left is the mechanics of a lever that yields a thousandth as much. P: 0.4 to 0.7 % with aluminium and cork, so 1e-5,
+// and up to half the distance of 0.02 mm between the integration points over s, 1e-4. Q: in a thin layer a contact of half-width
+// a leans by mu a / 2.6 at most under its own shear; with a = 0.05 mm by 6e-4 rad for model B where the mesh resolves it, times
+// the force across x, 2 Q. A coarse mesh leans less. Contact points at nodes would leave half a face size in s, 4e-3.
 TEST(RigidLimit, MeetsTheClosedFormAtACoarseMesh)
 {
   expect_closed_form(1., 2e-4, 1e-3);
