@@ -13,7 +13,8 @@ namespace sprag
     return { a * std::cos(theta) - h * std::sin(theta), -a * std::sin(theta) - h * std::cos(theta) };
   }
 
-  ContactKinematics<3> circle_contact(const Geometry &geometry, const LeverPoint &point, const double x, const double theta)
+  ContactKinematics<4> moving_circle_contact(const Geometry &geometry, const LeverPoint &point, const double x,
+                                             const double theta)
   {
     const double R     = geometry.cylinder_radius;
     const LeverPoint c = cylinder_centre(geometry, x, theta);
@@ -21,23 +22,49 @@ namespace sprag
     const double r_2   = point.eta - c.eta;
     const double r     = std::hypot(r_1, r_2);
 
-    // N = (sin beta, cos beta), T = (cos beta, -sin beta), as rows over (u_xi, u_eta, theta); dc/dtheta = (c_2, -c_1).
-    const double sin_beta = r_1 / r;
-    const double cos_beta = r_2 / r;
-    Tensor<1, 3> normal({ sin_beta, cos_beta, -sin_beta * c.eta + cos_beta * c.xi });
-    Tensor<1, 3> tangential({ cos_beta, -sin_beta, -cos_beta * c.eta - sin_beta * c.xi });
-    Tensor<1, 3> rotation({ 0., 0., 1. });
-    ContactKinematics<3> result;
+    // N = (sin beta, cos beta), T = (cos beta, -sin beta), as rows over (u_xi, u_eta, theta, x); dc/dtheta = (c_2, -c_1),
+    // dc/dx = (-cos theta, sin theta).
+    const double sin_beta  = r_1 / r;
+    const double cos_beta  = r_2 / r;
+    const double sin_theta = std::sin(theta);
+    const double cos_theta = std::cos(theta);
+    const double along_x   = cos_beta * cos_theta + sin_beta * sin_theta;
+    const double across_x  = sin_beta * cos_theta - cos_beta * sin_theta;
+    Tensor<1, 4> normal({ sin_beta, cos_beta, -sin_beta * c.eta + cos_beta * c.xi, across_x });
+    Tensor<1, 4> tangential({ cos_beta, -sin_beta, -cos_beta * c.eta - sin_beta * c.xi, along_x });
+    Tensor<1, 4> rotation({ 0., 0., 1., 0. });
+    ContactKinematics<4> result;
 
     result.gap           = r - R;
     result.gap_row       = normal;
     result.gap_curvature = outer_product(tangential, tangential) / r;
     result.gap_curvature[2][2] += sin_beta * c.xi + cos_beta * c.eta;
+    result.gap_curvature[2][3] -= along_x;
+    result.gap_curvature[3][2] -= along_x;
 
     result.slip           = R * (std::atan2(r_1, r_2) - theta);
     result.slip_row       = R * (tangential / r - rotation);
     result.slip_curvature = -R / (r * r) * (outer_product(normal, tangential) + outer_product(tangential, normal));
     result.slip_curvature[2][2] += R / r * (cos_beta * c.xi - sin_beta * c.eta);
+    result.slip_curvature[2][3] += R / r * across_x;
+    result.slip_curvature[3][2] += R / r * across_x;
+    return result;
+  }
+
+  ContactKinematics<3> circle_contact(const Geometry &geometry, const LeverPoint &point, const double x, const double theta)
+  {
+    const auto moving = moving_circle_contact(geometry, point, x, theta);
+    ContactKinematics<3> result{ moving.gap, {}, {}, moving.slip, {}, {} };
+    for (unsigned int i = 0; i < 3; ++i)
+    {
+      result.gap_row[i]  = moving.gap_row[i];
+      result.slip_row[i] = moving.slip_row[i];
+      for (unsigned int j = 0; j < 3; ++j)
+      {
+        result.gap_curvature[i][j]  = moving.gap_curvature[i][j];
+        result.slip_curvature[i][j] = moving.slip_curvature[i][j];
+      }
+    }
     return result;
   }
 } // namespace sprag

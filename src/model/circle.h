@@ -21,4 +21,8 @@ namespace sprag
   ///   gap = |r| - R,   slip = R (beta - theta),
   /// the arc along which the circle has passed the point, so large sliding and large rotation are exact.
   ContactKinematics<3> circle_contact(const Geometry &geometry, const LeverPoint &point, double x, double theta);
+
+  /// The same with the circle's position x as a fourth coordinate: minus the force on it is the x-force of the circle on the
+  /// lever.
+  ContactKinematics<4> moving_circle_contact(const Geometry &geometry, const LeverPoint &point, double x, double theta);
 } // namespace sprag

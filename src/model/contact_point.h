@@ -1,6 +1,7 @@
 #pragma once
 
 #include "laws/contact.h"
+#include "laws/contact_step.h"
 
 #include <deal.II/base/tensor.h>
 
@@ -24,6 +25,18 @@ namespace sprag
     double normal_multiplier = 0.; ///< lambda [MPa]; stays 0 in the penalty method
     double traction          = 0.; ///< friction from which the stick predictor starts [MPa]; 0 while open
     double slip              = 0.; ///< slip coordinate at the end of the last accepted step [mm]
+
+    // Steps in time only.
+    double damping    = 0.; ///< force of the dashpot at the end of the last step, per area at points of a face
+    double slip_speed = 0.; ///< mean of the last step, signed; 0 in stick and where there was no contact [mm/s]
+    double step       = 0.; ///< duration of the last step if it ended in contact, else 0 [s]
+
+    unsigned int point = 0; ///< of a face, where only points in contact are remembered
+
+    FrictionHistory history() const
+    {
+      return { traction, slip_speed, step };
+    }
   };
 
   /// Constants of a contact in one step.

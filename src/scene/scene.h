@@ -15,12 +15,17 @@ namespace sprag
   enum class AnalysisType
   {
     quasi_static,
-    slope
+    slope,
+    transient,
+    contact_law ///< indentation by finite elements, from which the contact law of the reduced models is fitted
   };
 
   enum class ModelType
   {
     closed_form,
+    rigid,     ///< rotation of a rigid lever
+    beam,      ///< Hermite beam elements
+    condensed, ///< vibration modes and static face shapes of the finite elements
     finite_element
   };
 
@@ -46,6 +51,7 @@ namespace sprag
     double step              = 1.;   ///< largest change of x in a step [mm], > 0
     double minimum_step      = 1e-6; ///< smallest change of x tried before the analysis gives up [mm], > 0
     double maximum_deviation = 0.;   ///< largest admissible deviation from the closed form [-]; 0: any
+    double maximum_residual  = 1e-3; ///< largest admissible energy residual over the largest work done [-]; 0: any
   };
 
   /// Figure 1 of the paper; the lever lies on the far side of the cylinder seen from the x-axis.
@@ -65,13 +71,19 @@ namespace sprag
 
   struct Lever
   {
-    double length          = 210.;
-    double depth           = 20.; ///< metal only [mm]
-    double width           = 40.;
-    double young_modulus   = 70000.;
-    double poisson_ratio   = 0.33;
-    double density         = 2.7e-9;                ///< [t/mm^3]
-    MaterialModel material = MaterialModel::linear; ///< of lever and friction layer
+    double length            = 210.;
+    double depth             = 20.; ///< metal only [mm]
+    double width             = 40.;
+    double young_modulus     = 70000.;
+    double poisson_ratio     = 0.33;
+    double density           = 2.7e-9;                ///< [t/mm^3]
+    MaterialModel material   = MaterialModel::linear; ///< of lever and friction layer
+    double moment_of_inertia = 6.45;                  ///< J about the pivot, arm and tip mass included [t mm^2]
+    double tip_mass          = 0.;                    ///< at the neutral axis [t]
+    std::optional<double> neutral_axis_offset;        ///< e_a [mm], from the pivot; none: e + layer + depth/2
+    double modal_damping     = 0.01;                  ///< of critical, on each bending mode of the free lever
+    double mass_damping      = 0.;                    ///< Rayleigh: C = this M + ... [1/s]
+    double stiffness_damping = 0.;                    ///< Rayleigh: ... + this K, the rotational spring left out [s]
   };
 
   struct FrictionLayer
@@ -79,6 +91,13 @@ namespace sprag
     double thickness     = 1.; ///< [mm], >= 0; 0: no layer
     double young_modulus = 20.;
     double poisson_ratio = 0.;
+    double density       = 2e-10; ///< [t/mm^3], scaled together with the lever's
+  };
+
+  enum class ContactType
+  {
+    compliant,
+    ideal ///< rigid lever always in contact, theta from the drive
   };
 
   enum class Enforcement
@@ -94,6 +113,43 @@ namespace sprag
     std::optional<double> tangential_penalty;  ///< [N/mm^3], > 0; none: equal to the normal one
     double penetration_tolerance       = 1e-6; ///< augmented Lagrangian: largest overlap left [mm], > 0
     unsigned int maximum_augmentations = 20;
+
+    // Contact of the reduced models (rigid, beam): P = k delta^n + c delta'.
+    ContactType type = ContactType::compliant;
+    double stiffness = 2000.;                   ///< k [N/mm^n], > 0
+    double exponent  = 1.;                      ///< n, >= 1
+    double damping   = 0.02;                    ///< of critical, of the lever's inertia on the contact, see contact_time()
+    std::optional<double> tangential_stiffness; ///< in stick [N/mm]; none: from the layer's shear
+  };
+
+  enum class SupportType
+  {
+    rigid,
+    sprung ///< the pivot frame moves along x
+  };
+
+  /// Pivot frame between lever and force sensor. Mass, stiffness and damping count only when sprung.
+  struct Support
+  {
+    SupportType type = SupportType::rigid;
+    double mass      = 2e-3;  ///< m_f [t], > 0
+    double stiffness = 5000.; ///< k_f [N/mm], > 0
+    double damping   = 0.02;  ///< of critical of frame and lever on k_f
+  };
+
+  /// Time integration by the generalised-alpha method.
+  struct TimeSettings
+  {
+    double step            = 5e-5; ///< first step, or every step [s], > 0
+    double tolerance       = 1e-3; ///< of the adaptive step: admissible error of P over its peak; 0: fixed step
+    double spectral_radius = 0.8;  ///< at infinite frequency, 0 ... 1
+  };
+
+  /// Basis of the condensed model.
+  struct CondensedSettings
+  {
+    unsigned int modes = 20; ///< vibration modes of the free lever, > 0
+    std::string cache;       ///< folder of stored bases; empty: the user's cache folder
   };
 
   struct MeshSettings
@@ -140,6 +196,9 @@ namespace sprag
     Lever lever;
     FrictionLayer layer;
     double spring_stiffness = 7.40e4; ///< k [N mm/rad], > 0
+    Support support;
+    TimeSettings time;
+    CondensedSettings condensed;
     ContactSettings contact;
     MeshSettings mesh;
     OutputSettings output;

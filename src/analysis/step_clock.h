@@ -1,0 +1,43 @@
+#pragma once
+
+#include "scene/drive.h"
+
+#include <vector>
+
+namespace sprag
+{
+  /// Divides the time between the kinks of a drive into equal steps, which can be halved and doubled: few different durations, so
+  /// that what a model prepares for one serves again, and every kink is hit.
+  class StepClock
+  {
+  public:
+    /// `largest_doublings`: how often the first step may be doubled.
+    StepClock(const Drive &drive, double step, unsigned int largest_doublings);
+
+    double duration() const;
+
+    /// End of the present step [s].
+    double end_of_step() const;
+
+    bool finished() const;
+
+    void halve();
+
+    /// Doubles the step where that leaves a whole number of them, up to the largest one.
+    void grow();
+
+    void advance();
+
+  private:
+    void begin_segment();
+
+    std::vector<double> ends; ///< of the segments
+    double first;
+    double largest;
+    double wanted;
+    std::size_t segment  = 0;
+    double begin         = 0.;
+    unsigned long count  = 1; ///< steps of the segment
+    unsigned long passed = 0;
+  };
+} // namespace sprag

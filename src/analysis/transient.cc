@@ -1,0 +1,207 @@
+#include "analysis/transient.h"
+
+#include "analysis/step_clock.h"
+#include "base/errors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace sprag
+{
+  namespace
+  {
+    constexpr unsigned int largest_halvings  = 12; ///< of Time/Step
+    constexpr unsigned int largest_doublings = 4;
+    constexpr double small_error             = 1. / 24.; ///< of the tolerance: doubling the step makes it eight times as large
+    constexpr unsigned int small_errors      = 8;        ///< in a row before the step is doubled
+
+    [[noreturn]] void give_up(const DrivePoint &at, const double dt, const std::string &failure)
+    {
+      std::ostringstream message;
+      message << "no step beyond t = " << at.time << " s (x = " << at.x << " mm, v = " << at.v << " mm/s): " << failure
+              << " even in a step of " << dt
+              << " s. Try a larger Time/Tolerance, a smaller Contact/Stiffness or Contact/Penalty, "
+              << "or a smaller Time/Spectral radius.";
+      throw AnalysisError(message.str());
+    }
+
+    Row observe(const DynamicModel &model, const Motion &motion, const EnergyLedger &ledger)
+    {
+      Row row;
+      row[Column::time] = motion.drive.time;
+      row[Column::x]    = motion.drive.x;
+      row[Column::v]    = motion.drive.v;
+      model.observe(motion, row);
+      ledger.fill(row);
+      return row;
+    }
+
+    /// Steady sliding without inertia along the drive, computed where x or v has changed enough and joined by lines.
+    class QuasiStaticCurve
+    {
+    public:
+      QuasiStaticCurve(DynamicModel &dynamic_model, const Drive &prescribed)
+          : model(dynamic_model)
+          , drive(prescribed)
+      {
+        add(0.);
+      }
+
+      /// Evaluates the model: to be called before the step to that time.
+      void extend(const double time)
+      {
+        while (samples.back().time < time)
+          add(next(samples.back().time));
+      }
+
+      void fill(Row &row) const
+      {
+        const double time           = row[Column::time];
+        const auto after            = std::lower_bound(samples.begin(), samples.end(), time,
+                                                       [](const Sample &sample, const double value) { return sample.time < value; });
+        const auto &end             = *after;
+        const auto &begin           = after == samples.begin() ? end : *(after - 1);
+        const double share          = end.time > begin.time ? (time - begin.time) / (end.time - begin.time) : 0.;
+        row[Column::P_quasi_static] = begin.P + share * (end.P - begin.P);
+        row[Column::Q_quasi_static] = begin.Q + share * (end.Q - begin.Q);
+      }
+
+    private:
+      struct Sample
+      {
+        double time, P, Q;
+      };
+
+      void add(const double time)
+      {
+        const auto forces = model.sliding_forces(drive.at(time, Drive::Side::after));
+        samples.push_back(forces ? Sample{ time, forces->P, forces->Q } : Sample{ time, std::nan(""), std::nan("") });
+      }
+
+      double next(const double time) const
+      {
+        constexpr double speed_change = 0.05;
+        const double v                = drive.at(time, Drive::Side::after).v;
+        double dx                     = 4e-3 * (drive.maximum() - drive.minimum());
+        auto point                    = drive.step(time, dx);
+        while (std::abs(point.v - v) > speed_change * drive.peak_speed())
+          point = drive.step(time, dx *= 0.5);
+        return point.time;
+      }
+
+      DynamicModel &model;
+      const Drive &drive;
+      std::vector<Sample> samples;
+    };
+
+    /// Decides on steps by their local error.
+    class StepControl
+    {
+    public:
+      explicit StepControl(const TransientSettings &transient_settings)
+          : settings(transient_settings)
+      {
+      }
+
+      bool accepts(const StepOutcome &outcome, const bool shortest)
+      {
+        if (!outcome.motion)
+          return false;
+        if (settings.time.tolerance == 0.)
+          return true;
+        error = outcome.error * settings.contact_stiffness / (settings.force_scale * settings.time.tolerance);
+        small = error < small_error ? small + 1 : 0;
+        return error <= 1. || shortest;
+      }
+
+      bool wants_longer()
+      {
+        if (settings.time.tolerance == 0. || small < small_errors)
+          return false;
+        small = 0;
+        return true;
+      }
+
+    private:
+      const TransientSettings &settings;
+      double error       = 0.;
+      unsigned int small = 0;
+    };
+
+    struct Attempt
+    {
+      StepOutcome outcome;
+      unsigned int rejected   = 0;
+      unsigned int iterations = 0;
+      double dt               = 0.;
+    };
+
+    /// An accepted step; on the way the clock's step is halved as often as needed.
+    Attempt advance(DynamicModel &model, const Drive &drive, const Motion &accepted, const TransientSettings &settings,
+                    StepControl &control, StepClock &clock)
+    {
+      const double least  = std::ldexp(settings.time.step, -static_cast<int>(largest_halvings));
+      std::string failure = "Newton's method does not converge";
+      for (Attempt attempt;; ++attempt.rejected)
+      {
+        const bool shortest = clock.duration() < 2. * least;
+        attempt.dt          = clock.duration();
+        try
+        {
+          const auto to   = drive.at(clock.end_of_step());
+          attempt.outcome = model.step(accepted, to, generalised_alpha(settings.time.spectral_radius, attempt.dt));
+        }
+        catch (const AnalysisError &error)
+        {
+          failure         = error.what();
+          attempt.outcome = {};
+        }
+        attempt.iterations += attempt.outcome.iterations;
+        if (control.accepts(attempt.outcome, shortest))
+          return attempt;
+        if (shortest)
+          give_up(accepted.drive, attempt.dt, failure);
+        clock.halve();
+      }
+    }
+  } // namespace
+
+  TransientReport run_transient(DynamicModel &model, const Drive &drive, const TransientSettings &settings,
+                                const MotionSink &sink)
+  {
+    QuasiStaticCurve quasi_static(model, drive);
+    Motion motion = model.initial_motion(drive.at(0., Drive::Side::after));
+    EnergyLedger ledger(model.stored_energy(motion));
+    Row first = observe(model, motion, ledger);
+    quasi_static.fill(first);
+    sink(motion, first);
+
+    TransientReport report;
+    StepControl control(settings);
+    StepClock clock(drive, settings.time.step, settings.time.tolerance > 0. ? largest_doublings : 0);
+    while (!clock.finished())
+    {
+      quasi_static.extend(clock.end_of_step());
+      auto attempt    = advance(model, drive, motion, settings, control, clock);
+      const double dx = attempt.outcome.motion->drive.x - motion.drive.x;
+      motion          = std::move(*attempt.outcome.motion);
+      ledger.add(motion.drive.time, model.stored_energy(motion), attempt.outcome.work);
+      Row row                     = observe(model, motion, ledger);
+      row[Column::step]           = dx;
+      row[Column::time_step]      = attempt.dt;
+      row[Column::iterations]     = attempt.iterations;
+      row[Column::rejected_steps] = attempt.rejected;
+      quasi_static.fill(row);
+      sink(motion, row);
+
+      ++report.steps;
+      report.rejected += attempt.rejected;
+      report.ledger = ledger.report();
+      clock.advance();
+      if (control.wants_longer() || (settings.time.tolerance == 0. && attempt.rejected == 0))
+        clock.grow();
+    }
+    return report;
+  }
+} // namespace sprag

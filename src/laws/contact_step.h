@@ -1,0 +1,63 @@
+#pragma once
+
+#include "laws/friction.h"
+
+namespace sprag
+{
+  /// Unilateral spring p = stiffness delta^exponent of the overlap delta = max(0, -gap).
+  struct NormalLaw
+  {
+    double stiffness = 0.; ///< > 0
+    double exponent  = 1.; ///< >= 1
+  };
+
+  /// The spring over a step. Energies per area [N/mm] or whole [N mm], as the stiffness is.
+  struct MeanNormalForce
+  {
+    double begin;  ///< p at the beginning
+    double end;    ///< p at the end
+    double d_end;  ///< dp/dgap at the end
+    double mean;   ///< mean of p over the change of the gap: minus the change of the energy over it
+    double d_mean; ///< its derivative by the gap at the end
+    double energy; ///< at the end
+  };
+
+  MeanNormalForce mean_normal_force(const NormalLaw &law, double gap_begin, double gap_end);
+
+  /// Dashpot beside the spring, -damping * gap_rate while closed; it cannot pull the surfaces together.
+  struct EndDamping
+  {
+    double force;
+    double d_normal; ///< derivative by the spring's force
+    double d_rate;   ///< derivative by the rate of the gap
+  };
+
+  EndDamping end_damping(double damping, double normal, double gap, double gap_rate);
+
+  /// What friction remembers from the end of the last step.
+  struct FrictionHistory
+  {
+    double traction   = 0.;
+    double slip_speed = 0.; ///< mean of the last step, signed; 0 after stick [mm/s]
+    double step       = 0.; ///< its duration [s]
+  };
+
+  struct EndFriction
+  {
+    double traction;
+    double d_slip;     ///< derivative by the change of slip
+    double d_pressure; ///< derivative by the pressure at the end
+    double mu;
+    bool slipping;
+    double slip_speed; ///< mean of the step, signed; 0 in stick
+    double energy;     ///< of the tangential spring at the end
+    double dissipated; ///< in the step
+    double creep;      ///< slip below the regularisation speed [mm]
+  };
+
+  /// Friction at the end of a step of duration dt > 0 [s] in which the contact slips by `slip_change`: stick with a spring of the
+  /// given stiffness > 0, or slip with |t| = mu(w) p, where w is the slip speed at the end, extrapolated from this step and the
+  /// last (second order). With a regularisation speed v_r > 0 there is no stick: t = mu(|w|) p w / sqrt(w^2 + v_r^2).
+  EndFriction end_friction(const FrictionHistory &history, double stiffness, double slip_change, double pressure,
+                           const FrictionLaw &law, double dt);
+} // namespace sprag

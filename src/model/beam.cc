@@ -1,0 +1,185 @@
+#include "model/beam.h"
+
+#include "model/lever_frame.h"
+#include "scene/contact_reference.h"
+
+#include <cmath>
+
+namespace sprag
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// Total coordinates: rotation of the pivot, then deflection and slope of nodes 1, 2, ...; node 0 is pinned.
+    struct BeamMatrices
+    {
+      LAPACKFullMatrix<double> stiffness;
+      LAPACKFullMatrix<double> mass;
+      Vector<double> momentum; ///< mass product with a unit deflection along eta everywhere
+    };
+
+    /// Coordinate of the slope (i = 1) or deflection (i = 0) of a node; -1 for the pinned one.
+    int coordinate(const unsigned int node, const unsigned int i)
+    {
+      if (node == 0)
+        return i == 1 ? 0 : -1;
+      return static_cast<int>(2 * node - 1 + i);
+    }
+
+    void add_element(const unsigned int element, const double h, const double bending, const double rho, BeamMatrices &m)
+    {
+      const double k[4][4] = { { 12., 6. * h, -12., 6. * h },
+                               { 6. * h, 4. * h * h, -6. * h, 2. * h * h },
+                               { -12., -6. * h, 12., -6. * h },
+                               { 6. * h, 2. * h * h, -6. * h, 4. * h * h } };
+      const double c[4][4] = { { 156., 22. * h, 54., -13. * h },
+                               { 22. * h, 4. * h * h, 13. * h, -3. * h * h },
+                               { 54., 13. * h, 156., -22. * h },
+                               { -13. * h, -3. * h * h, -22. * h, 4. * h * h } };
+      const double p[4]    = { 0.5 * h, h * h / 12., 0.5 * h, -h * h / 12. };
+      for (unsigned int a = 0; a < 4; ++a)
+        if (const int i = coordinate(element + a / 2, a % 2); i >= 0)
+        {
+          m.momentum[static_cast<unsigned int>(i)] += rho * p[a];
+          for (unsigned int b = 0; b < 4; ++b)
+            if (const int j = coordinate(element + b / 2, b % 2); j >= 0)
+            {
+              m.stiffness(static_cast<unsigned int>(i), static_cast<unsigned int>(j)) += bending / (h * h * h) * k[a][b];
+              m.mass(static_cast<unsigned int>(i), static_cast<unsigned int>(j)) += rho * h / 420. * c[a][b];
+            }
+        }
+    }
+
+    BeamMatrices make_matrices(const Scene &scene, const BeamMesh &mesh)
+    {
+      const Lever &lever   = scene.lever;
+      const unsigned int n = 1 + mesh.ports();
+      const double rho     = mass_per_length(scene);
+      const double e_a     = neutral_axis_offset(scene);
+      const double modulus = scene.analysis.plane == PlaneState::stress
+                                 ? lever.young_modulus
+                                 : lever.young_modulus / (1. - lever.poisson_ratio * lever.poisson_ratio);
+      const double bending = modulus * lever.width * std::pow(lever.depth, 3) / 12.;
+
+      BeamMatrices m{ LAPACKFullMatrix<double>(n), LAPACKFullMatrix<double>(n), Vector<double>(n) };
+      m.stiffness = 0.;
+      m.mass      = 0.;
+      if (mesh.elements == 0)
+      {
+        m.mass(0, 0)      = lever.moment_of_inertia;
+        m.momentum[0]     = 0.5 * rho * lever.length * lever.length + lever.tip_mass * lever.length;
+        m.stiffness(0, 0) = scene.spring_stiffness;
+        return m;
+      }
+      for (unsigned int element = 0; element < mesh.elements; ++element)
+        add_element(element, mesh.element_length(), bending, rho, m);
+      const auto tip = static_cast<unsigned int>(coordinate(mesh.elements, 0));
+      m.stiffness(0, 0) += scene.spring_stiffness;
+      m.mass(0, 0) += (rho * lever.length + lever.tip_mass) * e_a * e_a;
+      m.mass(tip, tip) += lever.tip_mass;
+      m.momentum[tip] += lever.tip_mass;
+      return m;
+    }
+
+    struct Modes
+    {
+      std::vector<double> stiffness;
+      FullMatrix<double> shapes; ///< a column a mode, mass 1
+    };
+
+    Modes solve_modes(BeamMatrices m)
+    {
+      const unsigned int n = m.mass.m();
+      std::vector<Vector<double>> vectors(n);
+      const auto mass = m.mass;
+      m.stiffness.compute_generalized_eigenvalues_symmetric(m.mass, vectors);
+      Modes modes;
+      modes.shapes.reinit(n, n);
+      Vector<double> weighted(n);
+      for (unsigned int i = 0; i < n; ++i)
+      {
+        modes.stiffness.push_back(m.stiffness.eigenvalue(i).real());
+        mass.vmult(weighted, vectors[i]);
+        const double length = std::sqrt(weighted * vectors[i]);
+        for (unsigned int a = 0; a < n; ++a)
+          modes.shapes(a, i) = vectors[i][a] / length;
+      }
+      return modes;
+    }
+
+    /// Port rows: deflections and slopes in lever axes, rotation, momentum.
+    void set_shapes(const Scene &scene, const BeamMesh &mesh, const BeamMatrices &m, const FullMatrix<double> &modes,
+                    ModalData &data)
+    {
+      const double mass = mass_per_length(scene) * scene.lever.length + scene.lever.tip_mass;
+      for (unsigned int i = 0; i < modes.n(); ++i)
+      {
+        const double rotation = modes(0, i);
+        for (unsigned int node = 1; node <= mesh.elements; ++node)
+        {
+          const double lever_arm       = node * mesh.element_length();
+          data.shapes(2 * node - 2, i) = modes(2 * node - 1, i) - lever_arm * rotation;
+          data.shapes(2 * node - 1, i) = modes(2 * node, i) - rotation;
+        }
+        data.shapes(data.ports.rotation(), i) = rotation;
+        if (!data.ports.sprung)
+          continue;
+        for (unsigned int a = 0; a < modes.m(); ++a)
+          data.shapes(data.ports.momentum_eta(), i) += m.momentum[a] * modes(a, i);
+        data.shapes(data.ports.momentum_xi(), i) = -neutral_axis_offset(scene) * mass * rotation;
+      }
+    }
+
+    void set_damping(const Scene &scene, const FullMatrix<double> &modes, ModalData &data)
+    {
+      const Lever &lever = scene.lever;
+      for (unsigned int i = 0; i < modes.n(); ++i)
+      {
+        if (i > 0)
+          data.damping(i, i) += 2. * lever.modal_damping * std::sqrt(data.stiffness[i]);
+        data.damping(i, i) += lever.mass_damping + lever.stiffness_damping * data.stiffness[i];
+        for (unsigned int j = 0; j < modes.n(); ++j)
+          data.damping(i, j) -= lever.stiffness_damping * scene.spring_stiffness * modes(0, i) * modes(0, j);
+      }
+    }
+
+    void append_support(const Scene &scene, ModalData &data)
+    {
+      const Support &support = scene.support;
+      const unsigned int i   = static_cast<unsigned int>(data.stiffness.size());
+      const double lever     = mass_per_length(scene) * scene.lever.length + scene.lever.tip_mass;
+      const double mass      = support.mass + lever;
+      data.support           = i;
+      data.stiffness.push_back(support.stiffness / mass);
+      data.damping(i, i)                   = support_damping(support, lever) / mass;
+      data.shapes(data.ports.support(), i) = 1. / std::sqrt(mass);
+    }
+  } // namespace
+
+  ModalData beam_modes(const Scene &scene, const BeamMesh &mesh)
+  {
+    const auto matrices = make_matrices(scene, mesh);
+    const auto modes    = solve_modes(matrices);
+    ModalData data;
+    data.ports            = { mesh.ports(), scene.support.type == SupportType::sprung };
+    data.stiffness        = modes.stiffness;
+    data.spring_stiffness = scene.spring_stiffness;
+    const auto all        = modes.shapes.n() + (data.ports.sprung ? 1 : 0);
+    data.shapes.reinit(data.ports.size(), all);
+    data.damping.reinit(all, all);
+    set_shapes(scene, mesh, matrices, modes.shapes, data);
+    set_damping(scene, modes.shapes, data);
+    if (data.ports.sprung)
+      append_support(scene, data);
+    return data;
+  }
+
+  std::vector<double> free_frequencies(const Scene &scene, const BeamMesh &mesh)
+  {
+    auto result = solve_modes(make_matrices(scene, mesh)).stiffness;
+    for (auto &value : result)
+      value = std::sqrt(value);
+    return result;
+  }
+} // namespace sprag

@@ -1,0 +1,31 @@
+#pragma once
+
+#include "model/modal_structure.h"
+#include "scene/scene.h"
+
+namespace sprag
+{
+  /// Hermite elements of equal length along a lever's axis, from the pivot to the tip. No elements: a rigid lever.
+  struct BeamMesh
+  {
+    unsigned int elements = 0;
+    double length         = 0.; ///< of the lever [mm]
+
+    double element_length() const
+    {
+      return length / elements;
+    }
+    /// Ports in lever axes, at node 1, 2, ...: deflection along eta [mm] and slope [rad].
+    unsigned int ports() const
+    {
+      return 2 * elements;
+    }
+  };
+
+  /// Euler-Bernoulli lever at the neutral axis' offset on its rotational spring, in all modes of its elements; mass by
+  /// mass_per_length(), modal damping on each bending mode, Rayleigh damping, tip mass, and the support if it is sprung.
+  ModalData beam_modes(const Scene &scene, const BeamMesh &mesh);
+
+  /// Circular frequencies of the free lever without support, increasing [rad/s].
+  std::vector<double> free_frequencies(const Scene &scene, const BeamMesh &mesh);
+} // namespace sprag

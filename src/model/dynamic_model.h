@@ -1,0 +1,86 @@
+#pragma once
+
+#include "model/contact_point.h"
+#include "model/generalised_alpha.h"
+#include "model/port_forces.h"
+#include "results/columns.h"
+#include "results/result_file.h"
+#include "scene/drive.h"
+
+#include <optional>
+#include <vector>
+
+namespace sprag
+{
+  /// Where a model is in time. The analysis owns it: a step makes a new one, which is kept only when it is accepted.
+  struct Motion
+  {
+    DrivePoint drive;
+    Kinematic coordinates;             ///< of the structure
+    dealii::Vector<double> face_force; ///< elastic forces in the static face shapes [N]; empty without such shapes
+    std::vector<ContactMemory> contact;
+    PortForces forces; ///< of the step that led here, without tangent: where the search for the next ones starts
+  };
+
+  /// Energies at an instant [N mm].
+  struct StoredEnergy
+  {
+    double kinetic = 0.;
+    double spring  = 0.; ///< rotational spring
+    double elastic = 0.; ///< lever and friction layer
+    double layer   = 0.; ///< the friction layer's part of it; NaN where it cannot be told
+    double support = 0.;
+    double contact = 0.; ///< contact springs, normal and tangential
+  };
+
+  /// Works done in a step [N mm], each from forces times displacements or the scheme's own formula, none as a remainder.
+  struct StepWork
+  {
+    double drive       = 0.; ///< by the drive
+    double friction    = 0.; ///< dissipated by friction
+    double damping     = 0.; ///< dissipated by structure, support and contact damping
+    double algorithmic = 0.; ///< dissipated by the time integration
+    double creep       = 0.; ///< slip below the regularisation speed [mm]
+  };
+
+  struct StepOutcome
+  {
+    std::optional<Motion> motion; ///< none: no solution found
+    StepWork work;
+    double error            = 0.; ///< local error of the gap at the contact [mm]
+    unsigned int iterations = 0;
+  };
+
+  /// Forces of steady sliding without inertia.
+  struct SlidingForces
+  {
+    double P; ///< [N]
+    double Q; ///< [N]
+  };
+
+  /// Mechanics of a scene in time at one fidelity. Analyses know nothing of beams, meshes and dimensions.
+  class DynamicModel
+  {
+  public:
+    virtual ~DynamicModel() = default;
+
+    /// At rest without contact force where the drive rests, else in steady sliding at its x and v, with velocities and
+    /// accelerations. Throws AnalysisError if there is no such equilibrium.
+    virtual Motion initial_motion(const DrivePoint &drive) = 0;
+
+    /// One step of the time integration from an accepted motion. Throws AnalysisError if a factorisation fails.
+    virtual StepOutcome step(const Motion &accepted, const DrivePoint &to, const StepWeights &weights) = 0;
+
+    /// Equilibrium of steady sliding with the drive at x, v != 0; none where there is none.
+    virtual std::optional<SlidingForces> sliding_forces(const DrivePoint &drive) = 0;
+
+    virtual StoredEnergy stored_energy(const Motion &motion) const = 0;
+
+    /// Fills the columns of mechanics at `motion`, the outcome of the last initial_motion() or step().
+    virtual void observe(const Motion &motion, Row &row) const = 0;
+
+    /// Points of the friction face and their tractions at the last motion; empty where there is no mesh.
+    virtual FacePoints face_points() const                   = 0;
+    virtual FaceState face_state(const Motion &motion) const = 0;
+  };
+} // namespace sprag

@@ -1,0 +1,29 @@
+#pragma once
+
+#include "model/dynamic_model.h"
+#include "model/port_layout.h"
+
+namespace sprag
+{
+  /// Inertia that couples a lever with the frame its pivot is on: kinetic energy u' h.p' of the support's speed u' along x and
+  /// the lever's momentum, h = (sin theta, -cos theta) on the momentum ports. Without a sprung support it does nothing.
+  class FrameCoupling
+  {
+  public:
+    FrameCoupling(const PortLayout &ports, double rest_inclination);
+
+    /// The forces of the contact with those of the coupling added; valid until the next call.
+    const PortForces &add_forces(const PortForces &contact, const Kinematic &begin, const dealii::Vector<double> &end,
+                                 const StepWeights &weights);
+
+    /// Adds the algorithmic dissipation of the step.
+    void add_work(const Kinematic &begin, const dealii::Vector<double> &end, const StepWeights &weights, StepWork &work) const;
+
+    double kinetic_energy(const Kinematic &ports) const;
+
+  private:
+    const PortLayout layout;
+    const double rest;
+    PortForces sum;
+  };
+} // namespace sprag

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "model/port_layout.h"
+#include "scene/scene.h"
+
+#include <deal.II/lac/vector.h>
+
+namespace sprag
+{
+  /// What a lever shares with the scene it stands in.
+  struct LeverFrame
+  {
+    Geometry geometry;
+    PortLayout ports;
+    double rest_inclination;        ///< theta without moment [rad]
+    double support_stiffness;       ///< k_f [N/mm]; counts on a sprung support
+    double support_damping;         ///< c_f [N s/mm]
+    dealii::Vector<double> lengths; ///< what a unit of each port moves [mm]: 1, and an arm for rotations
+  };
+
+  /// With lengths 1 but for the hub's rotation. `lever_mass` [t] moves with a sprung support.
+  LeverFrame lever_frame(const Scene &scene, const PortLayout &ports, double lever_mass);
+
+  /// c_f [N s/mm]: Support/Damping of critical of the frame with the lever on k_f.
+  double support_damping(const Support &support, double lever_mass);
+} // namespace sprag

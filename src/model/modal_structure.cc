@@ -1,0 +1,269 @@
+#include "model/modal_structure.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sprag
+{
+  using namespace dealii;
+
+  namespace
+  {
+    FullMatrix<double> inverse_of(const FullMatrix<double> &matrix)
+    {
+      LAPACKFullMatrix<double> lapack(static_cast<unsigned int>(matrix.m()));
+      lapack = matrix;
+      lapack.invert();
+      FullMatrix<double> result(matrix.m(), matrix.n());
+      result = lapack;
+      return result;
+    }
+
+    double product(const FullMatrix<double> &matrix, const Vector<double> &a, const Vector<double> &b)
+    {
+      return a.size() == 0 ? 0. : matrix.matrix_scalar_product(a, b);
+    }
+
+    /// Forces this small beside the largest are what repeated halving has left of old ones.
+    void drop_remnants(Vector<double> &forces)
+    {
+      const double small = 1e-16 * forces.linfty_norm();
+      for (auto &force : forces)
+        if (std::abs(force) <= small)
+          force = 0.;
+    }
+
+    double quadratic_form(const FullMatrix<double> &matrix, const Vector<double> &sparse)
+    {
+      std::vector<unsigned int> filled;
+      for (unsigned int i = 0; i < sparse.size(); ++i)
+        if (sparse[i] != 0.)
+          filled.push_back(i);
+      double sum = 0.;
+      for (const unsigned int i : filled)
+        for (const unsigned int j : filled)
+          sum += sparse[i] * matrix(i, j) * sparse[j];
+      return sum;
+    }
+  } // namespace
+
+  ModalStructure::ModalStructure(ModalData modal_data)
+      : data(std::move(modal_data))
+  {
+    const unsigned int n = n_modes();
+    statics.inverse.reinit(n, n);
+    for (unsigned int i = 0; i < n; ++i)
+      statics.inverse(i, i) = 1. / data.stiffness[i];
+    statics.compliance = port_compliance(statics.inverse, 1.);
+    current            = &statics;
+  }
+
+  unsigned int ModalStructure::n_modes() const
+  {
+    return static_cast<unsigned int>(data.stiffness.size());
+  }
+
+  unsigned int ModalStructure::n_ports() const
+  {
+    return data.ports.size();
+  }
+
+  const PortLayout &ModalStructure::ports() const
+  {
+    return data.ports;
+  }
+
+  Motion ModalStructure::rest() const
+  {
+    Motion motion;
+    motion.coordinates.position.reinit(n_modes());
+    motion.coordinates.velocity.reinit(n_modes());
+    motion.coordinates.acceleration.reinit(n_modes());
+    motion.face_force.reinit(static_cast<unsigned int>(data.face_compliance.m()));
+    return motion;
+  }
+
+  FullMatrix<double> ModalStructure::port_compliance(const FullMatrix<double> &inverse, const double share_of_static) const
+  {
+    FullMatrix<double> half(data.shapes.m(), data.shapes.n());
+    FullMatrix<double> result(data.shapes.m(), data.shapes.m());
+    data.shapes.mmult(half, inverse);
+    half.mTmult(result, data.shapes);
+    for (unsigned int i = 0; i < data.face_compliance.m(); ++i)
+      for (unsigned int j = 0; j < data.face_compliance.n(); ++j)
+        result(i, j) += share_of_static * data.face_compliance(i, j);
+    return result;
+  }
+
+  /// f = K (u_f + relaxation [u] / dt) of the static shapes: weight of the elastic force at the end of the step.
+  double ModalStructure::static_weight(const StepWeights &w) const
+  {
+    return w.stiffness() + data.relaxation / w.dt;
+  }
+
+  ModalStructure::Step ModalStructure::make_step(const StepWeights &weights) const
+  {
+    Step step;
+    step.weights = weights;
+    FullMatrix<double> effective(n_modes(), n_modes());
+    effective.add(weights.damping(), data.damping);
+    for (unsigned int i = 0; i < n_modes(); ++i)
+      effective(i, i) += weights.mass() + weights.stiffness() * data.stiffness[i];
+    step.inverse    = inverse_of(effective);
+    step.compliance = port_compliance(step.inverse, 1. / static_weight(weights));
+    return step;
+  }
+
+  void ModalStructure::use_statics()
+  {
+    current = &statics;
+  }
+
+  void ModalStructure::use_step(const StepWeights &weights)
+  {
+    constexpr std::size_t kept = 16;
+    const auto found           = steps.find(weights.dt);
+    if (found != steps.end() && found->second.weights.alpha_f == weights.alpha_f)
+    {
+      current = &found->second;
+      return;
+    }
+    if (steps.size() >= kept)
+      steps.clear();
+    current = &(steps[weights.dt] = make_step(weights));
+  }
+
+  const FullMatrix<double> &ModalStructure::compliance() const
+  {
+    return current->compliance;
+  }
+
+  Vector<double> ModalStructure::modal_forces(const PortForces &forces) const
+  {
+    Vector<double> result(n_modes());
+    for (unsigned int a = 0; a < forces.ports.size(); ++a)
+      for (unsigned int i = 0; i < n_modes(); ++i)
+        result[i] += data.shapes(forces.ports[a], i) * forces.values[a];
+    return result;
+  }
+
+  Motion ModalStructure::deform(const PortForces &forces) const
+  {
+    Motion motion = rest();
+    statics.inverse.vmult(motion.coordinates.position, modal_forces(forces));
+    for (unsigned int a = 0; a < forces.ports.size(); ++a)
+      if (forces.ports[a] < motion.face_force.size())
+        motion.face_force[forces.ports[a]] = forces.values[a];
+    return motion;
+  }
+
+  Vector<double> ModalStructure::port_positions(const Motion &motion) const
+  {
+    Vector<double> result(n_ports());
+    data.shapes.vmult(result, motion.coordinates.position);
+    for (unsigned int i = 0; i < motion.face_force.size(); ++i)
+      if (const double force = motion.face_force[i]; force != 0.)
+        for (unsigned int j = 0; j < motion.face_force.size(); ++j)
+          result[j] += data.face_compliance(i, j) * force;
+    return result;
+  }
+
+  Kinematic ModalStructure::port_kinematics(const Motion &motion) const
+  {
+    Kinematic result{ port_positions(motion), Vector<double>(n_ports()), Vector<double>(n_ports()) };
+    data.shapes.vmult(result.velocity, motion.coordinates.velocity);
+    data.shapes.vmult(result.acceleration, motion.coordinates.acceleration);
+    return result;
+  }
+
+  Vector<double> ModalStructure::free_ports(const Motion &accepted) const
+  {
+    const auto &w      = current->weights;
+    const auto &start  = accepted.coordinates;
+    const auto drifted = unaccelerated(start, w);
+    Vector<double> right(n_modes());
+    Vector<double> damped(n_modes());
+    damped.add(w.damping(), drifted.position, -w.stiffness(), drifted.velocity);
+    damped.add(-w.alpha_f, start.velocity);
+    data.damping.vmult(right, damped);
+    right.add(w.mass(), drifted.position, -w.alpha_m, start.acceleration);
+    for (unsigned int i = 0; i < n_modes(); ++i)
+      right[i] -= w.alpha_f * data.stiffness[i] * start.position[i];
+    free_motion.reinit(n_modes());
+    current->inverse.vmult(free_motion, right);
+
+    Motion unloaded;
+    unloaded.coordinates.position = free_motion;
+    unloaded.face_force           = accepted.face_force;
+    unloaded.face_force *= -(w.alpha_f - data.relaxation / w.dt) / static_weight(w);
+    return port_positions(unloaded);
+  }
+
+  Motion ModalStructure::advance(const Motion &accepted, const PortForces &forces, const DrivePoint &to) const
+  {
+    const auto &w = current->weights;
+    Motion motion;
+    motion.drive = to;
+    Vector<double> position(n_modes());
+    current->inverse.vmult(position, modal_forces(forces));
+    position += free_motion;
+    motion.coordinates = unaccelerated(accepted.coordinates, w);
+    set_position(motion.coordinates, position, w);
+
+    motion.face_force = accepted.face_force;
+    motion.face_force *= -(w.alpha_f - data.relaxation / w.dt) / static_weight(w);
+    for (unsigned int a = 0; a < forces.ports.size(); ++a)
+      if (forces.ports[a] < motion.face_force.size())
+        motion.face_force[forces.ports[a]] += forces.values[a] / static_weight(w);
+    drop_remnants(motion.face_force);
+    return motion;
+  }
+
+  void ModalStructure::add_work(const Motion &begin, const Motion &end, StepWork &work) const
+  {
+    const auto &w            = current->weights;
+    const auto &q_0          = begin.coordinates;
+    const auto &q_1          = end.coordinates;
+    Vector<double> change    = q_1.position;
+    Vector<double> mean_rate = q_1.velocity;
+    change -= q_0.position;
+    mean_rate *= 1. - w.alpha_f;
+    mean_rate.add(w.alpha_f, q_0.velocity);
+    work.damping += product(data.damping, change, mean_rate);
+    work.algorithmic += inertial_dissipation(q_0, q_1, q_0.acceleration, q_1.acceleration, w);
+    for (unsigned int i = 0; i < n_modes(); ++i)
+      work.algorithmic += w.delay() * data.stiffness[i] * change[i] * change[i];
+
+    Vector<double> change_of_force = end.face_force;
+    change_of_force -= begin.face_force;
+    const double static_change = quadratic_form(data.face_compliance, change_of_force);
+    work.damping += data.relaxation / w.dt * static_change;
+    work.algorithmic += w.delay() * static_change;
+  }
+
+  StoredEnergy ModalStructure::stored_energy(const Motion &motion) const
+  {
+    const auto &q = motion.coordinates;
+    StoredEnergy energy;
+    energy.kinetic = 0.5 * q.velocity.norm_sqr();
+    energy.layer   = std::numeric_limits<double>::quiet_NaN();
+    for (unsigned int i = 0; i < n_modes(); ++i)
+      (i == data.support ? energy.support : energy.elastic) += 0.5 * data.stiffness[i] * q.position[i] * q.position[i];
+    energy.elastic += 0.5 * quadratic_form(data.face_compliance, motion.face_force);
+    const double rotation = port_positions(motion)[data.ports.rotation()];
+    energy.spring         = 0.5 * data.spring_stiffness * rotation * rotation;
+    energy.elastic -= energy.spring;
+    return energy;
+  }
+
+  Vector<double> ModalStructure::port_error(const Motion &begin, const Motion &end) const
+  {
+    const auto &w        = current->weights;
+    Vector<double> error = end.coordinates.acceleration;
+    error -= begin.coordinates.acceleration;
+    error *= w.dt * w.dt * (w.beta - 1. / 6.);
+    Vector<double> result(n_ports());
+    data.shapes.vmult(result, error);
+    return result;
+  }
+} // namespace sprag

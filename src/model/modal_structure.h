@@ -1,0 +1,86 @@
+#pragma once
+
+#include "model/dynamic_model.h"
+#include "model/port_layout.h"
+
+#include <deal.II/lac/lapack_full_matrix.h>
+
+#include <map>
+
+namespace sprag
+{
+  /// A linear lever in the coordinates of its free vibration (mass 1 each): all modes of a beam, or some of a mesh together with
+  /// the static shapes of what the others would do. A sprung support is one more mode.
+  struct ModalData
+  {
+    PortLayout ports;
+    std::vector<double> stiffness;              ///< omega^2 [1/s^2], > 0
+    dealii::FullMatrix<double> damping;         ///< symmetric [1/s]
+    dealii::FullMatrix<double> shapes;          ///< a row a port, a column a mode
+    dealii::FullMatrix<double> face_compliance; ///< static shapes: of the surface ports [mm/N], symmetric; empty without
+    double relaxation       = 0.;               ///< damping of the static shapes, over their stiffness [s]
+    double spring_stiffness = 0.;               ///< of the rotation [N mm/rad], part of `stiffness` already
+    unsigned int support    = -1u;              ///< mode that is the support's; -1u without
+  };
+
+  /// Answers of a ModalData to forces on its ports, static or in steps of the generalised-alpha method.
+  class ModalStructure
+  {
+  public:
+    explicit ModalStructure(ModalData data);
+
+    const PortLayout &ports() const;
+
+    /// At rest without force.
+    Motion rest() const;
+
+    /// Makes the compliance that of statics, or of a step.
+    void use_statics();
+    void use_step(const StepWeights &weights);
+    const dealii::FullMatrix<double> &compliance() const;
+
+    /// Motion and displacements of the ports at rest under forces, after use_statics().
+    Motion deform(const PortForces &forces) const;
+
+    dealii::Vector<double> port_positions(const Motion &motion) const;
+
+    /// Positions of the ports, and their rates and accelerations without the static shapes.
+    Kinematic port_kinematics(const Motion &motion) const;
+
+    /// Displacements of the ports at the end of a step without forces in it.
+    dealii::Vector<double> free_ports(const Motion &accepted) const;
+
+    /// Completes the step that free_ports() began under its forces.
+    Motion advance(const Motion &accepted, const PortForces &forces, const DrivePoint &to) const;
+
+    /// Adds the structure's damping and algorithmic work of the step.
+    void add_work(const Motion &begin, const Motion &end, StepWork &work) const;
+
+    StoredEnergy stored_energy(const Motion &motion) const;
+
+    /// Displacements of the ports by the local error of a step.
+    dealii::Vector<double> port_error(const Motion &begin, const Motion &end) const;
+
+    unsigned int n_modes() const;
+
+  private:
+    struct Step
+    {
+      StepWeights weights{};
+      dealii::FullMatrix<double> inverse;    ///< of the effective matrix
+      dealii::FullMatrix<double> compliance; ///< of the ports
+    };
+
+    unsigned int n_ports() const;
+    Step make_step(const StepWeights &weights) const;
+    dealii::FullMatrix<double> port_compliance(const dealii::FullMatrix<double> &inverse, double share_of_static) const;
+    dealii::Vector<double> modal_forces(const PortForces &forces) const;
+    double static_weight(const StepWeights &w) const;
+
+    const ModalData data;
+    Step statics;
+    std::map<double, Step> steps; ///< by duration
+    const Step *current = nullptr;
+    mutable dealii::Vector<double> free_motion; ///< modal, of the last free_ports()
+  };
+} // namespace sprag

@@ -1,0 +1,378 @@
+#include "model/point_contact.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sprag
+{
+  using namespace dealii;
+
+  namespace
+  {
+    constexpr unsigned int theta_index = 6;
+    constexpr unsigned int x_index     = 7;
+  } // namespace
+
+  struct PointContact::Surface
+  {
+    unsigned int nodal; ///< first local coordinate of the element
+    double shape[4];    ///< deflection by them, and its derivatives along the lever
+    double slope[4];
+    double curvature[4];
+    LeverPoint point;
+    double tangent[2]; ///< d(point)/dxi
+    double bend[2];    ///< d2(point)/dxi2
+  };
+
+  PointContact::PointContact(PointContactProperties point_properties)
+      : properties(std::move(point_properties))
+  {
+  }
+
+  FrictionLaw PointContact::law_of_step(const double drive_speed) const
+  {
+    if (properties.friction.speed == FrictionSpeed::sliding)
+      return properties.friction;
+    FrictionLaw law = properties.friction;
+    law.law         = CoulombFriction{ friction_coefficient(law, std::abs(drive_speed)).coefficient };
+    return law;
+  }
+
+  /// Two elements: the contact stays between their ends for a step.
+  void PointContact::choose_window(const double xi)
+  {
+    const auto &mesh = properties.mesh;
+    if (mesh.elements == 0)
+      return;
+    const double before = std::round(xi / mesh.element_length()) - 1.;
+    window              = static_cast<unsigned int>(std::clamp(before, 0., mesh.elements - 2.));
+  }
+
+  PointContact::Local PointContact::coordinates(const Vector<double> &ports, const double x) const
+  {
+    Local q = rates(ports, x);
+    q[theta_index] += properties.rest_inclination;
+    return q;
+  }
+
+  PointContact::Local PointContact::rates(const Vector<double> &port_rates, const double v) const
+  {
+    Local q;
+    if (properties.mesh.elements > 0)
+      for (unsigned int i = 0; i < n_nodal; ++i)
+        if (window + i / 2 > 0)
+          q[i] = port_rates[2 * window + i - 2];
+    q[theta_index] = port_rates[properties.ports.rotation()];
+    q[x_index]     = v - (properties.ports.sprung ? port_rates[properties.ports.support()] : 0.);
+    return q;
+  }
+
+  PointContact::Surface PointContact::surface(const Local &q, const double xi) const
+  {
+    Surface result{};
+    const auto &mesh = properties.mesh;
+    const double e   = properties.geometry.interface_offset;
+    const double arm = e - properties.neutral_axis_offset;
+    double w[4]      = { 0., 0., 0., 0. };
+    if (mesh.elements > 0)
+    {
+      const double h            = mesh.element_length();
+      const bool second         = xi >= (window + 1) * h;
+      const double s            = xi / h - window - (second ? 1. : 0.);
+      const unsigned int base   = second ? 2 : 0;
+      result.nodal              = base;
+      const double shape[4]     = { 1. - s * s * (3. - 2. * s), h * s * (1. - s) * (1. - s), s * s * (3. - 2. * s),
+                                    -h * s * s * (1. - s) };
+      const double slope[4]     = { 6. * s * (s - 1.) / h, 1. + s * (3. * s - 4.), 6. * s * (1. - s) / h, s * (3. * s - 2.) };
+      const double curvature[4] = { (12. * s - 6.) / (h * h), (6. * s - 4.) / h, (6. - 12. * s) / (h * h), (6. * s - 2.) / h };
+      const double third[4]     = { 12. / (h * h * h), 6. / (h * h), -12. / (h * h * h), 6. / (h * h) };
+      for (unsigned int a = 0; a < 4; ++a)
+      {
+        const double value  = q[base + a];
+        result.shape[a]     = shape[a];
+        result.slope[a]     = slope[a];
+        result.curvature[a] = curvature[a];
+        w[0] += shape[a] * value;
+        w[1] += slope[a] * value;
+        w[2] += curvature[a] * value;
+        w[3] += third[a] * value;
+      }
+    }
+    result.point      = { xi - arm * w[1], e + w[0] };
+    result.tangent[0] = 1. - arm * w[2];
+    result.tangent[1] = w[1];
+    result.bend[0]    = -arm * w[3];
+    result.bend[1]    = w[2];
+    return result;
+  }
+
+  /// Newton's method for (p - c) . p' = 0 from the point across from the circle's centre.
+  double PointContact::closest(const Local &q) const
+  {
+    const auto c = cylinder_centre(properties.geometry, q[x_index], q[theta_index]);
+    double xi    = c.xi;
+    for (unsigned int i = 0; i < 20 && properties.mesh.elements > 0; ++i)
+    {
+      const auto at      = surface(q, xi);
+      const double r[2]  = { at.point.xi - c.xi, at.point.eta - c.eta };
+      const double slope = r[0] * at.tangent[0] + r[1] * at.tangent[1];
+      const double d_slope =
+          at.tangent[0] * at.tangent[0] + at.tangent[1] * at.tangent[1] + r[0] * at.bend[0] + r[1] * at.bend[1];
+      const double change = slope / d_slope;
+      xi -= change;
+      if (std::abs(change) < 1e-12 * properties.geometry.pivot_distance)
+        break;
+    }
+    return xi;
+  }
+
+  double PointContact::gap(const Local &q) const
+  {
+    const auto c     = cylinder_centre(properties.geometry, q[x_index], q[theta_index]);
+    const auto point = surface(q, closest(q)).point;
+    return std::hypot(point.xi - c.xi, point.eta - c.eta) - properties.geometry.cylinder_radius;
+  }
+
+  PointContact::Configuration PointContact::configure(const Local &q) const
+  {
+    const double xi   = closest(q);
+    const auto at     = surface(q, xi);
+    const auto circle = moving_circle_contact(properties.geometry, at.point, q[x_index], q[theta_index]);
+    const double arm  = properties.geometry.interface_offset - properties.neutral_axis_offset;
+
+    // How the local coordinates move the material point, and how that changes along the lever.
+    constexpr unsigned int n_used = 6;
+    unsigned int index[n_used];
+    Tensor<1, 4> move[n_used];
+    Tensor<1, 4> change[n_used];
+    unsigned int used = 0;
+    if (properties.mesh.elements > 0)
+      for (unsigned int a = 0; a < 4; ++a, ++used)
+      {
+        index[used]  = at.nodal + a;
+        move[used]   = Tensor<1, 4>({ -arm * at.slope[a], at.shape[a], 0., 0. });
+        change[used] = Tensor<1, 4>({ -arm * at.curvature[a], at.slope[a], 0., 0. });
+      }
+    index[used]  = theta_index;
+    move[used++] = Tensor<1, 4>({ 0., 0., 1., 0. });
+    index[used]  = x_index;
+    move[used++] = Tensor<1, 4>({ 0., 0., 0., 1. });
+
+    const Tensor<1, 4> tangent({ at.tangent[0], at.tangent[1], 0., 0. });
+    const Tensor<1, 4> bend({ at.bend[0], at.bend[1], 0., 0. });
+    const Tensor<1, 4> gap_along  = circle.gap_curvature * tangent;
+    const Tensor<1, 4> slip_along = circle.slip_curvature * tangent;
+    const double stiffness        = tangent * gap_along + circle.gap_row * bend;
+    double gap_shift[n_used];
+    double slip_shift[n_used];
+    for (unsigned int i = 0; i < used; ++i)
+    {
+      gap_shift[i]  = change[i] * circle.gap_row + move[i] * gap_along;
+      slip_shift[i] = change[i] * circle.slip_row + move[i] * slip_along;
+    }
+
+    Configuration result;
+    result.xi            = xi;
+    result.along         = at.point.xi;
+    result.theta         = q[theta_index];
+    result.gap           = circle.gap;
+    result.gap_at_point  = circle.gap_row;
+    result.slip_at_point = circle.slip_row;
+    for (unsigned int i = 0; i < used; ++i)
+    {
+      result.gap_row[index[i]]   = move[i] * circle.gap_row;
+      result.slip_row[index[i]]  = move[i] * circle.slip_row;
+      const Tensor<1, 4> of_gap  = circle.gap_curvature * move[i];
+      const Tensor<1, 4> of_slip = circle.slip_curvature * move[i];
+      for (unsigned int j = 0; j < used; ++j)
+      {
+        result.gap_curvature[index[i]][index[j]]  = of_gap * move[j] - gap_shift[i] * gap_shift[j] / stiffness;
+        result.slip_curvature[index[i]][index[j]] = of_slip * move[j] - slip_shift[i] * gap_shift[j] / stiffness;
+      }
+    }
+    return result;
+  }
+
+  StepKinematics<PointContact::n> PointContact::step_kinematics(const PortStep &step, const Local &end_rates)
+  {
+    choose_window(closest(coordinates(step.begin.position, step.accepted.drive.x)));
+    const Local q_0    = coordinates(step.begin.position, step.accepted.drive.x);
+    const Local q_1    = coordinates(step.end, step.to.x);
+    const Local change = q_1 - q_0;
+    const auto middle  = configure(0.5 * (q_0 + q_1));
+    end                = configure(q_1);
+    relative_x         = q_1[x_index];
+
+    StepKinematics<n> k;
+    k.gap_begin       = gap(q_0);
+    k.gap_end         = end.gap;
+    k.gap_row_end     = end.gap_row;
+    k.gap_row         = middle.gap_row;
+    k.gap_curvature   = 0.5 * middle.gap_curvature;
+    k.slip_change     = middle.slip_row * change;
+    k.slip_row        = middle.slip_row;
+    k.slip_curvature  = 0.5 * middle.slip_curvature;
+    k.slip_change_row = middle.slip_row + change * k.slip_curvature;
+    k.gap_rate_end    = end.gap_row * end_rates;
+    k.gap_rate_row    = step.weights.rate() * end.gap_row + end.gap_curvature * end_rates;
+    return k;
+  }
+
+  void PointContact::evaluate(const PortStep &step)
+  {
+    choose_window(closest(coordinates(step.begin.position, step.accepted.drive.x)));
+    const Local end_rates = rates(step.end_rate, step.to.v);
+    const auto kinematics = step_kinematics(step, end_rates);
+    StepContactLaw law;
+    law.normal     = properties.normal;
+    law.damping    = properties.damping;
+    law.tangential = properties.tangential;
+    law.friction   = law_of_step(step.to.v);
+    law.weights    = step.weights;
+    response       = step_response(kinematics, step.accepted.contact.front(), law);
+    slip_rate      = end.slip_row * end_rates;
+    work           = { -response.force[x_index] * (step.to.x - step.accepted.drive.x), response.friction, response.damping,
+                       response.algorithmic, response.creep };
+    sum_forces(response.force, response.tangent);
+  }
+
+  void PointContact::evaluate_sliding(const Vector<double> &ports, const DrivePoint &drive, const double speed)
+  {
+    choose_window(cylinder_centre(properties.geometry, drive.x, properties.rest_inclination).xi);
+    const Local q = coordinates(ports, drive.x);
+    choose_window(closest(q));
+    const Local at      = coordinates(ports, drive.x);
+    end                 = configure(at);
+    relative_x          = at[x_index];
+    const auto normal   = mean_normal_force(properties.normal, end.gap, end.gap);
+    const auto law      = law_of_step(drive.v);
+    response            = {};
+    response.mu         = std::copysign(friction_coefficient(law, std::abs(speed)).coefficient, speed);
+    response.pressure   = normal.end;
+    response.traction   = response.mu * normal.end;
+    response.slipping   = true;
+    response.memory     = { 0., response.traction, 0., 0., speed, 0. };
+    response.energy     = normal.energy + 0.5 * response.traction * response.traction / properties.tangential;
+    response.force      = normal.end * end.gap_row - response.traction * end.slip_row;
+    const auto d_normal = normal.d_end * end.gap_row;
+    response.tangent    = outer_product(end.gap_row, d_normal) - response.mu * outer_product(end.slip_row, d_normal) +
+                       normal.end * end.gap_curvature - response.traction * end.slip_curvature;
+    response.mu = std::abs(response.mu);
+    slip_rate   = speed;
+    work        = {};
+    sum_forces(response.force, response.tangent);
+  }
+
+  void PointContact::sum_forces(const Local &force, const LocalMatrix &tangent)
+  {
+    unsigned int index[n];
+    double sign[n];
+    summed.ports.clear();
+    for (unsigned int i = 0; i < n; ++i)
+    {
+      const bool nodal = i < n_nodal && properties.mesh.elements > 0 && window + i / 2 > 0;
+      if (!nodal && i < n_nodal)
+        continue;
+      if (i == x_index && !properties.ports.sprung)
+        continue;
+      const auto place = static_cast<unsigned int>(summed.ports.size());
+      index[place]     = i;
+      sign[place]      = i == x_index ? -1. : 1.;
+      summed.ports.push_back(nodal              ? 2 * window + i - 2
+                             : i == theta_index ? properties.ports.rotation()
+                                                : properties.ports.support());
+    }
+    const auto used = static_cast<unsigned int>(summed.ports.size());
+    summed.values.reinit(used);
+    summed.tangent.reinit(used, used);
+    for (unsigned int i = 0; i < used; ++i)
+    {
+      summed.values[i] = sign[i] * force[index[i]];
+      for (unsigned int j = 0; j < used; ++j)
+        summed.tangent(i, j) = sign[i] * sign[j] * tangent[index[i]][index[j]];
+    }
+  }
+
+  const PortForces &PointContact::forces() const
+  {
+    return summed;
+  }
+
+  std::vector<ContactMemory> PointContact::memory() const
+  {
+    return { response.memory };
+  }
+
+  std::vector<ContactMemory> PointContact::touch(const Vector<double> &ports, const DrivePoint &drive)
+  {
+    choose_window(cylinder_centre(properties.geometry, drive.x, properties.rest_inclination).xi);
+    end        = configure(coordinates(ports, drive.x));
+    relative_x = drive.x;
+    response   = {};
+    return { ContactMemory{} };
+  }
+
+  void PointContact::add_work(StepWork &sum) const
+  {
+    sum.drive += work.drive;
+    sum.friction += work.friction;
+    sum.damping += work.damping;
+    sum.algorithmic += work.algorithmic;
+    sum.creep += work.creep;
+  }
+
+  double PointContact::energy() const
+  {
+    return response.energy;
+  }
+
+  double PointContact::overlap() const
+  {
+    return std::max(0., -end.gap);
+  }
+
+  double PointContact::gap_change(const Vector<double> &change_of_ports) const
+  {
+    return end.gap_row * rates(change_of_ports, 0.);
+  }
+
+  double PointContact::mean_slip(const Vector<double> &from, const double from_x, const Vector<double> &to,
+                                 const double to_x) const
+  {
+    const Local q_0 = coordinates(from, from_x);
+    const Local q_1 = coordinates(to, to_x);
+    return configure(0.5 * (q_0 + q_1)).slip_row * (q_1 - q_0);
+  }
+
+  void PointContact::observe(Row &row) const
+  {
+    const auto force                = response.pressure * end.gap_at_point - response.traction * end.slip_at_point;
+    row[Column::P]                  = force[1];
+    row[Column::F]                  = -force[0];
+    row[Column::Q]                  = -force[3];
+    row[Column::normal_resultant]   = response.pressure;
+    row[Column::friction_resultant] = response.traction;
+    row[Column::friction_power]     = response.traction * slip_rate;
+    row[Column::indentation]        = overlap();
+    row[Column::penetration]        = 0.;
+    row[Column::active_points]      = end.gap < 0. ? 1. : 0.;
+    row[Column::elastic_slip]       = std::abs(response.traction) / properties.tangential;
+    if (response.pressure > 0.)
+    {
+      row[Column::s]              = end.along;
+      row[Column::mu]             = response.mu;
+      row[Column::v_rel]          = slip_rate;
+      row[Column::cone_violation] = std::max(0., std::abs(response.traction) / (response.mu * response.pressure) - 1.);
+    }
+  }
+
+  FacePoints PointContact::face_points() const
+  {
+    return {};
+  }
+
+  FaceState PointContact::face_state(const DrivePoint &) const
+  {
+    return {};
+  }
+} // namespace sprag

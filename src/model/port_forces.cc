@@ -1,0 +1,60 @@
+#include "model/port_forces.h"
+
+#include "base/errors.h"
+
+#include <deal.II/lac/lapack_full_matrix.h>
+
+namespace sprag
+{
+  using namespace dealii;
+
+  void add_response(const FullMatrix<double> &compliance, const std::vector<unsigned int> &ports, const Vector<double> &forces,
+                    Vector<double> &displacements)
+  {
+    for (unsigned int a = 0; a < ports.size(); ++a)
+    {
+      const double force  = forces[a];
+      const double *row   = &compliance(ports[a], 0);
+      double *const begin = displacements.begin();
+      for (unsigned int i = 0; i < displacements.size(); ++i)
+        begin[i] += row[i] * force;
+    }
+  }
+
+  Vector<double> port_correction(const FullMatrix<double> &compliance, const PortForces &forces, const Vector<double> &mismatch)
+  {
+    // (1 - G df/dz) dz = mismatch on the loaded ports; the others follow from the change of the forces.
+    const auto n = static_cast<unsigned int>(forces.ports.size());
+    FullMatrix<double> loaded(n, n);
+    for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int j = 0; j < n; ++j)
+        loaded(i, j) = compliance(forces.ports[i], forces.ports[j]);
+    FullMatrix<double> product(n, n);
+    loaded.mmult(product, forces.tangent);
+
+    Vector<double> result = mismatch;
+    if (n == 0)
+      return result;
+    LAPACKFullMatrix<double> matrix(n);
+    Vector<double> change(n);
+    for (unsigned int i = 0; i < n; ++i)
+    {
+      for (unsigned int j = 0; j < n; ++j)
+        matrix(i, j) = (i == j ? 1. : 0.) - product(i, j);
+      change[i] = mismatch[forces.ports[i]];
+    }
+    try
+    {
+      matrix.compute_lu_factorization();
+    }
+    catch (const ExceptionBase &)
+    {
+      throw AnalysisError("the tangent of the contact is singular");
+    }
+    matrix.solve(change);
+    Vector<double> change_of_forces(n);
+    forces.tangent.vmult(change_of_forces, change);
+    add_response(compliance, forces.ports, change_of_forces, result);
+    return result;
+  }
+} // namespace sprag

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "model/dynamic_model.h"
+#include "scene/scene.h"
+
+#include <memory>
+
+namespace sprag
+{
+  /// Elements of the beam: 8 give frequencies to 1e-5 and growth rates to 0.7 %.
+  inline constexpr unsigned int beam_elements = 8;
+
+  /// The scene's lever as rigid body or beam with a point contact, Analysis/Model = rigid or beam.
+  std::unique_ptr<DynamicModel> make_reduced_lever(const Scene &scene);
+} // namespace sprag

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "scene/scene.h"
+
+namespace sprag
+{
+  /// State to which the contact's damping and stiffness in stick refer: the largest P of the closed form over the drive.
+  struct ContactReference
+  {
+    double P;          ///< [N]
+    double s;          ///< pivot to contact there [mm]
+    double stiffness;  ///< dP/d(delta) of the scene's contact law at that P [N/mm]
+    double relaxation; ///< damping over stiffness: 2 zeta / omega, omega = s sqrt(stiffness / J), zeta = Contact/Damping [s]
+    double tangential; ///< in stick: Contact/Tangential stiffness, or the layer's shear beside its compression [N/mm]
+  };
+
+  ContactReference contact_reference(const Scene &scene);
+
+  /// Density [t/mm] per length of a beam with the scene's moment of inertia: rho A = (J - m_t (L^2 + e_a^2)) / (L^3/3 + L e_a^2).
+  double mass_per_length(const Scene &scene);
+
+  /// e_a [mm]: given, or that of the meshed bar.
+  double neutral_axis_offset(const Scene &scene);
+} // namespace sprag
