@@ -1,92 +1,17 @@
 #!/usr/bin/python3
-"""Draws result folders of sprag: forces over time and x, the contact, sweeps of the slope."""
+"""Draws result folders of sprag: forces over time and x, the contact, reversals, energies, sweeps of the slope, comparisons."""
 
 import argparse
 import sys
 from pathlib import Path
 
-import matplotlib
+import numpy as np
 
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402  (after the choice of what draws)
-import numpy as np  # noqa: E402
-
-from results import NotAResult, read_result  # noqa: E402
-
-MILLIMETRE = 1 / 25.4
-ONE_COLUMN = 85 * MILLIMETRE
-TWO_COLUMNS = 170 * MILLIMETRE
-
-# Colours told apart by the colour-blind (Okabe & Ito), and with each a line style for prints without colour.
-COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
-LINES = ("-", (0, (6, 1.5)), (0, (6, 1.5, 1.2, 1.5)), (0, (3, 1.2)), (0, (3, 1, 1, 1, 1, 1)), (0, (8, 1, 2, 1)), (0, (1.5, 1)))
-MARKERS = ("o", "s", "^", "D", "v", "P", "X")
-
-SYMBOLS = {
-    "time": "$t$",
-    "x": "$x$",
-    "P": "$P$",
-    "Q": "$Q$",
-    "mu": r"$\mu$",
-    "v_rel": r"$v_\mathrm{rel}$",
-    "theta0": r"$\theta_0$",
-    "slope_forward": "$C_Q$",
-    "slope_backward": "$C_Q$",
-    "dimensionless_forward": r"$\bar C_Q = C_Q R\,l/k$",
-    "dimensionless_backward": r"$\bar C_Q = C_Q R\,l/k$",
-}
-
-
-def use_print_style():
-    plt.rcParams.update(
-        {
-            "font.size": 8,
-            "axes.labelsize": 8,
-            "axes.linewidth": 0.6,
-            "axes.grid": True,
-            "axes.axisbelow": True,
-            "grid.color": "0.88",
-            "grid.linewidth": 0.5,
-            "lines.linewidth": 1.2,
-            "legend.fontsize": 7,
-            "legend.frameon": False,
-            "legend.handlelength": 2.8,
-            "xtick.direction": "in",
-            "ytick.direction": "in",
-            "pdf.fonttype": 42,
-            "figure.constrained_layout.use": True,
-        }
-    )
-
-
-def look(index):
-    """Colour and line of the index-th curve."""
-    return {"color": COLOURS[index % len(COLOURS)], "linestyle": LINES[index % len(LINES)]}
-
-
-def label(units, column):
-    """Axis label with the unit as the file gives it."""
-    symbol = SYMBOLS.get(column, column.replace("_", " "))
-    unit = units.get(column, "1")
-    if unit in ("", "1"):
-        return symbol
-    return f"{symbol} [{unit.replace('^2', '$^2$').replace('^3', '$^3$')}]"
-
-
-def set_labels(axes, units, over, column):
-    axes.set_xlabel(label(units, over))
-    axes.set_ylabel(label(units, column))
-
-
-def panel_letter(axes, letter):
-    axes.set_title(f"({letter})", loc="left", fontsize=8)
-
-
-def show_legend(axes, **arguments):
-    """A legend where there is more than one thing to tell apart."""
-    if len(axes.get_legend_handles_labels()[0]) > 1:
-        axes.legend(**arguments)
-
+from comparison import comparison
+from results import NotAResult, read_result
+from style import COLOURS, MARKERS, MILLIMETRE, ONE_COLUMN, TWO_COLUMNS  # noqa: F401  (for figures.py and mesh.py)
+from style import label, look, panel_letter, plt, set_labels, show_legend, use_print_style
+from transient import energy, has_reversal, is_transient, reversal
 
 # Forces
 
@@ -292,20 +217,35 @@ def slopes_over_inclination(result):
 
 # Pictures into files
 
+FORMATS = {"png", "pdf", "svg"}
+
 
 def draw(results):
     """{picture name: figure} for one or several results."""
-    sweeps = [result for result in results if result.is_sweep]
-    if sweeps and len(results) > 1:
-        raise NotAResult(f"{sweeps[0].folder}: a sweep of the slope is drawn by itself")
-    if sweeps:
-        return {"slope": slope_sweep(sweeps[0])}
-    empty = [result for result in results if len(result.table["time"]) == 0]
-    if empty:
-        raise NotAResult(f"{empty[0].folder}: no step is finished yet")
+    if len(results) == 1 and results[0].is_sweep:
+        return {"slope": slope_sweep(results[0])}
+    check_steps(results)
     pictures = {"forces-over-time": forces_over_time(results), "forces-over-x": forces_over_x(results)}
-    if len(results) == 1 and results[0].face is not None:
-        pictures["contact"] = contact(results[0])
+    return {**pictures, **(pictures_of_one(results[0]) if len(results) == 1 else {"comparison": comparison(results)})}
+
+
+def check_steps(results):
+    """Throws NotAResult where there are none that pictures could share."""
+    for result in results:
+        if result.is_sweep:
+            raise NotAResult(f"{result.folder}: a sweep of the slope is drawn by itself")
+        if len(result.table["time"]) == 0:
+            raise NotAResult(f"{result.folder}: no step is finished yet")
+
+
+def pictures_of_one(result):
+    pictures = {}
+    if result.face is not None:
+        pictures["contact"] = contact(result)
+    if is_transient(result) and has_reversal(result):
+        pictures["reversal"] = reversal(result)
+    if is_transient(result) and result.has("energy_residual"):
+        pictures["energy"] = energy(result)
     return pictures
 
 
@@ -323,13 +263,24 @@ def save(pictures, folder, formats=("png",), dpi=300):
 def read_arguments(arguments):
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("folders", nargs="+", metavar="DIR", type=Path, help="result folder, holding result.h5")
-    parser.add_argument("--output", type=Path, metavar="PICTURE_DIR", help="default: the only result folder, or the current one")
+    parser.add_argument(
+        "-o",
+        "--output",
+        type=Path,
+        metavar="PICTURE_DIR|FILE",
+        help="default: the only result folder, or the current one; FILE.png, .pdf or .svg: of several runs the comparison alone",
+    )
     parser.add_argument("--format", default="png", help="png, pdf or svg, or several: png,pdf")
     options = parser.parse_args(arguments)
     options.format = options.format.split(",")
-    unknown = set(options.format) - {"png", "pdf", "svg"}
+    unknown = set(options.format) - FORMATS
     if unknown:
         parser.error(f"unknown format {', '.join(sorted(unknown))}: png, pdf or svg")
+    options.only = None
+    if options.output and options.output.suffix[1:] in FORMATS and not options.output.is_dir():
+        if len(options.folders) == 1:
+            parser.error("a picture file goes with several result folders; a single one has several pictures")
+        options.only = options.output
     if options.output is None:
         options.output = options.folders[0] if len(options.folders) == 1 else Path(".")
     return options
@@ -339,7 +290,12 @@ def main(arguments=None):
     options = read_arguments(arguments)
     use_print_style()
     try:
-        save(draw([read_result(folder) for folder in options.folders]), options.output, options.format)
+        results = [read_result(folder) for folder in options.folders]
+        if options.only:
+            check_steps(results)
+            save({options.only.stem: comparison(results)}, options.only.parent, (options.only.suffix[1:],))
+        else:
+            save(draw(results), options.output, options.format)
     except (NotAResult, OSError) as error:
         print(f"plot.py: {error}", file=sys.stderr)
         return 2

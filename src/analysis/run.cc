@@ -1,8 +1,10 @@
 #include "analysis/run.h"
 
 #include "analysis/closed_form.h"
+#include "analysis/contact_law.h"
 #include "analysis/quasi_static.h"
 #include "analysis/recorder.h"
+#include "analysis/run_transient.h"
 #include "analysis/slope.h"
 #include "base/errors.h"
 #include "fe/field_frames.h"
@@ -12,6 +14,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <cmath>
+#include <iomanip>
 #include <iostream>
 #include <optional>
 #include <sstream>
@@ -37,6 +40,47 @@ namespace sprag
       file.finish(summary, process_entries(timer));
       if (!options.quiet)
         print_summary(std::cout, summary);
+    }
+
+    std::vector<Entry> contact_law_entries(const FittedContact &law)
+    {
+      return { { "stiffness", law.fit.stiffness, "N/mm^n", "Contact/Stiffness of the reduced models" },
+               { "exponent", law.fit.exponent, "1", "Contact/Exponent" },
+               { "largest_error", law.fit.largest_error, "1", "of P of the fitted law, relative" },
+               { "rms_error", law.fit.rms_error, "1", "of P of the fitted law, relative" },
+               { "largest_P", law.points.back().P, "N", "up to which the law was fitted" },
+               { "status", std::string("completed"), "", "how the run ended" } };
+    }
+
+    void print_contact_law(const FittedContact &law)
+    {
+      std::cout << std::setprecision(6)
+                << "\nLines for the parameter file:\n\nsubsection Contact\n  set Stiffness = " << law.fit.stiffness
+                << "\n  set Exponent  = " << law.fit.exponent << "\nend\n";
+    }
+
+    void run_contact_law(const Scene &scene, const RunOptions &options)
+    {
+      Timer timer(std::cout, Timer::never, Timer::cpu_and_wall_times);
+      require_writable(options.folder);
+      const auto law = indent(scene);
+      prepare_folder(options.folder);
+      ResultFile file(options.folder + "/result.h5", scene.parameters_text, {},
+                      { { "P", "N", "normal force" },
+                        { "approach", "mm", "overlap of the cylinder with the undeformed lever" },
+                        { "bending", "mm", "deflection of the Euler-Bernoulli lever at the contact" },
+                        { "local", "mm", "approach less bending: what the contact law has to give" },
+                        { "P_fitted", "N", "P of the fitted law at the local approach" } });
+      for (const auto &point : law.points)
+        file.append(std::vector<double>{ point.P, point.approach, point.bending, point.local(),
+                                         law.fit.stiffness * std::pow(point.local(), law.fit.exponent) });
+      const auto summary = contact_law_entries(law);
+      file.finish(summary, process_entries(timer));
+      if (!options.quiet)
+      {
+        print_summary(std::cout, summary);
+        print_contact_law(law);
+      }
     }
 
     /// Exit status 1 for a run that ended but is too far from the closed form.
@@ -181,6 +225,10 @@ namespace sprag
   {
     if (scene.analysis.type == AnalysisType::slope)
       run_slope(scene, options);
+    else if (scene.analysis.type == AnalysisType::contact_law)
+      run_contact_law(scene, options);
+    else if (scene.analysis.type == AnalysisType::transient)
+      run_transient_scene(scene, options);
     else if (scene.analysis.model == ModelType::closed_form)
       run_closed_form_model(scene, options);
     else

@@ -2,6 +2,7 @@
 
 #include "base/text.h"
 #include "scene/closed_form.h"
+#include "scene/contact_reference.h"
 
 #include <cmath>
 #include <filesystem>
@@ -119,47 +120,191 @@ namespace sprag
       return result;
     }
 
-    Violations finite_elements(const Scene &scene)
+    void append(Violations &all, const Violations &more)
+    {
+      all.insert(all.end(), more.begin(), more.end());
+    }
+
+    bool finite_elements(const ModelType model)
+    {
+      return model == ModelType::condensed || model == ModelType::finite_element;
+    }
+
+    /// What a type of analysis takes of the scene. The model counts only where the cylinder follows the drive.
+    struct Use
+    {
+      explicit Use(const Scene &scene)
+          : transient(scene.analysis.type == AnalysisType::transient)
+          , follows_drive(transient || scene.analysis.type == AnalysisType::quasi_static)
+          , positions(follows_drive || scene.analysis.type == AnalysisType::contact_law)
+          , meshed(positions && (!follows_drive || finite_elements(scene.analysis.model)))
+          , lever(meshed || (transient && scene.analysis.model != ModelType::closed_form))
+          , own_mesh(meshed && !scene.mesh.file.empty())
+      {
+      }
+
+      const bool transient;
+      const bool follows_drive;
+      const bool positions; ///< whether the cylinder is put somewhere
+      const bool meshed;
+      const bool lever; ///< whether it has dimensions
+      const bool own_mesh;
+    };
+
+    Violations mesh_and_material(const Scene &scene, const Use &use)
     {
       Violations result = mesh(scene.mesh, scene.lever);
-      if (scene.lever.material == MaterialModel::neo_hookean && scene.analysis.plane == PlaneState::stress)
+      if (scene.lever.material == MaterialModel::neo_hookean && scene.analysis.plane == PlaneState::stress && !use.transient)
         result.push_back({ "Lever/Material", { "Analysis/Plane" }, "neo-Hookean needs Analysis/Plane = strain" });
       return result;
     }
 
-    void append(Violations &all, const Violations &more)
+    Violations linear_structure(const Scene &scene)
     {
-      all.insert(all.end(), more.begin(), more.end());
+      Violations result;
+      const auto need = [&](const bool kept, const std::string &parameter, const std::string &value)
+      {
+        if (!kept)
+          result.push_back(
+              { parameter, { "Analysis/Type", "Analysis/Model" }, "must be " + value + " with Analysis/Type = transient" });
+      };
+      need(scene.lever.material == MaterialModel::linear, "Lever/Material", "linear");
+      need(scene.analysis.solution == Solution::automatic, "Analysis/Solution", "automatic");
+      need(scene.contact.enforcement == Enforcement::penalty, "Contact/Enforcement", "penalty");
+      return result;
+    }
+
+    Violations model(const Scene &scene, const Use &use)
+    {
+      Violations result;
+      const ModelType model = scene.analysis.model;
+      if (use.follows_drive && !use.transient && model != ModelType::closed_form && model != ModelType::finite_element)
+        result.push_back({ "Analysis/Model",
+                           { "Analysis/Type" },
+                           "needs Analysis/Type = transient: without inertia there are closed form and finite element" });
+      if (use.follows_drive && finite_elements(model) && scene.lever.neutral_axis_offset)
+        result.push_back({ "Lever/Neutral axis offset",
+                           { "Analysis/Type", "Analysis/Model" },
+                           "must be auto, the finite elements have their own; only rigid and beam take another" });
+      if (use.transient && finite_elements(model))
+        append(result, linear_structure(scene));
+      return result;
+    }
+
+    Violations contact(const Scene &scene, const Use &use)
+    {
+      if (!use.follows_drive || scene.contact.type != ContactType::ideal)
+        return {};
+      Violations result;
+      const ModelType model = scene.analysis.model;
+      if (model != ModelType::rigid && model != ModelType::closed_form)
+        result.push_back({ "Contact/Type", { "Analysis/Type", "Analysis/Model" }, "ideal needs Analysis/Model = rigid" });
+      if (scene.support.type != SupportType::rigid)
+        result.push_back({ "Contact/Type", { "Analysis/Type", "Support/Type" }, "ideal needs Support/Type = rigid" });
+      if (use.transient && model == ModelType::rigid && scene.drive.profile() == DriveProfile::triangle &&
+          scene.drive.reversal_duration() == 0.)
+        result.push_back({ "Drive/Reversal duration",
+                           { "Analysis/Type", "Analysis/Model", "Contact/Type", "Drive/Profile" },
+                           "must be more than 0 s with Contact/Type = ideal, or P is infinite at a reversal" });
+      return result;
+    }
+
+    Violations support(const Scene &scene, const Use &use)
+    {
+      if (scene.support.type == SupportType::rigid)
+        return {};
+      Violations result;
+      if (!use.transient)
+        result.push_back({ "Support/Type", { "Analysis/Type" }, "sprung needs Analysis/Type = transient" });
+      else if (scene.analysis.model == ModelType::closed_form)
+        result.push_back({ "Support/Type", { "Analysis/Model" }, "sprung needs an Analysis/Model other than closed form" });
+      return result;
+    }
+
+    Violations inertia(const Scene &scene)
+    {
+      const Lever &lever  = scene.lever;
+      const double offset = neutral_axis_offset(scene);
+      const double of_tip = lever.tip_mass * (lever.length * lever.length + offset * offset);
+      if (lever.moment_of_inertia > of_tip)
+        return {};
+      return { { "Lever/Moment of inertia",
+                 { "Analysis/Type", "Analysis/Model", "Lever/Tip mass", "Lever/Length", "Lever/Depth",
+                   "Lever/Neutral axis offset", "Geometry/Interface offset", "Friction layer/Thickness" },
+                 "must be more than that of the tip mass alone, Tip mass (L^2 + e_a^2) = " + rounded_text(of_tip) + " t mm2" } };
+    }
+
+    Violations time(const Scene &scene)
+    {
+      if (scene.time.step < scene.drive.duration())
+        return {};
+      return { { "Time/Step",
+                 { "Analysis/Type", "Drive/Profile", "Drive/Start", "Drive/Stroke", "Drive/Speed", "Drive/Cycles",
+                   "Drive/Reversal duration", "Drive/Table" },
+                 "must be less than the duration of the drive, " + rounded_text(scene.drive.duration()) + " s" } };
+    }
+
+    Violations cache(const CondensedSettings &condensed)
+    {
+      std::error_code ignored;
+      if (!std::filesystem::exists(condensed.cache, ignored) || std::filesystem::is_directory(condensed.cache, ignored))
+        return {};
+      return { { "Condensed/Cache", { "Analysis/Type", "Analysis/Model" }, "must be a folder" } };
+    }
+
+    Violations settings(const Scene &scene, const Use &use)
+    {
+      Violations result;
+      const AnalysisSettings &analysis = scene.analysis;
+      if (analysis.dimension != 2)
+        result.push_back({ "Analysis/Dimension", {}, "must be 2: this version solves 2D problems only" });
+      if (analysis.minimum_step > analysis.step)
+        result.push_back({ "Analysis/Minimum step",
+                           { "Analysis/Step" },
+                           "must not be more than Step = " + rounded_text(analysis.step) + " mm" });
+      append(result, model(scene, use));
+      append(result, contact(scene, use));
+      append(result, support(scene, use));
+      if (use.meshed)
+        append(result, mesh_and_material(scene, use));
+      if (use.transient && use.lever && !use.own_mesh)
+        append(result, inertia(scene));
+      if (use.transient)
+        append(result, time(scene));
+      if (use.transient && analysis.model == ModelType::condensed)
+        append(result, cache(scene.condensed));
+      return result;
+    }
+
+    /// Whether the lever is rigid and always on the cylinder, so that it locks where the closed form does.
+    bool can_lock(const Scene &scene, const Use &use)
+    {
+      const ModelType model = scene.analysis.model;
+      return use.follows_drive && (model == ModelType::closed_form ||
+                                   (use.transient && model == ModelType::rigid && scene.contact.type == ContactType::ideal));
+    }
+
+    /// Each can be computed only where those before it are kept.
+    Violations positions(const Scene &scene, const Use &use)
+    {
+      Violations result = geometry(scene.geometry);
+      if (result.empty() && use.positions)
+        result = drive(scene);
+      if (result.empty() && use.positions)
+        append(result, sliding(scene));
+      if (result.empty() && use.lever && !use.own_mesh)
+        append(result, tip(scene));
+      if (result.empty() && can_lock(scene, use))
+        append(result, locked(scene));
+      return result;
     }
   } // namespace
 
   std::vector<Violation> violations(const Scene &scene)
   {
-    const AnalysisSettings &analysis = scene.analysis;
-    const bool moves                 = analysis.type == AnalysisType::quasi_static;
-    const bool meshed                = moves && analysis.model == ModelType::finite_element;
-
-    Violations result;
-    if (analysis.dimension != 2)
-      result.push_back({ "Analysis/Dimension", {}, "must be 2: this version solves 2D problems only" });
-    if (analysis.minimum_step > analysis.step)
-      result.push_back({ "Analysis/Minimum step",
-                         { "Analysis/Step" },
-                         "must not be more than Step = " + rounded_text(analysis.step) + " mm" });
-    if (meshed)
-      append(result, finite_elements(scene));
-
-    // The rest can be computed only where what it starts from makes sense.
-    Violations positions = geometry(scene.geometry);
-    if (positions.empty() && moves)
-      positions = drive(scene);
-    if (positions.empty() && moves)
-      append(positions, sliding(scene));
-    if (positions.empty() && meshed && scene.mesh.file.empty())
-      append(positions, tip(scene));
-    if (positions.empty() && moves && !meshed)
-      append(positions, locked(scene));
-    append(result, positions);
+    const Use use(scene);
+    Violations result = settings(scene, use);
+    append(result, positions(scene, use));
     return result;
   }
 } // namespace sprag

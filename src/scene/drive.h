@@ -8,18 +8,21 @@ namespace sprag
 {
   enum class DriveProfile
   {
-    triangle, ///< constant speed, instantaneous reversals
+    triangle, ///< constant speed, reversals instantaneous or of a given duration
     harmonic, ///< x = start + (stroke - start)/2 (1 - cos(omega t)), peak speed given
     table     ///< x over t from a file, monotone cubic (PCHIP)
   };
 
-  /// Where the drive is at an instant. Constant-speed drives are two-valued at a reversal: see `Drive::at`.
+  /// Where the drive is at an instant. v is two-valued at an instantaneous reversal and a at a table's samples: see `Drive::at`.
   struct DrivePoint
   {
     double time = 0.; ///< [s]
     double x    = 0.; ///< [mm]
     double v    = 0.; ///< [mm/s]
+    double a    = 0.; ///< [mm/s^2]; an instantaneous reversal has none on either side
   };
+
+  class Motion;
 
   /// Prescribed motion x(t) of the cylinder's centre, t from 0 to `duration()`. A value type.
   class Drive
@@ -28,11 +31,18 @@ namespace sprag
     /// Model A's: 0 .. 65 .. 0 mm at 112 mm/s.
     Drive();
 
-    /// Triangle and harmonic. start, stroke [mm], speed [mm/s] > 0, cycles > 0 (a half cycle is 0.5). Unequal start and stroke.
-    Drive(DriveProfile profile, double start, double stroke, double speed, double cycles);
+    /// Triangle and harmonic. start, stroke [mm], speed V [mm/s] > 0, cycles > 0 (a half cycle is 0.5). Unequal start and stroke.
+    ///
+    /// Reversals of a duration T [s] concern the triangle only: 0 <= T <= largest_reversal_duration(). With
+    /// S(tau) = 10 tau^3 - 15 tau^4 + 6 tau^5 the velocity is V (1 - 2 S(t/T)) in a reversal, which turns at T/2, 0.34375 V T
+    /// behind where it began. A drive that starts at x = 0 does so from rest with V S(t/T), any other at V. It ends at V.
+    Drive(DriveProfile profile, double start, double stroke, double speed, double cycles, double reversal_duration = 0.);
 
     /// Table: strictly increasing times from 0, at least 4 rows. Throws InputError otherwise.
     Drive(std::vector<double> times, std::vector<double> positions);
+
+    /// The longest reversals that leave room in every stroke for the ramps before and behind it [s]; infinite without ramps.
+    static double largest_reversal_duration(double start, double stroke, double speed, double cycles);
 
     DriveProfile profile() const;
 
@@ -45,8 +55,16 @@ namespace sprag
     /// Largest |v| [mm/s].
     double peak_speed() const;
 
+    /// 0 where reversals are instantaneous, and for harmonic motion and tables, which turn in their own way [s].
+    double reversal_duration() const;
+
     /// Times strictly between 0 and duration() where the direction of motion changes, increasing.
     const std::vector<double> &reversals() const;
+
+    /// Times strictly between 0 and duration() at which a time integration must begin a new step, increasing: the reversals, the
+    /// beginning and end of those that take time, the end of the start ramp, beginnings and ends of rests, and the samples of a
+    /// table if there are at most 2000.
+    const std::vector<double> &kinks() const;
 
     enum class Side
     {
@@ -54,7 +72,7 @@ namespace sprag
       after
     };
 
-    /// Position and velocity; at a reversal of the triangle v is that just before or just after it.
+    /// Position, velocity and acceleration; where v or a jump they are those just before or just after.
     DrivePoint at(double time, Side side = Side::before) const;
 
     /// The end of a step from `time` that moves x by at most `dx` > 0 [mm]: the first later time at which |x - x(time)| = dx,
@@ -63,7 +81,6 @@ namespace sprag
     DrivePoint step(double time, double dx) const;
 
   private:
-    class Motion;
     std::shared_ptr<const Motion> motion;
   };
 } // namespace sprag

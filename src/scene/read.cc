@@ -1,7 +1,7 @@
 #include "scene/read.h"
 
-#include "base/csv.h"
 #include "base/errors.h"
+#include "base/table_file.h"
 #include "base/text.h"
 #include "scene/check.h"
 #include "scene/sections.h"
@@ -15,6 +15,17 @@ namespace sprag
 {
   namespace
   {
+    /// For an upper bound: what it says is allowed.
+    std::string rounded_down_text(const double value)
+    {
+      return rounded_text(value * (1. - 5e-6));
+    }
+
+    void set_time_tolerance(std::map<std::string, Setting> &given, const double tolerance)
+    {
+      given["Time/Tolerance"].value = number_text(tolerance);
+    }
+
     /// Reports the mistakes met on the way to a scene against the parameters they come from.
     class SceneReader
     {
@@ -29,10 +40,15 @@ namespace sprag
       Settings settings;
 
       void store();
+      void make_time_tolerance();
       void make_drive();
       void make_friction();
       void check();
-      void use_table(const std::string &parameter, const std::string &file, const std::function<void(const TwoColumns &)> &use);
+      void check_unused();
+      void refuse_unused(const std::string &parameter, const std::string &choice, const std::string &needed);
+      double reversal_duration();
+      void use_table(const std::string &parameter, const std::string &file, const ColumnNames &names,
+                     const std::function<void(const TwoColumns &)> &use);
       void resolve(const std::string &parameter, std::string &path);
       void report(const std::string &parameter, const std::string &rule);
       bool doubtful(const std::string &parameter) const;
@@ -49,6 +65,7 @@ namespace sprag
       store();
       make_drive();
       make_friction();
+      check_unused();
       check();
       if (!settings.mistakes.empty())
         throw InputError(settings.mistakes);
@@ -66,6 +83,16 @@ namespace sprag
       resolve("Drive/Table", input.drive.table);
       resolve("Friction/Table", input.friction.table);
       resolve("Mesh/File", input.scene.mesh.file);
+      resolve("Condensed/Cache", input.scene.condensed.cache);
+      make_time_tolerance();
+    }
+
+    /// The printed parameters give a step, so that they must give the tolerance too.
+    void SceneReader::make_time_tolerance()
+    {
+      const double by_step       = settings.given.count("Time/Step") > 0 ? 0. : input.scene.time.tolerance;
+      input.scene.time.tolerance = input.time_tolerance.value_or(by_step);
+      set_time_tolerance(settings.given, input.scene.time.tolerance);
     }
 
     /// The printed parameters hold absolute paths, so that they can be read back from anywhere.
@@ -82,12 +109,29 @@ namespace sprag
     {
       const DriveSettings &drive = input.drive;
       if (drive.profile == DriveProfile::table)
-        return use_table("Drive/Table", drive.table,
+        return use_table("Drive/Table", drive.table, { "time", "x" },
                          [this](const auto &table) { input.scene.drive = Drive(table.first, table.second); });
       if (drive.stroke > drive.start)
-        input.scene.drive = Drive(drive.profile, drive.start, drive.stroke, drive.speed, drive.cycles);
+        input.scene.drive = Drive(drive.profile, drive.start, drive.stroke, drive.speed, drive.cycles, reversal_duration());
       else if (!doubtful("Drive/Stroke") && !doubtful("Drive/Start"))
         report("Drive/Stroke", "must be more than Start = " + rounded_text(drive.start) + " mm");
+    }
+
+    /// 0 wherever it does not count or does not fit.
+    double SceneReader::reversal_duration()
+    {
+      const DriveSettings &drive = input.drive;
+      if (input.scene.analysis.type != AnalysisType::transient || drive.profile != DriveProfile::triangle)
+        return 0.;
+      const double largest = Drive::largest_reversal_duration(drive.start, drive.stroke, drive.speed, drive.cycles);
+      if (drive.reversal <= largest)
+        return drive.reversal;
+      const std::vector<std::string> others = { "Analysis/Type", "Drive/Profile", "Drive/Start",
+                                                "Drive/Stroke",  "Drive/Speed",   "Drive/Cycles" };
+      if (std::none_of(others.begin(), others.end(), [this](const auto &name) { return doubtful(name); }))
+        report("Drive/Reversal duration",
+               "must be at most " + rounded_down_text(largest) + " s, or the ramps of speed do not fit into the shortest stroke");
+      return 0.;
     }
 
     void SceneReader::make_friction()
@@ -95,6 +139,7 @@ namespace sprag
       const FrictionSettings &friction = input.friction;
       FrictionLaw &law                 = input.scene.friction;
       law.speed                        = friction.speed;
+      law.regularisation_speed         = friction.regularisation_speed;
       switch (friction.law)
       {
       case FrictionChoice::coulomb:
@@ -104,26 +149,51 @@ namespace sprag
         law.law = CorkOnAluminium{};
         break;
       case FrictionChoice::table:
-        use_table("Friction/Table", friction.table,
+        use_table("Friction/Table", friction.table, { "speed", "mu" },
                   [&law](const auto &table) { law.law = TabulatedFriction(table.first, table.second); });
         break;
       }
     }
 
-    void SceneReader::use_table(const std::string &parameter, const std::string &file,
+    void SceneReader::use_table(const std::string &parameter, const std::string &file, const ColumnNames &names,
                                 const std::function<void(const TwoColumns &)> &use)
     {
       if (file.empty())
         return report(parameter, "must name a file");
       try
       {
-        use(read_two_columns(file));
+        use(read_table(file, names));
       }
       catch (const InputError &error)
       {
         for (const auto &message : error.messages)
           report(parameter, message);
       }
+    }
+
+    void SceneReader::check_unused()
+    {
+      if (input.friction.law != FrictionChoice::coulomb)
+        refuse_unused("Friction/Coefficient", "Friction/Law", "Coulomb");
+      if (input.friction.law != FrictionChoice::table)
+        refuse_unused("Friction/Table", "Friction/Law", "table");
+      if (input.drive.profile != DriveProfile::table)
+        refuse_unused("Drive/Table", "Drive/Profile", "table");
+    }
+
+    /// A default beside a choice given in the same place passes: so do the printed parameters.
+    void SceneReader::refuse_unused(const std::string &parameter, const std::string &choice, const std::string &needed)
+    {
+      const auto given = settings.given.find(parameter);
+      if (given == settings.given.end() || given->second.value.empty() || doubtful(parameter) || doubtful(choice))
+        return;
+      const auto declared       = std::find_if(parameters.begin(), parameters.end(),
+                                               [&](const auto &candidate) { return full_name(candidate) == parameter; });
+      const auto chosen         = settings.given.find(choice);
+      const auto by_option      = [](const Setting &setting) { return setting.place == "--set"; };
+      const bool chosen_as_well = chosen != settings.given.end() && (by_option(chosen->second) || !by_option(given->second));
+      if (given->second.value != declared->default_value || !chosen_as_well)
+        report(parameter, "counts only with " + choice + " = " + needed);
     }
 
     void SceneReader::check()
@@ -156,6 +226,9 @@ namespace sprag
   std::string default_parameters_text()
   {
     SceneSettings defaults;
-    return parameters_text(scene_parameters(defaults), {});
+    const auto parameters = scene_parameters(defaults);
+    std::map<std::string, Setting> given;
+    set_time_tolerance(given, defaults.scene.time.tolerance);
+    return parameters_text(parameters, given);
   }
 } // namespace sprag

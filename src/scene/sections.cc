@@ -88,11 +88,20 @@ namespace sprag
     void analysis(Section section, AnalysisSettings &settings)
     {
       section.choice<AnalysisType>("Type", settings.type,
-                                   { { "quasi-static", AnalysisType::quasi_static }, { "slope", AnalysisType::slope } },
-                                   "Follow the drive without inertia, or sweep the representative slope C_Q");
+                                   { { "quasi-static", AnalysisType::quasi_static },
+                                     { "slope", AnalysisType::slope },
+                                     { "transient", AnalysisType::transient },
+                                     { "contact law", AnalysisType::contact_law } },
+                                   "Follow the drive without inertia, sweep the representative slope C_Q, follow the drive "
+                                   "with inertia, or fit the contact of rigid and beam to finite elements");
       section.choice<ModelType>("Model", settings.model,
-                                { { "closed form", ModelType::closed_form }, { "finite element", ModelType::finite_element } },
-                                "Rigid lever with ideal contact (eqs. 4-9), or the deformable lever");
+                                { { "closed form", ModelType::closed_form },
+                                  { "rigid", ModelType::rigid },
+                                  { "beam", ModelType::beam },
+                                  { "condensed", ModelType::condensed },
+                                  { "finite element", ModelType::finite_element } },
+                                "Rigid lever with ideal contact and without mass (eqs. 4-9), or the deformable lever; transient "
+                                "also a rigid lever, a beam, or modes and face shapes of the finite elements");
       section.integer("Dimension", settings.dimension, { 2., 3. }, "Dimension of the finite elements");
       section.choice<PlaneState>("Plane", settings.plane, { { "stress", PlaneState::stress }, { "strain", PlaneState::strain } },
                                  "Plane stress or plane strain of lever and friction layer");
@@ -103,6 +112,8 @@ namespace sprag
       section.number("Minimum step", settings.minimum_step, above(0.), "mm", "Change of x below which the analysis gives up");
       section.number("Maximum deviation", settings.maximum_deviation, at_least(0.), "",
                      "Largest admissible deviation of P, Q and theta from the closed form; 0 admits any");
+      section.number("Maximum energy residual", settings.maximum_residual, at_least(0.), "",
+                     "Transient: largest admissible gap in the energy balance, over the largest work done; 0 admits any");
     }
 
     void geometry(Section section, Geometry &settings)
@@ -125,7 +136,10 @@ namespace sprag
       section.number("Start", settings.start, at_least(0.), "mm", "x at the beginning");
       section.number("Stroke", settings.stroke, above(0.), "mm", "x at the turning point, met exactly; more than Start");
       section.number("Speed", settings.speed, above(0.), "mm/s", "v, speed of the triangle or peak speed of the harmonic motion");
-      section.number("Cycles", settings.cycles, above(0.), "", "How often from Start to Stroke and back; 0.5 is there only");
+      section.number("Cycles", settings.cycles, { 0., 1e5, false, true }, "",
+                     "How often from Start to Stroke and back; 0.5 is there only");
+      section.number("Reversal duration", settings.reversal, at_least(0.), "s",
+                     "T, transient triangle only: from Speed to the opposite Speed, and from rest to Speed where Start = 0");
       section.text("Table", settings.table, "File with the columns time [s] and x [mm], relative to the folder of this one");
     }
 
@@ -141,6 +155,8 @@ namespace sprag
       section.choice<FrictionSpeed>("Speed", settings.speed,
                                     { { "sliding", FrictionSpeed::sliding }, { "drive", FrictionSpeed::drive } },
                                     "Speed that mu depends on: of sliding, or the drive's (the paper's choice)");
+      section.number("Regularisation speed", settings.regularisation_speed, at_least(0.), "mm/s",
+                     "Transient: sliding speed over which friction changes sign; 0 resolves stick");
     }
 
     void lever(Section section, Lever &settings)
@@ -154,6 +170,19 @@ namespace sprag
       section.choice<MaterialModel>("Material", settings.material,
                                     { { "linear", MaterialModel::linear }, { "neo-Hookean", MaterialModel::neo_hookean } },
                                     "Of lever and friction layer: small strain, or finite strain (plane strain only)");
+      section.number("Moment of inertia", settings.moment_of_inertia, above(0.), "t mm2",
+                     "J about the pivot, tip mass included; densities are scaled to it");
+      section.number("Tip mass", settings.tip_mass, at_least(0.), "t", "At the tip, on the neutral axis");
+      section.number_or_auto("Neutral axis offset", settings.neutral_axis_offset, any_number(), "mm",
+                             "e_a of rigid and beam, from the pivot to the neutral axis; auto: e + layer + Depth/2, 0: each "
+                             "contact point on an arm e");
+      const Interval share = { 0., 1., true, false };
+      section.number("Modal damping", settings.modal_damping, share, "",
+                     "Share of critical, of each bending mode of the lever out of contact");
+      section.number("Mass damping", settings.mass_damping, at_least(0.), "1/s",
+                     "Rayleigh: times the mass, added to Modal damping");
+      section.number("Stiffness damping", settings.stiffness_damping, at_least(0.), "s",
+                     "Rayleigh: times the lever's stiffness, added to Modal damping");
     }
 
     void friction_layer(Section section, FrictionLayer &settings)
@@ -161,6 +190,18 @@ namespace sprag
       section.number("Thickness", settings.thickness, at_least(0.), "mm", "Of the cork sheet; 0: none");
       section.number("Young's modulus", settings.young_modulus, above(0.), "MPa", "E of the layer");
       section.number("Poisson's ratio", settings.poisson_ratio, between(-1., 0.5), "", "nu of the layer");
+      section.number("Density", settings.density, above(0.), "t/mm3", "rho of the layer");
+    }
+
+    void support(Section section, Support &settings)
+    {
+      section.choice<SupportType>(
+          "Type", settings.type, { { "rigid", SupportType::rigid }, { "sprung", SupportType::sprung } },
+          "Whether the frame of the pivot stands still or moves along x; the rest counts only when sprung");
+      section.number("Mass", settings.mass, above(0.), "t", "m_f, of the frame without the lever");
+      section.number("Stiffness", settings.stiffness, above(0.), "N/mm", "k_f, of the force sensor behind the frame");
+      section.number("Damping", settings.damping, { 0., 1., true, false }, "",
+                     "Share of critical, of frame and lever on the sensor");
     }
 
     void contact(Section section, ContactSettings &settings)
@@ -176,6 +217,33 @@ namespace sprag
                      "Largest overlap left by the augmented Lagrangian");
       section.integer("Maximum augmentations", settings.maximum_augmentations, { 1., 1000. },
                       "Of the augmented Lagrangian in a step");
+      section.choice<ContactType>(
+          "Type", settings.type, { { "compliant", ContactType::compliant }, { "ideal", ContactType::ideal } },
+          "Of rigid and beam, as all below: P = k delta^n + c delta', or the lever always on the cylinder "
+          "(rigid only)");
+      section.number("Stiffness", settings.stiffness, above(0.), "N/mm^n", "k, over the whole width");
+      section.number("Exponent", settings.exponent, { 1., 3. }, "", "n");
+      section.number("Damping", settings.damping, { 0., 1., true, false }, "",
+                     "Share of critical, of the lever's inertia on the contact");
+      section.number_or_auto("Tangential stiffness", settings.tangential_stiffness, above(0.), "N/mm",
+                             "Friction over elastic slip in stick; auto: from the shear of the layer");
+    }
+
+    void time(Section section, TimeSettings &settings, std::optional<double> &tolerance)
+    {
+      section.number("Step", settings.step, above(0.), "s", "First time step, or every one where it is fixed");
+      section.number_or_auto(
+          "Tolerance", tolerance, at_least(0.), "",
+          "Admissible error of P in a step, over its peak; 0: fixed step; auto: 1e-3, or 0 where Step is given");
+      section.number("Spectral radius", settings.spectral_radius, { 0., 1. }, "",
+                     "Of the generalised-alpha method at infinite frequency; 1: no algorithmic damping");
+    }
+
+    void condensed(Section section, CondensedSettings &settings)
+    {
+      section.integer("Modes", settings.modes, { 1., 1e4 }, "Vibration modes of the lever out of contact");
+      section.text("Cache", settings.cache,
+                   "Folder of stored bases, relative to the folder of this file; empty: the user's cache folder");
     }
 
     void mesh(Section section, MeshSettings &settings)
@@ -222,8 +290,11 @@ namespace sprag
     Section(all, "Rotational spring")
         .number("Stiffness", scene.spring_stiffness, above(0.), "N mm/rad",
                 "k, moment of the leaf springs over the lever's rotation");
+    support({ all, "Support" }, scene.support);
     contact({ all, "Contact" }, scene.contact);
+    time({ all, "Time" }, scene.time, settings.time_tolerance);
     mesh({ all, "Mesh" }, scene.mesh);
+    condensed({ all, "Condensed" }, scene.condensed);
     output({ all, "Output" }, scene.output);
     slope({ all, "Slope" }, scene.slope, settings.maximum_inclination);
     return all;

@@ -3,6 +3,7 @@
 #include "base/parameters.h"
 #include "scene/scene.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,7 @@ namespace sprag
     double stroke        = 65.;
     double speed         = 112.;
     double cycles        = 1.;
+    double reversal      = 5e-3;
     std::string table;
   };
 
@@ -29,9 +31,10 @@ namespace sprag
   /// Friction as given in text.
   struct FrictionSettings
   {
-    FrictionChoice law  = FrictionChoice::cork_on_aluminium;
-    double coefficient  = CoulombFriction().coefficient;
-    FrictionSpeed speed = FrictionSpeed::sliding;
+    FrictionChoice law          = FrictionChoice::cork_on_aluminium;
+    double coefficient          = CoulombFriction().coefficient;
+    FrictionSpeed speed         = FrictionSpeed::sliding;
+    double regularisation_speed = 0.;
     std::string table;
   };
 
@@ -41,7 +44,8 @@ namespace sprag
     Scene scene;
     DriveSettings drive;
     FrictionSettings friction;
-    double maximum_inclination = 60.; ///< [deg]
+    double maximum_inclination = 60.;     ///< [deg]
+    std::optional<double> time_tolerance; ///< none: by whether a time step is given
   };
 
   /// Every parameter of a scene file. Defaults are the present values in `settings`, where `store` writes to; `settings` must

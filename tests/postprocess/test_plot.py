@@ -78,6 +78,90 @@ def make_sweep(folder, columns):
     finish(file)
 
 
+class Oscillator:
+    """P on a contact spring about the value without inertia, which jumps at the reversal; open contact flies freely."""
+
+    duration = 5e-3  # of the reversal
+    speed, stroke = 112.0, 20.0
+    frequency = 290.0
+
+    def __init__(self, growth, step=4e-5):
+        self.turn = self.stroke / self.speed
+        self.growth = growth
+        self.step = step
+
+    def quasi_static(self, time):
+        """x, v, P and Q; v as of a straight ramp of the speed in the reversal."""
+        since = np.clip((time - self.turn) / self.duration, -0.5, 0.5)
+        v = -2 * self.speed * since
+        x = self.stroke - self.speed * np.abs(time - self.turn)
+        forward = time <= self.turn
+        return x, v, (4 + x) * np.where(forward, 0.5, 1.0), (4 + x) * np.where(forward, 0.4, -0.65)
+
+    def normal_force(self, time):
+        omega, distance, rate = 2 * np.pi * self.frequency, 0.0, 0.0
+        steady = self.quasi_static(time)[2]
+        forces = steady.copy()
+        for i, span in enumerate(np.diff(time), 1):
+            distance += steady[i - 1] - steady[i]  # the force of the contact spring stays
+            damping = 2 * self.growth if distance > -steady[i] else 0
+            rate += span * (damping * rate - omega**2 * max(distance, -steady[i]))
+            distance += span * rate
+            forces[i] = max(steady[i] + distance, 0)
+        return forces
+
+    def table(self):
+        end = 2 * self.turn - 0.01
+        random = np.random.default_rng(1)
+        time = np.cumsum(self.step * (0.5 + random.random(int(end / self.step))))
+        time = np.sort(np.append(time[time < end], (0, self.turn)))
+        x, v, steady_P, steady_Q = self.quasi_static(time)
+        P = self.normal_force(time)
+        Q = steady_Q * P / steady_P
+        support = np.convolve(Q, np.ones(25) / 25, "same")
+        work = np.cumsum(np.abs(Q) * np.abs(np.diff(x, prepend=0)))
+        columns = {
+            "time": (time, "s"),
+            "x": (x, "mm"),
+            "v": (v, "mm/s"),
+            "P": (P, "N"),
+            "Q": (Q, "N"),
+            "Q_support": (support, "N"),
+            "P_quasi_static": (np.where(v == 0, np.nan, steady_P), "N"),
+            "Q_quasi_static": (np.where(v == 0, np.nan, steady_Q), "N"),
+            "drive_work": (work, "N mm"),
+            "friction_work": (0.9 * work, "N mm"),
+            "damping_work": (1e-2 * work, "N mm"),
+            "algorithmic_work": (1e-4 * work, "N mm"),
+            "spring_energy": (0.089 * work, "N mm"),
+            "elastic_energy": (9e-4 * work, "N mm"),
+            "kinetic_energy": (1e-3 * (P - steady_P) ** 2, "N mm"),
+            "support_energy": (np.zeros_like(work), "N mm"),
+            "contact_energy": (P**2 / 4000, "N mm"),
+            "energy_residual": (1e-7 * work * np.sin(time * 90), "N mm"),
+        }
+        return columns
+
+
+def make_transient(folder, model="beam", growth=-40.0, rows=None, summary=None, **arguments):
+    """The file is left open for `finish`."""
+    file = new_file(folder, **arguments)
+    del file["parameters"]
+    file["parameters"] = (
+        f"subsection Analysis\n  set Type = transient\n  set Model = {model}\n  set Maximum energy residual = 1e-3\nend\n"
+        "subsection Drive\n  set Profile = triangle\n  set Reversal duration = 5e-3\nend\n"
+    )
+    table = file.create_group("table")
+    for name, (values, unit) in Oscillator(growth).table().items():
+        put(table, name, values[:rows], unit)
+    for name, value in (summary or {}).items():
+        put(file.require_group("summary"), name, value, "Hz")
+    return file
+
+
+TRANSIENT = ["forces-over-time.png", "forces-over-x.png", "reversal.png", "energy.png"]
+
+
 class PlotTest(unittest.TestCase):
     def setUp(self):
         self.temporary = tempfile.TemporaryDirectory()
@@ -87,7 +171,7 @@ class PlotTest(unittest.TestCase):
 
     def plot(self, *arguments):
         return subprocess.run(
-            ["/usr/bin/python3", FOLDER / "plot.py", *arguments, "--output", self.pictures],
+            ["/usr/bin/python3", FOLDER / "plot.py", "--output", self.pictures, *arguments],
             capture_output=True,
             text=True,
             check=False,
@@ -114,7 +198,56 @@ class PlotTest(unittest.TestCase):
         make_run(self.folder / "a")
         make_run(self.folder / "b")
         done = self.plot(self.folder / "a", self.folder / "b")
-        self.expect_pictures(done, ["forces-over-time.png", "forces-over-x.png"])
+        self.expect_pictures(done, ["forces-over-time.png", "forces-over-x.png", "comparison.png"])
+
+    def test_transient_run(self):
+        for growth in (-40.0, 25.0):
+            finish(make_transient(self.folder / f"a{growth}", growth=growth, summary={"reversal_1_frequency": 290.1}))
+            self.expect_pictures(self.plot(self.folder / f"a{growth}"), TRANSIENT)
+
+    def test_transient_run_without_oscillation(self):
+        finish(make_transient(self.folder / "a", growth=-4000.0, summary={"reversal_1_frequency": np.nan}))
+        self.expect_pictures(self.plot(self.folder / "a"), TRANSIENT)
+
+    def test_transient_run_going_on(self):
+        for rows, names in ((3, []), (4000, []), (4500, ["reversal.png"])):
+            with make_transient(self.folder / f"a{rows}", rows=rows, libver="latest") as file:
+                file.swmr_mode = True
+                pictures = ["forces-over-time.png", "forces-over-x.png", "energy.png", *names]
+                self.expect_pictures(self.plot(self.folder / f"a{rows}"), pictures)
+
+    def test_transient_run_just_begun_or_without_quasi_static_values(self):
+        file = make_transient(self.folder / "a", rows=4500)
+        file["table/P_quasi_static"][:] = np.nan
+        for name in ("energy_residual", "drive_work", "kinetic_energy"):
+            file[f"table/{name}"][:] = np.nan
+        finish(file)
+        self.expect_pictures(self.plot(self.folder / "a"), TRANSIENT[:2])
+
+    def test_levels_in_one_picture(self):
+        make_run(self.folder / "no model named")
+        for model, growth in (("rigid", -30.0), ("finite element", -40.0), ("beam", 20.0)):
+            finish(make_transient(self.folder / model, model, growth))
+        finish(make_transient(self.folder / "another", "beam"))
+        done = self.plot(*(path for path in self.folder.iterdir()))
+        self.expect_pictures(done, ["forces-over-time.png", "forces-over-x.png", "comparison.png"])
+
+    def test_comparison_into_a_file(self):
+        make_run(self.folder / "a")
+        finish(make_transient(self.folder / "b"))
+        picture = self.pictures / "levels.png"
+        self.expect_pictures(self.plot(self.folder / "a", self.folder / "b", "-o", picture), ["levels.png"])
+
+    def test_picture_file_for_a_single_run(self):
+        make_run(self.folder / "a")
+        done = self.plot(self.folder / "a", "--output", "levels.png")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("several result folders", done.stderr)
+
+    def test_sweep_and_run_do_not_mix(self):
+        make_run(self.folder / "a")
+        make_sweep(self.folder / "b", {"mu": np.linspace(0, 1.2, 5)})
+        self.expect_refusal(self.plot(self.folder / "a", self.folder / "b", "-o", "levels.png"), "by itself")
 
     def test_sweep_over_coefficient(self):
         mu = np.linspace(0, 1.2, 5)

@@ -1,10 +1,13 @@
 #include "scene/drive.h"
 
 #include "base/errors.h"
+#include "scene/closed_form.h"
+#include "scenes.h"
 
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <limits>
 
 using namespace sprag;
 
@@ -33,6 +36,32 @@ namespace
     for (const double reversal : reversals)
       EXPECT_TRUE(std::any_of(points.begin(), points.end(), [&](const auto &point) { return point.time == reversal; }));
     EXPECT_EQ(points.back().time, drive.duration());
+  }
+
+  /// Model A's triangle with reversals that take their time.
+  Drive smooth(const double start, const double cycles, const double reversal_duration = 5e-3)
+  {
+    return Drive(DriveProfile::triangle, start, 65., 112., cycles, reversal_duration);
+  }
+
+  std::vector<Drive> drives_of_all_kinds()
+  {
+    return { smooth(0., 0.5),
+             smooth(0., 1.),
+             smooth(20., 1.5),
+             smooth(0., 2., 0.2),
+             smooth(20., 0.75, 0.05),
+             Drive(DriveProfile::triangle, 0., 65., 112., 1.),
+             Drive(DriveProfile::harmonic, 3., 65., 112., 1.2),
+             Drive({ 0., 0.3, 1., 1.1, 2., 3. }, { 0., 20., 15., 40., 40., 5. }) };
+  }
+
+  std::vector<double> bounds(const Drive &drive)
+  {
+    std::vector<double> result = { 0. };
+    result.insert(result.end(), drive.kinks().begin(), drive.kinks().end());
+    result.push_back(drive.duration());
+    return result;
   }
 
   Drive rise_rest_fall()
@@ -165,4 +194,188 @@ TEST(Drive, TableThatIsNoneIsRefused)
   EXPECT_THROW(Drive({ 1., 2., 3., 4. }, { 0., 1., 2., 3. }), InputError);
   EXPECT_THROW(Drive({ 0., 2., 2., 4. }, { 0., 1., 2., 3. }), InputError);
   EXPECT_THROW(Drive({ 0., 1., 2., 4. }, { 1., 1., 1., 1. }), InputError);
+}
+
+TEST(SmoothDrive, TurnsExactlyAndEndsAtFullSpeed)
+{
+  for (const double start : { 0., 20. })
+    for (const double cycles : { 0.5, 1., 1.5, 2., 7. })
+      for (const double duration : { 1e-6, 5e-3, 0.3 })
+      {
+        const Drive drive = smooth(start, cycles, duration);
+        EXPECT_EQ(drive.reversal_duration(), duration);
+        EXPECT_EQ(drive.reversals().size(), std::lround(2. * cycles) - 1);
+        for (std::size_t i = 0; i < drive.reversals().size(); ++i)
+        {
+          const auto turn = drive.at(drive.reversals()[i]);
+          EXPECT_EQ(turn.x, i % 2 == 0 ? 65. : start);
+          EXPECT_EQ(turn.v, 0.);
+        }
+        const auto end = drive.at(drive.duration());
+        EXPECT_EQ(end.x, std::lround(2. * cycles) % 2 == 1 ? 65. : start);
+        EXPECT_EQ(std::abs(end.v), 112.);
+        EXPECT_EQ(drive.at(0.).x, start);
+        EXPECT_EQ(drive.at(0.).v, start == 0. ? 0. : 112.);
+        EXPECT_EQ(drive.minimum(), start);
+        EXPECT_EQ(drive.maximum(), 65.);
+        EXPECT_EQ(drive.peak_speed(), 112.);
+      }
+}
+
+TEST(SmoothDrive, RampsHaveTheirLength)
+{
+  const double T    = 5e-3;
+  const Drive drive = smooth(0., 1., T);
+  ASSERT_EQ(drive.kinks().size(), 4u);
+  const auto ramped = drive.at(drive.kinks()[0]), braking = drive.at(drive.kinks()[1]), turned = drive.at(drive.kinks()[3]);
+  EXPECT_DOUBLE_EQ(ramped.time, T);
+  EXPECT_NEAR(ramped.x, 112. * T / 2., 1e-13);
+  EXPECT_EQ(drive.kinks()[2], drive.reversals()[0]);
+  EXPECT_NEAR(turned.time - braking.time, T, 1e-15);
+  EXPECT_NEAR(65. - braking.x, 0.34375 * 112. * T, 1e-12);
+  EXPECT_NEAR(65. - turned.x, 0.34375 * 112. * T, 1e-12);
+  EXPECT_NEAR(drive.duration(), 130. / 112. + (0.5 + 1. - 2. * 0.34375) * T, 1e-14);
+}
+
+TEST(SmoothDrive, SpeedOfAReversalIsTheQuintic)
+{
+  const double T     = 5e-3;
+  const Drive drive  = smooth(20., 1., T);
+  const double begin = drive.kinks()[0];
+  for (double tau = 0.; tau < 1.; tau += 0.01)
+  {
+    const double S = tau * tau * tau * (10. - 15. * tau + 6. * tau * tau);
+    EXPECT_NEAR(drive.at(begin + tau * T).v, 112. * (1. - 2. * S), 1e-10);
+  }
+}
+
+TEST(SmoothDrive, IsContinuousAtItsKinks)
+{
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const Drive &drive : { smooth(0., 2.), smooth(20., 1.5), smooth(0., 0.75), smooth(0., 2., 0.6) })
+    for (const double kink : drive.kinks())
+    {
+      const auto before = drive.at(std::nextafter(kink, 0.)), at = drive.at(kink),
+                 after = drive.at(std::nextafter(kink, infinity));
+      for (const auto &near : { before, after })
+      {
+        EXPECT_NEAR(near.x, at.x, 1e-12);
+        EXPECT_NEAR(near.v, at.v, 1e-9);
+        EXPECT_NEAR(near.a, at.a, 1e-6);
+      }
+    }
+}
+
+TEST(Drive, PositionIsTheIntegralOfVelocityAndVelocityThatOfAcceleration)
+{
+  for (const Drive &drive : drives_of_all_kinds())
+  {
+    const auto ends = bounds(drive);
+    for (std::size_t i = 0; i + 1 < ends.size(); ++i)
+    {
+      EXPECT_LT(ends[i], ends[i + 1]);
+      const unsigned int n = 2000;
+      const double length  = (ends[i + 1] - ends[i]) / n;
+      double way = 0., change = 0.;
+      for (unsigned int j = 0; j < n; ++j)
+        for (const double node : { -1., 1. })
+        {
+          const auto point = drive.at(ends[i] + (j + 0.5 + node / std::sqrt(12.)) * length);
+          way += point.v * length / 2.;
+          change += point.a * length / 2.;
+        }
+      const auto begin = drive.at(ends[i], Drive::Side::after), end = drive.at(ends[i + 1], Drive::Side::before);
+      EXPECT_NEAR(way, end.x - begin.x, 1e-10);
+      EXPECT_NEAR(change, end.v - begin.v, 1e-8);
+    }
+  }
+}
+
+TEST(Drive, AccelerationIsTheDerivativeOfVelocity)
+{
+  for (const Drive &drive : drives_of_all_kinds())
+  {
+    const auto ends = bounds(drive);
+    for (std::size_t i = 0; i + 1 < ends.size(); ++i)
+      for (double part = 0.05; part < 1.; part += 0.1)
+      {
+        const double length = ends[i + 1] - ends[i];
+        const double time   = ends[i] + part * length;
+        const double d      = 1e-4 * length;
+        const double v      = (drive.at(time + d).x - drive.at(time - d).x) / (2. * d);
+        const double a      = (drive.at(time + d).v - drive.at(time - d).v) / (2. * d);
+        EXPECT_NEAR(drive.at(time).v, v, 1e-5 * drive.peak_speed());
+        EXPECT_NEAR(drive.at(time).a, a, 1e-5 * drive.peak_speed() / length);
+      }
+  }
+}
+
+TEST(SmoothDrive, CanBeWalked)
+{
+  for (const double dx : { 0.01, 0.37, 1., 7., 1000. })
+    for (const Drive &drive : { smooth(0., 2.), smooth(20., 1.5, 0.1), smooth(0., 0.5) })
+      expect_walk_keeps_its_promises(drive, dx);
+  for (const auto &point : walk(smooth(0., 1.), 1.))
+    EXPECT_NEAR(point.x, std::round(point.x), 1e-9);
+  EXPECT_EQ(walk(smooth(0., 1.), 1.).size(), 131u);
+}
+
+TEST(SmoothDrive, LongestReversalsFillTheStrokes)
+{
+  const auto largest = [](const double start, const double cycles)
+  { return Drive::largest_reversal_duration(start, 65., 112., cycles); };
+  EXPECT_DOUBLE_EQ(largest(0., 1.), 65. / 112. / 0.84375);
+  EXPECT_DOUBLE_EQ(largest(0., 0.5), 65. / 112. / 0.5);
+  EXPECT_DOUBLE_EQ(largest(20., 1.), 45. / 112. / 0.34375);
+  EXPECT_DOUBLE_EQ(largest(20., 1.5), 45. / 112. / 0.6875);
+  EXPECT_DOUBLE_EQ(largest(0., 1.125), 65. / 4. / 112. / 0.34375);
+  EXPECT_EQ(largest(20., 0.5), std::numeric_limits<double>::infinity());
+  for (const double cycles : { 0.25, 0.5, 0.8, 1., 1.5, 2., 2.1 })
+  {
+    const Drive drive = smooth(0., cycles, largest(0., cycles));
+    expect_walk_keeps_its_promises(drive, 1.);
+    const auto ends = bounds(drive);
+    for (std::size_t i = 0; i + 1 < ends.size(); ++i)
+      EXPECT_GT(ends[i + 1] - ends[i], 1e-3);
+    EXPECT_NEAR(std::abs(drive.at(drive.duration()).v), 112., 1e-9);
+  }
+}
+
+TEST(SmoothDrive, ClosedFormDoesTheWorkOfTheSharpOne)
+{
+  Scene sharp    = with_coulomb(model_a(), 0.73);
+  Scene smoothed = sharp;
+  smoothed.drive = smooth(0., 1.);
+  EXPECT_NEAR(loop_area(smoothed), loop_area(sharp), 1e-8 * loop_area(sharp));
+  EXPECT_NEAR(friction_work(smoothed), loop_area(smoothed), 1e-8 * loop_area(sharp));
+  // mu(v) falls where the cylinder is slow.
+  smoothed.friction.law = CorkOnAluminium{};
+  sharp.friction.law    = CorkOnAluminium{};
+  EXPECT_LT(loop_area(smoothed), loop_area(sharp));
+  EXPECT_NEAR(friction_work(smoothed), loop_area(smoothed), 1e-8 * loop_area(sharp));
+}
+
+TEST(Drive, KinksAreWhereATimeStepMustBegin)
+{
+  const Drive sharp(DriveProfile::triangle, 0., 65., 112., 2.), harmonic(DriveProfile::harmonic, 0., 65., 112., 2.);
+  EXPECT_EQ(sharp.kinks(), sharp.reversals());
+  EXPECT_EQ(harmonic.kinks(), harmonic.reversals());
+  EXPECT_EQ(sharp.reversal_duration(), 0.);
+  EXPECT_EQ(Drive(DriveProfile::harmonic, 0., 65., 112., 2., 5e-3).at(0.1).x, harmonic.at(0.1).x);
+  EXPECT_EQ(smooth(20., 0.5).kinks(), std::vector<double>{});
+  EXPECT_EQ(smooth(20., 1.).kinks().size(), 3u);
+  EXPECT_EQ(smooth(0., 2.).kinks().size(), 10u);
+  EXPECT_EQ(rise_rest_fall().kinks(), (std::vector<double>{ 1., 2., 3., 4. }));
+}
+
+TEST(Drive, LongTableHasKinksWhereItTurnsOrRestsOnly)
+{
+  std::vector<double> times, positions;
+  for (unsigned int i = 0; i <= 3000; ++i)
+  {
+    times.push_back(i / 1000.);
+    positions.push_back(i <= 1000 ? i / 100. : i <= 1500 ? 10. : 10. - (i - 1500) / 200.);
+  }
+  EXPECT_EQ(Drive(times, positions).kinks(), (std::vector<double>{ 1., 1.5 }));
+  EXPECT_EQ(Drive(times, positions).reversals(), (std::vector<double>{ 1.5 }));
 }

@@ -1,13 +1,11 @@
 #include "scene/read.h"
 
-#include "base/errors.h"
 #include "base/parameters.h"
+#include "scene/messages.h"
 #include "scene/sections.h"
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <gtest/gtest.h>
+#include <hdf5.h>
 #include <regex>
 #include <sstream>
 
@@ -15,48 +13,21 @@ using namespace sprag;
 
 namespace
 {
-  using Messages = std::vector<std::string>;
-
-  std::filesystem::path folder()
+  std::string written_hdf5(const std::string &name, const std::vector<std::pair<std::string, std::vector<double>>> &columns)
   {
-    const auto *const test = testing::UnitTest::GetInstance()->current_test_info();
-    const auto result      = std::filesystem::path(testing::TempDir()) / "sprag" / test->test_suite_name() / test->name();
-    std::filesystem::create_directories(result);
-    return result;
-  }
-
-  std::string written(const std::string &text, const std::string &name = "scene.prm")
-  {
-    const auto file = (folder() / name).string();
-    std::ofstream(file) << text;
-    return file;
-  }
-
-  /// What is wrong with a scene, the folder of its file left out.
-  Messages mistakes(const std::string &text, const Messages &overrides = {})
-  {
-    const std::string prefix = folder().string() + "/";
-    Messages result;
-    try
+    const std::string path = (folder() / name).string();
+    const hid_t file       = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+    for (const auto &[column, values] : columns)
     {
-      read_scene(written(text), overrides);
+      const hsize_t length = values.size();
+      const hid_t space    = H5Screate_simple(1, &length, nullptr);
+      const hid_t dataset  = H5Dcreate2(file, column.c_str(), H5T_NATIVE_FLOAT, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+      H5Dwrite(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
+      H5Dclose(dataset);
+      H5Sclose(space);
     }
-    catch (const InputError &error)
-    {
-      for (auto message : error.messages)
-      {
-        for (auto found = message.find(prefix); found != std::string::npos; found = message.find(prefix))
-          message.erase(found, prefix.size());
-        result.push_back(message);
-      }
-    }
-    return result;
-  }
-
-  /// Of the defaults with these overrides.
-  Messages mistakes_of(const Messages &overrides)
-  {
-    return mistakes("", overrides);
+    H5Fclose(file);
+    return path;
   }
 
   std::filesystem::path scenes()
@@ -136,6 +107,92 @@ TEST(ReadScene, PrintedParametersGiveTheSameScene)
   EXPECT_TRUE(mistakes(default_parameters_text()).empty());
 }
 
+TEST(ReadScene, PrintedParametersKeepTheTimeSteps)
+{
+  const std::vector<Messages> variants = { {}, { "Time/Step=1e-5" }, { "Time/Step=1e-5", "Time/Tolerance=1e-2" } };
+  const std::vector<double> tolerances = { 1e-3, 0., 1e-2 };
+  for (std::size_t i = 0; i < variants.size(); ++i)
+  {
+    const Scene scene = scene_of(variants[i]);
+    const Scene again = read_scene(written(scene.parameters_text));
+    EXPECT_EQ(scene.time.tolerance, tolerances[i]);
+    EXPECT_EQ(again.time.tolerance, tolerances[i]);
+    EXPECT_EQ(again.parameters_text, scene.parameters_text);
+  }
+  EXPECT_EQ(scene_of({ "Time/Step=1e-5", "Time/Tolerance=auto" }).time.tolerance, 0.);
+  EXPECT_EQ(scene_of({ "Time/Tolerance=0" }).time.tolerance, 0.);
+  EXPECT_EQ(read_scene(written(default_parameters_text())).parameters_text, default_parameters_text());
+}
+
+TEST(ReadScene, WhatATransientAnalysisNeedsReachesTheScene)
+{
+  const Scene scene = scene_of({ "Analysis/Type=transient",
+                                 "Analysis/Model=beam",
+                                 "Analysis/Maximum energy residual=0.1",
+                                 "Lever/Moment of inertia=7",
+                                 "Lever/Tip mass=1e-5",
+                                 "Lever/Neutral axis offset=0",
+                                 "Lever/Modal damping=0.03",
+                                 "Lever/Mass damping=4",
+                                 "Lever/Stiffness damping=1e-6",
+                                 "Friction layer/Density=3e-10",
+                                 "Contact/Stiffness=3000",
+                                 "Contact/Exponent=1.5",
+                                 "Contact/Damping=0.1",
+                                 "Contact/Tangential stiffness=900",
+                                 "Support/Type=sprung",
+                                 "Support/Mass=1e-3",
+                                 "Support/Stiffness=6000",
+                                 "Support/Damping=0.05",
+                                 "Time/Step=1e-5",
+                                 "Time/Tolerance=1e-4",
+                                 "Time/Spectral radius=1",
+                                 "Condensed/Modes=7",
+                                 "Condensed/Cache=bases",
+                                 "Friction/Regularisation speed=0.5",
+                                 "Drive/Reversal duration=0.01" });
+  EXPECT_EQ(scene.analysis.type, AnalysisType::transient);
+  EXPECT_EQ(scene.analysis.model, ModelType::beam);
+  EXPECT_EQ(scene.analysis.maximum_residual, 0.1);
+  EXPECT_EQ(scene.lever.moment_of_inertia, 7.);
+  EXPECT_EQ(scene.lever.tip_mass, 1e-5);
+  EXPECT_EQ(scene.lever.neutral_axis_offset, 0.);
+  EXPECT_EQ(scene.lever.modal_damping, 0.03);
+  EXPECT_EQ(scene.lever.mass_damping, 4.);
+  EXPECT_EQ(scene.lever.stiffness_damping, 1e-6);
+  EXPECT_EQ(scene.layer.density, 3e-10);
+  EXPECT_EQ(scene.contact.stiffness, 3000.);
+  EXPECT_EQ(scene.contact.exponent, 1.5);
+  EXPECT_EQ(scene.contact.damping, 0.1);
+  EXPECT_EQ(scene.contact.tangential_stiffness, 900.);
+  EXPECT_EQ(scene.support.type, SupportType::sprung);
+  EXPECT_EQ(scene.support.mass, 1e-3);
+  EXPECT_EQ(scene.support.stiffness, 6000.);
+  EXPECT_EQ(scene.support.damping, 0.05);
+  EXPECT_EQ(scene.time.step, 1e-5);
+  EXPECT_EQ(scene.time.tolerance, 1e-4);
+  EXPECT_EQ(scene.time.spectral_radius, 1.);
+  EXPECT_EQ(scene.condensed.modes, 7u);
+  EXPECT_EQ(scene.condensed.cache, (folder() / "bases").string());
+  EXPECT_EQ(scene.friction.regularisation_speed, 0.5);
+  EXPECT_EQ(scene.drive.reversal_duration(), 0.01);
+  EXPECT_EQ(read_scene(written(scene.parameters_text)).parameters_text, scene.parameters_text);
+}
+
+TEST(ReadScene, ReversalsTakeTimeInTransientAnalysesOnly)
+{
+  EXPECT_EQ(scene_of({ "Analysis/Type=transient" }).drive.reversal_duration(), 5e-3);
+  EXPECT_EQ(scene_of({ "Analysis/Type=transient", "Drive/Profile=harmonic" }).drive.reversal_duration(), 0.);
+  for (const std::string type : { "quasi-static", "slope", "contact law" })
+    EXPECT_EQ(scene_of({ "Analysis/Type=" + type }).drive.reversal_duration(), 0.);
+
+  EXPECT_EQ(mistakes_of({ "Analysis/Type=transient", "Drive/Stroke=0.4" }),
+            (Messages{ "scene.prm: Drive/Reversal duration = 0.005: must be at most 0.00423278 s, or the ramps of speed do not "
+                       "fit into the shortest stroke" }));
+  EXPECT_TRUE(mistakes_of({ "Analysis/Type=transient", "Drive/Stroke=0.4", "Drive/Reversal duration=0.00423278" }).empty());
+  EXPECT_TRUE(mistakes_of({ "Drive/Stroke=0.4" }).empty());
+}
+
 TEST(ReadScene, ScenesOfTheProgramAreFaultless)
 {
   unsigned int n_scenes = 0;
@@ -182,68 +239,12 @@ TEST(ReadScene, AllMistakesAreFoundAtOnce)
                        "--set: Lever/Material = neo-Hookean: neo-Hookean needs Analysis/Plane = strain" }));
 }
 
-TEST(ReadScene, CylinderMustFitLeverAndPivot)
-{
-  EXPECT_EQ(mistakes_of({ "Geometry/Interface offset=60" }),
-            (Messages{ "--set: Geometry/Interface offset = 60: must be less than Cylinder radius R = 56 mm" }));
-  EXPECT_EQ(mistakes_of({ "Geometry/Pivot distance=50" }),
-            (Messages{ "--set: Geometry/Pivot distance = 50: must be more than Cylinder radius R = 56 mm, "
-                       "or the cylinder reaches the pivot" }));
-  EXPECT_EQ(mistakes_of({ "Geometry/Pivot height=10.4" }),
-            (Messages{ "--set: Geometry/Pivot height = 10.4: must be less than R - e = 10.4 mm, or theta_0 is not positive" }));
-}
-
-TEST(ReadScene, StrokeMustNotReachThePivot)
-{
-  EXPECT_EQ(mistakes_of({ "Drive/Stroke=129.5" }),
-            (Messages{ "--set: Drive/Stroke = 129.5: x must stay below 129.5 mm, where the cylinder reaches the pivot: "
-                       "(l - x)^2 + h^2 = R^2" }));
-  EXPECT_TRUE(mistakes_of({ "Drive/Stroke=129" }).empty());
-  // sqrt(56^2 - 10^2) = 55.1 mm before the pivot
-  EXPECT_EQ(mistakes_of({ "Drive/Stroke=131", "Geometry/Pivot height=10" }).size(), 1u);
-  EXPECT_TRUE(mistakes_of({ "Drive/Stroke=130", "Geometry/Pivot height=10" }).empty());
-}
-
-TEST(ReadScene, LockingIsRefusedForTheClosedFormOnly)
-{
-  // Above mu = sqrt((2-eb)/eb) = 1.2067 model A locks before the cylinder reaches its pivot at x = 129.5.
-  const Messages scene = { "Drive/Stroke=129", "Friction/Law=Coulomb", "Friction/Coefficient=1.3", "Analysis/Model=closed form" };
-  const auto found     = mistakes_of(scene);
-  ASSERT_EQ(found.size(), 1u);
-  EXPECT_EQ(found[0].rfind("--set: Drive/Stroke = 129: must not lock: moving back at x = 12", 0), 0u) << found[0];
-  EXPECT_NE(found[0].find("mu e = 59.28 mm with mu = 1.3"), std::string::npos) << found[0];
-
-  EXPECT_TRUE(mistakes_of({ scene[0], scene[1], scene[2] }).empty());
-  EXPECT_TRUE(mistakes_of({ scene[0], scene[1], scene[3], "Friction/Coefficient=1.2" }).empty());
-  EXPECT_TRUE(mistakes_of({ scene[0], scene[1], scene[2], scene[3], "Drive/Cycles=0.5" }).empty());
-}
-
-TEST(ReadScene, ContactMustLieOnTheLever)
-{
-  const auto found = mistakes_of({ "Lever/Length=180" });
-  ASSERT_EQ(found.size(), 1u);
-  EXPECT_EQ(
-      found[0],
-      "--set: Lever/Length = 180: must be at least 187.208 mm: at x = 0 mm the cylinder touches the lever at s = 185.208 mm");
-  EXPECT_TRUE(mistakes_of({ "Lever/Length=180", "Analysis/Model=closed form" }).empty());
-  EXPECT_TRUE(mistakes_of({ "Lever/Length=180", "Drive/Start=20" }).empty());
-}
-
 TEST(ReadScene, DriveMustMoveForward)
 {
   EXPECT_EQ(mistakes_of({ "Drive/Stroke=0" }), (Messages{ "--set: Drive/Stroke = 0: must be a number > 0 [mm]" }));
   EXPECT_EQ(mistakes_of({ "Drive/Start=-1" }), (Messages{ "--set: Drive/Start = -1: must be a number >= 0 [mm]" }));
   EXPECT_EQ(mistakes_of({ "Drive/Start=20", "Drive/Stroke=10" }),
             (Messages{ "--set: Drive/Stroke = 10: must be more than Start = 20 mm" }));
-}
-
-TEST(ReadScene, WhatThisVersionCannotDoIsRefused)
-{
-  EXPECT_EQ(mistakes_of({ "Analysis/Dimension=3" }),
-            (Messages{ "--set: Analysis/Dimension = 3: must be 2: this version solves 2D problems only" }));
-  EXPECT_EQ(mistakes_of({ "Analysis/Minimum step=2" }),
-            (Messages{ "--set: Analysis/Minimum step = 2: must not be more than Step = 1 mm" }));
-  EXPECT_TRUE(mistakes_of({ "Lever/Material=neo-Hookean", "Analysis/Plane=strain" }).empty());
 }
 
 TEST(ReadScene, MaterialsMustBePossible)
@@ -271,13 +272,6 @@ TEST(ReadScene, TablesMustBeReadable)
             (Messages{ "--set: Drive/Table = x.csv: x must be >= 0 mm throughout, it falls to -5" }));
 }
 
-TEST(ReadScene, MeshFileMustBeOne)
-{
-  written("", "lever.stl");
-  EXPECT_EQ(mistakes_of({ "Mesh/File=lever.stl" }), (Messages{ "--set: Mesh/File = lever.stl: must end in .geo or .msh" }));
-  EXPECT_EQ(mistakes_of({ "Mesh/File=none.msh" }), (Messages{ "--set: Mesh/File = none.msh: cannot be read" }));
-}
-
 TEST(ReadScene, GuessesBringNoFurtherMistakes)
 {
   // With the default radius in place of the misspelt one the pivot distance would be too small.
@@ -300,4 +294,47 @@ TEST(ReadScene, UnreadableFileIsAllThatIsWrong)
         }
       },
       InputError);
+}
+
+TEST(ReadScene, TablesMayBeHDF5)
+{
+  written_hdf5("drive.h5", { { "time", { 0., 1., 2., 3. } }, { "x", { 0., 30., 30., 0. } } });
+  written_hdf5("mu.hdf5", { { "mu", { 0.25, 0.5, 0.75, 0.75 } }, { "speed", { 0., 10., 100., 200. } } });
+  const Scene scene = scene_of({ "Drive/Profile=table", "Drive/Table=drive.h5", "Friction/Law=table", "Friction/Table=mu.hdf5" });
+  EXPECT_EQ(scene.drive.reversals(), std::vector<double>{ 2. });
+  EXPECT_EQ(scene.drive.maximum(), 30.);
+  EXPECT_EQ(friction_coefficient(scene.friction, 10.).coefficient, 0.5);
+}
+
+TEST(ReadScene, HDF5TablesMustBeTables)
+{
+  const auto drive = [](const std::string &name)
+  {
+    testing::internal::CaptureStderr();
+    const auto found = mistakes_of({ "Drive/Profile=table", "Drive/Table=" + name });
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+    return found;
+  };
+  EXPECT_EQ(drive("none.h5"), (Messages{ "--set: Drive/Table = none.h5: none.h5: cannot be read" }));
+  written("0, 0\n1, 1\n", "text.h5");
+  EXPECT_EQ(drive("text.h5"), (Messages{ "--set: Drive/Table = text.h5: text.h5: cannot be read as HDF5" }));
+  written_hdf5("names.h5", { { "Time", { 0., 1. } }, { "position", { 0., 1. } } });
+  EXPECT_EQ(drive("names.h5"),
+            (Messages{ "--set: Drive/Table = names.h5: names.h5: has no dataset 'time' at its root; did you mean 'Time'?",
+                       "--set: Drive/Table = names.h5: names.h5: has no dataset 'x' at its root" }));
+  written_hdf5("uneven.h5", { { "time", { 0., 1., 2., 3. } }, { "x", { 0., 1., 2. } } });
+  EXPECT_EQ(drive("uneven.h5"), (Messages{ "--set: Drive/Table = uneven.h5: both columns must have the same number of rows" }));
+}
+
+TEST(ReadScene, ParametersThatWouldNotCountAreRefused)
+{
+  EXPECT_EQ(mistakes_of({ "Friction/Coefficient=0.5" }),
+            (Messages{ "--set: Friction/Coefficient = 0.5: counts only with Friction/Law = Coulomb" }));
+  EXPECT_EQ(mistakes("subsection Friction\n set Coefficient = 0.73\nend\n"),
+            (Messages{ "scene.prm:2: Friction/Coefficient = 0.73: counts only with Friction/Law = Coulomb" }));
+  EXPECT_EQ(mistakes_of({ "Friction/Table=mu.csv", "Drive/Table=x.csv" }),
+            (Messages{ "--set: Friction/Table = mu.csv: counts only with Friction/Law = table",
+                       "--set: Drive/Table = x.csv: counts only with Drive/Profile = table" }));
+  // As printed.
+  EXPECT_TRUE(mistakes("subsection Friction\n set Law = cork on aluminium\n set Coefficient = 0.73\nend\n").empty());
 }

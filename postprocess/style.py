@@ -1,0 +1,97 @@
+"""What all pictures share: sizes, colours and lines, symbols, axis labels."""
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402  (after the choice of what draws)
+import numpy as np  # noqa: E402
+
+MILLIMETRE = 1 / 25.4
+ONE_COLUMN = 85 * MILLIMETRE
+TWO_COLUMNS = 170 * MILLIMETRE
+
+# Colours told apart by the colour-blind (Okabe & Ito), and with each a line style for prints without colour.
+COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
+LINES = ("-", (0, (6, 1.5)), (0, (6, 1.5, 1.2, 1.5)), (0, (3, 1.2)), (0, (3, 1, 1, 1, 1, 1)), (0, (8, 1, 2, 1)), (0, (1.5, 1)))
+MARKERS = ("o", "s", "^", "D", "v", "P", "X")
+
+SYMBOLS = {
+    "time": "$t$",
+    "x": "$x$",
+    "P": "$P$",
+    "Q": "$Q$",
+    "mu": r"$\mu$",
+    "v_rel": r"$v_\mathrm{rel}$",
+    "theta0": r"$\theta_0$",
+    "slope_forward": "$C_Q$",
+    "slope_backward": "$C_Q$",
+    "dimensionless_forward": r"$\bar C_Q = C_Q R\,l/k$",
+    "dimensionless_backward": r"$\bar C_Q = C_Q R\,l/k$",
+}
+
+
+def use_print_style():
+    plt.rcParams.update(
+        {
+            "font.size": 8,
+            "axes.labelsize": 8,
+            "axes.linewidth": 0.6,
+            "axes.grid": True,
+            "axes.axisbelow": True,
+            "grid.color": "0.88",
+            "grid.linewidth": 0.5,
+            "lines.linewidth": 1.2,
+            "legend.fontsize": 7,
+            "legend.frameon": False,
+            "legend.handlelength": 2.8,
+            "xtick.direction": "in",
+            "ytick.direction": "in",
+            "pdf.fonttype": 42,
+            "figure.constrained_layout.use": True,
+        }
+    )
+
+
+def look(index):
+    """Colour and line of the index-th curve."""
+    return {"color": COLOURS[index % len(COLOURS)], "linestyle": LINES[index % len(LINES)]}
+
+
+def label(units, column):
+    """Axis label with the unit as the file gives it."""
+    symbol = SYMBOLS.get(column, column.replace("_", " "))
+    unit = units.get(column, "1")
+    if unit in ("", "1"):
+        return symbol
+    return f"{symbol} [{unit.replace('^2', '$^2$').replace('^3', '$^3$')}]"
+
+
+def set_labels(axes, units, over, column):
+    axes.set_xlabel(label(units, over))
+    axes.set_ylabel(label(units, column))
+
+
+def panel_letter(axes, letter):
+    axes.set_title(f"({letter})", loc="left", fontsize=8)
+
+
+def show_legend(axes, **arguments):
+    """A legend where there is more than one thing to tell apart."""
+    if len(axes.get_legend_handles_labels()[0]) > 1:
+        axes.legend(**arguments)
+
+
+def legend_on_top(figure, handles, names):
+    """One legend of all panels, above them."""
+    columns = min(len(names), 5)
+    figure.suptitle("\n" * ((len(names) - 1) // columns) or " ", fontsize=7)  # keeps room
+    figure.legend(handles, names, loc="upper center", ncol=columns)
+
+
+def envelope(time, values, begin, end, parts):
+    """Time and value of the largest value in each of the equal parts of a span of time; for what swings too fast to be drawn."""
+    shown = np.flatnonzero((time >= begin) & (time <= end) & np.isfinite(values))
+    part = np.minimum((time[shown] - begin) * parts / ((end - begin) or 1), parts - 1).astype(int)
+    ordered = shown[np.lexsort((values[shown], part))]
+    peaks = ordered[np.flatnonzero(np.diff(np.sort(part), append=parts))]
+    return time[peaks], values[peaks]

@@ -1,0 +1,92 @@
+#include "analysis/contact_law.h"
+
+#include "analysis/quasi_static.h"
+#include "fe/lever_model.h"
+#include "scene/closed_form.h"
+#include "scene/contact_reference.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sprag
+{
+  namespace
+  {
+    constexpr double beyond       = 1.2;  ///< largest P of the indentation over the run's
+    constexpr double smallest     = 0.05; ///< P counted, over that
+    constexpr double points_drawn = 40.;
+
+    /// The scene without friction and with a spring that leads to the largest P.
+    Scene indentation_scene(const Scene &scene, const ContactReference &reference)
+    {
+      Scene result        = scene;
+      result.friction.law = CoulombFriction{ 0. };
+      result.drive        = Drive(DriveProfile::triangle, 0., scene.drive.maximum(), scene.drive.peak_speed(), 0.5);
+      const double P      = closed_form(result, scene.drive.maximum(), 1.).P;
+      result.spring_stiffness *= beyond * reference.P / P;
+      return result;
+    }
+
+    double bending_stiffness(const Scene &scene)
+    {
+      const Lever &lever  = scene.lever;
+      const double nu     = lever.poisson_ratio;
+      const double strain = scene.analysis.plane == PlaneState::strain ? 1. - nu * nu : 1.;
+      return lever.young_modulus / strain * lever.width * std::pow(lever.depth, 3) / 12.;
+    }
+
+    Indentation indentation(const Scene &scene, const Row &row)
+    {
+      const auto centre = cylinder_centre(scene.geometry, row[Column::x], row[Column::theta]);
+      return { row[Column::P], scene.geometry.cylinder_radius - scene.geometry.interface_offset + centre.eta,
+               row[Column::P] * std::pow(centre.xi, 3) / (3. * bending_stiffness(scene)) };
+    }
+  } // namespace
+
+  ContactLawFit fit_contact_law(const std::vector<Indentation> &points)
+  {
+    double x = 0., y = 0., xx = 0., xy = 0.;
+    const auto n = static_cast<double>(points.size());
+    for (const auto &point : points)
+    {
+      const double log_local = std::log(point.local());
+      const double log_P     = std::log(point.P);
+      x += log_local;
+      y += log_P;
+      xx += log_local * log_local;
+      xy += log_local * log_P;
+    }
+    ContactLawFit fit{};
+    fit.exponent   = (n * xy - x * y) / (n * xx - x * x);
+    fit.stiffness  = std::exp((y - fit.exponent * x) / n);
+    double squares = 0.;
+    for (const auto &point : points)
+    {
+      const double error = fit.stiffness * std::pow(point.local(), fit.exponent) / point.P - 1.;
+      fit.largest_error  = std::max(fit.largest_error, std::abs(error));
+      squares += error * error;
+    }
+    fit.rms_error = std::sqrt(squares / n);
+    return fit;
+  }
+
+  FittedContact indent(const Scene &scene)
+  {
+    const auto reference = contact_reference(scene);
+    const Scene pressed  = indentation_scene(scene, reference);
+    dealii::Triangulation<2> triangulation;
+    make_mesh(pressed, triangulation);
+    LeverModel model(triangulation, lever_properties(pressed));
+
+    FittedContact result{};
+    const QuasiStaticSettings settings{ scene.drive.maximum() / points_drawn, scene.analysis.minimum_step, scene.contact };
+    run_quasi_static(model, pressed.drive, settings,
+                     [&](const State &, const Row &row)
+                     {
+                       if (row[Column::P] >= smallest * beyond * reference.P)
+                         result.points.push_back(indentation(pressed, row));
+                     });
+    result.fit = fit_contact_law(result.points);
+    return result;
+  }
+} // namespace sprag

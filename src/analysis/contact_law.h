@@ -1,0 +1,44 @@
+#pragma once
+
+#include "results/result_file.h"
+#include "scene/scene.h"
+
+#include <vector>
+
+namespace sprag
+{
+  /// An indentation without friction: what the reduced models have to lump into their contact.
+  struct Indentation
+  {
+    double P;        ///< [N]
+    double approach; ///< overlap of the cylinder with the undeformed lever [mm]
+    double bending;  ///< deflection of the Euler-Bernoulli lever under P at the contact [mm]
+
+    double local() const
+    {
+      return approach - bending;
+    }
+  };
+
+  /// P = stiffness delta^exponent, fitted to indentations.
+  struct ContactLawFit
+  {
+    double stiffness;     ///< [N/mm^n]
+    double exponent;      ///< n
+    double largest_error; ///< of P, relative
+    double rms_error;
+  };
+
+  /// Least squares of the logarithms, which weighs relative errors of P alike. Requires two or more points with P, local() > 0.
+  ContactLawFit fit_contact_law(const std::vector<Indentation> &points);
+
+  struct FittedContact
+  {
+    std::vector<Indentation> points;
+    ContactLawFit fit;
+  };
+
+  /// Indents the scene's meshed lever by a cylinder moved along the drive without friction, the rotational spring scaled so that
+  /// P grows to 1.2 times the largest of the run. Points from 5 % of that on.
+  FittedContact indent(const Scene &scene);
+} // namespace sprag

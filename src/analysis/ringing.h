@@ -1,0 +1,27 @@
+#pragma once
+
+#include <limits>
+#include <vector>
+
+namespace sprag
+{
+  /// Values at equal steps of time.
+  struct Signal
+  {
+    double step = 0.; ///< [s]
+    std::vector<double> values;
+  };
+
+  /// The strongest sinusoid in a signal. NaN where there is none: less than two periods, nothing above the noise, or no peak in
+  /// the spectrum next to what is constant or drifts.
+  struct Ringing
+  {
+    double frequency   = std::numeric_limits<double>::quiet_NaN(); ///< [Hz]
+    double growth_rate = std::numeric_limits<double>::quiet_NaN(); ///< of the envelope [1/s], negative: decays
+  };
+
+  /// Between the first and the last value further than `noise` from the signal's linear trend. Frequency: peak of the spectrum,
+  /// refined by a least-squares fit of one exponentially growing or decaying sinusoid. Growth: log-linear fit of the half ranges
+  /// of successive periods, so that neither harmonics nor a slow drift matter.
+  Ringing ringing(const Signal &signal, double noise);
+} // namespace sprag

@@ -1,0 +1,52 @@
+#pragma once
+
+#include "scene/drive.h"
+
+#include <memory>
+#include <vector>
+
+namespace sprag
+{
+  /// How a drive moves: a row of pieces, each going one way or at rest throughout. Piece i lasts from times[i] to times[i+1].
+  class Motion
+  {
+  public:
+    explicit Motion(DriveProfile kind);
+    virtual ~Motion() = default;
+
+    std::size_t piece(double time, Drive::Side side) const;
+
+    /// The turning points and ends are met bit for bit.
+    DrivePoint at(std::size_t piece, double time, Drive::Side side) const;
+
+    /// The time within a moving piece, after `time`, at which x has moved by dx; the piece moves farther than that.
+    virtual double moved_by(std::size_t piece, double time, double dx) const;
+
+    const DriveProfile profile;
+    std::vector<double> times;
+    std::vector<double> positions;
+    std::vector<double> reversals;
+    std::vector<double> kinks;
+    double peak_speed        = 0.;
+    double reversal_duration = 0.;
+
+  protected:
+    /// Between the ends of a piece, or as near to them as rounding gets.
+    virtual DrivePoint point(std::size_t piece, double time, Drive::Side side) const = 0;
+
+    void find_reversals();
+  };
+
+  std::shared_ptr<const Motion> triangle_motion(double start, double stroke, double speed, double cycles);
+
+  /// `reversal_duration` > 0 and at most largest_reversal_duration().
+  std::shared_ptr<const Motion> smooth_triangle_motion(double start, double stroke, double speed, double cycles,
+                                                       double reversal_duration);
+
+  std::shared_ptr<const Motion> harmonic_motion(double start, double stroke, double speed, double cycles);
+
+  std::shared_ptr<const Motion> table_motion(const std::vector<double> &times, const std::vector<double> &positions);
+
+  /// The longest reversals for which every stroke has room for its ramps [s]; infinite where there are none.
+  double largest_reversal_duration(double start, double stroke, double speed, double cycles);
+} // namespace sprag

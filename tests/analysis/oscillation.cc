@@ -1,0 +1,292 @@
+#include "analysis/oscillation.h"
+
+#include "analysis/ringing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <gtest/gtest.h>
+
+using namespace sprag;
+
+namespace
+{
+  const double pi = std::acos(-1.);
+
+  constexpr double quasi_static_P = 25.;
+  constexpr double quasi_static_Q = -16.;
+  constexpr double duration       = 5e-3; ///< of the reversals
+
+  Drive there_and_back()
+  {
+    return Drive(DriveProfile::triangle, 0., 65., 112., 1., duration);
+  }
+
+  using Deviation = std::function<double(double)>;
+
+  /// P is off by deviation(t), t from the end of the first reversal on, but never below 0; Q half of that the other way. Steps
+  /// between 0.5 and 1.5 of `step`.
+  std::vector<Row> rows_with(const Deviation &deviation, const Drive &drive = there_and_back(), const double step = 5e-5)
+  {
+    std::vector<Row> rows;
+    const double begin = drive.reversals().front() + duration / 2.;
+    double time        = 0.;
+    for (unsigned int i = 0; time < drive.duration(); ++i, time += step * (1. + 0.5 * std::sin(i * i)))
+    {
+      Row row;
+      row[Column::time]           = time;
+      row[Column::x]              = drive.at(time).x;
+      row[Column::P_quasi_static] = quasi_static_P;
+      row[Column::Q_quasi_static] = quasi_static_Q;
+      row[Column::P]              = std::max(quasi_static_P + (time < begin ? 0. : deviation(time - begin)), 0.);
+      row[Column::Q]              = quasi_static_Q - (row[Column::P] - quasi_static_P) / 2.;
+      row[Column::Q_support]      = quasi_static_Q;
+      rows.push_back(row);
+    }
+    return rows;
+  }
+
+  Deviation sinusoid(const double amplitude, const double frequency, const double growth)
+  {
+    return [=](const double time) { return amplitude * std::exp(growth * time) * std::cos(2. * pi * frequency * time + 0.3); };
+  }
+
+  Oscillation of(const std::vector<Row> &rows)
+  {
+    return oscillations(rows, there_and_back()).at(0);
+  }
+
+  Signal sampled(const Deviation &values, const double length, const double step)
+  {
+    Signal signal{ step, {} };
+    for (unsigned int i = 0; i * step <= length; ++i)
+      signal.values.push_back(values(i * step));
+    return signal;
+  }
+} // namespace
+
+TEST(Ringing, IsExactForOneSinusoidWhateverItsGrowthAndTheDriftBelow)
+{
+  for (const double frequency : { 45., 103.7, 290., 1234.5 })
+    for (const double growth : { -60., -20., 0., 15. })
+      for (const double length : { 0.06, 0.1 })
+      {
+        const auto wave  = sinusoid(8., frequency, growth);
+        const auto drift = [&](const double time) { return wave(time) + 3. - 20. * time; };
+        const auto found = ringing(sampled(drift, length, 1e-5), 0.02);
+        EXPECT_NEAR(found.frequency, frequency, 1e-4 * frequency) << frequency << ' ' << growth << ' ' << length;
+        // A slow wave that decays fast is short of periods above the drift.
+        EXPECT_NEAR(found.growth_rate, growth, 0.3 + 0.01 * std::abs(growth)) << frequency << ' ' << growth << ' ' << length;
+      }
+}
+
+TEST(Ringing, TellsTheStrongerOfTwo)
+{
+  const auto two   = [](const double time) { return sinusoid(5., 290., -10.)(time) + sinusoid(2., 900., -10.)(time); };
+  const auto found = ringing(sampled(two, 0.1, 1e-5), 0.02);
+  EXPECT_NEAR(found.frequency, 290., 0.29);
+  EXPECT_NEAR(found.growth_rate, -10., 0.5);
+}
+
+TEST(Ringing, FindsNoneWhereThereIsNone)
+{
+  const std::vector<Deviation> smooth = { [](double) { return 0.; },
+                                          [](double) { return 7.; },
+                                          [](const double time) { return 3. - 50. * time; },
+                                          [](const double time) { return 9. * std::exp(-80. * time); },
+                                          [](const double time) { return 500. * time * time; },
+                                          sinusoid(5., 12., 0.) };
+  for (std::size_t i = 0; i < smooth.size(); ++i)
+  {
+    const auto found = ringing(sampled(smooth[i], 0.1, 1e-5), 0.02);
+    EXPECT_TRUE(std::isnan(found.frequency)) << i << ": " << found.frequency;
+    EXPECT_TRUE(std::isnan(found.growth_rate)) << i;
+  }
+  EXPECT_TRUE(std::isnan(ringing({}, 0.).frequency));
+  EXPECT_TRUE(std::isnan(ringing({ 1e-5, { 1. } }, 0.).frequency));
+  EXPECT_TRUE(std::isnan(ringing(sampled(sinusoid(0.01, 290., 0.), 0.1, 1e-5), 0.02).frequency));
+}
+
+TEST(Oscillation, FrequencyAndGrowthFromUnequalSteps)
+{
+  for (const double step : { 1e-5, 5e-5, 2e-4 })
+    for (const double growth : { -100., -45., -5. })
+    {
+      const auto found = of(rows_with(sinusoid(8., 290., growth), there_and_back(), step));
+      EXPECT_NEAR(found.frequency, 290., 0.29) << step << ' ' << growth;
+      EXPECT_NEAR(found.frequency_Q, 290., 0.29) << step << ' ' << growth;
+      EXPECT_NEAR(found.growth_rate, growth, 0.01 * std::abs(growth)) << step;
+      EXPECT_TRUE(std::isnan(found.frequency_Q_support));
+    }
+}
+
+TEST(Oscillation, KeepsContactAndSupportApart)
+{
+  auto rows         = rows_with(sinusoid(8., 290., -20.));
+  const double turn = there_and_back().reversals().front() + duration / 2.;
+  for (auto &row : rows)
+    if (row[Column::time] > turn)
+      row[Column::Q_support] = quasi_static_Q + sinusoid(3., 150., -20.)(row[Column::time] - turn);
+  const auto found = of(rows);
+  EXPECT_NEAR(found.frequency_Q, 290., 0.29);
+  EXPECT_NEAR(found.frequency_Q_support, 150., 0.15);
+  EXPECT_NEAR(found.overshoot_P, 8. * std::exp(-20. * (1. - 0.3 / 2. / pi) / 290.) / quasi_static_P, 1e-3);
+  EXPECT_NEAR(found.overshoot_Q, 0.5 * found.overshoot_P * quasi_static_P / -quasi_static_Q, 1e-9);
+  EXPECT_LT(found.overshoot_Q_support, 3. / -quasi_static_Q);
+  EXPECT_GT(found.overshoot_Q_support, 2.7 / -quasi_static_Q);
+  EXPECT_NEAR(found.rms_Q, found.rms / 2., 1e-9);
+}
+
+TEST(Oscillation, WhatDecays)
+{
+  const auto found = of(rows_with(sinusoid(8., 290., -60.)));
+  EXPECT_EQ(found.verdict, Verdict::decays);
+  EXPECT_EQ(found.open_share, 0.);
+  EXPECT_EQ(found.time, there_and_back().reversals().front());
+  EXPECT_EQ(found.x, 65.);
+  EXPECT_NEAR(found.window_end - found.window_begin, 0.1, 1e-12);
+  EXPECT_NEAR(found.rms, 8. * std::sqrt((1. - std::exp(-12.)) / 12. / 2.), 0.02 * found.rms);
+  // The envelope is down to 5 % after log(20) / 60 s, told by the last of the peaks above it.
+  EXPECT_NEAR(found.extent, 65. - there_and_back().at(found.window_begin + std::log(20.) / 60.).x, 112. * 0.5 / 290.);
+}
+
+TEST(Oscillation, WhatVibratesLosesContact)
+{
+  const auto found = of(rows_with(sinusoid(40., 290., 0.)));
+  EXPECT_EQ(found.verdict, Verdict::vibrates);
+  EXPECT_NEAR(found.open_share, std::acos(25. / 40.) / pi, 2e-3);
+  EXPECT_NEAR(found.frequency, 290., 0.29);
+  EXPECT_NEAR(found.growth_rate, 0., 0.3);
+  EXPECT_NEAR(found.overshoot_P, 40. / 25., 2e-3);
+  EXPECT_NEAR(found.extent, 65., 0.1);
+}
+
+TEST(Oscillation, WhatRings)
+{
+  const auto found = of(rows_with(sinusoid(8., 290., -1.)));
+  EXPECT_EQ(found.verdict, Verdict::rings);
+  EXPECT_NEAR(found.rms_end, 8. * std::exp(-0.095) / std::sqrt(2.), 0.1);
+}
+
+TEST(Oscillation, LivesUntilItsEnvelopeIsLow)
+{
+  const double lifetime = 0.27;
+  const auto found      = of(rows_with([&](const double time) { return time < lifetime ? sinusoid(20., 290., 0.)(time) : 0.; }));
+  EXPECT_NEAR(found.extent, 65. - there_and_back().at(found.window_begin + lifetime).x, 112. * 0.5 / 290.);
+}
+
+TEST(Oscillation, FrictionThatTurnsIsNoOvershoot)
+{
+  // 30 N are left from the stroke before, and the way down to 25 N is finished 4 ms after the turning point.
+  const double turn    = there_and_back().reversals().front();
+  const auto with_peak = [&](const double peak)
+  {
+    auto rows = rows_with([](double) { return 0.; });
+    for (auto &row : rows)
+    {
+      const double time = row[Column::time] - turn;
+      if (time >= 0.)
+        row[Column::P] = quasi_static_P + (time < 4e-3 ? 30. * (1. - time / 4e-3) : time < 5e-3 ? -1. : time < 6e-3 ? peak : 0.);
+    }
+    return of(rows).overshoot_P;
+  };
+  const double reversal_ended = 30. * (1. - duration / 2. / 4e-3);
+  EXPECT_NEAR(with_peak(0.5), reversal_ended / quasi_static_P, 0.02);
+  EXPECT_NEAR(with_peak(20.), 20. / quasi_static_P, 1e-12);
+}
+
+TEST(Oscillation, FirstPeakCountsWithinTheReversal)
+{
+  const double turn = there_and_back().reversals().front();
+  auto rows         = rows_with([](double) { return 0.; });
+  for (auto &row : rows)
+    if (const double time = row[Column::time] - turn; time >= 0. && time < 2e-3)
+      row[Column::P] = quasi_static_P + (time < 1e-3 ? -10. : 6.);
+  EXPECT_NEAR(of(rows).overshoot_P, 6. / quasi_static_P, 1e-12);
+}
+
+TEST(Oscillation, ContactOpenAllTheTime)
+{
+  const auto found = of(rows_with([](double) { return -100.; }));
+  EXPECT_EQ(found.open_share, 1.);
+  EXPECT_EQ(found.overshoot_P, 0.);
+  EXPECT_TRUE(std::isnan(found.frequency));
+  EXPECT_TRUE(std::isnan(found.growth_rate));
+  EXPECT_DOUBLE_EQ(found.rms, quasi_static_P);
+}
+
+TEST(Oscillation, NothingToTell)
+{
+  const auto calm = of(rows_with([](double) { return 0.; }));
+  EXPECT_EQ(calm.verdict, Verdict::decays);
+  EXPECT_EQ(calm.extent, 0.);
+  EXPECT_EQ(calm.rms, 0.);
+  EXPECT_TRUE(std::isnan(calm.frequency));
+
+  auto unknown = rows_with([](double) { return 0.; });
+  for (auto &row : unknown)
+    row[Column::P_quasi_static] = row[Column::Q_quasi_static] = std::numeric_limits<double>::quiet_NaN();
+  auto killed = rows_with([](double) { return 0.; });
+  killed.resize(killed.size() / 4);
+  for (const auto &rows : { unknown, killed, std::vector<Row>(), std::vector<Row>(1) })
+  {
+    const auto found = of(rows);
+    EXPECT_EQ(found.verdict, Verdict::unknown);
+    for (const double value : { found.frequency, found.growth_rate, found.open_share, found.overshoot_P, found.overshoot_Q,
+                                found.rms, found.rms_end, found.rms_Q, found.extent })
+      EXPECT_TRUE(std::isnan(value));
+  }
+}
+
+TEST(Oscillation, RowsWithoutQuasiStaticValueAreLeftOut)
+{
+  auto rows = rows_with(sinusoid(8., 290., -45.));
+  for (std::size_t i = 0; i < rows.size(); i += 7)
+    rows[i][Column::P_quasi_static] = std::numeric_limits<double>::quiet_NaN();
+  const auto found = of(rows);
+  EXPECT_NEAR(found.frequency, 290., 0.29);
+  EXPECT_NEAR(found.growth_rate, -45., 0.45);
+}
+
+TEST(Oscillation, OfTwoRowsAtATurningPointTheSecondCounts)
+{
+  const Drive instantaneous;
+  const double turn = instantaneous.reversals().front();
+  auto rows         = rows_with(sinusoid(8., 290., -45.));
+  const auto after  = std::find_if(rows.begin(), rows.end(), [turn](const Row &row) { return row[Column::time] > turn; });
+  Row at_turn       = *after;
+
+  at_turn[Column::time] = turn;
+  Row before            = at_turn;
+  before[Column::P]     = quasi_static_P + 300.;
+  rows.insert(after, { before, at_turn });
+  EXPECT_LT(oscillations(rows, instantaneous).at(0).overshoot_P, 1.);
+}
+
+TEST(Oscillation, WindowEndsWhereTheNextReversalBegins)
+{
+  const Drive quick(DriveProfile::triangle, 0., 6.5, 112., 1.5, duration);
+  const auto found = oscillations(rows_with(sinusoid(8., 290., -45.), quick), quick);
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_DOUBLE_EQ(found[0].window_end, quick.reversals()[1] - duration / 2.);
+  EXPECT_NEAR(found[1].window_end, quick.duration(), 1e-4);
+  EXPECT_EQ(found[1].x, 0.);
+  EXPECT_NEAR(found[0].frequency, 290., 0.29);
+  EXPECT_NEAR(found[0].growth_rate, -45., 0.45);
+  EXPECT_LE(found[0].extent, 6.5);
+}
+
+TEST(Oscillation, EntriesSayWhatTheyAre)
+{
+  const Drive quick(DriveProfile::triangle, 0., 6.5, 112., 1.5, duration);
+  const auto found   = oscillations(rows_with(sinusoid(8., 290., -45.), quick), quick);
+  const auto entries = oscillation_entries(found);
+  const auto entry   = [&](const std::string &name)
+  { return *std::find_if(entries.begin(), entries.end(), [&](const Entry &e) { return e.name == name; }); };
+  EXPECT_EQ(std::get<double>(entry("reversal_1_frequency").value), found[0].frequency);
+  EXPECT_EQ(entry("reversal_1_frequency").unit, "Hz");
+  EXPECT_EQ(std::get<double>(entry("reversal_2_x").value), 0.);
+  EXPECT_EQ(std::get<std::string>(entry("reversal_1_verdict").value), "rings");
+  for (const auto &each : entries)
+    EXPECT_FALSE(each.description.empty()) << each.name;
+}

@@ -1,0 +1,143 @@
+#include "scene/check.h"
+
+#include "scene/messages.h"
+
+using namespace sprag;
+
+TEST(CheckScene, CylinderMustFitLeverAndPivot)
+{
+  EXPECT_EQ(mistakes_of({ "Geometry/Interface offset=60" }),
+            (Messages{ "--set: Geometry/Interface offset = 60: must be less than Cylinder radius R = 56 mm" }));
+  EXPECT_EQ(mistakes_of({ "Geometry/Pivot distance=50" }),
+            (Messages{ "--set: Geometry/Pivot distance = 50: must be more than Cylinder radius R = 56 mm, "
+                       "or the cylinder reaches the pivot" }));
+  EXPECT_EQ(mistakes_of({ "Geometry/Pivot height=10.4" }),
+            (Messages{ "--set: Geometry/Pivot height = 10.4: must be less than R - e = 10.4 mm, or theta_0 is not positive" }));
+}
+
+TEST(CheckScene, StrokeMustNotReachThePivot)
+{
+  EXPECT_EQ(mistakes_of({ "Drive/Stroke=129.5" }),
+            (Messages{ "--set: Drive/Stroke = 129.5: x must stay below 129.5 mm, where the cylinder reaches the pivot: "
+                       "(l - x)^2 + h^2 = R^2" }));
+  EXPECT_TRUE(mistakes_of({ "Drive/Stroke=129" }).empty());
+  // sqrt(56^2 - 10^2) = 55.1 mm before the pivot
+  EXPECT_EQ(mistakes_of({ "Drive/Stroke=131", "Geometry/Pivot height=10" }).size(), 1u);
+  EXPECT_TRUE(mistakes_of({ "Drive/Stroke=130", "Geometry/Pivot height=10" }).empty());
+}
+
+TEST(CheckScene, LockingIsRefusedForTheClosedFormOnly)
+{
+  // Above mu = sqrt((2-eb)/eb) = 1.2067 model A locks before the cylinder reaches its pivot at x = 129.5.
+  const Messages scene = { "Drive/Stroke=129", "Friction/Law=Coulomb", "Friction/Coefficient=1.3", "Analysis/Model=closed form" };
+  const auto found     = mistakes_of(scene);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].rfind("--set: Drive/Stroke = 129: must not lock: moving back at x = 12", 0), 0u) << found[0];
+  EXPECT_NE(found[0].find("mu e = 59.28 mm with mu = 1.3"), std::string::npos) << found[0];
+
+  EXPECT_TRUE(mistakes_of({ scene[0], scene[1], scene[2] }).empty());
+  EXPECT_TRUE(mistakes_of({ scene[0], scene[1], scene[3], "Friction/Coefficient=1.2" }).empty());
+  EXPECT_TRUE(mistakes_of({ scene[0], scene[1], scene[2], scene[3], "Drive/Cycles=0.5" }).empty());
+}
+
+TEST(CheckScene, ContactMustLieOnTheLever)
+{
+  const auto found = mistakes_of({ "Lever/Length=180" });
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(
+      found[0],
+      "--set: Lever/Length = 180: must be at least 187.208 mm: at x = 0 mm the cylinder touches the lever at s = 185.208 mm");
+  EXPECT_TRUE(mistakes_of({ "Lever/Length=180", "Analysis/Model=closed form" }).empty());
+  EXPECT_TRUE(mistakes_of({ "Lever/Length=180", "Drive/Start=20" }).empty());
+}
+
+TEST(CheckScene, WhatThisVersionCannotDoIsRefused)
+{
+  EXPECT_EQ(mistakes_of({ "Analysis/Dimension=3" }),
+            (Messages{ "--set: Analysis/Dimension = 3: must be 2: this version solves 2D problems only" }));
+  EXPECT_EQ(mistakes_of({ "Analysis/Minimum step=2" }),
+            (Messages{ "--set: Analysis/Minimum step = 2: must not be more than Step = 1 mm" }));
+  EXPECT_TRUE(mistakes_of({ "Lever/Material=neo-Hookean", "Analysis/Plane=strain" }).empty());
+}
+
+TEST(CheckScene, MeshFileMustBeOne)
+{
+  written("", "lever.stl");
+  EXPECT_EQ(mistakes_of({ "Mesh/File=lever.stl" }), (Messages{ "--set: Mesh/File = lever.stl: must end in .geo or .msh" }));
+  EXPECT_EQ(mistakes_of({ "Mesh/File=none.msh" }), (Messages{ "--set: Mesh/File = none.msh: cannot be read" }));
+}
+
+TEST(CheckScene, ModelsOfTheLeverNeedInertia)
+{
+  for (const std::string model : { "rigid", "beam", "condensed" })
+  {
+    EXPECT_EQ(mistakes_of({ "Analysis/Model=" + model }),
+              (Messages{ "--set: Analysis/Model = " + model +
+                         ": needs Analysis/Type = transient: without inertia there are closed form and finite element" }));
+    EXPECT_TRUE(mistakes_of(transient(model)).empty());
+    EXPECT_TRUE(mistakes_of({ "Analysis/Type=slope", "Analysis/Model=" + model }).empty());
+    EXPECT_TRUE(mistakes_of({ "Analysis/Type=contact law", "Analysis/Model=" + model }).empty());
+  }
+  EXPECT_TRUE(mistakes_of(transient("closed form")).empty());
+  EXPECT_TRUE(mistakes_of(transient("finite element")).empty());
+}
+
+TEST(CheckScene, TransientFiniteElementsAreLinear)
+{
+  for (const std::string model : { "condensed", "finite element" })
+    EXPECT_EQ(mistakes_of(transient(model), { "Lever/Material=neo-Hookean", "Analysis/Solution=general",
+                                              "Contact/Enforcement=augmented Lagrangian", "Lever/Neutral axis offset=3" }),
+              (Messages{ "--set: Lever/Neutral axis offset = 3: must be auto, the finite elements have their own; only rigid and "
+                         "beam take another",
+                         "--set: Lever/Material = neo-Hookean: must be linear with Analysis/Type = transient",
+                         "--set: Analysis/Solution = general: must be automatic with Analysis/Type = transient",
+                         "--set: Contact/Enforcement = augmented Lagrangian: must be penalty with Analysis/Type = transient" }));
+}
+
+TEST(CheckScene, IdealContactNeedsARigidLever)
+{
+  const Messages ideal = { "Contact/Type=ideal" };
+  for (const std::string model : { "beam", "condensed", "finite element" })
+    EXPECT_EQ(mistakes_of(transient(model), ideal),
+              (Messages{ "--set: Contact/Type = ideal: ideal needs Analysis/Model = rigid" }));
+  EXPECT_TRUE(mistakes_of(transient("rigid"), ideal).empty());
+  EXPECT_TRUE(mistakes_of(transient("closed form"), ideal).empty());
+  EXPECT_EQ(mistakes_of(transient("rigid"), { "Contact/Type=ideal", "Support/Type=sprung" }),
+            (Messages{ "--set: Contact/Type = ideal: ideal needs Support/Type = rigid" }));
+  EXPECT_EQ(mistakes_of(transient("rigid"), { "Contact/Type=ideal", "Drive/Reversal duration=0" }),
+            (Messages{ "--set: Drive/Reversal duration = 0: must be more than 0 s with Contact/Type = ideal, or P is infinite at "
+                       "a reversal" }));
+  EXPECT_TRUE(
+      mistakes_of(transient("rigid"), { "Contact/Type=ideal", "Drive/Reversal duration=0", "Drive/Profile=harmonic" }).empty());
+  EXPECT_TRUE(mistakes_of(transient("rigid"), { "Drive/Reversal duration=0" }).empty());
+
+  const Messages locking = { "Drive/Stroke=129", "Friction/Law=Coulomb", "Friction/Coefficient=1.3" };
+  EXPECT_TRUE(mistakes_of(transient("rigid"), locking).empty());
+  EXPECT_EQ(mistakes_of(transient("closed form"), locking).size(), 1u);
+  EXPECT_EQ(mistakes_of({ "Analysis/Type=transient", "Analysis/Model=rigid", "Contact/Type=ideal" }, locking).size(), 1u);
+}
+
+TEST(CheckScene, SprungSupportNeedsInertia)
+{
+  EXPECT_EQ(mistakes_of({ "Support/Type=sprung" }),
+            (Messages{ "--set: Support/Type = sprung: sprung needs Analysis/Type = transient" }));
+  EXPECT_EQ(mistakes_of(transient("closed form"), { "Support/Type=sprung" }),
+            (Messages{ "--set: Support/Type = sprung: sprung needs an Analysis/Model other than closed form" }));
+  EXPECT_TRUE(mistakes_of({ "Support/Mass=1" }).empty());
+}
+
+TEST(CheckScene, InertiaTimeAndLeverMustFit)
+{
+  // e_a = 45.6 + 1 + 10 mm
+  EXPECT_EQ(mistakes_of(transient("rigid"), { "Lever/Tip mass=1e-3" }),
+            (Messages{ "scene.prm: Lever/Moment of inertia = 6.45: must be more than that of the tip mass alone, Tip mass (L^2 + "
+                       "e_a^2) = 47.3036 t mm2" }));
+  EXPECT_TRUE(mistakes_of({ "Lever/Tip mass=1e-3" }).empty());
+  EXPECT_EQ(mistakes_of(transient("beam"), { "Time/Step=2" }),
+            (Messages{ "--set: Time/Step = 2: must be less than the duration of the drive, 1.16478 s" }));
+  for (const std::string model : { "rigid", "beam", "condensed", "finite element" })
+    EXPECT_EQ(mistakes_of(transient(model), { "Lever/Length=180" }).size(), 1u);
+  written("", "file");
+  EXPECT_EQ(mistakes_of(transient("condensed"), { "Condensed/Cache=file" }),
+            (Messages{ "--set: Condensed/Cache = file: must be a folder" }));
+}
