@@ -1,5 +1,6 @@
 #include "analysis/recorder.h"
 
+#include "analysis/transient_report.h"
 #include "base/errors.h"
 #include "base/interrupt.h"
 
@@ -102,7 +103,7 @@ namespace sprag
   std::vector<Entry> Recorder::finish(const std::string &status, std::vector<Entry> meta)
   {
     progress.finish();
-    auto summary = summary_of(scene, rows);
+    auto summary = scene.analysis.type == AnalysisType::transient ? transient_summary(scene, rows) : summary_of(scene, rows);
     summary.push_back({ "status", status, "", "how the run ended" });
     file.finish(summary, meta);
     if (!quiet)
