@@ -83,6 +83,12 @@ namespace sprag
   }
 
   template <int dim>
+  bool ElasticBody<dim>::is_held(const unsigned int dof) const
+  {
+    return constraints.is_constrained(dof);
+  }
+
+  template <int dim>
   const BodyProperties &ElasticBody<dim>::body_properties() const
   {
     return properties;

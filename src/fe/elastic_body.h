@@ -49,6 +49,9 @@ namespace sprag
 
     const dealii::DoFHandler<dim> &dofs() const;
 
+    /// Whether the hub holds a degree of freedom.
+    bool is_held(unsigned int dof) const;
+
   private:
     void find_constraints();
 

@@ -253,6 +253,11 @@ namespace sprag
     return states;
   }
 
+  const Vector<double> &FaceContact::displacements() const
+  {
+    return nodal_displacement;
+  }
+
   double FaceContact::duration() const
   {
     return step_duration;

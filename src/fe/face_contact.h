@@ -72,8 +72,8 @@ namespace sprag
     /// The points of all patches near the obstacle, increasing; those elsewhere are open.
     const std::vector<PointState> &points() const;
 
-    /// Displacement along xi and eta of an integration point at the last evaluation [mm].
-    dealii::Tensor<1, 2> displacement(unsigned int point) const;
+    /// Displacements of the face nodes at the last evaluation, two entries a node [mm].
+    const dealii::Vector<double> &displacements() const;
 
     /// Duration of the step of the last evaluation [s].
     double duration() const;
@@ -81,6 +81,7 @@ namespace sprag
     const ElasticBody<2> &elastic_body() const;
 
   private:
+    dealii::Tensor<1, 2> displacement(unsigned int point) const;
     LeverPoint position(unsigned int point) const;
     bool is_near(const FacePatch &patch) const;
     PointState evaluate_point(unsigned int q, const ContactLaw &law, FrictionMode mode) const;

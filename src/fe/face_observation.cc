@@ -26,19 +26,29 @@ namespace sprag
       return width;
     }
 
-    /// Displacement along eta at xi, linear between the points [mm].
-    double deflection(const FaceContact &contact, const double xi)
+    /// Displacement along xi and eta of an integration point [mm].
+    dealii::Tensor<1, 2> displacement(const FaceView &contact, const unsigned int point)
     {
-      const auto &points   = contact.elastic_body().friction_face().points;
+      dealii::Tensor<1, 2> result;
+      for (const auto &[node, shape] : contact.body.friction_face().points[point].nodes)
+        for (unsigned int d = 0; d < 2; ++d)
+          result[d] += shape * contact.nodal_displacement[2 * node + d];
+      return result;
+    }
+
+    /// Displacement along eta at xi, linear between the points [mm].
+    double deflection(const FaceView &contact, const double xi)
+    {
+      const auto &points   = contact.body.friction_face().points;
       const auto is_before = [](const auto &point, const double value) { return point.position[0] < value; };
       const auto after     = std::lower_bound(points.begin() + 1, points.end() - 1, xi, is_before);
       const auto before    = after - 1;
       const double share   = std::clamp((xi - before->position[0]) / (after->position[0] - before->position[0]), 0., 1.);
       const auto index     = static_cast<unsigned int>(before - points.begin());
-      return (1. - share) * contact.displacement(index)[1] + share * contact.displacement(index + 1)[1];
+      return (1. - share) * displacement(contact, index)[1] + share * displacement(contact, index + 1)[1];
     }
 
-    double indentation(const FaceContact &contact, const double centre, const double width, const double layer_thickness)
+    double indentation(const FaceView &contact, const double centre, const double width, const double layer_thickness)
     {
       if (layer_thickness == 0.)
         return 0.;
@@ -59,25 +69,38 @@ namespace sprag
       return peak > 0. ? excess / peak : 0.;
     }
 
+    /// What a force on a point leaves on nodes that the hub does not hold.
+    double share_of_free_nodes(const FaceView &contact, const unsigned int point)
+    {
+      double share = 0.;
+      for (const auto &node : contact.body.friction_face().points[point].nodes)
+        share += node.second;
+      return share;
+    }
+
     /// Sums over the points under pressure.
     struct Sums
     {
       double normal = 0., friction = 0., position = 0., speed = 0., mu = 0., power = 0., energy = 0., active = 0.;
       double elastic_slip = 0.; ///< the largest
+      double P = 0., F = 0.;
     };
 
-    Sums sum(const FaceContact &contact)
+    Sums sum(const FaceView &contact)
     {
       Sums sums;
-      const double dt = contact.duration();
-      for (const auto &point : contact.points())
+      const double dt = contact.duration;
+      for (const auto &point : contact.points)
       {
         if (!(point.trial_pressure > 0.))
           continue;
-        const double area   = contact.elastic_body().friction_face().points[point.index].weight;
+        const double area   = contact.body.friction_face().points[point.index].weight;
         const double normal = area * point.response.pressure;
-        const auto moved    = contact.displacement(point.index);
-        const double rate   = dt > 0. ? point.slip_change / dt : 0.;
+        const double share  = share_of_free_nodes(contact, point.index);
+        sums.F -= area * share * point.response.force[0];
+        sums.P += area * share * point.response.force[1];
+        const auto moved  = displacement(contact, point.index);
+        const double rate = dt > 0. ? point.slip_change / dt : 0.;
         sums.normal += normal;
         sums.friction += area * point.response.traction;
         sums.position += normal * point.position.xi;
@@ -92,9 +115,14 @@ namespace sprag
     }
   } // namespace
 
-  void observe_face(const FaceContact &contact, const double layer_thickness, Row &row)
+  FaceView view(const FaceContact &contact)
   {
-    const auto &points              = contact.points();
+    return { contact.elastic_body(), contact.points(), contact.displacements(), contact.duration(), contact.penetration() };
+  }
+
+  void observe_face(const FaceView &contact, const double layer_thickness, Row &row)
+  {
+    const auto &points              = contact.points;
     const Sums sums                 = sum(contact);
     row[Column::normal_resultant]   = sums.normal;
     row[Column::friction_resultant] = sums.friction;
@@ -103,22 +131,17 @@ namespace sprag
     row[Column::active_points]      = sums.active;
     row[Column::elastic_slip]       = sums.elastic_slip;
     row[Column::contact_width]      = contact_width(points);
-    row[Column::penetration]        = contact.penetration();
+    row[Column::penetration]        = contact.penetration;
     row[Column::cone_violation]     = cone_violation(points);
-    row[Column::P]                  = 0.;
-    row[Column::F]                  = 0.;
-    for (std::size_t i = 0; i < contact.forces().nodes.size(); ++i)
-    {
-      row[Column::F] -= contact.forces().values[2 * static_cast<unsigned int>(i)];
-      row[Column::P] += contact.forces().values[2 * static_cast<unsigned int>(i) + 1];
-    }
-    row[Column::indentation] = 0.;
+    row[Column::P]                  = sums.P;
+    row[Column::F]                  = sums.F;
+    row[Column::indentation]        = 0.;
     if (sums.normal > 0.)
     {
       row[Column::s]           = sums.position / sums.normal;
       row[Column::mu]          = sums.mu / sums.normal;
       row[Column::indentation] = indentation(contact, row[Column::s], row[Column::contact_width], layer_thickness);
-      if (contact.duration() > 0.)
+      if (contact.duration > 0.)
         row[Column::v_rel] = sums.speed / sums.normal;
     }
   }
@@ -134,15 +157,15 @@ namespace sprag
     return result;
   }
 
-  FaceState face_state(const FaceContact &contact, const DrivePoint &drive)
+  FaceState face_state(const FaceView &contact, const DrivePoint &drive)
   {
     FaceState result;
     result.time         = drive.time;
     result.x            = drive.x;
-    const std::size_t n = contact.elastic_body().friction_face().points.size();
+    const std::size_t n = contact.body.friction_face().points.size();
     result.pressure.resize(n);
     result.traction.resize(n);
-    for (const auto &point : contact.points())
+    for (const auto &point : contact.points)
     {
       result.pressure[point.index] = point.response.pressure;
       result.traction[point.index] = point.response.traction;

@@ -23,18 +23,10 @@ namespace sprag
     /// Compression of the friction face beyond which linear elasticity says nothing.
     constexpr double largest_strain = 0.5;
 
-    ContactPenalties penalties_of(const ElasticBody<2> &body, const LeverProperties &properties)
-    {
-      const auto &face    = body.friction_face();
-      const double depth  = std::max(face.depth, properties.layer_thickness);
-      const double factor = properties.contact.enforcement == Enforcement::penalty ? penalty_factor : augmentation_factor;
-      const double normal = properties.contact.penalty.value_or(factor * face.young_modulus / depth);
-      return { normal, properties.contact.tangential_penalty.value_or(normal) };
-    }
-
     FaceContact make_contact(const ElasticBody<2> &body, const LeverProperties &properties)
     {
-      return { body, properties.obstacle, properties.friction, properties.contact.enforcement, penalties_of(body, properties) };
+      return { body, properties.obstacle, properties.friction, properties.contact.enforcement,
+               contact_penalties(body.friction_face(), properties.contact, properties.layer_thickness) };
     }
     std::variant<FaceCompliance, FullStiffness> make_system(const ElasticBody<2> &body, const LeverProperties &properties)
     {
@@ -44,6 +36,14 @@ namespace sprag
       return System(std::in_place_type<FullStiffness>, body);
     }
   } // namespace
+
+  ContactPenalties contact_penalties(const FrictionFace<2> &face, const ContactSettings &settings, const double layer_thickness)
+  {
+    const double depth  = std::max(face.depth, layer_thickness);
+    const double factor = settings.enforcement == Enforcement::penalty ? penalty_factor : augmentation_factor;
+    const double normal = settings.penalty.value_or(factor * face.young_modulus / depth);
+    return { normal, settings.tangential_penalty.value_or(normal) };
+  }
 
   LeverProperties lever_properties(const Scene &scene)
   {
@@ -138,7 +138,7 @@ namespace sprag
   std::string LeverModel::objection(const State &trial) const
   {
     Row row;
-    observe_face(contact, properties.layer_thickness, row);
+    observe_face(view(contact), properties.layer_thickness, row);
     const double s    = row[Column::s];
     const double mu_e = row[Column::mu] * properties.interface_offset;
     if (trial.drive.v < 0. && row[Column::F] < 0. && s <= mu_e)
@@ -169,7 +169,7 @@ namespace sprag
     const double turn          = theta - properties.spring.rest;
     row[Column::theta]         = theta;
     row[Column::spring_energy] = 0.5 * properties.spring.stiffness * turn * turn;
-    observe_face(contact, properties.layer_thickness, row);
+    observe_face(view(contact), properties.layer_thickness, row);
     row[Column::centre_offset] = row[Column::s] - properties.centre(trial.drive.x, theta);
     row[Column::Q]             = row[Column::P] * std::sin(theta) + row[Column::F] * std::cos(theta);
     if (properties.body.material != MaterialModel::linear)
@@ -183,7 +183,7 @@ namespace sprag
 
   FaceState LeverModel::face_state(const State &trial) const
   {
-    return sprag::face_state(contact, trial.drive);
+    return sprag::face_state(view(contact), trial.drive);
   }
 
   const ContactPenalties &LeverModel::penalties() const

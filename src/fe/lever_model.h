@@ -25,6 +25,9 @@ namespace sprag
 
   LeverProperties lever_properties(const Scene &scene);
 
+  /// The settings' penalties, or what suits mesh and layer.
+  ContactPenalties contact_penalties(const FrictionFace<2> &face, const ContactSettings &settings, double layer_thickness);
+
   /// Meshed lever on its hub and rotational spring against a rigid obstacle: Model in lever axes, which turn with the hub.
   class LeverModel : public Model
   {

@@ -10,8 +10,8 @@ namespace sprag
 {
   namespace
   {
-    std::shared_ptr<const Motion> periodic_motion(const DriveProfile profile, const double start, const double stroke,
-                                                  const double speed, const double cycles, const double reversal_duration)
+    std::shared_ptr<const DriveMotion> periodic_motion(const DriveProfile profile, const double start, const double stroke,
+                                                       const double speed, const double cycles, const double reversal_duration)
     {
       Assert(profile != DriveProfile::table, dealii::ExcMessage("A table needs its samples."));
       Assert(start != stroke && speed > 0. && cycles > 0., dealii::ExcMessage("This drive does not move."));

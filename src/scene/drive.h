@@ -22,7 +22,7 @@ namespace sprag
     double a    = 0.; ///< [mm/s^2]; an instantaneous reversal has none on either side
   };
 
-  class Motion;
+  class DriveMotion;
 
   /// Prescribed motion x(t) of the cylinder's centre, t from 0 to `duration()`. A value type.
   class Drive
@@ -81,6 +81,6 @@ namespace sprag
     DrivePoint step(double time, double dx) const;
 
   private:
-    std::shared_ptr<const Motion> motion;
+    std::shared_ptr<const DriveMotion> motion;
   };
 } // namespace sprag

@@ -37,7 +37,7 @@ namespace sprag
     }
 
     /// Strokes of equal duration, given by x and its derivatives over the fraction of a stroke's duration.
-    class EqualStrokes : public Motion
+    class EqualStrokes : public DriveMotion
     {
     public:
       /// Share of the way gone at a fraction of the time, and its derivatives.
@@ -51,7 +51,7 @@ namespace sprag
 
       EqualStrokes(const DriveProfile kind, const std::vector<Stroke> &strokes, const double stroke_duration,
                    const Shape shape_over_time)
-          : Motion(kind)
+          : DriveMotion(kind)
           , row(strokes)
           , duration(stroke_duration)
           , shape(shape_over_time)
@@ -125,7 +125,7 @@ namespace sprag
       return start == 0.;
     }
 
-    class SmoothTriangle : public Motion
+    class SmoothTriangle : public DriveMotion
     {
     public:
       SmoothTriangle(const std::vector<Stroke> &strokes, double speed, double duration);
@@ -159,7 +159,7 @@ namespace sprag
     };
 
     SmoothTriangle::SmoothTriangle(const std::vector<Stroke> &strokes, const double speed, const double duration)
-        : Motion(DriveProfile::triangle)
+        : DriveMotion(DriveProfile::triangle)
     {
       peak_speed        = speed;
       reversal_duration = duration;
@@ -242,7 +242,7 @@ namespace sprag
                -phase.v / duration * (3.75 - 30. * square + 60. * square * square) };
     }
 
-    class Table : public Motion
+    class Table : public DriveMotion
     {
     public:
       Table(const std::vector<double> &times, const std::vector<double> &positions);
@@ -265,7 +265,7 @@ namespace sprag
     constexpr std::size_t most_samples_met = 2000;
 
     Table::Table(const std::vector<double> &given_times, const std::vector<double> &given_positions)
-        : Motion(DriveProfile::table)
+        : DriveMotion(DriveProfile::table)
         , sample_times(given_times)
         , sample_positions(given_positions)
         , samples(sample_times, sample_positions)
@@ -342,17 +342,17 @@ namespace sprag
     }
   } // namespace
 
-  Motion::Motion(const DriveProfile kind)
+  DriveMotion::DriveMotion(const DriveProfile kind)
       : profile(kind)
   {
   }
 
-  std::size_t Motion::piece(const double time, const Drive::Side side) const
+  std::size_t DriveMotion::piece(const double time, const Drive::Side side) const
   {
     return interval(times, time, side);
   }
 
-  DrivePoint Motion::at(const std::size_t piece, const double time, const Drive::Side side) const
+  DrivePoint DriveMotion::at(const std::size_t piece, const double time, const Drive::Side side) const
   {
     DrivePoint result = point(piece, time, side);
     if (time == times[piece])
@@ -362,7 +362,7 @@ namespace sprag
     return result;
   }
 
-  double Motion::moved_by(const std::size_t piece, const double time, const double dx) const
+  double DriveMotion::moved_by(const std::size_t piece, const double time, const double dx) const
   {
     const double from = at(piece, time, Drive::Side::after).x;
     double early      = time;
@@ -373,7 +373,7 @@ namespace sprag
   }
 
   /// After a rest the direction changes when the motion sets in again.
-  void Motion::find_reversals()
+  void DriveMotion::find_reversals()
   {
     int before = 0;
     for (std::size_t i = 0; i + 1 < times.size(); ++i)
@@ -385,18 +385,20 @@ namespace sprag
       }
   }
 
-  std::shared_ptr<const Motion> triangle_motion(const double start, const double stroke, const double speed, const double cycles)
+  std::shared_ptr<const DriveMotion> triangle_motion(const double start, const double stroke, const double speed,
+                                                     const double cycles)
   {
     return std::make_shared<const Triangle>(strokes(start, stroke, cycles), speed);
   }
 
-  std::shared_ptr<const Motion> smooth_triangle_motion(const double start, const double stroke, const double speed,
-                                                       const double cycles, const double reversal_duration)
+  std::shared_ptr<const DriveMotion> smooth_triangle_motion(const double start, const double stroke, const double speed,
+                                                            const double cycles, const double reversal_duration)
   {
     return std::make_shared<const SmoothTriangle>(strokes(start, stroke, cycles), speed, reversal_duration);
   }
 
-  std::shared_ptr<const Motion> harmonic_motion(const double start, const double stroke, const double speed, const double cycles)
+  std::shared_ptr<const DriveMotion> harmonic_motion(const double start, const double stroke, const double speed,
+                                                     const double cycles)
   {
     const auto shape = [](const double fraction)
     {
@@ -410,7 +412,7 @@ namespace sprag
     return motion;
   }
 
-  std::shared_ptr<const Motion> table_motion(const std::vector<double> &times, const std::vector<double> &positions)
+  std::shared_ptr<const DriveMotion> table_motion(const std::vector<double> &times, const std::vector<double> &positions)
   {
     return std::make_shared<const Table>(times, positions);
   }

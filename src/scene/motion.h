@@ -8,11 +8,11 @@
 namespace sprag
 {
   /// How a drive moves: a row of pieces, each going one way or at rest throughout. Piece i lasts from times[i] to times[i+1].
-  class Motion
+  class DriveMotion
   {
   public:
-    explicit Motion(DriveProfile kind);
-    virtual ~Motion() = default;
+    explicit DriveMotion(DriveProfile kind);
+    virtual ~DriveMotion() = default;
 
     std::size_t piece(double time, Drive::Side side) const;
 
@@ -37,15 +37,15 @@ namespace sprag
     void find_reversals();
   };
 
-  std::shared_ptr<const Motion> triangle_motion(double start, double stroke, double speed, double cycles);
+  std::shared_ptr<const DriveMotion> triangle_motion(double start, double stroke, double speed, double cycles);
 
   /// `reversal_duration` > 0 and at most largest_reversal_duration().
-  std::shared_ptr<const Motion> smooth_triangle_motion(double start, double stroke, double speed, double cycles,
-                                                       double reversal_duration);
+  std::shared_ptr<const DriveMotion> smooth_triangle_motion(double start, double stroke, double speed, double cycles,
+                                                            double reversal_duration);
 
-  std::shared_ptr<const Motion> harmonic_motion(double start, double stroke, double speed, double cycles);
+  std::shared_ptr<const DriveMotion> harmonic_motion(double start, double stroke, double speed, double cycles);
 
-  std::shared_ptr<const Motion> table_motion(const std::vector<double> &times, const std::vector<double> &positions);
+  std::shared_ptr<const DriveMotion> table_motion(const std::vector<double> &times, const std::vector<double> &positions);
 
   /// The longest reversals for which every stroke has room for its ramps [s]; infinite where there are none.
   double largest_reversal_duration(double start, double stroke, double speed, double cycles);
