@@ -17,6 +17,19 @@
 
 namespace sprag
 {
+  bool wants_fields(const Scene &scene, const DrivePoint &drive, const double travelled, double &last)
+  {
+    if (scene.output.fields == FieldOutput::none)
+      return false;
+    const auto &reversals = scene.drive.reversals();
+    const bool turning =
+        std::binary_search(reversals.begin(), reversals.end(), drive.time) || drive.time >= scene.drive.duration();
+    const bool due = scene.output.fields == FieldOutput::interval && travelled >= last + scene.output.field_interval - 1e-9;
+    if (turning || due)
+      last = travelled;
+    return turning || due;
+  }
+
   double path_length(const Drive &drive)
   {
     double length = 0.;

@@ -31,6 +31,9 @@ namespace sprag
     double travel = 0.;
   };
 
+  /// Whether the fields at a point of the drive are asked for; `last` is the path at the last frame [mm].
+  bool wants_fields(const Scene &scene, const DrivePoint &drive, double travelled, double &last);
+
   /// Length of the drive's path [mm].
   double path_length(const Drive &drive);
 

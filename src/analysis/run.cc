@@ -147,20 +147,6 @@ namespace sprag
                 << std::flush;
     }
 
-    /// Whether the fields of a state are asked for; `last` is the path at the last frame [mm].
-    bool wants_fields(const Scene &scene, const State &state, const double travelled, double &last)
-    {
-      if (scene.output.fields == FieldOutput::none)
-        return false;
-      const auto &reversals = scene.drive.reversals();
-      const bool turning =
-          std::binary_search(reversals.begin(), reversals.end(), state.drive.time) || state.drive.time >= scene.drive.duration();
-      const bool due = scene.output.fields == FieldOutput::interval && travelled >= last + scene.output.field_interval - 1e-9;
-      if (turning || due)
-        last = travelled;
-      return turning || due;
-    }
-
     void run_finite_element(const Scene &scene, const RunOptions &options)
     {
       Timer timer(std::cout, Timer::never, Timer::cpu_and_wall_times);
@@ -191,7 +177,7 @@ namespace sprag
         recorder.record(model->face_state(state));
         travelled += std::abs(state.drive.x - x);
         x = state.drive.x;
-        if (wants_fields(scene, state, travelled, last_frame))
+        if (wants_fields(scene, state.drive, travelled, last_frame))
           frames->write(model->body_displacement(state), state.drive.time);
       };
       QuasiStaticSettings settings{ scene.analysis.step, scene.analysis.minimum_step, scene.contact };
@@ -215,7 +201,10 @@ namespace sprag
 
   void validate(const Scene &scene)
   {
-    if (scene.analysis.type != AnalysisType::quasi_static || scene.analysis.model != ModelType::finite_element)
+    const bool in_time = scene.analysis.type == AnalysisType::transient;
+    const bool meshed =
+        scene.analysis.model == ModelType::finite_element || (in_time && scene.analysis.model == ModelType::condensed);
+    if (scene.analysis.type == AnalysisType::slope || (!meshed && scene.analysis.type != AnalysisType::contact_law))
       return;
     dealii::Triangulation<2> triangulation;
     make_mesh(scene, triangulation);

@@ -5,11 +5,16 @@
 #include "analysis/transient.h"
 #include "analysis/transient_report.h"
 #include "base/errors.h"
+#include "fe/dynamic_face_lever.h"
+#include "fe/field_frames.h"
+#include "fe/lever_model.h"
 #include "model/reduced_lever.h"
 #include "scene/contact_reference.h"
 
+#include <algorithm>
 #include <functional>
 #include <iostream>
+#include <optional>
 
 namespace sprag
 {
@@ -91,6 +96,80 @@ namespace sprag
                                           [&](const Motion &, const Row &row) { recorder.record(row); });
                    });
     }
+
+    std::vector<Entry> meshed_entries(const MeshedDynamics &lever, const ElasticBody<2> &body)
+    {
+      std::vector<Entry> entries = {
+        { "degrees_of_freedom", static_cast<double>(body.n_dofs()), "1", "displacements, those of the hub included" },
+        { "coordinates", static_cast<double>(lever.n_coordinates), "1", "generalised coordinates of the model" },
+        { "face_points", static_cast<double>(body.friction_face().points.size()), "1",
+          "integration points of the friction face" },
+        { "penalty", lever.penalties.normal, "N/mm^3", "normal penalty in use" },
+        { "tangential_penalty", lever.penalties.tangential, "N/mm^3", "tangential penalty in use" },
+        { "density_factor", lever.density_factor, "1", "by which the densities were scaled to meet Lever/Moment of inertia" },
+        { "lever_mass", lever.lever_mass, "t", "mass of lever and layer after scaling, tip mass included" },
+        { "basis_from_cache", lever.basis_from_cache ? 1. : 0., "1", "whether a stored condensed basis was used" },
+        { "basis_cpu_time", lever.basis_cpu_seconds, "s", "that the condensed basis took, or would have taken" }
+      };
+      for (std::size_t i = 0; i < std::min<std::size_t>(5, lever.frequencies.size()); ++i)
+        entries.push_back({ "frequency_" + std::to_string(i + 1), lever.frequencies[i], "Hz", "of the lever out of contact" });
+      return entries;
+    }
+
+    void announce(const Scene &scene, const MeshedDynamics &lever, const ElasticBody<2> &body, const RunOptions &options)
+    {
+      announce(scene, options);
+      if (options.quiet)
+        return;
+      std::cout << "Mesh:         " << body.n_dofs() << " displacements, " << lever.n_coordinates
+                << " coordinates; densities times " << lever.density_factor << " to meet J; free lever at";
+      for (std::size_t i = 0; i < std::min<std::size_t>(3, lever.frequencies.size()); ++i)
+        std::cout << ' ' << lever.frequencies[i];
+      std::cout << " Hz\n";
+      if (scene.analysis.model == ModelType::condensed)
+        std::cout << "Basis:        " << (lever.basis_from_cache ? "from the cache, saves " : "made in ")
+                  << lever.basis_cpu_seconds << " s" << (lever.message.empty() ? "" : "; " + lever.message) << '\n';
+      std::cout << std::flush;
+    }
+
+    void run_meshed(const Scene &scene, const RunOptions &options)
+    {
+      Timer timer(std::cout, Timer::never, Timer::cpu_and_wall_times);
+      require_writable(options.folder);
+      dealii::Triangulation<2> triangulation;
+      {
+        const Timer::Scope scope(timer, "mesh");
+        make_mesh(scene, triangulation);
+      }
+      const ElasticBody<2> body(triangulation, lever_properties(scene).body);
+      MeshedDynamics lever;
+      {
+        const Timer::Scope scope(timer, "model");
+        const double relaxation = contact_reference(scene).relaxation;
+        lever                   = scene.analysis.model == ModelType::condensed ? make_condensed_dynamics(scene, body, relaxation)
+                                                                               : make_finite_element_dynamics(scene, body, relaxation);
+      }
+      Recorder recorder(scene, options.folder, options.quiet, lever.model->face_points());
+      announce(scene, lever, body, options);
+      std::optional<FieldFrames> frames;
+      if (scene.output.fields != FieldOutput::none)
+        frames.emplace(body, options.folder);
+
+      double travelled = 0., last_frame = 0., x = scene.drive.at(0.).x;
+      const auto write = [&](const Motion &motion, const Row &row)
+      {
+        recorder.record(row);
+        travelled += std::abs(motion.drive.x - x);
+        x = motion.drive.x;
+        if (!wants_fields(scene, motion.drive, travelled, last_frame))
+          return;
+        const Timer::Scope scope(timer, "fields");
+        recorder.record(lever.model->face_state(motion));
+        frames->write(lever.elastic_displacement(motion), motion.drive.time);
+      };
+      record_steps(scene, recorder, timer, meshed_entries(lever, body),
+                   [&] { return run_transient(*lever.model, scene.drive, settings_of(scene), write); });
+    }
   } // namespace
 
   void run_transient_scene(const Scene &scene, const RunOptions &options)
@@ -105,7 +184,7 @@ namespace sprag
       return run_reduced(scene, options);
     case ModelType::condensed:
     case ModelType::finite_element:
-      throw AnalysisError("not yet");
+      return run_meshed(scene, options);
     }
   }
 } // namespace sprag

@@ -1,0 +1,178 @@
+#include "fe/basis_file.h"
+
+#include "base/errors.h"
+#include "results/hdf5.h"
+
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <unistd.h>
+
+namespace sprag
+{
+  namespace
+  {
+    std::string path_of(const std::string &folder, const std::string &key)
+    {
+      return folder + "/basis-" + key + ".h5";
+    }
+
+    double checksum(const std::string &key, const StoredArrays &arrays)
+    {
+      Fingerprint sum;
+      sum.add(key.data(), key.size());
+      for (const auto &[name, values] : arrays)
+      {
+        sum.add(name.data(), name.size());
+        sum.add(values.data(), values.size() * sizeof(double));
+      }
+      // Below 2^53 whole numbers are exact.
+      return static_cast<double>(sum.value() >> 11);
+    }
+
+    /// Keeps HDF5 from printing while a file that may be anything is read.
+    class Silence
+    {
+    public:
+      Silence()
+      {
+        H5Eget_auto2(H5E_DEFAULT, &function, &data);
+        H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+      }
+      Silence(const Silence &)            = delete;
+      Silence &operator=(const Silence &) = delete;
+      ~Silence()
+      {
+        H5Eset_auto2(H5E_DEFAULT, function, data);
+      }
+
+    private:
+      H5E_auto2_t function = nullptr;
+      void *data           = nullptr;
+    };
+
+    std::optional<std::vector<double>> read_array(const hid_t file, const std::string &name)
+    {
+      const hid_t opened = H5Dopen2(file, name.c_str(), H5P_DEFAULT);
+      if (opened < 0)
+        return {};
+      const hdf5::Handle dataset(opened, H5Dclose);
+      const hdf5::Handle space(H5Dget_space(dataset.id()), H5Sclose);
+      const auto count = H5Sget_simple_extent_npoints(space.id());
+      if (count < 0)
+        return {};
+      std::vector<double> values(static_cast<std::size_t>(count));
+      if (H5Dread(dataset.id(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
+        return {};
+      return values;
+    }
+
+    herr_t collect_name(const hid_t, const char *name, const H5L_info_t *, void *names)
+    {
+      static_cast<std::vector<std::string> *>(names)->emplace_back(name);
+      return 0;
+    }
+  } // namespace
+
+  void Fingerprint::add(const double value)
+  {
+    add(&value, sizeof(value));
+  }
+
+  void Fingerprint::add(const void *bytes, const std::size_t count)
+  {
+    // Eight bytes at a time where there are so many: fast enough for a hundred megabytes.
+    const auto *data = static_cast<const unsigned char *>(bytes);
+    std::size_t i    = 0;
+    for (; i + 8 <= count; i += 8)
+    {
+      std::uint64_t word = 0;
+      std::memcpy(&word, data + i, 8);
+      hash = (hash ^ word) * 1099511628211u;
+      hash ^= hash >> 29;
+    }
+    for (; i < count; ++i)
+      hash = (hash ^ data[i]) * 1099511628211u;
+  }
+
+  std::uint64_t Fingerprint::value() const
+  {
+    return hash;
+  }
+
+  std::string Fingerprint::text() const
+  {
+    char digits[24];
+    std::snprintf(digits, sizeof(digits), "%016llx", static_cast<unsigned long long>(hash));
+    return digits;
+  }
+
+  std::string cache_folder(const std::string &given)
+  {
+    if (!given.empty())
+      return given;
+    if (const char *cache = std::getenv("XDG_CACHE_HOME"); cache != nullptr && *cache != '\0')
+      return std::string(cache) + "/sprag";
+    if (const char *home = std::getenv("HOME"); home != nullptr && *home != '\0')
+      return std::string(home) + "/.cache/sprag";
+    return {};
+  }
+
+  std::optional<StoredArrays> load_arrays(const std::string &folder, const std::string &key)
+  {
+    const Silence silence;
+    const std::string path = path_of(folder, key);
+    std::error_code ignored;
+    if (folder.empty() || !std::filesystem::is_regular_file(path, ignored))
+      return {};
+    const hid_t opened = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+    if (opened < 0)
+      return {};
+    const hdf5::Handle file(opened, H5Fclose);
+    std::vector<std::string> names;
+    hsize_t position = 0;
+    if (H5Literate(file.id(), H5_INDEX_NAME, H5_ITER_INC, &position, collect_name, &names) < 0)
+      return {};
+    StoredArrays arrays;
+    for (const auto &name : names)
+    {
+      auto values = read_array(file.id(), name);
+      if (!values)
+        return {};
+      arrays[name] = std::move(*values);
+    }
+    const auto found = arrays.find("checksum");
+    if (found == arrays.end() || found->second.size() != 1)
+      return {};
+    const double stored = found->second.front();
+    arrays.erase(found);
+    if (stored != checksum(key, arrays))
+      return {};
+    return arrays;
+  }
+
+  std::string store_arrays(const std::string &folder, const std::string &key, const StoredArrays &arrays)
+  {
+    if (folder.empty())
+      return "there is no cache folder";
+    const std::string temporary = path_of(folder, key) + "." + std::to_string(::getpid());
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    try
+    {
+      auto file = hdf5::create_file(temporary);
+      for (const auto &[name, values] : arrays)
+        hdf5::write_dataset(file, name, values);
+      hdf5::write_dataset(file, "checksum", checksum(key, arrays));
+      file.close();
+      std::filesystem::rename(temporary, path_of(folder, key));
+    }
+    catch (const std::exception &failure)
+    {
+      std::filesystem::remove(temporary, error);
+      return failure.what();
+    }
+    return {};
+  }
+} // namespace sprag

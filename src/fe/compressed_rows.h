@@ -1,0 +1,39 @@
+#pragma once
+
+#include <deal.II/lac/petsc_sparse_matrix.h>
+#include <deal.II/lac/vector.h>
+
+#include <array>
+#include <vector>
+
+namespace sprag
+{
+  /// A sparse matrix for many products: several vectors in one pass over it.
+  class CompressedRows
+  {
+  public:
+    /// Entries that are 0 are left out.
+    explicit CompressedRows(const dealii::PETScWrappers::SparseMatrix &matrix);
+
+    /// results[k] = matrix times vectors[k]. Vectors may be longer than the matrix, results are left as they are beyond it.
+    template <std::size_t n>
+    void multiply(const std::array<const dealii::Vector<double> *, n> &vectors,
+                  const std::array<dealii::Vector<double> *, n> &results) const
+    {
+      for (unsigned int i = 0; i + 1 < row_begin.size(); ++i)
+      {
+        std::array<double, n> sums{};
+        for (unsigned int a = row_begin[i]; a < row_begin[i + 1]; ++a)
+          for (std::size_t k = 0; k < n; ++k)
+            sums[k] += values[a] * vectors[k]->begin()[columns[a]];
+        for (std::size_t k = 0; k < n; ++k)
+          results[k]->begin()[i] = sums[k];
+      }
+    }
+
+  private:
+    std::vector<unsigned int> row_begin;
+    std::vector<unsigned int> columns;
+    std::vector<double> values;
+  };
+} // namespace sprag

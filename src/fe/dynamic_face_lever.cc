@@ -1,0 +1,102 @@
+#include "fe/dynamic_face_lever.h"
+
+#include "fe/condensed_basis.h"
+#include "fe/lever_model.h"
+#include "model/dynamic_lever.h"
+
+#include <cmath>
+
+namespace sprag
+{
+  namespace
+  {
+    LeverInertia inertia_of(const Scene &scene)
+    {
+      return { { { material_id::lever, scene.lever.density }, { material_id::layer, scene.layer.density } },
+               scene.lever.tip_mass,
+               scene.lever.moment_of_inertia };
+    }
+
+    LeverDynamics constants_of(const Scene &scene, const double relaxation, const double lever_mass)
+    {
+      LeverDynamics result;
+      result.spring_stiffness  = scene.spring_stiffness;
+      result.mass_damping      = scene.lever.mass_damping;
+      result.stiffness_damping = scene.lever.stiffness_damping;
+      result.relaxation        = relaxation;
+      result.modal_damping     = scene.lever.modal_damping;
+      result.sprung            = scene.support.type == SupportType::sprung;
+      result.support_mass      = scene.support.mass + lever_mass;
+      result.support_stiffness = scene.support.stiffness;
+      result.support_damping   = support_damping(scene.support, lever_mass);
+      return result;
+    }
+
+    FaceStepProperties contact_of(const Scene &scene, const PortLayout &ports, const ContactPenalties &penalties)
+    {
+      return { scene.geometry, ports, kinematics(scene.geometry, 0.).theta, penalties, scene.friction, scene.layer.thickness };
+    }
+
+    MeshedDynamics facts(const Scene &scene, const ElasticBody<2> &body, const std::vector<double> &omega_squared)
+    {
+      MeshedDynamics result;
+      result.penalties = contact_penalties(body.friction_face(), scene.contact, scene.layer.thickness);
+      for (const double stiffness : omega_squared)
+        result.frequencies.push_back(0.5 * std::sqrt(stiffness) / M_PI);
+      return result;
+    }
+
+    template <class Structure>
+    std::unique_ptr<DynamicModel> assemble(const Scene &scene, const ElasticBody<2> &body, std::unique_ptr<Structure> structure,
+                                           const MeshedDynamics &facts)
+    {
+      const PortLayout ports = structure->ports();
+      return std::make_unique<DynamicLever<Structure, FaceStepContact>>(
+          std::move(structure), std::make_unique<FaceStepContact>(body, contact_of(scene, ports, facts.penalties)),
+          lever_frame(scene, ports, facts.lever_mass));
+    }
+  } // namespace
+
+  MeshedDynamics make_finite_element_dynamics(const Scene &scene, const ElasticBody<2> &body, const double relaxation)
+  {
+    const auto matrices = std::make_shared<InertialMatrices<2>>(body, inertia_of(scene));
+    dealii::PETScWrappers::SparseMatrix stiffness;
+    matrices->sum({ 0., 1., 0., scene.spring_stiffness }, stiffness);
+    const auto modes     = free_modes(stiffness, matrices->mass, scene.condensed.modes);
+    const auto constants = constants_of(scene, relaxation, matrices->total_mass);
+    auto structure       = std::make_unique<SparseStructure>(body, matrices, modes, constants);
+
+    MeshedDynamics result       = facts(scene, body, modes.stiffness);
+    result.n_coordinates        = matrices->coordinates.size();
+    result.density_factor       = matrices->density_factor;
+    result.lever_mass           = matrices->total_mass;
+    result.elastic_displacement = [lever = structure.get()](const Motion &motion) { return lever->elastic_displacement(motion); };
+    result.model                = assemble(scene, body, std::move(structure), result);
+    return result;
+  }
+
+  MeshedDynamics make_condensed_dynamics(const Scene &scene, const ElasticBody<2> &body, const double relaxation)
+  {
+    const BasisSettings settings{ scene.condensed.modes, scene.spring_stiffness, inertia_of(scene), scene.condensed.cache };
+    const auto basis = std::make_shared<const CondensedBasis>(condensed_basis(body, settings));
+    auto structure   = std::make_unique<ModalStructure>(modal_data(*basis, constants_of(scene, relaxation, basis->lever_mass)));
+
+    MeshedDynamics result    = facts(scene, body, basis->stiffness);
+    result.n_coordinates     = structure->n_modes();
+    result.density_factor    = basis->density_factor;
+    result.lever_mass        = basis->lever_mass;
+    result.basis_from_cache  = basis->from_cache;
+    result.basis_cpu_seconds = basis->cpu_seconds;
+    result.message           = basis->message;
+    // Made when the first field is wanted.
+    result.elastic_displacement =
+        [&body, settings, basis, made = std::shared_ptr<CondensedDisplacement>()](const Motion &motion) mutable
+    {
+      if (!made)
+        made = std::make_shared<CondensedDisplacement>(body, settings, *basis);
+      return (*made)(motion);
+    };
+    result.model = assemble(scene, body, std::move(structure), result);
+    return result;
+  }
+} // namespace sprag

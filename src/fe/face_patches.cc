@@ -1,0 +1,130 @@
+#include "fe/face_patches.h"
+
+#include "base/errors.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sprag
+{
+  namespace
+  {
+    double distance(const LeverPoint &a, const LeverPoint &b)
+    {
+      const double along  = a.xi - b.xi;
+      const double across = a.eta - b.eta;
+      return std::sqrt(along * along + across * across);
+    }
+  } // namespace
+
+  FacePatches::FacePatches(const FrictionFace<2> &face)
+  {
+    for (const auto &patch : face.patches)
+    {
+      const auto &nodes = face.points[patch.begin].nodes;
+      Patch copy{ patch.begin, patch.end, patch.length, static_cast<unsigned int>(nodes.size()), {} };
+      if (copy.n_nodes > max_nodes)
+        throw AnalysisError("contact in time is limited to elements of degree 2");
+      for (unsigned int a = 0; a < copy.n_nodes; ++a)
+        copy.nodes[a] = nodes[a].first;
+      all_patches.push_back(copy);
+    }
+    for (const auto &point : face.points)
+    {
+      Point copy{ { point.position[0], point.position[1] }, point.weight, {} };
+      for (unsigned int a = 0; a < point.nodes.size(); ++a)
+        copy.shapes[a] = point.nodes[a].second;
+      all_points.push_back(copy);
+    }
+  }
+
+  const std::vector<FacePatches::Patch> &FacePatches::patches() const
+  {
+    return all_patches;
+  }
+
+  const std::vector<FacePatches::Point> &FacePatches::points() const
+  {
+    return all_points;
+  }
+
+  FacePatches::Nodal FacePatches::nodal(const Patch &patch, const dealii::Vector<double> &displacement)
+  {
+    Nodal result{};
+    for (unsigned int a = 0; a < patch.n_nodes; ++a)
+      for (unsigned int d = 0; d < 2; ++d)
+        result[2 * a + d] = displacement[2 * patch.nodes[a] + d];
+    return result;
+  }
+
+  LeverPoint FacePatches::position(const Point &point, const Nodal &displacement)
+  {
+    LeverPoint result = point.position;
+    for (unsigned int a = 0; a < max_nodes; ++a)
+    {
+      result.xi += point.shapes[a] * displacement[2 * a];
+      result.eta += point.shapes[a] * displacement[2 * a + 1];
+    }
+    return result;
+  }
+
+  double FacePatches::smallest_gap(const unsigned int patch, const FaceConfiguration &at, const double radius) const
+  {
+    const auto &chosen      = all_patches[patch];
+    const auto displacement = nodal(chosen, *at.displacement);
+    double smallest         = std::numeric_limits<double>::max();
+    for (const unsigned int q : { chosen.begin, (chosen.begin + chosen.end) / 2, chosen.end - 1 })
+      smallest = std::min(smallest, distance(position(all_points[q], displacement), at.centre) - radius);
+    return smallest;
+  }
+
+  /// From the patch under the cylinder's centre downhill.
+  unsigned int FacePatches::closest(const FaceConfiguration &at, const double radius) const
+  {
+    const auto is_before  = [this](const Patch &patch, const double xi) { return all_points[patch.end - 1].position.xi < xi; };
+    const auto under      = std::lower_bound(all_patches.begin(), all_patches.end() - 1, at.centre.xi, is_before);
+    const auto n          = static_cast<unsigned int>(all_patches.size());
+    unsigned int best     = static_cast<unsigned int>(under - all_patches.begin());
+    double gap            = smallest_gap(best, at, radius);
+    const auto try_better = [&](const unsigned int patch)
+    {
+      const double there = smallest_gap(patch, at, radius);
+      if (there >= gap)
+        return false;
+      best = patch;
+      gap  = there;
+      return true;
+    };
+    while (best + 1 < n && try_better(best + 1))
+      continue;
+    while (best > 0 && try_better(best - 1))
+      continue;
+    return best;
+  }
+
+  /// Beyond the first patch that is out of reach the gap of a convex body only grows; the margin covers bending.
+  FacePatches::Range FacePatches::near(const FaceConfiguration &at, const double radius) const
+  {
+    const auto is_near = [&](const unsigned int patch)
+    { return smallest_gap(patch, at, radius) < 0.02 * all_patches[patch].length; };
+    const unsigned int middle = closest(at, radius);
+    Range range{ middle, middle + 1 };
+    while (range.begin > 0 && is_near(range.begin - 1))
+      --range.begin;
+    while (range.end < all_patches.size() && is_near(range.end))
+      ++range.end;
+    return range;
+  }
+
+  unsigned int FacePatches::patch_of_point(const unsigned int point) const
+  {
+    const auto ends_before = [](const Patch &patch, const unsigned int q) { return patch.end <= q; };
+    const auto found       = std::lower_bound(all_patches.begin(), all_patches.end(), point, ends_before);
+    return static_cast<unsigned int>(found - all_patches.begin());
+  }
+
+  FacePatches::Range FacePatches::patches_of_points(const unsigned int first, const unsigned int last) const
+  {
+    return { patch_of_point(first), patch_of_point(last) + 1 };
+  }
+} // namespace sprag

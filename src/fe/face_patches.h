@@ -1,0 +1,72 @@
+#pragma once
+
+#include "fe/friction_face.h"
+#include "model/circle.h"
+
+#include <deal.II/lac/vector.h>
+
+namespace sprag
+{
+  /// Where the lever and the cylinder are: displacements of the face nodes (two entries a node, others may follow), rotation of
+  /// the hub and position of the cylinder from the pivot frame's origin.
+  struct FaceConfiguration
+  {
+    const dealii::Vector<double> *displacement;
+    double theta;
+    double x;
+    LeverPoint centre; ///< of the cylinder
+  };
+
+  /// A friction face laid out for the search and summation of every iteration of every step in time: patch by patch, without
+  /// indirection within a patch.
+  class FacePatches
+  {
+  public:
+    static constexpr unsigned int max_nodes = 3;
+
+    struct Patch
+    {
+      unsigned int begin; ///< points, as in FrictionFace
+      unsigned int end;
+      double length;
+      unsigned int n_nodes;
+      std::array<unsigned int, max_nodes> nodes;
+    };
+
+    struct Point
+    {
+      LeverPoint position; ///< undeformed
+      double weight;
+      std::array<double, max_nodes> shapes; ///< of the patch's nodes
+    };
+
+    explicit FacePatches(const FrictionFace<2> &face);
+
+    const std::vector<Patch> &patches() const;
+    const std::vector<Point> &points() const;
+
+    /// The patch's part of the displacements.
+    using Nodal = std::array<double, 2 * max_nodes>;
+    static Nodal nodal(const Patch &patch, const dealii::Vector<double> &displacement);
+    static LeverPoint position(const Point &point, const Nodal &displacement);
+
+    struct Range
+    {
+      unsigned int begin;
+      unsigned int end; ///< beyond the last
+    };
+
+    /// Patches within reach of a cylinder, at least the closest one.
+    Range near(const FaceConfiguration &at, double radius) const;
+
+    Range patches_of_points(unsigned int first, unsigned int last) const;
+
+  private:
+    double smallest_gap(unsigned int patch, const FaceConfiguration &at, double radius) const;
+    unsigned int closest(const FaceConfiguration &at, double radius) const;
+    unsigned int patch_of_point(unsigned int point) const;
+
+    std::vector<Patch> all_patches;
+    std::vector<Point> all_points;
+  };
+} // namespace sprag

@@ -1,0 +1,364 @@
+#include "fe/inertial_matrices.h"
+
+#include "base/errors.h"
+#include "base/text.h"
+
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/dofs/dof_tools.h>
+#include <deal.II/fe/fe_values.h>
+#include <deal.II/fe/mapping_q1.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace sprag
+{
+  using namespace dealii;
+
+  namespace
+  {
+    using PETScMatrix = PETScWrappers::SparseMatrix;
+
+    /// Adds matrices of cells and faces, given for degrees of freedom of the body, in total coordinates.
+    template <int dim>
+    class Scatter
+    {
+    public:
+      Scatter(const TotalCoordinates<dim> &coordinates_, const unsigned int n)
+          : coordinates(coordinates_)
+          , dofs(n)
+          , indices(n)
+          , shares(n)
+          , scaled(n, n)
+      {
+      }
+
+      template <class Cell>
+      void reinit(const Cell &cell)
+      {
+        cell->get_dof_indices(dofs);
+        for (unsigned int i = 0; i < dofs.size(); ++i)
+        {
+          const auto &mover = coordinates.mover(static_cast<unsigned int>(dofs[i]));
+          indices[i]        = mover.coordinate;
+          shares[i]         = mover.share;
+        }
+      }
+
+      void add(const FullMatrix<double> &local, PETScMatrix &matrix)
+      {
+        for (unsigned int i = 0; i < dofs.size(); ++i)
+          for (unsigned int j = 0; j < dofs.size(); ++j)
+            scaled(i, j) = shares[i] * shares[j] * local(i, j);
+        matrix.add(indices, indices, scaled, false);
+      }
+
+      /// Adds the rows whose products with the coordinates are the mass times the displacement along each axis. Returns the mass.
+      double add_momentum(const FullMatrix<double> &local, const FiniteElement<dim> &fe,
+                          std::array<Vector<double>, dim> &momentum) const
+      {
+        double along_first = 0.;
+        for (unsigned int i = 0; i < dofs.size(); ++i)
+          for (unsigned int j = 0; j < dofs.size(); ++j)
+          {
+            const unsigned int component = fe.system_to_component_index(j).first;
+            momentum[component][indices[i]] += shares[i] * local(i, j);
+            along_first += component == 0 ? local(i, j) : 0.;
+          }
+        return along_first;
+      }
+
+    private:
+      const TotalCoordinates<dim> &coordinates;
+      std::vector<types::global_dof_index> dofs;
+      std::vector<types::global_dof_index> indices;
+      std::vector<double> shares;
+      FullMatrix<double> scaled;
+    };
+
+    template <int dim>
+    FullMatrix<double> cell_stiffness(const FEValues<dim> &values, const Tensor<2, dim * dim> &elasticity, const double width)
+    {
+      const auto &fe       = values.get_fe();
+      const unsigned int n = fe.n_dofs_per_cell();
+      FullMatrix<double> result(n, n);
+      for (const unsigned int q : values.quadrature_point_indices())
+        for (unsigned int j = 0; j < n; ++j)
+        {
+          Tensor<1, dim * dim> strain;
+          for (unsigned int d = 0; d < dim; ++d)
+            strain[fe.system_to_component_index(j).first * dim + d] = values.shape_grad(j, q)[d];
+          const auto stress = width * values.JxW(q) * (elasticity * strain);
+          for (unsigned int i = 0; i < n; ++i)
+            for (unsigned int d = 0; d < dim; ++d)
+              result(i, j) += values.shape_grad(i, q)[d] * stress[fe.system_to_component_index(i).first * dim + d];
+        }
+      return result;
+    }
+
+    /// Of a cell or, with a mass per area, of a face.
+    template <int dim>
+    FullMatrix<double> local_mass(const FEValuesBase<dim> &values, const double density)
+    {
+      const auto &fe       = values.get_fe();
+      const unsigned int n = fe.n_dofs_per_cell();
+      FullMatrix<double> result(n, n);
+      for (const unsigned int q : values.quadrature_point_indices())
+        for (unsigned int i = 0; i < n; ++i)
+          for (unsigned int j = 0; j < n; ++j)
+            if (fe.system_to_component_index(i).first == fe.system_to_component_index(j).first)
+              result(i, j) += density * values.JxW(q) * values.shape_value(i, q) * values.shape_value(j, q);
+      return result;
+    }
+
+    template <int dim>
+    using Faces = std::vector<std::pair<typename DoFHandler<dim>::active_cell_iterator, unsigned int>>;
+
+    /// Faces of the lever's material farthest along the first axis.
+    template <int dim>
+    Faces<dim> end_face(const DoFHandler<dim> &dofs)
+    {
+      double end    = std::numeric_limits<double>::lowest();
+      double extent = 0.;
+      for (const auto &cell : dofs.active_cell_iterators())
+        if (cell->material_id() == material_id::lever)
+          for (const unsigned int v : cell->vertex_indices())
+          {
+            end    = std::max(end, cell->vertex(v)[0]);
+            extent = std::max(extent, std::abs(cell->vertex(v)[0]));
+          }
+      Faces<dim> result;
+      for (const auto &cell : dofs.active_cell_iterators())
+        if (cell->material_id() == material_id::lever)
+          for (const unsigned int f : cell->face_indices())
+          {
+            bool at_end = cell->face(f)->at_boundary();
+            for (unsigned int v = 0; v < cell->face(f)->n_vertices(); ++v)
+              at_end = at_end && cell->face(f)->vertex(v)[0] > end - 1e-6 * extent;
+            if (at_end)
+              result.emplace_back(cell, f);
+          }
+      return result;
+    }
+
+    template <int dim>
+    double total_length(const Faces<dim> &faces)
+    {
+      double length = 0.;
+      for (const auto &[cell, f] : faces)
+        length += cell->face(f)->measure();
+      return length;
+    }
+
+    template <int dim>
+    double inertia_of_cells(const ElasticBody<dim> &body, const std::map<types::material_id, double> &densities)
+    {
+      const auto &properties = body.body_properties();
+      FEValues<dim> values(body.dofs().get_fe(), QGauss<dim>(properties.degree + 1),
+                           update_quadrature_points | update_JxW_values);
+      double sum = 0.;
+      for (const auto &cell : body.dofs().active_cell_iterators())
+        if (cell->material_id() != material_id::hub)
+        {
+          values.reinit(cell);
+          for (const unsigned int q : values.quadrature_point_indices())
+            sum += densities.at(cell->material_id()) * properties.width * values.JxW(q) * values.quadrature_point(q).square();
+        }
+      return sum;
+    }
+
+    template <int dim>
+    double inertia_of_tip(const ElasticBody<dim> &body, const double tip_mass)
+    {
+      const auto faces    = end_face(body.dofs());
+      const double length = total_length<dim>(faces);
+      if (faces.empty())
+        throw InputError("the mesh has no straight end face across the lever to carry Lever/Tip mass");
+      FEFaceValues<dim> values(body.dofs().get_fe(), QGauss<dim - 1>(2), update_quadrature_points | update_JxW_values);
+      double sum = 0.;
+      for (const auto &[cell, f] : faces)
+      {
+        values.reinit(cell, f);
+        for (const unsigned int q : values.quadrature_point_indices())
+          sum += tip_mass / length * values.JxW(q) * values.quadrature_point(q).square();
+      }
+      return sum;
+    }
+  } // namespace
+
+  template <int dim>
+  TotalCoordinates<dim>::TotalCoordinates(const ElasticBody<dim> &body)
+      : movers(body.n_dofs())
+      , arms(body.n_dofs())
+  {
+    std::vector<Point<dim>> positions(body.n_dofs());
+    DoFTools::map_dofs_to_support_points(MappingQ1<dim>(), body.dofs(), positions);
+    const auto &fe = body.dofs().get_fe();
+    std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
+    for (const auto &cell : body.dofs().active_cell_iterators())
+    {
+      cell->get_dof_indices(dofs);
+      for (unsigned int i = 0; i < dofs.size(); ++i)
+      {
+        const unsigned int component = fe.system_to_component_index(i).first;
+        arms[dofs[i]]                = component == 0 ? -positions[dofs[i]][1] : component == 1 ? positions[dofs[i]][0] : 0.;
+      }
+    }
+    for (unsigned int dof = 0; dof < body.n_dofs(); ++dof)
+      if (!body.is_held(dof))
+        movers[dof] = { n_free++, 1. };
+    for (unsigned int dof = 0; dof < body.n_dofs(); ++dof)
+      if (body.is_held(dof))
+        movers[dof] = { n_free, arms[dof] };
+  }
+
+  template <int dim>
+  unsigned int TotalCoordinates<dim>::size() const
+  {
+    return n_free + 1;
+  }
+
+  template <int dim>
+  unsigned int TotalCoordinates<dim>::rotation() const
+  {
+    return n_free;
+  }
+
+  template <int dim>
+  const typename TotalCoordinates<dim>::Mover &TotalCoordinates<dim>::mover(const unsigned int dof) const
+  {
+    return movers[dof];
+  }
+
+  template <int dim>
+  double TotalCoordinates<dim>::arm(const unsigned int dof) const
+  {
+    return arms[dof];
+  }
+
+  template <int dim>
+  Vector<double> TotalCoordinates<dim>::rigid_rotation() const
+  {
+    Vector<double> result(size());
+    for (unsigned int dof = 0; dof < movers.size(); ++dof)
+      result[movers[dof].coordinate] = arms[dof];
+    result[rotation()] = 1.;
+    return result;
+  }
+
+  template <int dim>
+  Vector<double> TotalCoordinates<dim>::elastic_displacement(const Vector<double> &total) const
+  {
+    Vector<double> result(static_cast<unsigned int>(movers.size()));
+    for (unsigned int dof = 0; dof < movers.size(); ++dof)
+      if (movers[dof].coordinate != rotation())
+        result[dof] = total[movers[dof].coordinate] - arms[dof] * total[rotation()];
+    return result;
+  }
+
+  template <int dim>
+  InertialMatrices<dim>::InertialMatrices(const ElasticBody<dim> &body, const LeverInertia &inertia)
+      : coordinates(body)
+  {
+    const double of_cells = inertia_of_cells(body, inertia.densities);
+    const double of_tip   = inertia.tip_mass > 0. ? inertia_of_tip(body, inertia.tip_mass) : 0.;
+    if (inertia.moment_of_inertia <= of_tip)
+      throw InputError("the tip mass alone has a moment of inertia of " + rounded_text(of_tip) +
+                       " t mm^2 about the pivot: Lever/Moment of inertia = " + rounded_text(inertia.moment_of_inertia) +
+                       " must be larger");
+    density_factor = (inertia.moment_of_inertia - of_tip) / of_cells;
+
+    auto densities = inertia.densities;
+    for (auto &density : densities)
+      density.second *= density_factor;
+    find_pattern(body);
+    for (auto *const matrix : { &mass, &stiffness, &layer_stiffness })
+      matrix->reinit(pattern);
+    for (auto &row : momentum)
+      row.reinit(coordinates.size());
+    assemble_cells(body, densities);
+    if (inertia.tip_mass > 0.)
+      assemble_tip(body, inertia.tip_mass);
+    for (auto *const matrix : { &mass, &stiffness, &layer_stiffness })
+      matrix->compress(VectorOperation::add);
+  }
+
+  template <int dim>
+  void InertialMatrices<dim>::find_pattern(const ElasticBody<dim> &body)
+  {
+    pattern.reinit(coordinates.size(), coordinates.size());
+    std::vector<types::global_dof_index> dofs(body.dofs().get_fe().n_dofs_per_cell());
+    for (const auto &cell : body.dofs().active_cell_iterators())
+      if (cell->material_id() != material_id::hub)
+      {
+        cell->get_dof_indices(dofs);
+        for (const auto i : dofs)
+          for (const auto j : dofs)
+            pattern.add(coordinates.mover(static_cast<unsigned int>(i)).coordinate,
+                        coordinates.mover(static_cast<unsigned int>(j)).coordinate);
+      }
+    pattern.add(coordinates.rotation(), coordinates.rotation());
+  }
+
+  template <int dim>
+  void InertialMatrices<dim>::sum(const Weights &weights, PETScMatrix &result) const
+  {
+    const std::pair<const PETScMatrix &, double> parts[] = { { mass, weights.mass },
+                                                             { stiffness, weights.stiffness },
+                                                             { layer_stiffness, weights.layer } };
+    result.reinit(pattern);
+    result.compress(VectorOperation::add);
+    for (const auto &[part, weight] : parts)
+      if (weight != 0. && MatAXPY(result, weight, part, SAME_NONZERO_PATTERN) != 0)
+        throw AnalysisError("the matrices of the lever cannot be added");
+    result.add(coordinates.rotation(), coordinates.rotation(), weights.rotation);
+    result.compress(VectorOperation::add);
+  }
+
+  template <int dim>
+  void InertialMatrices<dim>::assemble_cells(const ElasticBody<dim> &body, const std::map<types::material_id, double> &densities)
+  {
+    const auto &properties = body.body_properties();
+    const auto &fe         = body.dofs().get_fe();
+    FEValues<dim> values(fe, QGauss<dim>(properties.degree + 1), update_values | update_gradients | update_JxW_values);
+    Scatter<dim> scatter(coordinates, fe.n_dofs_per_cell());
+    for (const auto &cell : body.dofs().active_cell_iterators())
+    {
+      const auto material = cell->material_id();
+      if (material == material_id::hub)
+        continue;
+      const Lame constants  = plane_constants(properties.constants.at(material), properties.plane);
+      const auto elasticity = linear_elastic<dim>(constants, Tensor<2, dim>()).tangent;
+      values.reinit(cell);
+      scatter.reinit(cell);
+      const auto of_cell   = cell_stiffness(values, elasticity, properties.width);
+      const auto cell_mass = local_mass<dim>(values, densities.at(material) * properties.width);
+      scatter.add(of_cell, stiffness);
+      scatter.add(cell_mass, mass);
+      if (material == material_id::layer)
+        scatter.add(of_cell, layer_stiffness);
+      total_mass += scatter.add_momentum(cell_mass, fe, momentum);
+    }
+  }
+
+  template <int dim>
+  void InertialMatrices<dim>::assemble_tip(const ElasticBody<dim> &body, const double tip_mass)
+  {
+    const auto &fe      = body.dofs().get_fe();
+    const auto faces    = end_face(body.dofs());
+    const double length = total_length<dim>(faces);
+    FEFaceValues<dim> values(fe, QGauss<dim - 1>(body.body_properties().degree + 1), update_values | update_JxW_values);
+    Scatter<dim> scatter(coordinates, fe.n_dofs_per_cell());
+    for (const auto &[cell, f] : faces)
+    {
+      values.reinit(cell, f);
+      scatter.reinit(cell);
+      const auto face_mass = local_mass<dim>(values, tip_mass / length);
+      scatter.add(face_mass, mass);
+      total_mass += scatter.add_momentum(face_mass, fe, momentum);
+    }
+  }
+
+  template class TotalCoordinates<2>;
+  template class InertialMatrices<2>;
+} // namespace sprag

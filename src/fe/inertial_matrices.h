@@ -1,0 +1,92 @@
+#pragma once
+
+#include "fe/elastic_body.h"
+
+#include <deal.II/lac/dynamic_sparsity_pattern.h>
+
+#include <array>
+#include <map>
+#include <vector>
+
+namespace sprag
+{
+  /// Coordinates of a body in axes that do not turn, linear in the rotation of its hub: the total displacements
+  /// u_tot = u_e + theta~ (-eta, xi) of all nodes which the hub does not hold, and last theta~ itself.
+  template <int dim>
+  class TotalCoordinates
+  {
+  public:
+    explicit TotalCoordinates(const ElasticBody<dim> &body);
+
+    /// How many, the rotation included.
+    unsigned int size() const;
+
+    unsigned int rotation() const;
+
+    /// What moves a degree of freedom of the body: a coordinate, and by how much a unit of it does.
+    struct Mover
+    {
+      unsigned int coordinate;
+      double share;
+    };
+
+    const Mover &mover(unsigned int dof) const;
+
+    /// Displacement of a degree of freedom by a unit of rigid rotation [mm].
+    double arm(unsigned int dof) const;
+
+    /// A unit of rigid rotation, in these coordinates.
+    dealii::Vector<double> rigid_rotation() const;
+
+    /// Elastic displacement of all degrees of freedom of the body, in the axes of its hub.
+    dealii::Vector<double> elastic_displacement(const dealii::Vector<double> &total) const;
+
+  private:
+    std::vector<Mover> movers;
+    std::vector<double> arms;
+    unsigned int n_free = 0;
+  };
+
+  /// What a lever weighs. The hub is massless.
+  struct LeverInertia
+  {
+    std::map<dealii::types::material_id, double> densities; ///< before scaling [t/mm^3]
+    double tip_mass          = 0.;                          ///< a line mass on the lever's end face [t]
+    double moment_of_inertia = 0.; ///< about the pivot, what the densities are scaled to; tip mass included [t mm^2]
+  };
+
+  /// Matrices of small vibrations in total coordinates, without the hub's spring.
+  template <int dim>
+  class InertialMatrices
+  {
+  public:
+    /// Throws InputError if the tip mass alone has more than the moment of inertia, or there is no end face for it.
+    InertialMatrices(const ElasticBody<dim> &body, const LeverInertia &inertia);
+
+    const TotalCoordinates<dim> coordinates;
+    dealii::PETScWrappers::SparseMatrix mass;
+    dealii::PETScWrappers::SparseMatrix stiffness;       ///< of lever and friction layer
+    dealii::PETScWrappers::SparseMatrix layer_stiffness; ///< the layer's part of it
+    std::array<dealii::Vector<double>, dim> momentum;    ///< integral of rho u along each axis = row times coordinates [t]
+    double density_factor = 1.;                          ///< by which the densities were scaled
+    double total_mass     = 0.;                          ///< [t]
+
+    /// Factors of a sum of mass, stiffness, the layer's stiffness and a unit on the hub's rotation.
+    struct Weights
+    {
+      double mass;
+      double stiffness;
+      double layer;
+      double rotation;
+    };
+
+    void sum(const Weights &weights, dealii::PETScWrappers::SparseMatrix &result) const;
+
+  private:
+    void find_pattern(const ElasticBody<dim> &body);
+    void assemble_cells(const ElasticBody<dim> &body, const std::map<dealii::types::material_id, double> &densities);
+    void assemble_tip(const ElasticBody<dim> &body, double tip_mass);
+
+    dealii::DynamicSparsityPattern pattern;
+  };
+} // namespace sprag

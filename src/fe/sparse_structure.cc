@@ -1,0 +1,375 @@
+#include "fe/sparse_structure.h"
+
+#include <algorithm>
+
+namespace sprag
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// Modes in which the local error of a step is told.
+    constexpr unsigned int n_error_modes = 8;
+
+    /// Step sizes whose factors are kept.
+    constexpr std::size_t n_steps = 4;
+
+    /// Factors of position, velocity and acceleration at the beginning of a step.
+    using Share = std::array<double, 3>;
+
+    /// Position, and what damping acts on, of a step without force: C times the latter is what the effective matrix leaves out.
+    Share drifted_position(const StepWeights &w)
+    {
+      return { { 1., w.dt, w.dt * w.dt * (0.5 - w.beta) } };
+    }
+
+    Share drifted_rate(const StepWeights &w)
+    {
+      const auto position = drifted_position(w);
+      return { { w.damping() * position[0], w.damping() * position[1] - 1.,
+                 w.damping() * position[2] - w.stiffness() * w.dt * (1. - w.gamma) } };
+    }
+
+    void add(const Share &share, const double factor, const std::array<Vector<double>, 3> &parts, Vector<double> &sum)
+    {
+      for (unsigned int k = 0; k < 3; ++k)
+        if (share[k] * factor != 0.)
+          for (unsigned int i = 0; i < parts[k].size(); ++i)
+            sum[i] += share[k] * factor * parts[k][i];
+    }
+
+    double product(const Vector<double> &a, const Vector<double> &b)
+    {
+      double sum = 0.;
+      for (unsigned int i = 0; i < a.size(); ++i)
+        sum += a[i] * b[i];
+      return sum;
+    }
+  } // namespace
+
+  SparseStructure::SparseStructure(const ElasticBody<2> &body, std::shared_ptr<const InertialMatrices<2>> matrices_,
+                                   const FreeModes &modes, const LeverDynamics &constants_)
+      : matrices(std::move(matrices_))
+      , constants(constants_)
+      , lever_ports(body, *matrices, constants.sprung)
+      , n_lever(matrices->coordinates.size())
+      , mass(matrices->mass)
+      , stiffness(matrices->stiffness)
+      , layer(matrices->layer_stiffness)
+  {
+    for (unsigned int i = 0; i < modes.shapes.size(); ++i)
+    {
+      Vector<double> momentum(n_lever);
+      Vector<double> shape(lever_ports.n_coordinates());
+      std::copy(modes.shapes[i].begin(), modes.shapes[i].end(), shape.begin());
+      mass.multiply<1>({ { &shape } }, { { &momentum } });
+      if (i > 0 && constants.modal_damping > 0.)
+      {
+        damping.directions.push_back(momentum);
+        damping.factors.push_back(2. * constants.modal_damping * std::sqrt(modes.stiffness[i]));
+      }
+      mode_momenta.push_back(momentum);
+      if (i < n_error_modes)
+        mode_ports.push_back(lever_ports.displacements(shape));
+    }
+  }
+
+  const PortLayout &SparseStructure::ports() const
+  {
+    return lever_ports.layout();
+  }
+
+  Motion SparseStructure::rest() const
+  {
+    Motion motion;
+    const unsigned int n            = lever_ports.n_coordinates();
+    motion.coordinates.position     = Vector<double>(n);
+    motion.coordinates.velocity     = Vector<double>(n);
+    motion.coordinates.acceleration = Vector<double>(n);
+    return motion;
+  }
+
+  void SparseStructure::use_statics()
+  {
+    if (!statics)
+    {
+      statics         = std::make_unique<Step>();
+      statics->system = std::make_unique<EffectiveSystem>(
+          *matrices, lever_ports, damping, InertialMatrices<2>::Weights{ 0., 1., 0., constants.spring_stiffness }, 0.);
+      statics->compliance = statics->system->port_compliance(constants.sprung ? 1. / constants.support_stiffness : 0.);
+    }
+    current = statics.get();
+  }
+
+  std::unique_ptr<SparseStructure::Step> SparseStructure::make_step(const StepWeights &w) const
+  {
+    auto step     = std::make_unique<Step>();
+    step->weights = w;
+    const InertialMatrices<2>::Weights of_matrices{ w.mass() + w.damping() * constants.mass_damping,
+                                                    w.stiffness() + w.damping() * constants.stiffness_damping,
+                                                    w.damping() * constants.relaxation,
+                                                    w.stiffness() * constants.spring_stiffness };
+    step->system     = std::make_unique<EffectiveSystem>(*matrices, lever_ports, damping, of_matrices, w.damping());
+    step->compliance = step->system->port_compliance(constants.sprung ? 1. / effective_support(w) : 0.);
+    return step;
+  }
+
+  void SparseStructure::use_step(const StepWeights &weights)
+  {
+    const auto found = std::find_if(steps.begin(), steps.end(),
+                                    [&](const auto &step)
+                                    { return step->weights.dt == weights.dt && step->weights.alpha_f == weights.alpha_f; });
+    if (found == steps.end())
+    {
+      if (steps.size() >= n_steps)
+        steps.erase(steps.begin());
+      steps.push_back(make_step(weights));
+    }
+    else
+      std::rotate(found, found + 1, steps.end());
+    current = steps.back().get();
+  }
+
+  const FullMatrix<double> &SparseStructure::compliance() const
+  {
+    return current->compliance;
+  }
+
+  double SparseStructure::effective_support(const StepWeights &w) const
+  {
+    return w.mass() * constants.support_mass + w.damping() * constants.support_damping +
+           w.stiffness() * constants.support_stiffness;
+  }
+
+  double SparseStructure::free_support(const Kinematic &start, const StepWeights &w) const
+  {
+    const auto position = drifted_position(w);
+    const auto rate     = drifted_rate(w);
+    const double q[]    = { start.position[n_lever], start.velocity[n_lever], start.acceleration[n_lever] };
+    double load         = -w.alpha_m * constants.support_mass * q[2] - w.alpha_f * constants.support_stiffness * q[0];
+    for (unsigned int k = 0; k < 3; ++k)
+      load += (w.mass() * constants.support_mass * position[k] + constants.support_damping * rate[k]) * q[k];
+    return load / effective_support(w);
+  }
+
+  void SparseStructure::add_responses(const Step &step, const PortForces &forces, const double of_support,
+                                      Vector<double> &position) const
+  {
+    for (unsigned int a = 0; a < forces.ports.size(); ++a)
+    {
+      const double force = forces.values[a];
+      if (constants.sprung && forces.ports[a] == ports().support())
+        position[n_lever] += of_support * force;
+      else
+      {
+        const auto &response = step.system->response(forces.ports[a]);
+        for (unsigned int i = 0; i < n_lever; ++i)
+          position[i] += response[i] * force;
+      }
+    }
+  }
+
+  Motion SparseStructure::deform(const PortForces &forces) const
+  {
+    Vector<double> load(lever_ports.n_coordinates());
+    for (unsigned int a = 0; a < forces.ports.size(); ++a)
+      lever_ports.add_force(forces.ports[a], forces.values[a], load);
+    const auto of_lever = statics->system->solve(Vector<double>(load.begin(), load.begin() + n_lever));
+    Motion motion       = rest();
+    std::copy(of_lever.begin(), of_lever.end(), motion.coordinates.position.begin());
+    if (constants.sprung)
+      motion.coordinates.position[n_lever] = load[n_lever] / constants.support_stiffness;
+    return motion;
+  }
+
+  Vector<double> SparseStructure::port_positions(const Motion &motion) const
+  {
+    return lever_ports.displacements(motion.coordinates.position);
+  }
+
+  Kinematic SparseStructure::port_kinematics(const Motion &motion) const
+  {
+    const auto &q = motion.coordinates;
+    return { lever_ports.displacements(q.position), lever_ports.displacements(q.velocity),
+             lever_ports.displacements(q.acceleration) };
+  }
+
+  SparseStructure::Products SparseStructure::make_products(const Motion &motion) const
+  {
+    const auto &q = motion.coordinates;
+    Products of;
+    of.position = q.position;
+    of.velocity = q.velocity;
+    for (unsigned int k = 0; k < 3; ++k)
+    {
+      of.mass[k].reinit(n_lever, true);
+      of.modal[k].reinit(static_cast<unsigned int>(mode_momenta.size()));
+    }
+    const std::array<const Vector<double> *, 3> motions = { { &q.position, &q.velocity, &q.acceleration } };
+    mass.multiply<3>(motions, { { &of.mass[0], &of.mass[1], &of.mass[2] } });
+    const auto multiply = [&](const CompressedRows &matrix, const bool rates, std::array<Vector<double>, 3> &results)
+    {
+      for (unsigned int k = 0; k < (rates ? 3u : 1u); ++k)
+        results[k].reinit(n_lever, true);
+      if (rates)
+        matrix.multiply<3>(motions, { { &results[0], &results[1], &results[2] } });
+      else
+        matrix.multiply<1>({ { motions[0] } }, { { &results[0] } });
+    };
+    multiply(stiffness, constants.stiffness_damping > 0., of.stiffness);
+    multiply(layer, constants.relaxation > 0., of.layer);
+    for (unsigned int i = 0; i < mode_momenta.size(); ++i)
+      for (unsigned int k = 0; k < 3; ++k)
+        of.modal[k][i] = product(mode_momenta[i], *motions[k]);
+    return of;
+  }
+
+  const SparseStructure::Products &SparseStructure::products(const Motion &motion) const
+  {
+    const auto &q       = motion.coordinates;
+    const auto is_equal = [](const Vector<double> &a, const Vector<double> &b)
+    { return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin()); };
+    for (const unsigned int slot : { latest, 1 - latest })
+      if (is_equal(q.position, known[slot].position) && is_equal(q.velocity, known[slot].velocity))
+      {
+        latest = slot;
+        return known[slot];
+      }
+    latest        = 1 - latest;
+    known[latest] = make_products(motion);
+    return known[latest];
+  }
+
+  /// What the effective matrix times the free end position is.
+  Vector<double> SparseStructure::load_of_motion(const Kinematic &start, const Products &of, const StepWeights &w) const
+  {
+    const Share position = drifted_position(w);
+    const Share rate     = drifted_rate(w);
+    Share of_mass;
+    for (unsigned int k = 0; k < 3; ++k)
+      of_mass[k] = w.mass() * position[k] + constants.mass_damping * rate[k];
+    of_mass[2] -= w.alpha_m;
+
+    Vector<double> load(n_lever);
+    add(of_mass, 1., of.mass, load);
+    load.add(-w.alpha_f, of.stiffness[0]);
+    add(rate, constants.stiffness_damping, of.stiffness, load);
+    add(rate, constants.relaxation, of.layer, load);
+    load[n_lever - 1] -= w.alpha_f * constants.spring_stiffness * start.position[n_lever - 1];
+    for (unsigned int i = 0; i < damping.directions.size(); ++i)
+    {
+      double amount = 0.;
+      for (unsigned int k = 0; k < 3; ++k)
+        amount += rate[k] * of.modal[k][i + 1];
+      load.add(damping.factors[i] * amount, damping.directions[i]);
+    }
+    return load;
+  }
+
+  Vector<double> SparseStructure::free_ports(const Motion &accepted) const
+  {
+    const auto &w       = current->weights;
+    const auto &start   = accepted.coordinates;
+    const auto of_lever = current->system->solve(load_of_motion(start, products(accepted), w));
+    free_motion.reinit(lever_ports.n_coordinates(), true);
+    std::copy(of_lever.begin(), of_lever.end(), free_motion.begin());
+    if (constants.sprung)
+      free_motion[n_lever] = free_support(start, w);
+    return lever_ports.displacements(free_motion);
+  }
+
+  Motion SparseStructure::advance(const Motion &accepted, const PortForces &forces, const DrivePoint &to) const
+  {
+    const auto &w = current->weights;
+    Motion motion;
+    motion.drive            = to;
+    Vector<double> position = free_motion;
+    add_responses(*current, forces, constants.sprung ? 1. / effective_support(w) : 0., position);
+    motion.coordinates = unaccelerated(accepted.coordinates, w);
+    set_position(motion.coordinates, position, w);
+    return motion;
+  }
+
+  void SparseStructure::add_work(const Motion &begin, const Motion &end, StepWork &work) const
+  {
+    const auto &w        = current->weights;
+    const auto &q_0      = begin.coordinates;
+    const auto &q_1      = end.coordinates;
+    const Products &of_0 = products(begin);
+    const Products &of_1 = products(end);
+
+    Vector<double> change = q_1.position;
+    change -= q_0.position;
+    // Damping acts on (1 - alpha_f) v_1 + alpha_f v_0.
+    const auto power = [&](const Vector<double> &at_end, const Vector<double> &at_begin)
+    { return w.stiffness() * product(at_end, change) + w.alpha_f * product(at_begin, change); };
+    if (constants.mass_damping > 0.)
+      work.damping += constants.mass_damping * power(of_1.mass[1], of_0.mass[1]);
+    if (constants.stiffness_damping > 0.)
+      work.damping += constants.stiffness_damping * power(of_1.stiffness[1], of_0.stiffness[1]);
+    if (constants.relaxation > 0.)
+      work.damping += constants.relaxation * power(of_1.layer[1], of_0.layer[1]);
+    for (unsigned int i = 0; i < damping.factors.size(); ++i)
+    {
+      const double mean_rate = w.stiffness() * of_1.modal[1][i + 1] + w.alpha_f * of_0.modal[1][i + 1];
+      work.damping += damping.factors[i] * mean_rate * (of_1.modal[0][i + 1] - of_0.modal[0][i + 1]);
+    }
+    const double turn = change[n_lever - 1];
+    work.algorithmic += inertial_dissipation(q_0, q_1, of_0.mass[2], of_1.mass[2], w) +
+                        w.delay() * (product(of_1.stiffness[0], change) - product(of_0.stiffness[0], change) +
+                                     constants.spring_stiffness * turn * turn);
+    if (constants.sprung)
+      add_support_work(q_0, q_1, w, work);
+  }
+
+  void SparseStructure::add_support_work(const Kinematic &q_0, const Kinematic &q_1, const StepWeights &w, StepWork &work) const
+  {
+    const auto of_support = [this](const Kinematic &q)
+    {
+      const auto entry = [&](const Vector<double> &values) { return Vector<double>(values.begin() + n_lever, values.end()); };
+      return Kinematic{ entry(q.position), entry(q.velocity), entry(q.acceleration) };
+    };
+    const auto u_0      = of_support(q_0);
+    const auto u_1      = of_support(q_1);
+    const double change = u_1.position[0] - u_0.position[0];
+    work.damping += constants.support_damping * change * (w.stiffness() * u_1.velocity[0] + w.alpha_f * u_0.velocity[0]);
+    work.algorithmic += constants.support_mass * inertial_dissipation(u_0, u_1, u_0.acceleration, u_1.acceleration, w) +
+                        w.delay() * constants.support_stiffness * change * change;
+  }
+
+  StoredEnergy SparseStructure::stored_energy(const Motion &motion) const
+  {
+    const auto &q  = motion.coordinates;
+    const auto &of = products(motion);
+    StoredEnergy energy;
+    energy.kinetic = 0.5 * product(of.mass[1], q.velocity);
+    energy.spring  = 0.5 * constants.spring_stiffness * q.position[n_lever - 1] * q.position[n_lever - 1];
+    energy.elastic = 0.5 * product(of.stiffness[0], q.position);
+    energy.layer   = 0.5 * product(of.layer[0], q.position);
+    if (constants.sprung)
+    {
+      energy.kinetic += 0.5 * constants.support_mass * q.velocity[n_lever] * q.velocity[n_lever];
+      energy.support = 0.5 * constants.support_stiffness * q.position[n_lever] * q.position[n_lever];
+    }
+    return energy;
+  }
+
+  Vector<double> SparseStructure::port_error(const Motion &begin, const Motion &end) const
+  {
+    const auto &w        = current->weights;
+    const double factor  = w.dt * w.dt * (w.beta - 1. / 6.);
+    const Products &of_0 = products(begin);
+    const Products &of_1 = products(end);
+    Vector<double> result(ports().size());
+    for (unsigned int i = 0; i < mode_ports.size(); ++i)
+      result.add(factor * (of_1.modal[2][i] - of_0.modal[2][i]), mode_ports[i]);
+    if (constants.sprung)
+      result[ports().support()] = factor * (end.coordinates.acceleration[n_lever] - begin.coordinates.acceleration[n_lever]);
+    return result;
+  }
+
+  Vector<double> SparseStructure::elastic_displacement(const Motion &motion) const
+  {
+    return matrices->coordinates.elastic_displacement(motion.coordinates.position);
+  }
+} // namespace sprag
