@@ -13,7 +13,7 @@ namespace sprag
   namespace
   {
     constexpr double beyond       = 1.2;  ///< largest P of the indentation over the run's
-    constexpr double smallest     = 0.05; ///< P counted, over that
+    constexpr double smallest     = 0.05; ///< P counted, over the run's largest
     constexpr double points_drawn = 40.;
 
     /// The scene without friction and with a spring that leads to the largest P.
@@ -45,16 +45,17 @@ namespace sprag
 
   ContactLawFit fit_contact_law(const std::vector<Indentation> &points)
   {
-    double x = 0., y = 0., xx = 0., xy = 0.;
-    const auto n = static_cast<double>(points.size());
+    double n = 0., x = 0., y = 0., xx = 0., xy = 0.;
     for (const auto &point : points)
     {
       const double log_local = std::log(point.local());
       const double log_P     = std::log(point.P);
-      x += log_local;
-      y += log_P;
-      xx += log_local * log_local;
-      xy += log_local * log_P;
+      const double weight    = point.P * point.P;
+      n += weight;
+      x += weight * log_local;
+      y += weight * log_P;
+      xx += weight * log_local * log_local;
+      xy += weight * log_local * log_P;
     }
     ContactLawFit fit{};
     fit.exponent   = (n * xy - x * y) / (n * xx - x * x);
@@ -66,7 +67,7 @@ namespace sprag
       fit.largest_error  = std::max(fit.largest_error, std::abs(error));
       squares += error * error;
     }
-    fit.rms_error = std::sqrt(squares / n);
+    fit.rms_error = std::sqrt(squares / static_cast<double>(points.size()));
     return fit;
   }
 
@@ -79,11 +80,12 @@ namespace sprag
     LeverModel model(triangulation, lever_properties(pressed));
 
     FittedContact result{};
+    const double from = std::max(smallest * reference.P, reference.smallest_P);
     const QuasiStaticSettings settings{ scene.drive.maximum() / points_drawn, scene.analysis.minimum_step, scene.contact };
     run_quasi_static(model, pressed.drive, settings,
                      [&](const State &, const Row &row)
                      {
-                       if (row[Column::P] >= smallest * beyond * reference.P)
+                       if (row[Column::P] >= from)
                          result.points.push_back(indentation(pressed, row));
                      });
     result.fit = fit_contact_law(result.points);

@@ -1,6 +1,7 @@
 #include "fe/free_modes.h"
 
 #include "base/errors.h"
+#include "base/text.h"
 
 #include <algorithm>
 #include <slepceps.h>
@@ -12,8 +13,8 @@ namespace sprag
 
   namespace
   {
-    /// Of |K phi - omega^2 M phi| over |K| + omega^2 |M|, phi of length 1.
-    constexpr double largest_residual = 1e-9;
+    /// Of |K phi - omega^2 M phi| over (|K| + omega^2 |M|) |phi|.
+    constexpr double largest_residual = 1e-10;
 
     void check(const PetscErrorCode code)
     {
@@ -119,12 +120,12 @@ namespace sprag
     FreeModes modes;
     for (unsigned int i = 0; i < wanted; ++i)
     {
-      const double residual = solver.residual(i);
-      if (!(residual < largest_residual))
-        throw AnalysisError("vibration mode " + std::to_string(i + 1) + " was found with a residual of " +
-                            std::to_string(residual) + " only");
       modes.shapes.emplace_back();
       modes.stiffness.push_back(solver.eigenpair(i, modes.shapes.back()));
+      const double residual = solver.residual(i) / modes.shapes.back().l2_norm();
+      if (!(residual < largest_residual))
+        throw AnalysisError("vibration mode " + std::to_string(i + 1) + " was found with a residual of only " +
+                            number_text(residual));
       orient(modes.shapes.back());
     }
     return modes;

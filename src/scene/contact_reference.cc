@@ -4,27 +4,31 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
+#include <limits>
 
 namespace sprag
 {
   namespace
   {
-    /// Largest P over the drive with its s, both ways at peak speed: P of the closed form may be infinite where the lever locks.
-    std::pair<double, double> peak(const Scene &scene)
+    /// P of the closed form over the drive, both ways at peak speed, with s at the largest. It is infinite where the lever locks.
+    void set_forces(const Scene &scene, ContactReference &result)
     {
       constexpr unsigned int samples = 64;
-      std::pair<double, double> largest{ 0., 0. };
-      const double from = scene.drive.minimum();
-      const double to   = scene.drive.maximum();
+      const double from              = scene.drive.minimum();
+      const double to                = scene.drive.maximum();
+      result.smallest_P              = std::numeric_limits<double>::infinity();
       for (unsigned int i = 0; i <= samples; ++i)
         for (const double direction : { 1., -1. })
         {
           const auto state = closed_form(scene, from + (to - from) * i / samples, direction * scene.drive.peak_speed());
-          if (std::isfinite(state.P) && state.P > largest.first)
-            largest = { state.P, state.contact.s };
+          if (!std::isfinite(state.P) || state.P < 0.)
+            continue;
+          result.smallest_P = std::min(result.smallest_P, state.P);
+          if (state.P <= result.P)
+            continue;
+          result.P = state.P;
+          result.s = state.contact.s;
         }
-      return largest;
     }
   } // namespace
 
@@ -33,7 +37,7 @@ namespace sprag
     const auto &contact = scene.contact;
     const auto &layer   = scene.layer;
     ContactReference result{};
-    std::tie(result.P, result.s) = peak(scene);
+    set_forces(scene, result);
 
     const double n     = contact.exponent;
     result.stiffness   = n * std::pow(contact.stiffness, 1. / n) * std::pow(result.P, 1. - 1. / n);

@@ -8,6 +8,7 @@ namespace sprag
   struct ContactReference
   {
     double P;          ///< [N]
+    double smallest_P; ///< of the closed form over the drive [N]
     double s;          ///< pivot to contact there [mm]
     double stiffness;  ///< dP/d(delta) of the scene's contact law at that P [N/mm]
     double relaxation; ///< damping over stiffness: 2 zeta / omega, omega = s sqrt(stiffness / J), zeta = Contact/Damping [s]

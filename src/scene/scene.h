@@ -140,9 +140,9 @@ namespace sprag
   /// Time integration by the generalised-alpha method.
   struct TimeSettings
   {
-    double step            = 5e-5; ///< first step, or every step [s], > 0
-    double tolerance       = 1e-3; ///< of the adaptive step: admissible error of P over its peak; 0: fixed step
-    double spectral_radius = 0.8;  ///< at infinite frequency, 0 ... 1
+    double step      = 5e-5; ///< first step, or every step [s], > 0
+    double tolerance = 5e-3; ///< of the adaptive step: error of P aimed at, over its largest quasi-static value; 0: fixed step
+    double spectral_radius = 0.8; ///< at infinite frequency, 0 ... 1
   };
 
   /// Basis of the condensed model.

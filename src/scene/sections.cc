@@ -234,7 +234,7 @@ namespace sprag
       section.number("Step", settings.step, above(0.), "s", "First time step, or every one where it is fixed");
       section.number_or_auto(
           "Tolerance", tolerance, at_least(0.), "",
-          "Admissible error of P in a step, over its peak; 0: fixed step; auto: 1e-3, or 0 where Step is given");
+          "Error of P aimed at, over its largest quasi-static value; 0: fixed step; auto: 5e-3, or 0 where Step is given");
       section.number("Spectral radius", settings.spectral_radius, { 0., 1. }, "",
                      "Of the generalised-alpha method at infinite frequency; 1: no algorithmic damping");
     }

@@ -1,0 +1,86 @@
+#!/usr/bin/python3
+"""Prints what each fidelity of a run in time costs and how far it is from the finest, in one table: model A with a lever of 6 mm,
+accepted steps per CPU second, no fields; then model A with 20 mm, whose ringing decays and can be compared. See README.md."""
+
+import argparse
+import os
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+ROOT = Path(__file__).resolve().parents[2]
+MODELS = ("closed form", "rigid", "beam", "condensed", "finite element")
+COLUMNS = ("model", "coordinates", "steps", "steps/CPU s", "process s", "cost ratio", "frequency Hz", "error of P", "verdict")
+WIDTHS = (16, 12, 8, 12, 10, 11, 13, 12, 10)
+
+
+def run(sprag, scene, model, changes, output):
+    command = [sprag, ROOT / "params" / scene, "--output", output, "--quiet", "--set", "Output/Fields=none"]
+    for name, value in {"Analysis/Model": model, **changes}.items():
+        command += ["--set", f"{name}={value}"]
+    environment = {**os.environ, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
+    done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
+    if done.returncode != 0:
+        sys.exit(f"{model}: {done.stderr.strip()}")
+    with h5py.File(Path(output) / "result.h5", "r") as file:
+        meta, summary, table = file["meta"], file["summary"], file["table"]
+        verdict = summary["reversal_1_verdict"][()]
+        return {
+            "model": model,
+            "coordinates": meta["coordinates"][()] if "coordinates" in meta else np.nan,
+            "steps": summary["steps"][()],
+            "rate": meta["steps_per_cpu_second"][()],
+            "cpu": meta["cpu_time"][()],
+            "frequency": summary["reversal_1_frequency"][()],
+            "verdict": verdict.decode() if isinstance(verdict, bytes) else str(verdict),
+            "time": table["time"][:],
+            "P": table["P"][:],
+        }
+
+
+def error_of(result, finest):
+    """Largest difference of P over the finest level's peak."""
+    difference = np.interp(finest["time"], result["time"], result["P"]) - finest["P"]
+    return np.nanmax(np.abs(difference)) / finest["P"].max()
+
+
+def print_table(title, results):
+    print(f"\n{title}\n" + "".join(name.rjust(width) for name, width in zip(COLUMNS, WIDTHS)))
+    finest = results[-1]
+    for result in results:
+        cells = (
+            result["model"],
+            "-" if np.isnan(result["coordinates"]) else f"{result['coordinates']:.0f}",
+            f"{result['steps']:.0f}",
+            f"{result['rate']:.0f}",
+            f"{result['cpu']:.2f}",
+            f"{finest['rate'] / result['rate']:.4f}" if result["rate"] > 0 else "-",
+            f"{result['frequency']:.1f}",
+            f"{error_of(result, finest):.3g}",
+            result["verdict"],
+        )
+        print("".join(cell.rjust(width) for cell, width in zip(cells, WIDTHS)), flush=True)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    default = Path(os.environ.get("SPRAG", ROOT / "build" / "sprag"))
+    parser.add_argument("--sprag", type=Path, default=default, help="the program; default $SPRAG or build/sprag")
+    parser.add_argument("--step", default="5e-5", help="Time/Step of all runs [s]")
+    arguments = parser.parse_args()
+    with tempfile.TemporaryDirectory(prefix="sprag-benchmark-") as folder:
+        scenes = (
+            ("Model A, lever of 6 mm, x = 45 ... 65 ... 45 mm", "sprag-slip-a.prm", {"Drive/Start": 45}),
+            ("Model A, lever of 20 mm, x = 45 ... 65 ... 45 mm", "reversal-a.prm", {}),
+        )
+        for title, scene, changes in scenes:
+            changes = {"Time/Step": arguments.step, **changes}
+            print_table(title, [run(arguments.sprag, scene, model, changes, folder) for model in MODELS])
+
+
+if __name__ == "__main__":
+    main()

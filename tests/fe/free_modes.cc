@@ -1,0 +1,149 @@
+#include "fe/free_modes.h"
+
+#include "bar.h"
+#include "fe/compressed_rows.h"
+#include "mpi_environment.h"
+
+#include <cmath>
+#include <functional>
+#include <gtest/gtest.h>
+
+using namespace sprag;
+
+namespace
+{
+  using Vector = dealii::Vector<double>;
+
+  constexpr double young_modulus = 70000.;
+
+  /// Slender, its neutral axis through the pivot.
+  Bar slender_bar()
+  {
+    Bar bar;
+    bar.length = 200.;
+    bar.depth  = 4.;
+    bar.offset = -2.;
+    bar.layer  = 0.;
+    bar.n      = 100;
+    bar.m      = 2;
+    return bar;
+  }
+
+  double mass_of(const Bar &bar)
+  {
+    return 2.7e-9 * bar.length * bar.depth * bar.width;
+  }
+
+  FreeModes modes_of(const Bar &bar, const double tip_mass, const double spring, const unsigned int n)
+  {
+    const MeshedBar meshed(bar, 0.);
+    const double L       = bar.length;
+    const double rotary  = bar.depth * bar.depth / 12.;
+    const double inertia = mass_of(bar) * (L * L / 3. + rotary) + tip_mass * (L * L + rotary);
+    const InertialMatrices<2> matrices(*meshed, bar_inertia(inertia, tip_mass));
+    dealii::PETScWrappers::SparseMatrix stiffness;
+    matrices.sum({ 0., 1., 0., spring }, stiffness);
+    return free_modes(stiffness, matrices.mass, n);
+  }
+
+  double root(const std::function<double(double)> &f, double low, double high)
+  {
+    for (unsigned int i = 0; i < 100; ++i)
+    {
+      const double middle                              = 0.5 * (low + high);
+      ((f(middle) > 0.) == (f(low) > 0.) ? low : high) = middle;
+    }
+    return low;
+  }
+
+  /// omega of an Euler-Bernoulli beam with wave number `beta_length` over its length.
+  double beam(const Bar &bar, const double beta_length)
+  {
+    const double bending = young_modulus * bar.width * std::pow(bar.depth, 3) / 12.;
+    const double L       = bar.length;
+    return beta_length * beta_length * std::sqrt(bending / (mass_of(bar) * L * L * L));
+  }
+
+  /// What rotary inertia and shear take off omega (Timoshenko) of a beam between pins, relatively: 1/2 (beta r)^2 (1 + E/(kappa
+  /// G)).
+  double slenderness_error(const Bar &bar, const double beta_length)
+  {
+    const double beta_r = beta_length / bar.length * bar.depth / std::sqrt(12.);
+    return 0.5 * beta_r * beta_r * (1. + 2. * 6. / 5.);
+  }
+
+  void expect_beam(const Bar &bar, const double omega_squared, const double beta_length, const double ends)
+  {
+    const double share = std::sqrt(omega_squared) / beam(bar, beta_length) - 1.;
+    // The estimate is for sines; other ends bend more than a pinned one, and a tip mass has a rotary inertia of its own.
+    EXPECT_LT(share, 0.);
+    EXPECT_GT(share, -ends * slenderness_error(bar, beta_length)) << beta_length;
+  }
+} // namespace
+
+TEST(FreeModes, OfAHingedBarAreThoseOfABeam)
+{
+  const Bar bar      = slender_bar();
+  const double soft  = 1.;
+  const auto modes   = modes_of(bar, 0., soft, 4);
+  const double J     = mass_of(bar) * (bar.length * bar.length + 0.25 * bar.depth * bar.depth) / 3.;
+  const double swing = soft / J;
+  // Swinging it bends hardly: its frequency is a thousandth of that of bending.
+  EXPECT_NEAR(modes.stiffness[0], swing, 1e-5 * swing);
+  for (unsigned int i = 1; i < 4; ++i)
+  {
+    const double estimate = (i + 0.25) * M_PI;
+    const auto equation   = [](const double x) { return std::cos(x) * std::sinh(x) - std::sin(x) * std::cosh(x); };
+    expect_beam(bar, modes.stiffness[i], root(equation, estimate - 0.2, estimate + 0.2), 1.5);
+  }
+}
+
+// A beam hinged at one end with a mass mu times its own at the other: cot x - coth x = 2 mu x, x = beta L, between i pi and
+// (i + 1/4) pi.
+TEST(FreeModes, OfAHingedBarWithATipMassAreThoseOfABeam)
+{
+  const Bar bar    = slender_bar();
+  const double mu  = 0.5;
+  const auto modes = modes_of(bar, mu * mass_of(bar), 1., 4);
+  for (unsigned int i = 1; i < 4; ++i)
+  {
+    const auto equation = [mu](const double x) { return std::cos(x) / std::sin(x) - 1. / std::tanh(x) - 2. * mu * x; };
+    expect_beam(bar, modes.stiffness[i], root(equation, i * M_PI + 1e-6, (i + 0.25) * M_PI), 3.);
+  }
+}
+
+TEST(FreeModes, OfAHeldBarAreThoseOfABeam)
+{
+  const Bar bar    = slender_bar();
+  const auto modes = modes_of(bar, 0., 1e12, 3);
+  for (unsigned int i = 0; i < 3; ++i)
+  {
+    const double estimate = i == 0 ? 1.875 : (i + 0.5) * M_PI;
+    const auto equation   = [](const double x) { return std::cos(x) + 1. / std::cosh(x); };
+    expect_beam(bar, modes.stiffness[i], root(equation, estimate - 0.1, estimate + 0.1), 3.);
+  }
+}
+
+TEST(FreeModes, AreOrthonormalAndTurnForward)
+{
+  const MeshedBar bar({});
+  const InertialMatrices<2> matrices(*bar, bar_inertia(1e-3, 0.));
+  dealii::PETScWrappers::SparseMatrix stiffness;
+  matrices.sum({ 0., 1., 0., 100. }, stiffness);
+  // Few of them iteratively, all by the dense solver.
+  for (const unsigned int n : { 10u, 1000000u })
+  {
+    const auto modes = free_modes(stiffness, matrices.mass, n);
+    ASSERT_EQ(modes.shapes.size(), std::min(n, matrices.coordinates.size()));
+    const CompressedRows mass(matrices.mass);
+    Vector momentum(matrices.coordinates.size());
+    for (unsigned int i = 0; i < modes.shapes.size(); ++i)
+    {
+      mass.multiply<1>({ { &modes.shapes[i] } }, { { &momentum } });
+      for (unsigned int j = 0; j < modes.shapes.size(); ++j)
+        ASSERT_NEAR(modes.shapes[j] * momentum, i == j ? 1. : 0., 1e-9) << i << " " << j;
+    }
+    EXPECT_GT(modes.shapes[0][matrices.coordinates.rotation()], 0.);
+    EXPECT_TRUE(std::is_sorted(modes.stiffness.begin(), modes.stiffness.end()));
+  }
+}
