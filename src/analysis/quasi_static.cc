@@ -23,6 +23,9 @@ namespace sprag
     constexpr double largest_share = 0.125;
     constexpr double passages      = 3.; ///< after so many the contact slides fully, whichever way it slid more
 
+    constexpr unsigned int stick_solutions = 4;    ///< linear ones that balance a state in stick
+    constexpr double probe_share           = 1e-2; ///< of the overlap, by which the stiffness in stick is probed
+
     struct StepCost
     {
       unsigned int iterations    = 0;
@@ -201,22 +204,32 @@ namespace sprag
       now.row         = observe(model, now.state);
       return now;
     }
+
+    /// The overlap once every point in contact sticks to where it was in the accepted state [mm].
+    double balance_in_stick(Model &model, State &trial, const State &accepted)
+    {
+      double overlap = model.evaluate(trial, accepted, FrictionMode::stick).overlap;
+      for (unsigned int i = 0; i < stick_solutions && overlap > 0.; ++i)
+      {
+        trial.coordinates += model.correction();
+        overlap = model.evaluate(trial, accepted, FrictionMode::stick).overlap;
+      }
+      return overlap;
+    }
   } // namespace
 
   double stick_stiffness(Model &model, const State &accepted)
   {
-    const double probe = 1e-8 * model.length_scale();
-    State trial        = accepted;
-    Row before, after;
-    model.evaluate(trial, accepted, FrictionMode::stick);
-    model.observe(trial, before);
-    if (before[Column::P] <= 0.)
+    // The accepted state itself is not balanced in stick where the multipliers of the augmented Lagrangian are carried over.
+    State trial          = accepted;
+    const double overlap = balance_in_stick(model, trial, accepted);
+    if (overlap == 0.)
       return 0.;
+    Row before, after;
+    model.observe(trial, before);
+    const double probe = probe_share * overlap;
     trial.drive.x += probe;
-    trial.drive.time += probe;
-    model.evaluate(trial, accepted, FrictionMode::stick);
-    trial.coordinates += model.correction();
-    model.evaluate(trial, accepted, FrictionMode::stick);
+    balance_in_stick(model, trial, accepted);
     model.observe(trial, after);
     return (after[Column::F] - before[Column::F]) / probe;
   }

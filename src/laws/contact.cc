@@ -2,12 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
 
 namespace sprag
 {
   namespace
   {
-    /// mu((trial - t) / (eps dt)) p - t, negative at t = trial beyond the stick limit and not negative at t = 0.
+    /// trial - eps dt w - mu(w) p over the slip speed w: positive at rest beyond the stick limit, zero on the cone, not positive
+    /// at w = trial / (eps dt).
     struct Excess
     {
       const FrictionLaw &law;
@@ -15,13 +19,13 @@ namespace sprag
       double pressure;
       double resistance; ///< eps dt
 
-      double operator()(const double t) const
+      double operator()(const double w) const
       {
-        return friction_coefficient(law, (trial - t) / resistance).coefficient * pressure - t;
+        return trial - resistance * w - friction_coefficient(law, w).coefficient * pressure;
       }
-      double derivative(const double t) const
+      double derivative(const double w) const
       {
-        return -friction_coefficient(law, (trial - t) / resistance).derivative * pressure / resistance - 1.;
+        return -resistance - friction_coefficient(law, w).derivative * pressure;
       }
     };
 
@@ -31,41 +35,68 @@ namespace sprag
       double upper;
     };
 
-    /// Around the largest root. Only a table can fall and so have several, which are looked for from above.
-    Bracket bracket_of_root(const Excess &excess)
+    /// Zeros between 0 and 1 of the parabola through values at 0, 1/2 and 1, ascending; 1 for each that is not there.
+    std::pair<double, double> zeros_of_parabola(const double begin, const double middle, const double end)
     {
-      if (!std::holds_alternative<TabulatedFriction>(excess.law.law))
-        return { 0., excess.trial };
-      constexpr unsigned int parts = 64;
-      double upper                 = excess.trial;
-      for (unsigned int i = parts - 1; i > 0; --i)
+      const double square   = 2. * (begin - 2. * middle + end);
+      const double linear   = 4. * middle - 3. * begin - end;
+      const double root     = std::sqrt(linear * linear - 4. * square * begin);
+      const double half_sum = -0.5 * (linear + std::copysign(root, linear));
+      const auto inside     = [](const double zero) { return zero > 0. && zero < 1. ? zero : 1.; };
+      const double first    = inside(half_sum / square);
+      const double second   = inside(begin / half_sum);
+      return std::minmax({ first, second });
+    }
+
+    /// Where the excess, positive at `lower`, first falls to zero between two knots, over which it is one cubic: monotone up to
+    /// and from where its derivative vanishes.
+    std::optional<Bracket> first_fall(const Excess &excess, const double lower, const double upper)
+    {
+      const double length     = upper - lower;
+      const double middle     = excess.derivative(lower + 0.5 * length);
+      const auto [turn, back] = zeros_of_parabola(excess.derivative(lower), middle, excess.derivative(upper));
+      double begin            = lower;
+      for (const double end : { lower + turn * length, lower + back * length, upper })
       {
-        const double t = excess.trial * i / parts;
-        if (excess(t) >= 0.)
-          return { t, upper };
-        upper = t;
+        if (excess(end) <= 0.)
+          return Bracket{ begin, end };
+        begin = end;
       }
-      return { 0., upper };
+      return {};
+    }
+
+    /// Around the lowest speed of slip, the excess being monotone between.
+    Bracket bracket_of_slip(const Excess &excess)
+    {
+      const double fastest = excess.trial / excess.resistance;
+      double lower         = 0.;
+      for (const double knot : friction_knots(excess.law))
+      {
+        const double upper = std::min(knot, fastest);
+        if (const auto found = first_fall(excess, lower, upper))
+          return *found;
+        lower = upper;
+      }
+      return { lower, fastest };
     }
 
     /// Newton's method kept inside the bracket.
-    double slipping_traction(const Excess &excess)
+    double slip_speed(const Excess &excess)
     {
-      auto [lower, upper] = bracket_of_root(excess);
-      const double small  = 4e-16 * excess.trial;
-      double t            = std::clamp(excess(0.), lower, upper);
-      for (unsigned int i = 0; i < 100 && upper - lower > small; ++i)
+      auto [lower, upper]    = bracket_of_slip(excess);
+      const double round_off = 4. * std::numeric_limits<double>::epsilon();
+      double w               = upper;
+      for (unsigned int i = 0; i < 100 && upper - lower > round_off * upper; ++i)
       {
-        const double value           = excess(t);
-        (value > 0. ? lower : upper) = t;
-        double next                  = t - value / excess.derivative(t);
-        if (std::abs(next - t) <= small)
-          return next;
-        if (!(next > lower && next < upper))
-          next = 0.5 * (lower + upper);
-        t = next;
+        const double value = excess(w);
+        if (std::abs(value) <= round_off * excess.trial)
+          return w;
+        (value > 0. ? lower : upper) = w;
+        w -= value / excess.derivative(w);
+        if (!(w > lower && w < upper))
+          w = 0.5 * (lower + upper);
       }
-      return t;
+      return w;
     }
   } // namespace
 
@@ -85,9 +116,8 @@ namespace sprag
       return { trial, 1., 0., mu_0, false };
 
     const double resistance = penalty * dt;
-    const double t          = slipping_traction({ law, size, pressure, resistance });
-    const auto mu           = friction_coefficient(law, (size - t) / resistance);
+    const auto mu           = friction_coefficient(law, slip_speed({ law, size, pressure, resistance }));
     const double rate       = mu.derivative * pressure / resistance;
-    return { sense * t, rate / (1. + rate), sense * mu.coefficient / (1. + rate), mu.coefficient, true };
+    return { sense * mu.coefficient * pressure, rate / (1. + rate), sense * mu.coefficient / (1. + rate), mu.coefficient, true };
   }
 } // namespace sprag

@@ -11,7 +11,13 @@ namespace sprag
   class TabulatedFriction::Interpolant : public MonotoneCubic
   {
   public:
-    using MonotoneCubic::MonotoneCubic;
+    Interpolant(const std::vector<double> &x, const std::vector<double> &y)
+        : MonotoneCubic(x, y)
+        , speeds(x)
+    {
+    }
+
+    const std::vector<double> speeds;
   };
 
   TabulatedFriction::TabulatedFriction(std::vector<double> speeds, std::vector<double> coefficients)
@@ -28,6 +34,11 @@ namespace sprag
   FrictionValue TabulatedFriction::value(const double speed) const
   {
     return { interpolant->value(speed), interpolant->derivative(speed) };
+  }
+
+  const std::vector<double> &TabulatedFriction::speeds() const
+  {
+    return interpolant->speeds;
   }
 
   namespace
@@ -50,10 +61,32 @@ namespace sprag
     {
       return law.value(speed);
     }
+
+    const std::vector<double> &knots_of(const CoulombFriction & /*law*/)
+    {
+      static const std::vector<double> none;
+      return none;
+    }
+
+    const std::vector<double> &knots_of(const CorkOnAluminium & /*law*/)
+    {
+      static const std::vector<double> ends = { 200., 750. };
+      return ends;
+    }
+
+    const std::vector<double> &knots_of(const TabulatedFriction &law)
+    {
+      return law.speeds();
+    }
   } // namespace
 
   FrictionValue friction_coefficient(const FrictionLaw &law, const double speed)
   {
     return std::visit([speed](const auto &choice) { return value_of(choice, speed); }, law.law);
+  }
+
+  const std::vector<double> &friction_knots(const FrictionLaw &law)
+  {
+    return std::visit([](const auto &choice) -> const std::vector<double> & { return knots_of(choice); }, law.law);
   }
 } // namespace sprag

@@ -37,6 +37,8 @@ namespace sprag
 
     FrictionValue value(double speed) const;
 
+    const std::vector<double> &speeds() const;
+
   private:
     class Interpolant;
     std::shared_ptr<const Interpolant> interpolant;
@@ -58,4 +60,7 @@ namespace sprag
 
   /// mu and dmu/d|v| at a sliding speed |v| >= 0 [mm/s]. mu(0) is the cone in stick.
   FrictionValue friction_coefficient(const FrictionLaw &law, double speed);
+
+  /// Speeds [mm/s], ascending, between which mu is one polynomial of degree 3 or less.
+  const std::vector<double> &friction_knots(const FrictionLaw &law);
 } // namespace sprag

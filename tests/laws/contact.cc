@@ -167,10 +167,58 @@ TEST(FrictionTraction, IsContinuousAtTheStickLimit)
     }
 }
 
-TEST(FrictionTraction, OfSeveralAnswersTheLargestIsTaken)
+namespace
 {
-  // Constant at 0.5 up to 10 mm/s, falling to 0.3 at 20 mm/s; eps dt = 1e-3: at a trial of 0.505 both 0.5 (5 mm/s) and 0.3
-  // (205 mm/s) are on the cone. Loading from stick meets 0.5 first.
-  const FrictionLaw law = { TabulatedFriction({ 0., 5., 10., 20., 400. }, { 0.5, 0.5, 0.5, 0.3, 0.3 }), FrictionSpeed::sliding };
-  EXPECT_NEAR(friction_traction(0.505, 1., law, 1., 1e-3).traction, 0.5, 1e-12);
+  // Constant at 0.5 up to 10 mm/s, falling to 0.3 at 20 mm/s.
+  const FrictionLaw drop = { TabulatedFriction({ 0., 5., 10., 20., 400. }, { 0.5, 0.5, 0.5, 0.3, 0.3 }), FrictionSpeed::sliding };
+
+  /// The slip speed at which a trial load that rises from stick first meets the cone, to the width of the scan: the excess of the
+  /// trial over what slip and friction resist changes its sign there.
+  double first_speed_on_cone(const double trial, const double pressure, const FrictionLaw &law, const double resistance,
+                             const double width)
+  {
+    double speed = 0.;
+    while (trial > resistance * speed + friction_coefficient(law, speed).coefficient * pressure)
+      speed += width;
+    return speed;
+  }
+} // namespace
+
+// At 5 mm/s on the cone the same trial of 0.5 + 5 eps dt is met beyond 20 mm/s too: at 205 mm/s with eps dt = 1e-3, at 2e8 mm/s
+// with eps dt = 1e-9, where all tractions from 0.3 to 0.5 lie within 200 mm/s.
+TEST(FrictionTraction, OfSeveralAnswersTheLargestIsTakenHoweverShortTheStep)
+{
+  for (const double dt : { 1e-3, 1e-4, 1e-5, 1e-7, 1e-9 })
+  {
+    const auto friction = friction_traction(0.5 + 5. * dt, 1., drop, 1., dt);
+    EXPECT_NEAR(friction.traction, 0.5, 1e-12) << "eps dt " << dt;
+    EXPECT_EQ(friction.mu, friction.traction);
+  }
+}
+
+// Between 10 and 20 mm/s mu = 0.5 - 0.2 (3 q^2 - 2 q^3), q = (w - 10) / 10: with eps dt = 0.01 the trial of 10.5 mm/s is met
+// again at 11.8 mm/s, and beyond 30 mm/s, but not exceeded at either end of this interval.
+TEST(FrictionTraction, OfSeveralAnswersBetweenTwoRowsOfATableTheLargestIsTaken)
+{
+  const double on_cone = friction_coefficient(drop, 10.5).coefficient;
+  EXPECT_NEAR(on_cone, 0.49855, 1e-12);
+  EXPECT_NEAR(friction_traction(on_cone + 0.01 * 10.5, 1., drop, 1., 0.01).traction, on_cone, 1e-12);
+}
+
+TEST(FrictionTraction, OfSeveralAnswersTheFirstOfAScanIsTaken)
+{
+  constexpr double width = 1e-3;
+  constexpr double range = 1000.; // beyond it mu is constant
+  for (const auto &law : { cork, falling, drop })
+    for (const double resistance : { 1e-6, 1e-3, 5e-3, 1e-2, 2e-2, 0.1 })
+      for (const double share : { 1e-6, 1e-3, 0.01, 0.03, 0.1, 0.2, 0.3, 1. })
+      {
+        const double trial = (1. + share) * friction_coefficient(law, 0.).coefficient;
+        if (trial > resistance * range + friction_coefficient(law, range).coefficient)
+          continue;
+        const auto friction  = friction_traction(trial, 1., law, 1., resistance);
+        const double scanned = first_speed_on_cone(trial, 1., law, resistance, width);
+        EXPECT_NEAR((trial - friction.traction) / resistance, scanned, 2. * width)
+            << "trial " << trial << ", eps dt " << resistance;
+      }
 }
