@@ -41,9 +41,10 @@ namespace sprag
     class QuasiStaticCurve
     {
     public:
-      QuasiStaticCurve(DynamicModel &dynamic_model, const Drive &prescribed)
+      QuasiStaticCurve(DynamicModel &dynamic_model, const Drive &prescribed, const double largest_spacing)
           : model(dynamic_model)
           , drive(prescribed)
+          , spacing(largest_spacing)
       {
         add(0.);
       }
@@ -83,7 +84,7 @@ namespace sprag
       {
         constexpr double speed_change = 0.05;
         const double v                = drive.at(time, Drive::Side::after).v;
-        double dx                     = 4e-3 * (drive.maximum() - drive.minimum());
+        double dx                     = spacing;
         auto point                    = drive.step(time, dx);
         while (std::abs(point.v - v) > speed_change * drive.peak_speed())
           point = drive.step(time, dx *= 0.5);
@@ -92,6 +93,7 @@ namespace sprag
 
       DynamicModel &model;
       const Drive &drive;
+      const double spacing; ///< of x [mm]
       std::vector<Sample> samples;
     };
 
@@ -177,7 +179,7 @@ namespace sprag
   TransientReport run_transient(DynamicModel &model, const Drive &drive, const TransientSettings &settings,
                                 const MotionSink &sink)
   {
-    QuasiStaticCurve quasi_static(model, drive);
+    QuasiStaticCurve quasi_static(model, drive, settings.quasi_static_spacing);
     Motion motion = model.initial_motion(drive.at(0., Drive::Side::after));
     EnergyLedger ledger(model.stored_energy(motion));
     Row first = observe(model, motion, ledger);

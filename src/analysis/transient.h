@@ -12,8 +12,9 @@ namespace sprag
   struct TransientSettings
   {
     TimeSettings time;
-    double force_scale       = 1.; ///< P to which the tolerance refers [N], > 0
-    double contact_stiffness = 1.; ///< dP/d(gap) that turns errors of the gap into such of P [N/mm], > 0
+    double force_scale          = 1.;   ///< P to which the tolerance refers [N], > 0
+    double contact_stiffness    = 1.;   ///< dP/d(gap) that turns errors of the gap into such of P [N/mm], > 0
+    double quasi_static_spacing = 0.25; ///< change of x from one equilibrium to the next, lines between [mm], > 0
   };
 
   /// Called with every accepted motion, the first included, right after the model made it.

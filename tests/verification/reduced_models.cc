@@ -5,13 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <iostream>
 
 using namespace sprag;
 
 namespace
 {
-  constexpr double radius_of_rest = 0.5; ///< spectral radius where only slow motion counts
-
   /// Largest size of a column.
   double peak(const std::vector<Row> &rows, const Column column)
   {
@@ -57,40 +56,54 @@ namespace
     return with_lever(in_time(model_a(), ModelType::beam), 6., 10451., 1.4726);
   }
 
-  /// Error of P over its peak against steps of 2 microseconds, which err themselves by 1e-5 of it.
-  double error_of_P(const Scene &scene)
+  Oscillation oscillation_of(const Scene &scene)
   {
-    const auto reference = run_in_time(with_spectral_radius(with_fixed_step(scene, 2e-6), 1.)).rows;
-    return largest_difference(run_in_time(scene).rows, reference, Column::P) / peak(reference, Column::P);
+    return oscillations(run_in_time(scene).rows, scene.drive).at(0);
+  }
+
+  /// The first row at or behind x on the way there, or back.
+  const Row &row_at(const std::vector<Row> &rows, const double x, const bool back)
+  {
+    const auto passed = [=](const Row &row)
+    { return back ? row[Column::v] < 0. && row[Column::x] <= x : row[Column::v] > 0. && row[Column::x] >= x; };
+    return *std::find_if(rows.begin(), rows.end(), passed);
   }
 } // namespace
 
-// Problem 15. The contact yields by delta = P/k, as if e were less by it: theta, and with it P and Q, are off by the share
-// k_theta/(s (s + sigma mu e)) / k, at most 7.1e-6 of P here. J theta'' is 1e-7 of the spring's moment at 2 mm/s, and the time
-// integration follows a force that changes over seconds to (0.01 s)^2.
+// Problem 15. The contact yields by delta = P/k, as if e were less by it: that takes the share k_theta/(s (s + sigma mu e))/k, at
+// most 7.1e-6, off theta - theta_0 and off P. J theta'' is 1e-6 of the spring's moment. Fast steps beside the contact's period,
+// 160 of its radians, magnify round-off of the gap to some 1e-6 N, and P comes late by 0.04 steps, 6e-6 at most.
 TEST(RigidLever, FollowsTheClosedFormOnAStiffContactUnderASlowDrive)
 {
   for (const auto &paper : { model_a(), model_b(), with_coulomb(model_a(), 0.73) })
   {
-    Scene scene             = with_spectral_radius(with_fixed_step(in_time(paper, ModelType::rigid), 0.01), radius_of_rest);
-    scene.drive             = Drive(DriveProfile::triangle, 0., 65., 2., 1., 0.5);
+    Scene scene             = with_spectral_radius(with_fixed_step(in_time(paper, ModelType::rigid), 1e-3), 0.5);
+    scene.drive             = Drive(DriveProfile::triangle, 0., 65., 5., 1., 0.4);
     scene.contact.stiffness = 1e6;
     const auto rows         = run_in_time(scene).rows;
     const double turn       = scene.drive.reversals().front();
+    double worst            = 0.;
     for (const auto &row : rows)
     {
-      if (row[Column::x] < 2. || std::abs(row[Column::time] - turn) < 1.)
+      if (row[Column::x] < 5. || std::abs(row[Column::time] - turn) < 1.)
         continue;
       const auto ideal   = closed_form(scene, row[Column::x], row[Column::v]);
-      const double arm   = ideal.contact.s + std::copysign(ideal.mu, ideal.v_rel) * scene.geometry.interface_offset;
+      const double arm   = ideal.contact.s + std::copysign(ideal.mu, row[Column::v]) * scene.geometry.interface_offset;
       const double share = scene.spring_stiffness / (ideal.contact.s * arm) / scene.contact.stiffness;
-      EXPECT_NEAR(row[Column::P], ideal.P, (1.1 * share + 1e-6) * ideal.P) << "x " << row[Column::x];
-      EXPECT_NEAR(row[Column::Q], ideal.Q, (1.1 * share + 1e-6) * (std::abs(ideal.Q) + ideal.P * 0.1)) << "x " << row[Column::x];
-      EXPECT_NEAR(row[Column::theta], ideal.contact.theta, 1.1 * ideal.P / scene.contact.stiffness / ideal.contact.s);
+      const double off   = share + 7e-6;
+      EXPECT_NEAR(row[Column::P], ideal.P, off * ideal.P + 5e-6) << "x " << row[Column::x];
+      EXPECT_NEAR(row[Column::Q], ideal.Q, off * (ideal.P * ideal.mu + std::abs(ideal.Q)) + 5e-6) << "x " << row[Column::x];
+      EXPECT_NEAR(row[Column::theta], ideal.contact.theta - ideal.P / scene.contact.stiffness / ideal.contact.s,
+                  1e-4 * ideal.P / scene.contact.stiffness / ideal.contact.s);
+      worst = std::max(worst, std::abs(row[Column::P] - ideal.P) / ideal.P);
     }
+    RecordProperty("largest_relative_deviation_of_P", std::to_string(worst));
   }
 }
 
+// Both levers have the same J. What is left is bending, P s^3/(3 EI) of the contact's overlap P/k_c, 5 % at the true modulus: with
+// E 1e4 times as large 5e-6 of P, tenfold where the contact rings, and as 1/EI from there on. Below 1e-9 the round-off of the
+// overlap in steps that excite bending modes of GHz counts.
 TEST(Beam, TendsToTheRigidLeverInProportionToItsFlexibility)
 {
   const Scene base = with_fixed_step(around_the_reversal(with_coulomb(in_time(model_a(), ModelType::rigid), 0.73)), 5e-5);
@@ -101,33 +114,84 @@ TEST(Beam, TendsToTheRigidLeverInProportionToItsFlexibility)
     Scene scene          = base;
     scene.analysis.model = ModelType::beam;
     scene.lever.young_modulus *= factor;
-    const auto rows  = run_in_time(scene).rows;
-    const double P   = largest_difference(rows, rigid, Column::P) / peak(rigid, Column::P);
-    const double rot = largest_difference(rows, rigid, Column::theta) / peak(rigid, Column::theta);
-    std::cout << factor << " P " << P << " theta " << rot << " ratio " << before / P << '\n';
-    before = P;
+    const auto rows    = run_in_time(scene).rows;
+    const double of_P  = largest_difference(rows, rigid, Column::P) / peak(rigid, Column::P);
+    const double theta = largest_difference(rows, rigid, Column::theta) / peak(rigid, Column::theta);
+    std::cout << factor << ' ' << of_P << ' ' << theta << ' ' << before / of_P << std::endl;
+    before = of_P;
   }
 }
 
-TEST(ReversalOfModelA, VibratesWithAThinLeverAndDecaysWithAThickOne)
+// Problem 17. P = k (theta - theta_0)/(s + sigma mu e). The contact's yield and inertia change P by 0.4 %, and this share itself
+// changes with mu by a twentieth at most: 2e-4. By then the ringing of start and reversal is below 1e-4.
+TEST(Friction, MovesPAndQAsTheMomentBalanceSays)
 {
-  for (const bool thin : { true, false })
+  for (const auto model : { ModelType::rigid, ModelType::beam })
   {
-    const Scene scene = around_the_reversal(thin ? thin_lever() : aluminium_lever(model_a()));
-    const auto rows   = run_in_time(scene).rows;
-    const auto found  = oscillations(rows, scene.drive).at(0);
-    EXPECT_EQ(found.verdict, thin ? Verdict::vibrates : Verdict::decays);
-    std::cout << found.frequency << ' ' << found.open_share << ' ' << found.rms << ' ' << found.rms_end << '\n';
+    const auto rows_with = [&](const double mu)
+    { return run_in_time(driven_by(with_coulomb(in_time(model_a(), model), mu), Drive(DriveProfile::triangle, 10., 65., 112., 1., 5e-3))).rows; };
+    const auto all  = rows_with(0.73);
+    const auto less = rows_with(0.9 * 0.73);
+    for (const bool back : { false, true })
+    {
+      const Row &row       = row_at(all, 40., back);
+      const double v       = row[Column::v];
+      const auto ideal     = closed_form(with_coulomb(model_a(), 0.73), row[Column::x], v);
+      const auto ideal_90  = closed_form(with_coulomb(model_a(), 0.9 * 0.73), row[Column::x], v);
+      const double P_90    = value_at(less, row[Column::time], Column::P);
+      const double Q_90    = value_at(less, row[Column::time], Column::Q);
+      EXPECT_NEAR(P_90 / row[Column::P], ideal_90.P / ideal.P, 2e-4 * ideal_90.P / ideal.P) << back;
+      EXPECT_NEAR(Q_90 / row[Column::Q], ideal_90.Q / ideal.Q, 2e-4 * ideal_90.Q / ideal.Q) << back;
+      std::cout << P_90 / row[Column::P]/( ideal_90.P / ideal.P)-1 << ' ' << Q_90 / row[Column::Q]/( ideal_90.Q / ideal.Q)-1 << std::endl;
+    }
   }
 }
 
+TEST(ReversalOfModelA, VibratesWithAThinLever)
+{
+  const Scene scene = around_the_reversal(thin_lever());
+  const auto rows   = run_in_time(scene).rows;
+  EXPECT_EQ(oscillations(rows, scene.drive).at(0).verdict, Verdict::vibrates);
+
+  // Contact is lost and regained, time and again.
+  unsigned int lost   = 0;
+  unsigned int closed = 0;
+  for (std::size_t i = 1; i < rows.size(); ++i)
+  {
+    EXPECT_GE(rows[i][Column::P], 0.);
+    lost += rows[i][Column::P] == 0. && rows[i - 1][Column::P] > 0. ? 1 : 0;
+    closed += rows[i][Column::P] > 0. && rows[i - 1][Column::P] == 0. ? 1 : 0;
+  }
+  EXPECT_GT(lost, 5u);
+  EXPECT_GE(closed + 1, lost);
+  std::cout << lost << std::endl;
+}
+
+TEST(Reversal, OnlyRingsAndDecaysWithAThickLever)
+{
+  for (const auto &paper : { model_a(), model_b() })
+  {
+    const auto found = oscillation_of(around_the_reversal(aluminium_lever(paper)));
+    EXPECT_EQ(found.verdict, Verdict::decays);
+    EXPECT_EQ(found.open_share, 0.);
+    EXPECT_LT(found.growth_rate, 0.);
+  }
+}
+
+// Against steps of 2 microseconds, which err by 1e-5 themselves, two hundredths of the smaller tolerance.
 TEST(TimeTolerance, BoundsTheErrorOfPOfALeverThatRings)
 {
   for (const auto &paper : { model_a(), model_b() })
   {
-    const Scene scene  = around_the_reversal(aluminium_lever(paper));
-    const double error = error_of_P(scene);
-    std::cout << error / scene.time.tolerance << '\n';
-    EXPECT_LT(error, scene.time.tolerance);
+    Scene scene          = driven_by(aluminium_lever(paper), Drive(DriveProfile::triangle, 60., 65., 112., 1., 5e-3));
+    const auto reference = run_in_time(with_spectral_radius(with_fixed_step(scene, 2e-6), 1.)).rows;
+    for (const double tolerance : { scene.time.tolerance, 1e-3 })
+    {
+      scene.time.tolerance = tolerance;
+      const double error = largest_difference(run_in_time(scene).rows, reference, Column::P) / peak(reference, Column::P);
+      EXPECT_LT(error, tolerance);
+      RecordProperty("error_over_tolerance", std::to_string(error / tolerance));
+      std::cout << tolerance << ' ' << error / tolerance << std::endl;
+    }
   }
 }

@@ -1,0 +1,229 @@
+#include "fe/condensed_basis.h"
+
+#include "bar.h"
+#include "mpi_environment.h"
+
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+using namespace sprag;
+
+namespace
+{
+  using Vector = dealii::Vector<double>;
+
+  constexpr double spring_stiffness = 1e4;
+
+  LeverDynamics constants_of(const bool sprung)
+  {
+    LeverDynamics result;
+    result.spring_stiffness  = spring_stiffness;
+    result.mass_damping      = 20.;
+    result.stiffness_damping = 1e-7;
+    result.relaxation        = 2e-5;
+    result.modal_damping     = 0.02;
+    result.sprung            = sprung;
+    result.support_mass      = 2e-5;
+    result.support_stiffness = 50.;
+    result.support_damping   = 1e-3;
+    return result;
+  }
+
+  BasisSettings settings_of(const unsigned int modes, const std::string &cache = {})
+  {
+    return { modes, spring_stiffness, bar_inertia(1e-3, 1e-7), cache };
+  }
+
+  SparseStructure sparse(const ElasticBody<2> &body, const unsigned int modes, const bool sprung)
+  {
+    const auto matrices = std::make_shared<InertialMatrices<2>>(body, bar_inertia(1e-3, 1e-7));
+    dealii::PETScWrappers::SparseMatrix stiffness;
+    matrices->sum({ 0., 1., 0., spring_stiffness }, stiffness);
+    return SparseStructure(body, matrices, free_modes(stiffness, matrices->mass, modes), constants_of(sprung));
+  }
+
+  PortForces forces_on(const PortLayout &ports)
+  {
+    PortForces forces;
+    forces.ports = { 2, 5, 6, ports.rotation() };
+    if (ports.sprung)
+      forces.ports.push_back(ports.support());
+    forces.values.reinit(static_cast<unsigned int>(forces.ports.size()));
+    for (unsigned int i = 0; i < forces.values.size(); ++i)
+      forces.values[i] = std::cos(1. + i);
+    return forces;
+  }
+
+  /// Displacements of the ports after steps under growing forces.
+  template <class Structure>
+  Vector stepped(Structure &structure)
+  {
+    Motion motion = structure.rest();
+    structure.use_step(generalised_alpha(0.8, 2e-5));
+    for (unsigned int i = 0; i < 5; ++i)
+    {
+      auto forces = forces_on(structure.ports());
+      forces.values *= 1. + i;
+      structure.free_ports(motion);
+      motion = structure.advance(motion, forces, {});
+    }
+    return structure.port_positions(motion);
+  }
+
+  /// A folder that is gone with its owner.
+  class TemporaryFolder
+  {
+  public:
+    TemporaryFolder()
+        : path((std::filesystem::temp_directory_path() / ("sprag-basis-" + std::to_string(::getpid()))).string())
+    {
+    }
+    TemporaryFolder(const TemporaryFolder &)            = delete;
+    TemporaryFolder &operator=(const TemporaryFolder &) = delete;
+    ~TemporaryFolder()
+    {
+      std::filesystem::remove_all(path);
+    }
+
+    const std::string path;
+  };
+
+  std::string only_file(const std::string &folder)
+  {
+    std::string result;
+    for (const auto &entry : std::filesystem::directory_iterator(folder))
+    {
+      EXPECT_TRUE(result.empty()) << "more than one file";
+      result = entry.path().string();
+    }
+    return result;
+  }
+} // namespace
+
+TEST(CondensedBasis, WithAllModesIsTheFiniteElements)
+{
+  const MeshedBar bar({});
+  const unsigned int all = TotalCoordinates<2>(*bar).size();
+  const auto basis       = make_basis(*bar, settings_of(all));
+  ASSERT_EQ(basis.stiffness.size(), all);
+  for (const bool sprung : { false, true })
+  {
+    auto whole = sparse(*bar, all, sprung);
+    ModalStructure condensed(modal_data(basis, constants_of(sprung)));
+    const auto expected = stepped(whole);
+    Vector difference   = stepped(condensed);
+    difference -= expected;
+    EXPECT_LE(difference.linfty_norm(), 1e-8 * expected.linfty_norm()) << sprung;
+
+    whole.use_statics();
+    EXPECT_LE(basis.face_compliance.linfty_norm(), 1e-9 * whole.compliance().linfty_norm());
+  }
+}
+
+TEST(CondensedBasis, WithFewModesHasTheStaticsOfTheFiniteElements)
+{
+  const MeshedBar bar({});
+  for (const unsigned int modes : { 1u, 3u })
+  {
+    auto whole = sparse(*bar, 2, false);
+    ModalStructure condensed(modal_data(make_basis(*bar, settings_of(modes)), constants_of(false)));
+    whole.use_statics();
+    condensed.use_statics();
+    const auto forces   = forces_on(whole.ports());
+    const auto expected = whole.port_positions(whole.deform(forces));
+    Vector difference   = condensed.port_positions(condensed.deform(forces));
+    difference -= expected;
+    EXPECT_LE(difference.linfty_norm(), 1e-9 * expected.linfty_norm()) << modes;
+  }
+}
+
+TEST(CondensedBasis, ItsElasticDisplacementIsThatOfTheFiniteElements)
+{
+  const MeshedBar bar({});
+  const auto settings = settings_of(3);
+  const auto basis    = make_basis(*bar, settings);
+  auto whole          = sparse(*bar, 2, false);
+  ModalStructure condensed(modal_data(basis, constants_of(false)));
+  whole.use_statics();
+  condensed.use_statics();
+  const auto forces   = forces_on(whole.ports());
+  const auto expected = whole.elastic_displacement(whole.deform(forces));
+  Vector difference   = CondensedDisplacement(*bar, settings, basis)(condensed.deform(forces));
+  difference -= expected;
+  EXPECT_LE(difference.linfty_norm(), 1e-9 * expected.linfty_norm());
+}
+
+TEST(CondensedBasis, IsFoundAgain)
+{
+  const TemporaryFolder folder;
+  const MeshedBar bar({});
+  const auto made  = condensed_basis(*bar, settings_of(3, folder.path));
+  const auto found = condensed_basis(*bar, settings_of(3, folder.path));
+  EXPECT_FALSE(made.from_cache);
+  EXPECT_EQ(made.message, "");
+  EXPECT_TRUE(found.from_cache);
+  EXPECT_EQ(found.stiffness, made.stiffness);
+  EXPECT_TRUE(found.shapes == made.shapes);
+  EXPECT_TRUE(found.layer_stiffness == made.layer_stiffness);
+  EXPECT_TRUE(found.face_compliance == made.face_compliance);
+  EXPECT_TRUE(found.coordinate_shapes == made.coordinate_shapes);
+  EXPECT_EQ(found.density_factor, made.density_factor);
+  EXPECT_EQ(found.lever_mass, made.lever_mass);
+  only_file(folder.path);
+}
+
+TEST(CondensedBasis, OfOtherLeversIsAnother)
+{
+  const TemporaryFolder folder;
+  condensed_basis(*MeshedBar({}), settings_of(3, folder.path));
+  EXPECT_FALSE(condensed_basis(*MeshedBar({}), settings_of(4, folder.path)).from_cache);
+  EXPECT_FALSE(condensed_basis(*MeshedBar({}, 0.2), settings_of(3, folder.path)).from_cache);
+  Bar longer;
+  longer.length *= 1.01;
+  EXPECT_FALSE(condensed_basis(*MeshedBar(longer), settings_of(3, folder.path)).from_cache);
+  auto heavier = settings_of(3, folder.path);
+  heavier.inertia.moment_of_inertia *= 1.01;
+  EXPECT_FALSE(condensed_basis(*MeshedBar({}), heavier).from_cache);
+  EXPECT_TRUE(condensed_basis(*MeshedBar({}), settings_of(3, folder.path)).from_cache);
+}
+
+TEST(CondensedBasis, DamagedFilesAreMadeAnew)
+{
+  const TemporaryFolder folder;
+  const MeshedBar bar({});
+  const auto made        = condensed_basis(*bar, settings_of(3, folder.path));
+  const std::string file = only_file(folder.path);
+  const auto size        = std::filesystem::file_size(file);
+  const auto damages     = { 0, 1, 2 };
+  for (const int damage : damages)
+  {
+    if (damage == 0)
+      std::filesystem::resize_file(file, size / 2);
+    else if (damage == 1)
+      std::ofstream(file) << "nothing of the kind";
+    else
+    {
+      std::fstream stream(file, std::ios::in | std::ios::out | std::ios::binary);
+      stream.seekp(static_cast<std::streamoff>(size / 2));
+      stream << "damaged!";
+    }
+    const auto again = condensed_basis(*bar, settings_of(3, folder.path));
+    EXPECT_FALSE(again.from_cache) << damage;
+    EXPECT_EQ(again.stiffness, made.stiffness) << damage;
+    EXPECT_TRUE(condensed_basis(*bar, settings_of(3, folder.path)).from_cache) << damage;
+  }
+}
+
+TEST(CondensedBasis, WithoutACacheFolderIsMadeAndSaysSo)
+{
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(folder.path);
+  const std::string file = folder.path + "/file";
+  std::ofstream(file) << "in the way";
+  const auto basis = condensed_basis(*MeshedBar({}), settings_of(3, file));
+  EXPECT_FALSE(basis.from_cache);
+  EXPECT_NE(basis.message.find(file), std::string::npos);
+  EXPECT_EQ(basis.stiffness.size(), 3u);
+}

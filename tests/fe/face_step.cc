@@ -1,0 +1,272 @@
+#include "fe/face_step.h"
+
+#include "bar.h"
+#include "mpi_environment.h"
+
+#include <gtest/gtest.h>
+#include <random>
+
+using namespace sprag;
+
+namespace
+{
+  using Vector = dealii::Vector<double>;
+
+  constexpr double rest_inclination = 0.05;
+
+  /// A bar of 20 mm whose lower side, turned by 0.05, lies on the cylinder some 12 mm from the pivot.
+  Bar shape()
+  {
+    Bar bar;
+    bar.n = 40;
+    return bar;
+  }
+
+  FaceStepProperties properties_of(const ElasticBody<2> &body, const bool sprung, const double regularisation_speed)
+  {
+    const double R = 6.;
+    FaceStepProperties result;
+    // Touching at x = 0: l sin theta + h cos theta = R - e.
+    result.geometry         = { R, 3., 12., (R - 3. - 12. * std::sin(rest_inclination)) / std::cos(rest_inclination) };
+    result.ports            = { 2 * static_cast<unsigned int>(body.friction_face().nodes.size()), sprung };
+    result.rest_inclination = rest_inclination;
+    result.penalties        = { 240., 120. };
+    result.friction         = { CorkOnAluminium{}, FrictionSpeed::sliding, regularisation_speed };
+    result.layer_thickness  = 0.5;
+    return result;
+  }
+
+  Vector random_ports(const PortLayout &ports, const unsigned int seed)
+  {
+    std::mt19937 generator(seed);
+    std::uniform_real_distribution<double> uniform(-1e-3, 1e-3);
+    Vector result(ports.size());
+    for (auto &value : result)
+      value = uniform(generator);
+    result[ports.rotation()] *= 0.02;
+    return result;
+  }
+
+  /// A step from sliding at 1 mm to `x` in 1e-4 s, everything random but the cylinder pressed in by some 0.01 mm.
+  class Step
+  {
+  public:
+    Step(FaceStepContact &contact, const PortLayout &ports, const double x, const double size = 1.)
+        : weights(generalised_alpha(0.8, 1e-4))
+        , to{ 1e-4, x, (x - 1.) / 1e-4 }
+    {
+      accepted.drive = { 0., 1., 100. };
+      begin.position = pressed(random_ports(ports, 1), ports, 1.);
+      end            = random_ports(ports, 2);
+      end -= random_ports(ports, 1);
+      end *= size;
+      end += pressed(random_ports(ports, 1), ports, x);
+      contact.evaluate_sliding(begin.position, accepted.drive, 100.);
+      accepted.contact = contact.memory();
+    }
+
+    PortStep operator*() const
+    {
+      return { accepted, to, begin, end, rate, weights };
+    }
+
+  private:
+    /// The face moves down by what the circle goes out of its way.
+    static Vector pressed(Vector ports, const PortLayout &layout, const double x)
+    {
+      for (unsigned int i = 1; i < layout.surface; i += 2)
+        ports[i] -= 0.01 - rest_inclination * x;
+      return ports;
+    }
+
+  public:
+    StepWeights weights;
+    DrivePoint to;
+    Motion accepted;
+    Kinematic begin;
+    Vector end;
+    Vector rate;
+  };
+
+  double work_of(const PortForces &forces, const Vector &from, const Vector &to)
+  {
+    double sum = 0.;
+    for (unsigned int a = 0; a < forces.ports.size(); ++a)
+      sum += forces.values[a] * (to[forces.ports[a]] - from[forces.ports[a]]);
+    return sum;
+  }
+
+  /// Largest difference between the tangent and divided differences of the forces, over the largest entry.
+  template <class Evaluate>
+  double tangent_error(FaceStepContact &contact, Vector &ports, const Evaluate &evaluate)
+  {
+    evaluate();
+    const PortForces at = contact.forces();
+    double largest      = 0.;
+    double error        = 0.;
+    for (unsigned int j = 0; j < at.ports.size(); ++j)
+    {
+      const double h    = 1e-7;
+      const double from = ports[at.ports[j]];
+      Vector difference;
+      for (const double sign : { 1., -1. })
+      {
+        ports[at.ports[j]] = from + sign * h;
+        evaluate();
+        EXPECT_EQ(contact.forces().ports, at.ports);
+        if (sign > 0.)
+          difference = contact.forces().values;
+        else
+          difference -= contact.forces().values;
+      }
+      ports[at.ports[j]] = from;
+      for (unsigned int i = 0; i < at.ports.size(); ++i)
+      {
+        largest = std::max(largest, std::abs(at.tangent(i, j)));
+        error   = std::max(error, std::abs(difference[i] / (2. * h) - at.tangent(i, j)));
+      }
+    }
+    evaluate();
+    return error / largest;
+  }
+} // namespace
+
+// Points are 0.05 mm apart and the overlap falls to 0 at a slope of some 0.05: of the points one in some 1e4 changes state by
+// 1e-7 mm, so that a difference is that of a smooth function.
+TEST(FaceStepContact, TangentIsTheDerivativeOfTheForces)
+{
+  const MeshedBar bar(shape());
+  for (const bool sprung : { false, true })
+    for (const double regularisation : { 0., 20. })
+      // Sliding on, sticking, sliding back.
+      for (const double x : { 1.01, 1.0003, 0.99 })
+      {
+        const auto properties = properties_of(*bar, sprung, regularisation);
+        FaceStepContact contact(*bar, properties);
+        Step step(contact, properties.ports, x);
+        EXPECT_LE(tangent_error(contact, step.end, [&] { contact.evaluate(*step); }), 1e-6) << sprung << " " << x;
+        EXPECT_FALSE(contact.forces().ports.empty());
+      }
+}
+
+TEST(FaceStepContact, TangentOfSteadySlidingIsTheDerivativeOfTheForces)
+{
+  const MeshedBar bar(shape());
+  for (const bool sprung : { false, true })
+    for (const double speed : { 100., -100. })
+    {
+      const auto properties = properties_of(*bar, sprung, 0.);
+      FaceStepContact contact(*bar, properties);
+      const Step step(contact, properties.ports, 1.01);
+      Vector ports = step.end;
+      EXPECT_LE(tangent_error(contact, ports, [&] { contact.evaluate_sliding(ports, step.to, speed); }), 1e-6) << speed;
+    }
+}
+
+// What the ports and the drive do is stored or dissipated, up to third order in the movement of a step.
+TEST(FaceStepContact, WorksBalance)
+{
+  const MeshedBar bar(shape());
+  double last = 0.;
+  for (const double share : { 1., 0.5 })
+  {
+    const auto properties = properties_of(*bar, true, 0.);
+    FaceStepContact contact(*bar, properties);
+    const Step step(contact, properties.ports, 1. + 0.05 * share, share);
+    const double before = contact.energy();
+    contact.evaluate(*step);
+    StepWork work;
+    contact.add_work(work);
+    const double of_ports = work_of(contact.forces(), step.begin.position, step.end);
+    const double left     = work.drive - of_ports - (contact.energy() - before) - work.friction - work.algorithmic;
+    EXPECT_GT(work.friction, 0.);
+    EXPECT_LE(std::abs(left), 1e-3 * share * share * share * work.friction / share);
+    if (share < 1.)
+    {
+      EXPECT_LE(std::abs(left), 0.2 * last);
+    }
+    last = std::abs(left);
+  }
+}
+
+TEST(FaceStepContact, FindsAllPointsInReach)
+{
+  const MeshedBar bar(shape());
+  const auto properties = properties_of(*bar, false, 0.);
+  const FacePatches face((*bar).friction_face());
+  const double R = properties.geometry.cylinder_radius;
+  for (const double x : { -6., -3., 0., 3., 6. })
+    for (const double turn : { 0., -0.01, -0.1, 0.2 })
+    {
+      const double theta = rest_inclination + turn;
+      const auto ports   = random_ports(properties.ports, 3);
+      const FaceConfiguration at{ &ports, theta, x, cylinder_centre(properties.geometry, x, theta) };
+      const auto range = face.near(at, R);
+      ASSERT_LT(range.begin, range.end);
+      double inside  = 1e9;
+      double outside = 1e9;
+      for (unsigned int p = 0; p < face.patches().size(); ++p)
+        for (unsigned int q = face.patches()[p].begin; q < face.patches()[p].end; ++q)
+        {
+          const auto position = FacePatches::position(face.points()[q], FacePatches::nodal(face.patches()[p], ports));
+          const double gap    = std::hypot(position.xi - at.centre.xi, position.eta - at.centre.eta) - R;
+          double &least       = p >= range.begin && p < range.end ? inside : outside;
+          least               = std::min(least, gap);
+        }
+      EXPECT_GT(outside, 0.) << x << " " << turn;
+      EXPECT_LE(inside, outside) << x << " " << turn;
+    }
+}
+
+TEST(FaceStepContact, ForcesOfSlidingAreThoseObserved)
+{
+  const MeshedBar bar(shape());
+  const auto properties = properties_of(*bar, false, 0.);
+  FaceStepContact contact(*bar, properties);
+  const Step step(contact, properties.ports, 1.01);
+  contact.evaluate_sliding(step.end, step.to, 100.);
+  Row row;
+  contact.observe(row);
+  double P = 0., F = 0.;
+  for (unsigned int a = 0; a + 1 < contact.forces().ports.size(); ++a)
+    (contact.forces().ports[a] % 2 == 0 ? F : P) += contact.forces().values[a];
+  EXPECT_NEAR(row[Column::P], P, 1e-12 * P);
+  EXPECT_NEAR(row[Column::F], -F, 1e-12 * P);
+  const double theta = rest_inclination + step.end[properties.ports.rotation()];
+  EXPECT_NEAR(row[Column::Q], P * std::sin(theta) - F * std::cos(theta), 1e-12 * P);
+  const double mu = friction_coefficient(properties.friction, 100.).coefficient;
+  EXPECT_NEAR(row[Column::friction_resultant], mu * row[Column::normal_resultant], 1e-12 * P);
+  EXPECT_DOUBLE_EQ(row[Column::v_rel], 100.);
+}
+
+TEST(FaceStepContact, ApartNothingHappens)
+{
+  const MeshedBar bar(shape());
+  const auto properties = properties_of(*bar, false, 0.);
+  FaceStepContact contact(*bar, properties);
+  Vector ports(properties.ports.size());
+  ports[properties.ports.rotation()] = 0.02;
+  EXPECT_TRUE(contact.touch(ports, { 0., 0., 0. }).empty());
+  EXPECT_TRUE(contact.forces().ports.empty());
+  EXPECT_EQ(contact.energy(), 0.);
+  Row row;
+  contact.observe(row);
+  EXPECT_EQ(row[Column::P], 0.);
+  EXPECT_EQ(row[Column::Q], 0.);
+  EXPECT_EQ(row[Column::contact_width], 0.);
+  // Turned further the gap grows by the arm, some 12 mm.
+  Vector change(ports.size());
+  change[properties.ports.rotation()] = 1e-6;
+  EXPECT_NEAR(contact.gap_change(change), 12e-6, 1e-6);
+}
+
+// A drive that moves the cylinder along the face by dx slips it by dx cos theta.
+TEST(FaceStepContact, TellsTheMeanSlip)
+{
+  const MeshedBar bar(shape());
+  const auto properties = properties_of(*bar, false, 0.);
+  FaceStepContact contact(*bar, properties);
+  const Step step(contact, properties.ports, 1.01);
+  const auto &ports = step.begin.position;
+  EXPECT_NEAR(contact.mean_slip(ports, 1., ports, 1. + 1e-4), 1e-4 * std::cos(rest_inclination), 1e-6);
+}

@@ -1,0 +1,324 @@
+#include "fe/sparse_structure.h"
+
+#include "bar.h"
+#include "mpi_environment.h"
+
+#include <gtest/gtest.h>
+#include <random>
+
+using namespace sprag;
+
+namespace
+{
+  using Vector = dealii::Vector<double>;
+  using Full   = dealii::FullMatrix<double>;
+
+  LeverDynamics constants_of(const bool sprung)
+  {
+    LeverDynamics result;
+    result.spring_stiffness  = 1e4;
+    result.mass_damping      = 20.;
+    result.stiffness_damping = 1e-7;
+    result.relaxation        = 2e-5;
+    result.modal_damping     = 0.02;
+    result.sprung            = sprung;
+    result.support_mass      = 2e-5;
+    result.support_stiffness = 50.;
+    result.support_damping   = 1e-3;
+    return result;
+  }
+
+  /// A small lever with what its parts are made of.
+  class SmallLever
+  {
+  public:
+    explicit SmallLever(const bool sprung)
+        : SmallLever(constants_of(sprung))
+    {
+    }
+
+    explicit SmallLever(const LeverDynamics &lever_constants)
+        : constants(lever_constants)
+        , matrices(std::make_shared<InertialMatrices<2>>(*bar, bar_inertia(1e-3, 1e-7)))
+        , modes(find_modes(5))
+        , structure(*bar, matrices, modes, constants)
+    {
+    }
+
+  private:
+    FreeModes find_modes(const unsigned int n) const
+    {
+      dealii::PETScWrappers::SparseMatrix stiffness;
+      matrices->sum({ 0., 1., 0., constants.spring_stiffness }, stiffness);
+      return free_modes(stiffness, matrices->mass, n);
+    }
+
+    const MeshedBar bar{ Bar{} };
+
+  public:
+    const LeverDynamics constants;
+    const std::shared_ptr<const InertialMatrices<2>> matrices;
+    const FreeModes modes;
+    SparseStructure structure;
+  };
+
+  Vector random_vector(const unsigned int n, const double size, const unsigned int seed)
+  {
+    std::mt19937 generator(seed);
+    std::uniform_real_distribution<double> uniform(-size, size);
+    Vector result(n);
+    for (auto &value : result)
+      value = uniform(generator);
+    return result;
+  }
+
+  /// Not in equilibrium: displacements of 0.01 mm that turn into each other in 1e-4 s.
+  Motion random_motion(const SparseStructure &structure)
+  {
+    Motion motion        = structure.rest();
+    auto &q              = motion.coordinates;
+    const unsigned int n = q.position.size();
+    q.position           = random_vector(n, 1e-2, 1);
+    q.velocity           = random_vector(n, 1e2, 2);
+    q.acceleration       = random_vector(n, 1e6, 3);
+    return motion;
+  }
+
+  /// On three of the face's ports and all others.
+  PortForces random_forces(const PortLayout &ports)
+  {
+    PortForces forces;
+    forces.ports = { 2, 5, 6, ports.rotation() };
+    if (ports.sprung)
+      for (unsigned int port = ports.momentum_eta(); port < ports.size(); ++port)
+        forces.ports.push_back(port);
+    forces.values = random_vector(static_cast<unsigned int>(forces.ports.size()), 5., 4);
+    return forces;
+  }
+
+  Full dense(const dealii::PETScWrappers::SparseMatrix &matrix, const unsigned int size)
+  {
+    Full result(size, size);
+    for (unsigned int i = 0; i < matrix.m(); ++i)
+      for (auto entry = matrix.begin(i); entry != matrix.end(i); ++entry)
+        result(i, entry->column()) = entry->value();
+    return result;
+  }
+
+  /// The same lever as dense matrices, the support's coordinate last.
+  struct DenseLever
+  {
+    explicit DenseLever(const SmallLever &lever)
+    {
+      const auto &c              = lever.constants;
+      const unsigned int n_lever = lever.matrices->coordinates.size();
+      const unsigned int n       = n_lever + (c.sprung ? 1 : 0);
+      mass                       = dense(lever.matrices->mass, n);
+      stiffness                  = dense(lever.matrices->stiffness, n);
+      damping                    = dense(lever.matrices->layer_stiffness, n);
+      damping *= c.relaxation;
+      damping.add(c.mass_damping, mass, c.stiffness_damping, stiffness);
+      stiffness(n_lever - 1, n_lever - 1) += c.spring_stiffness;
+      for (unsigned int k = 1; k < lever.modes.shapes.size(); ++k)
+      {
+        Vector shape(n), momentum(n);
+        std::copy(lever.modes.shapes[k].begin(), lever.modes.shapes[k].end(), shape.begin());
+        mass.vmult(momentum, shape);
+        for (unsigned int i = 0; i < n; ++i)
+          for (unsigned int j = 0; j < n; ++j)
+            damping(i, j) += 2. * c.modal_damping * std::sqrt(lever.modes.stiffness[k]) * momentum[i] * momentum[j];
+      }
+      if (c.sprung)
+      {
+        mass(n_lever, n_lever)      = c.support_mass;
+        damping(n_lever, n_lever)   = c.support_damping;
+        stiffness(n_lever, n_lever) = c.support_stiffness;
+      }
+      ports.reinit(lever.structure.ports().size(), n);
+      for (unsigned int j = 0; j < n; ++j)
+      {
+        Motion unit                  = lever.structure.rest();
+        unit.coordinates.position[j] = 1.;
+        const auto displacements     = lever.structure.port_positions(unit);
+        for (unsigned int i = 0; i < ports.m(); ++i)
+          ports(i, j) = displacements[i];
+      }
+    }
+
+    Vector load(const PortForces &forces) const
+    {
+      Vector result(static_cast<unsigned int>(mass.m()));
+      for (unsigned int a = 0; a < forces.ports.size(); ++a)
+        for (unsigned int j = 0; j < result.size(); ++j)
+          result[j] += ports(forces.ports[a], j) * forces.values[a];
+      return result;
+    }
+
+    /// M a_m + C v_f + K q_f - f.
+    Vector residual(const Kinematic &q_0, const Kinematic &q_1, const StepWeights &w, const PortForces &forces) const
+    {
+      const auto mean = [](const Vector &begin, const Vector &end, const double alpha)
+      {
+        Vector result(begin.size());
+        result.add(1. - alpha, end, alpha, begin);
+        return result;
+      };
+      Vector result = load(forces);
+      result *= -1.;
+      mass.vmult_add(result, mean(q_0.acceleration, q_1.acceleration, w.alpha_m));
+      damping.vmult_add(result, mean(q_0.velocity, q_1.velocity, w.alpha_f));
+      stiffness.vmult_add(result, mean(q_0.position, q_1.position, w.alpha_f));
+      return result;
+    }
+
+    Full mass, damping, stiffness, ports;
+  };
+
+  struct OneStep
+  {
+    Motion begin;
+    PortForces forces;
+    StepWeights weights;
+    Vector free;
+    Motion end;
+  };
+
+  OneStep one_step(SmallLever &lever, const double dt)
+  {
+    OneStep step;
+    step.begin   = random_motion(lever.structure);
+    step.forces  = random_forces(lever.structure.ports());
+    step.weights = generalised_alpha(0.8, dt);
+    lever.structure.use_step(step.weights);
+    step.free = lever.structure.free_ports(step.begin);
+    step.end  = lever.structure.advance(step.begin, step.forces, {});
+    return step;
+  }
+} // namespace
+
+TEST(SparseStructure, AStepFulfilsTheEquationsOfMotion)
+{
+  for (const bool sprung : { false, true })
+  {
+    SmallLever lever(sprung);
+    const DenseLever reference(lever);
+    for (const double dt : { 1e-4, 1e-6 })
+    {
+      const auto step = one_step(lever, dt);
+      const auto &q_0 = step.begin.coordinates;
+      const auto &q_1 = step.end.coordinates;
+      const auto left = reference.residual(q_0, q_1, step.weights, step.forces);
+      // Beside the forces of the largest accelerations and displacements.
+      Vector inertia(left.size()), elastic(left.size());
+      reference.mass.vmult(inertia, q_1.acceleration);
+      reference.stiffness.vmult(elastic, q_0.position);
+      EXPECT_LE(left.linfty_norm(), 1e-10 * (inertia.linfty_norm() + elastic.linfty_norm())) << sprung << " " << dt;
+      EXPECT_NEAR(q_1.velocity[3],
+                  q_0.velocity[3] +
+                      dt * ((1. - step.weights.gamma) * q_0.acceleration[3] + step.weights.gamma * q_1.acceleration[3]),
+                  1e-9 * std::abs(q_1.velocity[3]));
+    }
+  }
+}
+
+TEST(SparseStructure, ItsComplianceIsWhatForcesDoToThePorts)
+{
+  for (const bool sprung : { false, true })
+  {
+    SmallLever lever(sprung);
+    const auto step  = one_step(lever, 1e-4);
+    Vector predicted = step.free;
+    add_response(lever.structure.compliance(), step.forces.ports, step.forces.values, predicted);
+    predicted -= lever.structure.port_positions(step.end);
+    EXPECT_LE(predicted.linfty_norm(), 1e-10 * step.free.linfty_norm()) << sprung;
+
+    lever.structure.use_statics();
+    const auto deformed = lever.structure.port_positions(lever.structure.deform(step.forces));
+    Vector expected(deformed.size());
+    add_response(lever.structure.compliance(), step.forces.ports, step.forces.values, expected);
+    expected -= deformed;
+    EXPECT_LE(expected.linfty_norm(), 1e-10 * deformed.linfty_norm()) << sprung;
+  }
+}
+
+// [T] + [U] + damping + algorithmic dissipation = forces times displacements, whatever the step.
+TEST(SparseStructure, WorksBalance)
+{
+  for (const bool sprung : { false, true })
+  {
+    SmallLever lever(sprung);
+    for (const double dt : { 1e-3, 1e-5 })
+    {
+      const auto step  = one_step(lever, dt);
+      const auto begin = lever.structure.stored_energy(step.begin);
+      const auto end   = lever.structure.stored_energy(step.end);
+      const auto sum   = [](const StoredEnergy &e) { return e.kinetic + e.spring + e.elastic + e.support; };
+      const auto from  = lever.structure.port_positions(step.begin);
+      const auto to    = lever.structure.port_positions(step.end);
+      double of_forces = 0.;
+      for (unsigned int a = 0; a < step.forces.ports.size(); ++a)
+        of_forces += step.forces.values[a] * (to[step.forces.ports[a]] - from[step.forces.ports[a]]);
+      StepWork work;
+      lever.structure.add_work(step.begin, step.end, work);
+      const double size = sum(begin) + sum(end) + std::abs(work.damping) + std::abs(work.algorithmic);
+      EXPECT_NEAR(sum(end) - sum(begin) + work.damping + work.algorithmic, of_forces, 1e-11 * size) << sprung << " " << dt;
+      EXPECT_GT(end.layer, 0.);
+      EXPECT_LT(end.layer, end.elastic);
+    }
+  }
+}
+
+// In steps beyond all periods everything dies away by the spectral radius, times n in the nth step as the root is a double one.
+TEST(SparseStructure, HighFrequenciesDecayByTheSpectralRadius)
+{
+  SmallLever lever(false);
+  const double radius = 0.8;
+  const auto w        = generalised_alpha(radius, 1e3);
+  lever.structure.use_step(w);
+  Motion motion = random_motion(lever.structure);
+  motion.coordinates.velocity *= 1e-9;
+  motion.coordinates.acceleration *= 1e-16;
+  std::vector<double> sizes;
+  for (unsigned int i = 0; i < 60; ++i)
+  {
+    lever.structure.free_ports(motion);
+    motion = lever.structure.advance(motion, PortForces(), {});
+    sizes.push_back(motion.coordinates.position.l2_norm());
+  }
+  EXPECT_NEAR(std::pow(sizes[59] / sizes[29], 1. / 30.), radius, 0.03);
+}
+
+// Over a short step an undamped oscillation is off by dt^3 a' (beta - 1/6), a' = -omega^2 v.
+TEST(SparseStructure, TellsTheLocalErrorOfAMode)
+{
+  LeverDynamics undamped;
+  undamped.spring_stiffness = 1e4;
+  SmallLever lever(undamped);
+  const double omega = std::sqrt(lever.modes.stiffness[0]);
+  const double dt    = 0.02 / omega;
+  const auto w       = generalised_alpha(1., dt);
+  auto &structure    = lever.structure;
+  structure.use_step(w);
+  Motion begin               = structure.rest();
+  begin.coordinates.velocity = lever.modes.shapes[0];
+  structure.free_ports(begin);
+  const Motion end       = structure.advance(begin, PortForces(), {});
+  const auto error       = structure.port_error(begin, end);
+  const auto rate        = structure.port_kinematics(begin).velocity;
+  const unsigned int hub = structure.ports().rotation();
+  const double expected  = -dt * dt * dt * (w.beta - 1. / 6.) * omega * omega * rate[hub];
+  EXPECT_NEAR(error[hub], expected, 0.02 * std::abs(expected));
+}
+
+TEST(SparseStructure, KeepsMotionsApart)
+{
+  SmallLever lever(true);
+  const auto first  = one_step(lever, 1e-4);
+  const auto energy = lever.structure.stored_energy(first.end).kinetic;
+  const auto other  = one_step(lever, 3e-4);
+  lever.structure.stored_energy(other.end);
+  lever.structure.stored_energy(lever.structure.rest());
+  EXPECT_EQ(lever.structure.stored_energy(first.end).kinetic, energy);
+  const auto again = one_step(lever, 1e-4);
+  EXPECT_TRUE(again.end.coordinates.position == first.end.coordinates.position);
+}

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "analysis/oscillation.h"
+#include "fe/dynamic_face_lever.h"
+#include "fe/lever_model.h"
+#include "fe/mesh.h"
+#include "mpi_environment.h"
+#include "verification/run_transient.h"
+
+namespace sprag
+{
+  /// A run in time of the scene's meshed lever, condensed or not, in memory.
+  inline TransientRun run_meshed_in_time(const Scene &scene)
+  {
+    dealii::Triangulation<2> triangulation;
+    make_mesh(scene, triangulation);
+    const ElasticBody<2> body(triangulation, lever_properties(scene).body);
+    const double relaxation = contact_reference(scene).relaxation;
+    const auto lever        = scene.analysis.model == ModelType::condensed ? make_condensed_dynamics(scene, body, relaxation)
+                                                                           : make_finite_element_dynamics(scene, body, relaxation);
+    return run_in_time(*lever.model, scene);
+  }
+
+  inline TransientRun run_any_in_time(const Scene &scene)
+  {
+    const bool meshed = scene.analysis.model == ModelType::condensed || scene.analysis.model == ModelType::finite_element;
+    return meshed ? run_meshed_in_time(scene) : run_in_time(scene);
+  }
+
+  /// Oscillation after the only reversal.
+  inline Oscillation oscillation_of(const Scene &scene, const TransientRun &run)
+  {
+    return oscillations(run.rows, scene.drive).front();
+  }
+} // namespace sprag
