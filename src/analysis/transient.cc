@@ -158,8 +158,10 @@ namespace sprag
         attempt.dt          = clock.duration();
         try
         {
-          const auto to   = drive.at(clock.end_of_step());
-          attempt.outcome = model.step(accepted, to, generalised_alpha(settings.time.spectral_radius, attempt.dt));
+          const auto to       = drive.at(clock.end_of_step());
+          auto weights        = generalised_alpha(settings.time.spectral_radius, attempt.dt);
+          weights.wants_error = settings.time.tolerance > 0.;
+          attempt.outcome     = model.step(accepted, to, weights);
         }
         catch (const AnalysisError &error)
         {

@@ -123,6 +123,18 @@ namespace sprag
     return static_cast<unsigned int>(found - all_patches.begin());
   }
 
+  FacePatches::Range FacePatches::patches_between(const double from, const double to) const
+  {
+    const auto last        = static_cast<unsigned int>(all_patches.size()) - 1;
+    const auto ends_before = [&](const Patch &patch, const double xi) { return all_points[patch.end - 1].position.xi < xi; };
+    const auto place       = [&](const double xi)
+    {
+      const auto found = std::lower_bound(all_patches.begin(), all_patches.end(), xi, ends_before);
+      return std::min(last, static_cast<unsigned int>(found - all_patches.begin()));
+    };
+    return { place(from), place(to) + 1 };
+  }
+
   FacePatches::Range FacePatches::patches_of_points(const unsigned int first, const unsigned int last) const
   {
     return { patch_of_point(first), patch_of_point(last) + 1 };

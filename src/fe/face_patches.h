@@ -59,6 +59,9 @@ namespace sprag
     /// Patches within reach of a cylinder, at least the closest one.
     Range near(const FaceConfiguration &at, double radius) const;
 
+    /// Patches of the undeformed face between two lever coordinates, at least one.
+    Range patches_between(double from, double to) const;
+
     Range patches_of_points(unsigned int first, unsigned int last) const;
 
   private:

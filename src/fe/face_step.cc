@@ -85,6 +85,7 @@ namespace sprag
     widen(face.near(begin, R));
     if (!memory.empty())
       widen(face.patches_of_points(memory.front().point, memory.back().point));
+    range = clip(range);
     for (unsigned int patch = range.begin; patch < range.end; ++patch)
       step_patch(patch, begin, end, memory, law);
     sum_forces();
@@ -175,7 +176,7 @@ namespace sprag
     clear(ports, 1.);
     const auto at    = configuration(ports, drive.x);
     const auto law   = law_of_step(drive.v);
-    const auto range = face.near(at, properties.geometry.cylinder_radius);
+    const auto range = clip(face.near(at, properties.geometry.cylinder_radius));
     theta            = at.theta;
     relative_x       = at.x;
     for (unsigned int patch = range.begin; patch < range.end; ++patch)
@@ -304,6 +305,48 @@ namespace sprag
           summed.tangent(target[i], target[j]) += sign(local[i]) * sign(local[j]) * of_patch.tangent[local[i]][local[j]];
       }
     }
+  }
+
+  const PortSelection &FaceStepContact::reachable_ports(const double x, const double inclination)
+  {
+    const double margin = 0.1 * properties.geometry.cylinder_radius + 5. * properties.layer_thickness;
+    const double xi     = cylinder_centre(properties.geometry, x, inclination).xi;
+    const auto range    = face.patches_between(xi - margin, xi + margin);
+    if (!reaches_everywhere && (range.begin != reached.begin || range.end != reached.end))
+      reach(range);
+    return reachable;
+  }
+
+  void FaceStepContact::reach(const FacePatches::Range &range)
+  {
+    reached = range;
+    reachable.clear();
+    for (unsigned int patch = range.begin; patch < range.end; ++patch)
+      for (unsigned int a = 0; a < face.patches()[patch].n_nodes; ++a)
+        for (unsigned int d = 0; d < 2; ++d)
+          reachable.push_back(2 * face.patches()[patch].nodes[a] + d);
+    for (unsigned int port = properties.ports.rotation(); port < properties.ports.size(); ++port)
+      reachable.push_back(port);
+    std::sort(reachable.begin(), reachable.end());
+    reachable.erase(std::unique(reachable.begin(), reachable.end()), reachable.end());
+  }
+
+  /// Without a call of reachable_ports() all can be reached.
+  FacePatches::Range FaceStepContact::clip(const FacePatches::Range &range)
+  {
+    clipped = !reachable.empty() && (range.begin < reached.begin || range.end > reached.end);
+    return clipped ? FacePatches::Range{ std::max(range.begin, reached.begin), std::min(range.end, reached.end) } : range;
+  }
+
+  bool FaceStepContact::within_reach() const
+  {
+    return !clipped;
+  }
+
+  void FaceStepContact::widen_reach()
+  {
+    reaches_everywhere = true;
+    reach({ 0, static_cast<unsigned int>(face.patches().size()) });
   }
 
   const PortForces &FaceStepContact::forces() const

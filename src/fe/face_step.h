@@ -36,6 +36,13 @@ namespace sprag
 
     const PortForces &forces() const;
 
+    /// Ports near the cylinder at x from the pivot frame's origin and inclination theta, far beyond the contact's width.
+    const PortSelection &reachable_ports(double x, double theta);
+
+    /// Whether the contact of the last evaluation was within them. If not, widen_reach() makes them all.
+    bool within_reach() const;
+    void widen_reach();
+
     /// Of the points in contact, increasing.
     std::vector<ContactMemory> memory() const;
 
@@ -119,5 +126,12 @@ namespace sprag
     PortForces summed;
     std::vector<unsigned int> place; ///< of the face nodes' forces among those summed
     unsigned int remembered = 0;     ///< entry of the accepted memory at which the search for a point goes on
+    FacePatches::Range clip(const FacePatches::Range &range);
+    void reach(const FacePatches::Range &range);
+
+    PortSelection reachable;
+    FacePatches::Range reached{ 0, 0 }; ///< patches of `reachable`
+    bool reaches_everywhere = false;
+    bool clipped            = false;
   };
 } // namespace sprag

@@ -187,6 +187,17 @@ namespace sprag
     return lever_ports.displacements(motion.coordinates.position);
   }
 
+  Vector<double> SparseStructure::port_positions(const Motion &motion, const PortSelection &) const
+  {
+    return port_positions(motion);
+  }
+
+  PortState SparseStructure::port_state(const Motion &motion, const unsigned int port) const
+  {
+    const auto &q = motion.coordinates;
+    return { lever_ports.displacements(q.position)[port], lever_ports.displacements(q.velocity)[port] };
+  }
+
   Kinematic SparseStructure::port_kinematics(const Motion &motion) const
   {
     const auto &q = motion.coordinates;
@@ -266,7 +277,7 @@ namespace sprag
     return load;
   }
 
-  Vector<double> SparseStructure::free_ports(const Motion &accepted) const
+  Vector<double> SparseStructure::free_ports(const Motion &accepted, const PortSelection &) const
   {
     const auto &w       = current->weights;
     const auto &start   = accepted.coordinates;

@@ -46,10 +46,12 @@ namespace sprag
     Motion deform(const PortForces &forces) const;
 
     dealii::Vector<double> port_positions(const Motion &motion) const;
+    dealii::Vector<double> port_positions(const Motion &motion, const PortSelection &selected) const;
+    PortState port_state(const Motion &motion, unsigned int port) const;
     Kinematic port_kinematics(const Motion &motion) const;
 
     /// Displacements of the ports at the end of a step without forces in it.
-    dealii::Vector<double> free_ports(const Motion &accepted) const;
+    dealii::Vector<double> free_ports(const Motion &accepted, const PortSelection &selected) const;
 
     /// Completes the step that free_ports() began under its forces.
     Motion advance(const Motion &accepted, const PortForces &forces, const DrivePoint &to) const;

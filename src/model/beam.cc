@@ -11,7 +11,7 @@ namespace sprag
 
   namespace
   {
-    /// Total coordinates: rotation of the pivot, then deflection and slope of nodes 1, 2, ...; node 0 is pinned.
+    /// Rotation of the pivot, then deflection and slope of nodes 1, 2, ... in axes that turn with it; node 0 is pinned.
     struct BeamMatrices
     {
       LAPACKFullMatrix<double> stiffness;
@@ -51,6 +51,30 @@ namespace sprag
         }
     }
 
+    /// From deflections and slopes in axes at rest. A rotation does not bend the beam: between it and the others there is no
+    /// stiffness, and not the remnants of differences either, which would drown the spring of a stiff lever.
+    void use_turning_axes(const BeamMesh &mesh, const double spring_stiffness, BeamMatrices &m)
+    {
+      const unsigned int n = m.mass.m();
+      Vector<double> turn(n);
+      turn[0] = 1.;
+      for (unsigned int node = 1; node <= mesh.elements; ++node)
+      {
+        turn[2 * node - 1] = node * mesh.element_length();
+        turn[2 * node]     = 1.;
+      }
+      Vector<double> weighted(n);
+      m.mass.vmult(weighted, turn);
+      m.momentum[0]     = m.momentum * turn;
+      m.mass(0, 0)      = weighted * turn;
+      m.stiffness(0, 0) = spring_stiffness;
+      for (unsigned int i = 1; i < n; ++i)
+      {
+        m.mass(i, 0) = m.mass(0, i) = weighted[i];
+        m.stiffness(i, 0) = m.stiffness(0, i) = 0.;
+      }
+    }
+
     BeamMatrices make_matrices(const Scene &scene, const BeamMesh &mesh)
     {
       const Lever &lever   = scene.lever;
@@ -75,10 +99,10 @@ namespace sprag
       for (unsigned int element = 0; element < mesh.elements; ++element)
         add_element(element, mesh.element_length(), bending, rho, m);
       const auto tip = static_cast<unsigned int>(coordinate(mesh.elements, 0));
-      m.stiffness(0, 0) += scene.spring_stiffness;
       m.mass(0, 0) += (rho * lever.length + lever.tip_mass) * e_a * e_a;
       m.mass(tip, tip) += lever.tip_mass;
       m.momentum[tip] += lever.tip_mass;
+      use_turning_axes(mesh, scene.spring_stiffness, m);
       return m;
     }
 
@@ -88,22 +112,53 @@ namespace sprag
       FullMatrix<double> shapes; ///< a column a mode, mass 1
     };
 
-    Modes solve_modes(BeamMatrices m)
+    double product(const LAPACKFullMatrix<double> &matrix, const Vector<double> &a, const Vector<double> &b)
+    {
+      Vector<double> weighted(a.size());
+      matrix.vmult(weighted, b);
+      return a * weighted;
+    }
+
+    /// The first mode by inverse iteration from its approximation, which has the round-off of the highest one. Returns its
+    /// stiffness.
+    double refine_first_mode(const BeamMatrices &m, Vector<double> &mode)
+    {
+      constexpr unsigned int most_iterations = 30;
+      auto factor                            = m.stiffness;
+      factor.set_property(LAPACKSupport::symmetric);
+      factor.compute_cholesky_factorization();
+      double stiffness = 0.;
+      double before    = -1.;
+      Vector<double> next(mode.size());
+      for (unsigned int i = 0; i < most_iterations && stiffness != before; ++i)
+      {
+        before = stiffness;
+        m.mass.vmult(next, mode);
+        factor.solve(next);
+        mode = next;
+        mode /= next.linfty_norm();
+        stiffness = product(m.stiffness, mode, mode) / product(m.mass, mode, mode);
+      }
+      return stiffness;
+    }
+
+    Modes solve_modes(const BeamMatrices &m)
     {
       const unsigned int n = m.mass.m();
       std::vector<Vector<double>> vectors(n);
-      const auto mass = m.mass;
-      m.stiffness.compute_generalized_eigenvalues_symmetric(m.mass, vectors);
+      auto stiffness = m.stiffness;
+      auto mass      = m.mass;
+      stiffness.compute_generalized_eigenvalues_symmetric(mass, vectors);
       Modes modes;
       modes.shapes.reinit(n, n);
-      Vector<double> weighted(n);
       for (unsigned int i = 0; i < n; ++i)
       {
-        modes.stiffness.push_back(m.stiffness.eigenvalue(i).real());
-        mass.vmult(weighted, vectors[i]);
-        const double length = std::sqrt(weighted * vectors[i]);
+        modes.stiffness.push_back(i == 0 ? refine_first_mode(m, vectors[0]) : stiffness.eigenvalue(i).real());
+        if (i > 0)
+          vectors[i].add(-product(m.mass, vectors[0], vectors[i]), vectors[0]);
+        vectors[i] /= std::sqrt(product(m.mass, vectors[i], vectors[i]));
         for (unsigned int a = 0; a < n; ++a)
-          modes.shapes(a, i) = vectors[i][a] / length;
+          modes.shapes(a, i) = vectors[i][a];
       }
       return modes;
     }
@@ -116,12 +171,8 @@ namespace sprag
       for (unsigned int i = 0; i < modes.n(); ++i)
       {
         const double rotation = modes(0, i);
-        for (unsigned int node = 1; node <= mesh.elements; ++node)
-        {
-          const double lever_arm       = node * mesh.element_length();
-          data.shapes(2 * node - 2, i) = modes(2 * node - 1, i) - lever_arm * rotation;
-          data.shapes(2 * node - 1, i) = modes(2 * node, i) - rotation;
-        }
+        for (unsigned int a = 0; a < mesh.ports(); ++a)
+          data.shapes(a, i) = modes(1 + a, i);
         data.shapes(data.ports.rotation(), i) = rotation;
         if (!data.ports.sprung)
           continue;

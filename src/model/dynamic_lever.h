@@ -56,9 +56,11 @@ namespace sprag
     {
       structure->use_step(weights);
       const bool rates = Contact::uses_rates || frame.ports.sprung;
-      Kinematic begin  = rates ? structure->port_kinematics(accepted) : Kinematic{ structure->port_positions(accepted), {}, {} };
+      const auto &near = reachable_ports(accepted);
+      Kinematic begin =
+          rates ? structure->port_kinematics(accepted) : Kinematic{ structure->port_positions(accepted, near), {}, {} };
       const Kinematic drifted = rates ? unaccelerated(begin, weights) : Kinematic{};
-      const auto free         = structure->free_ports(accepted);
+      const auto free         = structure->free_ports(accepted, near);
 
       dealii::Vector<double> rate;
       const auto evaluate = [&](const dealii::Vector<double> &z) -> const PortForces &
@@ -75,12 +77,17 @@ namespace sprag
       StepOutcome outcome;
       dealii::Vector<double> z = free;
       const auto &last         = accepted.forces;
-      add_response(structure->compliance(), last.ports, last.values, z);
+      add_response(structure->compliance(), last.ports, last.values, near, z);
       const auto solved = solve_ports(
-          structure->compliance(), free, frame.lengths, evaluate, [&] { return contact->overlap(); }, z);
+          structure->compliance(), free, frame.lengths, near, evaluate, [&] { return contact->overlap(); }, z);
       outcome.iterations = solved.iterations;
       if (!solved.converged)
         return outcome;
+      if (!contact->within_reach())
+      {
+        contact->widen_reach();
+        return step(accepted, to, weights);
+      }
 
       Motion motion        = structure->advance(accepted, *solved.forces, to);
       motion.drive         = to;
@@ -90,7 +97,7 @@ namespace sprag
       structure->add_work(accepted, motion, outcome.work);
       contact->add_work(outcome.work);
       coupling.add_work(begin, z, weights, outcome.work);
-      outcome.error  = std::abs(contact->gap_change(structure->port_error(accepted, motion)));
+      outcome.error  = weights.wants_error ? std::abs(contact->gap_change(structure->port_error(accepted, motion))) : 0.;
       outcome.motion = std::move(motion);
       return outcome;
     }
@@ -99,7 +106,7 @@ namespace sprag
     {
       if (drive.v == 0.)
         return {};
-      if (!sliding(drive, 1.))
+      if (solve_sliding(drive, 1.) == nullptr)
         return {};
       Row row;
       contact->observe(row);
@@ -117,22 +124,20 @@ namespace sprag
 
     void observe(const Motion &motion, Row &row) const override
     {
-      const auto ports        = structure->port_kinematics(motion);
-      const unsigned int hub  = frame.ports.rotation();
-      row[Column::theta]      = frame.rest_inclination + ports.position[hub];
-      row[Column::theta_rate] = ports.velocity[hub];
+      const auto hub          = structure->port_state(motion, frame.ports.rotation());
+      row[Column::theta]      = frame.rest_inclination + hub.position;
+      row[Column::theta_rate] = hub.velocity;
       contact->observe(row);
       row[Column::support_displacement] = 0.;
       row[Column::Q_support]            = row[Column::Q];
-      double x_lever                    = motion.drive.x;
       if (frame.ports.sprung)
       {
-        const unsigned int u              = frame.ports.support();
-        row[Column::support_displacement] = ports.position[u];
-        row[Column::Q_support] = frame.support_stiffness * ports.position[u] + frame.support_damping * ports.velocity[u];
-        x_lever -= ports.position[u];
+        const auto support                = structure->port_state(motion, frame.ports.support());
+        row[Column::support_displacement] = support.position;
+        row[Column::Q_support]            = frame.support_stiffness * support.position + frame.support_damping * support.velocity;
       }
-      row[Column::centre_offset] = row[Column::s] - cylinder_centre(frame.geometry, x_lever, row[Column::theta]).xi;
+      const double x             = motion.drive.x - row[Column::support_displacement];
+      row[Column::centre_offset] = row[Column::s] - cylinder_centre(frame.geometry, x, row[Column::theta]).xi;
     }
 
     FacePoints face_points() const override
@@ -161,7 +166,15 @@ namespace sprag
     const LeverFrame frame;
     FrameCoupling coupling;
     dealii::Vector<double> last_sliding; ///< ports of the last equilibrium, from which the next one starts
+    PortLoads last_forces;               ///< there
     double last_sliding_theta = 0.;      ///< of the ideal contact there
+
+    const PortSelection &reachable_ports(const Motion &motion) const
+    {
+      const double theta = frame.rest_inclination + structure->port_state(motion, frame.ports.rotation()).position;
+      const double u     = frame.ports.sprung ? structure->port_state(motion, frame.ports.support()).position : 0.;
+      return contact->reachable_ports(motion.drive.x - u, theta);
+    }
 
     static DrivePoint moved(DrivePoint drive, const double dx)
     {
@@ -180,25 +193,27 @@ namespace sprag
     /// Slip speed of the deformable lever over that of the rigid one.
     double speed_ratio(const DrivePoint &drive, const double h)
     {
-      const auto before = sliding(moved(drive, -h), 1.);
+      const bool before = solve_sliding(moved(drive, -h), 1.) != nullptr;
       const auto from   = last_sliding;
-      const auto after  = sliding(moved(drive, h), 1.);
+      const bool after  = solve_sliding(moved(drive, h), 1.) != nullptr;
       if (!before || !after)
         return 1.;
       const double slip = contact->mean_slip(from, drive.x - h, last_sliding, drive.x + h);
       return slip / (2. * h * sliding_speed(frame.geometry, drive.x, 1.));
     }
 
-    std::optional<Motion> sliding(const DrivePoint &drive, const double ratio)
+    /// Contact and its forces in steady sliding at the ratio of speeds; null where there is no equilibrium.
+    const PortForces *solve_sliding(const DrivePoint &drive, const double ratio)
     {
       structure->use_statics();
       const unsigned int hub            = frame.ports.rotation();
       const double ideal                = kinematics(frame.geometry, drive.x).theta;
-      dealii::Vector<double> z          = structure->port_positions(structure->rest());
-      const dealii::Vector<double> free = z;
-      if (last_sliding.size() == z.size())
-        z = last_sliding;
-      z[hub] += ideal - (last_sliding.size() == z.size() ? last_sliding_theta : frame.rest_inclination);
+      const auto &near                  = contact->reachable_ports(drive.x, ideal);
+      const dealii::Vector<double> free = structure->port_positions(structure->rest(), near);
+      dealii::Vector<double> z          = free;
+      add_response(structure->compliance(), last_forces.ports, last_forces.values, near, z);
+      z[hub] = (last_sliding.size() > 0 ? last_sliding[hub] - last_sliding_theta : -frame.rest_inclination) + ideal;
+
       const double speed  = ratio * sliding_speed(frame.geometry, drive.x, drive.v);
       const auto evaluate = [&](const dealii::Vector<double> &ports) -> const PortForces &
       {
@@ -206,16 +221,35 @@ namespace sprag
         return contact->forces();
       };
       const auto solved = solve_ports(
-          structure->compliance(), free, frame.lengths, evaluate, [&] { return contact->overlap(); }, z);
+          structure->compliance(), free, frame.lengths, near, evaluate, [&] { return contact->overlap(); }, z);
       if (!solved.converged)
+        return nullptr;
+      if (!contact->within_reach())
+      {
+        contact->widen_reach();
+        return solve_sliding(drive, ratio);
+      }
+      last_sliding       = z;
+      last_sliding_theta = ideal;
+      last_forces        = { solved.forces->ports, solved.forces->values };
+      return solved.forces;
+    }
+
+    std::optional<Motion> sliding(const DrivePoint &drive, const double ratio)
+    {
+      const PortForces *const forces = solve_sliding(drive, ratio);
+      if (forces == nullptr)
         return {};
-      last_sliding         = z;
-      last_sliding_theta   = ideal;
-      Motion motion        = structure->deform(*solved.forces);
+      return deformed(drive, *forces);
+    }
+
+    Motion deformed(const DrivePoint &drive, const PortForces &forces)
+    {
+      Motion motion        = structure->deform(forces);
       motion.drive         = drive;
       motion.contact       = contact->memory();
-      motion.forces.ports  = solved.forces->ports;
-      motion.forces.values = solved.forces->values;
+      motion.forces.ports  = forces.ports;
+      motion.forces.values = forces.values;
       return motion;
     }
   };

@@ -19,7 +19,13 @@ namespace sprag
     Kinematic coordinates;             ///< of the structure
     dealii::Vector<double> face_force; ///< elastic forces in the static face shapes [N]; empty without such shapes
     std::vector<ContactMemory> contact;
-    PortForces forces; ///< of the step that led here, without tangent: where the search for the next ones starts
+    PortLoads forces; ///< of the step that led here: where the search for the next ones starts
+  };
+
+  struct PortState
+  {
+    double position;
+    double velocity;
   };
 
   /// Energies at an instant [N mm].

@@ -14,6 +14,7 @@ namespace sprag
     double alpha_f;
     double beta;
     double gamma;
+    bool wants_error = true; ///< whether the local error of the step is of interest
 
     /// Weights of q_1 in a_m, v_f and q_f: the effective matrix is mass() M + damping() C + stiffness() K.
     double mass() const

@@ -159,13 +159,35 @@ namespace sprag
 
   Vector<double> ModalStructure::port_positions(const Motion &motion) const
   {
+    return port_positions(motion, all_ports(n_ports()));
+  }
+
+  Vector<double> ModalStructure::port_positions(const Motion &motion, const PortSelection &selected) const
+  {
     Vector<double> result(n_ports());
-    data.shapes.vmult(result, motion.coordinates.position);
+    const auto &q = motion.coordinates.position;
+    for (const unsigned int port : selected)
+    {
+      const double *const shape = &data.shapes(port, 0);
+      double sum                = 0.;
+      for (unsigned int i = 0; i < q.size(); ++i)
+        sum += shape[i] * q[i];
+      result[port] = sum;
+    }
     for (unsigned int i = 0; i < motion.face_force.size(); ++i)
       if (const double force = motion.face_force[i]; force != 0.)
-        for (unsigned int j = 0; j < motion.face_force.size(); ++j)
-          result[j] += data.face_compliance(i, j) * force;
+        for (const unsigned int port : selected)
+          if (port < motion.face_force.size())
+            result[port] += data.face_compliance(i, port) * force;
     return result;
+  }
+
+  PortState ModalStructure::port_state(const Motion &motion, const unsigned int port) const
+  {
+    PortState state{ port_positions(motion, { port })[port], 0. };
+    for (unsigned int i = 0; i < n_modes(); ++i)
+      state.velocity += data.shapes(port, i) * motion.coordinates.velocity[i];
+    return state;
   }
 
   Kinematic ModalStructure::port_kinematics(const Motion &motion) const
@@ -176,7 +198,7 @@ namespace sprag
     return result;
   }
 
-  Vector<double> ModalStructure::free_ports(const Motion &accepted) const
+  Vector<double> ModalStructure::free_ports(const Motion &accepted, const PortSelection &selected) const
   {
     const auto &w      = current->weights;
     const auto &start  = accepted.coordinates;
@@ -196,7 +218,7 @@ namespace sprag
     unloaded.coordinates.position = free_motion;
     unloaded.face_force           = accepted.face_force;
     unloaded.face_force *= -(w.alpha_f - data.relaxation / w.dt) / static_weight(w);
-    return port_positions(unloaded);
+    return port_positions(unloaded, selected);
   }
 
   Motion ModalStructure::advance(const Motion &accepted, const PortForces &forces, const DrivePoint &to) const
@@ -250,7 +272,7 @@ namespace sprag
     for (unsigned int i = 0; i < n_modes(); ++i)
       (i == data.support ? energy.support : energy.elastic) += 0.5 * data.stiffness[i] * q.position[i] * q.position[i];
     energy.elastic += 0.5 * quadratic_form(data.face_compliance, motion.face_force);
-    const double rotation = port_positions(motion)[data.ports.rotation()];
+    const double rotation = port_state(motion, data.ports.rotation()).position;
     energy.spring         = 0.5 * data.spring_stiffness * rotation * rotation;
     energy.elastic -= energy.spring;
     return energy;

@@ -26,6 +26,7 @@ namespace sprag
 
   PointContact::PointContact(PointContactProperties point_properties)
       : properties(std::move(point_properties))
+      , all(all_ports(properties.ports.size()))
   {
   }
 
@@ -297,6 +298,18 @@ namespace sprag
   {
     return summed;
   }
+
+  const PortSelection &PointContact::reachable_ports(double, double)
+  {
+    return all;
+  }
+
+  bool PointContact::within_reach() const
+  {
+    return true;
+  }
+
+  void PointContact::widen_reach() {}
 
   std::vector<ContactMemory> PointContact::memory() const
   {

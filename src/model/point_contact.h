@@ -34,6 +34,11 @@ namespace sprag
     void evaluate(const PortStep &step);
     void evaluate_sliding(const dealii::Vector<double> &ports, const DrivePoint &drive, double speed);
     const PortForces &forces() const;
+
+    /// Ports that a contact at that drive position may reach: all.
+    const PortSelection &reachable_ports(double x, double theta);
+    bool within_reach() const;
+    void widen_reach();
     std::vector<ContactMemory> memory() const;
     std::vector<ContactMemory> touch(const dealii::Vector<double> &ports, const DrivePoint &drive);
     void add_work(StepWork &work) const;
@@ -91,5 +96,6 @@ namespace sprag
     double slip_rate  = 0.; ///< at the end of the step [mm/s]
     double relative_x = 0.; ///< of the circle to the pivot frame [mm]
     PortForces summed;
+    const PortSelection all;
   };
 } // namespace sprag

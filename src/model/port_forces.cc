@@ -4,24 +4,34 @@
 
 #include <deal.II/lac/lapack_full_matrix.h>
 
+#include <numeric>
+
 namespace sprag
 {
   using namespace dealii;
 
+  PortSelection all_ports(const unsigned int number)
+  {
+    PortSelection result(number);
+    std::iota(result.begin(), result.end(), 0u);
+    return result;
+  }
+
   void add_response(const FullMatrix<double> &compliance, const std::vector<unsigned int> &ports, const Vector<double> &forces,
-                    Vector<double> &displacements)
+                    const PortSelection &selected, Vector<double> &displacements)
   {
     for (unsigned int a = 0; a < ports.size(); ++a)
     {
       const double force  = forces[a];
       const double *row   = &compliance(ports[a], 0);
       double *const begin = displacements.begin();
-      for (unsigned int i = 0; i < displacements.size(); ++i)
+      for (const unsigned int i : selected)
         begin[i] += row[i] * force;
     }
   }
 
-  Vector<double> port_correction(const FullMatrix<double> &compliance, const PortForces &forces, const Vector<double> &mismatch)
+  Vector<double> port_correction(const FullMatrix<double> &compliance, const PortForces &forces, const PortSelection &selected,
+                                 const Vector<double> &mismatch)
   {
     // (1 - G df/dz) dz = mismatch on the loaded ports; the others follow from the change of the forces.
     const auto n = static_cast<unsigned int>(forces.ports.size());
@@ -54,7 +64,7 @@ namespace sprag
     matrix.solve(change);
     Vector<double> change_of_forces(n);
     forces.tangent.vmult(change_of_forces, change);
-    add_response(compliance, forces.ports, change_of_forces, result);
+    add_response(compliance, forces.ports, change_of_forces, selected, result);
     return result;
   }
 } // namespace sprag

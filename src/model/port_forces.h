@@ -18,11 +18,25 @@ namespace sprag
     dealii::FullMatrix<double> tangent;
   };
 
-  /// Adds G f to the displacements of all ports. G is symmetric.
-  void add_response(const dealii::FullMatrix<double> &compliance, const std::vector<unsigned int> &ports,
-                    const dealii::Vector<double> &forces, dealii::Vector<double> &displacements);
+  /// Forces on some of the ports.
+  struct PortLoads
+  {
+    std::vector<unsigned int> ports; ///< increasing
+    dealii::Vector<double> values;
+  };
 
-  /// Newton's correction of z where mismatch = z_free + G f - z. Throws AnalysisError if the tangent is singular.
+  /// Some of the ports, increasing. A contact that reaches few of many ports looks at those alone; entries of others in vectors
+  /// of all ports mean nothing then.
+  using PortSelection = std::vector<unsigned int>;
+
+  PortSelection all_ports(unsigned int number);
+
+  /// Adds G f to the displacements of the selected ports. G is symmetric.
+  void add_response(const dealii::FullMatrix<double> &compliance, const std::vector<unsigned int> &ports,
+                    const dealii::Vector<double> &forces, const PortSelection &selected, dealii::Vector<double> &displacements);
+
+  /// Newton's correction of z on the selected ports where mismatch = z_free + G f - z there; they contain those of the forces.
+  /// Throws AnalysisError if the tangent is singular.
   dealii::Vector<double> port_correction(const dealii::FullMatrix<double> &compliance, const PortForces &forces,
-                                         const dealii::Vector<double> &mismatch);
+                                         const PortSelection &selected, const dealii::Vector<double> &mismatch);
 } // namespace sprag

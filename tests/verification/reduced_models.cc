@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
-#include <iostream>
 
 using namespace sprag;
 
@@ -23,10 +22,10 @@ namespace
   /// By a line between the rows beside the time.
   double value_at(const std::vector<Row> &rows, const double time, const Column column)
   {
-    const auto after = std::lower_bound(rows.begin() + 1, rows.end() - 1, time,
-                                        [](const Row &row, const double value) { return row[Column::time] < value; });
-    const Row &end   = *after;
-    const Row &begin = *(after - 1);
+    const auto after  = std::lower_bound(rows.begin() + 1, rows.end() - 1, time,
+                                         [](const Row &row, const double value) { return row[Column::time] < value; });
+    const Row &end    = *after;
+    const Row &begin  = *(after - 1);
     const double part = (time - begin[Column::time]) / (end[Column::time] - begin[Column::time]);
     return begin[column] + part * (end[column] - begin[column]);
   }
@@ -72,7 +71,7 @@ namespace
 
 // Problem 15. The contact yields by delta = P/k, as if e were less by it: that takes the share k_theta/(s (s + sigma mu e))/k, at
 // most 7.1e-6, off theta - theta_0 and off P. J theta'' is 1e-6 of the spring's moment. Fast steps beside the contact's period,
-// 160 of its radians, magnify round-off of the gap to some 1e-6 N, and P comes late by 0.04 steps, 6e-6 at most.
+// 160 of its radians, magnify round-off of the gap to some 1e-5 N, and P comes late by 0.04 steps, 6e-6 at most.
 TEST(RigidLever, FollowsTheClosedFormOnAStiffContactUnderASlowDrive)
 {
   for (const auto &paper : { model_a(), model_b(), with_coulomb(model_a(), 0.73) })
@@ -91,8 +90,8 @@ TEST(RigidLever, FollowsTheClosedFormOnAStiffContactUnderASlowDrive)
       const double arm   = ideal.contact.s + std::copysign(ideal.mu, row[Column::v]) * scene.geometry.interface_offset;
       const double share = scene.spring_stiffness / (ideal.contact.s * arm) / scene.contact.stiffness;
       const double off   = share + 7e-6;
-      EXPECT_NEAR(row[Column::P], ideal.P, off * ideal.P + 5e-6) << "x " << row[Column::x];
-      EXPECT_NEAR(row[Column::Q], ideal.Q, off * (ideal.P * ideal.mu + std::abs(ideal.Q)) + 5e-6) << "x " << row[Column::x];
+      EXPECT_NEAR(row[Column::P], ideal.P, off * ideal.P + 2e-5) << "x " << row[Column::x];
+      EXPECT_NEAR(row[Column::Q], ideal.Q, off * (ideal.P * ideal.mu + std::abs(ideal.Q)) + 2e-5) << "x " << row[Column::x];
       EXPECT_NEAR(row[Column::theta], ideal.contact.theta - ideal.P / scene.contact.stiffness / ideal.contact.s,
                   1e-4 * ideal.P / scene.contact.stiffness / ideal.contact.s);
       worst = std::max(worst, std::abs(row[Column::P] - ideal.P) / ideal.P);
@@ -101,9 +100,8 @@ TEST(RigidLever, FollowsTheClosedFormOnAStiffContactUnderASlowDrive)
   }
 }
 
-// Both levers have the same J. What is left is bending, P s^3/(3 EI) of the contact's overlap P/k_c, 5 % at the true modulus: with
-// E 1e4 times as large 5e-6 of P, tenfold where the contact rings, and as 1/EI from there on. Below 1e-9 the round-off of the
-// overlap in steps that excite bending modes of GHz counts.
+// Both levers have the same J. At the true modulus the bending flexibility s^3/(3 EI) is 0.6 of the contact's 1/k_c, with a
+// larger E that much less, and P, theta and the frequency of the ringing differ by less than this share.
 TEST(Beam, TendsToTheRigidLeverInProportionToItsFlexibility)
 {
   const Scene base = with_fixed_step(around_the_reversal(with_coulomb(in_time(model_a(), ModelType::rigid), 0.73)), 5e-5);
@@ -117,32 +115,42 @@ TEST(Beam, TendsToTheRigidLeverInProportionToItsFlexibility)
     const auto rows    = run_in_time(scene).rows;
     const double of_P  = largest_difference(rows, rigid, Column::P) / peak(rigid, Column::P);
     const double theta = largest_difference(rows, rigid, Column::theta) / peak(rigid, Column::theta);
-    std::cout << factor << ' ' << of_P << ' ' << theta << ' ' << before / of_P << std::endl;
+    EXPECT_LT(of_P, 0.6 / factor);
+    EXPECT_LT(theta, 0.6 / factor);
+    // Round-off of the overlap of 0.01 mm, 1e-14 mm of 200, is 1e-12 of P.
+    if (before > 0.)
+    {
+      EXPECT_NEAR(before / of_P, 10., 0.04 + 2e-11 / of_P) << factor;
+    }
     before = of_P;
+    RecordProperty("P_at_" + std::to_string(factor), std::to_string(of_P * factor) + "/factor");
   }
 }
 
 // Problem 17. P = k (theta - theta_0)/(s + sigma mu e). The contact's yield and inertia change P by 0.4 %, and this share itself
-// changes with mu by a twentieth at most: 2e-4. By then the ringing of start and reversal is below 1e-4.
+// changes with mu by a twentieth at most: 2e-4. At x = 20 the ringing has decayed.
 TEST(Friction, MovesPAndQAsTheMomentBalanceSays)
 {
   for (const auto model : { ModelType::rigid, ModelType::beam })
   {
     const auto rows_with = [&](const double mu)
-    { return run_in_time(driven_by(with_coulomb(in_time(model_a(), model), mu), Drive(DriveProfile::triangle, 10., 65., 112., 1., 5e-3))).rows; };
+    {
+      return run_in_time(
+                 driven_by(with_coulomb(in_time(model_a(), model), mu), Drive(DriveProfile::triangle, 10., 65., 112., 1., 5e-3)))
+          .rows;
+    };
     const auto all  = rows_with(0.73);
     const auto less = rows_with(0.9 * 0.73);
     for (const bool back : { false, true })
     {
-      const Row &row       = row_at(all, 40., back);
-      const double v       = row[Column::v];
-      const auto ideal     = closed_form(with_coulomb(model_a(), 0.73), row[Column::x], v);
-      const auto ideal_90  = closed_form(with_coulomb(model_a(), 0.9 * 0.73), row[Column::x], v);
-      const double P_90    = value_at(less, row[Column::time], Column::P);
-      const double Q_90    = value_at(less, row[Column::time], Column::Q);
+      const Row &row      = row_at(all, 20., back);
+      const double v      = row[Column::v];
+      const auto ideal    = closed_form(with_coulomb(model_a(), 0.73), row[Column::x], v);
+      const auto ideal_90 = closed_form(with_coulomb(model_a(), 0.9 * 0.73), row[Column::x], v);
+      const double P_90   = value_at(less, row[Column::time], Column::P);
+      const double Q_90   = value_at(less, row[Column::time], Column::Q);
       EXPECT_NEAR(P_90 / row[Column::P], ideal_90.P / ideal.P, 2e-4 * ideal_90.P / ideal.P) << back;
       EXPECT_NEAR(Q_90 / row[Column::Q], ideal_90.Q / ideal.Q, 2e-4 * ideal_90.Q / ideal.Q) << back;
-      std::cout << P_90 / row[Column::P]/( ideal_90.P / ideal.P)-1 << ' ' << Q_90 / row[Column::Q]/( ideal_90.Q / ideal.Q)-1 << std::endl;
     }
   }
 }
@@ -164,7 +172,6 @@ TEST(ReversalOfModelA, VibratesWithAThinLever)
   }
   EXPECT_GT(lost, 5u);
   EXPECT_GE(closed + 1, lost);
-  std::cout << lost << std::endl;
 }
 
 TEST(Reversal, OnlyRingsAndDecaysWithAThickLever)
@@ -188,10 +195,9 @@ TEST(TimeTolerance, BoundsTheErrorOfPOfALeverThatRings)
     for (const double tolerance : { scene.time.tolerance, 1e-3 })
     {
       scene.time.tolerance = tolerance;
-      const double error = largest_difference(run_in_time(scene).rows, reference, Column::P) / peak(reference, Column::P);
+      const double error   = largest_difference(run_in_time(scene).rows, reference, Column::P) / peak(reference, Column::P);
       EXPECT_LT(error, tolerance);
       RecordProperty("error_over_tolerance", std::to_string(error / tolerance));
-      std::cout << tolerance << ' ' << error / tolerance << std::endl;
     }
   }
 }
