@@ -66,7 +66,7 @@ namespace
     {
       auto forces = forces_on(structure.ports());
       forces.values *= 1. + i;
-      structure.free_ports(motion);
+      structure.free_ports(motion, all_ports(structure.ports().size()));
       motion = structure.advance(motion, forces, {});
     }
     return structure.port_positions(motion);

@@ -1,0 +1,188 @@
+#include "model/frame_coupling.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
+
+using namespace sprag;
+
+namespace
+{
+  using Vector = dealii::Vector<double>;
+
+  const PortLayout layout      = { 2, true };
+  constexpr double rest        = 0.056;
+  constexpr double step        = 1e-3;
+  const unsigned int coupled[] = { layout.rotation(), layout.momentum_eta(), layout.momentum_xi(), layout.support() };
+
+  Vector ports(const double rotation, const double eta, const double xi, const double support)
+  {
+    Vector result(layout.size());
+    result[layout.rotation()]     = rotation;
+    result[layout.momentum_eta()] = eta;
+    result[layout.momentum_xi()]  = xi;
+    result[layout.support()]      = support;
+    return result;
+  }
+
+  Kinematic begin()
+  {
+    return { ports(0.3, 0.7, -0.2, 0.4), ports(1.1, -0.6, 0.9, 0.8), ports(-2., 1.5, 0.4, 3.) };
+  }
+
+  /// A place to which the step may lead, with rates and accelerations of the order of 1.
+  Vector end()
+  {
+    Vector z = begin().position;
+    z.add(step, begin().velocity, 0.3 * step * step, begin().acceleration);
+    return z;
+  }
+
+  /// The scheme with all weight on the end of the step.
+  StepWeights implicit()
+  {
+    return { step, 0., 0., 0.25, 0.5 };
+  }
+
+  Kinematic shifted(Kinematic at, const double time)
+  {
+    at.position.add(time, at.velocity);
+    at.velocity.add(time, at.acceleration);
+    return at;
+  }
+
+  double kinetic_energy(const Kinematic &at)
+  {
+    return FrameCoupling(layout, rest).kinetic_energy(at);
+  }
+
+  /// By a rate: the energy is linear in each.
+  double momentum(Kinematic at, const unsigned int port)
+  {
+    at.velocity[port] += 0.5;
+    const double more = kinetic_energy(at);
+    at.velocity[port] -= 1.;
+    return more - kinetic_energy(at);
+  }
+
+  double by_position(Kinematic at, const unsigned int port, const double h)
+  {
+    at.position[port] += h;
+    const double more = kinetic_energy(at);
+    at.position[port] -= 2. * h;
+    return (more - kinetic_energy(at)) / (2. * h);
+  }
+} // namespace
+
+TEST(FrameCoupling, ForcesAreLagrangesOfTheKineticEnergy)
+{
+  FrameCoupling coupling(layout, rest);
+  Kinematic at = unaccelerated(begin(), implicit());
+  set_position(at, end(), implicit());
+  const auto &forces = coupling.add_forces(PortForces(), begin(), end(), implicit());
+  ASSERT_EQ(forces.ports.size(), 4u);
+  for (unsigned int i = 0; i < 4; ++i)
+  {
+    // Central differences over 1e-5 of numbers of the order of 1: 1e-10 of truncation, 1e-11 of round-off; a step's rates and
+    // accelerations are the same both ways to the round-off of positions over step^2.
+    const double h    = 1e-5;
+    const double rate = (momentum(shifted(at, h), coupled[i]) - momentum(shifted(at, -h), coupled[i])) / (2. * h);
+    EXPECT_NEAR(forces.values[i], by_position(at, coupled[i], h) - rate, 1e-8) << i;
+    EXPECT_GT(std::abs(forces.values[i]), 0.01);
+  }
+}
+
+TEST(FrameCoupling, TangentIsTheDerivativeOfTheForces)
+{
+  FrameCoupling coupling(layout, rest);
+  for (const double radius : { 1., 0.8, 0. })
+  {
+    const auto weights     = generalised_alpha(radius, step);
+    const PortForces exact = coupling.add_forces(PortForces(), begin(), end(), weights);
+    for (unsigned int j = 0; j < 4; ++j)
+    {
+      // Movements of 1e-6 change accelerations by 1: h^2 of the third derivative, mass() times 1, is 1e-5; round-off 1e-10 of it.
+      const double h = 1e-6;
+      Vector z       = end();
+      z[coupled[j]] += h;
+      const Vector right = coupling.add_forces(PortForces(), begin(), z, weights).values;
+      z[coupled[j]] -= 2. * h;
+      const Vector left = coupling.add_forces(PortForces(), begin(), z, weights).values;
+      for (unsigned int i = 0; i < 4; ++i)
+        EXPECT_NEAR(exact.tangent(i, j), (right[i] - left[i]) / (2. * h), 1e-9 * weights.mass()) << i << j << ", " << radius;
+    }
+  }
+}
+
+TEST(FrameCoupling, AddsToTheForcesOfTheContact)
+{
+  PortForces contact;
+  contact.ports  = { 1, layout.rotation(), layout.support() };
+  contact.values = Vector(3);
+  contact.tangent.reinit(3, 3);
+  for (unsigned int i = 0; i < 3; ++i)
+  {
+    contact.values[i] = 1. + i;
+    for (unsigned int j = 0; j < 3; ++j)
+      contact.tangent(i, j) = 10. * i + j;
+  }
+  FrameCoupling coupling(layout, rest);
+  const PortForces alone = coupling.add_forces(PortForces(), begin(), end(), implicit());
+  const PortForces both  = coupling.add_forces(contact, begin(), end(), implicit());
+  ASSERT_EQ(both.ports, (std::vector<unsigned int>{ 1, 2, 3, 4, 5 }));
+  const unsigned int place[] = { 0, 1, 4 };
+  for (unsigned int i = 0; i < 5; ++i)
+  {
+    double expected = i > 0 ? alone.values[i - 1] : 0.;
+    for (unsigned int a = 0; a < 3; ++a)
+      expected += place[a] == i ? contact.values[a] : 0.;
+    EXPECT_DOUBLE_EQ(both.values[i], expected);
+    for (unsigned int j = 0; j < 5; ++j)
+    {
+      double of_both = i > 0 && j > 0 ? alone.tangent(i - 1, j - 1) : 0.;
+      for (unsigned int a = 0; a < 3; ++a)
+        for (unsigned int b = 0; b < 3; ++b)
+          of_both += place[a] == i && place[b] == j ? contact.tangent(a, b) : 0.;
+      EXPECT_DOUBLE_EQ(both.tangent(i, j), of_both);
+    }
+  }
+}
+
+TEST(FrameCoupling, DoesNothingOnARigidSupport)
+{
+  const PortLayout rigid = { 2, false };
+  FrameCoupling coupling(rigid, rest);
+  PortForces contact;
+  contact.ports  = { 2 };
+  contact.values = Vector(1);
+  contact.tangent.reinit(1, 1);
+  EXPECT_EQ(&coupling.add_forces(contact, {}, Vector(3), implicit()), &contact);
+}
+
+TEST(FrameCoupling, WorkOfItsForcesIsTheKineticEnergyButForTheSchemesDissipation)
+{
+  // Free coupling forces over a step, without dissipation: minus their work is the change of the energy up to third order in
+  // the step, shown by halving it twice.
+  FrameCoupling coupling(layout, rest);
+  for (const double radius : { 1., 0.8 })
+  {
+    const auto open = [&](const double duration)
+    {
+      const auto weights = generalised_alpha(radius, duration);
+      Kinematic after    = unaccelerated(begin(), weights);
+      Vector z           = begin().position;
+      z.add(duration, begin().velocity, 0.5 * duration * duration, begin().acceleration);
+      set_position(after, z, weights);
+      Vector moved = z;
+      moved -= begin().position;
+      const auto &forces = coupling.add_forces(PortForces(), begin(), z, weights);
+      double taken       = 0.;
+      for (unsigned int a = 0; a < forces.ports.size(); ++a)
+        taken += forces.values[a] * moved[forces.ports[a]];
+      StepWork work;
+      coupling.add_work(begin(), z, weights, work);
+      return std::abs(-taken - (kinetic_energy(after) - kinetic_energy(begin())) - work.algorithmic);
+    };
+    EXPECT_GT(open(4e-2), 0.);
+    EXPECT_LT(open(1e-2), open(4e-2) / 12.) << radius;
+  }
+}

@@ -1,0 +1,407 @@
+#include "model/point_contact.h"
+
+#include "scene/closed_form.h"
+
+#include <algorithm>
+#include <cmath>
+#include <gtest/gtest.h>
+#include <string>
+
+using namespace sprag;
+
+namespace
+{
+  using Vector = dealii::Vector<double>;
+
+  const Geometry geometry      = { 56., 45.6, 185.5, 0. };
+  constexpr double length      = 210.;
+  constexpr double v           = 112.;
+  constexpr double step_length = 5e-5;
+  constexpr double stiffness   = 2000.; ///< of the contact in all cases, about [N/mm]
+
+  /// A contact in the middle of a motion.
+  struct Case
+  {
+    std::string name;
+    bool bends = true;
+    bool sprung;
+    double neutral_axis;
+    NormalLaw normal = { 2000., 1. };
+    double damping   = 0.;
+    FrictionLaw friction;
+    double overlap_begin = 0.01; ///< [mm]
+    double overlap_end   = 0.0102;
+    ContactMemory memory = { 0., 14., 0., 0., 110., step_length };
+    double x             = 44.3;
+    double direction     = 1.;
+
+    PointContactProperties properties() const
+    {
+      PointContactProperties result;
+      result.geometry            = geometry;
+      result.mesh                = { bends ? 8u : 0u, length };
+      result.ports               = { result.mesh.ports(), sprung };
+      result.rest_inclination    = kinematics(geometry, 0.).theta;
+      result.neutral_axis_offset = neutral_axis;
+      result.normal              = normal;
+      result.damping             = damping;
+      result.tangential          = 1000.;
+      result.friction            = friction;
+      return result;
+    }
+
+    PortLayout ports() const
+    {
+      return properties().ports;
+    }
+
+    DrivePoint drive(const double time) const
+    {
+      return { time, x + direction * v * time, direction * v, 0. };
+    }
+
+    /// Ports at which the contact has the overlap; the lever is bent as by some tenths of a newton and more at the time 1.
+    Vector position(const double time, const double overlap) const
+    {
+      Vector z(ports().size());
+      for (unsigned int i = 0; i < ports().surface; i += 2)
+      {
+        const double xi = (i / 2 + 1) / 8.;
+        z[i]            = (1. + 20. * time) * (4e-3 * xi * xi - 3e-3 * std::sin(3. * xi));
+        z[i + 1]        = (1. + 20. * time) * (8e-3 * xi - 9e-3 * std::cos(3. * xi)) / length;
+      }
+      if (sprung)
+      {
+        z[ports().momentum_eta()] = 3e-4;
+        z[ports().support()]      = 0.02 + 3. * time;
+      }
+      // Turned in by 0.1 mm and back until the overlap is there; from that on, open gaps too, along the derivative.
+      PointContact contact(properties());
+      Vector turn(z.size());
+      turn[ports().rotation()] = 1.;
+      z[ports().rotation()] += kinematics(geometry, x).theta - properties().rest_inclination - 1e-3;
+      const double closed = std::max(overlap, 1e-3);
+      for (unsigned int i = 0; i < 8; ++i)
+      {
+        contact.touch(z, drive(time));
+        z[ports().rotation()] += (contact.overlap() - closed) / contact.gap_change(turn);
+      }
+      z[ports().rotation()] += (closed - overlap) / contact.gap_change(turn);
+      return z;
+    }
+  };
+
+  const FrictionLaw coulomb     = { CoulombFriction{ 0.73 }, FrictionSpeed::sliding };
+  const FrictionLaw cork        = { CorkOnAluminium{}, FrictionSpeed::sliding };
+  const FrictionLaw by_drive    = { CorkOnAluminium{}, FrictionSpeed::drive };
+  const FrictionLaw regularised = { CorkOnAluminium{}, FrictionSpeed::sliding, 1. };
+  const FrictionLaw none        = { CoulombFriction{ 0. }, FrictionSpeed::sliding };
+
+  /// One step of a contact.
+  class Stepped
+  {
+  public:
+    explicit Stepped(const Case &chosen, const double spectral_radius = 0.8)
+        : of(chosen)
+        , contact(chosen.properties())
+        , weights(generalised_alpha(spectral_radius, step_length))
+    {
+      begin.position = of.position(0., of.overlap_begin);
+      begin.velocity = of.position(step_length, of.overlap_end);
+      begin.velocity -= begin.position;
+      begin.velocity *= 1. / step_length;
+      begin.acceleration = Vector(begin.position.size());
+      accepted.drive     = of.drive(0.);
+      accepted.contact   = { of.memory };
+      end                = of.position(step_length, of.overlap_end);
+    }
+
+    const PortForces &forces(const Vector &at)
+    {
+      const auto drifted = unaccelerated(begin, weights);
+      Vector rate        = drifted.velocity;
+      rate.add(weights.rate(), at, -weights.rate(), drifted.position);
+      contact.evaluate(PortStep{ accepted, of.drive(step_length), begin, at, rate, weights });
+      return contact.forces();
+    }
+
+    const Case of;
+    PointContact contact;
+    const StepWeights weights;
+    Motion accepted;
+    Kinematic begin;
+    Vector end;
+  };
+
+  /// What a unit of the port moves at the contact [mm].
+  double arm(const Case &of, const unsigned int port)
+  {
+    if (port == of.ports().rotation())
+      return 120.;
+    return port < of.ports().surface && port % 2 == 1 ? length / 8. : 1.;
+  }
+
+  // Central differences over h = 2e-6 mm: h^2/6 of the third derivative, 3 k mu'' (dv/dq)^2 = 4e8 N/mm^3 in a step of mu(v), less
+  // of the curved law, is 3e-4 N/mm; round-off of the gap, 2e-14 mm, times 2000 N/mm over h is 2e-5 N/mm.
+  constexpr double width     = 2e-6;
+  constexpr double tolerance = 2e-7 * stiffness;
+
+  template <class Evaluate>
+  void expect_tangent(const Case &of, const Vector &at, const Evaluate &evaluate)
+  {
+    const PortForces exact = evaluate(at);
+    ASSERT_FALSE(exact.ports.empty());
+    for (unsigned int j = 0; j < exact.ports.size(); ++j)
+    {
+      const double h = width / arm(of, exact.ports[j]);
+      Vector moved   = at;
+      moved[exact.ports[j]] += h;
+      const Vector right = evaluate(moved).values;
+      moved[exact.ports[j]] -= 2. * h;
+      const Vector left = evaluate(moved).values;
+      for (unsigned int i = 0; i < exact.ports.size(); ++i)
+        EXPECT_NEAR(exact.tangent(i, j), (right[i] - left[i]) / (2. * h),
+                    tolerance * arm(of, exact.ports[i]) * arm(of, exact.ports[j]))
+            << of.name << ", force on port " << exact.ports[i] << " by port " << exact.ports[j];
+    }
+  }
+
+  Vector on_all_ports(const Case &of, const PortForces &forces)
+  {
+    Vector result(of.ports().size());
+    for (unsigned int a = 0; a < forces.ports.size(); ++a)
+      result[forces.ports[a]] = forces.values[a];
+    return result;
+  }
+
+  /// Rigid and bending levers on rigid and sprung supports, neutral axis at the face, behind it and before it.
+  std::vector<Case> levers(const FrictionLaw &friction)
+  {
+    std::vector<Case> result;
+    for (const bool bends : { false, true })
+      for (const bool sprung : { false, true })
+        for (const double axis : { geometry.interface_offset, 56.6, 0. })
+        {
+          Case lever{};
+          lever.bends        = bends;
+          lever.sprung       = sprung;
+          lever.neutral_axis = axis;
+          lever.friction     = friction;
+          lever.name = std::string(bends ? "beam" : "rigid") + (sprung ? ", sprung" : "") + ", e_a " + std::to_string(axis);
+          result.push_back(lever);
+        }
+    return result;
+  }
+
+  /// Slipping under mu(v), damped, curved law, bending, sprung: everything at once.
+  Case full_case()
+  {
+    Case result           = levers(cork)[10];
+    result.normal         = { 10451., 1.4726 };
+    result.damping        = 0.05;
+    result.memory.damping = 0.3;
+    return result;
+  }
+} // namespace
+
+TEST(PointContact, ForceOfTheSpringIsMinusTheDerivativeOfItsEnergy)
+{
+  for (const auto &lever : levers(none))
+  {
+    PointContact contact(lever.properties());
+    const auto energy = [&](const Vector &z)
+    {
+      contact.evaluate_sliding(z, lever.drive(0.), v);
+      return contact.energy();
+    };
+    const Vector at = lever.position(0., lever.overlap_begin);
+    energy(at);
+    const PortForces exact = contact.forces();
+    for (unsigned int i = 0; i < exact.ports.size(); ++i)
+    {
+      // The third derivative of the energy is that of the distance, k delta / R^2 and less: 1e-12 N. Round-off of the energy,
+      // 20 N 2e-14 mm, over h is 1e-7 N.
+      const double h = 4e-6 / arm(lever, exact.ports[i]);
+      Vector moved   = at;
+      moved[exact.ports[i]] += h;
+      const double right = energy(moved);
+      moved[exact.ports[i]] -= 2. * h;
+      const double left = energy(moved);
+      EXPECT_NEAR(exact.values[i], -(right - left) / (2. * h), 1e-6 * arm(lever, exact.ports[i])) << lever.name << ", port " << i;
+    }
+  }
+}
+
+TEST(PointContact, MomentInSlidingIsThatOfTheClosedForm)
+{
+  // Straight lever: the moment is P (s + sigma mu e), s of the point across from the centre; the slip is that of the circle's
+  // undeformed surface, R/(R - delta) as much.
+  for (const double direction : { 1., -1. })
+  {
+    Case lever      = levers(coulomb)[0];
+    lever.direction = direction;
+    const Vector at = lever.position(0., 0.01);
+    PointContact contact(lever.properties());
+    contact.evaluate_sliding(at, lever.drive(0.), direction * 100.);
+    const double P     = stiffness * 0.01;
+    const double theta = lever.properties().rest_inclination + at[0];
+    const double s     = cylinder_centre(geometry, lever.x, theta).xi;
+    ASSERT_EQ(contact.forces().ports.size(), 1u);
+    // k times the round-off of the gap, 1e-13 mm after it was solved for, times the arm.
+    EXPECT_NEAR(contact.forces().values[0], P * (s + direction * 0.73 * geometry.interface_offset * 56. / 55.99), 1e-7);
+  }
+}
+
+TEST(PointContact, TangentInSlidingIsTheDerivativeOfTheForce)
+{
+  for (const double direction : { 1., -1. })
+    for (auto lever : levers(cork))
+    {
+      lever.direction = direction;
+      lever.normal    = { 10451., 1.4726 };
+      PointContact contact(lever.properties());
+      const auto evaluate = [&](const Vector &z)
+      {
+        contact.evaluate_sliding(z, lever.drive(0.), direction * 108.);
+        return contact.forces();
+      };
+      expect_tangent(lever, lever.position(0., 0.015), evaluate);
+    }
+}
+
+TEST(PointContact, TangentOfAStepInSlipIsTheDerivativeOfTheForce)
+{
+  for (const auto &friction : { coulomb, cork, by_drive, regularised })
+    for (const auto &lever : levers(friction))
+    {
+      Stepped stepped(lever);
+      expect_tangent(lever, stepped.end, [&](const Vector &z) { return stepped.forces(z); });
+      Row row;
+      stepped.contact.observe(row);
+      EXPECT_GT(row[Column::mu], 0.5);
+    }
+}
+
+TEST(PointContact, TangentOfAStepInStickIsTheDerivativeOfTheForce)
+{
+  for (auto lever : levers(cork))
+  {
+    lever.memory = { 0., -3., 0., 0., 0., step_length };
+    Stepped stepped(lever);
+    expect_tangent(lever, stepped.end, [&](const Vector &z) { return stepped.forces(z); });
+    Row row;
+    stepped.contact.observe(row);
+    EXPECT_LT(std::abs(row[Column::friction_resultant]), 0.349 * row[Column::normal_resultant]);
+  }
+}
+
+TEST(PointContact, TangentOfAStepCountsDampingAndACurvedLaw)
+{
+  for (auto lever : levers(cork))
+  {
+    lever.normal         = { 10451., 1.4726 };
+    lever.damping        = 0.05;
+    lever.memory.damping = 0.3;
+    for (const double radius : { 1., 0.8, 0. })
+    {
+      Stepped stepped(lever, radius);
+      expect_tangent(lever, stepped.end, [&](const Vector &z) { return stepped.forces(z); });
+    }
+  }
+}
+
+TEST(PointContact, TangentOfAStepThatOpensOrClosesIsTheDerivativeOfTheForce)
+{
+  for (auto lever : levers(coulomb))
+    for (const bool opens : { true, false })
+    {
+      lever.overlap_begin = opens ? 0.003 : -0.003;
+      lever.overlap_end   = opens ? -0.004 : 0.004;
+      lever.memory        = opens ? ContactMemory{ 0., 4., 0., 0., 110., step_length } : ContactMemory{};
+      Stepped stepped(lever);
+      expect_tangent(lever, stepped.end, [&](const Vector &z) { return stepped.forces(z); });
+    }
+}
+
+TEST(PointContact, CarriesNothingWhileOpen)
+{
+  Case lever          = full_case();
+  lever.overlap_begin = -0.01;
+  lever.overlap_end   = -0.02;
+  lever.memory        = {};
+  Stepped stepped(lever);
+  EXPECT_EQ(stepped.forces(stepped.end).values.linfty_norm(), 0.);
+  EXPECT_EQ(stepped.contact.energy(), 0.);
+  EXPECT_EQ(stepped.contact.overlap(), 0.);
+}
+
+TEST(PointContact, DriveGivesWhatLeverTakesAndContactStoresOrDissipates)
+{
+  const Case lever   = full_case();
+  constexpr double T = 1e-3;
+  const Vector from  = lever.position(0., 0.01);
+  const Vector to    = lever.position(T, 0.02);
+  PointContact contact(lever.properties());
+  contact.touch(from, lever.drive(0.));
+  const double begin_energy = mean_normal_force(lever.normal, -contact.overlap(), -contact.overlap()).energy +
+                              0.5 * lever.memory.traction * lever.memory.traction / 1000.;
+
+  // What a share of the way from one place to the other leaves open.
+  const auto open = [&](const double share)
+  {
+    Motion accepted;
+    accepted.drive   = lever.drive(0.);
+    accepted.contact = { lever.memory };
+    Kinematic begin{ from, Vector(from.size()), Vector(from.size()) };
+    Vector moved = to;
+    moved -= from;
+    moved *= share;
+    Vector end = from;
+    end += moved;
+    const DrivePoint drive = lever.drive(share * T);
+    contact.evaluate(PortStep{ accepted, drive, begin, end, begin.velocity, generalised_alpha(0.8, share * T) });
+    StepWork work;
+    contact.add_work(work);
+    EXPECT_GT(std::abs(work.drive), 1. * share);
+    EXPECT_GT(work.friction, 1. * share);
+    const double taken  = on_all_ports(lever, contact.forces()) * moved;
+    const double stored = contact.energy() - begin_energy;
+    return std::abs(work.drive - taken - stored - work.friction - work.damping - work.algorithmic);
+  };
+  // Third order in the movement of 0.1 mm: of works of 1 N mm, (0.1/56)^2 times the turn of the rows within it at most.
+  EXPECT_LT(open(1.), 1e-5);
+  EXPECT_LT(open(0.5), open(1.) / 7.);
+  EXPECT_LT(open(0.25), open(1.) / 50.);
+}
+
+TEST(PointContact, ForcesAreContinuousWhereTheContactCrossesNodesAndMiddlesOfElements)
+{
+  // The contact is where the circle's centre is along the lever but for micrometres: the same bisection from 1e-3 mm
+  // before to 1e-3 mm behind it crosses. Over 2e-9 mm forces change by k times that, moments by the arms.
+  for (const double place : { 105., 118.125, 131.25, 144.375 })
+  {
+    Case lever      = levers(cork)[10];
+    const Vector at = lever.position(0., 0.01);
+    PointContact contact(lever.properties());
+    const auto evaluate = [&](const double x)
+    {
+      contact.evaluate_sliding(at, { 0., x, v, 0. }, 108.);
+      return on_all_ports(lever, contact.forces());
+    };
+    double low  = 30.;
+    double high = 90.;
+    for (unsigned int i = 0; i < 60; ++i)
+    {
+      const double middle         = 0.5 * (low + high);
+      const auto c                = cylinder_centre(geometry, middle - at[lever.ports().support()],
+                                                    lever.properties().rest_inclination + at[lever.ports().rotation()]);
+      (c.xi > place ? low : high) = middle;
+    }
+    const Vector before = evaluate(low - 1e-9);
+    const Vector after  = evaluate(low + 1e-9);
+    Vector change       = after;
+    change -= before;
+    for (unsigned int i = 0; i < change.size(); ++i)
+      EXPECT_NEAR(change[i], 0., 1e-5 * arm(lever, i)) << "at " << place << ", port " << i;
+  }
+}
