@@ -84,6 +84,23 @@ def slope_at(sweep, coefficient, direction):
     return np.interp(coefficient, sweep.table["mu"], sweep.table[f"dimensionless_{direction}"])
 
 
+def in_time(run):
+    """Reversals of models A and B, sprag-slip, a harmonic drive, the contact law, and one scene at every fidelity."""
+    thick = run("reversal-a")
+    models = ("closed form", "rigid", "condensed", "finite element")
+    ladder = [run("reversal-a", model, changes={"Analysis/Model": model, "Drive/Start": 55}) for model in models]
+    ladder.insert(2, run("reversal-a", "beam", changes={"Drive/Start": 55}))
+    return {
+        "reversal-a": plot.reversal(thick),
+        "energy-a": plot.energy(thick),
+        "sprag-slip-a": plot.reversal(run("sprag-slip-a")),
+        "reversal-b": plot.reversal(run("reversal-b")),
+        "harmonic-a": plot.forces_over_x([run("harmonic-a")]),
+        "contact-law-a": plot.contact_law(run("contact-law-a")),
+        "ladder-a": plot.comparison(ladder),
+    }
+
+
 def figures(run):
     """{picture name: figure}, all of them."""
     model_a, model_b = run("model-a"), run("model-b")
@@ -99,6 +116,7 @@ def figures(run):
         "fig-10": slopes_of_models(sweeps, coefficient),
         "fig-11": slopes_of_geometries(geometries, sweeps, inclinations, coefficient),
         "contact": plot.contact(model_a),
+        **in_time(run),
     }
 
 

@@ -182,6 +182,25 @@ def slope_sweep(result):
     return slopes_over_coefficient([result]) if "mu" in result.table else slopes_over_inclination(result)
 
 
+def contact_law(result):
+    """P over the local approach: indentation by finite elements and the law fitted to it; below, how far the two are apart."""
+    size = (ONE_COLUMN, 90 * MILLIMETRE)
+    figure, (forces, errors) = plt.subplots(2, 1, sharex=True, figsize=size, gridspec_kw={"height_ratios": (3, 1)})
+    local, P, fitted = (result.table[name] for name in ("local", "P", "P_fitted"))
+    forces.plot(local, P, "o", color=COLOURS[0], markersize=3, label="finite elements")
+    stiffness, exponent = (result.summary[name] for name in ("stiffness", "exponent"))
+    forces.plot(local, fitted, label=rf"${stiffness:.5g}\,\delta^{{{exponent:.4g}}}$", **look(1))
+    forces.set_ylabel("$P$ [N]")
+    forces.set_ylim(bottom=0)
+    show_legend(forces)
+    errors.plot(local, 100 * (fitted / P - 1), **look(1))
+    errors.axhline(0, color="black", linewidth=0.5)
+    errors.set_ylabel("error [%]")
+    errors.set_xlabel(r"local approach $\delta$ [mm]")
+    errors.set_xlim(left=0)
+    return figure
+
+
 def slope_panels(units, over):
     figure, panels = plt.subplots(1, 2, figsize=(TWO_COLUMNS, 70 * MILLIMETRE))
     for axes, direction, letter in zip(panels, ("forward", "backward"), "ab"):
@@ -222,6 +241,8 @@ FORMATS = {"png", "pdf", "svg"}
 
 def draw(results):
     """{picture name: figure} for one or several results."""
+    if len(results) == 1 and "P_fitted" in results[0].table:
+        return {"contact-law": contact_law(results[0])}
     if len(results) == 1 and results[0].is_sweep:
         return {"slope": slope_sweep(results[0])}
     check_steps(results)

@@ -243,5 +243,5 @@ def draw_residual(axes, result):
                       textcoords="offset points", color=COLOURS[1], fontsize=7)  # fmt: skip
     highest = max(admitted, highest)
     if highest > 0:
-        axes.set_ylim(max(1e-16, 1e-6 * highest), 10 * highest)
+        axes.set_ylim(1e-16, 10 * highest)
     axes.set_ylabel("residual / largest work")

@@ -30,6 +30,12 @@ namespace sprag
                  w.damping() * position[2] - w.stiffness() * w.dt * (1. - w.gamma) } };
     }
 
+    /// Rate that damping acts on at the drifted position.
+    Share mean_drifted_rate(const StepWeights &w)
+    {
+      return { { 0., 1., w.stiffness() * w.dt * (1. - w.gamma) } };
+    }
+
     void add(const Share &share, const double factor, const std::array<Vector<double>, 3> &parts, Vector<double> &sum)
     {
       for (unsigned int k = 0; k < 3; ++k)
@@ -53,6 +59,7 @@ namespace sprag
       , constants(constants_)
       , lever_ports(body, *matrices, constants.sprung)
       , n_lever(matrices->coordinates.size())
+      , rigid_rotation(matrices->coordinates.rigid_rotation())
       , mass(matrices->mass)
       , stiffness(matrices->stiffness)
       , layer(matrices->layer_stiffness)
@@ -216,16 +223,20 @@ namespace sprag
       of.mass[k].reinit(n_lever, true);
       of.modal[k].reinit(static_cast<unsigned int>(mode_momenta.size()));
     }
+    // A rigid rotation meets no stiffness, but round-off as large as its displacements.
+    of.elastic = Vector<double>(q.position.begin(), q.position.begin() + n_lever);
+    of.elastic.add(-q.position[n_lever - 1], rigid_rotation);
     const std::array<const Vector<double> *, 3> motions = { { &q.position, &q.velocity, &q.acceleration } };
     mass.multiply<3>(motions, { { &of.mass[0], &of.mass[1], &of.mass[2] } });
+    const std::array<const Vector<double> *, 3> strains = { { &of.elastic, &q.velocity, &q.acceleration } };
     const auto multiply = [&](const CompressedRows &matrix, const bool rates, std::array<Vector<double>, 3> &results)
     {
       for (unsigned int k = 0; k < (rates ? 3u : 1u); ++k)
         results[k].reinit(n_lever, true);
       if (rates)
-        matrix.multiply<3>(motions, { { &results[0], &results[1], &results[2] } });
+        matrix.multiply<3>(strains, { { &results[0], &results[1], &results[2] } });
       else
-        matrix.multiply<1>({ { motions[0] } }, { { &results[0] } });
+        matrix.multiply<1>({ { strains[0] } }, { { &results[0] } });
     };
     multiply(stiffness, constants.stiffness_damping > 0., of.stiffness);
     multiply(layer, constants.relaxation > 0., of.layer);
@@ -251,30 +262,44 @@ namespace sprag
     return known[latest];
   }
 
-  /// What the effective matrix times the free end position is.
+  /// What is out of balance at the drifted position without force: the effective matrix times the way from there to the free one.
+  /// That way is short, so that round-off does not grow with the lever's rotation.
   Vector<double> SparseStructure::load_of_motion(const Kinematic &start, const Products &of, const StepWeights &w) const
   {
-    const Share position = drifted_position(w);
-    const Share rate     = drifted_rate(w);
+    const Share rate = mean_drifted_rate(w);
     Share of_mass;
     for (unsigned int k = 0; k < 3; ++k)
-      of_mass[k] = w.mass() * position[k] + constants.mass_damping * rate[k];
+      of_mass[k] = -constants.mass_damping * rate[k];
     of_mass[2] -= w.alpha_m;
 
     Vector<double> load(n_lever);
     add(of_mass, 1., of.mass, load);
-    load.add(-w.alpha_f, of.stiffness[0]);
-    add(rate, constants.stiffness_damping, of.stiffness, load);
-    add(rate, constants.relaxation, of.layer, load);
-    load[n_lever - 1] -= w.alpha_f * constants.spring_stiffness * start.position[n_lever - 1];
+    add(rate, -constants.stiffness_damping, of.stiffness, load);
+    add(rate, -constants.relaxation, of.layer, load);
     for (unsigned int i = 0; i < damping.directions.size(); ++i)
     {
       double amount = 0.;
       for (unsigned int k = 0; k < 3; ++k)
-        amount += rate[k] * of.modal[k][i + 1];
+        amount -= rate[k] * of.modal[k][i + 1];
       load.add(damping.factors[i] * amount, damping.directions[i]);
     }
+    add_spring_forces(start, w, load);
     return load;
+  }
+
+  /// Of lever, layer and rotational spring at the weighted mean of begin and drifted position.
+  void SparseStructure::add_spring_forces(const Kinematic &start, const StepWeights &w, Vector<double> &load) const
+  {
+    const Share drifted = drifted_position(w);
+    Vector<double> mean(n_lever);
+    for (unsigned int i = 0; i < n_lever; ++i)
+      mean[i] = start.position[i] + w.stiffness() * (drifted[1] * start.velocity[i] + drifted[2] * start.acceleration[i]);
+    const double rotation = mean[n_lever - 1];
+    Vector<double> force(n_lever);
+    mean.add(-rotation, rigid_rotation);
+    stiffness.multiply<1>({ { &mean } }, { { &force } });
+    load -= force;
+    load[n_lever - 1] -= constants.spring_stiffness * rotation;
   }
 
   Vector<double> SparseStructure::free_ports(const Motion &accepted, const PortSelection &) const
@@ -282,8 +307,10 @@ namespace sprag
     const auto &w       = current->weights;
     const auto &start   = accepted.coordinates;
     const auto of_lever = current->system->solve(load_of_motion(start, products(accepted), w));
-    free_motion.reinit(lever_ports.n_coordinates(), true);
-    std::copy(of_lever.begin(), of_lever.end(), free_motion.begin());
+    const auto drifted  = unaccelerated(start, w);
+    free_motion         = drifted.position;
+    for (unsigned int i = 0; i < n_lever; ++i)
+      free_motion[i] += of_lever[i];
     if (constants.sprung)
       free_motion[n_lever] = free_support(start, w);
     return lever_ports.displacements(free_motion);
@@ -325,9 +352,11 @@ namespace sprag
       const double mean_rate = w.stiffness() * of_1.modal[1][i + 1] + w.alpha_f * of_0.modal[1][i + 1];
       work.damping += damping.factors[i] * mean_rate * (of_1.modal[0][i + 1] - of_0.modal[0][i + 1]);
     }
-    const double turn = change[n_lever - 1];
+    const double turn     = change[n_lever - 1];
+    Vector<double> strain = of_1.elastic;
+    strain -= of_0.elastic;
     work.algorithmic += inertial_dissipation(q_0, q_1, of_0.mass[2], of_1.mass[2], w) +
-                        w.delay() * (product(of_1.stiffness[0], change) - product(of_0.stiffness[0], change) +
+                        w.delay() * (product(of_1.stiffness[0], strain) - product(of_0.stiffness[0], strain) +
                                      constants.spring_stiffness * turn * turn);
     if (constants.sprung)
       add_support_work(q_0, q_1, w, work);
@@ -355,8 +384,8 @@ namespace sprag
     StoredEnergy energy;
     energy.kinetic = 0.5 * product(of.mass[1], q.velocity);
     energy.spring  = 0.5 * constants.spring_stiffness * q.position[n_lever - 1] * q.position[n_lever - 1];
-    energy.elastic = 0.5 * product(of.stiffness[0], q.position);
-    energy.layer   = 0.5 * product(of.layer[0], q.position);
+    energy.elastic = 0.5 * product(of.stiffness[0], of.elastic);
+    energy.layer   = 0.5 * product(of.layer[0], of.elastic);
     if (constants.sprung)
     {
       energy.kinetic += 0.5 * constants.support_mass * q.velocity[n_lever] * q.velocity[n_lever];

@@ -73,6 +73,7 @@ namespace sprag
     {
       dealii::Vector<double> position; ///< whose they are
       dealii::Vector<double> velocity;
+      dealii::Vector<double> elastic; ///< the position less its rigid rotation, with which stiffnesses are multiplied
       std::array<dealii::Vector<double>, 3> mass;
       std::array<dealii::Vector<double>, 3> stiffness; ///< of lever and layer
       std::array<dealii::Vector<double>, 3> layer;
@@ -94,6 +95,8 @@ namespace sprag
     double free_support(const Kinematic &start, const StepWeights &w) const;
     dealii::Vector<double> load_of_motion(const Kinematic &start, const Products &of, const StepWeights &w) const;
 
+    void add_spring_forces(const Kinematic &start, const StepWeights &w, dealii::Vector<double> &load) const;
+
     void add_support_work(const Kinematic &q_0, const Kinematic &q_1, const StepWeights &w, StepWork &work) const;
 
     /// Adds the lever's movement under forces on the ports, and the support's with compliance `of_support`.
@@ -103,6 +106,7 @@ namespace sprag
     const LeverDynamics constants;
     const LeverPorts lever_ports;
     const unsigned int n_lever; ///< coordinates without the support's
+    const dealii::Vector<double> rigid_rotation;
     const CompressedRows mass;
     const CompressedRows stiffness;
     const CompressedRows layer;

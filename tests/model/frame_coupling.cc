@@ -160,8 +160,8 @@ TEST(FrameCoupling, DoesNothingOnARigidSupport)
 
 TEST(FrameCoupling, WorkOfItsForcesIsTheKineticEnergyButForTheSchemesDissipation)
 {
-  // Free coupling forces over a step, without dissipation: minus their work is the change of the energy up to third order in
-  // the step, shown by halving it twice.
+  // Up to third order in the step; with a spectral radius below 1 the forces that go with products of rates count a little later
+  // than in the middle, which is of second order and not told as dissipation. Shown by quartering the step.
   FrameCoupling coupling(layout, rest);
   for (const double radius : { 1., 0.8 })
   {
@@ -182,7 +182,7 @@ TEST(FrameCoupling, WorkOfItsForcesIsTheKineticEnergyButForTheSchemesDissipation
       coupling.add_work(begin(), z, weights, work);
       return std::abs(-taken - (kinetic_energy(after) - kinetic_energy(begin())) - work.algorithmic);
     };
-    EXPECT_GT(open(4e-2), 0.);
-    EXPECT_LT(open(1e-2), open(4e-2) / 12.) << radius;
+    EXPECT_LT(open(1e-2), 1e-4);
+    EXPECT_LT(open(2.5e-3), open(1e-2) / (radius == 1. ? 50. : 12.)) << radius;
   }
 }

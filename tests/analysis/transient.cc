@@ -1,0 +1,377 @@
+#include "analysis/transient.h"
+
+#include "analysis/step_clock.h"
+#include "base/errors.h"
+#include "verification/run_transient.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <gtest/gtest.h>
+
+using namespace sprag;
+
+namespace
+{
+  /// Ends of the steps that a clock makes if left alone.
+  std::vector<double> ends_of(StepClock clock)
+  {
+    std::vector<double> result;
+    for (; !clock.finished(); clock.advance())
+      result.push_back(clock.end_of_step());
+    return result;
+  }
+
+  /// Hands everything on to another model.
+  class Wrapped : public DynamicModel
+  {
+  public:
+    explicit Wrapped(const Scene &scene)
+        : inner(make_reduced_lever(scene))
+    {
+    }
+    Motion initial_motion(const DrivePoint &drive) override
+    {
+      return inner->initial_motion(drive);
+    }
+    StepOutcome step(const Motion &accepted, const DrivePoint &to, const StepWeights &weights) override
+    {
+      return inner->step(accepted, to, weights);
+    }
+    std::optional<SlidingForces> sliding_forces(const DrivePoint &drive) override
+    {
+      return inner->sliding_forces(drive);
+    }
+    StoredEnergy stored_energy(const Motion &motion) const override
+    {
+      return inner->stored_energy(motion);
+    }
+    void observe(const Motion &motion, Row &row) const override
+    {
+      inner->observe(motion, row);
+    }
+    FacePoints face_points() const override
+    {
+      return inner->face_points();
+    }
+    FaceState face_state(const Motion &motion) const override
+    {
+      return inner->face_state(motion);
+    }
+
+  private:
+    const std::unique_ptr<DynamicModel> inner;
+  };
+
+  /// Before each third step tries another one, half again as long or to where the drive never goes.
+  class Straying : public Wrapped
+  {
+  public:
+    using Wrapped::Wrapped;
+
+    StepOutcome step(const Motion &accepted, const DrivePoint &to, const StepWeights &weights) override
+    {
+      if (++calls % 3 == 0)
+      {
+        DrivePoint wrong = to;
+        wrong.x += calls % 2 == 0 ? 0.05 : -0.05;
+        wrong.time += 0.5 * weights.dt;
+        strayed += Wrapped::step(accepted, wrong, generalised_alpha(0.5, 1.5 * weights.dt)).motion ? 1 : 0;
+      }
+      return Wrapped::step(accepted, to, weights);
+    }
+
+    unsigned int strayed = 0;
+
+  private:
+    unsigned int calls = 0;
+  };
+
+  /// Finds no solution, or throws, in each 31st attempt.
+  class Failing : public Wrapped
+  {
+  public:
+    using Wrapped::Wrapped;
+
+    StepOutcome step(const Motion &accepted, const DrivePoint &to, const StepWeights &weights) override
+    {
+      auto outcome = Wrapped::step(accepted, to, weights);
+      if (++calls % 62 == 0)
+        throw AnalysisError("the 31st");
+      if (calls % 31 == 0)
+        outcome.motion.reset();
+      return outcome;
+    }
+
+  private:
+    unsigned int calls = 0;
+  };
+
+  bool same_bits(const Row &a, const Row &b)
+  {
+    return std::memcmp(&a, &b, sizeof(Row)) == 0;
+  }
+
+  Scene around_the_reversal(const double depth, const bool sprung)
+  {
+    Scene scene        = with_lever(in_time(model_a(), ModelType::beam), depth, 10451., 1.4726);
+    scene.support.type = sprung ? SupportType::sprung : SupportType::rigid;
+    return driven_by(scene, Drive(DriveProfile::triangle, 60., 65., 112., 1., 5e-3));
+  }
+
+  /// Every term matters: a thin lever on a sprung support that vibrates, in long steps with much algorithmic dissipation.
+  Scene scene_with_everything()
+  {
+    return with_spectral_radius(with_fixed_step(around_the_reversal(6., true), 2e-4), 0.);
+  }
+
+  const std::vector<std::pair<Column, double>> terms = { { Column::drive_work, 1. },       { Column::kinetic_energy, -1. },
+                                                         { Column::spring_energy, -1. },   { Column::elastic_energy, -1. },
+                                                         { Column::support_energy, -1. },  { Column::contact_energy, -1. },
+                                                         { Column::friction_work, -1. },   { Column::damping_work, -1. },
+                                                         { Column::algorithmic_work, -1. } };
+
+  /// Largest energy that the columns leave open over the run, without one of them, over the largest work.
+  double open_share(const std::vector<Row> &rows, const std::optional<Column> left_out)
+  {
+    double open    = 0.;
+    double largest = 0.;
+    for (const auto &row : rows)
+    {
+      double sum = 0.;
+      for (const auto &[column, sign] : terms)
+        if (column != left_out)
+          sum += sign * (row[column] - rows.front()[column]);
+      open    = std::max(open, std::abs(sum));
+      largest = std::max({ largest, std::abs(row[Column::drive_work]), row[Column::friction_work] });
+    }
+    return open / largest;
+  }
+} // namespace
+
+TEST(StepClock, EndsAStepOnEveryKink)
+{
+  const Drive drive(DriveProfile::triangle, 0., 65., 112., 1., 5e-3);
+  const auto ends = ends_of(StepClock(drive, 5e-5, 0));
+  ASSERT_GE(drive.kinks().size(), 3u);
+  for (const double kink : drive.kinks())
+    EXPECT_NE(std::find(ends.begin(), ends.end(), kink), ends.end()) << kink;
+  EXPECT_EQ(ends.back(), drive.duration());
+  EXPECT_TRUE(std::is_sorted(ends.begin(), ends.end()));
+}
+
+TEST(StepClock, DividesEverySegmentEquallyIntoStepsNoLongerThanAsked)
+{
+  const Drive drive(DriveProfile::triangle, 0., 65., 112., 1., 5e-3);
+  for (const double step : { 5e-5, 3.3e-4, 1. })
+    for (StepClock clock(drive, step, 0); !clock.finished(); clock.advance())
+    {
+      EXPECT_LE(clock.duration(), step * (1. + 1e-6));
+      const auto kink = std::upper_bound(drive.kinks().begin(), drive.kinks().end(), clock.end_of_step() - 1e-12);
+      const double to = kink == drive.kinks().end() ? drive.duration() : *kink;
+      // A whole number of steps to the next kink, to the round-off of times.
+      const double left = (to - clock.end_of_step()) / clock.duration();
+      EXPECT_NEAR(left, std::round(left), 1e-9 * std::max(1., left));
+    }
+}
+
+TEST(StepClock, HasOneDurationASegmentSoThatPreparedMatricesServeAgain)
+{
+  const Drive drive(DriveProfile::triangle, 0., 65., 112., 1., 5e-3);
+  std::vector<double> durations;
+  for (StepClock clock(drive, 5e-5, 0); !clock.finished(); clock.advance())
+    if (durations.empty() || durations.back() != clock.duration())
+      durations.push_back(clock.duration());
+  EXPECT_LE(durations.size(), drive.kinks().size() + 1);
+
+  // Halved and doubled again it is the same one, bit for bit.
+  StepClock clock(drive, 5e-5, 0);
+  const double before = clock.duration();
+  clock.halve();
+  EXPECT_EQ(clock.duration(), 0.5 * before);
+  clock.advance();
+  clock.advance();
+  clock.grow();
+  EXPECT_EQ(clock.duration(), before);
+}
+
+TEST(StepClock, HalvesWithoutMovingWhatIsBehindAndDoublesOnlyInStepWithTheWholeSteps)
+{
+  const Drive drive(DriveProfile::harmonic, 0., 10., 100., 0.5);
+  StepClock clock(drive, drive.duration() / 8., 4);
+  const double whole = clock.duration();
+  clock.advance();
+  clock.halve();
+  EXPECT_NEAR(clock.end_of_step(), 1.5 * whole, 1e-15);
+  clock.advance();
+  clock.grow(); // half a step along: not yet
+  EXPECT_EQ(clock.duration(), 0.5 * whole);
+  clock.advance();
+  clock.grow();
+  EXPECT_EQ(clock.duration(), whole);
+  clock.grow();
+  EXPECT_EQ(clock.duration(), 2. * whole);
+  for (unsigned int i = 0; i < 10; ++i)
+    clock.grow();
+  EXPECT_LE(clock.duration(), 16. * whole);
+  while (!clock.finished())
+  {
+    EXPECT_LE(clock.end_of_step(), drive.duration());
+    clock.advance();
+  }
+}
+
+TEST(StepClock, NeverGrowsBeyondTheDoublingsAllowed)
+{
+  const Drive drive(DriveProfile::harmonic, 0., 10., 100., 0.5);
+  for (const unsigned int doublings : { 0u, 1u, 3u })
+    for (StepClock clock(drive, drive.duration() / 200., doublings); !clock.finished(); clock.advance())
+    {
+      EXPECT_LE(clock.duration(), std::ldexp(drive.duration() / 200., static_cast<int>(doublings)) * (1. + 1e-6));
+      clock.grow();
+    }
+}
+
+class Ledger : public ::testing::TestWithParam<Column>
+{
+};
+
+TEST_P(Ledger, IsOpenWithoutOneOfItsTerms)
+{
+  static const auto rows = run_in_time(scene_with_everything()).rows;
+  EXPECT_LT(open_share(rows, {}), 1e-6);
+  EXPECT_GT(open_share(rows, GetParam()), 1e-3);
+}
+
+INSTANTIATE_TEST_SUITE_P(EveryTerm, Ledger,
+                         ::testing::Values(Column::drive_work, Column::kinetic_energy, Column::spring_energy,
+                                           Column::elastic_energy, Column::support_energy, Column::contact_energy,
+                                           Column::friction_work, Column::damping_work, Column::algorithmic_work),
+                         [](const auto &chosen) { return column_info(chosen.param).name; });
+
+TEST(EnergyLedger, ReportsTheLargestResidualAndWhereItOpenedMost)
+{
+  EnergyLedger ledger(StoredEnergy{});
+  StepWork work;
+  work.drive = 3.;
+  StoredEnergy stored;
+  stored.spring = 3.;
+  ledger.add(0.1, stored, work);
+  EXPECT_EQ(ledger.report().residual, 0.);
+  EXPECT_EQ(ledger.report().share(), 0.);
+  work          = {};
+  work.friction = 0.5;
+  ledger.add(0.2, stored, work);
+  EXPECT_DOUBLE_EQ(ledger.residual(), -0.5);
+  EXPECT_DOUBLE_EQ(ledger.report().residual, 0.5);
+  EXPECT_DOUBLE_EQ(ledger.report().share(), 0.5 / 3.);
+  EXPECT_DOUBLE_EQ(ledger.report().time, 0.2);
+  EXPECT_EQ(ledger.report().term, "friction");
+}
+
+TEST(EnergyLedger, ColumnsAddUpToTheirResidual)
+{
+  for (const auto &row : run_in_time(scene_with_everything()).rows)
+  {
+    double sum = 0.;
+    for (const auto &[column, sign] : terms)
+      sum += sign * row[column];
+    static const double start = sum;
+    // Round-off of a dozen energies of 100 N mm.
+    EXPECT_NEAR(row[Column::energy_residual], sum - start, 1e-12);
+  }
+}
+
+// Problem 18.
+TEST(RejectedStep, LeavesNoTrace)
+{
+  for (const bool sprung : { false, true })
+    for (const double tolerance : { 0., 1e-3 })
+    {
+      Scene scene          = around_the_reversal(6., sprung);
+      scene.time.tolerance = tolerance;
+      Straying straying(scene);
+      const auto straight = run_in_time(scene);
+      const auto strayed  = run_in_time(straying, scene);
+      EXPECT_GT(straying.strayed, 100u);
+      ASSERT_EQ(straight.rows.size(), strayed.rows.size());
+      for (std::size_t i = 0; i < straight.rows.size(); ++i)
+        ASSERT_TRUE(same_bits(straight.rows[i], strayed.rows[i])) << "row " << i;
+    }
+}
+
+TEST(RejectedStep, LeavesTheRunWhereTheAcceptedStepsAloneLead)
+{
+  for (const bool sprung : { false, true })
+  {
+    const Scene scene = with_fixed_step(around_the_reversal(6., sprung), 5e-5);
+    Failing failing(scene);
+    std::vector<Motion> motions;
+    std::vector<double> durations;
+    const auto reference = contact_reference(scene);
+    const auto keep      = [&](const Motion &motion, const Row &row)
+    {
+      motions.push_back(motion);
+      durations.push_back(row[Column::time_step]);
+    };
+    const auto report = run_transient(failing, scene.drive, { scene.time, reference.P, reference.stiffness }, keep);
+    EXPECT_GT(report.rejected, 50u);
+
+    const auto model = make_reduced_lever(scene);
+    Motion motion    = model->initial_motion(scene.drive.at(0., Drive::Side::after));
+    for (std::size_t i = 1; i < motions.size(); ++i)
+    {
+      const auto &expected = motions[i];
+      auto outcome         = model->step(motion, expected.drive, generalised_alpha(scene.time.spectral_radius, durations[i]));
+      ASSERT_TRUE(outcome.motion);
+      motion = std::move(*outcome.motion);
+      ASSERT_EQ(motion.coordinates.position, expected.coordinates.position) << i;
+      ASSERT_EQ(motion.coordinates.velocity, expected.coordinates.velocity) << i;
+      ASSERT_EQ(motion.coordinates.acceleration, expected.coordinates.acceleration) << i;
+      // History is that of accepted steps.
+      const auto &memory = expected.contact.front();
+      ASSERT_EQ(motion.contact.front().traction, memory.traction) << i;
+      ASSERT_EQ(motion.contact.front().slip_speed, memory.slip_speed) << i;
+      ASSERT_EQ(motion.contact.front().damping, memory.damping) << i;
+      ASSERT_TRUE(memory.step == 0. || memory.step == durations[i]) << i;
+    }
+  }
+}
+
+TEST(Transient, RegainsItsLongStepsAfterAttemptsThatFailed)
+{
+  // With a wide tolerance nothing but the failures shortens the steps: they are doubled again within 17 good ones.
+  Scene scene          = around_the_reversal(20., false);
+  scene.time.tolerance = 10.;
+  Failing failing(scene);
+  EXPECT_LT(run_in_time(failing, scene).report.steps, 1.5 * run_in_time(scene).report.steps + 500.);
+}
+
+TEST(Transient, GivesUpWhereHalvingDoesNotHelpAndTellsWhere)
+{
+  class Stuck : public Wrapped
+  {
+  public:
+    using Wrapped::Wrapped;
+    StepOutcome step(const Motion &accepted, const DrivePoint &to, const StepWeights &weights) override
+    {
+      return to.time > 0.01 ? StepOutcome{} : Wrapped::step(accepted, to, weights);
+    }
+  };
+  const Scene scene = around_the_reversal(20., false);
+  Stuck stuck(scene);
+  const auto reference = contact_reference(scene);
+  double last          = 0.;
+  try
+  {
+    run_transient(stuck, scene.drive, { scene.time, reference.P, reference.stiffness },
+                  [&](const Motion &motion, const Row &) { last = motion.drive.time; });
+    FAIL();
+  }
+  catch (const AnalysisError &error)
+  {
+    EXPECT_NE(std::string(error.what()).find("no step beyond t = 0.0"), std::string::npos) << error.what();
+  }
+  // Halved twelve times: the last step ends within 5e-5 / 4096 s of where it fails.
+  EXPECT_NEAR(last, 0.01, 5e-8);
+}

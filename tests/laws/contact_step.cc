@@ -1,0 +1,293 @@
+#include "laws/contact_step.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <gtest/gtest.h>
+#include <limits>
+
+using namespace sprag;
+
+namespace
+{
+  constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+  const NormalLaw linear = { 2000., 1. };
+  const NormalLaw curved = { 11300., 1.5 };
+
+  const FrictionLaw coulomb = { CoulombFriction{ 0.73 }, FrictionSpeed::sliding };
+  const FrictionLaw cork    = { CorkOnAluminium{}, FrictionSpeed::sliding };
+
+  FrictionLaw regularised(FrictionLaw law, const double speed)
+  {
+    law.regularisation_speed = speed;
+    return law;
+  }
+
+  double energy(const NormalLaw &law, const double gap)
+  {
+    return gap < 0. ? law.stiffness * std::pow(-gap, law.exponent + 1.) / (law.exponent + 1.) : 0.;
+  }
+
+  double force(const NormalLaw &law, const double gap)
+  {
+    return gap < 0. ? law.stiffness * std::pow(-gap, law.exponent) : 0.;
+  }
+
+  constexpr double stiffness = 1000.; ///< in stick [N/mm]
+  constexpr double dt        = 5e-5;
+  constexpr double pressure  = 20.;
+  /// Sliding at 110 mm/s in the last step, of the same duration.
+  const FrictionHistory sliding = { 14., 110., dt };
+
+  double central(const std::function<double(double)> &f, const double at, const double h)
+  {
+    return (f(at + h) - f(at - h)) / (2. * h);
+  }
+} // namespace
+
+TEST(MeanNormalForce, TimesTheChangeOfTheGapIsTheChangeOfTheEnergy)
+{
+  // To the round-off of the energies; where the change is small, of the force: 4 epsilon.
+  for (const auto &law : { linear, curved })
+    for (const double begin : { -0.02, -1e-3, -1e-6, 0., 1e-4, 0.03 })
+      for (const double change : { 0.05, 0.011, 1e-3, 1.1e-5, 1e-6, 1e-9, 1e-12 })
+        for (const double sign : { 1., -1. })
+        {
+          const double end  = begin + sign * change;
+          const auto normal = mean_normal_force(law, begin, end);
+          const double work = -normal.mean * (end - begin);
+          // Simpson's rule over a change below 1e-3 of the overlap: 1e-12 / 2880 of its fourth derivative.
+          EXPECT_NEAR(work, energy(law, end) - energy(law, begin),
+                      4. * epsilon * (energy(law, begin) + energy(law, end)) + 4. * epsilon * normal.mean * change)
+              << "gap " << begin << " to " << end;
+          EXPECT_GE(normal.mean, 0.);
+        }
+}
+
+TEST(MeanNormalForce, IsMetAtBothEnds)
+{
+  for (const auto &law : { linear, curved })
+    for (const double begin : { -0.02, 0.01 })
+      for (const double end : { -0.015, 0.02 })
+      {
+        const auto normal = mean_normal_force(law, begin, end);
+        EXPECT_DOUBLE_EQ(normal.begin, force(law, begin));
+        EXPECT_DOUBLE_EQ(normal.end, force(law, end));
+        EXPECT_DOUBLE_EQ(normal.energy, energy(law, end));
+      }
+}
+
+TEST(MeanNormalForce, OpeningAndClosingAgainGivesNothingBackAndTakesNothing)
+{
+  for (const auto &law : { linear, curved })
+  {
+    double work        = 0.;
+    const double way[] = { 0.003, -0.011, -0.004, 0.02, 0.05, -0.017, 0.003 };
+    for (unsigned int i = 0; i + 1 < std::size(way); ++i)
+      work -= mean_normal_force(law, way[i], way[i + 1]).mean * (way[i + 1] - way[i]);
+    // Round-off of six works of 0.3 N mm and less.
+    EXPECT_NEAR(work, 0., 1e-15);
+  }
+}
+
+TEST(MeanNormalForce, IsTheForceItselfWhereTheGapDoesNotChange)
+{
+  for (const auto &law : { linear, curved })
+    for (const double gap : { -0.02, -1e-9, 0., 0.01 })
+      EXPECT_NEAR(mean_normal_force(law, gap, gap).mean, force(law, gap), 4. * epsilon * force(law, gap));
+}
+
+TEST(MeanNormalForce, DerivativesAgreeWithFiniteDifferencesHoweverSmallTheChange)
+{
+  // Central differences over h, 1e-4 of the overlap: h^2/6 of the third derivative is 1e-9 of the stiffness; round-off 4 epsilon
+  // of force over h 1e-11 of it, over the change of the gap where that is what the quotient divides by.
+  for (const auto &law : { linear, curved })
+    for (const double end : { -0.02, -0.003 })
+      for (const double begin : { 0.02, -0.001, -0.018, end - 1e-4, end * (1. - 5e-3), end * (1. + 5e-4), end })
+      {
+        const double h         = 1e-4 * std::abs(end);
+        const double scale     = law.exponent * force(law, end) / -end;
+        const auto exact       = mean_normal_force(law, begin, end);
+        const double round_off = 4. * epsilon * std::max(exact.begin, exact.end) / std::max(1e-3 * -end, std::abs(end - begin));
+        const auto mean_at     = [&](const double gap) { return mean_normal_force(law, begin, gap).mean; };
+        const auto end_at      = [&](const double gap) { return mean_normal_force(law, begin, gap).end; };
+        EXPECT_NEAR(exact.d_mean, central(mean_at, end, h), 1e-8 * scale + round_off / 1e-4) << begin << ' ' << end;
+        EXPECT_NEAR(exact.d_end, central(end_at, end, h), 1e-8 * scale) << begin << ' ' << end;
+      }
+}
+
+TEST(MeanNormalForce, DerivativesOfAContactThatJustTouchesOrIsOpen)
+{
+  for (const auto &law : { linear, curved })
+  {
+    // Opened in the step: the mean falls as the gap grows, its work is the energy that was stored.
+    const auto opened = mean_normal_force(law, -0.01, 0.01);
+    EXPECT_NEAR(opened.mean, energy(law, -0.01) / 0.02, 1e-14);
+    EXPECT_NEAR(opened.d_mean, -opened.mean / 0.02, 1e-12);
+    EXPECT_EQ(opened.d_end, 0.);
+    const auto open = mean_normal_force(law, 0.01, 0.02);
+    EXPECT_EQ(open.mean, 0.);
+    EXPECT_EQ(open.d_mean, 0.);
+    const auto touching = mean_normal_force(law, 0.01, 0.);
+    EXPECT_EQ(touching.mean, 0.);
+    EXPECT_EQ(touching.d_mean, 0.);
+    EXPECT_EQ(touching.d_end, 0.);
+  }
+}
+
+TEST(EndDamping, ResistsBothWaysButNeverPulls)
+{
+  EXPECT_DOUBLE_EQ(end_damping(0.05, 20., -0.01, -30.).force, 1.5);
+  EXPECT_DOUBLE_EQ(end_damping(0.05, 20., -0.01, 30.).force, -1.5);
+  EXPECT_DOUBLE_EQ(end_damping(0.05, 20., -0.01, 1e4).force, -20.);
+  EXPECT_EQ(end_damping(0.05, 0., 0.01, -30.).force, 0.);
+}
+
+TEST(EndDamping, DerivativesAgreeWithFiniteDifferences)
+{
+  // Linear on both branches: round-off over h.
+  for (const double rate : { -300., -1., 0., 30., 500. })
+  {
+    const auto exact = end_damping(0.05, 20., -0.01, rate);
+    EXPECT_NEAR(exact.d_rate, central([](const double r) { return end_damping(0.05, 20., -0.01, r).force; }, rate, 0.1), 1e-12);
+    EXPECT_NEAR(exact.d_normal, central([=](const double n) { return end_damping(0.05, n, -0.01, rate).force; }, 20., 0.1),
+                1e-12);
+  }
+}
+
+TEST(EndFriction, SticksWithinTheConeAsASpring)
+{
+  const auto friction = end_friction({ -3., 0., dt }, stiffness, 5e-3, pressure, cork, dt);
+  EXPECT_FALSE(friction.slipping);
+  EXPECT_DOUBLE_EQ(friction.traction, 2.);
+  EXPECT_DOUBLE_EQ(friction.energy, 0.5 * 2. * 2. / stiffness);
+  EXPECT_NEAR(friction.dissipated, 0., 1e-17);
+  EXPECT_EQ(friction.slip_speed, 0.);
+}
+
+TEST(EndFriction, SlipsOnTheConeOfItsSpeedAtTheEnd)
+{
+  // Speeds of this step and the last extrapolated to its end: a way of its own to the same answer.
+  for (const double sign : { 1., -1. })
+  {
+    const FrictionHistory history = { sign * 14., sign * 110., 2. * dt };
+    const auto friction           = end_friction(history, stiffness, sign * 5.7e-3, pressure, cork, dt);
+    const double mean             = (sign * 5.7e-3 - (friction.traction - history.traction) / stiffness) / dt;
+    const double at_end           = mean + (mean - history.slip_speed) * dt / (dt + 2. * dt);
+    EXPECT_TRUE(friction.slipping);
+    // Round-off of the slip of 6e-3 mm over dt, 2e-14 mm/s, and of the return.
+    EXPECT_NEAR(friction.slip_speed, mean, 1e-11);
+    EXPECT_NEAR(friction.traction, sign * friction_coefficient(cork, std::abs(at_end)).coefficient * pressure, 1e-11);
+  }
+}
+
+TEST(EndFriction, ExtrapolatesTheSlipSpeedToSecondOrder)
+{
+  // Slip x(t) = 100 t + 2e4 t^2 + 4e6 t^3 [mm, s] at constant pressure; the traction is compared with that at x'(t). Means over
+  // steps h and h/2 extrapolated err by x''' h^2/4 of speed: halved steps, a quarter of the error.
+  const auto error = [](const double h)
+  {
+    const auto way  = [](const double t) { return (100. + (2e4 + 4e6 * t) * t) * t; };
+    const auto rate = [](const double t) { return 100. + (4e4 + 1.2e7 * t) * t; };
+    const auto mean = [&](const double from, const double to) { return (way(to) - way(from)) / (to - from); };
+    const double t  = 1e-3;
+    // Rigid stick, so that the slip of the spring does not count.
+    const double rigid  = 1e9;
+    const double before = friction_coefficient(cork, rate(t)).coefficient * pressure;
+    const auto friction = end_friction({ before, mean(t - 0.5 * h, t), 0.5 * h }, rigid, way(t + h) - way(t), pressure, cork, h);
+    return friction.traction - friction_coefficient(cork, rate(t + h)).coefficient * pressure;
+  };
+  EXPECT_NEAR(error(1e-4) / error(5e-5), 4., 0.2);
+  EXPECT_NEAR(error(5e-5) / error(2.5e-5), 4., 0.1);
+  EXPECT_LT(std::abs(error(1e-4)), 1e-2);
+}
+
+TEST(EndFriction, DerivativesAgreeWithFiniteDifferencesInStickAndSlip)
+{
+  struct Point
+  {
+    FrictionHistory history;
+    double slip;
+    FrictionLaw law;
+  };
+  const Point points[] = { { { -3., 0., dt }, 5e-3, cork },
+                           { sliding, 5.7e-3, coulomb },
+                           { sliding, 5.7e-3, cork },
+                           { sliding, -0.06, cork },
+                           { { -14., -110., 2. * dt }, -5.7e-3, cork },
+                           { {}, 0.03, cork },
+                           { sliding, 2e-2, cork },
+                           { sliding, 5.7e-3, regularised(cork, 1.) },
+                           { sliding, 5.7e-3, regularised(coulomb, 50.) },
+                           { {}, 1e-5, regularised(cork, 1.) },
+                           { { -5., -80., dt }, 3e-5, regularised(cork, 10.) } };
+  for (const auto &point : points)
+  {
+    const auto traction = [&](const double slip, const double p)
+    { return end_friction(point.history, stiffness, slip, p, point.law, dt).traction; };
+    const auto exact = end_friction(point.history, stiffness, point.slip, pressure, point.law, dt);
+    // h^2/6 of the third derivative: mu is a parabola but for the return to the cone and the regularisation, p/(v_r dt)^3 = 2e14
+    // N/mm^3: 1e-8 mm of slip make 3e-3 N/mm of up to 4e5. Round-off 1e-15 of 14 N over h.
+    const double h     = 1e-8;
+    const double scale = std::max(std::abs(exact.d_slip), stiffness);
+    EXPECT_NEAR(exact.d_slip, central([&](const double s) { return traction(s, pressure); }, point.slip, h),
+                1e-6 * scale + 1e-14 * pressure / h)
+        << "slip " << point.slip;
+    EXPECT_NEAR(exact.d_pressure, central([&](const double p) { return traction(point.slip, p); }, pressure, 1e-4), 1e-8)
+        << "slip " << point.slip;
+  }
+}
+
+TEST(EndFriction, ClosesItsOwnLedger)
+{
+  // Mean traction times slip is what the spring takes up and friction dissipates, exactly.
+  for (const auto &law : { coulomb, cork, regularised(cork, 1.), regularised(coulomb, 30.) })
+  {
+    FrictionHistory history;
+    double before          = 0.;
+    const double changes[] = { 1e-3, 4e-3, 6e-3, 5e-3, 1e-3, -2e-3, -0.02, -6e-3, 1e-4, 0.03 };
+    const double loads[]   = { 20., 18., 22., 25., 3., 9., 20., 0., 8., 20. };
+    for (unsigned int i = 0; i < std::size(changes); ++i)
+    {
+      const auto friction = end_friction(history, stiffness, changes[i], loads[i], law, dt);
+      const double mean   = 0.5 * (history.traction + friction.traction);
+      const double work   = mean * changes[i];
+      EXPECT_NEAR(work, friction.dissipated + friction.energy - before, 1e-15) << i;
+      history = { friction.traction, friction.slip_speed, dt };
+      before  = friction.energy;
+    }
+  }
+}
+
+TEST(EndFriction, NeverGivesEnergyWhileItSlipsOneWay)
+{
+  FrictionHistory history;
+  for (unsigned int i = 0; i < 50; ++i)
+  {
+    const auto friction = end_friction(history, stiffness, 5e-3 + 2e-3 * std::sin(i), pressure, cork, dt);
+    EXPECT_GE(friction.dissipated, -1e-15);
+    history = { friction.traction, friction.slip_speed, dt };
+  }
+}
+
+TEST(EndFriction, LosesItsTractionWhereTheContactOpens)
+{
+  const auto friction = end_friction(sliding, stiffness, 5e-3, 0., cork, dt);
+  EXPECT_EQ(friction.traction, 0.);
+  EXPECT_EQ(friction.energy, 0.);
+  EXPECT_EQ(friction.slip_speed, 0.);
+  EXPECT_FALSE(friction.slipping);
+  // The spring's energy is dissipated with the slip.
+  EXPECT_DOUBLE_EQ(friction.dissipated, 0.5 * 14. * (5e-3 + 14. / stiffness));
+}
+
+TEST(EndFriction, RegularisedLawCreepsBelowItsSpeedAndTellsHowFar)
+{
+  const auto law   = regularised(coulomb, 1.);
+  const auto creep = end_friction({}, stiffness, 2e-5, pressure, law, dt); // 0.4 mm/s
+  EXPECT_DOUBLE_EQ(creep.creep, 2e-5);
+  EXPECT_NEAR(creep.traction, 0.73 * pressure * 0.4 / std::hypot(0.4, 1.), 1e-13);
+  EXPECT_EQ(creep.energy, 0.);
+  EXPECT_EQ(end_friction({}, stiffness, 2e-4, pressure, law, dt).creep, 0.);
+}
