@@ -135,6 +135,18 @@ namespace sprag
     return { place(from), place(to) + 1 };
   }
 
+  std::vector<unsigned int> FacePatches::displacements_of(const Range &range) const
+  {
+    std::vector<unsigned int> result;
+    for (unsigned int patch = range.begin; patch < range.end; ++patch)
+      for (unsigned int a = 0; a < all_patches[patch].n_nodes; ++a)
+        for (unsigned int d = 0; d < 2; ++d)
+          result.push_back(2 * all_patches[patch].nodes[a] + d);
+    std::sort(result.begin(), result.end());
+    result.erase(std::unique(result.begin(), result.end()), result.end());
+    return result;
+  }
+
   FacePatches::Range FacePatches::patches_of_points(const unsigned int first, const unsigned int last) const
   {
     return { patch_of_point(first), patch_of_point(last) + 1 };

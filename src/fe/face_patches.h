@@ -62,6 +62,9 @@ namespace sprag
     /// Patches of the undeformed face between two lever coordinates, at least one.
     Range patches_between(double from, double to) const;
 
+    /// Indices of the displacements of the nodes of some patches, increasing.
+    std::vector<unsigned int> displacements_of(const Range &range) const;
+
     Range patches_of_points(unsigned int first, unsigned int last) const;
 
   private:

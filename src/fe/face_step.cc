@@ -319,16 +319,10 @@ namespace sprag
 
   void FaceStepContact::reach(const FacePatches::Range &range)
   {
-    reached = range;
-    reachable.clear();
-    for (unsigned int patch = range.begin; patch < range.end; ++patch)
-      for (unsigned int a = 0; a < face.patches()[patch].n_nodes; ++a)
-        for (unsigned int d = 0; d < 2; ++d)
-          reachable.push_back(2 * face.patches()[patch].nodes[a] + d);
+    reached   = range;
+    reachable = face.displacements_of(range);
     for (unsigned int port = properties.ports.rotation(); port < properties.ports.size(); ++port)
       reachable.push_back(port);
-    std::sort(reachable.begin(), reachable.end());
-    reachable.erase(std::unique(reachable.begin(), reachable.end()), reachable.end());
   }
 
   /// Without a call of reachable_ports() all can be reached.
