@@ -11,8 +11,8 @@ namespace sprag
   class StepClock
   {
   public:
-    /// `largest_doublings`: how often the first step may be doubled. If at all, the steps of a segment are up to an eighth shorter
-    /// than asked for, so that they can be.
+    /// `largest_doublings`: how often the first step may be doubled. If at all, the steps of a segment are up to an eighth
+    /// shorter than asked for, so that they can be.
     StepClock(const Drive &drive, double step, unsigned int largest_doublings);
 
     double duration() const;

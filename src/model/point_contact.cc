@@ -309,7 +309,9 @@ namespace sprag
     return true;
   }
 
-  void PointContact::widen_reach() {}
+  void PointContact::widen_reach()
+  {
+  }
 
   std::vector<ContactMemory> PointContact::memory() const
   {

@@ -1,0 +1,58 @@
+#include "fe/face_step.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sprag
+{
+  std::vector<FaceContact::PointState> FaceStepContact::observed_points() const
+  {
+    std::vector<FaceContact::PointState> result(states.size());
+    for (std::size_t i = 0; i < states.size(); ++i)
+    {
+      const auto &state       = states[i];
+      auto &point             = result[i];
+      point.index             = state.index;
+      point.position          = state.position;
+      point.gap               = state.gap;
+      point.trial_pressure    = -properties.penalties.normal * state.gap;
+      point.slip_change       = state.slip_change;
+      point.elastic_slip      = std::abs(state.traction) / properties.penalties.tangential;
+      point.response.pressure = state.pressure;
+      point.response.traction = state.traction;
+      point.response.mu       = state.mu;
+      point.response.slipping = state.slipping;
+      for (unsigned int d = 0; d < 3; ++d)
+        point.response.force[d] = state.end_force[d];
+    }
+    return result;
+  }
+
+  FaceView FaceStepContact::view(const std::vector<FaceContact::PointState> &points) const
+  {
+    double penetration = 0.;
+    for (const auto &point : points)
+      penetration = std::max(penetration, -point.gap);
+    return { body, points, displacement, step_duration, penetration };
+  }
+
+  void FaceStepContact::observe(Row &row) const
+  {
+    const auto points = observed_points();
+    observe_face(view(points), properties.layer_thickness, row);
+    row[Column::Q] = 0.;
+    for (const auto &state : states)
+      row[Column::Q] -= face.points()[state.index].weight * state.end_force[3];
+  }
+
+  FacePoints FaceStepContact::face_points() const
+  {
+    return sprag::face_points(body);
+  }
+
+  FaceState FaceStepContact::face_state(const DrivePoint &drive) const
+  {
+    const auto points = observed_points();
+    return sprag::face_state(view(points), drive);
+  }
+} // namespace sprag
