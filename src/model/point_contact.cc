@@ -39,12 +39,14 @@ namespace sprag
     return law;
   }
 
-  /// Two elements: the contact stays between their ends for a step.
-  void PointContact::choose_window(const double xi)
+  /// Two elements around the point across from the circle's centre: the contact stays between their ends for a step.
+  void PointContact::choose_window(const Vector<double> &ports, const double x)
   {
     const auto &mesh = properties.mesh;
     if (mesh.elements == 0)
       return;
+    const Local q       = coordinates(ports, x);
+    const double xi     = cylinder_centre(properties.geometry, q[x_index], q[theta_index]).xi;
     const double before = std::round(xi / mesh.element_length()) - 1.;
     window              = static_cast<unsigned int>(std::clamp(before, 0., mesh.elements - 2.));
   }
@@ -173,9 +175,7 @@ namespace sprag
     }
 
     Configuration result;
-    result.xi            = xi;
     result.along         = at.point.xi;
-    result.theta         = q[theta_index];
     result.gap           = circle.gap;
     result.gap_at_point  = circle.gap_row;
     result.slip_at_point = circle.slip_row;
@@ -196,13 +196,11 @@ namespace sprag
 
   StepKinematics<PointContact::n> PointContact::step_kinematics(const PortStep &step, const Local &end_rates)
   {
-    choose_window(closest(coordinates(step.begin.position, step.accepted.drive.x)));
     const Local q_0    = coordinates(step.begin.position, step.accepted.drive.x);
     const Local q_1    = coordinates(step.end, step.to.x);
     const Local change = q_1 - q_0;
     const auto middle  = configure(0.5 * (q_0 + q_1));
     end                = configure(q_1);
-    relative_x         = q_1[x_index];
 
     StepKinematics<n> k;
     k.gap_begin       = gap(q_0);
@@ -221,7 +219,7 @@ namespace sprag
 
   void PointContact::evaluate(const PortStep &step)
   {
-    choose_window(closest(coordinates(step.begin.position, step.accepted.drive.x)));
+    choose_window(step.begin.position, step.accepted.drive.x);
     const Local end_rates = rates(step.end_rate, step.to.v);
     const auto kinematics = step_kinematics(step, end_rates);
     StepContactLaw law;
@@ -239,12 +237,8 @@ namespace sprag
 
   void PointContact::evaluate_sliding(const Vector<double> &ports, const DrivePoint &drive, const double speed)
   {
-    choose_window(cylinder_centre(properties.geometry, drive.x, properties.rest_inclination).xi);
-    const Local q = coordinates(ports, drive.x);
-    choose_window(closest(q));
-    const Local at      = coordinates(ports, drive.x);
-    end                 = configure(at);
-    relative_x          = at[x_index];
+    choose_window(ports, drive.x);
+    end                 = configure(coordinates(ports, drive.x));
     const auto normal   = mean_normal_force(properties.normal, end.gap, end.gap);
     const auto law      = law_of_step(drive.v);
     response            = {};
@@ -320,10 +314,9 @@ namespace sprag
 
   std::vector<ContactMemory> PointContact::touch(const Vector<double> &ports, const DrivePoint &drive)
   {
-    choose_window(cylinder_centre(properties.geometry, drive.x, properties.rest_inclination).xi);
-    end        = configure(coordinates(ports, drive.x));
-    relative_x = drive.x;
-    response   = {};
+    choose_window(ports, drive.x);
+    end      = configure(coordinates(ports, drive.x));
+    response = {};
     return { ContactMemory{} };
   }
 

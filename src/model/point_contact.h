@@ -60,8 +60,6 @@ namespace sprag
     /// The closest point at one configuration.
     struct Configuration
     {
-      double xi    = 0.; ///< material coordinate of the contact point
-      double theta = 0.;
       double along = 0.; ///< its position along the lever, deformed
       double gap   = 0.;
       dealii::Tensor<1, 4> gap_at_point; ///< rows in (u_xi, u_eta, theta, x) of the point
@@ -77,7 +75,7 @@ namespace sprag
 
     Local coordinates(const dealii::Vector<double> &ports, double x) const;
     Local rates(const dealii::Vector<double> &port_rates, double v) const;
-    void choose_window(double xi);
+    void choose_window(const dealii::Vector<double> &ports, double x);
     Surface surface(const Local &q, double xi) const;
     double closest(const Local &q) const;
     double gap(const Local &q) const;
@@ -93,8 +91,7 @@ namespace sprag
     Configuration end;
     StepResponse<n> response;
     StepWork work;
-    double slip_rate  = 0.; ///< at the end of the step [mm/s]
-    double relative_x = 0.; ///< of the circle to the pivot frame [mm]
+    double slip_rate = 0.; ///< at the end of the step [mm/s]
     PortForces summed;
     const PortSelection all;
   };
