@@ -19,11 +19,6 @@ namespace sprag
       const double across = point.eta - at.centre.eta;
       return std::sqrt(along * along + across * across) - radius;
     }
-
-    LeverPoint mean(const LeverPoint &a, const LeverPoint &b)
-    {
-      return { 0.5 * (a.xi + b.xi), 0.5 * (a.eta + b.eta) };
-    }
   } // namespace
 
   FaceStepContact::FaceStepContact(const ElasticBody<2> &body_, FaceStepProperties properties_)
@@ -139,19 +134,26 @@ namespace sprag
     const auto &circle  = properties.geometry;
     const auto at_begin = moving_circle_contact(circle, begin_position, begin.x, begin.theta);
     const auto at_end   = moving_circle_contact(circle, state.position, end.x, end.theta);
-    const auto middle   = moving_circle_contact(circle, mean(begin_position, state.position), 0.5 * (begin.x + end.x),
-                                                0.5 * (begin.theta + end.theta));
+    const double share  = law.weights.stiffness();
+    const auto weighted = [&](const double at_0, const double at_1) { return (1. - share) * at_0 + share * at_1; };
+    const Tensor<1, 4> change({ state.position.xi - begin_position.xi, state.position.eta - begin_position.eta,
+                                end.theta - begin.theta, end.x - begin.x });
+    const LeverPoint between = { weighted(begin_position.xi, state.position.xi),
+                                 weighted(begin_position.eta, state.position.eta) };
+    const auto balance       = moving_circle_contact(circle, between, weighted(begin.x, end.x), weighted(begin.theta, end.theta));
 
     StepKinematics<4> kinematics;
     kinematics.gap_begin       = begin_gap;
     kinematics.gap_end         = state.gap;
     kinematics.gap_row_end     = at_end.gap_row;
-    kinematics.gap_row         = middle.gap_row;
-    kinematics.gap_curvature   = 0.5 * middle.gap_curvature;
+    kinematics.gap_row         = balance.gap_row;
+    kinematics.gap_curvature   = share * balance.gap_curvature;
+    kinematics.gap_bend        = change * (balance.gap_curvature * change);
     kinematics.slip_change     = at_end.slip - at_begin.slip;
     kinematics.slip_change_row = at_end.slip_row;
-    kinematics.slip_row        = middle.slip_row;
-    kinematics.slip_curvature  = 0.5 * middle.slip_curvature;
+    kinematics.slip_row        = balance.slip_row;
+    kinematics.slip_curvature  = share * balance.slip_curvature;
+    kinematics.slip_bend       = change * (balance.slip_curvature * change);
     const auto response        = step_response(kinematics, memory, law);
 
     state.slip_change  = kinematics.slip_change;

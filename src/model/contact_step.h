@@ -16,8 +16,11 @@ namespace sprag
     StepWeights weights{};
   };
 
-  /// Geometry of a contact point over a step, in n coordinates q. Rows "of the step" stand at its middle, so that the work of the
-  /// forces on them is that of pressure and traction on the changes of gap and slip, up to third order.
+  /// Geometry of a contact point over a step, in n coordinates q. Rows "of the step" stand where generalised-alpha balances
+  /// forces, at (1 - alpha_f) q_1 + alpha_f q_0, that is at the middle and the delay later; in [q], the change of q over the
+  /// step,
+  ///   row . [q] = [gap] + delay * gap_bend
+  /// up to third order, and so for slip.
   template <int n>
   struct StepKinematics
   {
@@ -30,9 +33,10 @@ namespace sprag
     dealii::Tensor<1, n> slip_change_row; ///< d(slip_change)/dq_1
     dealii::Tensor<1, n> slip_row;        ///< of the step
     dealii::Tensor<2, n> slip_curvature;  ///< d(slip_row)/dq_1
-    double gap_rate_begin = 0.;           ///< counts with contact damping only [mm/s]
-    double gap_rate_end   = 0.;
-    dealii::Tensor<1, n> gap_rate_row; ///< d(gap_rate_end)/dq_1
+    double gap_bend     = 0.;             ///< [q] . d(gap_row)/dq [q] at the place of the rows [mm]
+    double slip_bend    = 0.;             ///< [q] . d(slip_row)/dq [q] [mm]
+    double gap_rate_end = 0.;             ///< counts with contact damping only [mm/s]
+    dealii::Tensor<1, n> gap_rate_row;    ///< d(gap_rate_end)/dq_1
   };
 
   /// What a contact point does in a step.
@@ -96,8 +100,9 @@ namespace sprag
     response.energy            = normal.energy + friction.energy;
     response.friction          = friction.dissipated;
     response.damping           = -damped * gap_change;
-    response.algorithmic =
-        -delay * (normal.end - begin) * gap_change + delay * (friction.traction - memory.traction) * point.slip_change;
+    response.algorithmic       = -delay * (normal.end - begin) * gap_change +
+                           delay * (friction.traction - memory.traction) * point.slip_change -
+                           delay * (pressure * point.gap_bend - traction * point.slip_bend);
     response.creep = friction.creep;
     return response;
   }

@@ -199,21 +199,25 @@ namespace sprag
     const Local q_0    = coordinates(step.begin.position, step.accepted.drive.x);
     const Local q_1    = coordinates(step.end, step.to.x);
     const Local change = q_1 - q_0;
-    const auto middle  = configure(0.5 * (q_0 + q_1));
+    const double share = step.weights.stiffness();
+    const auto balance = configure(share * q_1 + (1. - share) * q_0);
     end                = configure(q_1);
 
     StepKinematics<n> k;
     k.gap_begin       = gap(q_0);
     k.gap_end         = end.gap;
     k.gap_row_end     = end.gap_row;
-    k.gap_row         = middle.gap_row;
-    k.gap_curvature   = 0.5 * middle.gap_curvature;
-    k.slip_change     = middle.slip_row * change;
-    k.slip_row        = middle.slip_row;
-    k.slip_curvature  = 0.5 * middle.slip_curvature;
-    k.slip_change_row = middle.slip_row + change * k.slip_curvature;
-    k.gap_rate_end    = end.gap_row * end_rates;
-    k.gap_rate_row    = step.weights.rate() * end.gap_row + end.gap_curvature * end_rates;
+    k.gap_row         = balance.gap_row;
+    k.gap_curvature   = share * balance.gap_curvature;
+    k.gap_bend        = change * (balance.gap_curvature * change);
+    k.slip_row        = balance.slip_row;
+    k.slip_curvature  = share * balance.slip_curvature;
+    k.slip_bend       = change * (balance.slip_curvature * change);
+    k.slip_change     = balance.slip_row * change - step.weights.delay() * k.slip_bend;
+    k.slip_change_row = balance.slip_row + change * k.slip_curvature -
+                        step.weights.delay() * (balance.slip_curvature * change + change * balance.slip_curvature);
+    k.gap_rate_end = end.gap_row * end_rates;
+    k.gap_rate_row = step.weights.rate() * end.gap_row + end.gap_curvature * end_rates;
     return k;
   }
 

@@ -71,7 +71,7 @@ TEST(TimeOrder, OfARigidLeverIsTwoWhateverTheSpectralRadius)
 }
 
 // Without algorithmic dissipation long steps keep the shortest bending waves ringing in P: there steps of 0.1 ms are needed, in
-// which errors of 1e-8 come near round-off.
+// which what is left of that ringing still falls faster than the error, of 1e-8.
 TEST(TimeOrder, OfABeamIsTwoWhateverTheSpectralRadius)
 {
   for (const auto &paper : { with_coulomb(model_a(), 0.73), model_a() })
@@ -88,6 +88,6 @@ TEST(TimeOrder, OfABeamIsTwoWhateverTheSpectralRadius)
       }
       RecordProperty("P_" + std::to_string(radius), std::to_string(found.P));
     }
-    EXPECT_NEAR(orders(scene, reference, 2048, 1.).P, 2., 0.3);
+    EXPECT_GT(orders(scene, reference, 2048, 1.).P, 1.8);
   }
 }

@@ -1,0 +1,329 @@
+#include "model/modal_structure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <gtest/gtest.h>
+
+using namespace sprag;
+
+namespace
+{
+  using Vector = dealii::Vector<double>;
+
+  /// A port on the face with a static shape, another one without beside it, and the rotation.
+  ModalData make_data(const bool with_statics)
+  {
+    ModalData data;
+    data.ports     = { 2, false };
+    data.stiffness = { 400., 9e4, 4e6 };
+    data.damping.reinit(3, 3);
+    data.damping(0, 0) = 0.8;
+    data.damping(1, 1) = 12.;
+    data.damping(2, 2) = 80.;
+    data.damping(0, 1) = data.damping(1, 0) = -1.5;
+    data.shapes.reinit(3, 3);
+    const double shapes[3][3] = { { 20., -31., 12. }, { 14., 9., -27. }, { 0.4, 0.2, -0.1 } };
+    for (unsigned int a = 0; a < 3; ++a)
+      for (unsigned int i = 0; i < 3; ++i)
+        data.shapes(a, i) = shapes[a][i];
+    data.spring_stiffness = 50.;
+    if (with_statics)
+    {
+      data.face_compliance.reinit(2, 2);
+      data.face_compliance(0, 0) = 2e-3;
+      data.face_compliance(1, 1) = 3e-3;
+      data.face_compliance(0, 1) = data.face_compliance(1, 0) = 1e-3;
+      data.relaxation                                         = 2e-4;
+    }
+    return data;
+  }
+
+  PortForces forces_on(const std::vector<double> &values)
+  {
+    PortForces forces;
+    forces.values.reinit(static_cast<unsigned int>(values.size()));
+    for (unsigned int a = 0; a < values.size(); ++a)
+    {
+      forces.ports.push_back(a);
+      forces.values[a] = values[a];
+    }
+    return forces;
+  }
+
+  double total(const StoredEnergy &energy)
+  {
+    return energy.kinetic + energy.spring + energy.elastic + energy.support;
+  }
+
+  /// One mode of frequency omega and that damping, its port its displacement.
+  ModalData oscillator(const double omega, const double damping)
+  {
+    ModalData data;
+    data.ports     = { 0, false };
+    data.stiffness = { omega * omega };
+    data.damping.reinit(1, 1);
+    data.damping(0, 0) = damping;
+    data.shapes.reinit(1, 1);
+    data.shapes(0, 0) = 1.;
+    return data;
+  }
+
+  Motion step(ModalStructure &structure, const Motion &motion, const PortForces &forces, const StepWeights &weights)
+  {
+    structure.use_step(weights);
+    structure.free_ports(motion, all_ports(structure.ports().size()));
+    return structure.advance(motion, forces, {});
+  }
+
+  /// Largest eigenvalue of the step of (dt^2 a, dt v, u), from the characteristic polynomial of its matrix.
+  double amplification(ModalStructure &structure, const StepWeights &weights)
+  {
+    const double scale[3] = { 1., 1. / weights.dt, 1. / (weights.dt * weights.dt) };
+    double m[3][3];
+    for (unsigned int j = 0; j < 3; ++j)
+    {
+      Motion motion                      = structure.rest();
+      motion.coordinates.position[0]     = j == 0 ? 1. : 0.;
+      motion.coordinates.velocity[0]     = j == 1 ? scale[1] : 0.;
+      motion.coordinates.acceleration[0] = j == 2 ? scale[2] : 0.;
+      const Motion after                 = step(structure, motion, PortForces(), weights);
+      m[0][j]                            = after.coordinates.position[0];
+      m[1][j]                            = after.coordinates.velocity[0] / scale[1];
+      m[2][j]                            = after.coordinates.acceleration[0] / scale[2];
+    }
+    const double trace = m[0][0] + m[1][1] + m[2][2];
+    const double minors =
+        m[0][0] * m[1][1] - m[0][1] * m[1][0] + m[0][0] * m[2][2] - m[0][2] * m[2][0] + m[1][1] * m[2][2] - m[1][2] * m[2][1];
+    const double determinant = m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
+                               m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
+                               m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
+    // All roots at once (Durand and Kerner).
+    using Complex   = std::complex<double>;
+    Complex root[3] = { { 1., 0. }, { 0.4, 0.9 }, { -0.65, 0.72 } };
+    for (unsigned int i = 0; i < 500; ++i)
+      for (unsigned int j = 0; j < 3; ++j)
+      {
+        const Complex z     = root[j];
+        const Complex value = ((z - trace) * z + minors) * z - determinant;
+        root[j] -= value / ((z - root[(j + 1) % 3]) * (z - root[(j + 2) % 3]) + 1e-300);
+      }
+    return std::max({ std::abs(root[0]), std::abs(root[1]), std::abs(root[2]) });
+  }
+
+  double spectral_norm_of_ten_steps(ModalStructure &structure, const StepWeights &weights)
+  {
+    Motion motion        = structure.rest();
+    motion.face_force[0] = 1.;
+    for (unsigned int i = 0; i < 10; ++i)
+      motion = step(structure, motion, PortForces(), weights);
+    return std::pow(std::abs(motion.face_force[0]), 0.1);
+  }
+} // namespace
+
+TEST(ModalStructure, ComplianceIsTheAnswerToUnitForcesAtRest)
+{
+  for (const bool with_statics : { false, true })
+  {
+    ModalStructure structure(make_data(with_statics));
+    structure.use_statics();
+    for (unsigned int a = 0; a < 3; ++a)
+    {
+      std::vector<double> unit(3, 0.);
+      unit[a]           = 1.;
+      const auto answer = structure.port_positions(structure.deform(forces_on(unit)));
+      for (unsigned int b = 0; b < 3; ++b)
+        EXPECT_NEAR(structure.compliance()(b, a), answer[b], 1e-14) << a << b;
+    }
+    // By hand: sum of shapes over stiffness, and the static one.
+    const double by_hand = 20. * 20. / 400. + 31. * 31. / 9e4 + 12. * 12. / 4e6 + (with_statics ? 2e-3 : 0.);
+    EXPECT_NEAR(structure.compliance()(0, 0), by_hand, 1e-14);
+  }
+}
+
+TEST(ModalStructure, ComplianceOfAStepIsTheChangeOfItsEndByUnitForces)
+{
+  for (const bool with_statics : { false, true })
+    for (const double radius : { 1., 0.8, 0. })
+      for (const double dt : { 1e-2, 1e-4 })
+      {
+        ModalStructure structure(make_data(with_statics));
+        structure.use_statics();
+        Motion motion                      = structure.deform(forces_on({ 1., -2., 30. }));
+        motion.coordinates.velocity[0]     = 3.;
+        motion.coordinates.acceleration[1] = -7.;
+        const auto weights                 = generalised_alpha(radius, dt);
+        structure.use_step(weights);
+        const Vector free = structure.free_ports(motion, all_ports(3));
+        const Vector none = structure.port_positions(structure.advance(motion, PortForces(), {}));
+        for (unsigned int b = 0; b < 3; ++b)
+          EXPECT_NEAR(free[b], none[b], 1e-13);
+        for (unsigned int a = 0; a < 3; ++a)
+        {
+          std::vector<double> unit(3, 0.);
+          unit[a]             = 1.;
+          const Vector loaded = structure.port_positions(structure.advance(motion, forces_on(unit), {}));
+          for (unsigned int b = 0; b < 3; ++b)
+            EXPECT_NEAR(structure.compliance()(b, a), loaded[b] - free[b], 1e-13) << a << b;
+        }
+      }
+}
+
+TEST(ModalStructure, EnergyDampingAndAlgorithmicWorkMakeUpTheWorkOfTheForces)
+{
+  for (const bool with_statics : { false, true })
+    for (const double radius : { 1., 0.8, 0.3, 0. })
+    {
+      ModalStructure structure(make_data(with_statics));
+      structure.use_statics();
+      Motion motion                   = structure.deform(forces_on({ 0.4, -0.7, 0.9 }));
+      const StepWeights all_weights[] = { generalised_alpha(radius, 3e-3), generalised_alpha(radius, 2e-4) };
+      for (unsigned int i = 0; i < 60; ++i)
+      {
+        const auto forces = forces_on({ std::sin(0.7 * i), 2. - 0.1 * i, 5. * std::cos(2.3 * i) });
+        const Motion next = step(structure, motion, forces, all_weights[i % 7 < 4 ? 0 : 1]);
+        Vector moved      = structure.port_positions(next);
+        moved -= structure.port_positions(motion);
+        StepWork work;
+        structure.add_work(motion, next, work);
+        const double before = total(structure.stored_energy(motion));
+        const double after  = total(structure.stored_energy(next));
+        // Round-off of the energies and works, and of velocities from differences of positions over the step.
+        EXPECT_NEAR(after - before + work.damping + work.algorithmic, forces.values * moved, 1e-13 * (before + after + 10.)) << i;
+        if (radius == 1.)
+        {
+          EXPECT_NEAR(work.algorithmic, 0., 1e-13 * (before + after + 1.));
+        }
+        motion = next;
+      }
+    }
+}
+
+TEST(ModalStructure, TellsTheSpringsAndTheSupportsPartOfTheEnergy)
+{
+  auto data    = make_data(false);
+  data.support = 2;
+  ModalStructure structure(data);
+  structure.use_statics();
+  const Motion motion = structure.deform(forces_on({ 1., -2., 30. }));
+  const auto energy   = structure.stored_energy(motion);
+  const double theta  = structure.port_positions(motion)[2];
+  EXPECT_NEAR(energy.spring, 0.5 * 50. * theta * theta, 1e-14);
+  EXPECT_NEAR(energy.support, 0.5 * 4e6 * motion.coordinates.position[2] * motion.coordinates.position[2], 1e-14);
+  // All of it is half of the forces' work.
+  const Vector moved = structure.port_positions(motion);
+  EXPECT_NEAR(total(energy), 0.5 * (moved[0] - 2. * moved[1] + 30. * moved[2]), 1e-12);
+}
+
+// omega dt = 1e6: the limit is reached to 1e-12; it is a triple root, which moves by the cube root of that.
+TEST(ModalStructure, StiffModesDecayByTheSpectralRadiusAskedFor)
+{
+  for (const double radius : { 1., 0.8, 0.5, 0. })
+  {
+    ModalStructure structure(oscillator(1e9, 0.));
+    EXPECT_NEAR(amplification(structure, generalised_alpha(radius, 1e-3)), radius, 2e-4) << radius;
+  }
+}
+
+TEST(ModalStructure, SoftModesHardlyDecay)
+{
+  // omega dt = 0.01: the method dissipates with (omega dt)^3 at least.
+  for (const double radius : { 1., 0.8, 0. })
+  {
+    ModalStructure structure(oscillator(10., 0.));
+    EXPECT_NEAR(amplification(structure, generalised_alpha(radius, 1e-3)), 1., 1e-6) << radius;
+  }
+}
+
+TEST(ModalStructure, StaticShapesDecayByTheSpectralRadiusAskedFor)
+{
+  for (const double radius : { 1., 0.8, 0.5 })
+  {
+    auto data       = make_data(true);
+    data.relaxation = 0.;
+    ModalStructure structure(data);
+    EXPECT_NEAR(spectral_norm_of_ten_steps(structure, generalised_alpha(radius, 1e-3)), radius, 1e-12) << radius;
+  }
+}
+
+TEST(ModalStructure, StaticShapesForgetTheirForceWithTheRelaxationTime)
+{
+  // f = K (u + tau du/dt), free: u decays as exp(-t/tau); the midpoint rule errs by (dt/tau)^2/12 of the rate.
+  ModalStructure structure(make_data(true));
+  const double dt      = 1e-5;
+  Motion motion        = structure.rest();
+  motion.face_force[0] = 1.;
+  for (unsigned int i = 0; i < 40; ++i)
+    motion = step(structure, motion, PortForces(), generalised_alpha(1., dt));
+  EXPECT_NEAR(motion.face_force[0], std::exp(-40. * dt / 2e-4), 1e-3);
+}
+
+// Of u'' + 2 zeta omega u' + omega^2 u = 0 from u = 1 at rest. Halved steps of a tenth of a radian and less: what is of third
+// order adds that share to the ratio at most.
+TEST(ModalStructure, OrderIsTwoOnADampedOscillator)
+{
+  constexpr double omega = 50.;
+  constexpr double zeta  = 0.1;
+  constexpr double end   = 0.2;
+  for (const double radius : { 1., 0.8, 0. })
+  {
+    const auto error = [&](const unsigned int steps)
+    {
+      ModalStructure structure(oscillator(omega, 2. * zeta * omega));
+      Motion motion                      = structure.rest();
+      motion.coordinates.position[0]     = 1.;
+      motion.coordinates.acceleration[0] = -omega * omega;
+      for (unsigned int i = 0; i < steps; ++i)
+        motion = step(structure, motion, PortForces(), generalised_alpha(radius, end / steps));
+      const double damped = omega * std::sqrt(1. - zeta * zeta);
+      const double exact =
+          std::exp(-zeta * omega * end) * (std::cos(damped * end) + zeta * omega / damped * std::sin(damped * end));
+      return std::abs(motion.coordinates.position[0] - exact);
+    };
+    EXPECT_NEAR(std::log2(error(400) / error(800)), 2., 0.05) << radius;
+    EXPECT_NEAR(std::log2(error(800) / error(1600)), 2., 0.03) << radius;
+  }
+}
+
+TEST(ModalStructure, LocalErrorIsOfThirdOrder)
+{
+  // Of one step from the same instant of an oscillation, against the exact motion; the estimate is of the same size.
+  constexpr double omega = 50.;
+  for (const double radius : { 1., 0.8 })
+  {
+    const auto estimate = [&](const double dt)
+    {
+      ModalStructure structure(oscillator(omega, 0.));
+      const auto at = [&](const double time)
+      {
+        Motion motion                      = structure.rest();
+        motion.coordinates.position[0]     = std::sin(omega * time);
+        motion.coordinates.velocity[0]     = omega * std::cos(omega * time);
+        motion.coordinates.acceleration[0] = -omega * omega * std::sin(omega * time);
+        return motion;
+      };
+      const Motion from = at(0.01);
+      const Motion to   = step(structure, from, PortForces(), generalised_alpha(radius, dt));
+      const double told = std::abs(structure.port_error(from, to)[0]);
+      const double is   = std::abs(to.coordinates.position[0] - std::sin(omega * (0.01 + dt)));
+      EXPECT_LT(is, 3. * told) << radius;
+      EXPECT_GT(is, 0.1 * told) << radius;
+      return told;
+    };
+    EXPECT_NEAR(estimate(1e-3) / estimate(5e-4), 8., 0.5) << radius;
+  }
+}
+
+TEST(ModalStructure, ManyDurationsInARowDoNotSpoilEachOther)
+{
+  ModalStructure structure(make_data(false));
+  structure.use_step(generalised_alpha(0.8, 1e-3));
+  const dealii::FullMatrix<double> before = structure.compliance();
+  for (unsigned int i = 1; i < 40; ++i)
+    structure.use_step(generalised_alpha(0.8, 1e-3 / i));
+  structure.use_step(generalised_alpha(0.5, 1e-3));
+  structure.use_step(generalised_alpha(0.8, 1e-3));
+  for (unsigned int i = 0; i < 3; ++i)
+    for (unsigned int j = 0; j < 3; ++j)
+      EXPECT_EQ(structure.compliance()(i, j), before(i, j));
+}
