@@ -47,13 +47,14 @@ namespace sprag
     wanted *= 0.5;
   }
 
-  void StepClock::grow()
+  bool StepClock::grow()
   {
     if (wanted >= 0.99 * largest || count % 2 != 0 || passed % 2 != 0 || count - passed < 2)
-      return;
+      return false;
     count /= 2;
     passed /= 2;
     wanted *= 2.;
+    return true;
   }
 
   void StepClock::advance()

@@ -24,8 +24,8 @@ namespace sprag
 
     void halve();
 
-    /// Doubles the step where that leaves a whole number of them, up to the largest one.
-    void grow();
+    /// Doubles the step where that leaves a whole number of them, up to the largest one; says whether it did.
+    bool grow();
 
     void advance();
 

@@ -117,12 +117,14 @@ namespace sprag
         return error <= 1. || shortest;
       }
 
-      bool wants_longer()
+      bool wants_longer() const
       {
-        if (settings.time.tolerance == 0. || small < small_errors)
-          return false;
+        return settings.time.tolerance > 0. && small >= small_errors;
+      }
+
+      void lengthened()
+      {
         small = 0;
-        return true;
       }
 
     private:
@@ -210,8 +212,9 @@ namespace sprag
       report.rejected += attempt.rejected;
       report.ledger = ledger.report();
       clock.advance();
-      if (control.wants_longer() || (settings.time.tolerance == 0. && attempt.rejected == 0))
-        clock.grow();
+      const bool recovers = settings.time.tolerance == 0. && attempt.rejected == 0;
+      if ((control.wants_longer() || recovers) && clock.grow())
+        control.lengthened();
     }
     return report;
   }

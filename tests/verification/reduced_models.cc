@@ -71,7 +71,7 @@ namespace
 
 // Problem 15. The contact yields by delta = P/k, as if e were less by it: that takes the share k_theta/(s (s + sigma mu e))/k, at
 // most 7.1e-6, off theta - theta_0 and off P. J theta'' is 1e-6 of the spring's moment. Fast steps beside the contact's period,
-// 160 of its radians, magnify round-off of the gap to some 1e-5 N, and P comes late by 0.04 steps, 6e-6 at most.
+// 160 of its radians, magnify round-off of the gap to some 1e-5 N.
 TEST(RigidLever, FollowsTheClosedFormOnAStiffContactUnderASlowDrive)
 {
   for (const auto &paper : { model_a(), model_b(), with_coulomb(model_a(), 0.73) })
@@ -89,7 +89,7 @@ TEST(RigidLever, FollowsTheClosedFormOnAStiffContactUnderASlowDrive)
       const auto ideal   = closed_form(scene, row[Column::x], row[Column::v]);
       const double arm   = ideal.contact.s + std::copysign(ideal.mu, row[Column::v]) * scene.geometry.interface_offset;
       const double share = scene.spring_stiffness / (ideal.contact.s * arm) / scene.contact.stiffness;
-      const double off   = share + 7e-6;
+      const double off   = share + 2e-6;
       EXPECT_NEAR(row[Column::P], ideal.P, off * ideal.P + 2e-5) << "x " << row[Column::x];
       EXPECT_NEAR(row[Column::Q], ideal.Q, off * (ideal.P * ideal.mu + std::abs(ideal.Q)) + 2e-5) << "x " << row[Column::x];
       EXPECT_NEAR(row[Column::theta], ideal.contact.theta - ideal.P / scene.contact.stiffness / ideal.contact.s,
@@ -117,10 +117,10 @@ TEST(Beam, TendsToTheRigidLeverInProportionToItsFlexibility)
     const double theta = largest_difference(rows, rigid, Column::theta) / peak(rigid, Column::theta);
     EXPECT_LT(of_P, 0.6 / factor);
     EXPECT_LT(theta, 0.6 / factor);
-    // Round-off of the overlap of 0.01 mm, 1e-14 mm of 200, is 1e-12 of P.
+    // Round-off of an overlap of 0.01 mm between lengths of 200 mm rings along: 5e-11 of P in the smaller difference.
     if (before > 0.)
     {
-      EXPECT_NEAR(before / of_P, 10., 0.05 + 5e-11 / of_P) << factor;
+      EXPECT_NEAR(before / of_P, 10., 0.05 + 5e-10 / of_P) << factor;
     }
     before = of_P;
     RecordProperty("P_at_" + std::to_string(factor), std::to_string(of_P * factor) + "/factor");
