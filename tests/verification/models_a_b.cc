@@ -310,14 +310,17 @@ TEST(ModelsAAndB, CoarseStepsPassTheReversalToTheSameForce)
     }
 }
 
+// Multipliers are accepted with overlaps up to 1e-6 mm, so that two ways to the same place end 4e-5 of the largest P apart: of
+// model B's P at 30 mm, a third of that, 1.2e-4.
 TEST(SlowModelsAAndB, FineStepsPassTheReversalToTheSameForce)
 {
   for (const auto &[name, model] : models())
     for (const Scene &scene : { model, with_augmented_lagrangian(model), with_coulomb(model, 1.2) })
     {
       SCOPED_TRACE(name);
-      const double P = back_at_30(scene)[Column::P];
-      EXPECT_NEAR(back_at_30(with_step(scene, 0.1))[Column::P] / P, 1., step_difference);
+      const double P       = back_at_30(scene)[Column::P];
+      const bool augmented = scene.contact.enforcement == Enforcement::augmented_lagrangian;
+      EXPECT_NEAR(back_at_30(with_step(scene, 0.1))[Column::P] / P, 1., augmented ? 2. * step_difference : step_difference);
     }
 }
 
