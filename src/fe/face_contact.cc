@@ -1,5 +1,7 @@
 #include "fe/face_contact.h"
 
+#include "laws/friction_of_step.h"
+
 #include <deal.II/lac/lapack_full_matrix.h>
 
 #include <algorithm>
@@ -11,14 +13,6 @@ namespace sprag
 
   namespace
   {
-    /// The law seen by one step: with the drive's speed mu is a constant of the step.
-    FrictionLaw law_of_step(const FrictionLaw &friction, const double drive_speed)
-    {
-      if (friction.speed == FrictionSpeed::sliding)
-        return friction;
-      return { CoulombFriction{ friction_coefficient(friction, std::abs(drive_speed)).coefficient }, FrictionSpeed::drive };
-    }
-
     unsigned int place_of(const unsigned int node, const std::vector<unsigned int> &nodes)
     {
       return static_cast<unsigned int>(std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin());
@@ -87,7 +81,7 @@ namespace sprag
     x                    = trial.drive.x;
     start                = trial.contact;
     step_duration        = trial.drive.time - accepted.drive.time;
-    const ContactLaw law = { stiffness.normal, stiffness.tangential, law_of_step(friction, trial.drive.v), step_duration };
+    const ContactLaw law = { stiffness.normal, stiffness.tangential, friction_of_step(friction, trial.drive.v), step_duration };
     // A state with no step behind it can have no slip.
     const FrictionMode used = step_duration > 0. ? mode : FrictionMode::stick;
     states.clear();

@@ -1,5 +1,7 @@
 #include "fe/face_step.h"
 
+#include "laws/friction_of_step.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -36,15 +38,6 @@ namespace sprag
     return { &ports, inclination, relative, cylinder_centre(properties.geometry, relative, inclination) };
   }
 
-  /// With the drive's speed mu is a constant of the step.
-  FrictionLaw FaceStepContact::law_of_step(const double drive_speed) const
-  {
-    FrictionLaw law = properties.friction;
-    if (law.speed == FrictionSpeed::drive)
-      law.law = CoulombFriction{ friction_coefficient(law, std::abs(drive_speed)).coefficient };
-    return law;
-  }
-
   void FaceStepContact::clear(const Vector<double> &ports, const double duration)
   {
     displacement  = ports;
@@ -70,7 +63,7 @@ namespace sprag
     StepContactLaw law;
     law.normal     = { properties.penalties.normal, 1. };
     law.tangential = properties.penalties.tangential;
-    law.friction   = law_of_step(step.to.v);
+    law.friction   = friction_of_step(properties.friction, step.to.v);
     law.weights    = step.weights;
 
     auto range       = face.near(end, R);
@@ -177,7 +170,7 @@ namespace sprag
     // Slip in a second.
     clear(ports, 1.);
     const auto at    = configuration(ports, drive.x);
-    const auto law   = law_of_step(drive.v);
+    const auto law   = friction_of_step(properties.friction, drive.v);
     const auto range = clip(face.near(at, properties.geometry.cylinder_radius));
     theta            = at.theta;
     relative_x       = at.x;
@@ -197,6 +190,7 @@ namespace sprag
     const auto &penalty = properties.penalties;
     PatchForces of_patch;
     of_patch.patch = patch;
+    bool touched   = false;
     for (unsigned int q = chosen.begin; q < chosen.end; ++q)
     {
       const auto &point = face.points()[q];
@@ -221,10 +215,10 @@ namespace sprag
       stored += point.weight * (0.5 * penalty.normal * state.gap * state.gap + elastic);
       compression = std::max(compression, -state.gap);
       add(point, chosen.n_nodes, state.end_force, tangent, of_patch);
-      if (loaded.empty() || loaded.back().patch != patch)
-        loaded.push_back({});
-      loaded.back() = of_patch;
+      touched = true;
     }
+    if (touched)
+      loaded.push_back(of_patch);
   }
 
   void FaceStepContact::add(const FacePatches::Point &point, const unsigned int n_nodes, const Tensor<1, 4> &force,

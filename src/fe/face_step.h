@@ -94,7 +94,6 @@ namespace sprag
     };
 
     FaceConfiguration configuration(const dealii::Vector<double> &ports, double x) const;
-    FrictionLaw law_of_step(double drive_speed) const;
     void clear(const dealii::Vector<double> &ports, double duration);
     void step_patch(unsigned int patch, const FaceConfiguration &begin, const FaceConfiguration &end,
                     const std::vector<ContactMemory> &accepted, const StepContactLaw &law);
@@ -105,6 +104,8 @@ namespace sprag
     void add(const FacePatches::Point &point, unsigned int n_nodes, const dealii::Tensor<1, 4> &force,
              const dealii::Tensor<2, 4> &tangent, PatchForces &of_patch) const;
     void sum_forces();
+    FacePatches::Range clip(const FacePatches::Range &range);
+    void reach(const FacePatches::Range &range);
     unsigned int middle_of_contact() const;
     std::vector<FaceContact::PointState> observed_points() const;
     FaceView view(const std::vector<FaceContact::PointState> &points) const;
@@ -126,9 +127,6 @@ namespace sprag
     PortForces summed;
     std::vector<unsigned int> place; ///< of the face nodes' forces among those summed
     unsigned int remembered = 0;     ///< entry of the accepted memory at which the search for a point goes on
-    FacePatches::Range clip(const FacePatches::Range &range);
-    void reach(const FacePatches::Range &range);
-
     PortSelection reachable;
     FacePatches::Range reached{ 0, 0 }; ///< patches of `reachable`
     bool reaches_everywhere = false;

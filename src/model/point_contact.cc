@@ -1,5 +1,7 @@
 #include "model/point_contact.h"
 
+#include "laws/friction_of_step.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -28,15 +30,6 @@ namespace sprag
       : properties(std::move(point_properties))
       , all(all_ports(properties.ports.size()))
   {
-  }
-
-  FrictionLaw PointContact::law_of_step(const double drive_speed) const
-  {
-    if (properties.friction.speed == FrictionSpeed::sliding)
-      return properties.friction;
-    FrictionLaw law = properties.friction;
-    law.law         = CoulombFriction{ friction_coefficient(law, std::abs(drive_speed)).coefficient };
-    return law;
   }
 
   /// Two elements around the point across from the circle's centre: the contact stays between their ends for a step.
@@ -230,7 +223,7 @@ namespace sprag
     law.normal     = properties.normal;
     law.damping    = properties.damping;
     law.tangential = properties.tangential;
-    law.friction   = law_of_step(step.to.v);
+    law.friction   = friction_of_step(properties.friction, step.to.v);
     law.weights    = step.weights;
     response       = step_response(kinematics, step.accepted.contact.front(), law);
     slip_rate      = end.slip_row * end_rates;
@@ -244,7 +237,7 @@ namespace sprag
     choose_window(ports, drive.x);
     end                 = configure(coordinates(ports, drive.x));
     const auto normal   = mean_normal_force(properties.normal, end.gap, end.gap);
-    const auto law      = law_of_step(drive.v);
+    const auto law      = friction_of_step(properties.friction, drive.v);
     response            = {};
     response.mu         = std::copysign(friction_coefficient(law, std::abs(speed)).coefficient, speed);
     response.pressure   = normal.end;

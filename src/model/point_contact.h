@@ -82,7 +82,6 @@ namespace sprag
     Configuration configure(const Local &q) const;
     StepKinematics<n> step_kinematics(const PortStep &step, const Local &end_rates);
     void sum_forces(const Local &force, const LocalMatrix &tangent);
-    FrictionLaw law_of_step(double drive_speed) const;
 
     const PointContactProperties properties;
     unsigned int window = 0; ///< node before the first local one
