@@ -89,11 +89,7 @@ namespace sprag
         return step(accepted, to, weights);
       }
 
-      Motion motion        = structure->advance(accepted, *solved.forces, to);
-      motion.drive         = to;
-      motion.contact       = contact->memory();
-      motion.forces.ports  = solved.forces->ports;
-      motion.forces.values = solved.forces->values;
+      Motion motion = completed(structure->advance(accepted, *solved.forces, to), to, *solved.forces);
       structure->add_work(accepted, motion, outcome.work);
       contact->add_work(outcome.work);
       coupling.add_work(begin, z, weights, outcome.work);
@@ -148,16 +144,6 @@ namespace sprag
     FaceState face_state(const Motion &motion) const override
     {
       return contact->face_state(motion.drive);
-    }
-
-    const Structure &linear_structure() const
-    {
-      return *structure;
-    }
-
-    const Contact &contact_law() const
-    {
-      return *contact;
     }
 
   private:
@@ -240,16 +226,15 @@ namespace sprag
       const PortForces *const forces = solve_sliding(drive, ratio);
       if (forces == nullptr)
         return {};
-      return deformed(drive, *forces);
+      return completed(structure->deform(*forces), drive, *forces);
     }
 
-    Motion deformed(const DrivePoint &drive, const PortForces &forces)
+    /// With what the structure does not know: drive, memory of the contact and its forces.
+    Motion completed(Motion motion, const DrivePoint &drive, const PortForces &forces) const
     {
-      Motion motion        = structure->deform(forces);
-      motion.drive         = drive;
-      motion.contact       = contact->memory();
-      motion.forces.ports  = forces.ports;
-      motion.forces.values = forces.values;
+      motion.drive   = drive;
+      motion.contact = contact->memory();
+      motion.forces  = { forces.ports, forces.values };
       return motion;
     }
   };
