@@ -1,13 +1,12 @@
 #include "analysis/run_transient.h"
 
+#include "analysis/dynamics.h"
 #include "analysis/ideal_contact.h"
 #include "analysis/recorder.h"
 #include "analysis/transient.h"
 #include "analysis/transient_report.h"
 #include "base/errors.h"
-#include "fe/dynamic_face_lever.h"
 #include "fe/field_frames.h"
-#include "fe/lever_model.h"
 #include "model/reduced_lever.h"
 #include "scene/contact_reference.h"
 
@@ -56,14 +55,6 @@ namespace sprag
         throw;
       }
       recorder.finish("completed", meta());
-    }
-
-    /// Contact points four times as far apart as in quasi-static runs: P moves by 6e-4 of its size, and a step is the faster.
-    BodyProperties body_properties(const Scene &scene)
-    {
-      auto properties          = lever_properties(scene).body;
-      properties.point_spacing = scene.geometry.cylinder_radius / 1000.;
-      return properties;
     }
 
     void announce(const Scene &scene, const RunOptions &options)
@@ -142,21 +133,12 @@ namespace sprag
 
     void run_meshed(const Scene &scene, const RunOptions &options)
     {
-      Timer timer(std::cout, Timer::never, Timer::cpu_and_wall_times);
       require_writable(options.folder);
-      dealii::Triangulation<2> triangulation;
-      {
-        const Timer::Scope scope(timer, "mesh");
-        make_mesh(scene, triangulation);
-      }
-      const ElasticBody<2> body(triangulation, body_properties(scene));
-      MeshedDynamics lever;
-      {
-        const Timer::Scope scope(timer, "model");
-        const double relaxation = contact_reference(scene).relaxation;
-        lever                   = scene.analysis.model == ModelType::condensed ? make_condensed_dynamics(scene, body, relaxation)
-                                                                               : make_finite_element_dynamics(scene, body, relaxation);
-      }
+      DynamicsMaker maker;
+      auto &timer         = maker.timer();
+      const auto dynamics = maker.make(scene);
+      const auto &lever   = dynamics.meshed;
+      const auto &body    = *dynamics.lever->body;
       Recorder recorder(scene, options.folder, options.quiet, lever.model->face_points());
       announce(scene, lever, body, options);
       std::optional<FieldFrames> frames;

@@ -73,6 +73,7 @@ namespace sprag
       }
 
       void read_file();
+      void read_all(std::istream &input);
       void read_override(const std::string &text);
 
     private:
@@ -82,6 +83,7 @@ namespace sprag
       bool section_known = false;
       std::string section_place;
 
+      void unusable(const std::string &rule);
       void mistake(const std::string &place, const std::string &what, const std::string &rule);
       void read(const std::string &place, const std::string &text);
       void open(const std::string &place, const std::string &name);
@@ -98,20 +100,26 @@ namespace sprag
       settings.mistakes.push_back(place + ": " + what + ": " + rule);
     }
 
+    void Reader::unusable(const std::string &rule)
+    {
+      settings.mistakes.push_back(settings.file + ": " + rule);
+      for (const auto &parameter : declared)
+        settings.doubtful.insert(full_name(parameter));
+    }
+
     void Reader::read_file()
     {
-      const auto unusable = [this](const std::string &rule)
-      {
-        settings.mistakes.push_back(settings.file + ": " + rule);
-        for (const auto &parameter : declared)
-          settings.doubtful.insert(full_name(parameter));
-      };
       std::error_code ignored;
       std::ifstream input(settings.file);
       if (std::filesystem::is_directory(settings.file, ignored))
         return unusable("is a folder: must be a parameter file");
       if (!input)
         return unusable("cannot be read");
+      read_all(input);
+    }
+
+    void Reader::read_all(std::istream &input)
+    {
       const std::vector<Statement> all = statements(input);
       if (std::any_of(all.begin(), all.end(), [](const auto &s) { return s.text.find('\0') != std::string::npos; }))
         return unusable("is not a text: must be a parameter file");
@@ -265,6 +273,19 @@ namespace sprag
     reader.read_file();
     for (const auto &text : overrides)
       reader.read_override(text);
+    return settings;
+  }
+
+  Settings read_settings_text(const std::string &file, const std::string &text, const std::vector<std::string> &overrides,
+                              const std::vector<Parameter> &declared)
+  {
+    Settings settings;
+    settings.file = file;
+    Reader reader(declared, settings);
+    std::istringstream input(text);
+    reader.read_all(input);
+    for (const auto &override_given : overrides)
+      reader.read_override(override_given);
     return settings;
   }
 

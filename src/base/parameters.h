@@ -50,6 +50,10 @@ namespace sprag
   Settings read_settings(const std::string &file, const std::vector<std::string> &overrides,
                          const std::vector<Parameter> &declared);
 
+  /// The same for the text of a parameter file, to be called `file` in messages.
+  Settings read_settings_text(const std::string &file, const std::string &text, const std::vector<std::string> &overrides,
+                              const std::vector<Parameter> &declared);
+
   /// Adds the mistake that the parameter with this full name breaks `rule`, with its place and the value in use.
   void add_mistake(Settings &settings, const std::vector<Parameter> &declared, const std::string &name, const std::string &rule);
 

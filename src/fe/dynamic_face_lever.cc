@@ -1,6 +1,5 @@
 #include "fe/dynamic_face_lever.h"
 
-#include "fe/condensed_basis.h"
 #include "fe/lever_model.h"
 #include "model/dynamic_lever.h"
 
@@ -15,6 +14,11 @@ namespace sprag
       return { { { material_id::lever, scene.lever.density }, { material_id::layer, scene.layer.density } },
                scene.lever.tip_mass,
                scene.lever.moment_of_inertia };
+    }
+
+    BasisSettings basis_settings(const Scene &scene)
+    {
+      return { scene.condensed.modes, scene.spring_stiffness, inertia_of(scene), scene.condensed.cache };
     }
 
     LeverDynamics constants_of(const Scene &scene, const double relaxation, const double lever_mass)
@@ -57,29 +61,40 @@ namespace sprag
     }
   } // namespace
 
-  MeshedDynamics make_finite_element_dynamics(const Scene &scene, const ElasticBody<2> &body, const double relaxation)
+  FiniteElementBasis make_finite_element_basis(const Scene &scene, const ElasticBody<2> &body)
   {
     const auto matrices = std::make_shared<InertialMatrices<2>>(body, inertia_of(scene));
     dealii::PETScWrappers::SparseMatrix stiffness;
     matrices->sum({ 0., 1., 0., scene.spring_stiffness }, stiffness);
-    const auto modes     = free_modes(stiffness, matrices->mass, scene.condensed.modes);
-    const auto constants = constants_of(scene, relaxation, matrices->total_mass);
-    auto structure       = std::make_unique<SparseStructure>(body, matrices, modes, constants);
+    return { matrices, free_modes(stiffness, matrices->mass, scene.condensed.modes) };
+  }
 
-    MeshedDynamics result       = facts(scene, body, modes.stiffness);
-    result.n_coordinates        = matrices->coordinates.size();
-    result.density_factor       = matrices->density_factor;
-    result.lever_mass           = matrices->total_mass;
+  std::shared_ptr<const CondensedBasis> make_condensed_basis(const Scene &scene, const ElasticBody<2> &body, const bool store)
+  {
+    const auto settings = basis_settings(scene);
+    return std::make_shared<const CondensedBasis>(store ? condensed_basis(body, settings) : make_basis(body, settings));
+  }
+
+  MeshedDynamics make_finite_element_dynamics(const Scene &scene, const ElasticBody<2> &body, const FiniteElementBasis &basis,
+                                              const double relaxation)
+  {
+    const auto &matrices = *basis.matrices;
+    const auto constants = constants_of(scene, relaxation, matrices.total_mass);
+    auto structure       = std::make_unique<SparseStructure>(body, basis.matrices, basis.modes, constants);
+
+    MeshedDynamics result       = facts(scene, body, basis.modes.stiffness);
+    result.n_coordinates        = matrices.coordinates.size();
+    result.density_factor       = matrices.density_factor;
+    result.lever_mass           = matrices.total_mass;
     result.elastic_displacement = [lever = structure.get()](const Motion &motion) { return lever->elastic_displacement(motion); };
     result.model                = assemble(scene, body, std::move(structure), result);
     return result;
   }
 
-  MeshedDynamics make_condensed_dynamics(const Scene &scene, const ElasticBody<2> &body, const double relaxation)
+  MeshedDynamics make_condensed_dynamics(const Scene &scene, const ElasticBody<2> &body,
+                                         const std::shared_ptr<const CondensedBasis> &basis, const double relaxation)
   {
-    const BasisSettings settings{ scene.condensed.modes, scene.spring_stiffness, inertia_of(scene), scene.condensed.cache };
-    const auto basis = std::make_shared<const CondensedBasis>(condensed_basis(body, settings));
-    auto structure   = std::make_unique<ModalStructure>(modal_data(*basis, constants_of(scene, relaxation, basis->lever_mass)));
+    auto structure = std::make_unique<ModalStructure>(modal_data(*basis, constants_of(scene, relaxation, basis->lever_mass)));
 
     MeshedDynamics result    = facts(scene, body, basis->stiffness);
     result.n_coordinates     = structure->n_modes();
@@ -89,8 +104,8 @@ namespace sprag
     result.basis_cpu_seconds = basis->cpu_seconds;
     result.message           = basis->message;
     // Made when the first field is wanted.
-    result.elastic_displacement =
-        [&body, settings, basis, made = std::shared_ptr<CondensedDisplacement>()](const Motion &motion) mutable
+    result.elastic_displacement = [&body, settings = basis_settings(scene), basis,
+                                   made = std::shared_ptr<CondensedDisplacement>()](const Motion &motion) mutable
     {
       if (!made)
         made = std::make_shared<CondensedDisplacement>(body, settings, *basis);

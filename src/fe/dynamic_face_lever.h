@@ -1,5 +1,6 @@
 #pragma once
 
+#include "fe/condensed_basis.h"
 #include "fe/face_step.h"
 #include "model/dynamic_model.h"
 
@@ -28,9 +29,23 @@ namespace sprag
     std::string message;           ///< why the basis was not stored; empty if it was
   };
 
+  /// What of a meshed lever neither friction nor damping nor drive touch, to be shared by models of one body.
+  struct FiniteElementBasis
+  {
+    std::shared_ptr<const InertialMatrices<2>> matrices;
+    FreeModes modes;
+  };
+
+  FiniteElementBasis make_finite_element_basis(const Scene &scene, const ElasticBody<2> &body);
+
+  /// From the scene's cache if it is there; made, and stored there if `store`, if not.
+  std::shared_ptr<const CondensedBasis> make_condensed_basis(const Scene &scene, const ElasticBody<2> &body, bool store);
+
   /// All degrees of freedom. `relaxation`: damping over stiffness of the friction layer [s]. The body must outlive the model.
-  MeshedDynamics make_finite_element_dynamics(const Scene &scene, const ElasticBody<2> &body, double relaxation);
+  MeshedDynamics make_finite_element_dynamics(const Scene &scene, const ElasticBody<2> &body, const FiniteElementBasis &basis,
+                                              double relaxation);
 
   /// Modes and static face shapes, see CondensedBasis.
-  MeshedDynamics make_condensed_dynamics(const Scene &scene, const ElasticBody<2> &body, double relaxation);
+  MeshedDynamics make_condensed_dynamics(const Scene &scene, const ElasticBody<2> &body,
+                                         const std::shared_ptr<const CondensedBasis> &basis, double relaxation);
 } // namespace sprag

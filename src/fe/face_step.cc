@@ -59,6 +59,7 @@ namespace sprag
     const auto &memory = step.accepted.contact;
     theta              = end.theta;
     relative_x         = end.x;
+    surface_run        = step.to.surface - step.accepted.drive.surface;
 
     StepContactLaw law;
     law.normal     = { properties.penalties.normal, 1. };
@@ -81,7 +82,7 @@ namespace sprag
     double force_on_circle = 0.;
     for (const auto &of_patch : loaded)
       force_on_circle += of_patch.values[x_index];
-    work.drive = -force_on_circle * (step.to.x - step.accepted.drive.x);
+    work.drive -= force_on_circle * (step.to.x - step.accepted.drive.x);
   }
 
   void FaceStepContact::step_patch(const unsigned int patch, const FaceConfiguration &begin, const FaceConfiguration &end,
@@ -142,7 +143,7 @@ namespace sprag
     kinematics.gap_row         = balance.gap_row;
     kinematics.gap_curvature   = share * balance.gap_curvature;
     kinematics.gap_bend        = change * (balance.gap_curvature * change);
-    kinematics.slip_change     = at_end.slip - at_begin.slip;
+    kinematics.slip_change     = at_end.slip - at_begin.slip + surface_run;
     kinematics.slip_change_row = at_end.slip_row;
     kinematics.slip_row        = balance.slip_row;
     kinematics.slip_curvature  = share * balance.slip_curvature;
@@ -159,34 +160,33 @@ namespace sprag
     state.memory.point = state.index;
 
     stored += point.weight * response.energy;
+    work.drive += point.weight * response.mean_traction * surface_run;
     work.friction += point.weight * response.friction;
     work.algorithmic += point.weight * response.algorithmic;
     work.creep = std::max(work.creep, response.creep);
     add(point, face.patches()[state.patch].n_nodes, response.force, response.tangent, of_patch);
   }
 
-  void FaceStepContact::evaluate_sliding(const Vector<double> &ports, const DrivePoint &drive, const double speed)
+  void FaceStepContact::evaluate_sliding(const SlidingState &sliding)
   {
     // Slip in a second.
-    clear(ports, 1.);
-    const auto at    = configuration(ports, drive.x);
-    const auto law   = friction_of_step(properties.friction, drive.v);
+    clear(sliding.ports, 1.);
+    const auto at    = configuration(sliding.ports, sliding.drive.x);
+    const auto law   = friction_of_step(properties.friction, sliding.drive.v);
     const auto range = clip(face.near(at, properties.geometry.cylinder_radius));
     theta            = at.theta;
     relative_x       = at.x;
     for (unsigned int patch = range.begin; patch < range.end; ++patch)
-      slide_patch(patch, at, law, speed);
+      slide_patch(patch, at, sliding, law);
     sum_forces();
   }
 
-  void FaceStepContact::slide_patch(const unsigned int patch, const FaceConfiguration &at, const FrictionLaw &law,
-                                    const double speed)
+  void FaceStepContact::slide_patch(const unsigned int patch, const FaceConfiguration &at, const SlidingState &sliding,
+                                    const FrictionLaw &law)
   {
     const auto &chosen  = face.patches()[patch];
     const auto nodal    = FacePatches::nodal(chosen, *at.displacement);
-    const double v_r    = law.regularisation_speed;
-    const double mu     = friction_coefficient(law, std::abs(speed)).coefficient;
-    const double sense  = v_r > 0. ? speed / std::hypot(speed, v_r) : std::copysign(1., speed);
+    const bool slides   = sliding.friction == ContactFriction::sliding;
     const auto &penalty = properties.penalties;
     PatchForces of_patch;
     of_patch.patch = patch;
@@ -198,27 +198,67 @@ namespace sprag
       state.index       = q;
       state.patch       = patch;
       state.position    = FacePatches::position(point, nodal);
-      state.slip_change = speed;
+      state.slip_change = sliding.speed;
       state.gap         = gap(state.position, at, properties.geometry.cylinder_radius);
       if (state.gap >= 0.)
         continue;
       const auto contact = moving_circle_contact(properties.geometry, state.position, at.x, at.theta);
-      state.pressure     = -penalty.normal * state.gap;
-      state.traction     = sense * mu * state.pressure;
-      state.mu           = mu;
-      state.slipping     = true;
-      state.end_force    = state.pressure * contact.gap_row - state.traction * contact.slip_row;
-      state.memory       = { 0., state.traction, 0., 0., speed, 0., q };
-      const auto tangent = -penalty.normal * outer_product(contact.gap_row - sense * mu * contact.slip_row, contact.gap_row) +
-                           state.pressure * contact.gap_curvature - state.traction * contact.slip_curvature;
-      const double elastic = v_r > 0. ? 0. : 0.5 * state.traction * state.traction / penalty.tangential;
+      if (sliding.rates != nullptr)
+        state.slip_change += contact.slip_row * point_change(point, chosen, *sliding.rates);
+      const auto share        = slides ? sliding_friction(law, state.slip_change) : SlidingFriction{};
+      state.pressure          = -penalty.normal * state.gap;
+      state.traction          = share.coefficient * state.pressure;
+      state.mu                = slides ? friction_coefficient(law, std::abs(state.slip_change)).coefficient : 0.;
+      state.slipping          = slides;
+      state.end_force         = state.pressure * contact.gap_row - state.traction * contact.slip_row;
+      state.memory.traction   = state.traction;
+      state.memory.slip_speed = sliding.speed;
+      state.memory.point      = q;
+      const double elastic    = law.regularisation_speed > 0. ? 0. : 0.5 * state.traction * state.traction / penalty.tangential;
       stored += point.weight * (0.5 * penalty.normal * state.gap * state.gap + elastic);
       compression = std::max(compression, -state.gap);
-      add(point, chosen.n_nodes, state.end_force, tangent, of_patch);
+      add(point, chosen.n_nodes, state.end_force, sliding_tangent(sliding.part, sliding.friction, contact, share, state.pressure),
+          of_patch);
       touched = true;
     }
     if (touched)
       loaded.push_back(of_patch);
+  }
+
+  Tensor<2, 4> FaceStepContact::sliding_tangent(const TangentPart part, const ContactFriction friction,
+                                                const ContactKinematics<4> &contact, const SlidingFriction &share,
+                                                const double pressure) const
+  {
+    const auto &penalty = properties.penalties;
+    switch (part)
+    {
+    case TangentPart::all:
+      return sliding_tangent(TangentPart::pressure, friction, contact, share, pressure) +
+             sliding_tangent(TangentPart::friction, friction, contact, share, pressure);
+    case TangentPart::pressure:
+      return -penalty.normal * outer_product(contact.gap_row, contact.gap_row) + pressure * contact.gap_curvature;
+    case TangentPart::friction:
+      if (friction == ContactFriction::stuck)
+        return -penalty.tangential * outer_product(contact.slip_row, contact.slip_row);
+      return share.coefficient *
+             (penalty.normal * outer_product(contact.slip_row, contact.gap_row) - pressure * contact.slip_curvature);
+    case TangentPart::friction_rate:
+      return -share.derivative * pressure * outer_product(contact.slip_row, contact.slip_row);
+    case TangentPart::pressure_rate:
+      break;
+    }
+    return {};
+  }
+
+  /// Of a point by a change of the ports, in the coordinates of its contact.
+  Tensor<1, 4> FaceStepContact::point_change(const FacePatches::Point &point, const FacePatches::Patch &patch,
+                                             const Vector<double> &change_of_ports) const
+  {
+    const auto nodal = FacePatches::nodal(patch, change_of_ports);
+    const auto moved = FacePatches::position(point, nodal);
+    const auto &at   = properties.ports;
+    return Tensor<1, 4>({ moved.xi - point.position.xi, moved.eta - point.position.eta, change_of_ports[at.rotation()],
+                          at.sprung ? -change_of_ports[at.support()] : 0. });
   }
 
   void FaceStepContact::add(const FacePatches::Point &point, const unsigned int n_nodes, const Tensor<1, 4> &force,
@@ -413,14 +453,7 @@ namespace sprag
   {
     const auto &state  = states[middle_of_contact()];
     const auto contact = moving_circle_contact(properties.geometry, state.position, relative_x, theta);
-    const auto nodal   = FacePatches::nodal(face.patches()[state.patch], change_of_ports);
-    double change      = contact.gap_row[2] * change_of_ports[properties.ports.rotation()];
-    for (unsigned int a = 0; a < FacePatches::max_nodes; ++a)
-      for (unsigned int d = 0; d < 2; ++d)
-        change += contact.gap_row[d] * face.points()[state.index].shapes[a] * nodal[2 * a + d];
-    if (properties.ports.sprung)
-      change -= contact.gap_row[3] * change_of_ports[properties.ports.support()];
-    return change;
+    return contact.gap_row * point_change(face.points()[state.index], face.patches()[state.patch], change_of_ports);
   }
 
   double FaceStepContact::mean_slip(const Vector<double> &from, const double from_x, const Vector<double> &to,

@@ -3,6 +3,7 @@
 #include "fe/face_observation.h"
 #include "fe/face_patches.h"
 #include "model/contact_step.h"
+#include "model/linearisation.h"
 #include "model/port_layout.h"
 #include "model/port_step.h"
 
@@ -31,8 +32,7 @@ namespace sprag
 
     void evaluate(const PortStep &step);
 
-    /// Without inertia, all points sliding at `speed`.
-    void evaluate_sliding(const dealii::Vector<double> &ports, const DrivePoint &drive, double speed);
+    void evaluate_sliding(const SlidingState &state);
 
     const PortForces &forces() const;
 
@@ -64,6 +64,8 @@ namespace sprag
     double mean_slip(const dealii::Vector<double> &from, double from_x, const dealii::Vector<double> &to, double to_x) const;
 
     void observe(Row &row) const;
+    /// Displacements of the face's nodes.
+    SurfaceShape surface_shape(const dealii::Vector<double> &displacements) const;
     FacePoints face_points() const;
     FaceState face_state(const DrivePoint &drive) const;
 
@@ -100,13 +102,17 @@ namespace sprag
     void step_point(PointState &state, const LeverPoint &begin_position, double begin_gap, const ContactMemory &memory,
                     const FaceConfiguration &begin, const FaceConfiguration &end, const StepContactLaw &law,
                     PatchForces &of_patch);
-    void slide_patch(unsigned int patch, const FaceConfiguration &at, const FrictionLaw &law, double speed);
+    void slide_patch(unsigned int patch, const FaceConfiguration &at, const SlidingState &sliding, const FrictionLaw &law);
+    dealii::Tensor<2, 4> sliding_tangent(TangentPart part, ContactFriction friction, const ContactKinematics<4> &contact,
+                                         const SlidingFriction &share, double pressure) const;
     void add(const FacePatches::Point &point, unsigned int n_nodes, const dealii::Tensor<1, 4> &force,
              const dealii::Tensor<2, 4> &tangent, PatchForces &of_patch) const;
     void sum_forces();
     FacePatches::Range clip(const FacePatches::Range &range);
     void reach(const FacePatches::Range &range);
     unsigned int middle_of_contact() const;
+    dealii::Tensor<1, 4> point_change(const FacePatches::Point &point, const FacePatches::Patch &patch,
+                                      const dealii::Vector<double> &change_of_ports) const;
     std::vector<FaceContact::PointState> observed_points() const;
     FaceView view(const std::vector<FaceContact::PointState> &points) const;
 
@@ -119,6 +125,7 @@ namespace sprag
     double theta         = 0.;
     double relative_x    = 0.; ///< of the circle to the pivot frame [mm]
     double step_duration = 0.;
+    double surface_run   = 0.; ///< of the cylinder by turning, in the step [mm]
     double compression   = 0.;
     double stored        = 0.; ///< energy
     StepWork work;

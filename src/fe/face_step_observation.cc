@@ -45,6 +45,19 @@ namespace sprag
       row[Column::Q] -= face.points()[state.index].weight * state.end_force[3];
   }
 
+  SurfaceShape FaceStepContact::surface_shape(const dealii::Vector<double> &displacements) const
+  {
+    SurfaceShape shape;
+    const auto &nodes = body.friction_face().nodes;
+    for (unsigned int node = 0; node < nodes.size(); ++node)
+    {
+      shape.xi.push_back(nodes[node].position[0]);
+      shape.along.push_back(displacements[2 * node]);
+      shape.across.push_back(displacements[2 * node + 1]);
+    }
+    return shape;
+  }
+
   FacePoints FaceStepContact::face_points() const
   {
     return sprag::face_points(body);

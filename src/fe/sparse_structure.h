@@ -4,6 +4,7 @@
 #include "fe/effective_system.h"
 #include "fe/free_modes.h"
 #include "model/dynamic_model.h"
+#include "model/linearisation.h"
 
 #include <memory>
 
@@ -64,6 +65,12 @@ namespace sprag
     /// Displacements of the ports by the local error of a step in the lowest modes.
     dealii::Vector<double> port_error(const Motion &begin, const Motion &end) const;
 
+    /// The vibrations of lowest frequency under linear forces on the ports.
+    std::vector<StructureMode> vibrations(const PortPerturbation &forces, unsigned int number);
+
+    /// v^T C v with the motion's positions as velocities v: twice the power that damping takes.
+    double damping_form(const Motion &velocities) const;
+
     /// Elastic displacement of all degrees of freedom of the body, in lever axes [mm].
     dealii::Vector<double> elastic_displacement(const Motion &motion) const;
 
@@ -96,6 +103,11 @@ namespace sprag
     dealii::Vector<double> load_of_motion(const Kinematic &start, const Products &of, const StepWeights &w) const;
 
     void add_spring_forces(const Kinematic &start, const StepWeights &w, dealii::Vector<double> &load) const;
+
+    // Products with all coordinates, the support's included.
+    void mass_product(const dealii::Vector<double> &q, dealii::Vector<double> &result) const;
+    void damping_product(const dealii::Vector<double> &q, dealii::Vector<double> &result) const;
+    void stiffness_product(const dealii::Vector<double> &q, dealii::Vector<double> &result) const;
 
     void add_support_work(const Kinematic &q_0, const Kinematic &q_1, const StepWeights &w, StepWork &work) const;
 

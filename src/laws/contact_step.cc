@@ -88,22 +88,18 @@ namespace sprag
                             const FrictionLaw &law, const double dt)
     {
       EndFriction result{};
-      const double mean  = slip_change / dt;
-      const auto along   = extrapolation(history, std::copysign(1., mean), dt);
-      const double w     = along.scale * mean - std::copysign(along.offset, mean);
-      const double v_r   = law.regularisation_speed;
-      const auto mu      = friction_coefficient(law, std::abs(w));
-      const double root  = std::hypot(w, v_r);
-      const double share = w / root;
-      const double d_w   = mu.derivative * std::abs(share) + mu.coefficient * v_r * v_r / (root * root * root);
-      result.traction    = mu.coefficient * pressure * share;
-      result.d_slip      = pressure * d_w * along.scale / dt;
-      result.d_pressure  = mu.coefficient * share;
-      result.mu          = mu.coefficient;
-      result.slipping    = true;
-      result.slip_speed  = mean;
-      result.dissipated  = 0.5 * (history.traction + result.traction) * slip_change;
-      result.creep       = std::abs(mean) < v_r ? std::abs(slip_change) : 0.;
+      const double mean = slip_change / dt;
+      const auto along  = extrapolation(history, std::copysign(1., mean), dt);
+      const double w    = along.scale * mean - std::copysign(along.offset, mean);
+      const auto share  = sliding_friction(law, w);
+      result.traction   = share.coefficient * pressure;
+      result.d_slip     = pressure * share.derivative * along.scale / dt;
+      result.d_pressure = share.coefficient;
+      result.mu         = friction_coefficient(law, std::abs(w)).coefficient;
+      result.slipping   = true;
+      result.slip_speed = mean;
+      result.dissipated = 0.5 * (history.traction + result.traction) * slip_change;
+      result.creep      = std::abs(mean) < law.regularisation_speed ? std::abs(slip_change) : 0.;
       return result;
     }
   } // namespace
@@ -125,6 +121,17 @@ namespace sprag
       result.d_mean = (result.end - result.mean) / change;
     }
     return result;
+  }
+
+  SlidingFriction sliding_friction(const FrictionLaw &law, const double speed)
+  {
+    const auto mu    = friction_coefficient(law, std::abs(speed));
+    const double v_r = law.regularisation_speed;
+    if (v_r == 0.)
+      return { std::copysign(mu.coefficient, speed), mu.derivative };
+    const double root  = std::hypot(speed, v_r);
+    const double share = speed / root;
+    return { mu.coefficient * share, mu.derivative * std::abs(share) + mu.coefficient * v_r * v_r / (root * root * root) };
   }
 
   EndDamping end_damping(const double damping, const double normal, const double gap, const double gap_rate)

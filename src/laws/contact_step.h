@@ -55,6 +55,16 @@ namespace sprag
     double creep;      ///< slip below the regularisation speed [mm]
   };
 
+  /// Traction over pressure where a contact slides, and its derivative by the slip speed.
+  struct SlidingFriction
+  {
+    double coefficient = 0.; ///< signed as the speed
+    double derivative  = 0.; ///< [s/mm]
+  };
+
+  /// mu(|w|) sgn(w), or mu(|w|) w / sqrt(w^2 + v_r^2) with a regularisation speed v_r; w != 0 [mm/s].
+  SlidingFriction sliding_friction(const FrictionLaw &law, double speed);
+
   /// Friction at the end of a step of duration dt > 0 [s] in which the contact slips by `slip_change`: stick with a spring of the
   /// given stiffness > 0, or slip with |t| = mu(w) p, where w is the slip speed at the end, extrapolated from this step and the
   /// last (second order). With a regularisation speed v_r > 0 there is no stick: t = mu(|w|) p w / sqrt(w^2 + v_r^2).

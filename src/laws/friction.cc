@@ -82,7 +82,8 @@ namespace sprag
 
   FrictionValue friction_coefficient(const FrictionLaw &law, const double speed)
   {
-    return std::visit([speed](const auto &choice) { return value_of(choice, speed); }, law.law);
+    const auto value = std::visit([speed](const auto &choice) { return value_of(choice, speed); }, law.law);
+    return { law.factor * value.coefficient, law.factor * value.derivative };
   }
 
   const std::vector<double> &friction_knots(const FrictionLaw &law)

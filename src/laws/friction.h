@@ -56,6 +56,7 @@ namespace sprag
     std::variant<CoulombFriction, CorkOnAluminium, TabulatedFriction> law = CorkOnAluminium{};
     FrictionSpeed speed                                                   = FrictionSpeed::sliding;
     double regularisation_speed                                           = 0.; ///< [mm/s]; 0: stick is resolved
+    double factor                                                         = 1.; ///< times mu of the law, >= 0
   };
 
   /// mu and dmu/d|v| at a sliding speed |v| >= 0 [mm/s]. mu(0) is the cone in stick.

@@ -11,7 +11,10 @@ namespace sprag
   {
     FrictionLaw law = friction;
     if (law.speed == FrictionSpeed::drive)
-      law.law = CoulombFriction{ friction_coefficient(friction, std::abs(drive_speed)).coefficient };
+    {
+      law.law    = CoulombFriction{ friction_coefficient(friction, std::abs(drive_speed)).coefficient };
+      law.factor = 1.;
+    }
     return law;
   }
 } // namespace sprag

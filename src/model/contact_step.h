@@ -43,10 +43,11 @@ namespace sprag
   template <int n>
   struct StepResponse
   {
-    double pressure = 0.; ///< at the end of the step, damping included
-    double traction = 0.; ///< at the end of the step, positive where the slip coordinate grows
-    double mu       = 0.;
-    bool slipping   = false;
+    double pressure      = 0.; ///< at the end of the step, damping included
+    double traction      = 0.; ///< at the end of the step, positive where the slip coordinate grows
+    double mu            = 0.;
+    bool slipping        = false;
+    double mean_traction = 0.;    ///< of the step
     dealii::Tensor<1, n> force;   ///< of the step, generalised
     dealii::Tensor<2, n> tangent; ///< d(force)/dq_1, unsymmetric
     ContactMemory memory;         ///< at the end of the step; the slip coordinate is the caller's
@@ -85,8 +86,9 @@ namespace sprag
     const auto d_pressure = normal.d_mean * point.gap_row_end + delay * d_end + (1. - law.weights.alpha_f) * d_dashpot;
     const auto d_traction = share * (friction.d_slip * point.slip_change_row + friction.d_pressure * (d_end + d_dashpot));
 
-    response.force   = pressure * point.gap_row - traction * point.slip_row;
-    response.tangent = outer_product(point.gap_row, d_pressure) - outer_product(point.slip_row, d_traction) +
+    response.mean_traction = traction;
+    response.force         = pressure * point.gap_row - traction * point.slip_row;
+    response.tangent       = outer_product(point.gap_row, d_pressure) - outer_product(point.slip_row, d_traction) +
                        pressure * point.gap_curvature - traction * point.slip_curvature;
 
     response.pressure          = normal.end + dashpot.force;

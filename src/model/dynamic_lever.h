@@ -4,11 +4,14 @@
 #include "model/circle.h"
 #include "model/dynamic_model.h"
 #include "model/frame_coupling.h"
+#include "model/growth.h"
 #include "model/lever_frame.h"
+#include "model/linearisation.h"
 #include "model/port_newton.h"
 #include "model/port_step.h"
 #include "scene/closed_form.h"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -109,6 +112,79 @@ namespace sprag
       return SlidingForces{ row[Column::P], row[Column::Q] };
     }
 
+    std::optional<HeldSlide> hold(const DrivePoint &drive, const ContactFriction friction) override
+    {
+      const bool slides             = friction == ContactFriction::sliding;
+      const double ratio            = slides ? speed_ratio(drive, 1e-3 * frame.geometry.cylinder_radius) : 1.;
+      const PortForces *const force = solve_sliding(drive, ratio, friction);
+      if (force == nullptr)
+        return {};
+      HeldSlide slide;
+      slide.drive       = drive;
+      slide.motion      = completed(structure->deform(*force), { drive.time, drive.x, 0., 0. }, *force);
+      slide.ports       = last_sliding;
+      slide.friction    = friction;
+      slide.speed       = ratio * sliding_speed(frame.geometry, drive.x, drive.v);
+      slide.indentation = contact->overlap();
+      Row row;
+      contact->observe(row);
+      slide.mu         = slides ? row[Column::mu] : 0.;
+      slide.forces     = { row[Column::P], row[Column::Q] };
+      slide.uniqueness = uniqueness(slide);
+      return slide;
+    }
+
+    std::vector<Eigenmode> vibrations(const HeldSlide &slide, const bool in_contact, const unsigned int number) override
+    {
+      const auto forces = perturbation(slide, in_contact);
+      std::vector<Eigenmode> result;
+      for (auto &mode : structure->vibrations(forces, number))
+      {
+        ComplexVector ports;
+        for (unsigned int part = 0; part < 2; ++part)
+          ports[part] = structure->port_positions(as_motion(mode, part));
+        const auto forms = mode_forms(*structure, mode);
+        result.push_back(explained(std::move(mode), std::move(ports), forms, forces, frame.ports));
+      }
+      return result;
+    }
+
+    Motion perturbed(const HeldSlide &slide, const Eigenmode &eigenmode, const double amplitude) override
+    {
+      const auto &mode = eigenmode.mode;
+      contact->evaluate_sliding(sliding_state(slide, TangentPart::all));
+      const std::complex<double> gap(contact->gap_change(eigenmode.ports[0]), contact->gap_change(eigenmode.ports[1]));
+      const std::complex<double> size = amplitude / gap;
+      const auto add = [](const std::complex<double> factor, const ComplexVector &vector, dealii::Vector<double> &sum)
+      { sum.add(factor.real(), vector[0], -factor.imag(), vector[1]); };
+
+      Motion motion = slide.motion;
+      add(size, mode.coordinates, motion.coordinates.position);
+      add(size * mode.eigenvalue, mode.coordinates, motion.coordinates.velocity);
+      add(size * mode.eigenvalue * mode.eigenvalue, mode.coordinates, motion.coordinates.acceleration);
+      if (motion.face_force.size() > 0)
+        add(size, mode.face_force, motion.face_force);
+      dealii::Vector<double> ports = slide.ports;
+      dealii::Vector<double> rates(ports.size());
+      add(size, eigenmode.ports, ports);
+      add(size * mode.eigenvalue, eigenmode.ports, rates);
+      contact->evaluate_sliding(SlidingState{ ports, slide.drive, slide.speed, &rates, slide.friction, TangentPart::all });
+      motion.contact = contact->memory();
+      return motion;
+    }
+
+    ModeShape mode_shape(const Eigenmode &mode) const override
+    {
+      const auto real      = contact->surface_shape(mode.ports[0]);
+      const auto imaginary = contact->surface_shape(mode.ports[1]);
+      const auto port      = [&](const unsigned int i) { return std::complex<double>(mode.ports[0][i], mode.ports[1][i]); };
+      return { real.xi,
+               { { real.along, imaginary.along } },
+               { { real.across, imaginary.across } },
+               port(frame.ports.rotation()),
+               frame.ports.sprung ? port(frame.ports.support()) : 0. };
+    }
+
     StoredEnergy stored_energy(const Motion &motion) const override
     {
       StoredEnergy energy = structure->stored_energy(motion);
@@ -188,8 +264,66 @@ namespace sprag
       return slip / (2. * h * sliding_speed(frame.geometry, drive.x, 1.));
     }
 
+    static SlidingState sliding_state(const HeldSlide &slide, const TangentPart part)
+    {
+      return { slide.ports, slide.drive, slide.speed, nullptr, slide.friction, part };
+    }
+
+    /// The contact's forces about a held slide, and the coupling with a sprung support.
+    PortPerturbation perturbation(const HeldSlide &slide, const bool in_contact)
+    {
+      const double theta = frame.rest_inclination + slide.ports[frame.ports.rotation()];
+      contact->reachable_ports(slide.drive.x, theta);
+      PortPerturbation result;
+      const auto part = [&](const TangentPart wanted) -> const PortForces &
+      {
+        contact->evaluate_sliding(sliding_state(slide, wanted));
+        return contact->forces();
+      };
+      if (in_contact)
+        result.ports = part(TangentPart::all).ports;
+      const auto loaded  = result.ports;
+      const auto coupled = coupling.coupled_ports();
+      result.ports.insert(result.ports.end(), coupled.begin(), coupled.end());
+      std::sort(result.ports.begin(), result.ports.end());
+      result.ports.erase(std::unique(result.ports.begin(), result.ports.end()), result.ports.end());
+      const auto n = static_cast<unsigned int>(result.ports.size());
+      for (auto *const matrix :
+           { &result.pressure, &result.friction, &result.pressure_rate, &result.friction_rate, &result.inertia })
+        matrix->reinit(n, n);
+      if (in_contact)
+      {
+        spread(part(TangentPart::pressure), result.ports, result.pressure);
+        spread(part(TangentPart::friction), result.ports, result.friction);
+        spread(part(TangentPart::pressure_rate), result.ports, result.pressure_rate);
+        spread(part(TangentPart::friction_rate), result.ports, result.friction_rate);
+      }
+      coupling.add_inertia(result.ports, theta, result.inertia);
+      return result;
+    }
+
+    static void spread(const PortForces &forces, const std::vector<unsigned int> &ports, dealii::FullMatrix<double> &matrix)
+    {
+      std::vector<unsigned int> place;
+      for (const unsigned int port : forces.ports)
+        place.push_back(static_cast<unsigned int>(std::lower_bound(ports.begin(), ports.end(), port) - ports.begin()));
+      for (unsigned int a = 0; a < place.size(); ++a)
+        for (unsigned int b = 0; b < place.size(); ++b)
+          matrix(place[a], place[b]) = forces.tangent(a, b);
+    }
+
+    /// See HeldSlide.
+    double uniqueness(const HeldSlide &slide)
+    {
+      structure->use_statics();
+      const auto forces = perturbation(slide, true);
+      return port_determinant(structure->compliance(), forces.ports, forces.stiffness()) /
+             port_determinant(structure->compliance(), forces.ports, forces.pressure);
+    }
+
     /// Contact and its forces in steady sliding at the ratio of speeds; null where there is no equilibrium.
-    const PortForces *solve_sliding(const DrivePoint &drive, const double ratio)
+    const PortForces *solve_sliding(const DrivePoint &drive, const double ratio,
+                                    const ContactFriction friction = ContactFriction::sliding)
     {
       structure->use_statics();
       const unsigned int hub            = frame.ports.rotation();
@@ -203,7 +337,7 @@ namespace sprag
       const double speed  = ratio * sliding_speed(frame.geometry, drive.x, drive.v);
       const auto evaluate = [&](const dealii::Vector<double> &ports) -> const PortForces &
       {
-        contact->evaluate_sliding(ports, drive, speed);
+        contact->evaluate_sliding(SlidingState{ ports, drive, speed, nullptr, friction, TangentPart::all });
         return contact->forces();
       };
       const auto solved = solve_ports(
@@ -213,7 +347,7 @@ namespace sprag
       if (!contact->within_reach())
       {
         contact->widen_reach();
-        return solve_sliding(drive, ratio);
+        return solve_sliding(drive, ratio, friction);
       }
       last_sliding       = z;
       last_sliding_theta = ideal;

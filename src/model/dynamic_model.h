@@ -3,6 +3,7 @@
 #include "model/contact_point.h"
 #include "model/generalised_alpha.h"
 #include "model/port_forces.h"
+#include "model/vibration.h"
 #include "results/columns.h"
 #include "results/result_file.h"
 #include "scene/drive.h"
@@ -64,6 +65,21 @@ namespace sprag
     double Q; ///< [N]
   };
 
+  /// A slide held at one x: the cylinder's centre stays there and the cylinder turns, so that its surface passes the lever at the
+  /// speed of the steady slide. An equilibrium, about which vibrations can be linearised.
+  struct HeldSlide
+  {
+    Motion motion;    ///< at rest; its drive stands still
+    DrivePoint drive; ///< whose slide it is
+    dealii::Vector<double> ports;
+    ContactFriction friction = ContactFriction::sliding;
+    double speed             = 0.; ///< of the surface along the lever, signed [mm/s]
+    double mu                = 0.;
+    double indentation       = 0.; ///< of the contact's spring: its largest overlap [mm]
+    SlidingForces forces{};
+    double uniqueness = 0.; ///< det(1 - G df/dz) over that without friction's part: 1 without friction, 0 where it jams
+  };
+
   /// Mechanics of a scene in time at one fidelity. Analyses know nothing of beams, meshes and dimensions.
   class DynamicModel
   {
@@ -79,6 +95,18 @@ namespace sprag
 
     /// Equilibrium of steady sliding with the drive at x, v != 0; none where there is none.
     virtual std::optional<SlidingForces> sliding_forces(const DrivePoint &drive) = 0;
+
+    /// The slide held at the drive's x, sliding as it does at its v; none where there is no equilibrium.
+    virtual std::optional<HeldSlide> hold(const DrivePoint &drive, ContactFriction friction) = 0;
+
+    /// Vibrations about a held slide, by increasing |lambda|: all of a small model, at least the `number` lowest of a large one.
+    /// Not in contact: those of the free structure.
+    virtual std::vector<Eigenmode> vibrations(const HeldSlide &slide, bool in_contact, unsigned int number) = 0;
+
+    /// The held slide displaced along a mode so that the gap moves by `amplitude` [mm] at first, with the velocities of the mode.
+    virtual Motion perturbed(const HeldSlide &slide, const Eigenmode &mode, double amplitude) = 0;
+
+    virtual ModeShape mode_shape(const Eigenmode &mode) const = 0;
 
     virtual StoredEnergy stored_energy(const Motion &motion) const = 0;
 

@@ -76,7 +76,7 @@ namespace sprag
 
     // Ports of the contact with those of the coupling: rotation, p_eta, p_xi, support.
     sum.ports = contact.ports;
-    for (const unsigned int port : { layout.rotation(), layout.momentum_eta(), layout.momentum_xi(), layout.support() })
+    for (const unsigned int port : coupled_ports())
       sum.ports.push_back(port);
     std::sort(sum.ports.begin(), sum.ports.end());
     sum.ports.erase(std::unique(sum.ports.begin(), sum.ports.end()), sum.ports.end());
@@ -115,6 +115,28 @@ namespace sprag
     sum.tangent(u, hub) -= k * (c * q.p_eta_acceleration + s * q.p_xi_acceleration) + r * across +
                            k * q.theta_rate * (-s * q.p_eta_rate + c * q.p_xi_rate);
     return sum;
+  }
+
+  std::vector<unsigned int> FrameCoupling::coupled_ports() const
+  {
+    if (!layout.sprung)
+      return {};
+    return { layout.rotation(), layout.momentum_eta(), layout.momentum_xi(), layout.support() };
+  }
+
+  void FrameCoupling::add_inertia(const std::vector<unsigned int> &ports, const double theta, FullMatrix<double> &inertia) const
+  {
+    if (!layout.sprung)
+      return;
+    const auto place = [&](const unsigned int port)
+    { return static_cast<unsigned int>(std::lower_bound(ports.begin(), ports.end(), port) - ports.begin()); };
+    const auto couple = [&](const unsigned int port, const double mass)
+    {
+      inertia(place(port), place(layout.support())) += mass;
+      inertia(place(layout.support()), place(port)) += mass;
+    };
+    couple(layout.momentum_eta(), std::sin(theta));
+    couple(layout.momentum_xi(), -std::cos(theta));
   }
 
   void FrameCoupling::add_work(const Kinematic &begin, const Vector<double> &end, const StepWeights &w, StepWork &work) const

@@ -16,6 +16,12 @@ namespace sprag
     const PortForces &add_forces(const PortForces &contact, const Kinematic &begin, const dealii::Vector<double> &end,
                                  const StepWeights &weights);
 
+    /// Adds the coupling's mass at an inclination theta to the matrix of those ports, which must hold its own.
+    void add_inertia(const std::vector<unsigned int> &ports, double theta, dealii::FullMatrix<double> &inertia) const;
+
+    /// The ports it acts on, increasing; none without a sprung support.
+    std::vector<unsigned int> coupled_ports() const;
+
     /// Adds the algorithmic dissipation of the step.
     void add_work(const Kinematic &begin, const dealii::Vector<double> &end, const StepWeights &weights, StepWork &work) const;
 

@@ -1,5 +1,7 @@
 #include "model/modal_structure.h"
 
+#include "model/modal_vibration.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -276,6 +278,17 @@ namespace sprag
     energy.spring         = 0.5 * data.spring_stiffness * rotation * rotation;
     energy.elastic -= energy.spring;
     return energy;
+  }
+
+  std::vector<StructureMode> ModalStructure::vibrations(const PortPerturbation &forces, const unsigned int /*number*/) const
+  {
+    return modal_vibrations(data, forces);
+  }
+
+  double ModalStructure::damping_form(const Motion &velocities) const
+  {
+    const auto &v = velocities.coordinates.position;
+    return product(data.damping, v, v) + data.relaxation * quadratic_form(data.face_compliance, velocities.face_force);
   }
 
   Vector<double> ModalStructure::port_error(const Motion &begin, const Motion &end) const

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "model/dynamic_model.h"
+#include "model/linearisation.h"
 #include "model/port_layout.h"
 
 #include <deal.II/lac/lapack_full_matrix.h>
@@ -64,6 +65,12 @@ namespace sprag
 
     /// Displacements of the ports by the local error of a step.
     dealii::Vector<double> port_error(const Motion &begin, const Motion &end) const;
+
+    /// Vibrations under linear forces on the ports, all of them.
+    std::vector<StructureMode> vibrations(const PortPerturbation &forces, unsigned int number) const;
+
+    /// v^T C v with the motion's positions as velocities v: twice the power that damping takes.
+    double damping_form(const Motion &velocities) const;
 
     unsigned int n_modes() const;
 

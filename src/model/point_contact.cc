@@ -218,41 +218,72 @@ namespace sprag
   {
     choose_window(step.begin.position, step.accepted.drive.x);
     const Local end_rates = rates(step.end_rate, step.to.v);
-    const auto kinematics = step_kinematics(step, end_rates);
+    const double surface  = step.to.surface - step.accepted.drive.surface;
+    auto kinematics       = step_kinematics(step, end_rates);
+    kinematics.slip_change += surface;
     StepContactLaw law;
-    law.normal     = properties.normal;
-    law.damping    = properties.damping;
-    law.tangential = properties.tangential;
-    law.friction   = friction_of_step(properties.friction, step.to.v);
-    law.weights    = step.weights;
-    response       = step_response(kinematics, step.accepted.contact.front(), law);
-    slip_rate      = end.slip_row * end_rates;
-    work           = { -response.force[x_index] * (step.to.x - step.accepted.drive.x), response.friction, response.damping,
-                       response.algorithmic, response.creep };
+    law.normal            = properties.normal;
+    law.damping           = properties.damping;
+    law.tangential        = properties.tangential;
+    law.friction          = friction_of_step(properties.friction, step.to.v);
+    law.weights           = step.weights;
+    response              = step_response(kinematics, step.accepted.contact.front(), law);
+    slip_rate             = end.slip_row * end_rates + surface / step.weights.dt;
+    const double of_drive = -response.force[x_index] * (step.to.x - step.accepted.drive.x) + response.mean_traction * surface;
+    work                  = { of_drive, response.friction, response.damping, response.algorithmic, response.creep };
     sum_forces(response.force, response.tangent);
   }
 
-  void PointContact::evaluate_sliding(const Vector<double> &ports, const DrivePoint &drive, const double speed)
+  void PointContact::evaluate_sliding(const SlidingState &state)
   {
-    choose_window(ports, drive.x);
-    end                 = configure(coordinates(ports, drive.x));
-    const auto normal   = mean_normal_force(properties.normal, end.gap, end.gap);
-    const auto law      = friction_of_step(properties.friction, drive.v);
-    response            = {};
-    response.mu         = std::copysign(friction_coefficient(law, std::abs(speed)).coefficient, speed);
-    response.pressure   = normal.end;
-    response.traction   = response.mu * normal.end;
-    response.slipping   = true;
-    response.memory     = { 0., response.traction, 0., 0., speed, 0. };
-    response.energy     = normal.energy + 0.5 * response.traction * response.traction / properties.tangential;
-    response.force      = normal.end * end.gap_row - response.traction * end.slip_row;
-    const auto d_normal = normal.d_end * end.gap_row;
-    response.tangent    = outer_product(end.gap_row, d_normal) - response.mu * outer_product(end.slip_row, d_normal) +
-                       normal.end * end.gap_curvature - response.traction * end.slip_curvature;
-    response.mu = std::abs(response.mu);
-    slip_rate   = speed;
-    work        = {};
+    const bool slides = state.friction == ContactFriction::sliding;
+    choose_window(state.ports, state.drive.x);
+    end                = configure(coordinates(state.ports, state.drive.x));
+    const Local rate   = state.rates == nullptr ? Local() : rates(*state.rates, 0.);
+    const auto law     = friction_of_step(properties.friction, state.drive.v);
+    const auto normal  = mean_normal_force(properties.normal, end.gap, end.gap);
+    const auto dashpot = end_damping(properties.damping, normal.end, end.gap, end.gap_row * rate);
+    slip_rate          = state.speed + end.slip_row * rate;
+    const auto share   = slides ? sliding_friction(law, slip_rate) : SlidingFriction{};
+
+    response                   = {};
+    response.mu                = std::abs(share.coefficient);
+    response.pressure          = normal.end + dashpot.force;
+    response.traction          = share.coefficient * response.pressure;
+    response.slipping          = slides;
+    response.memory.traction   = response.traction;
+    response.memory.slip_speed = state.speed;
+    response.energy            = normal.energy + 0.5 * response.traction * response.traction / properties.tangential;
+    response.force             = response.pressure * end.gap_row - response.traction * end.slip_row;
+    response.tangent           = sliding_tangent(state.part, state.friction, share, normal, dashpot);
+    work                       = {};
     sum_forces(response.force, response.tangent);
+  }
+
+  PointContact::LocalMatrix PointContact::sliding_tangent(const TangentPart part, const ContactFriction friction,
+                                                          const SlidingFriction &share, const MeanNormalForce &normal,
+                                                          const EndDamping &dashpot) const
+  {
+    const Local d_normal = (1. + dashpot.d_normal) * normal.d_end * end.gap_row;
+    const Local d_rate   = dashpot.d_rate * end.gap_row;
+    switch (part)
+    {
+    case TangentPart::all:
+      return sliding_tangent(TangentPart::pressure, friction, share, normal, dashpot) +
+             sliding_tangent(TangentPart::friction, friction, share, normal, dashpot);
+    case TangentPart::pressure:
+      return outer_product(end.gap_row, d_normal) + response.pressure * end.gap_curvature;
+    case TangentPart::friction:
+      if (friction == ContactFriction::stuck)
+        return -properties.tangential * outer_product(end.slip_row, end.slip_row);
+      return -share.coefficient * outer_product(end.slip_row, d_normal) - response.traction * end.slip_curvature;
+    case TangentPart::pressure_rate:
+      return outer_product(end.gap_row, d_rate);
+    case TangentPart::friction_rate:
+      return -share.coefficient * outer_product(end.slip_row, d_rate) -
+             share.derivative * response.pressure * outer_product(end.slip_row, end.slip_row);
+    }
+    return {};
   }
 
   void PointContact::sum_forces(const Local &force, const LocalMatrix &tangent)
@@ -347,6 +378,20 @@ namespace sprag
     const Local q_0 = coordinates(from, from_x);
     const Local q_1 = coordinates(to, to_x);
     return configure(0.5 * (q_0 + q_1)).slip_row * (q_1 - q_0);
+  }
+
+  SurfaceShape PointContact::surface_shape(const Vector<double> &displacements) const
+  {
+    const auto &mesh = properties.mesh;
+    const double arm = properties.geometry.interface_offset - properties.neutral_axis_offset;
+    SurfaceShape shape{ { 0. }, { 0. }, { 0. } };
+    for (unsigned int node = 1; node <= mesh.elements; ++node)
+    {
+      shape.xi.push_back(node * mesh.element_length());
+      shape.across.push_back(displacements[2 * node - 2]);
+      shape.along.push_back(-arm * displacements[2 * node - 1]);
+    }
+    return shape;
   }
 
   void PointContact::observe(Row &row) const

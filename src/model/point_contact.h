@@ -3,6 +3,7 @@
 #include "model/beam.h"
 #include "model/circle.h"
 #include "model/contact_step.h"
+#include "model/linearisation.h"
 #include "model/port_step.h"
 
 namespace sprag
@@ -32,7 +33,7 @@ namespace sprag
     explicit PointContact(PointContactProperties properties);
 
     void evaluate(const PortStep &step);
-    void evaluate_sliding(const dealii::Vector<double> &ports, const DrivePoint &drive, double speed);
+    void evaluate_sliding(const SlidingState &state);
     const PortForces &forces() const;
 
     /// Ports that a contact at that drive position may reach: all.
@@ -47,6 +48,8 @@ namespace sprag
     double gap_change(const dealii::Vector<double> &change_of_ports) const;
     double mean_slip(const dealii::Vector<double> &from, double from_x, const dealii::Vector<double> &to, double to_x) const;
     void observe(Row &row) const;
+    /// Displacements of the ports along the lever.
+    SurfaceShape surface_shape(const dealii::Vector<double> &displacements) const;
     FacePoints face_points() const;
     FaceState face_state(const DrivePoint &drive) const;
 
@@ -82,6 +85,8 @@ namespace sprag
     Configuration configure(const Local &q) const;
     StepKinematics<n> step_kinematics(const PortStep &step, const Local &end_rates);
     void sum_forces(const Local &force, const LocalMatrix &tangent);
+    LocalMatrix sliding_tangent(TangentPart part, ContactFriction friction, const SlidingFriction &share,
+                                const MeanNormalForce &normal, const EndDamping &dashpot) const;
 
     const PointContactProperties properties;
     unsigned int window = 0; ///< node before the first local one

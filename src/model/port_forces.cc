@@ -10,6 +10,56 @@ namespace sprag
 {
   using namespace dealii;
 
+  namespace
+  {
+    /// 1 - G df/dz.
+    LAPACKFullMatrix<double> port_matrix(const FullMatrix<double> &compliance, const std::vector<unsigned int> &ports,
+                                         const FullMatrix<double> &tangent)
+    {
+      const auto n = static_cast<unsigned int>(ports.size());
+      FullMatrix<double> loaded(n, n);
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int j = 0; j < n; ++j)
+          loaded(i, j) = compliance(ports[i], ports[j]);
+      FullMatrix<double> product(n, n);
+      loaded.mmult(product, tangent);
+      LAPACKFullMatrix<double> matrix(n);
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int j = 0; j < n; ++j)
+          matrix(i, j) = (i == j ? 1. : 0.) - product(i, j);
+      return matrix;
+    }
+  } // namespace
+
+  double port_determinant(const FullMatrix<double> &compliance, const std::vector<unsigned int> &ports,
+                          const FullMatrix<double> &tangent)
+  {
+    if (ports.empty())
+      return 1.;
+    auto matrix = port_matrix(compliance, ports, tangent);
+    matrix.compute_lu_factorization();
+    return matrix.determinant();
+  }
+
+  Vector<double> port_reaction(const FullMatrix<double> &compliance, const std::vector<unsigned int> &ports,
+                               const FullMatrix<double> &tangent, const Vector<double> &displacements)
+  {
+    auto matrix           = port_matrix(compliance, ports, tangent);
+    Vector<double> change = displacements;
+    try
+    {
+      matrix.compute_lu_factorization();
+    }
+    catch (const ExceptionBase &)
+    {
+      throw AnalysisError("the tangent of the contact is singular");
+    }
+    matrix.solve(change);
+    Vector<double> forces(change.size());
+    tangent.vmult(forces, change);
+    return forces;
+  }
+
   PortSelection all_ports(const unsigned int number)
   {
     PortSelection result(number);
@@ -34,36 +84,13 @@ namespace sprag
                                  const Vector<double> &mismatch)
   {
     // (1 - G df/dz) dz = mismatch on the loaded ports; the others follow from the change of the forces.
-    const auto n = static_cast<unsigned int>(forces.ports.size());
-    FullMatrix<double> loaded(n, n);
-    for (unsigned int i = 0; i < n; ++i)
-      for (unsigned int j = 0; j < n; ++j)
-        loaded(i, j) = compliance(forces.ports[i], forces.ports[j]);
-    FullMatrix<double> product(n, n);
-    loaded.mmult(product, forces.tangent);
-
     Vector<double> result = mismatch;
-    if (n == 0)
+    if (forces.ports.empty())
       return result;
-    LAPACKFullMatrix<double> matrix(n);
-    Vector<double> change(n);
-    for (unsigned int i = 0; i < n; ++i)
-    {
-      for (unsigned int j = 0; j < n; ++j)
-        matrix(i, j) = (i == j ? 1. : 0.) - product(i, j);
-      change[i] = mismatch[forces.ports[i]];
-    }
-    try
-    {
-      matrix.compute_lu_factorization();
-    }
-    catch (const ExceptionBase &)
-    {
-      throw AnalysisError("the tangent of the contact is singular");
-    }
-    matrix.solve(change);
-    Vector<double> change_of_forces(n);
-    forces.tangent.vmult(change_of_forces, change);
+    Vector<double> loaded(static_cast<unsigned int>(forces.ports.size()));
+    for (unsigned int i = 0; i < loaded.size(); ++i)
+      loaded[i] = mismatch[forces.ports[i]];
+    const auto change_of_forces = port_reaction(compliance, forces.ports, forces.tangent, loaded);
     add_response(compliance, forces.ports, change_of_forces, selected, result);
     return result;
   }

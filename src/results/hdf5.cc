@@ -197,6 +197,13 @@ namespace sprag::hdf5
     return write_dataset(location, name, H5T_NATIVE_DOUBLE, simple_space(extent, extent), values.data());
   }
 
+  Handle write_dataset(const Handle &location, const std::string &name, const std::vector<double> &values,
+                       const std::vector<std::size_t> &shape)
+  {
+    const std::vector<hsize_t> extent(shape.begin(), shape.end());
+    return write_dataset(location, name, H5T_NATIVE_DOUBLE, simple_space(extent, extent), values.data());
+  }
+
   Series::Series(Handle created, std::vector<hsize_t> initial_extent)
       : dataset(std::move(created))
       , extent(std::move(initial_extent))

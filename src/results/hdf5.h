@@ -68,6 +68,8 @@ namespace sprag
     Handle write_dataset(const Handle &location, const std::string &name, const std::string &text);
     Handle write_dataset(const Handle &location, const std::string &name, double value);
     Handle write_dataset(const Handle &location, const std::string &name, const std::vector<double> &values);
+    Handle write_dataset(const Handle &location, const std::string &name, const std::vector<double> &values,
+                         const std::vector<std::size_t> &shape);
 
     /// A dataset of doubles to which rows are appended: [rows] or [rows x width].
     class Series

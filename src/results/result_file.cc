@@ -78,6 +78,24 @@ namespace sprag
                    entry.value);
     }
 
+    void write_group(const hdf5::Handle &file, const Group &group)
+    {
+      const hdf5::Handle handle = hdf5::create_group(file, group.name);
+      for (const auto &[info, values, shape] : group.datasets)
+        describe(shape.empty() ? hdf5::write_dataset(handle, info.name, values)
+                               : hdf5::write_dataset(handle, info.name, values, shape),
+                 info.unit, info.description);
+    }
+
+    std::size_t size_of(const std::vector<Group> &groups)
+    {
+      std::size_t size = 0;
+      for (const Group &group : groups)
+        for (const Dataset &dataset : group.datasets)
+          size += overhead / 16 + sizeof(double) * dataset.values.size();
+      return size;
+    }
+
     /// /table
     class Table
     {
@@ -240,17 +258,19 @@ namespace sprag
     writer.flush();
   }
 
-  void ResultFile::finish(const std::vector<Entry> &summary, const std::vector<Entry> &meta)
+  void ResultFile::finish(const std::vector<Entry> &summary, const std::vector<Entry> &meta, const std::vector<Group> &groups)
   {
     Assert(implementation->writer, dealii::ExcMessage("The result file is finished already."));
     // Nothing can be created in a file that others may be reading along: close it and open it anew.
     implementation->writer->flush();
     implementation->writer.reset();
     DiskReserve reserve(implementation->path);
-    reserve.cover(overhead);
+    reserve.cover(overhead + size_of(groups));
     hdf5::Handle file = hdf5::open_file(implementation->path);
     write_entries(file, "summary", summary);
     write_entries(file, "meta", meta);
+    for (const Group &group : groups)
+      write_group(file, group);
     file.close();
   }
 } // namespace sprag

@@ -18,6 +18,21 @@ namespace sprag
     std::string description;
   };
 
+  /// Numbers of a fixed size, stored row by row.
+  struct Dataset
+  {
+    ColumnInfo info;
+    std::vector<double> values;
+    std::vector<std::size_t> shape; ///< empty: one dimension
+  };
+
+  /// A named group of datasets.
+  struct Group
+  {
+    std::string name;
+    std::vector<Dataset> datasets;
+  };
+
   /// Points of the friction face (fixed for a run): lever coordinates of the undeformed nodes and their weights.
   struct FacePoints
   {
@@ -55,8 +70,8 @@ namespace sprag
 
     void append(const FaceState &state);
 
-    /// Writes /summary and /meta and closes the file. To be called once, also after a failed analysis.
-    void finish(const std::vector<Entry> &summary, const std::vector<Entry> &meta);
+    /// Writes /summary, /meta and other groups and closes the file. To be called once, also after a failed analysis.
+    void finish(const std::vector<Entry> &summary, const std::vector<Entry> &meta, const std::vector<Group> &groups = {});
 
   private:
     struct Implementation;

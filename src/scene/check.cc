@@ -125,6 +125,12 @@ namespace sprag
       all.insert(all.end(), more.begin(), more.end());
     }
 
+    bool holds(const AnalysisType type)
+    {
+      return type == AnalysisType::modal || type == AnalysisType::stability || type == AnalysisType::map ||
+             type == AnalysisType::sprag_slip;
+    }
+
     bool finite_elements(const ModelType model)
     {
       return model == ModelType::condensed || model == ModelType::finite_element;
@@ -134,7 +140,9 @@ namespace sprag
     struct Use
     {
       explicit Use(const Scene &scene)
-          : transient(scene.analysis.type == AnalysisType::transient)
+          : in_time(scene.analysis.type == AnalysisType::transient)
+          , held(holds(scene.analysis.type))
+          , transient(in_time || held)
           , follows_drive(transient || scene.analysis.type == AnalysisType::quasi_static)
           , positions(follows_drive || scene.analysis.type == AnalysisType::contact_law)
           , meshed(positions && (!follows_drive || finite_elements(scene.analysis.model)))
@@ -143,7 +151,9 @@ namespace sprag
       {
       }
 
-      const bool transient;
+      const bool in_time;
+      const bool held;      ///< the slide, at one x
+      const bool transient; ///< with inertia
       const bool follows_drive;
       const bool positions; ///< whether the cylinder is put somewhere
       const bool meshed;
@@ -159,14 +169,15 @@ namespace sprag
       return result;
     }
 
-    Violations linear_structure(const Scene &scene)
+    Violations linear_structure(const Scene &scene, const Use &use)
     {
       Violations result;
       const auto need = [&](const bool kept, const std::string &parameter, const std::string &value)
       {
         if (!kept)
-          result.push_back(
-              { parameter, { "Analysis/Type", "Analysis/Model" }, "must be " + value + " with Analysis/Type = transient" });
+          result.push_back({ parameter,
+                             { "Analysis/Type", "Analysis/Model" },
+                             "must be " + value + (use.held ? " where a slide is held" : " with Analysis/Type = transient") });
       };
       need(scene.lever.material == MaterialModel::linear, "Lever/Material", "linear");
       need(scene.analysis.solution == Solution::automatic, "Analysis/Solution", "automatic");
@@ -187,13 +198,13 @@ namespace sprag
                            { "Analysis/Type", "Analysis/Model" },
                            "must be auto, the finite elements have their own; only rigid and beam take another" });
       if (use.transient && finite_elements(model))
-        append(result, linear_structure(scene));
+        append(result, linear_structure(scene, use));
       return result;
     }
 
     Violations contact(const Scene &scene, const Use &use)
     {
-      if (!use.follows_drive || scene.contact.type != ContactType::ideal)
+      if (!use.follows_drive || use.held || scene.contact.type != ContactType::ideal)
         return {};
       Violations result;
       const ModelType model = scene.analysis.model;
@@ -216,7 +227,7 @@ namespace sprag
       Violations result;
       if (!use.transient)
         result.push_back({ "Support/Type", { "Analysis/Type" }, "sprung needs Analysis/Type = transient" });
-      else if (scene.analysis.model == ModelType::closed_form)
+      else if (use.in_time && scene.analysis.model == ModelType::closed_form)
         result.push_back({ "Support/Type", { "Analysis/Model" }, "sprung needs an Analysis/Model other than closed form" });
       return result;
     }
@@ -244,6 +255,37 @@ namespace sprag
                  "must be less than the duration of the drive, " + rounded_text(scene.drive.duration()) + " s" } };
     }
 
+    void within_drive(const Scene &scene, const std::string &parameter, const std::optional<double> &x, Violations &result)
+    {
+      if (x && (*x < scene.drive.minimum() || *x > scene.drive.maximum()))
+        result.push_back({ parameter,
+                           { "Analysis/Type", "Drive/Profile", "Drive/Start", "Drive/Stroke", "Drive/Table" },
+                           "must lie on the drive, " + rounded_text(scene.drive.minimum()) + " ... " +
+                               rounded_text(scene.drive.maximum()) + " mm" });
+    }
+
+    Violations held(const Scene &scene)
+    {
+      Violations result;
+      if (scene.analysis.model == ModelType::closed_form)
+        result.push_back({ "Analysis/Model", { "Analysis/Type" }, "must be another than closed form, which has no vibration" });
+      if (scene.contact.type == ContactType::ideal)
+        result.push_back({ "Contact/Type", { "Analysis/Type" }, "must be compliant where a slide is held" });
+      within_drive(scene, "Stability/Position", scene.stability.position, result);
+      if (scene.analysis.type == AnalysisType::sprag_slip)
+      {
+        within_drive(scene, "Sprag slip/Turn", scene.sprag_slip.turn, result);
+        if (scene.sprag_slip.initial >= scene.sprag_slip.final)
+          result.push_back({ "Sprag slip/Final amplitude",
+                             { "Analysis/Type", "Sprag slip/Initial amplitude" },
+                             "must be more than Initial amplitude = " + rounded_text(scene.sprag_slip.initial) });
+      }
+      const unsigned int coarsest = scene.map.coarsest;
+      if (scene.analysis.type == AnalysisType::map && (coarsest & (coarsest - 1)) != 0)
+        result.push_back({ "Map/Coarsest", { "Analysis/Type" }, "must be a power of 2" });
+      return result;
+    }
+
     Violations cache(const CondensedSettings &condensed)
     {
       std::error_code ignored;
@@ -269,8 +311,10 @@ namespace sprag
         append(result, mesh_and_material(scene, use));
       if (use.transient && use.lever && !use.own_mesh)
         append(result, inertia(scene));
-      if (use.transient)
+      if (use.in_time)
         append(result, time(scene));
+      if (use.held)
+        append(result, held(scene));
       if (use.transient && analysis.model == ModelType::condensed)
         append(result, cache(scene.condensed));
       return result;

@@ -20,6 +20,9 @@ namespace sprag
     double x    = 0.; ///< [mm]
     double v    = 0.; ///< [mm/s]
     double a    = 0.; ///< [mm/s^2]; an instantaneous reversal has none on either side
+
+    /// How far the cylinder's surface has run by turning, counted as slip along the lever [mm]; a drive never turns it.
+    double surface = 0.;
   };
 
   class DriveMotion;

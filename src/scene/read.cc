@@ -4,6 +4,7 @@
 #include "base/table_file.h"
 #include "base/text.h"
 #include "scene/check.h"
+#include "scene/held_slide.h"
 #include "scene/sections.h"
 
 #include <algorithm>
@@ -30,7 +31,7 @@ namespace sprag
     class SceneReader
     {
     public:
-      SceneReader(const std::string &file, const std::vector<std::string> &overrides);
+      explicit SceneReader(const std::function<Settings(const std::vector<Parameter> &)> &read);
 
       Scene scene();
 
@@ -44,6 +45,8 @@ namespace sprag
       void make_drive();
       void make_friction();
       void check();
+      void check_ranges();
+      void check_range(const std::string &parameter, const ParameterRange &range);
       void check_unused();
       void refuse_unused(const std::string &parameter, const std::string &choice, const std::string &needed);
       double reversal_duration();
@@ -54,9 +57,9 @@ namespace sprag
       bool doubtful(const std::string &parameter) const;
     };
 
-    SceneReader::SceneReader(const std::string &file, const std::vector<std::string> &overrides)
+    SceneReader::SceneReader(const std::function<Settings(const std::vector<Parameter> &)> &read)
         : parameters(scene_parameters(input))
-        , settings(read_settings(file, overrides, parameters))
+        , settings(read(parameters))
     {
     }
 
@@ -67,6 +70,7 @@ namespace sprag
       make_friction();
       check_unused();
       check();
+      check_ranges();
       if (!settings.mistakes.empty())
         throw InputError(settings.mistakes);
       input.scene.name            = std::filesystem::path(settings.file).stem().string();
@@ -139,6 +143,7 @@ namespace sprag
       const FrictionSettings &friction = input.friction;
       FrictionLaw &law                 = input.scene.friction;
       law.speed                        = friction.speed;
+      law.factor                       = friction.factor;
       law.regularisation_speed         = friction.regularisation_speed;
       switch (friction.law)
       {
@@ -169,6 +174,50 @@ namespace sprag
         for (const auto &message : error.messages)
           report(parameter, message);
       }
+    }
+
+    void SceneReader::check_ranges()
+    {
+      const Scene &scene = input.scene;
+      if (doubtful("Analysis/Type"))
+        return;
+      if (scene.analysis.type == AnalysisType::map)
+      {
+        check_range("Map/First parameter", scene.map.first);
+        check_range("Map/Second parameter", scene.map.second);
+        if (scene.map.first.name == scene.map.second.name)
+          report("Map/Second parameter", "must be another than First parameter");
+      }
+      if (scene.analysis.type != AnalysisType::stability)
+        return;
+      if (const auto searches = critical_searches(scene))
+        for (const auto &range : *searches)
+          check_range("Stability/Critical", range);
+      else
+        report("Stability/Critical", "must be auto, none or a list of SECTION/NAME FROM TO separated by semicolons");
+    }
+
+    /// The parameter must be one of a number, and both ends keep its rule.
+    void SceneReader::check_range(const std::string &parameter, const ParameterRange &range)
+    {
+      const auto numeric = [](const Parameter &p)
+      { return p.rule.kind == Rule::Kind::number || p.rule.kind == Rule::Kind::number_or_auto; };
+      std::vector<std::string> names;
+      const Parameter *meant = nullptr;
+      for (const auto &candidate : parameters)
+        if (numeric(candidate))
+        {
+          names.push_back(full_name(candidate));
+          if (names.back() == range.name)
+            meant = &candidate;
+        }
+      if (meant == nullptr)
+        return report(parameter, range.name + " is no parameter with a number" + did_you_mean(nearest(range.name, names)));
+      for (const double value : { range.from, range.to })
+        if (const auto broken = violation(meant->rule, number_text(value)))
+          return report(parameter, range.name + " = " + number_text(value) + " " + *broken);
+      if (range.from == range.to)
+        report(parameter, range.name + " must have a range, not " + number_text(range.from) + " alone");
     }
 
     void SceneReader::check_unused()
@@ -220,7 +269,19 @@ namespace sprag
 
   Scene read_scene(const std::string &file, const std::vector<std::string> &overrides)
   {
-    return SceneReader(file, overrides).scene();
+    return SceneReader([&](const auto &declared) { return read_settings(file, overrides, declared); }).scene();
+  }
+
+  Scene variant(const Scene &scene, const std::vector<std::string> &overrides)
+  {
+    return SceneReader([&](const auto &declared)
+                       { return read_settings_text(scene.name + ".prm", scene.parameters_text, overrides, declared); })
+        .scene();
+  }
+
+  std::string override_text(const std::string &parameter, const double value)
+  {
+    return parameter + "=" + number_text(value);
   }
 
   std::string default_parameters_text()

@@ -12,6 +12,12 @@ namespace sprag
   /// default is at fault and "--set" for an override.
   Scene read_scene(const std::string &file, const std::vector<std::string> &overrides = {});
 
+  /// The scene with some parameters changed, each "Section/Name=value". Throws InputError as read_scene() does.
+  Scene variant(const Scene &scene, const std::vector<std::string> &overrides);
+
+  /// The same with a number given to a parameter.
+  std::string override_text(const std::string &parameter, double value);
+
   /// Every parameter with its default and documentation, in .prm form.
   std::string default_parameters_text();
 } // namespace sprag

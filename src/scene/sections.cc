@@ -91,17 +91,24 @@ namespace sprag
                                    { { "quasi-static", AnalysisType::quasi_static },
                                      { "slope", AnalysisType::slope },
                                      { "transient", AnalysisType::transient },
-                                     { "contact law", AnalysisType::contact_law } },
+                                     { "contact law", AnalysisType::contact_law },
+                                     { "modal", AnalysisType::modal },
+                                     { "stability", AnalysisType::stability },
+                                     { "map", AnalysisType::map },
+                                     { "sprag slip", AnalysisType::sprag_slip } },
                                    "Follow the drive without inertia, sweep the representative slope C_Q, follow the drive "
-                                   "with inertia, or fit the contact of rigid and beam to finite elements");
-      section.choice<ModelType>("Model", settings.model,
-                                { { "closed form", ModelType::closed_form },
-                                  { "rigid", ModelType::rigid },
-                                  { "beam", ModelType::beam },
-                                  { "condensed", ModelType::condensed },
-                                  { "finite element", ModelType::finite_element } },
-                                "Rigid lever with ideal contact and without mass (eqs. 4-9), or the deformable lever; transient "
-                                "also a rigid lever, a beam, or modes and face shapes of the finite elements");
+                                   "with inertia, fit the contact of rigid and beam to finite elements, find vibration modes at "
+                                   "one x, judge whether the slide there is stable, the same over two parameters, or perturb "
+                                   "it in time and follow it to its limit cycle");
+      section.choice<ModelType>(
+          "Model", settings.model,
+          { { "closed form", ModelType::closed_form },
+            { "rigid", ModelType::rigid },
+            { "beam", ModelType::beam },
+            { "condensed", ModelType::condensed },
+            { "finite element", ModelType::finite_element } },
+          "Rigid lever with ideal contact and without mass (eqs. 4-9), or the deformable lever; with inertia "
+          "also a rigid lever, a beam, or modes and face shapes of the finite elements");
       section.integer("Dimension", settings.dimension, { 2., 3. }, "Dimension of the finite elements");
       section.choice<PlaneState>("Plane", settings.plane, { { "stress", PlaneState::stress }, { "strain", PlaneState::strain } },
                                  "Plane stress or plane strain of lever and friction layer");
@@ -155,6 +162,7 @@ namespace sprag
       section.choice<FrictionSpeed>("Speed", settings.speed,
                                     { { "sliding", FrictionSpeed::sliding }, { "drive", FrictionSpeed::drive } },
                                     "Speed that mu depends on: of sliding, or the drive's (the paper's choice)");
+      section.number("Factor", settings.factor, at_least(0.), "", "Times mu of whichever law");
       section.number("Regularisation speed", settings.regularisation_speed, at_least(0.), "mm/s",
                      "Transient: sliding speed over which friction changes sign; 0 resolves stick");
     }
@@ -275,6 +283,58 @@ namespace sprag
                      "Largest theta_0 of the sweep over theta_0");
       section.numbers("Offset ratios", settings.offset_ratios, { 0., 1., true, false }, "e/R of the curves over theta_0");
     }
+
+    void stability(Section section, StabilitySettings &settings)
+    {
+      section.number_or_auto("Position", settings.position, at_least(0.), "mm",
+                             "x at which the slide is held, between the ends of the drive; auto: the drive's largest");
+      section.choice<Direction>("Direction", settings.direction,
+                                { { "forward", Direction::forward }, { "backward", Direction::backward } },
+                                "Of the motion, away from x = 0 or back");
+      section.integer("Modes", settings.modes, { 1., 1000. }, "Reported, those of the lowest frequencies and any unstable one");
+      section.choice<bool>("Damping", settings.damping, { { "on", true }, { "off", false } },
+                           "off: lever, support and contact without damping; friction keeps its dependence on speed");
+      section.choice<HeldContact>(
+          "Contact", settings.contact,
+          { { "open", HeldContact::open }, { "frictionless", HeldContact::frictionless }, { "stuck", HeldContact::stuck } },
+          "Modal analysis: out of contact, in contact without friction, or stuck to the cylinder");
+      section.text("Critical", settings.critical,
+                   "Where the slide loses stability or jams along single parameters: list of SECTION/NAME FROM TO, separated by "
+                   "semicolons; auto: friction factor, x, speed and, where it needs no new mesh, depth; none");
+      section.choice<bool>("Roles", settings.roles, { { "on", true }, { "off", false } },
+                           "Whether the slide is judged again without flexure, inertia, mu'(v), support and damping, one by one");
+    }
+
+    void map(Section section, MapSettings &settings)
+    {
+      const auto axis = [&](const std::string &which, ParameterRange &range)
+      {
+        section.text(which + " parameter", range.name, "Section/Name, as with --set");
+        section.number(which + " from", range.from, any_number(), "", "Its value at the first point, in its own unit");
+        section.number(which + " to", range.to, any_number(), "", "Its value at the last point");
+        section.integer(which + " points", range.points, { 2., 10000. }, "Points of the grid, ends included");
+      };
+      axis("First", settings.first);
+      axis("Second", settings.second);
+      section.integer("Coarsest", settings.coarsest, { 1., 1024. },
+                      "A power of 2: points of the grid from one to the next where nothing changes; 1: every point");
+      section.integer("Bisections", settings.bisections, { 0., 40. }, "Of the distance between points that a boundary crosses");
+    }
+
+    void sprag_slip(Section section, SpragSlipSettings &settings)
+    {
+      const Interval share = { 0., 1., false, false };
+      section.number("Initial amplitude", settings.initial, share, "", "Of the perturbation of the indentation, over its mean");
+      section.number("Final amplitude", settings.final, share, "",
+                     "Up to which the growth is fitted, more than Initial; a stable slide decays from it");
+      section.integer("Steps per period", settings.steps_per_period, { 16., 1e5 }, "Of the perturbing mode");
+      section.number("Longest growth", settings.longest_growth, above(0.), "s", "After which the fit takes what there is");
+      section.number("Settling time", settings.settling, above(0.), "s", "At each x, before a limit cycle is judged");
+      section.integer("Continuation", settings.continuation, { 0., 1000. },
+                      "Intervals of x, from Stability/Position to Turn and back; 0: Stability/Position only");
+      section.number_or_auto("Turn", settings.turn, at_least(0.), "mm",
+                             "Where the continuation turns; auto: the drive's smallest x");
+    }
   } // namespace
 
   std::vector<Parameter> scene_parameters(SceneSettings &settings)
@@ -297,6 +357,9 @@ namespace sprag
     condensed({ all, "Condensed" }, scene.condensed);
     output({ all, "Output" }, scene.output);
     slope({ all, "Slope" }, scene.slope, settings.maximum_inclination);
+    stability({ all, "Stability" }, scene.stability);
+    map({ all, "Map" }, scene.map);
+    sprag_slip({ all, "Sprag slip" }, scene.sprag_slip);
     return all;
   }
 } // namespace sprag

@@ -35,6 +35,7 @@ namespace sprag
     double coefficient          = CoulombFriction().coefficient;
     FrictionSpeed speed         = FrictionSpeed::sliding;
     double regularisation_speed = 0.;
+    double factor               = 1.;
     std::string table;
   };
 

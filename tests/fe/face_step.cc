@@ -61,7 +61,7 @@ namespace
       end -= random_ports(ports, 1);
       end *= size;
       end += pressed(random_ports(ports, 1), ports, x);
-      contact.evaluate_sliding(begin.position, accepted.drive, 100.);
+      contact.evaluate_sliding({ begin.position, accepted.drive, 100. });
       accepted.contact = contact.memory();
     }
 
@@ -159,7 +159,7 @@ TEST(FaceStepContact, TangentOfSteadySlidingIsTheDerivativeOfTheForces)
       FaceStepContact contact(*bar, properties);
       const Step step(contact, properties.ports, 1.01);
       Vector ports = step.end;
-      EXPECT_LE(tangent_error(contact, ports, [&] { contact.evaluate_sliding(ports, step.to, speed); }), 1e-6) << speed;
+      EXPECT_LE(tangent_error(contact, ports, [&] { contact.evaluate_sliding({ ports, step.to, speed }); }), 1e-6) << speed;
     }
 }
 
@@ -224,7 +224,7 @@ TEST(FaceStepContact, ForcesOfSlidingAreThoseObserved)
   const auto properties = properties_of(*bar, false, 0.);
   FaceStepContact contact(*bar, properties);
   const Step step(contact, properties.ports, 1.01);
-  contact.evaluate_sliding(step.end, step.to, 100.);
+  contact.evaluate_sliding({ step.end, step.to, 100. });
   Row row;
   contact.observe(row);
   double P = 0., F = 0.;

@@ -212,7 +212,7 @@ TEST(PointContact, ForceOfTheSpringIsMinusTheDerivativeOfItsEnergy)
     PointContact contact(lever.properties());
     const auto energy = [&](const Vector &z)
     {
-      contact.evaluate_sliding(z, lever.drive(0.), v);
+      contact.evaluate_sliding({ z, lever.drive(0.), v });
       return contact.energy();
     };
     const Vector at = lever.position(0., lever.overlap_begin);
@@ -243,7 +243,7 @@ TEST(PointContact, MomentInSlidingIsThatOfTheClosedForm)
     lever.direction = direction;
     const Vector at = lever.position(0., 0.01);
     PointContact contact(lever.properties());
-    contact.evaluate_sliding(at, lever.drive(0.), direction * 100.);
+    contact.evaluate_sliding({ at, lever.drive(0.), direction * 100. });
     const double P     = stiffness * 0.01;
     const double theta = lever.properties().rest_inclination + at[0];
     const double s     = cylinder_centre(geometry, lever.x, theta).xi;
@@ -263,7 +263,7 @@ TEST(PointContact, TangentInSlidingIsTheDerivativeOfTheForce)
       PointContact contact(lever.properties());
       const auto evaluate = [&](const Vector &z)
       {
-        contact.evaluate_sliding(z, lever.drive(0.), direction * 108.);
+        contact.evaluate_sliding({ z, lever.drive(0.), direction * 108. });
         return contact.forces();
       };
       expect_tangent(lever, lever.position(0., 0.015), evaluate);
@@ -386,7 +386,7 @@ TEST(PointContact, ForcesAreContinuousWhereTheContactCrossesNodesAndMiddlesOfEle
     PointContact contact(lever.properties());
     const auto evaluate = [&](const double x)
     {
-      contact.evaluate_sliding(at, { 0., x, v, 0. }, 108.);
+      contact.evaluate_sliding({ at, { 0., x, v, 0. }, 108. });
       return on_all_ports(lever, contact.forces());
     };
     double low  = 30.;

@@ -100,7 +100,7 @@ namespace
     }
 
     // Not of this problem: nothing slides steadily.
-    void evaluate_sliding(const dealii::Vector<double> &, const DrivePoint &, double)
+    void evaluate_sliding(const SlidingState &)
     {
     }
     std::vector<ContactMemory> touch(const dealii::Vector<double> &, const DrivePoint &)
@@ -114,6 +114,11 @@ namespace
     void observe(Row &) const
     {
     }
+    SurfaceShape surface_shape(const dealii::Vector<double> &) const
+    {
+      return {};
+    }
+
     FacePoints face_points() const
     {
       return {};

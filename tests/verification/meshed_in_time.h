@@ -16,8 +16,9 @@ namespace sprag
     make_mesh(scene, triangulation);
     const ElasticBody<2> body(triangulation, lever_properties(scene).body);
     const double relaxation = contact_reference(scene).relaxation;
-    const auto lever        = scene.analysis.model == ModelType::condensed ? make_condensed_dynamics(scene, body, relaxation)
-                                                                           : make_finite_element_dynamics(scene, body, relaxation);
+    const auto lever        = scene.analysis.model == ModelType::condensed
+                                  ? make_condensed_dynamics(scene, body, make_condensed_basis(scene, body, true), relaxation)
+                                  : make_finite_element_dynamics(scene, body, make_finite_element_basis(scene, body), relaxation);
     return run_in_time(*lever.model, scene);
   }
 

@@ -145,13 +145,18 @@ namespace
     }
 
     // Not of this problem.
-    void evaluate_sliding(const dealii::Vector<double> &, const DrivePoint &, double)
+    void evaluate_sliding(const SlidingState &)
     {
     }
     double mean_slip(const dealii::Vector<double> &, double, const dealii::Vector<double> &, double) const
     {
       return 0.;
     }
+    SurfaceShape surface_shape(const dealii::Vector<double> &) const
+    {
+      return {};
+    }
+
     FacePoints face_points() const
     {
       return {};

@@ -1,0 +1,98 @@
+#include "analysis/dynamics.h"
+
+#include "base/text.h"
+#include "fe/lever_model.h"
+#include "model/reduced_lever.h"
+#include "scene/contact_reference.h"
+
+#include <iostream>
+
+namespace sprag
+{
+  namespace
+  {
+    using Timer = dealii::TimerOutput;
+
+    /// Contact points four times as far apart as in quasi-static runs: P moves by 6e-4 of its size, and a step is the faster.
+    BodyProperties body_properties(const Scene &scene)
+    {
+      auto properties          = lever_properties(scene).body;
+      properties.point_spacing = scene.geometry.cylinder_radius / 1000.;
+      return properties;
+    }
+
+    /// Everything that mesh, matrices and bases are made from.
+    std::string key_of(const Scene &scene)
+    {
+      const auto &lever = scene.lever;
+      const auto &layer = scene.layer;
+      std::string key   = scene.mesh.file;
+      for (const double value : { static_cast<double>(scene.analysis.model),
+                                  static_cast<double>(scene.analysis.plane),
+                                  static_cast<double>(scene.mesh.degree),
+                                  static_cast<double>(scene.condensed.modes),
+                                  scene.mesh.face_size,
+                                  scene.geometry.cylinder_radius,
+                                  scene.geometry.interface_offset,
+                                  scene.spring_stiffness,
+                                  lever.length,
+                                  lever.depth,
+                                  lever.width,
+                                  lever.young_modulus,
+                                  lever.poisson_ratio,
+                                  lever.density,
+                                  lever.moment_of_inertia,
+                                  lever.tip_mass,
+                                  layer.thickness,
+                                  layer.young_modulus,
+                                  layer.poisson_ratio,
+                                  layer.density })
+        key += ' ' + number_text(value);
+      return key;
+    }
+  } // namespace
+
+  DynamicsMaker::DynamicsMaker(const bool store_bases)
+      : store(store_bases)
+      , time(std::cout, Timer::never, Timer::cpu_and_wall_times)
+  {
+  }
+
+  Timer &DynamicsMaker::timer()
+  {
+    return time;
+  }
+
+  Dynamics DynamicsMaker::make(const Scene &scene)
+  {
+    Dynamics result;
+    const bool condensed = scene.analysis.model == ModelType::condensed;
+    if (!condensed && scene.analysis.model != ModelType::finite_element)
+    {
+      result.reduced = make_reduced_lever(scene);
+      return result;
+    }
+    if (const auto key = key_of(scene); key != last_key)
+    {
+      auto lever = std::make_shared<MeshedLever>();
+      {
+        const Timer::Scope scope(time, "mesh");
+        make_mesh(scene, lever->triangulation);
+      }
+      const Timer::Scope scope(time, "basis");
+      lever->body = std::make_unique<const ElasticBody<2>>(lever->triangulation, body_properties(scene));
+      if (condensed)
+        lever->condensed = make_condensed_basis(scene, *lever->body, store);
+      else
+        lever->elements = make_finite_element_basis(scene, *lever->body);
+      last     = lever;
+      last_key = key;
+    }
+    const Timer::Scope scope(time, "model");
+    result.lever            = last;
+    const double relaxation = contact_reference(scene).relaxation;
+    result.meshed           = condensed ? make_condensed_dynamics(scene, *last->body, last->condensed, relaxation)
+                                        : make_finite_element_dynamics(scene, *last->body, last->elements, relaxation);
+    return result;
+  }
+} // namespace sprag

@@ -1,0 +1,85 @@
+#include "analysis/stability.h"
+
+#include "scene/held_slide.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace sprag
+{
+  namespace
+  {
+    SlideKind kind_of(const HeldSlide &slide, const std::complex<double> worst)
+    {
+      if (!(slide.uniqueness > 0.) || !(slide.forces.P > 0.))
+        return SlideKind::jammed;
+      if (worst.real() <= smallest_growth * std::abs(worst))
+        return SlideKind::stable;
+      return worst.imag() > smallest_growth * std::abs(worst) ? SlideKind::flutter : SlideKind::divergence;
+    }
+  } // namespace
+
+  std::string kind_name(const SlideKind kind)
+  {
+    switch (kind)
+    {
+    case SlideKind::stable:
+      return "stable";
+    case SlideKind::flutter:
+      return "flutter";
+    case SlideKind::divergence:
+      return "divergence";
+    case SlideKind::jammed:
+      return "jammed";
+    }
+    return "";
+  }
+
+  const Eigenmode &SlideStability::worst_mode() const
+  {
+    return modes.at(worst);
+  }
+
+  double SlideStability::growth_rate() const
+  {
+    return modes.empty() ? std::numeric_limits<double>::quiet_NaN() : worst_mode().mode.eigenvalue.real();
+  }
+
+  double SlideStability::frequency() const
+  {
+    return modes.empty() ? std::numeric_limits<double>::quiet_NaN() : worst_mode().mode.eigenvalue.imag() / (2. * M_PI);
+  }
+
+  double SlideStability::uniqueness() const
+  {
+    return slide ? slide->uniqueness : std::numeric_limits<double>::quiet_NaN();
+  }
+
+  SlideStability judge(DynamicModel &model, const DrivePoint &drive, const unsigned int modes)
+  {
+    SlideStability result;
+    result.slide = model.hold(drive, ContactFriction::sliding);
+    if (!result.slide)
+      return result;
+    result.modes        = model.vibrations(*result.slide, true, modes);
+    const auto growth   = [](const Eigenmode &mode) { return mode.mode.eigenvalue.real() / std::abs(mode.mode.eigenvalue); };
+    const auto is_worse = [&](const Eigenmode &a, const Eigenmode &b)
+    {
+      const bool a_grows = growth(a) > smallest_growth;
+      const bool b_grows = growth(b) > smallest_growth;
+      return a_grows == b_grows ? a.mode.eigenvalue.real() < b.mode.eigenvalue.real() : b_grows;
+    };
+    result.worst =
+        static_cast<std::size_t>(std::max_element(result.modes.begin(), result.modes.end(), is_worse) - result.modes.begin());
+    result.kind = kind_of(*result.slide, result.worst_mode().mode.eigenvalue);
+    return result;
+  }
+
+  SlideStability judge(const Scene &scene, DynamicsMaker &maker)
+  {
+    const Scene held    = held_scene(scene);
+    const auto dynamics = maker.make(held);
+    return judge(dynamics.model(), held_drive(scene), held.stability.modes);
+  }
+} // namespace sprag

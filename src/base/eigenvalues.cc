@@ -1,0 +1,52 @@
+#include "base/eigenvalues.h"
+
+#include "base/errors.h"
+
+#include <deal.II/lac/lapack_templates.h>
+
+namespace sprag
+{
+  using namespace dealii;
+
+  std::vector<Eigenpair> eigenpairs(const FullMatrix<double> &matrix)
+  {
+    const auto n    = static_cast<unsigned int>(matrix.m());
+    const auto size = static_cast<types::blas_int>(n);
+    std::vector<double> by_columns(static_cast<std::size_t>(n) * n), right(by_columns.size()), real(n), imaginary(n);
+    for (unsigned int j = 0; j < n; ++j)
+      for (unsigned int i = 0; i < n; ++i)
+        by_columns[static_cast<std::size_t>(j) * n + i] = matrix(i, j);
+
+    const char no                   = 'N';
+    const char yes                  = 'V';
+    const types::blas_int one       = 1;
+    const types::blas_int asks_size = -1;
+    types::blas_int status          = 0;
+    double best_size                = 0.;
+    double unused                   = 0.;
+    geev(&no, &yes, &size, by_columns.data(), &size, real.data(), imaginary.data(), &unused, &one, right.data(), &size,
+         &best_size, &asks_size, &status);
+    std::vector<double> work(static_cast<std::size_t>(best_size));
+    const auto work_size = static_cast<types::blas_int>(work.size());
+    geev(&no, &yes, &size, by_columns.data(), &size, real.data(), imaginary.data(), &unused, &one, right.data(), &size,
+         work.data(), &work_size, &status);
+    if (status != 0)
+      throw AnalysisError("the eigenvalues of a matrix of " + std::to_string(n) + " rows were not found (LAPACK status " +
+                          std::to_string(status) + ")");
+
+    std::vector<Eigenpair> result;
+    for (unsigned int j = 0; j < n; ++j)
+    {
+      Eigenpair pair{ { real[j], imaginary[j] }, { { Vector<double>(n), Vector<double>(n) } } };
+      const double *const column = &right[static_cast<std::size_t>(j) * n];
+      std::copy(column, column + n, pair.vector[0].begin());
+      if (imaginary[j] > 0.)
+      {
+        std::copy(column + n, column + 2 * n, pair.vector[1].begin());
+        ++j;
+      }
+      result.push_back(pair);
+    }
+    return result;
+  }
+} // namespace sprag

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <deal.II/lac/full_matrix.h>
+#include <deal.II/lac/vector.h>
+
+#include <array>
+#include <complex>
+#include <vector>
+
+namespace sprag
+{
+  struct Eigenpair
+  {
+    std::complex<double> value; ///< imaginary part >= 0; of a complex pair the one with the positive one stands for both
+    std::array<dealii::Vector<double>, 2> vector; ///< real and imaginary part
+  };
+
+  /// Right eigenpairs of a real square matrix (LAPACK dgeev). Throws AnalysisError if the iteration fails.
+  std::vector<Eigenpair> eigenpairs(const dealii::FullMatrix<double> &matrix);
+} // namespace sprag

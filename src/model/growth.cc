@@ -1,0 +1,69 @@
+#include "model/growth.h"
+
+namespace sprag
+{
+  namespace
+  {
+    using Complex = std::complex<double>;
+
+    /// Products conj(z_a) (F z)_a of the ports that forces act on.
+    std::vector<Complex> powers(const dealii::FullMatrix<double> &matrix, const std::vector<Complex> &z)
+    {
+      std::vector<Complex> result(z.size());
+      for (unsigned int a = 0; a < matrix.m(); ++a)
+      {
+        Complex force;
+        for (unsigned int b = 0; b < matrix.n(); ++b)
+          force += matrix(a, b) * z[b];
+        result[a] = std::conj(z[a]) * force;
+      }
+      return result;
+    }
+
+    double form(const dealii::FullMatrix<double> &matrix, const std::vector<Complex> &z)
+    {
+      Complex sum;
+      for (const auto &power : powers(matrix, z))
+        sum += power;
+      return sum.real();
+    }
+  } // namespace
+
+  Eigenmode explained(StructureMode mode, ComplexVector ports, const ModeForms &forms, const PortPerturbation &perturbation,
+                      const PortLayout &layout)
+  {
+    Eigenmode result;
+    const Complex lambda = mode.eigenvalue;
+    std::vector<Complex> z;
+    for (const unsigned int port : perturbation.ports)
+      z.emplace_back(ports[0][port], ports[1][port]);
+
+    const double contact   = -form(perturbation.pressure, z);
+    const double potential = forms.spring + forms.elastic + forms.support + contact;
+    const double mass      = forms.mass + form(perturbation.inertia, z);
+    const double rate      = std::norm(lambda);
+    const double energy    = rate * mass + potential;
+
+    auto &growth        = result.growth;
+    const auto friction = powers(perturbation.friction, z);
+    for (unsigned int a = 0; a < friction.size(); ++a)
+    {
+      const unsigned int port = perturbation.ports[a];
+      const double share      = (std::conj(lambda) * friction[a]).real() / energy;
+      if (port < layout.surface)
+        growth.friction_bending += share;
+      else if (port == layout.rotation())
+        growth.friction_rotation += share;
+      else
+        growth.friction_support += share;
+    }
+    growth.friction_speed    = rate * form(perturbation.friction_rate, z) / energy;
+    growth.contact_damping   = rate * form(perturbation.pressure_rate, z) / energy;
+    growth.structure_damping = -rate * forms.damping / energy;
+
+    result.energy = { forms.spring / potential, forms.elastic / potential, forms.support / potential, contact / potential };
+    result.mode   = std::move(mode);
+    result.ports  = std::move(ports);
+    return result;
+  }
+} // namespace sprag

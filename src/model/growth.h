@@ -1,0 +1,53 @@
+#pragma once
+
+#include "model/dynamic_model.h"
+#include "model/linearisation.h"
+#include "model/port_layout.h"
+
+#include <cmath>
+
+namespace sprag
+{
+  /// What of an eigenmode follows from the structure's own energies.
+  struct ModeForms
+  {
+    double mass    = 0.; ///< phi^H M phi
+    double spring  = 0.; ///< phi^H K phi, by parts
+    double elastic = 0.;
+    double support = 0.;
+    double damping = 0.; ///< phi^H C phi
+  };
+
+  /// One part of a mode as a motion whose velocities equal its positions.
+  inline Motion as_motion(const StructureMode &mode, const unsigned int part)
+  {
+    Motion motion;
+    motion.coordinates.position = motion.coordinates.velocity = mode.coordinates[part];
+    motion.coordinates.acceleration.reinit(mode.coordinates[part].size());
+    motion.face_force = mode.face_force[part];
+    return motion;
+  }
+
+  /// Structure: see ModalStructure.
+  template <class Structure>
+  ModeForms mode_forms(const Structure &structure, const StructureMode &mode)
+  {
+    ModeForms forms;
+    for (unsigned int part = 0; part < 2; ++part)
+    {
+      const Motion motion = as_motion(mode, part);
+      const auto energy   = structure.stored_energy(motion);
+      forms.mass += 2. * energy.kinetic;
+      forms.spring += 2. * energy.spring;
+      forms.elastic += 2. * energy.elastic;
+      forms.support += 2. * energy.support;
+      forms.damping += structure.damping_form(motion);
+    }
+    return forms;
+  }
+
+  /// Shares of growth and energy: the real part of conj(lambda) phi^H (lambda^2 M + lambda C + K) phi = 0, which says that the
+  /// mode's energy grows by 2 Re lambda times the power of what is not conservative. `ports` are displacements of all ports.
+  Eigenmode explained(StructureMode mode, ComplexVector ports, const ModeForms &forms, const PortPerturbation &perturbation,
+                      const PortLayout &layout);
+} // namespace sprag

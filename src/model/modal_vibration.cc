@@ -1,0 +1,230 @@
+#include "model/modal_vibration.h"
+
+#include "base/eigenvalues.h"
+#include "base/errors.h"
+
+#include <deal.II/lac/lapack_full_matrix.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sprag
+{
+  using namespace dealii;
+
+  namespace
+  {
+    using Complex = std::complex<double>;
+
+    /// The problem A s = lambda E s in s = (q, q', u).
+    class StateProblem
+    {
+    public:
+      StateProblem(const ModalData &data_, const PortPerturbation &forces_)
+          : data(data_)
+          , forces(forces_)
+          , stiffness(forces.stiffness())
+          , damping(forces.damping())
+          , n(static_cast<unsigned int>(data.stiffness.size()))
+          , n_forces(static_cast<unsigned int>(forces.ports.size()))
+      {
+        for (unsigned int a = 0; a < n_forces; ++a)
+          if (forces.ports[a] < data.face_compliance.m())
+            ++n_static;
+        shapes.reinit(n_forces, n);
+        for (unsigned int a = 0; a < n_forces; ++a)
+          for (unsigned int i = 0; i < n; ++i)
+            shapes(a, i) = data.shapes(forces.ports[a], i);
+        assemble();
+      }
+
+      /// Eigenpairs of A^-1 E: 1 / lambda.
+      std::vector<Eigenpair> inverse_pairs() const
+      {
+        LAPACKFullMatrix<double> a(size());
+        LAPACKFullMatrix<double> e(size());
+        a = of_state;
+        e = of_rate;
+        try
+        {
+          a.compute_lu_factorization();
+          a.solve(e);
+        }
+        catch (const ExceptionBase &)
+        {
+          throw AnalysisError("the slide is at the limit of its stability: it has a mode without stiffness");
+        }
+        FullMatrix<double> quotient(size(), size());
+        quotient = e;
+        return eigenpairs(quotient);
+      }
+
+      StructureMode mode(const Complex lambda, const Eigenpair &pair) const
+      {
+        StructureMode result;
+        result.eigenvalue = lambda;
+        for (unsigned int part = 0; part < 2; ++part)
+        {
+          result.coordinates[part].reinit(n);
+          std::copy(pair.vector[part].begin(), pair.vector[part].begin() + n, result.coordinates[part].begin());
+          result.face_force[part].reinit(static_cast<unsigned int>(data.face_compliance.m()));
+        }
+        const auto z = port_amplitudes(pair);
+        const auto f = port_forces(lambda, z);
+        for (unsigned int a = 0; a < n_static; ++a)
+        {
+          const Complex elastic                 = f[a] / (1. + lambda * data.relaxation);
+          result.face_force[0][forces.ports[a]] = elastic.real();
+          result.face_force[1][forces.ports[a]] = elastic.imag();
+        }
+        result.residual = backward_error(lambda, pair, f);
+        return result;
+      }
+
+    private:
+      const ModalData &data;
+      const PortPerturbation &forces;
+      const FullMatrix<double> stiffness;
+      const FullMatrix<double> damping;
+      const unsigned int n;
+      const unsigned int n_forces;
+      unsigned int n_static = 0; ///< of the forces, the first ones
+      FullMatrix<double> shapes; ///< a row a force
+      FullMatrix<double> of_state;
+      FullMatrix<double> of_rate;
+
+      unsigned int size() const
+      {
+        return 2 * n + n_static;
+      }
+
+      /// Adds factor * left * middle * right at a block.
+      static void add_product(const FullMatrix<double> &left, const FullMatrix<double> &middle, const FullMatrix<double> &right,
+                              const double factor, const unsigned int row, const unsigned int column, FullMatrix<double> &sum)
+      {
+        if (middle.m() == 0 || left.m() == 0 || right.n() == 0)
+          return;
+        FullMatrix<double> half(left.m(), middle.n());
+        FullMatrix<double> whole(left.m(), right.n());
+        left.mmult(half, middle);
+        half.mmult(whole, right);
+        for (unsigned int i = 0; i < whole.m(); ++i)
+          for (unsigned int j = 0; j < whole.n(); ++j)
+            sum(row + i, column + j) += factor * whole(i, j);
+      }
+
+      void assemble()
+      {
+        const unsigned int at_u = 2 * n;
+        FullMatrix<double> transposed(n, n_forces);
+        transposed.copy_transposed(shapes);
+        FullMatrix<double> into_static(n_forces, n_static);
+        FullMatrix<double> compliance(n_static, n_forces);
+        for (unsigned int a = 0; a < n_static; ++a)
+        {
+          into_static(a, a) = 1.;
+          for (unsigned int b = 0; b < n_static; ++b)
+            compliance(a, b) = data.face_compliance(forces.ports[a], forces.ports[b]);
+        }
+        of_state.reinit(size(), size());
+        of_rate.reinit(size(), size());
+        for (unsigned int i = 0; i < n; ++i)
+        {
+          of_state(i, n + i) = 1.;
+          of_rate(i, i)      = 1.;
+          of_state(n + i, i) -= data.stiffness[i];
+          of_rate(n + i, n + i) += 1.;
+          for (unsigned int j = 0; j < n; ++j)
+            of_state(n + i, n + j) -= data.damping(i, j);
+        }
+        for (unsigned int a = 0; a < n_static; ++a)
+        {
+          of_state(at_u + a, at_u + a) -= 1.;
+          of_rate(at_u + a, at_u + a) += data.relaxation;
+        }
+        add_product(transposed, stiffness, shapes, 1., n, 0, of_state);
+        add_product(transposed, damping, shapes, 1., n, n, of_state);
+        add_product(transposed, stiffness, into_static, 1., n, at_u, of_state);
+        add_product(transposed, damping, into_static, -1., n, at_u, of_rate);
+        add_product(transposed, forces.inertia, shapes, 1., n, n, of_rate);
+        add_product(compliance, stiffness, shapes, 1., at_u, 0, of_state);
+        add_product(compliance, damping, shapes, 1., at_u, n, of_state);
+        add_product(compliance, stiffness, into_static, 1., at_u, at_u, of_state);
+        add_product(compliance, damping, into_static, -1., at_u, at_u, of_rate);
+      }
+
+      std::vector<Complex> port_amplitudes(const Eigenpair &pair) const
+      {
+        std::vector<Complex> z(n_forces);
+        for (unsigned int a = 0; a < n_forces; ++a)
+        {
+          for (unsigned int i = 0; i < n; ++i)
+            z[a] += shapes(a, i) * Complex(pair.vector[0][i], pair.vector[1][i]);
+          if (a < n_static)
+            z[a] += Complex(pair.vector[0][2 * n + a], pair.vector[1][2 * n + a]);
+        }
+        return z;
+      }
+
+      std::vector<Complex> port_forces(const Complex lambda, const std::vector<Complex> &z) const
+      {
+        std::vector<Complex> f(n_forces);
+        for (unsigned int a = 0; a < n_forces; ++a)
+          for (unsigned int b = 0; b < n_forces; ++b)
+            f[a] += (stiffness(a, b) + lambda * damping(a, b) -
+                     (forces.inertia.m() > 0 ? lambda * lambda * forces.inertia(a, b) : Complex())) *
+                    z[b];
+        return f;
+      }
+
+      /// What is out of balance in the modes, over the sum of the terms' sizes.
+      double backward_error(const Complex lambda, const Eigenpair &pair, const std::vector<Complex> &f) const
+      {
+        double residual = 0.;
+        double size     = 0.;
+        for (unsigned int i = 0; i < n; ++i)
+        {
+          const Complex q(pair.vector[0][i], pair.vector[1][i]);
+          Complex damped, driven;
+          double damped_size = 0., driven_size = 0.;
+          for (unsigned int j = 0; j < n; ++j)
+          {
+            const Complex term = lambda * data.damping(i, j) * Complex(pair.vector[0][j], pair.vector[1][j]);
+            damped += term;
+            damped_size += std::abs(term);
+          }
+          for (unsigned int a = 0; a < n_forces; ++a)
+          {
+            driven += shapes(a, i) * f[a];
+            driven_size += std::abs(shapes(a, i) * f[a]);
+          }
+          residual += std::norm(lambda * lambda * q + damped + data.stiffness[i] * q - driven);
+          size += std::pow(std::abs(lambda * lambda * q) + damped_size + data.stiffness[i] * std::abs(q) + driven_size, 2);
+        }
+        return std::sqrt(residual / size);
+      }
+    };
+  } // namespace
+
+  std::vector<StructureMode> modal_vibrations(const ModalData &data, const PortPerturbation &forces)
+  {
+    constexpr double widest = 1e-10;
+    const StateProblem problem(data, forces);
+    const auto pairs = problem.inverse_pairs();
+    double largest   = 0.;
+    for (const auto &pair : pairs)
+      largest = std::max(largest, std::abs(pair.value));
+    std::vector<StructureMode> result;
+    for (auto pair : pairs)
+    {
+      if (std::abs(pair.value) <= widest * largest)
+        continue;
+      const Complex lambda = std::conj(1. / pair.value);
+      pair.vector[1] *= -1.;
+      result.push_back(problem.mode(lambda, pair));
+    }
+    std::sort(result.begin(), result.end(),
+              [](const auto &a, const auto &b) { return std::abs(a.eigenvalue) < std::abs(b.eigenvalue); });
+    return result;
+  }
+} // namespace sprag

@@ -1,0 +1,74 @@
+#pragma once
+
+#include "results/columns.h"
+#include "scene/drive.h"
+
+#include <deal.II/lac/vector.h>
+
+#include <array>
+#include <complex>
+#include <vector>
+
+namespace sprag
+{
+  struct Motion;
+
+  /// What friction does where a slide is held.
+  enum class ContactFriction
+  {
+    sliding,
+    none,
+    stuck ///< no slip beyond the contact's tangential stiffness, about a state without friction
+  };
+
+  /// Real and imaginary part of a complex vector.
+  using ComplexVector = std::array<dealii::Vector<double>, 2>;
+
+  /// A structure's answer to exp(lambda t), before it is known what feeds it.
+  struct StructureMode
+  {
+    std::complex<double> eigenvalue; ///< lambda [1/s], imaginary part >= 0
+    double residual = 0.;            ///< backward error of (lambda^2 M + lambda C + K) phi = 0
+    ComplexVector coordinates;       ///< phi, in the structure's coordinates
+    ComplexVector face_force;        ///< elastic forces in the static face shapes; empty without such shapes
+  };
+
+  /// Parts of the growth rate [1/s]: each mechanism's mean power over twice the mode's energy. They add up to Re lambda.
+  struct GrowthShares
+  {
+    double friction_rotation = 0.; ///< friction's forces as they follow displacements, working on the hub's rotation
+    double friction_bending  = 0.; ///< on the deflection of the lever in its own axes
+    double friction_support  = 0.; ///< on the displacement of the support
+    double friction_speed    = 0.; ///< mu'(v), and friction of contact damping's pressure
+    double contact_damping   = 0.;
+    double structure_damping = 0.; ///< of lever, layer and support
+  };
+
+  /// Where a mode's potential energy is; adds up to 1.
+  struct EnergyShares
+  {
+    double rotation = 0.; ///< in the rotational spring
+    double bending  = 0.; ///< in lever and layer
+    double support  = 0.;
+    double contact  = 0.; ///< in the contact's springs, with the change of their direction
+  };
+
+  /// A vibration about a held slide.
+  struct Eigenmode
+  {
+    StructureMode mode;
+    ComplexVector ports; ///< displacements, in lever axes
+    GrowthShares growth;
+    EnergyShares energy;
+  };
+
+  /// Points along the lever and how a mode moves them in lever axes [mm per unit of the mode].
+  struct ModeShape
+  {
+    std::vector<double> xi; ///< undeformed [mm]
+    std::array<std::vector<double>, 2> along;
+    std::array<std::vector<double>, 2> across; ///< away from the cylinder, without the rotation of the axes
+    std::complex<double> rotation;             ///< [rad]
+    std::complex<double> support;              ///< [mm]
+  };
+} // namespace sprag

@@ -1,0 +1,96 @@
+#include "scene/held_slide.h"
+
+#include "base/text.h"
+#include "laws/friction_of_step.h"
+
+#include <algorithm>
+#include <sstream>
+
+namespace sprag
+{
+  namespace
+  {
+    constexpr unsigned int tried_points = 13;
+
+    std::vector<ParameterRange> usual_searches(const Scene &scene)
+    {
+      std::vector<ParameterRange> result = {
+        { "Friction/Factor", 0., 3., tried_points },
+        { "Stability/Position", scene.drive.minimum(), scene.drive.maximum(), tried_points },
+      };
+      if (scene.drive.profile() != DriveProfile::table)
+        result.push_back({ "Drive/Speed", 1., 800., tried_points });
+      const ModelType model = scene.analysis.model;
+      if (model == ModelType::beam)
+        result.push_back({ "Lever/Depth", 2., 30., tried_points });
+      return result;
+    }
+
+    std::optional<ParameterRange> range_of(const std::string &text)
+    {
+      // The name may hold blanks: the numbers are the last two words.
+      std::istringstream stream(text);
+      std::vector<std::string> words;
+      for (std::string word; stream >> word;)
+        words.push_back(word);
+      if (words.size() < 3)
+        return {};
+      ParameterRange range;
+      range.points = tried_points;
+      for (std::size_t i = 0; i + 2 < words.size(); ++i)
+        range.name += (i == 0 ? "" : " ") + words[i];
+      const auto number = [](const std::string &word) -> std::optional<double>
+      {
+        const auto found = leading_number(word);
+        return found && found->rest.empty() ? std::make_optional(found->value) : std::nullopt;
+      };
+      const auto from = number(words[words.size() - 2]);
+      const auto to   = number(words.back());
+      if (!from || !to)
+        return {};
+      range.from = *from;
+      range.to   = *to;
+      return range;
+    }
+  } // namespace
+
+  DrivePoint held_drive(const Scene &scene)
+  {
+    const double sign = scene.stability.direction == Direction::forward ? 1. : -1.;
+    return { 0., scene.stability.position.value_or(scene.drive.maximum()), sign * scene.drive.peak_speed(), 0. };
+  }
+
+  Scene held_scene(const Scene &scene)
+  {
+    Scene held    = scene;
+    held.friction = friction_of_step(scene.friction, scene.drive.peak_speed());
+    if (!scene.stability.damping)
+    {
+      held.lever.modal_damping     = 0.;
+      held.lever.mass_damping      = 0.;
+      held.lever.stiffness_damping = 0.;
+      held.contact.damping         = 0.;
+      held.support.damping         = 0.;
+    }
+    return held;
+  }
+
+  std::optional<std::vector<ParameterRange>> critical_searches(const Scene &scene)
+  {
+    const std::string &text = scene.stability.critical;
+    if (text == "auto")
+      return usual_searches(scene);
+    std::vector<ParameterRange> result;
+    if (text == "none")
+      return result;
+    std::istringstream stream(text);
+    for (std::string entry; std::getline(stream, entry, ';');)
+    {
+      const auto range = range_of(entry);
+      if (!range)
+        return {};
+      result.push_back(*range);
+    }
+    return result;
+  }
+} // namespace sprag
