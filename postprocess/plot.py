@@ -12,6 +12,7 @@ from results import NotAResult, read_result
 from style import COLOURS, MARKERS, MILLIMETRE, ONE_COLUMN, TWO_COLUMNS  # noqa: F401  (for figures.py and mesh.py)
 from style import label, look, panel_letter, plt, set_labels, show_legend, use_print_style
 from transient import energy, has_reversal, is_transient, reversal
+from vibration import vibration_pictures
 
 # Forces
 
@@ -243,6 +244,8 @@ def draw(results):
     """{picture name: figure} for one or several results."""
     if len(results) == 1 and "P_fitted" in results[0].table:
         return {"contact-law": contact_law(results[0])}
+    if len(results) == 1 and "modes" in results[0].groups:
+        return vibration_pictures(results[0])
     if len(results) == 1 and results[0].is_sweep:
         return {"slope": slope_sweep(results[0])}
     check_steps(results)

@@ -10,6 +10,9 @@ import h5py
 import numpy as np
 
 
+KNOWN = ("table", "face", "summary", "meta")
+
+
 class NotAResult(Exception):
     """The folder holds no result of sprag; the text says which and why."""
 
@@ -40,6 +43,7 @@ class Result:
     meta: dict = field(default_factory=dict)
     entry_units: dict = field(default_factory=dict)  # of summary and meta
     face: Optional[Face] = None
+    groups: dict = field(default_factory=dict)  # other groups: name -> {dataset -> array}
     finished: bool = False
 
     @property
@@ -102,6 +106,7 @@ def read_result(folder):
         if result.finished:
             result.summary = _entries(file["summary"])
             result.meta = _entries(file["meta"])
+            result.groups = {n: _arrays(g) for n, g in file.items() if isinstance(g, h5py.Group) and n not in KNOWN}
             result.entry_units = {**_attributes(file["summary"], "unit"), **_attributes(file["meta"], "unit")}
         if "face" in file:
             result.face = _read_face(file["face"])
@@ -126,6 +131,10 @@ def _equally_long(arrays):
     """A run killed between two columns leaves a last row that is not complete."""
     length = min((len(values) for values in arrays.values()), default=0)
     return {name: values[:length] for name, values in arrays.items()}
+
+
+def _arrays(group):
+    return {name: data[()] for name, data in group.items()}
 
 
 def _attributes(group, attribute):

@@ -2,8 +2,10 @@
 
 #include "analysis/closed_form.h"
 #include "analysis/contact_law.h"
+#include "analysis/jamming.h"
 #include "analysis/quasi_static.h"
 #include "analysis/recorder.h"
+#include "analysis/run_stability.h"
 #include "analysis/run_transient.h"
 #include "analysis/slope.h"
 #include "base/errors.h"
@@ -147,6 +149,16 @@ namespace sprag
                 << std::flush;
     }
 
+    /// Before every run in which a cylinder is put somewhere.
+    void announce_margin(const Scene &scene, const RunOptions &options)
+    {
+      if (options.quiet || scene.analysis.type == AnalysisType::slope)
+        return;
+      const ModelType model = scene.analysis.model;
+      const bool rigid      = model == ModelType::closed_form || model == ModelType::rigid;
+      std::cout << jamming_text(jamming_margin(scene, !rigid)) << '\n' << std::flush;
+    }
+
     void run_finite_element(const Scene &scene, const RunOptions &options)
     {
       Timer timer(std::cout, Timer::never, Timer::cpu_and_wall_times);
@@ -201,9 +213,9 @@ namespace sprag
 
   void validate(const Scene &scene)
   {
-    const bool in_time = scene.analysis.type == AnalysisType::transient;
+    const bool inertia = scene.analysis.type != AnalysisType::quasi_static;
     const bool meshed =
-        scene.analysis.model == ModelType::finite_element || (in_time && scene.analysis.model == ModelType::condensed);
+        scene.analysis.model == ModelType::finite_element || (inertia && scene.analysis.model == ModelType::condensed);
     if (scene.analysis.type == AnalysisType::slope || (!meshed && scene.analysis.type != AnalysisType::contact_law))
       return;
     dealii::Triangulation<2> triangulation;
@@ -212,15 +224,24 @@ namespace sprag
 
   void run(const Scene &scene, const RunOptions &options)
   {
-    if (scene.analysis.type == AnalysisType::slope)
-      run_slope(scene, options);
-    else if (scene.analysis.type == AnalysisType::contact_law)
-      run_contact_law(scene, options);
-    else if (scene.analysis.type == AnalysisType::transient)
-      run_transient_scene(scene, options);
-    else if (scene.analysis.model == ModelType::closed_form)
-      run_closed_form_model(scene, options);
-    else
-      run_finite_element(scene, options);
+    announce_margin(scene, options);
+    switch (scene.analysis.type)
+    {
+    case AnalysisType::quasi_static:
+      return scene.analysis.model == ModelType::closed_form ? run_closed_form_model(scene, options)
+                                                            : run_finite_element(scene, options);
+    case AnalysisType::slope:
+      return run_slope(scene, options);
+    case AnalysisType::transient:
+      return run_transient_scene(scene, options);
+    case AnalysisType::contact_law:
+      return run_contact_law(scene, options);
+    case AnalysisType::modal:
+    case AnalysisType::stability:
+      return run_vibrations(scene, options);
+    case AnalysisType::map:
+    case AnalysisType::sprag_slip:
+      break;
+    }
   }
 } // namespace sprag

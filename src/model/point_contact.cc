@@ -13,6 +13,21 @@ namespace sprag
   {
     constexpr unsigned int theta_index = 6;
     constexpr unsigned int x_index     = 7;
+
+    /// Cubic shapes of an element of length h at s h from its first node, 0 <= s <= 1, and their derivatives along it; for
+    /// deflection and slope of the first node, then of the second.
+    struct HermiteShapes
+    {
+      HermiteShapes(const double h, const double s)
+          : shape{ 1. - s * s * (3. - 2. * s), h * s * (1. - s) * (1. - s), s * s * (3. - 2. * s), -h * s * s * (1. - s) }
+          , slope{ 6. * s * (s - 1.) / h, 1. + s * (3. * s - 4.), 6. * s * (1. - s) / h, s * (3. * s - 2.) }
+          , curvature{ (12. * s - 6.) / (h * h), (6. * s - 4.) / h, (6. - 12. * s) / (h * h), (6. * s - 2.) / h }
+          , third{ 12. / (h * h * h), 6. / (h * h), -12. / (h * h * h), 6. / (h * h) }
+      {
+      }
+
+      double shape[4], slope[4], curvature[4], third[4];
+    };
   } // namespace
 
   struct PointContact::Surface
@@ -72,26 +87,22 @@ namespace sprag
     double w[4]      = { 0., 0., 0., 0. };
     if (mesh.elements > 0)
     {
-      const double h            = mesh.element_length();
-      const bool second         = xi >= (window + 1) * h;
-      const double s            = xi / h - window - (second ? 1. : 0.);
-      const unsigned int base   = second ? 2 : 0;
-      result.nodal              = base;
-      const double shape[4]     = { 1. - s * s * (3. - 2. * s), h * s * (1. - s) * (1. - s), s * s * (3. - 2. * s),
-                                    -h * s * s * (1. - s) };
-      const double slope[4]     = { 6. * s * (s - 1.) / h, 1. + s * (3. * s - 4.), 6. * s * (1. - s) / h, s * (3. * s - 2.) };
-      const double curvature[4] = { (12. * s - 6.) / (h * h), (6. * s - 4.) / h, (6. - 12. * s) / (h * h), (6. * s - 2.) / h };
-      const double third[4]     = { 12. / (h * h * h), 6. / (h * h), -12. / (h * h * h), 6. / (h * h) };
+      const double h          = mesh.element_length();
+      const bool second       = xi >= (window + 1) * h;
+      const double s          = xi / h - window - (second ? 1. : 0.);
+      const unsigned int base = second ? 2 : 0;
+      result.nodal            = base;
+      const HermiteShapes of(h, s);
       for (unsigned int a = 0; a < 4; ++a)
       {
         const double value  = q[base + a];
-        result.shape[a]     = shape[a];
-        result.slope[a]     = slope[a];
-        result.curvature[a] = curvature[a];
-        w[0] += shape[a] * value;
-        w[1] += slope[a] * value;
-        w[2] += curvature[a] * value;
-        w[3] += third[a] * value;
+        result.shape[a]     = of.shape[a];
+        result.slope[a]     = of.slope[a];
+        result.curvature[a] = of.curvature[a];
+        w[0] += of.shape[a] * value;
+        w[1] += of.slope[a] * value;
+        w[2] += of.curvature[a] * value;
+        w[3] += of.third[a] * value;
       }
     }
     result.point      = { xi - arm * w[1], e + w[0] };
@@ -382,14 +393,25 @@ namespace sprag
 
   SurfaceShape PointContact::surface_shape(const Vector<double> &displacements) const
   {
-    const auto &mesh = properties.mesh;
-    const double arm = properties.geometry.interface_offset - properties.neutral_axis_offset;
+    constexpr unsigned int parts = 8;
+    const auto &mesh             = properties.mesh;
+    const double arm             = properties.geometry.interface_offset - properties.neutral_axis_offset;
     SurfaceShape shape{ { 0. }, { 0. }, { 0. } };
-    for (unsigned int node = 1; node <= mesh.elements; ++node)
+    for (unsigned int i = 1; i <= parts * mesh.elements; ++i)
     {
-      shape.xi.push_back(node * mesh.element_length());
-      shape.across.push_back(displacements[2 * node - 2]);
-      shape.along.push_back(-arm * displacements[2 * node - 1]);
+      const unsigned int element = (i - 1) / parts;
+      const HermiteShapes of(mesh.element_length(), static_cast<double>(i) / parts - element);
+      double w     = 0.;
+      double slope = 0.;
+      for (unsigned int a = 0; a < 4; ++a)
+        if (const unsigned int port = 2 * element + a; port >= 2)
+        {
+          w += of.shape[a] * displacements[port - 2];
+          slope += of.slope[a] * displacements[port - 2];
+        }
+      shape.xi.push_back(i * mesh.element_length() / parts);
+      shape.across.push_back(w);
+      shape.along.push_back(-arm * slope);
     }
     return shape;
   }

@@ -16,7 +16,8 @@ namespace sprag
     {
       std::vector<ParameterRange> result = {
         { "Friction/Factor", 0., 3., tried_points },
-        { "Stability/Position", scene.drive.minimum(), scene.drive.maximum(), tried_points },
+        { "Stability/Position", scene.drive.minimum() + 0.05 * (scene.drive.maximum() - scene.drive.minimum()),
+          scene.drive.maximum(), tried_points },
       };
       if (scene.drive.profile() != DriveProfile::table)
         result.push_back({ "Drive/Speed", 1., 800., tried_points });

@@ -1,0 +1,63 @@
+#include "analysis/critical.h"
+
+#include "base/errors.h"
+#include "scene/read.h"
+
+#include <cmath>
+#include <limits>
+
+namespace sprag
+{
+  namespace
+  {
+    struct Tried
+    {
+      double value;
+      std::optional<SlideKind> kind; ///< none where the scene is not admitted
+      double mu = std::numeric_limits<double>::quiet_NaN();
+    };
+
+    Tried attempt(const Scene &scene, const std::string &parameter, const double value, DynamicsMaker &maker)
+    {
+      try
+      {
+        const auto found = judge(variant(scene, { override_text(parameter, value) }), maker);
+        Tried result{ value, found.kind };
+        if (found.slide)
+          result.mu = found.slide->mu;
+        return result;
+      }
+      catch (const InputError &)
+      {
+      }
+      catch (const AnalysisError &)
+      {
+      }
+      return Tried{ value, {} };
+    }
+  } // namespace
+
+  std::vector<CriticalValue> critical_values(const Scene &scene, const ParameterRange &range, const double tolerance,
+                                             DynamicsMaker &maker)
+  {
+    std::vector<CriticalValue> result;
+    const double width = range.to - range.from;
+    Tried before       = attempt(scene, range.name, range.from, maker);
+    for (unsigned int i = 1; i < range.points; ++i)
+    {
+      const Tried after = attempt(scene, range.name, range.from + width * i / (range.points - 1), maker);
+      Tried low         = before;
+      Tried high        = after;
+      while (low.kind && high.kind && low.kind != high.kind && std::abs(high.value - low.value) > tolerance * std::abs(width))
+      {
+        const Tried middle                     = attempt(scene, range.name, 0.5 * (low.value + high.value), maker);
+        (middle.kind == low.kind ? low : high) = middle;
+      }
+      if (low.kind && high.kind && low.kind != high.kind)
+        result.push_back(
+            { range.name, 0.5 * (low.value + high.value), std::isnan(low.mu) ? high.mu : low.mu, *low.kind, *high.kind });
+      before = after;
+    }
+    return result;
+  }
+} // namespace sprag

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "analysis/stability.h"
+#include "scene/scene.h"
+
+namespace sprag
+{
+  /// A value of a parameter at which the kind of a slide changes.
+  struct CriticalValue
+  {
+    std::string parameter;
+    double value = 0.;
+    double mu    = 0.; ///< of the slide there; NaN where there is no equilibrium
+    SlideKind below;   ///< kind just below the value
+    SlideKind above;
+  };
+
+  /// The changes of kind along one parameter of the scene: tried at the range's points and bisected in between to `tolerance` of
+  /// the range. Values that the scene does not admit, or at which the analysis fails, are passed over.
+  std::vector<CriticalValue> critical_values(const Scene &scene, const ParameterRange &range, double tolerance,
+                                             DynamicsMaker &maker);
+} // namespace sprag

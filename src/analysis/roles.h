@@ -1,0 +1,20 @@
+#pragma once
+
+#include "analysis/stability.h"
+#include "scene/scene.h"
+
+namespace sprag
+{
+  /// A slide with one of its ingredients left out.
+  struct Role
+  {
+    std::string name;    ///< "without_flexure" ...
+    std::string meaning; ///< what was done
+    SlideKind kind     = SlideKind::jammed;
+    double growth_rate = 0.; ///< [1/s]; NaN where there is none to tell
+    double frequency   = 0.; ///< [Hz]
+  };
+
+  /// What flexure, inertia, mu'(v), damping and a sprung support do to the slide: each left out alone.
+  std::vector<Role> roles(const Scene &scene, const SlideStability &present, DynamicsMaker &maker);
+} // namespace sprag

@@ -1,0 +1,251 @@
+#include "analysis/vibration_report.h"
+
+#include "base/text.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <functional>
+#include <iomanip>
+#include <map>
+#include <sstream>
+
+namespace sprag
+{
+  namespace
+  {
+    double frequency(const Eigenmode &mode)
+    {
+      return mode.mode.eigenvalue.imag() / (2. * M_PI);
+    }
+
+    bool grows(const Eigenmode &mode)
+    {
+      return mode.mode.eigenvalue.real() > smallest_growth * std::abs(mode.mode.eigenvalue);
+    }
+
+    SlideKind kind_of(const Eigenmode &mode)
+    {
+      if (!grows(mode))
+        return SlideKind::stable;
+      return mode.mode.eigenvalue.imag() > 0. ? SlideKind::flutter : SlideKind::divergence;
+    }
+
+    using Value = std::function<double(const Eigenmode &)>;
+
+    Dataset column(const std::vector<Eigenmode> &modes, const ColumnInfo &info, const Value &value)
+    {
+      Dataset result{ info, {}, {} };
+      for (const auto &mode : modes)
+        result.values.push_back(value(mode));
+      return result;
+    }
+
+    void append_numbers(const std::vector<Eigenmode> &modes, Group &group)
+    {
+      const auto add = [&](const ColumnInfo &info, const Value &value) { group.datasets.push_back(column(modes, info, value)); };
+      add({ "frequency", "Hz", "Im lambda / 2 pi" }, frequency);
+      add({ "growth_rate", "1/s", "Re lambda" }, [](const auto &mode) { return mode.mode.eigenvalue.real(); });
+      add({ "damping_ratio", "1", "-Re lambda / |lambda|" },
+          [](const auto &mode) { return -mode.mode.eigenvalue.real() / std::abs(mode.mode.eigenvalue); });
+      add({ "kind", "1", "0 stable, 1 flutter, 2 divergence" },
+          [](const auto &mode) { return static_cast<double>(kind_of(mode)); });
+      add({ "residual", "1", "backward error of the eigenpair" }, [](const auto &mode) { return mode.mode.residual; });
+
+      const auto energy = [&](const std::string &name, double EnergyShares::*share, const std::string &where)
+      {
+        add({ "energy_" + name, "1", "share of the potential energy " + where },
+            [share](const auto &mode) { return mode.energy.*share; });
+      };
+      energy("rotation", &EnergyShares::rotation, "in the rotational spring");
+      energy("bending", &EnergyShares::bending, "in lever and layer");
+      energy("support", &EnergyShares::support, "in the support");
+      energy("contact", &EnergyShares::contact, "in the contact");
+
+      const auto growth = [&](const std::string &name, double GrowthShares::*share, const std::string &what)
+      {
+        add({ "growth_by_" + name, "1/s", "part of the growth rate: " + what },
+            [share](const auto &mode) { return mode.growth.*share; });
+      };
+      growth("friction_rotation", &GrowthShares::friction_rotation, "friction that follows displacements, on the hub's rotation");
+      growth("friction_bending", &GrowthShares::friction_bending, "the same, on the deflection of the lever");
+      growth("friction_support", &GrowthShares::friction_support, "the same, on the displacement of the support");
+      growth("friction_speed", &GrowthShares::friction_speed,
+             "friction that follows velocities: mu'(v), and mu times the contact damping's pressure");
+      growth("contact_damping", &GrowthShares::contact_damping, "contact damping");
+      growth("structure_damping", &GrowthShares::structure_damping, "damping of lever, layer and support");
+    }
+
+    void append_shapes(const std::vector<Eigenmode> &modes, const DynamicModel &model, Group &group)
+    {
+      std::vector<double> xi;
+      std::map<std::string, std::vector<double>> values;
+      const std::array<std::string, 2> part = { { "real", "imaginary" } };
+      for (const auto &mode : modes)
+      {
+        const auto shape = model.mode_shape(mode);
+        xi               = shape.xi;
+        for (unsigned int i = 0; i < 2; ++i)
+        {
+          const auto append = [&](const std::string &name, const std::vector<double> &more)
+          { values[name + part[i]].insert(values[name + part[i]].end(), more.begin(), more.end()); };
+          append("along_", shape.along[i]);
+          append("across_", shape.across[i]);
+          append("rotation_", { i == 0 ? shape.rotation.real() : shape.rotation.imag() });
+          append("support_", { i == 0 ? shape.support.real() : shape.support.imag() });
+        }
+      }
+      group.datasets.push_back({ { "xi", "mm", "lever coordinate of the shapes' points, from the pivot" }, xi, {} });
+      for (const auto &[name, numbers] : values)
+      {
+        const bool of_points   = name.front() == 'a';
+        const std::string unit = name[0] == 'r' ? "rad" : "mm";
+        group.datasets.push_back(
+            { { name, unit, of_points ? "displacement of the points in lever axes, modes x points" : "in the modes" },
+              numbers,
+              of_points ? std::vector<std::size_t>{ modes.size(), xi.size() } : std::vector<std::size_t>{} });
+      }
+    }
+
+    std::string slug(const std::string &name)
+    {
+      std::string result;
+      for (const char c : name)
+        result += std::isalnum(static_cast<unsigned char>(c)) != 0
+                      ? static_cast<char>(std::tolower(static_cast<unsigned char>(c)))
+                      : '_';
+      return result;
+    }
+
+    std::string padded(const double value, const int width)
+    {
+      std::ostringstream number;
+      number << std::setprecision(4) << (std::abs(value) < 1e-6 ? 0. : value);
+      const std::string text = std::isnan(value) ? "-" : number.str();
+      return std::string(static_cast<std::size_t>(std::max(1, width - static_cast<int>(text.size()))), ' ') + text;
+    }
+
+    std::string share(const double value)
+    {
+      return padded(std::round(1000. * value) / 10., 7);
+    }
+  } // namespace
+
+  std::vector<Eigenmode> reported(const std::vector<Eigenmode> &modes, const unsigned int number)
+  {
+    std::vector<Eigenmode> result;
+    unsigned int oscillating = 0;
+    for (const auto &mode : modes)
+    {
+      const bool oscillates = mode.mode.eigenvalue.imag() > 0.;
+      if (grows(mode) || (oscillates && oscillating < number))
+        result.push_back(mode);
+      oscillating += oscillates ? 1 : 0;
+    }
+    return result;
+  }
+
+  Group mode_group(const std::vector<Eigenmode> &modes, const DynamicModel &model)
+  {
+    Group group{ "modes", {} };
+    append_numbers(modes, group);
+    if (!modes.empty())
+      append_shapes(modes, model, group);
+    return group;
+  }
+
+  void print_modes(std::ostream &stream, const std::vector<Eigenmode> &modes)
+  {
+    stream << "\n  frequency    growth  kind        energy [%] in             growth [1/s] by friction on         by         by "
+              "damping of\n"
+           << "       [Hz]     [1/s]              spring  lever  suppt contact    rotation    bending   support   mu'(v)    "
+              "contact  "
+              "structure\n";
+    for (const auto &mode : modes)
+    {
+      const auto &e    = mode.energy;
+      const auto &g    = mode.growth;
+      std::string kind = "  " + kind_name(kind_of(mode));
+      kind.resize(13, ' ');
+      stream << padded(frequency(mode), 11) << padded(mode.mode.eigenvalue.real(), 10) << kind << share(e.rotation)
+             << share(e.bending) << share(e.support) << share(e.contact) << "  " << padded(g.friction_rotation, 10)
+             << padded(g.friction_bending, 11) << padded(g.friction_support, 10) << padded(g.friction_speed, 9)
+             << padded(g.contact_damping, 11) << padded(g.structure_damping, 11) << '\n';
+    }
+  }
+
+  std::vector<Entry> slide_entries(const SlideStability &found)
+  {
+    std::vector<Entry> result = { { "verdict", kind_name(found.kind), "",
+                                    "stable, flutter (sprag-slip), divergence or jammed" } };
+    if (!found.slide)
+      return result;
+    const auto &slide             = *found.slide;
+    const std::vector<Entry> more = {
+      { "growth_rate", found.growth_rate(), "1/s", "largest Re lambda" },
+      { "frequency", found.frequency(), "Hz", "of that mode" },
+      { "x", slide.drive.x, "mm", "where the slide is held" },
+      { "speed", slide.speed, "mm/s", "of the cylinder's surface along the lever" },
+      { "mu", slide.mu, "1", "friction coefficient" },
+      { "P", slide.forces.P, "N", "normal force" },
+      { "Q", slide.forces.Q, "N", "force along x" },
+      { "indentation", slide.indentation, "mm", "of the contact's spring or layer surface" },
+      { "uniqueness", slide.uniqueness, "1",
+        "margin to jamming: 1 without friction, 0 where the equilibrium is no longer unique" },
+    };
+    result.insert(result.end(), more.begin(), more.end());
+    return result;
+  }
+
+  std::vector<Entry> role_entries(const std::vector<Role> &roles)
+  {
+    std::vector<Entry> result;
+    for (const auto &role : roles)
+    {
+      result.push_back({ role.name + "_verdict", kind_name(role.kind), "", role.meaning });
+      result.push_back({ role.name + "_growth_rate", role.growth_rate, "1/s", role.meaning });
+      result.push_back({ role.name + "_frequency", role.frequency, "Hz", role.meaning });
+    }
+    return result;
+  }
+
+  std::vector<Entry> critical_entries(const std::vector<CriticalValue> &values)
+  {
+    std::vector<Entry> result;
+    std::map<std::string, unsigned int> count;
+    for (const auto &critical : values)
+    {
+      const std::string name = "critical_" + slug(critical.parameter);
+      const unsigned int n   = ++count[name];
+      result.push_back({ name + "_" + std::to_string(n), critical.value, "",
+                         critical.parameter + ": from " + kind_name(critical.below) + " to " + kind_name(critical.above) });
+    }
+    return result;
+  }
+
+  void print_roles(std::ostream &stream, const SlideStability &present, const std::vector<Role> &roles)
+  {
+    stream << "\n                               verdict     growth [1/s]  frequency [Hz]\n";
+    const auto line = [&](std::string name, std::string kind, const double growth, const double hertz)
+    {
+      std::replace(name.begin(), name.end(), '_', ' ');
+      name.resize(29, ' ');
+      kind.resize(10, ' ');
+      stream << "  " << name << kind << padded(growth, 14) << padded(hertz, 16) << '\n';
+    };
+    line("as it is", kind_name(present.kind), present.growth_rate(), present.frequency());
+    for (const auto &role : roles)
+      line(role.name, kind_name(role.kind), role.growth_rate, role.frequency);
+  }
+
+  void print_critical(std::ostream &stream, const std::vector<CriticalValue> &values)
+  {
+    stream << "\nCritical values, everything else as it is:\n";
+    for (const auto &critical : values)
+      stream << "  " << critical.parameter << " = " << rounded_text(critical.value)
+             << (critical.parameter == "Friction/Factor" ? " (mu = " + rounded_text(critical.mu) + ")" : "") << ": "
+             << kind_name(critical.below) << " below, " << kind_name(critical.above) << " above\n";
+    if (values.empty())
+      stream << "  none in the ranges searched\n";
+  }
+} // namespace sprag
