@@ -16,8 +16,8 @@ namespace sprag
   {
     constexpr unsigned int samples = 64;
 
-    /// Uniqueness of the equilibrium of the scene's beam moving back at x, at a constant mu.
-    std::optional<double> beam_uniqueness(const Scene &scene, const double x, const double mu)
+    /// The scene as a beam moving back at x with a constant mu; none where it has no equilibrium, or not a unique one.
+    std::optional<HeldSlide> beam_slide(const Scene &scene, const double x, const double mu)
     {
       Scene beam          = scene;
       beam.analysis.model = ModelType::beam;
@@ -25,14 +25,16 @@ namespace sprag
       beam.friction.law   = CoulombFriction{ mu };
       beam.support.type   = SupportType::rigid;
       beam.contact.type   = ContactType::compliant;
-      const auto slide    = make_reduced_lever(beam)->hold({ 0., x, -scene.drive.peak_speed(), 0. }, ContactFriction::sliding);
-      return slide && slide->forces.P > 0. ? std::make_optional(slide->uniqueness) : std::nullopt;
+      auto slide          = make_reduced_lever(beam)->hold({ 0., x, -scene.drive.peak_speed(), 0. }, ContactFriction::sliding);
+      if (slide && slide->forces.P > 0. && slide->uniqueness > 0.)
+        return slide;
+      return {};
     }
 
     /// Bisection between a mu at which the equilibrium is unique and one at which it is not.
     std::optional<double> critical_mu(const Scene &scene, const double x, double unique, double jammed)
     {
-      const auto is_unique = [&](const double mu) { return beam_uniqueness(scene, x, mu).value_or(0.) > 0.; };
+      const auto is_unique = [&](const double mu) { return beam_slide(scene, x, mu).has_value(); };
       if (!is_unique(unique) || is_unique(jammed))
         return {};
       while (jammed - unique > 1e-4 * jammed)
@@ -46,7 +48,8 @@ namespace sprag
     void add_flexure(const Scene &scene, JammingMargin &margin)
     {
       constexpr double largest_mu = 5.;
-      margin.uniqueness           = beam_uniqueness(scene, margin.x, margin.mu);
+      if (const auto slide = beam_slide(scene, margin.x, margin.mu))
+        margin.flexible = slide->margin;
       margin.flexible_critical_mu = critical_mu(scene, margin.x, 0., std::min(3. * margin.critical_mu, largest_mu));
     }
   } // namespace
@@ -74,11 +77,11 @@ namespace sprag
   std::string jamming_text(const JammingMargin &margin)
   {
     std::string text = "Jamming:      closest moving back at x = " + rounded_text(margin.x) +
-                       " mm: s = " + rounded_text(margin.s) + " mm, mu e = " + rounded_text(margin.mu_e) +
-                       " mm; a rigid lever locks at " +
+                       " mm: s = " + rounded_text(margin.s) + " mm, mu e = " + rounded_text(margin.mu_e) + " mm, margin " +
+                       rounded_text(1. - margin.mu_e / margin.s) + "; a rigid lever locks at " +
                        (std::isfinite(margin.critical_mu) ? "mu = " + rounded_text(margin.critical_mu) : "no mu");
-    if (margin.uniqueness)
-      text += "; flexible margin " + rounded_text(*margin.uniqueness) + " of 1";
+    if (margin.flexible)
+      text += "; margin of the flexible one " + rounded_text(*margin.flexible);
     if (margin.flexible_critical_mu)
       text += ", jams at mu = " + rounded_text(*margin.flexible_critical_mu);
     return text;

@@ -190,8 +190,8 @@ namespace sprag
       { "P", slide.forces.P, "N", "normal force" },
       { "Q", slide.forces.Q, "N", "force along x" },
       { "indentation", slide.indentation, "mm", "of the contact's spring or layer surface" },
-      { "uniqueness", slide.uniqueness, "1",
-        "margin to jamming: 1 without friction, 0 where the equilibrium is no longer unique" },
+      { "margin", slide.margin, "1", "to jamming: P without friction over P" },
+      { "uniqueness", slide.uniqueness, "1", "determinant of the tangent over that without friction; <= 0: not unique" },
     };
     result.insert(result.end(), more.begin(), more.end());
     return result;

@@ -107,14 +107,15 @@ namespace sprag
         return {};
       if (solve_sliding(drive, 1.) == nullptr)
         return {};
-      Row row;
-      contact->observe(row);
-      return SlidingForces{ row[Column::P], row[Column::Q] };
+      return observed_forces();
     }
 
     std::optional<HeldSlide> hold(const DrivePoint &drive, const ContactFriction friction) override
     {
       const bool slides             = friction == ContactFriction::sliding;
+      const auto P_without_friction = [&]
+      { return solve_sliding(drive, 1., ContactFriction::none) == nullptr ? 0. : observed_forces().P; };
+      const double P_free           = slides ? P_without_friction() : 0.;
       const double ratio            = slides ? speed_ratio(drive, 1e-3 * frame.geometry.cylinder_radius) : 1.;
       const PortForces *const force = solve_sliding(drive, ratio, friction);
       if (force == nullptr)
@@ -130,6 +131,7 @@ namespace sprag
       contact->observe(row);
       slide.mu         = slides ? row[Column::mu] : 0.;
       slide.forces     = { row[Column::P], row[Column::Q] };
+      slide.margin     = slides ? P_free / slide.forces.P : 1.;
       slide.uniqueness = uniqueness(slide);
       return slide;
     }
@@ -262,6 +264,14 @@ namespace sprag
         return 1.;
       const double slip = contact->mean_slip(from, drive.x - h, last_sliding, drive.x + h);
       return slip / (2. * h * sliding_speed(frame.geometry, drive.x, 1.));
+    }
+
+    /// Of the contact's last evaluation.
+    SlidingForces observed_forces() const
+    {
+      Row row;
+      contact->observe(row);
+      return { row[Column::P], row[Column::Q] };
     }
 
     static SlidingState sliding_state(const HeldSlide &slide, const TangentPart part)

@@ -77,7 +77,8 @@ namespace sprag
     double mu                = 0.;
     double indentation       = 0.; ///< of the contact's spring: its largest overlap [mm]
     SlidingForces forces{};
-    double uniqueness = 0.; ///< det(1 - G df/dz) over that without friction's part: 1 without friction, 0 where it jams
+    double margin     = 0.; ///< to jamming: P without friction over P, (s + mu e)/s of a rigid lever with mu signed as the motion
+    double uniqueness = 0.; ///< det(1 - G df/dz) over that without friction's part; <= 0 beyond where equilibria are unique
   };
 
   /// Mechanics of a scene in time at one fidelity. Analyses know nothing of beams, meshes and dimensions.
