@@ -42,6 +42,22 @@ namespace
     {
       return inner->sliding_forces(drive);
     }
+    std::optional<HeldSlide> hold(const DrivePoint &drive, const ContactFriction friction) override
+    {
+      return inner->hold(drive, friction);
+    }
+    std::vector<Eigenmode> vibrations(const HeldSlide &slide, const bool in_contact, const unsigned int number) override
+    {
+      return inner->vibrations(slide, in_contact, number);
+    }
+    Motion perturbed(const HeldSlide &slide, const Eigenmode &mode, const double amplitude) override
+    {
+      return inner->perturbed(slide, mode, amplitude);
+    }
+    ModeShape mode_shape(const Eigenmode &mode) const override
+    {
+      return inner->mode_shape(mode);
+    }
     StoredEnergy stored_energy(const Motion &motion) const override
     {
       return inner->stored_energy(motion);

@@ -118,6 +118,33 @@ class BadScene(ProgramTest):
             older=True,
         )
 
+    def test_parameters_by_name(self):
+        self.refused_lines(
+            [
+                ("subsection Analysis", None),
+                ("  set Type = map", None),
+                ("  set Model = beam", None),
+                ("end", None),
+                ("subsection Map", None),
+                ("  set First parameter = Lever/Dept", ["Map/First parameter", "did you mean 'Lever/Depth'"]),
+                ("  set Second parameter = Friction/Law", ["Map/Second parameter", "no parameter with a number"]),
+                ("  set Coarsest = 6", ["Map/Coarsest", "power of 2"]),
+            ]
+            + [("end", None)],
+        )
+        self.refused_lines(
+            [
+                ("subsection Analysis", None),
+                ("  set Type = stability", None),
+                ("  set Model = closed form", ["Analysis/Model", "no vibration"]),
+                ("end", None),
+                ("subsection Stability", None),
+                ("  set Position = 80", ["Stability/Position = 80", "0 ... 65"]),
+                ("  set Critical = Lever/Depth -3 25", ["Stability/Critical", "Lever/Depth = -3", "> 0"]),
+            ]
+            + [("end", None)],
+        )
+
     def test_no_possible_number(self):
         self.refused_lines(
             [

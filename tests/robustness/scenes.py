@@ -17,7 +17,22 @@ SCENES = sorted((SOURCE / "params").glob("*.prm"))
 
 # Long ones are cut down: what they are there for is kept.
 COARSE = {"Mesh/Face size": "4", "Analysis/Step": "5"}
-CHANGES = {"neo-hookean-a": {"Drive/Stroke": "10"}}
+MAP = {"Map/First points": "3", "Map/Second points": "3", "Map/Coarsest": "1", "Map/Bisections": "1"}
+CHANGES = {
+    "neo-hookean-a": {"Drive/Stroke": "10"},
+    "map-friction-depth-a": MAP,
+    "map-friction-position-a": MAP,
+    "map-offset-inclination": MAP,
+    "map-stiffness-depth-a": MAP,
+    "onset-a": {"Sprag slip/Continuation": "1", "Sprag slip/Settling time": "0.02"},
+    "onset-b": {"Sprag slip/Continuation": "1", "Sprag slip/Settling time": "0.02"},
+}
+GROUPS = {
+    "modal": {"modes": {"frequency", "growth_rate", "kind", "xi", "across_real"}},
+    "stability": {"modes": {"frequency", "growth_rate", "growth_by_friction_rotation", "energy_bending"}},
+    "map": {"map": {"growth_rate_forward", "growth_rate_backward", "kind_backward"}, "boundary": set()},
+    "sprag slip": {"growth": set()},
+}
 
 NEVER_NAN = ("time", "x", "v", "theta", "P", "F", "Q", "drive_work", "friction_work", "spring_energy")
 NEVER_NAN_MESHED = NEVER_NAN + (
@@ -86,6 +101,14 @@ class ScenesTest(unittest.TestCase):
         # The elements are wider here than the contact of small P; at their default size 0.024.
         self.assertLess(file["summary/rms_error"][()], 0.2)
 
+    def check_groups(self, file):
+        kind = parameter(file["parameters"].asstr()[()], "Analysis", "Type")
+        for group, names in GROUPS[kind].items():
+            self.assertLessEqual(names, set(file[group]))
+            for data in file[group].values():
+                self.assertIn("unit", data.attrs)
+                self.assertTrue(data.attrs["description"])
+
     def check_run(self, file):
         table = file["table"]
         text = file["parameters"].asstr()[()]
@@ -122,7 +145,7 @@ class ScenesTest(unittest.TestCase):
                     self.assertIn("cpu_time", file["meta"])
                     kind = parameter(file["parameters"].asstr()[()], "Analysis", "Type")
                     checks = {"slope": self.check_sweep, "contact law": self.check_contact_law}
-                    checks.get(kind, self.check_run)(file)
+                    checks.get(kind, self.check_groups if kind in GROUPS else self.check_run)(file)
                     fields = "face" in file
                 self.assertEqual((output / "fields.xdmf").is_file(), fields)
 

@@ -1,0 +1,144 @@
+#include "analysis/critical.h"
+
+#include "analysis/jamming.h"
+#include "analysis/roles.h"
+#include "scene/closed_form.h"
+#include "scene/read.h"
+#include "scenes.h"
+
+#include <cmath>
+#include <filesystem>
+#include <gtest/gtest.h>
+#include <map>
+
+using namespace sprag;
+
+namespace
+{
+  Scene from_params(const std::string &name, const std::vector<std::string> &changes)
+  {
+    const auto file = std::filesystem::path(__FILE__).parent_path() / "../../params" / name;
+    return read_scene(file.string(), changes);
+  }
+
+  /// Model A as a rigid lever on a stiff contact, constant mu.
+  Scene rigid_lever(const double mu)
+  {
+    Scene scene             = with_coulomb(model_a(), mu);
+    scene.analysis.model    = ModelType::rigid;
+    scene.contact.stiffness = 1e7;
+    return scene;
+  }
+} // namespace
+
+TEST(Jamming, RigidMarginIsThatOfTheClosedForm)
+{
+  const auto margin = jamming_margin(rigid_lever(0.73), false);
+  const double s    = kinematics(model_a().geometry, 65.).s;
+  EXPECT_DOUBLE_EQ(margin.x, 65.);
+  EXPECT_NEAR(margin.critical_mu, s / 45.6, 1e-12);
+  EXPECT_NEAR(margin.mu_e, 0.73 * 45.6, 1e-12);
+  EXPECT_FALSE(margin.flexible);
+}
+
+// P without friction over P is (s - mu e)/s for a rigid lever, and the beam has 1e4 times the stiffness of aluminium.
+TEST(Jamming, StiffBeamJamsWhereTheRigidLeverLocks)
+{
+  Scene scene               = with_coulomb(model_a(), 0.73);
+  scene.lever.young_modulus = 7e8;
+  scene.contact.stiffness   = 1e7;
+  const auto margin         = jamming_margin(scene, true);
+  ASSERT_TRUE(margin.flexible);
+  EXPECT_NEAR(*margin.flexible, 1. - 0.73 / margin.critical_mu, 1e-4);
+  ASSERT_TRUE(margin.flexible_critical_mu);
+  EXPECT_NEAR(*margin.flexible_critical_mu, margin.critical_mu, 0.02 * margin.critical_mu);
+}
+
+TEST(Jamming, NoOffsetNoRigidLocking)
+{
+  const auto margin = jamming_margin(with_coulomb(model_b(), 0.73), false);
+  EXPECT_TRUE(std::isinf(margin.critical_mu));
+}
+
+TEST(HeldSlide, RigidLeverMeetsTheClosedForm)
+{
+  const Scene scene = rigid_lever(0.73);
+  DynamicsMaker maker;
+  const auto dynamics = maker.make(scene);
+  for (const double v : { 112., -112. })
+  {
+    const auto slide = dynamics.model().hold({ 0., 40., v, 0. }, ContactFriction::sliding);
+    ASSERT_TRUE(slide);
+    const auto expected = closed_form(scene, 40., v);
+    // The contact of 1e7 N/mm gives way by 2e-6 mm, which turns the lever by 2e-8 of some 0.03 rad.
+    EXPECT_NEAR(slide->forces.P, expected.P, 1e-5 * expected.P);
+    EXPECT_NEAR(slide->speed, sliding_speed(scene.geometry, 40., v), 1e-3 * std::abs(v));
+    EXPECT_NEAR(slide->margin, 1. + std::copysign(0.73 * 45.6 / expected.contact.s, v), 1e-5);
+  }
+}
+
+// A rigid lever has one coordinate: it cannot flutter, whatever mu, and jams where s = mu e.
+TEST(CriticalValues, RigidLeverOnlyJams)
+{
+  Scene scene = from_params("stability-a.prm", { "Analysis/Model=rigid", "Friction/Law=Coulomb", "Friction/Coefficient=1",
+                                                 "Contact/Stiffness=1e6", "Contact/Exponent=1" });
+  DynamicsMaker maker;
+  const auto found = critical_values(scene, { "Friction/Factor", 0.5, 4., 8 }, 1e-6, maker);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found.front().below, SlideKind::stable);
+  EXPECT_EQ(found.front().above, SlideKind::jammed);
+  EXPECT_NEAR(found.front().value, kinematics(scene.geometry, 65.).s / 45.6, 0.02);
+}
+
+TEST(CriticalValues, ThinLeverFluttersThickOneDoesNot)
+{
+  const Scene scene = from_params("stability-a.prm", {});
+  DynamicsMaker maker;
+  const auto found = critical_values(scene, { "Lever/Depth", 5., 21., 5 }, 1e-6, maker);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found.front().below, SlideKind::flutter);
+  EXPECT_EQ(found.front().above, SlideKind::stable);
+  const auto kind_at = [&](const double depth)
+  { return judge(variant(scene, { override_text("Lever/Depth", depth) }), maker).kind; };
+  EXPECT_EQ(kind_at(found.front().value - 1e-3), SlideKind::flutter);
+  EXPECT_EQ(kind_at(found.front().value + 1e-3), SlideKind::stable);
+}
+
+TEST(CriticalValues, ScenesThatAreNotAdmittedArePassedOver)
+{
+  const Scene scene = from_params("stability-a.prm", {});
+  DynamicsMaker maker;
+  EXPECT_TRUE(critical_values(scene, { "Geometry/Interface offset", 56., 80., 3 }, 1e-3, maker).empty());
+}
+
+TEST(Roles, FlexureMakesTheSpragSlip)
+{
+  const Scene scene = from_params("stability-a.prm", {});
+  DynamicsMaker maker;
+  const auto present = judge(scene, maker);
+  ASSERT_EQ(present.kind, SlideKind::flutter);
+  std::map<std::string, Role> told;
+  for (const auto &role : roles(scene, present, maker))
+    told[role.name] = role;
+  EXPECT_EQ(told.at("without_flexure").kind, SlideKind::stable);
+  EXPECT_EQ(told.at("without_inertia").kind, SlideKind::stable);
+  EXPECT_EQ(told.at("without_friction_derivative").kind, SlideKind::flutter);
+  EXPECT_GT(told.at("without_damping").growth_rate, present.growth_rate());
+  EXPECT_EQ(told.count("without_support"), 0u);
+}
+
+TEST(Roles, SupportIsLeftOutWhereThereIsOne)
+{
+  const Scene scene = from_params("stability-a.prm", { "Support/Type=sprung" });
+  DynamicsMaker maker;
+  const auto present = judge(scene, maker);
+  const auto fixed   = judge(variant(scene, { "Support/Type=rigid" }), maker);
+  for (const auto &role : roles(scene, present, maker))
+    if (role.name == "without_support")
+    {
+      EXPECT_DOUBLE_EQ(role.growth_rate, fixed.growth_rate());
+      EXPECT_NE(role.growth_rate, present.growth_rate());
+      return;
+    }
+  FAIL() << "no role of the support";
+}

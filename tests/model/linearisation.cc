@@ -1,0 +1,271 @@
+#include "model/beam.h"
+#include "model/frame_coupling.h"
+#include "model/point_contact.h"
+#include "scene/closed_form.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
+#include <string>
+
+using namespace sprag;
+
+namespace
+{
+  using Vector = dealii::Vector<double>;
+  using Full   = dealii::FullMatrix<double>;
+
+  const Geometry geometry  = { 56., 45.6, 185.5, 0. };
+  constexpr double length  = 210.;
+  constexpr double place   = 44.3; ///< of the cylinder [mm]
+  constexpr double overlap = 0.012;
+
+  /// A slide of a lever that is bent, and on a sprung support.
+  struct Slide
+  {
+    std::string name;
+    PointContactProperties contact;
+    double direction = 1.;
+
+    DrivePoint drive() const
+    {
+      return { 0., place, direction * 112., 0. };
+    }
+
+    double speed() const
+    {
+      return direction * 108.;
+    }
+
+    /// What a unit of the port moves at the contact [mm].
+    double arm(const unsigned int port) const
+    {
+      if (port == contact.ports.rotation())
+        return 120.;
+      return port < contact.ports.surface && port % 2 == 1 ? length / 8. : 1.;
+    }
+
+    /// Displacements at which the contact has the overlap, which may be negative.
+    Vector position(const double wanted) const
+    {
+      Vector z(contact.ports.size());
+      for (unsigned int i = 0; i < contact.ports.surface; i += 2)
+      {
+        const double xi = (i / 2 + 1) / 8.;
+        z[i]            = 4e-3 * xi * xi - 3e-3 * std::sin(3. * xi);
+        z[i + 1]        = (8e-3 * xi - 9e-3 * std::cos(3. * xi)) / length;
+      }
+      if (contact.ports.sprung)
+        z[contact.ports.support()] = 0.02;
+      PointContact point(contact);
+      Vector turn(z.size());
+      turn[contact.ports.rotation()] = 1.;
+      z[contact.ports.rotation()]    = kinematics(geometry, place).theta - contact.rest_inclination - 1e-3;
+      const double closed            = std::abs(wanted);
+      for (unsigned int i = 0; i < 8; ++i)
+      {
+        point.touch(z, drive());
+        z[contact.ports.rotation()] += (point.overlap() - closed) / point.gap_change(turn);
+      }
+      z[contact.ports.rotation()] += (closed - wanted) / point.gap_change(turn);
+      return z;
+    }
+  };
+
+  struct NamedFriction
+  {
+    std::string name;
+    FrictionLaw law;
+  };
+
+  /// Every lever, support, neutral axis, friction and direction.
+  std::vector<Slide> slides(const double damping)
+  {
+    const NamedFriction frictions[] = { { "Coulomb", { CoulombFriction{ 0.73 }, FrictionSpeed::sliding } },
+                                        { "cork", { CorkOnAluminium{}, FrictionSpeed::sliding } },
+                                        { "regularised", { CorkOnAluminium{}, FrictionSpeed::sliding, 50. } } };
+    std::vector<Slide> result;
+    for (const unsigned int elements : { 0u, 8u })
+      for (const bool sprung : { false, true })
+        for (const double axis : { geometry.interface_offset, 56.6, 0. })
+          for (const auto &friction : frictions)
+            for (const double direction : { 1., -1. })
+            {
+              Slide slide;
+              auto &contact               = slide.contact;
+              contact.geometry            = geometry;
+              contact.mesh                = { elements, length };
+              contact.ports               = { contact.mesh.ports(), sprung };
+              contact.rest_inclination    = kinematics(geometry, 0.).theta;
+              contact.neutral_axis_offset = axis;
+              contact.normal              = { 10451., 1.4726 };
+              contact.damping             = damping;
+              contact.tangential          = 1000.;
+              contact.friction            = friction.law;
+              slide.direction             = direction;
+              slide.name = std::to_string(elements) + " elements, " + (sprung ? "sprung, e_a " : "e_a ") + std::to_string(axis) +
+                           ", " + friction.name + (direction > 0. ? ", forward" : ", backward");
+              result.push_back(slide);
+            }
+    return result;
+  }
+
+  PortForces forces(const Slide &slide, const Vector &ports, const TangentPart part, const Vector *rates = nullptr,
+                    const ContactFriction friction = ContactFriction::sliding)
+  {
+    PointContact contact(slide.contact);
+    contact.evaluate_sliding({ ports, slide.drive(), slide.speed(), rates, friction, part });
+    return contact.forces();
+  }
+
+  Full sum(const PortForces &a, const PortForces &b)
+  {
+    Full result = a.tangent;
+    result.add(1., b.tangent);
+    return result;
+  }
+
+  /// Central differences; `width` [mm or mm/s] at the contact.
+  template <class Evaluate>
+  void expect_derivative(const Slide &slide, const Full &exact, const Evaluate &evaluate, const double width,
+                         const double tolerance)
+  {
+    const auto ports = evaluate(Vector(slide.contact.ports.size())).ports;
+    for (unsigned int j = 0; j < ports.size(); ++j)
+    {
+      Vector change(slide.contact.ports.size());
+      change[ports[j]]   = width / slide.arm(ports[j]);
+      const Vector right = evaluate(change).values;
+      change *= -1.;
+      const Vector left = evaluate(change).values;
+      for (unsigned int i = 0; i < ports.size(); ++i)
+        EXPECT_NEAR(exact(i, j), (left[i] - right[i]) / (2. * change[ports[j]]),
+                    tolerance * slide.arm(ports[i]) * slide.arm(ports[j]))
+            << slide.name << ", force on port " << ports[i] << " by port " << ports[j];
+    }
+  }
+} // namespace
+
+// Over 2e-6 mm: the law's third derivative, 1.5e7 N/mm^3, makes 1e-5 N/mm; round-off of the gap, 2e-14 mm times 1500 N/mm over
+// 2e-6 mm, as much. The tangent itself is 1500 N/mm.
+TEST(Linearisation, PressureAndFrictionAreTheDerivativeOfTheForcesByDisplacements)
+{
+  for (const auto &slide : slides(0.05))
+  {
+    const Vector at = slide.position(overlap);
+    const Full both = sum(forces(slide, at, TangentPart::pressure), forces(slide, at, TangentPart::friction));
+    expect_derivative(
+        slide, both,
+        [&](Vector change)
+        {
+          change += at;
+          return forces(slide, change, TangentPart::all);
+        },
+        2e-6, 1e-3);
+  }
+}
+
+// Damping is linear, mu(v) quadratic: differences over 1e-2 mm/s are exact but for regularisation, whose third derivative
+// P mu / v_r^3 makes 1e-8 N s/mm, and round-off, 1e-13 N over them. The rates are 0.05 N s/mm.
+TEST(Linearisation, RatesAreTheDerivativeOfTheForcesByVelocities)
+{
+  for (const auto &slide : slides(0.05))
+  {
+    const Vector at = slide.position(overlap);
+    const Full both = sum(forces(slide, at, TangentPart::pressure_rate), forces(slide, at, TangentPart::friction_rate));
+    EXPECT_GT(both.linfty_norm(), 0.01);
+    expect_derivative(
+        slide, both, [&](const Vector &rates) { return forces(slide, at, TangentPart::all, &rates); }, 1e-2, 1e-7);
+  }
+}
+
+TEST(Linearisation, PartsByPressureAreSymmetricAndFrictionIsNot)
+{
+  for (const auto &slide : slides(0.05))
+  {
+    const Vector at        = slide.position(overlap);
+    const auto skewness_of = [&](const TangentPart part)
+    {
+      const Full matrix = forces(slide, at, part).tangent;
+      Full skew         = matrix;
+      skew.Tadd(-1., matrix);
+      return skew.frobenius_norm() / matrix.frobenius_norm();
+    };
+    EXPECT_LT(skewness_of(TangentPart::pressure), 1e-14) << slide.name;
+    EXPECT_LT(skewness_of(TangentPart::pressure_rate), 1e-14) << slide.name;
+    // A rigid lever on a rigid support has one port. With the axis at the pivot bending and rotation slip as little.
+    if (slide.contact.ports.size() > 1)
+    {
+      EXPECT_GT(skewness_of(TangentPart::friction), 1e-3) << slide.name;
+    }
+  }
+}
+
+// A step without movement, all weight on its end, that begins without friction.
+TEST(Linearisation, StuckIsTheTangentOfAStepInStick)
+{
+  for (const auto &slide : slides(0.))
+  {
+    if (slide.contact.friction.regularisation_speed > 0.)
+      continue;
+    const Vector at   = slide.position(overlap);
+    const Full linear = sum(forces(slide, at, TangentPart::pressure, nullptr, ContactFriction::stuck),
+                            forces(slide, at, TangentPart::friction, nullptr, ContactFriction::stuck));
+    const StepWeights weights{ 1e-5, 0., 0., 0.25, 0.5 };
+    const Vector rest(at.size());
+    Motion accepted;
+    accepted.drive   = { 0., place, 0., 0. };
+    accepted.contact = { ContactMemory{} };
+    PointContact contact(slide.contact);
+    contact.evaluate(PortStep{ accepted, accepted.drive, { at, rest, rest }, at, rest, weights });
+    Full difference = contact.forces().tangent;
+    difference.add(-1., linear);
+    EXPECT_LT(difference.frobenius_norm(), 1e-12 * linear.frobenius_norm()) << slide.name;
+  }
+}
+
+TEST(Linearisation, IsNothingOutOfContact)
+{
+  for (const auto &slide : slides(0.05))
+  {
+    const Vector at = slide.position(-overlap);
+    for (const auto friction : { ContactFriction::sliding, ContactFriction::none })
+      for (const auto part : { TangentPart::all, TangentPart::pressure, TangentPart::friction, TangentPart::pressure_rate,
+                               TangentPart::friction_rate })
+      {
+        const auto open = forces(slide, at, part, nullptr, friction);
+        EXPECT_EQ(open.values.linfty_norm(), 0.) << slide.name;
+        EXPECT_EQ(open.tangent.linfty_norm(), 0.) << slide.name;
+      }
+  }
+}
+
+// At rest only the accelerations are in the forces of the coupling, which are linear in them.
+TEST(Linearisation, InertiaOfTheCouplingIsTheDerivativeOfItsForcesByAccelerations)
+{
+  const PortLayout layout{ 4, true };
+  const double rest = 0.056;
+  const StepWeights weights{ 1e-3, 0., 0., 0.25, 0.5 };
+  FrameCoupling coupling(layout, rest);
+  Kinematic begin{ Vector(layout.size()), Vector(layout.size()), Vector(layout.size()) };
+  begin.position[layout.rotation()] = 0.07;
+  begin.position[layout.support()]  = 0.3;
+  const auto ports                  = coupling.coupled_ports();
+  Full inertia(4, 4);
+  coupling.add_inertia(ports, rest + 0.07, inertia);
+  for (unsigned int j = 0; j < 4; ++j)
+  {
+    // An acceleration that begins and ends the step turns the lever by 2.5e-7 of it, and its rate is 1e-3 of it: products with
+    // them are left out by the smallness of 1e-4.
+    const double a = 1e-4;
+    Vector values[2];
+    for (const double sign : { 1., -1. })
+    {
+      Vector end = begin.position;
+      end[ports[j]] += sign * a * weights.beta * weights.dt * weights.dt;
+      values[sign > 0. ? 0 : 1] = coupling.add_forces(PortForces(), begin, end, weights).values;
+    }
+    for (unsigned int i = 0; i < 4; ++i)
+      EXPECT_NEAR(-inertia(i, j), (values[0][i] - values[1][i]) / (2. * a), 1e-9) << i << j;
+  }
+  EXPECT_NEAR(inertia(1, 3), std::sin(rest + 0.07), 1e-15);
+}
