@@ -4,6 +4,8 @@
 #include "analysis/report.h"
 #include "analysis/vibration_report.h"
 #include "base/errors.h"
+#include "fe/field_frames.h"
+#include "model/growth.h"
 #include "scene/held_slide.h"
 
 #include <iostream>
@@ -36,8 +38,7 @@ namespace sprag
     {
     public:
       Output(const Scene &scene, const RunOptions &options)
-          : quiet(options.quiet)
-          , file((prepare_folder(options.folder), options.folder + "/result.h5"), scene.parameters_text, {}, {})
+          : file((prepare_folder(options.folder), options.folder + "/result.h5"), scene.parameters_text, {}, {})
       {
       }
 
@@ -46,8 +47,6 @@ namespace sprag
         summary.push_back({ "status", status, "", "how the run ended" });
         file.finish(summary, process_entries(maker.timer()), groups);
       }
-
-      const bool quiet;
 
     private:
       ResultFile file;
@@ -59,7 +58,24 @@ namespace sprag
       std::vector<Group> groups;
     };
 
-    Vibrations modal(const Scene &scene, DynamicsMaker &maker, const bool quiet)
+    /// Real parts of the modes as fields for ParaView, number i at time i, the largest displacement a tenth of the lever's depth.
+    void write_fields(const Scene &scene, const Dynamics &dynamics, const std::vector<Eigenmode> &modes,
+                      const std::string &folder)
+    {
+      if (!dynamics.lever || scene.output.fields == FieldOutput::none)
+        return;
+      prepare_folder(folder);
+      FieldFrames frames(*dynamics.lever->body, folder);
+      double number = 0.;
+      for (const auto &mode : modes)
+      {
+        auto displacement = dynamics.meshed.elastic_displacement(as_motion(mode.mode, 0));
+        displacement *= 0.1 * scene.lever.depth / displacement.linfty_norm();
+        frames.write(displacement, ++number);
+      }
+    }
+
+    Vibrations modal(const Scene &scene, DynamicsMaker &maker, const RunOptions &options)
     {
       Scene undamped             = scene;
       undamped.stability.damping = false;
@@ -73,13 +89,14 @@ namespace sprag
                             " mm. Try another Stability/Position.");
       const bool in_contact = scene.stability.contact != HeldContact::open;
       const auto modes      = reported(model.vibrations(*slide, in_contact, scene.stability.modes), scene.stability.modes);
-      if (!quiet)
+      if (!options.quiet)
         print_modes(std::cout, modes);
       Vibrations result;
       for (std::size_t i = 0; i < modes.size(); ++i)
         result.summary.push_back({ "frequency_" + std::to_string(i + 1), modes[i].mode.eigenvalue.imag() / (2. * M_PI), "Hz",
                                    "of the undamped mode" });
       result.groups = { mode_group(modes, model) };
+      write_fields(scene, dynamics, modes, options.folder);
       return result;
     }
 
@@ -88,7 +105,7 @@ namespace sprag
       all.insert(all.end(), more.begin(), more.end());
     }
 
-    Vibrations stability(const Scene &scene, DynamicsMaker &maker, const bool quiet)
+    Vibrations stability(const Scene &scene, DynamicsMaker &maker, const RunOptions &options)
     {
       Vibrations result;
       SlideStability found;
@@ -98,25 +115,27 @@ namespace sprag
         found               = judge(dynamics.model(), held_drive(scene), scene.stability.modes);
         const auto modes    = reported(found.modes, scene.stability.modes);
         result.groups       = { mode_group(modes, dynamics.model()) };
-        result.summary      = slide_entries(found);
-        if (!quiet)
+        write_fields(scene, dynamics, modes, options.folder);
+        result.summary = slide_entries(found);
+        if (!options.quiet)
         {
           print_summary(std::cout, result.summary);
           print_modes(std::cout, modes);
+          print_growth(std::cout, modes);
         }
       }
       if (scene.stability.roles)
       {
         const auto told = roles(scene, found, maker);
         append(result.summary, role_entries(told));
-        if (!quiet)
+        if (!options.quiet)
           print_roles(std::cout, found, told);
       }
       if (scene.stability.critical != "none")
       {
         const auto critical = all_critical(scene, maker);
         append(result.summary, critical_entries(critical));
-        if (!quiet)
+        if (!options.quiet)
           print_critical(std::cout, critical);
       }
       return result;
@@ -128,7 +147,7 @@ namespace sprag
     require_writable(options.folder);
     DynamicsMaker maker;
     const bool undamped = scene.analysis.type == AnalysisType::modal;
-    const auto found    = undamped ? modal(scene, maker, options.quiet) : stability(scene, maker, options.quiet);
+    const auto found    = undamped ? modal(scene, maker, options) : stability(scene, maker, options);
     Output(scene, options).finish(found.summary, "completed", maker, found.groups);
   }
 } // namespace sprag

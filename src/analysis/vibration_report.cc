@@ -156,21 +156,28 @@ namespace sprag
 
   void print_modes(std::ostream &stream, const std::vector<Eigenmode> &modes)
   {
-    stream << "\n  frequency    growth  kind        energy [%] in             growth [1/s] by friction on         by         by "
-              "damping of\n"
-           << "       [Hz]     [1/s]              spring  lever  suppt contact    rotation    bending   support   mu'(v)    "
-              "contact  "
-              "structure\n";
+    stream << "\n  frequency       energy [%] in\n"
+           << "       [Hz]  spring  lever  suppt contact\n";
     for (const auto &mode : modes)
     {
-      const auto &e    = mode.energy;
+      const auto &e = mode.energy;
+      stream << padded(frequency(mode), 11) << ' ' << share(e.rotation) << share(e.bending) << share(e.support)
+             << share(e.contact) << '\n';
+    }
+  }
+
+  void print_growth(std::ostream &stream, const std::vector<Eigenmode> &modes)
+  {
+    stream << "\n  frequency    growth  kind        growth [1/s] by friction on               friction's   damping of\n"
+           << "       [Hz]     [1/s]               rotation    bending   support  velocities   contact  structure\n";
+    for (const auto &mode : modes)
+    {
       const auto &g    = mode.growth;
       std::string kind = "  " + kind_name(kind_of(mode));
       kind.resize(13, ' ');
-      stream << padded(frequency(mode), 11) << padded(mode.mode.eigenvalue.real(), 10) << kind << share(e.rotation)
-             << share(e.bending) << share(e.support) << share(e.contact) << "  " << padded(g.friction_rotation, 10)
-             << padded(g.friction_bending, 11) << padded(g.friction_support, 10) << padded(g.friction_speed, 9)
-             << padded(g.contact_damping, 11) << padded(g.structure_damping, 11) << '\n';
+      stream << padded(frequency(mode), 11) << padded(mode.mode.eigenvalue.real(), 10) << kind << padded(g.friction_rotation, 10)
+             << padded(g.friction_bending, 11) << padded(g.friction_support, 10) << padded(g.friction_speed, 12)
+             << padded(g.contact_damping, 10) << padded(g.structure_damping, 11) << '\n';
     }
   }
 

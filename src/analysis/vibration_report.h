@@ -14,7 +14,11 @@ namespace sprag
   /// /modes: eigenvalues, shares of energy and growth, and shapes of modes.
   Group mode_group(const std::vector<Eigenmode> &modes, const DynamicModel &model);
 
+  /// Frequencies and where the energy is.
   void print_modes(std::ostream &stream, const std::vector<Eigenmode> &modes);
+
+  /// Growth rates and what they are made of.
+  void print_growth(std::ostream &stream, const std::vector<Eigenmode> &modes);
 
   // For /summary.
   std::vector<Entry> slide_entries(const SlideStability &found);

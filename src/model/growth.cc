@@ -27,6 +27,31 @@ namespace sprag
         sum += power;
       return sum.real();
     }
+    void multiply(ComplexVector &vector, const Complex factor)
+    {
+      const auto real = vector[0];
+      vector[0] *= factor.real();
+      vector[0].add(-factor.imag(), vector[1]);
+      vector[1] *= factor.real();
+      vector[1].add(factor.imag(), real);
+    }
+
+    /// To modal mass 1 and a rotation, or the largest displacement if there is none, that is real and positive.
+    void normalise(const double mass, const unsigned int rotation, StructureMode &mode, ComplexVector &ports)
+    {
+      unsigned int reference = rotation;
+      const auto size        = [&](const unsigned int port) { return std::hypot(ports[0][port], ports[1][port]); };
+      unsigned int largest   = 0;
+      for (unsigned int port = 0; port < ports[0].size(); ++port)
+        if (size(port) > size(largest))
+          largest = port;
+      if (size(rotation) < 1e-9 * size(largest))
+        reference = largest;
+      const Complex value(ports[0][reference], ports[1][reference]);
+      const Complex factor = std::conj(value) / std::abs(value) / std::sqrt(mass);
+      for (auto *const vector : { &mode.coordinates, &mode.face_force, &ports })
+        multiply(*vector, factor);
+    }
   } // namespace
 
   Eigenmode explained(StructureMode mode, ComplexVector ports, const ModeForms &forms, const PortPerturbation &perturbation,
@@ -62,8 +87,9 @@ namespace sprag
     growth.structure_damping = -rate * forms.damping / energy;
 
     result.energy = { forms.spring / potential, forms.elastic / potential, forms.support / potential, contact / potential };
-    result.mode   = std::move(mode);
-    result.ports  = std::move(ports);
+    normalise(mass, layout.rotation(), mode, ports);
+    result.mode  = std::move(mode);
+    result.ports = std::move(ports);
     return result;
   }
 } // namespace sprag

@@ -56,8 +56,8 @@ namespace sprag
   /// A vibration about a held slide.
   struct Eigenmode
   {
-    StructureMode mode;
-    ComplexVector ports; ///< displacements, in lever axes
+    StructureMode mode;  ///< of modal mass phi^H M phi = 1 t
+    ComplexVector ports; ///< displacements, in lever axes; the rotation's real and positive where there is one
     GrowthShares growth;
     EnergyShares energy;
   };
