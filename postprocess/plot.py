@@ -8,7 +8,9 @@ from pathlib import Path
 import numpy as np
 
 from comparison import comparison
+from map import is_map, stability_map
 from results import NotAResult, read_result
+from sprag_slip import sprag_slip_pictures
 from style import COLOURS, MARKERS, MILLIMETRE, ONE_COLUMN, TWO_COLUMNS  # noqa: F401  (for figures.py and mesh.py)
 from style import label, look, panel_letter, plt, set_labels, show_legend, use_print_style
 from transient import energy, has_reversal, is_transient, reversal
@@ -242,8 +244,12 @@ FORMATS = {"png", "pdf", "svg"}
 
 def draw(results):
     """{picture name: figure} for one or several results."""
+    if len(results) == 1 and is_map(results[0]):
+        return {"map": stability_map(results[0])}
     if len(results) == 1 and "P_fitted" in results[0].table:
         return {"contact-law": contact_law(results[0])}
+    if len(results) == 1 and "linear_growth_rate" in results[0].summary:
+        return sprag_slip_pictures(results[0])
     if len(results) == 1 and "modes" in results[0].groups:
         return vibration_pictures(results[0])
     if len(results) == 1 and results[0].is_sweep:

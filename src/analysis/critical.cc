@@ -37,25 +37,27 @@ namespace sprag
     }
   } // namespace
 
-  std::vector<CriticalValue> critical_values(const Scene &scene, const ParameterRange &range, const double tolerance,
-                                             DynamicsMaker &maker)
+  CriticalSearch critical_values(const Scene &scene, const ParameterRange &range, const double tolerance, DynamicsMaker &maker)
   {
-    std::vector<CriticalValue> result;
+    CriticalSearch result{ range, {}, {} };
     const double width = range.to - range.from;
     Tried before       = attempt(scene, range.name, range.from, maker);
+    result.first       = before.kind;
     for (unsigned int i = 1; i < range.points; ++i)
     {
       const Tried after = attempt(scene, range.name, range.from + width * i / (range.points - 1), maker);
       Tried low         = before;
-      Tried high        = after;
+      if (!result.first)
+        result.first = after.kind;
+      Tried high = after;
       while (low.kind && high.kind && low.kind != high.kind && std::abs(high.value - low.value) > tolerance * std::abs(width))
       {
         const Tried middle                     = attempt(scene, range.name, 0.5 * (low.value + high.value), maker);
         (middle.kind == low.kind ? low : high) = middle;
       }
       if (low.kind && high.kind && low.kind != high.kind)
-        result.push_back(
-            { range.name, 0.5 * (low.value + high.value), std::isnan(low.mu) ? high.mu : low.mu, *low.kind, *high.kind });
+        result.changes.push_back(
+            { 0.5 * (low.value + high.value), std::isnan(low.mu) ? high.mu : low.mu, *low.kind, *high.kind });
       before = after;
     }
     return result;

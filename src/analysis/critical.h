@@ -8,15 +8,21 @@ namespace sprag
   /// A value of a parameter at which the kind of a slide changes.
   struct CriticalValue
   {
-    std::string parameter;
     double value = 0.;
     double mu    = 0.; ///< of the slide there; NaN where there is no equilibrium
     SlideKind below;   ///< kind just below the value
     SlideKind above;
   };
 
+  /// What was found along one parameter of the scene.
+  struct CriticalSearch
+  {
+    ParameterRange range;
+    std::optional<SlideKind> first; ///< kind at the smallest value that could be judged; none: none could
+    std::vector<CriticalValue> changes;
+  };
+
   /// The changes of kind along one parameter of the scene: tried at the range's points and bisected in between to `tolerance` of
   /// the range. Values that the scene does not admit, or at which the analysis fails, are passed over.
-  std::vector<CriticalValue> critical_values(const Scene &scene, const ParameterRange &range, double tolerance,
-                                             DynamicsMaker &maker);
+  CriticalSearch critical_values(const Scene &scene, const ParameterRange &range, double tolerance, DynamicsMaker &maker);
 } // namespace sprag

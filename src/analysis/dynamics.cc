@@ -52,6 +52,11 @@ namespace sprag
     }
   } // namespace
 
+  bool share_mesh(const Scene &a, const Scene &b)
+  {
+    return key_of(a) == key_of(b);
+  }
+
   DynamicsMaker::DynamicsMaker(const bool store_bases)
       : store(store_bases)
       , time(std::cout, Timer::never, Timer::cpu_and_wall_times)

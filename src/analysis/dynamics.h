@@ -31,6 +31,9 @@ namespace sprag
     }
   };
 
+  /// Whether one mesh, with its matrices and bases, serves the models of both scenes.
+  bool share_mesh(const Scene &a, const Scene &b);
+
   /// Makes one model after another. What the next scene has in common with the last one's mesh is not made again.
   class DynamicsMaker
   {

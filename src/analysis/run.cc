@@ -5,6 +5,7 @@
 #include "analysis/jamming.h"
 #include "analysis/quasi_static.h"
 #include "analysis/recorder.h"
+#include "analysis/run_map.h"
 #include "analysis/run_stability.h"
 #include "analysis/run_transient.h"
 #include "analysis/slope.h"
@@ -152,7 +153,8 @@ namespace sprag
     /// Before every run in which a cylinder is put somewhere.
     void announce_margin(const Scene &scene, const RunOptions &options)
     {
-      if (options.quiet || scene.analysis.type == AnalysisType::slope)
+      const bool is_first = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+      if (options.quiet || !is_first || scene.analysis.type == AnalysisType::slope)
         return;
       const ModelType model = scene.analysis.model;
       const bool rigid      = model == ModelType::closed_form || model == ModelType::rigid;
@@ -240,6 +242,7 @@ namespace sprag
     case AnalysisType::stability:
       return run_vibrations(scene, options);
     case AnalysisType::map:
+      return run_map(scene, options);
     case AnalysisType::sprag_slip:
       break;
     }

@@ -21,15 +21,11 @@ namespace sprag
       return model == ModelType::rigid || model == ModelType::beam ? 1e-8 : 1e-3;
     }
 
-    std::vector<CriticalValue> all_critical(const Scene &scene, DynamicsMaker &maker)
+    std::vector<CriticalSearch> all_critical(const Scene &scene, DynamicsMaker &maker)
     {
-      std::vector<CriticalValue> result;
-      const auto searches = critical_searches(scene);
-      for (const auto &range : searches.value_or(std::vector<ParameterRange>()))
-      {
-        const auto found = critical_values(scene, range, tolerance_of(scene), maker);
-        result.insert(result.end(), found.begin(), found.end());
-      }
+      std::vector<CriticalSearch> result;
+      for (const auto &range : critical_searches(scene).value_or(std::vector<ParameterRange>()))
+        result.push_back(critical_values(scene, range, tolerance_of(scene), maker));
       return result;
     }
 

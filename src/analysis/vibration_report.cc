@@ -216,17 +216,16 @@ namespace sprag
     return result;
   }
 
-  std::vector<Entry> critical_entries(const std::vector<CriticalValue> &values)
+  std::vector<Entry> critical_entries(const std::vector<CriticalSearch> &searches)
   {
     std::vector<Entry> result;
-    std::map<std::string, unsigned int> count;
-    for (const auto &critical : values)
-    {
-      const std::string name = "critical_" + slug(critical.parameter);
-      const unsigned int n   = ++count[name];
-      result.push_back({ name + "_" + std::to_string(n), critical.value, "",
-                         critical.parameter + ": from " + kind_name(critical.below) + " to " + kind_name(critical.above) });
-    }
+    for (const auto &search : searches)
+      for (std::size_t i = 0; i < search.changes.size(); ++i)
+      {
+        const auto &critical = search.changes[i];
+        result.push_back({ "critical_" + slug(search.range.name) + "_" + std::to_string(i + 1), critical.value, "",
+                           search.range.name + ": from " + kind_name(critical.below) + " to " + kind_name(critical.above) });
+      }
     return result;
   }
 
@@ -245,14 +244,20 @@ namespace sprag
       line(role.name, kind_name(role.kind), role.growth_rate, role.frequency);
   }
 
-  void print_critical(std::ostream &stream, const std::vector<CriticalValue> &values)
+  void print_critical(std::ostream &stream, const std::vector<CriticalSearch> &searches)
   {
     stream << "\nCritical values, everything else as it is:\n";
-    for (const auto &critical : values)
-      stream << "  " << critical.parameter << " = " << rounded_text(critical.value)
-             << (critical.parameter == "Friction/Factor" ? " (mu = " + rounded_text(critical.mu) + ")" : "") << ": "
-             << kind_name(critical.below) << " below, " << kind_name(critical.above) << " above\n";
-    if (values.empty())
-      stream << "  none in the ranges searched\n";
+    for (const auto &[range, first, changes] : searches)
+    {
+      stream << "  " << range.name << " from " << rounded_text(range.from) << " to " << rounded_text(range.to) << ": "
+             << (first ? kind_name(*first) : "not admitted");
+      for (const auto &critical : changes)
+      {
+        const bool of_friction = range.name == "Friction/Factor" && !std::isnan(critical.mu);
+        stream << ", " << kind_name(critical.above) << " from " << rounded_text(critical.value)
+               << (of_friction ? " (mu = " + rounded_text(critical.mu) + ")" : "");
+      }
+      stream << (first && changes.empty() ? " throughout\n" : "\n");
+    }
   }
 } // namespace sprag

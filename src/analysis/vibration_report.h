@@ -23,8 +23,8 @@ namespace sprag
   // For /summary.
   std::vector<Entry> slide_entries(const SlideStability &found);
   std::vector<Entry> role_entries(const std::vector<Role> &roles);
-  std::vector<Entry> critical_entries(const std::vector<CriticalValue> &values);
+  std::vector<Entry> critical_entries(const std::vector<CriticalSearch> &searches);
 
   void print_roles(std::ostream &stream, const SlideStability &present, const std::vector<Role> &roles);
-  void print_critical(std::ostream &stream, const std::vector<CriticalValue> &values);
+  void print_critical(std::ostream &stream, const std::vector<CriticalSearch> &searches);
 } // namespace sprag

@@ -4,6 +4,9 @@
 
 #include <deal.II/lac/lapack_templates.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace sprag
 {
   using namespace dealii;
@@ -16,6 +19,8 @@ namespace sprag
     for (unsigned int j = 0; j < n; ++j)
       for (unsigned int i = 0; i < n; ++i)
         by_columns[static_cast<std::size_t>(j) * n + i] = matrix(i, j);
+    if (!std::all_of(by_columns.begin(), by_columns.end(), [](const double entry) { return std::isfinite(entry); }))
+      throw AnalysisError("a matrix whose eigenvalues are wanted has an entry that is no number");
 
     const char no                   = 'N';
     const char yes                  = 'V';

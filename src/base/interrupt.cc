@@ -19,6 +19,7 @@ namespace sprag
   {
     std::signal(SIGINT, ask);
     std::signal(SIGTERM, ask);
+    std::signal(SIGUSR1, ask);
   }
 
   bool interrupted()

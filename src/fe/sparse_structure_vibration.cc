@@ -72,7 +72,6 @@ namespace sprag
                                     [this](const auto &q, auto &result) { damping_product(q, result); },
                                     [this](const auto &q, auto &result) { stiffness_product(q, result); },
                                     solve,
-                                    statics->compliance,
                                     lever_ports };
     return sparse_vibrations(structure, forces, number);
   }

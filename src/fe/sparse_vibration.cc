@@ -3,6 +3,8 @@
 #include "base/errors.h"
 #include "base/text.h"
 
+#include <deal.II/lac/lapack_full_matrix.h>
+
 #include <algorithm>
 #include <cmath>
 #include <slepceps.h>
@@ -15,6 +17,8 @@ namespace sprag
   {
     using Complex = std::complex<double>;
 
+    /// Change of the lowest mode by an inverse iteration. In a higher one round-off of the lowest comes back as many times as its
+    /// frequency is higher.
     constexpr double largest_residual = 1e-8;
 
     void check(const PetscErrorCode code)
@@ -32,9 +36,12 @@ namespace sprag
           , forces(forces_)
           , stiffness(forces.stiffness())
           , damping(forces.damping())
+          , n_forces(static_cast<unsigned int>(forces.ports.size()))
           , work(structure.size)
           , load(structure.size)
+          , portable(n_forces)
       {
+        find_responses();
       }
 
       unsigned int size() const
@@ -42,6 +49,26 @@ namespace sprag
         return structure.size;
       }
 
+      /// Circular frequency of the size of the lowest one, by the power method.
+      double low_frequency()
+      {
+        constexpr unsigned int iterations = 5;
+        const Vector<double> none(size());
+        Vector<double> q(size());
+        Vector<double> next(size());
+        q            = 1.;
+        double ratio = 1.;
+        for (unsigned int i = 0; i < iterations; ++i)
+        {
+          apply(none, q, next);
+          ratio = next.l2_norm() / q.l2_norm();
+          q.equ(1. / next.l2_norm(), next);
+        }
+        return 1. / std::sqrt(ratio);
+      }
+
+      /// -K^-1 (C q + M q'). The rotational spring is so soft beside the contact that solutions without the contact have lost
+      /// half their digits: what they leave out of balance is solved for once more.
       void apply(const Vector<double> &q, const Vector<double> &rate, Vector<double> &result)
       {
         structure.damping(q, load);
@@ -50,30 +77,35 @@ namespace sprag
         load *= -1.;
         add_port_forces(damping, 1., q, load);
         add_port_forces(forces.inertia, -1., rate, load);
-        structure.solve(load, result);
-        add_contact_answer(result);
+        solve(load, result);
+
+        structure.stiffness(result, work);
+        load -= work;
+        add_port_forces(stiffness, 1., result, load);
+        Vector<double> correction(size());
+        solve(load, correction);
+        result += correction;
       }
 
-      double residual(const Complex lambda, const ComplexVector &phi)
+      /// Makes phi -K^-1 (lambda^2 M + lambda C) phi, forces included, which takes out what stiff modes it is mixed with. Returns
+      /// by how much of its size that changed it. (Of the forces K phi the stiff ones would drown all others.)
+      double refine(const Complex lambda, ComplexVector &phi)
       {
-        // lambda^2 M phi + lambda C phi + K phi, forces included.
-        const Complex factors[] = { lambda * lambda, lambda, 1. };
-        ComplexVector sum{ { Vector<double>(size()), Vector<double>(size()) } };
-        double scale = 0.;
-        for (unsigned int k = 0; k < 3; ++k)
+        const ComplexVector rate = multiple(lambda, phi);
+        ComplexVector answer{ { Vector<double>(size()), Vector<double>(size()) } };
+        for (unsigned int part = 0; part < 2; ++part)
+          apply(phi[part], rate[part], answer[part]);
+        ComplexVector refined = multiple(lambda, answer);
+        double change         = 0.;
+        double whole          = 0.;
+        for (unsigned int part = 0; part < 2; ++part)
         {
-          double norm = 0.;
-          for (unsigned int part = 0; part < 2; ++part)
-          {
-            const auto product = product_of(k, phi[part]);
-            norm += std::norm(factors[k]) * product.norm_sqr();
-            const Complex f = part == 0 ? factors[k] : factors[k] * Complex(0., 1.);
-            sum[0].add(f.real(), product);
-            sum[1].add(f.imag(), product);
-          }
-          scale += std::sqrt(norm);
+          whole += refined[part].norm_sqr();
+          phi[part] -= refined[part];
+          change += phi[part].norm_sqr();
         }
-        return std::sqrt(sum[0].norm_sqr() + sum[1].norm_sqr()) / scale;
+        phi = refined;
+        return std::sqrt(change / whole);
       }
 
     private:
@@ -81,71 +113,109 @@ namespace sprag
       const PortPerturbation &forces;
       const FullMatrix<double> stiffness;
       const FullMatrix<double> damping;
+      const unsigned int n_forces;
       Vector<double> work;
       Vector<double> load;
+      std::vector<Vector<double>> responses; ///< of the structure to unit forces on the ports
+      LAPACKFullMatrix<double> portable;     ///< factors of 1 - G df/dz
 
-      Vector<double> product_of(const unsigned int k, const Vector<double> &q)
+      void find_responses()
       {
-        Vector<double> result(size());
-        (k == 0 ? structure.mass : k == 1 ? structure.damping : structure.stiffness)(q, result);
-        add_port_forces(k == 0 ? forces.inertia : k == 1 ? damping : stiffness, k == 0 ? 1. : -1., q, result);
+        FullMatrix<double> compliance(n_forces, n_forces);
+        for (unsigned int b = 0; b < n_forces; ++b)
+        {
+          load = 0.;
+          structure.ports.add_force(forces.ports[b], 1., load);
+          responses.emplace_back(size());
+          structure.solve(load, responses.back());
+          const auto z = loaded_ports(responses.back());
+          for (unsigned int a = 0; a < n_forces; ++a)
+            compliance(a, b) = z[a];
+        }
+        if (n_forces == 0)
+          return;
+        FullMatrix<double> matrix(n_forces, n_forces);
+        compliance.mmult(matrix, stiffness);
+        matrix *= -1.;
+        for (unsigned int a = 0; a < n_forces; ++a)
+          matrix(a, a) += 1.;
+        portable = matrix;
+        try
+        {
+          portable.compute_lu_factorization();
+        }
+        catch (const ExceptionBase &)
+        {
+          throw AnalysisError("the slide is at the limit of its stability: it has a mode without stiffness");
+        }
+      }
+
+      static ComplexVector multiple(const Complex factor, const ComplexVector &vector)
+      {
+        ComplexVector result{ { vector[0], vector[1] } };
+        result[0].sadd(factor.real(), -factor.imag(), vector[1]);
+        result[1].sadd(factor.real(), factor.imag(), vector[0]);
         return result;
       }
 
       Vector<double> loaded_ports(const Vector<double> &q) const
       {
         const auto all = structure.ports.displacements(q);
-        Vector<double> z(static_cast<unsigned int>(forces.ports.size()));
+        Vector<double> z(n_forces);
         for (unsigned int a = 0; a < z.size(); ++a)
           z[a] = all[forces.ports[a]];
         return z;
       }
 
-      void add_forces(const Vector<double> &values, Vector<double> &sum) const
-      {
-        for (unsigned int a = 0; a < values.size(); ++a)
-          structure.ports.add_force(forces.ports[a], values[a], sum);
-      }
-
       void add_port_forces(const FullMatrix<double> &matrix, const double factor, const Vector<double> &q,
                            Vector<double> &sum) const
       {
-        if (forces.ports.empty())
+        if (n_forces == 0)
           return;
         const auto z = loaded_ports(q);
         Vector<double> values(z.size());
         matrix.vmult(values, z);
-        values *= factor;
-        add_forces(values, sum);
+        for (unsigned int a = 0; a < n_forces; ++a)
+          structure.ports.add_force(forces.ports[a], factor * values[a], sum);
       }
 
-      /// The structure alone went to `q`; what the contact's stiffness adds.
-      void add_contact_answer(Vector<double> &q)
+      /// With the stiffness of structure and forces: f = A (1 - G A)^-1 z where the structure alone went to z.
+      void solve(const Vector<double> &right_hand_side, Vector<double> &q) const
       {
-        if (forces.ports.empty())
+        structure.solve(right_hand_side, q);
+        if (n_forces == 0)
           return;
-        const auto z      = loaded_ports(q);
-        const auto values = port_reaction(structure.compliance, forces.ports, stiffness, z);
-        Vector<double> own(size());
-        add_forces(values, own);
-        structure.solve(own, work);
-        q += work;
+        auto z = loaded_ports(q);
+        portable.solve(z);
+        Vector<double> values(n_forces);
+        stiffness.vmult(values, z);
+        for (unsigned int a = 0; a < n_forces; ++a)
+          q.add(values[a], responses[a]);
       }
+    };
+
+    /// The problem in (q, q' / frequency), whose halves are of one size.
+    struct ScaledProblem
+    {
+      InverseProblem &of;
+      double frequency;
     };
 
     PetscErrorCode multiply(Mat matrix, Vec from, Vec to)
     {
-      InverseProblem *problem = nullptr;
+      ScaledProblem *problem = nullptr;
       MatShellGetContext(matrix, &problem);
-      const unsigned int n    = problem->size();
+      const unsigned int n    = problem->of.size();
       const PetscScalar *read = nullptr;
       PetscScalar *write      = nullptr;
       VecGetArrayRead(from, &read);
-      const Vector<double> q(read, read + n);
-      const Vector<double> rate(read + n, read + 2 * n);
+      Vector<double> q(read, read + n);
+      Vector<double> rate(read + n, read + 2 * n);
       VecRestoreArrayRead(from, &read);
+      rate *= problem->frequency;
       Vector<double> result(n);
-      problem->apply(q, rate, result);
+      problem->of.apply(q, rate, result);
+      q /= problem->frequency;
       VecGetArray(to, &write);
       std::copy(result.begin(), result.end(), write);
       std::copy(q.begin(), q.end(), write + n);
@@ -153,11 +223,39 @@ namespace sprag
       return 0;
     }
 
+    /// Complex pairs count once. Of the last restart: the solver is asked to stop before it tells of this one.
+    struct ModeCount
+    {
+      unsigned int wanted;
+      unsigned int found = 0;
+    };
+
+    PetscErrorCode count_modes(EPS, PetscInt, PetscInt converged, PetscScalar *, PetscScalar *imaginary, PetscReal *, PetscInt,
+                               void *count)
+    {
+      auto &modes = *static_cast<ModeCount *>(count);
+      modes.found = static_cast<unsigned int>(
+          std::count_if(imaginary, imaginary + converged, [](const PetscScalar part) { return part >= 0.; }));
+      return 0;
+    }
+
+    PetscErrorCode stop_at_number(EPS eps, PetscInt restart, PetscInt most, PetscInt converged, PetscInt wanted,
+                                  EPSConvergedReason *reason, void *count)
+    {
+      const auto &modes = *static_cast<const ModeCount *>(count);
+      EPSStoppingBasic(eps, restart, most, converged, wanted, reason, nullptr);
+      if (*reason == EPS_CONVERGED_ITERATING && modes.found >= modes.wanted)
+        *reason = EPS_CONVERGED_USER;
+      return 0;
+    }
+
     class Eigensolver
     {
     public:
-      Eigensolver(InverseProblem &problem, const unsigned int number)
-          : n(problem.size())
+      Eigensolver(InverseProblem &inverse, const unsigned int number)
+          : n(inverse.size())
+          , modes{ number }
+          , problem{ inverse, inverse.low_frequency() }
       {
         const auto rows = static_cast<PetscInt>(2 * n);
         check(MatCreateShell(PETSC_COMM_SELF, rows, rows, rows, rows, &problem, &matrix));
@@ -168,8 +266,15 @@ namespace sprag
         check(EPSSetProblemType(eps, EPS_NHEP));
         check(EPSSetWhichEigenpairs(eps, EPS_LARGEST_MAGNITUDE));
         check(EPSSetDimensions(eps, std::min(static_cast<PetscInt>(2 * number), rows), PETSC_DEFAULT, PETSC_DEFAULT));
-        check(EPSSetTolerances(eps, 1e-12, 300));
-        check(EPSSetType(eps, 3 * 2 * number > 2 * n ? EPSLAPACK : EPSKRYLOVSCHUR));
+        check(EPSSetTolerances(eps, 1e-10, 50));
+        if (3 * 2 * number > 2 * n)
+          check(EPSSetType(eps, EPSLAPACK));
+        else
+        {
+          check(EPSSetType(eps, EPSKRYLOVSCHUR));
+          check(EPSMonitorSet(eps, &count_modes, &modes, nullptr));
+          check(EPSSetStoppingTestFunction(eps, &stop_at_number, &modes, nullptr));
+        }
         start_alike();
         check(EPSSolve(eps));
       }
@@ -190,7 +295,13 @@ namespace sprag
         return static_cast<unsigned int>(result);
       }
 
-      /// Eigenvalue of the inverse and the second half of its vector, lambda times the first and so the more exact one.
+      /// Of the size of the lowest.
+      double frequency() const
+      {
+        return problem.frequency;
+      }
+
+      /// Eigenvalue of the inverse and the second half of its vector, a multiple of the first.
       Complex pair(const unsigned int i, ComplexVector &vector) const
       {
         PetscScalar value_real = 0., value_imaginary = 0.;
@@ -219,6 +330,8 @@ namespace sprag
       }
 
       const unsigned int n;
+      ModeCount modes;
+      ScaledProblem problem;
       EPS eps       = nullptr;
       Mat matrix    = nullptr;
       Vec real      = nullptr;
@@ -238,16 +351,17 @@ namespace sprag
       const Complex inverse = solver.pair(i, mode.coordinates);
       if (inverse.imag() > 0.)
         continue; // its conjugate has Im lambda > 0
-      mode.eigenvalue = 1. / inverse;
-      mode.residual   = problem.residual(mode.eigenvalue, mode.coordinates);
-      if (!(mode.residual < largest_residual))
+      mode.eigenvalue = { (1. / inverse).real(), std::abs((1. / inverse).imag()) };
+      mode.residual   = problem.refine(mode.eigenvalue, mode.coordinates);
+      if (!(mode.residual < largest_residual * std::max(1., std::abs(mode.eigenvalue) / solver.frequency())))
         throw AnalysisError("the vibration at " + rounded_text(mode.eigenvalue.imag() / (2. * M_PI)) +
                             " Hz was found with a backward error of only " + rounded_text(mode.residual) +
                             ". Try fewer Stability/Modes.");
       result.push_back(std::move(mode));
     }
-    if (result.empty())
-      throw AnalysisError("no vibration was found: the eigenvalue solver did not converge. Try more Stability/Modes.");
+    if (result.size() < std::min(number, problem.size()))
+      throw AnalysisError("only " + std::to_string(result.size()) + " of " + std::to_string(number) +
+                          " vibrations were found. Try fewer Stability/Modes.");
     std::sort(result.begin(), result.end(),
               [](const auto &a, const auto &b) { return std::abs(a.eigenvalue) < std::abs(b.eigenvalue); });
     return result;

@@ -18,8 +18,7 @@ namespace sprag
     Product mass;
     Product damping;
     Product stiffness;
-    Product solve;                                ///< with the stiffness
-    const dealii::FullMatrix<double> &compliance; ///< static, of the ports
+    Product solve; ///< with the stiffness
     const LeverPorts &ports;
   };
 

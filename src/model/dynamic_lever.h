@@ -117,7 +117,7 @@ namespace sprag
       { return solve_sliding(drive, 1., ContactFriction::none) == nullptr ? 0. : observed_forces().P; };
       const double P_free           = slides ? P_without_friction() : 0.;
       const double ratio            = slides ? speed_ratio(drive, 1e-3 * frame.geometry.cylinder_radius) : 1.;
-      const PortForces *const force = solve_sliding(drive, ratio, friction);
+      const PortForces *const force = solve_sliding(drive, ratio, slides ? friction : ContactFriction::none);
       if (force == nullptr)
         return {};
       HeldSlide slide;

@@ -177,8 +177,28 @@ namespace sprag
         return f;
       }
 
-      /// What is out of balance in the modes, over the sum of the terms' sizes.
+      /// What is out of balance in modes and static shapes over the sum of the terms' sizes, by their parts in the displacements.
       double backward_error(const Complex lambda, const Eigenpair &pair, const std::vector<Complex> &f) const
+      {
+        double of_modes   = 0.;
+        double of_statics = 0.;
+        for (unsigned int a = 0; a < n_static; ++a)
+        {
+          Complex by_modes;
+          for (unsigned int i = 0; i < n; ++i)
+            by_modes += shapes(a, i) * Complex(pair.vector[0][i], pair.vector[1][i]);
+          of_modes += std::norm(by_modes);
+          of_statics += std::norm(Complex(pair.vector[0][2 * n + a], pair.vector[1][2 * n + a]));
+        }
+        if (of_statics == 0.)
+          return error_of_modes(lambda, pair, f);
+        of_modes   = std::sqrt(of_modes);
+        of_statics = std::sqrt(of_statics);
+        return (of_modes * error_of_modes(lambda, pair, f) + of_statics * error_of_statics(lambda, pair, f)) /
+               (of_modes + of_statics);
+      }
+
+      double error_of_modes(const Complex lambda, const Eigenpair &pair, const std::vector<Complex> &f) const
       {
         double residual = 0.;
         double size     = 0.;
@@ -200,6 +220,27 @@ namespace sprag
           }
           residual += std::norm(lambda * lambda * q + damped + data.stiffness[i] * q - driven);
           size += std::pow(std::abs(lambda * lambda * q) + damped_size + data.stiffness[i] * std::abs(q) + driven_size, 2);
+        }
+        return std::sqrt(residual / size);
+      }
+
+      double error_of_statics(const Complex lambda, const Eigenpair &pair, const std::vector<Complex> &f) const
+      {
+        double residual = 0.;
+        double size     = 0.;
+        for (unsigned int a = 0; a < n_static; ++a)
+        {
+          const Complex u(pair.vector[0][2 * n + a], pair.vector[1][2 * n + a]);
+          Complex elastic;
+          double elastic_size = 0.;
+          for (unsigned int b = 0; b < n_static; ++b)
+          {
+            const Complex term = data.face_compliance(forces.ports[a], forces.ports[b]) * f[b];
+            elastic += term;
+            elastic_size += std::abs(term);
+          }
+          residual += std::norm(u + lambda * data.relaxation * u - elastic);
+          size += std::pow((1. + std::abs(lambda) * data.relaxation) * std::abs(u) + elastic_size, 2);
         }
         return std::sqrt(residual / size);
       }

@@ -263,6 +263,7 @@ namespace sprag
     response.traction          = share.coefficient * response.pressure;
     response.slipping          = slides;
     response.memory.traction   = response.traction;
+    response.memory.damping    = dashpot.force;
     response.memory.slip_speed = state.speed;
     response.energy            = normal.energy + 0.5 * response.traction * response.traction / properties.tangential;
     response.force             = response.pressure * end.gap_row - response.traction * end.slip_row;

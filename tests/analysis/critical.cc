@@ -84,10 +84,10 @@ TEST(CriticalValues, RigidLeverOnlyJams)
                                                  "Contact/Stiffness=1e6", "Contact/Exponent=1" });
   DynamicsMaker maker;
   const auto found = critical_values(scene, { "Friction/Factor", 0.5, 4., 8 }, 1e-6, maker);
-  ASSERT_EQ(found.size(), 1u);
-  EXPECT_EQ(found.front().below, SlideKind::stable);
-  EXPECT_EQ(found.front().above, SlideKind::jammed);
-  EXPECT_NEAR(found.front().value, kinematics(scene.geometry, 65.).s / 45.6, 0.02);
+  ASSERT_EQ(found.changes.size(), 1u);
+  EXPECT_EQ(found.changes.front().below, SlideKind::stable);
+  EXPECT_EQ(found.changes.front().above, SlideKind::jammed);
+  EXPECT_NEAR(found.changes.front().value, kinematics(scene.geometry, 65.).s / 45.6, 0.02);
 }
 
 TEST(CriticalValues, ThinLeverFluttersThickOneDoesNot)
@@ -95,20 +95,20 @@ TEST(CriticalValues, ThinLeverFluttersThickOneDoesNot)
   const Scene scene = from_params("stability-a.prm", {});
   DynamicsMaker maker;
   const auto found = critical_values(scene, { "Lever/Depth", 5., 21., 5 }, 1e-6, maker);
-  ASSERT_EQ(found.size(), 1u);
-  EXPECT_EQ(found.front().below, SlideKind::flutter);
-  EXPECT_EQ(found.front().above, SlideKind::stable);
+  ASSERT_EQ(found.changes.size(), 1u);
+  EXPECT_EQ(found.changes.front().below, SlideKind::flutter);
+  EXPECT_EQ(found.changes.front().above, SlideKind::stable);
   const auto kind_at = [&](const double depth)
   { return judge(variant(scene, { override_text("Lever/Depth", depth) }), maker).kind; };
-  EXPECT_EQ(kind_at(found.front().value - 1e-3), SlideKind::flutter);
-  EXPECT_EQ(kind_at(found.front().value + 1e-3), SlideKind::stable);
+  EXPECT_EQ(kind_at(found.changes.front().value - 1e-3), SlideKind::flutter);
+  EXPECT_EQ(kind_at(found.changes.front().value + 1e-3), SlideKind::stable);
 }
 
 TEST(CriticalValues, ScenesThatAreNotAdmittedArePassedOver)
 {
   const Scene scene = from_params("stability-a.prm", {});
   DynamicsMaker maker;
-  EXPECT_TRUE(critical_values(scene, { "Geometry/Interface offset", 56., 80., 3 }, 1e-3, maker).empty());
+  EXPECT_TRUE(critical_values(scene, { "Geometry/Interface offset", 56., 80., 3 }, 1e-3, maker).changes.empty());
 }
 
 TEST(Roles, FlexureMakesTheSpragSlip)

@@ -1,0 +1,241 @@
+#include "analysis/run_sprag_slip.h"
+
+#include "analysis/recorder.h"
+#include "analysis/sprag_slip_report.h"
+#include "analysis/transient_report.h"
+#include "base/errors.h"
+#include "scene/held_slide.h"
+
+#include <cmath>
+#include <deque>
+#include <functional>
+#include <iostream>
+
+namespace sprag
+{
+  namespace
+  {
+    using Timer = dealii::TimerOutput;
+
+    constexpr double most_growth_rows    = 20000.; ///< written of the growth
+    constexpr unsigned int approach_rows = 16;     ///< a period, from the growth to the vibration it leads to
+    constexpr double shown_periods       = 50.;    ///< of that vibration
+
+    /// Writes some of the rows as they come and keeps the last ones.
+    class Rows
+    {
+    public:
+      Rows(ResultFile &result_file, const HeldSlide &held)
+          : file(result_file)
+          , slide(held)
+      {
+      }
+
+      /// From now on every n-th row is written; the last `number` are kept.
+      void begin(const unsigned long every_nth, const std::size_t number)
+      {
+        every = every_nth;
+        kept  = number;
+        count = 0;
+        last.clear();
+      }
+
+      void operator()(Row row)
+      {
+        row[Column::P_quasi_static] = slide.forces.P;
+        row[Column::Q_quasi_static] = slide.forces.Q;
+        if (kept > 0)
+          last.push_back(row);
+        if (last.size() > kept)
+        {
+          if (count++ % every == 0)
+            file.append(last.front());
+          last.pop_front();
+        }
+        else if (kept == 0 && count++ % every == 0)
+          file.append(row);
+      }
+
+      /// Writes the rows kept and returns the first one's time, NaN if there are none [s].
+      double write_last()
+      {
+        const double begin = last.empty() ? std::nan("") : last.front()[Column::time];
+        for (const auto &row : last)
+          file.append(row);
+        last.clear();
+        return begin;
+      }
+
+    private:
+      ResultFile &file;
+      const HeldSlide &slide;
+      unsigned long every = 1, count = 0;
+      std::size_t kept = 0;
+      std::deque<Row> last;
+    };
+
+    void require_slide(const SpragSlip &found, const double x)
+    {
+      if (found.slide.kind == SlideKind::jammed)
+        throw AnalysisError("no slide in contact that could be perturbed at x = " + std::to_string(x) +
+                            " mm. Try another Stability/Position or a smaller friction coefficient.");
+    }
+
+    /// Whether friction at this speed is the same in the eigenvalue and in time.
+    bool linearised_exactly(const FrictionLaw &law, const double speed)
+    {
+      return law.regularisation_speed > 0. || friction_coefficient(law, std::abs(speed)).derivative == 0.;
+    }
+
+    /// Growth, vibration and continuation, one after the other; what is finished stands in `found` whatever happens.
+    class Study
+    {
+    public:
+      Study(const Scene &scene_, DynamicModel &model_, ResultFile &file, Progress &progress_, SpragSlip &found_)
+          : scene(scene_)
+          , settings(scene_.sprag_slip)
+          , model(model_)
+          , progress(progress_)
+          , found(found_)
+          , rows(file, *found_.slide.slide)
+          , dt(step_of(watched_mode(found_.slide), settings))
+          , run(model, dt)
+      {
+      }
+
+      void carry_out()
+      {
+        try
+        {
+          measure();
+          follow();
+          if (settings.continuation > 0)
+            continue_along();
+        }
+        catch (...)
+        {
+          sum_up();
+          throw;
+        }
+        sum_up();
+      }
+
+    private:
+      const Scene &scene;
+      const SpragSlipSettings &settings;
+      DynamicModel &model;
+      Progress &progress;
+      SpragSlip &found;
+      Rows rows;
+      const double dt;
+      HeldRun run;
+      double done = 0.;
+
+      void measure()
+      {
+        const double rate     = std::abs(watched_mode(found.slide).mode.eigenvalue.real());
+        const double duration = std::log(settings.final / settings.initial) / rate;
+        const double n_rows   = std::min(duration, settings.longest_growth) / dt;
+        rows.begin(1 + static_cast<unsigned long>(n_rows / most_growth_rows), 0);
+        found.growth = measure_growth(model, found.slide, settings, run, std::ref(rows));
+        report();
+      }
+
+      /// What a stable slide makes of a large kick, and an unstable one of itself.
+      void follow()
+      {
+        const auto &slide = *found.slide.slide;
+        run.use_spectral_radius(scene.time.spectral_radius);
+        if (found.slide.kind == SlideKind::stable)
+          run.begin(model.perturbed(slide, watched_mode(found.slide), Continuation::large_kick * slide.indentation));
+        rows.begin(std::max(1u, settings.steps_per_period / approach_rows),
+                   static_cast<std::size_t>(shown_periods * settings.steps_per_period));
+        found.settled       = settle(run, slide, { period(), settings.settling, longest() }, std::ref(rows));
+        found.settled_begin = rows.write_last();
+        report();
+      }
+
+      void continue_along()
+      {
+        Continuation continuation(model, run, held_drive(scene), period(), scene.stability.modes, settings);
+        const double turn = settings.turn.value_or(scene.drive.minimum());
+        const auto note   = [&]
+        {
+          found.points = continuation.points();
+          report();
+        };
+        continuation.go(found.slide, *found.settled, turn, note);
+        found.points      = continuation.points();
+        found.coexistence = continuation.coexistence();
+      }
+
+      double period() const
+      {
+        return dt * settings.steps_per_period;
+      }
+
+      double longest() const
+      {
+        return std::max(settings.settling, settings.longest_growth);
+      }
+
+      void report()
+      {
+        progress.update(++done, { run.drive().x });
+      }
+
+      void sum_up()
+      {
+        found.ledger = run.ledger();
+        found.steps  = run.steps();
+      }
+    };
+
+    /// Growth, vibration, and every x of the continuation there and back.
+    double parts_of(const SpragSlipSettings &settings)
+    {
+      const unsigned int n = settings.continuation;
+      return n == 0 ? 2. : 2. + 2. * (n + Continuation::bisections) + 1.;
+    }
+
+    void finish(const Scene &scene, const SpragSlip &found, const std::string &status, ResultFile &file, Timer &timer,
+                const bool quiet)
+    {
+      auto summary = sprag_slip_summary(found);
+      summary.push_back({ "status", status, "", "how the run ended" });
+      file.finish(summary, process_entries(timer), sprag_slip_groups(found, scene.sprag_slip));
+      if (!quiet)
+        print_summary(std::cout, summary);
+    }
+  } // namespace
+
+  void run_sprag_slip(const Scene &scene, const RunOptions &options)
+  {
+    require_writable(options.folder);
+    DynamicsMaker maker;
+    const Scene held    = held_scene(scene);
+    const auto dynamics = maker.make(held);
+    prepare_folder(options.folder);
+    ResultFile file(options.folder + "/result.h5", scene.parameters_text, {});
+    Progress progress(std::cerr, progress_style(options.quiet), parts_of(scene.sprag_slip));
+    SpragSlip found;
+    try
+    {
+      const Timer::Scope scope(maker.timer(), "steps_and_output");
+      const auto drive = held_drive(scene);
+      found.slide      = judge(dynamics.model(), drive, scene.stability.modes);
+      require_slide(found, drive.x);
+      found.exact = linearised_exactly(held.friction, found.slide.slide->speed);
+      Study(scene, dynamics.model(), file, progress, found).carry_out();
+      check_ledger(scene, found.ledger);
+    }
+    catch (const AnalysisError &error)
+    {
+      progress.finish();
+      finish(scene, found, error.what(), file, maker.timer(), options.quiet);
+      throw;
+    }
+    progress.finish();
+    finish(scene, found, "completed", file, maker.timer(), options.quiet);
+  }
+} // namespace sprag

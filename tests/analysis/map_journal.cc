@@ -1,0 +1,124 @@
+#include "analysis/map_journal.h"
+
+#include "base/errors.h"
+
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <limits>
+#include <unistd.h>
+
+using namespace sprag;
+
+namespace
+{
+  class MapJournalTest : public ::testing::Test
+  {
+  protected:
+    const std::filesystem::path folder = std::filesystem::temp_directory_path() / ("sprag-journal-" + std::to_string(::getpid()));
+    const std::string path             = (folder / "map.journal").string();
+
+    void SetUp() override
+    {
+      std::filesystem::create_directories(folder);
+    }
+
+    void TearDown() override
+    {
+      std::filesystem::remove_all(folder);
+    }
+  };
+
+  MapCells some_cells()
+  {
+    MapCells cells;
+    for (unsigned int i = 0; i < 5; ++i)
+    {
+      MapCell cell;
+      for (std::size_t k = 0; k < n_cell_values; ++k)
+        cell.values[k] = std::ldexp(1. / 3. + static_cast<double>(k), 200 * static_cast<int>(i) - 500);
+      cell.values[3] = std::numeric_limits<double>::quiet_NaN();
+      cell.values[4] = -0.;
+      cell.values[5] = std::numeric_limits<double>::denorm_min();
+      cell.values[6] = -std::numeric_limits<double>::infinity();
+      cells.insert({ { i + 0.125, 3. - i }, cell });
+    }
+    return cells;
+  }
+
+  void expect_same_bits(const MapCells &found, const MapCells &expected)
+  {
+    ASSERT_EQ(found.size(), expected.size());
+    for (auto a = found.begin(), b = expected.begin(); a != found.end(); ++a, ++b)
+    {
+      EXPECT_EQ(a->first.first, b->first.first);
+      EXPECT_EQ(a->first.second, b->first.second);
+      EXPECT_EQ(std::memcmp(&a->second.values, &b->second.values, sizeof a->second.values), 0);
+    }
+  }
+} // namespace
+
+TEST_F(MapJournalTest, GivesBackEveryBit)
+{
+  const auto cells = some_cells();
+  MapJournal(path, "a scene").append(cells);
+  const MapJournal again(path, "a scene");
+  expect_same_bits(again.cells(), cells);
+  EXPECT_FALSE(again.dropped());
+}
+
+TEST_F(MapJournalTest, DropsATornLineWhereverItIsTornAndGoesOn)
+{
+  const auto cells = some_cells();
+  MapJournal(path, "a scene").append(cells);
+  const auto whole = std::filesystem::file_size(path);
+  std::ifstream file(path);
+  std::string line, last;
+  while (std::getline(file, line))
+    last = line;
+  auto fewer = cells;
+  fewer.erase(std::prev(fewer.end()));
+  for (std::size_t missing = 1; missing <= last.size(); ++missing)
+  {
+    std::filesystem::resize_file(path, whole - missing);
+    {
+      MapJournal torn(path, "a scene");
+      expect_same_bits(torn.cells(), fewer);
+      torn.append({ *std::prev(cells.end()) });
+    }
+    expect_same_bits(MapJournal(path, "a scene").cells(), cells);
+  }
+}
+
+TEST_F(MapJournalTest, BeginsAnewForAnotherScene)
+{
+  MapJournal(path, "a scene").append(some_cells());
+  {
+    const MapJournal other(path, "another scene");
+    EXPECT_TRUE(other.dropped());
+    EXPECT_TRUE(other.cells().empty());
+  }
+  const MapJournal again(path, "another scene");
+  EXPECT_FALSE(again.dropped());
+  EXPECT_TRUE(again.cells().empty());
+}
+
+TEST_F(MapJournalTest, SurvivesATornHeader)
+{
+  std::ofstream(path) << "sprag";
+  MapJournal(path, "a scene").append(some_cells());
+  expect_same_bits(MapJournal(path, "a scene").cells(), some_cells());
+}
+
+TEST_F(MapJournalTest, BelongsToOneRun)
+{
+  const MapJournal held(path, "a scene");
+  EXPECT_THROW(MapJournal(path, "a scene"), InputError);
+}
+
+TEST_F(MapJournalTest, RefusesAFolderThatIsNotThere)
+{
+  EXPECT_THROW(MapJournal((folder / "none" / "map.journal").string(), "a scene"), InputError);
+}

@@ -1,0 +1,126 @@
+#include "fe/face_step.h"
+
+#include "bar.h"
+#include "mpi_environment.h"
+
+#include <gtest/gtest.h>
+
+using namespace sprag;
+
+namespace
+{
+  using Vector = dealii::Vector<double>;
+  using Full   = dealii::FullMatrix<double>;
+
+  constexpr double rest_inclination = 0.05;
+
+  Bar shape()
+  {
+    Bar bar;
+    bar.n = 40;
+    return bar;
+  }
+
+  /// A bar of 20 mm whose lower side lies on the cylinder some 12 mm from the pivot.
+  FaceStepProperties properties_of(const ElasticBody<2> &body, const bool sprung, const double regularisation_speed)
+  {
+    const double R = 6.;
+    FaceStepProperties result;
+    result.geometry         = { R, 3., 12., (R - 3. - 12. * std::sin(rest_inclination)) / std::cos(rest_inclination) };
+    result.ports            = { 2 * static_cast<unsigned int>(body.friction_face().nodes.size()), sprung };
+    result.rest_inclination = rest_inclination;
+    result.penalties        = { 240., 120. };
+    result.friction         = { CorkOnAluminium{}, FrictionSpeed::sliding, regularisation_speed };
+    result.layer_thickness  = 0.5;
+    return result;
+  }
+
+  /// The face moved down by `depth` [mm], uneven by micrometres.
+  Vector pressed(const PortLayout &ports, const double depth)
+  {
+    Vector result(ports.size());
+    for (unsigned int i = 0; i < ports.surface; ++i)
+      result[i] = 1e-3 * std::sin(1.7 * i) - (i % 2 == 1 ? depth : 0.);
+    return result;
+  }
+
+  PortForces forces_of(FaceStepContact &contact, const SlidingState &state)
+  {
+    contact.evaluate_sliding(state);
+    return contact.forces();
+  }
+} // namespace
+
+// mu is a parabola and the slip linear in the rates: central differences are exact but for round-off, and the regularisation's
+// third derivative at 100 mm/s.
+TEST(FaceLinearisation, RatesAreTheDerivativeOfTheForcesByVelocities)
+{
+  const MeshedBar bar(shape());
+  for (const bool sprung : { false, true })
+    for (const double regularisation : { 0., 20. })
+      for (const double speed : { 100., -100. })
+      {
+        const auto properties = properties_of(*bar, sprung, regularisation);
+        FaceStepContact contact(*bar, properties);
+        const Vector ports = pressed(properties.ports, 0.01);
+        const DrivePoint drive{ 0., 0., speed, 0. };
+        const auto with_rates = [&](const Vector &rates) {
+          return forces_of(contact, { ports, drive, speed, &rates, ContactFriction::sliding, TangentPart::all });
+        };
+        const auto part = [&](const TangentPart wanted) {
+          return forces_of(contact, { ports, drive, speed, nullptr, ContactFriction::sliding, wanted });
+        };
+        const PortForces exact = part(TangentPart::friction_rate);
+        ASSERT_FALSE(exact.ports.empty());
+        EXPECT_EQ(part(TangentPart::pressure_rate).tangent.linfty_norm(), 0.);
+        const double largest = exact.tangent.linfty_norm();
+        EXPECT_GT(largest, 1e-4);
+        for (unsigned int j = 0; j < exact.ports.size(); ++j)
+        {
+          const double h = 0.01;
+          Vector rates(ports.size());
+          rates[exact.ports[j]] = h;
+          const auto right      = with_rates(rates).values;
+          rates *= -1.;
+          const auto left = with_rates(rates).values;
+          for (unsigned int i = 0; i < exact.ports.size(); ++i)
+            EXPECT_NEAR(exact.tangent(i, j), (right[i] - left[i]) / (2. * h), 1e-6 * largest) << sprung << i << " " << j;
+        }
+      }
+}
+
+// A step without movement, all weight on its end, that begins without friction.
+TEST(FaceLinearisation, StuckIsTheTangentOfAStepInStick)
+{
+  const MeshedBar bar(shape());
+  for (const bool sprung : { false, true })
+  {
+    const auto properties = properties_of(*bar, sprung, 0.);
+    FaceStepContact contact(*bar, properties);
+    const Vector ports = pressed(properties.ports, 0.01);
+    const DrivePoint drive{ 0., 0., 0., 0. };
+    const auto linear = forces_of(contact, { ports, drive, 100., nullptr, ContactFriction::stuck, TangentPart::all });
+    const Vector rest(ports.size());
+    const StepWeights weights{ 1e-5, 0., 0., 0.25, 0.5 };
+    Motion accepted;
+    accepted.drive = drive;
+    contact.evaluate(PortStep{ accepted, drive, { ports, rest, rest }, ports, rest, weights });
+    ASSERT_EQ(contact.forces().ports, linear.ports);
+    Full difference = contact.forces().tangent;
+    difference.add(-1., linear.tangent);
+    EXPECT_LT(difference.frobenius_norm(), 1e-12 * linear.tangent.frobenius_norm());
+    EXPECT_GT(linear.tangent.frobenius_norm(), 1.);
+  }
+}
+
+TEST(FaceLinearisation, IsNothingOutOfContact)
+{
+  const MeshedBar bar(shape());
+  const auto properties = properties_of(*bar, true, 0.);
+  FaceStepContact contact(*bar, properties);
+  const Vector ports = pressed(properties.ports, -0.1);
+  const DrivePoint drive{ 0., 0., 100., 0. };
+  for (const auto part :
+       { TangentPart::all, TangentPart::pressure, TangentPart::friction, TangentPart::pressure_rate, TangentPart::friction_rate })
+    EXPECT_TRUE(forces_of(contact, { ports, drive, 100., nullptr, ContactFriction::sliding, part }).ports.empty());
+}

@@ -1,0 +1,323 @@
+#include "fe/sparse_vibration.h"
+
+#include "bar.h"
+#include "base/eigenvalues.h"
+#include "fe/condensed_basis.h"
+#include "mpi_environment.h"
+
+#include <algorithm>
+#include <cmath>
+#include <gtest/gtest.h>
+#include <random>
+
+using namespace sprag;
+
+namespace
+{
+  using Complex = std::complex<double>;
+  using Full    = dealii::FullMatrix<double>;
+  using Vector  = dealii::Vector<double>;
+
+  constexpr double spring_stiffness = 1e4;
+
+  Bar coarse_bar()
+  {
+    Bar bar;
+    bar.n = 6;
+    bar.m = 1;
+    return bar;
+  }
+
+  LeverDynamics constants_of(const bool sprung, const bool damped)
+  {
+    LeverDynamics result;
+    result.spring_stiffness = spring_stiffness;
+    result.sprung           = sprung;
+    result.support_mass     = 2e-5;
+    // With the lever's inertia the lowest vibration, though not by far.
+    result.support_stiffness = 50.;
+    if (damped)
+    {
+      result.mass_damping      = 20.;
+      result.stiffness_damping = 1e-7;
+      result.relaxation        = 2e-6;
+      result.support_damping   = 1e-3;
+    }
+    return result;
+  }
+
+  /// A meshed lever, and the same as dense matrices.
+  class MeshedLever
+  {
+  public:
+    MeshedLever(const LeverDynamics &lever_constants, const unsigned int n_modes)
+        : constants(lever_constants)
+        , matrices(std::make_shared<InertialMatrices<2>>(*bar, bar_inertia(1e-3, 1e-7)))
+        , ports(*bar, *matrices, constants.sprung)
+        , modes(find_modes(n_modes))
+        , structure(*bar, matrices, modes, constants)
+    {
+      const unsigned int n_lever = matrices->coordinates.size();
+      mass                       = dense(matrices->mass);
+      stiffness                  = dense(matrices->stiffness);
+      damping                    = dense(matrices->layer_stiffness);
+      damping *= constants.relaxation;
+      damping.add(constants.mass_damping, mass, constants.stiffness_damping, stiffness);
+      stiffness(n_lever - 1, n_lever - 1) += spring_stiffness;
+      if (constants.sprung)
+      {
+        mass(n_lever, n_lever)      = constants.support_mass;
+        damping(n_lever, n_lever)   = constants.support_damping;
+        stiffness(n_lever, n_lever) = constants.support_stiffness;
+      }
+    }
+
+    ModalStructure condensed(const unsigned int n_modes) const
+    {
+      return ModalStructure(modal_data(make_basis(*bar, { n_modes, spring_stiffness, bar_inertia(1e-3, 1e-7), {} }), constants));
+    }
+
+    unsigned int n() const
+    {
+      return ports.n_coordinates();
+    }
+
+  private:
+    FreeModes find_modes(const unsigned int number) const
+    {
+      dealii::PETScWrappers::SparseMatrix with_spring;
+      matrices->sum({ 0., 1., 0., spring_stiffness }, with_spring);
+      return free_modes(with_spring, matrices->mass, number);
+    }
+
+    Full dense(const dealii::PETScWrappers::SparseMatrix &matrix) const
+    {
+      Full result(n(), n());
+      for (unsigned int i = 0; i < matrix.m(); ++i)
+        for (auto entry = matrix.begin(i); entry != matrix.end(i); ++entry)
+          result(i, entry->column()) = entry->value();
+      return result;
+    }
+
+    const MeshedBar bar{ coarse_bar() };
+
+  public:
+    const LeverDynamics constants;
+    const std::shared_ptr<const InertialMatrices<2>> matrices;
+    const LeverPorts ports;
+    const FreeModes modes;
+    SparseStructure structure;
+    Full mass, damping, stiffness;
+  };
+
+  /// Stiff springs and dashpots beside friction that is a fifth of them, on two nodes, the rotation and the support.
+  PortPerturbation contact_on(const PortLayout &layout, const double friction)
+  {
+    std::mt19937 generator(3);
+    std::uniform_real_distribution<double> uniform(-1., 1.);
+    PortPerturbation forces;
+    forces.ports = { 12, 13, 14, 15, layout.rotation() };
+    if (layout.sprung)
+      for (unsigned int port = layout.momentum_eta(); port < layout.size(); ++port)
+        forces.ports.push_back(port);
+    const auto n = static_cast<unsigned int>(forces.ports.size());
+    for (auto *const matrix :
+         { &forces.pressure, &forces.friction, &forces.pressure_rate, &forces.friction_rate, &forces.inertia })
+      matrix->reinit(n, n);
+    for (unsigned int a = 0; a < 4; ++a)
+    {
+      forces.pressure(a, a)      = -800.;
+      forces.pressure_rate(a, a) = friction == 0. ? 0. : -1e-3;
+      for (unsigned int b = 0; b < 5; ++b)
+      {
+        forces.friction(a, b)      = friction * 160. * uniform(generator);
+        forces.friction_rate(a, b) = friction * 1e-4 * uniform(generator);
+      }
+    }
+    if (layout.sprung)
+    {
+      forces.inertia(5, 7) = forces.inertia(7, 5) = 0.05;
+      forces.inertia(6, 7) = forces.inertia(7, 6) = -1.;
+    }
+    return forces;
+  }
+
+  /// Adds factor B^T A B, B the displacements of the ports.
+  void add_ports(const LeverPorts &ports, const std::vector<unsigned int> &chosen, const Full &matrix, const double factor,
+                 Full &sum)
+  {
+    const auto m = static_cast<unsigned int>(chosen.size());
+    const auto n = static_cast<unsigned int>(sum.m());
+    Full rows(m, n);
+    for (unsigned int a = 0; a < m; ++a)
+    {
+      Vector row(n);
+      ports.add_force(chosen[a], 1., row);
+      for (unsigned int j = 0; j < n; ++j)
+        rows(a, j) = row[j];
+    }
+    Full half(m, n), whole(n, n);
+    matrix.mmult(half, rows);
+    rows.Tmmult(whole, half);
+    sum.add(factor, whole);
+  }
+
+  Full inverse(const Full &matrix)
+  {
+    dealii::LAPACKFullMatrix<double> lapack(static_cast<unsigned int>(matrix.m()));
+    lapack = matrix;
+    lapack.invert();
+    Full result(matrix.m(), matrix.n());
+    result = lapack;
+    return result;
+  }
+
+  /// By increasing size, of the linearised problem in all coordinates.
+  std::vector<Complex> dense_eigenvalues(const MeshedLever &lever, const PortPerturbation &forces)
+  {
+    Full m = lever.mass, c = lever.damping, k = lever.stiffness;
+    add_ports(lever.ports, forces.ports, forces.stiffness(), -1., k);
+    add_ports(lever.ports, forces.ports, forces.damping(), -1., c);
+    add_ports(lever.ports, forces.ports, forces.inertia, 1., m);
+    const unsigned int n = lever.n();
+    const Full flexible  = inverse(k);
+    Full by_rate(n, n), by_position(n, n), state(2 * n, 2 * n);
+    flexible.mmult(by_rate, m);
+    flexible.mmult(by_position, c);
+    constexpr double scale = 1e4; // of rates, so that both halves are of one size
+    for (unsigned int i = 0; i < n; ++i)
+    {
+      state(n + i, i) = 1. / scale;
+      for (unsigned int j = 0; j < n; ++j)
+      {
+        state(i, j)     = -by_position(i, j);
+        state(i, n + j) = -scale * by_rate(i, j);
+      }
+    }
+    std::vector<Complex> result;
+    for (const auto &pair : eigenpairs(state))
+      if (std::abs(pair.value) > 0.)
+        result.push_back(std::conj(1. / pair.value));
+    std::sort(result.begin(), result.end(), [](const auto a, const auto b) { return std::abs(a) < std::abs(b); });
+    return result;
+  }
+
+  double nearest(const Complex wanted, const std::vector<StructureMode> &modes)
+  {
+    double distance = 1e300;
+    for (const auto &mode : modes)
+      distance = std::min(distance, std::abs(mode.eigenvalue - wanted));
+    return distance / std::abs(wanted);
+  }
+} // namespace
+
+// Krylov's vectors, and LAPACK where most of the modes are wanted.
+TEST(SparseVibration, IsThatOfTheDenseMatrices)
+{
+  for (const bool sprung : { false, true })
+    for (const bool in_contact : { true, false })
+    {
+      MeshedLever lever(constants_of(sprung, true), 5);
+      auto forces = contact_on(lever.structure.ports(), 1.);
+      if (!in_contact)
+        for (auto *const matrix : { &forces.pressure, &forces.friction, &forces.pressure_rate, &forces.friction_rate })
+          *matrix = 0.;
+      const auto expected = dense_eigenvalues(lever, forces);
+      for (const unsigned int number : { 1u, 8u, lever.n() })
+      {
+        const auto found = lever.structure.vibrations(forces, number);
+        ASSERT_GE(found.size(), number);
+        for (unsigned int i = 0; i < std::min(number, 30u); ++i)
+          EXPECT_LT(nearest(expected[i], found), 1e-8) << sprung << in_contact << number << " " << expected[i];
+        for (const auto &mode : found)
+          EXPECT_GE(mode.eigenvalue.imag(), 0.);
+      }
+    }
+}
+
+TEST(SparseVibration, WithoutFrictionIsThatOfTheSymmetricProblem)
+{
+  MeshedLever lever(constants_of(false, false), 5);
+  const auto forces = contact_on(lever.structure.ports(), 0.);
+  for (const bool in_contact : { true, false })
+  {
+    Full k = lever.stiffness;
+    if (in_contact)
+      add_ports(lever.ports, forces.ports, forces.pressure, -1., k);
+    dealii::LAPACKFullMatrix<double> stiffness(lever.n()), mass(lever.n());
+    stiffness = k;
+    mass      = lever.mass;
+    std::vector<Vector> vectors(lever.n());
+    stiffness.compute_generalized_eigenvalues_symmetric(mass, vectors);
+    const auto found = lever.structure.vibrations(in_contact ? forces : PortPerturbation(), 10);
+    for (unsigned int i = 0; i < 10; ++i)
+    {
+      const double omega = std::sqrt(stiffness.eigenvalue(i).real());
+      EXPECT_NEAR(found[i].eigenvalue.imag(), omega, 1e-8 * omega);
+      EXPECT_NEAR(found[i].eigenvalue.real(), 0., 1e-8 * omega);
+      if (!in_contact && i < 5)
+      {
+        EXPECT_NEAR(found[i].eigenvalue.imag(), std::sqrt(lever.modes.stiffness[i]), 1e-8 * omega);
+      }
+    }
+  }
+}
+
+// With all modes there is nothing left for static shapes, modal damping is the same on both.
+TEST(SparseVibration, IsThatOfAllModes)
+{
+  for (const bool sprung : { false, true })
+  {
+    auto constants          = constants_of(sprung, true);
+    constants.modal_damping = 0.02;
+    const unsigned int all  = MeshedLever(constants, 1).matrices->coordinates.size();
+    MeshedLever lever(constants, all);
+    const auto forces    = contact_on(lever.structure.ports(), 1.);
+    const auto found     = lever.structure.vibrations(forces, 8);
+    const auto condensed = lever.condensed(all).vibrations(forces, 8);
+    for (unsigned int i = 0; i < 8; ++i)
+      EXPECT_LT(nearest(found[i].eigenvalue, condensed), 1e-8) << sprung << found[i].eigenvalue;
+  }
+}
+
+// Static shapes leave out the inertia of the modes beyond: of an eigenvalue at most its square over that of the first of them.
+TEST(SparseVibration, OfFewModesWithStaticShapesComesNear)
+{
+  MeshedLever lever(constants_of(false, false), 41);
+  auto forces          = contact_on(lever.structure.ports(), 1.);
+  forces.friction_rate = 0.;
+  forces.pressure_rate = 0.;
+  const auto found     = lever.structure.vibrations(forces, 3);
+  double before        = 1.;
+  for (const unsigned int n_modes : { 5u, 10u, 20u, 40u })
+  {
+    const auto condensed = lever.condensed(n_modes).vibrations(forces, 3);
+    double error         = 0.;
+    for (unsigned int i = 0; i < 3; ++i)
+      error = std::max(error, nearest(found[i].eigenvalue, condensed));
+    EXPECT_LT(error, before);
+    EXPECT_LT(error, std::norm(found[2].eigenvalue) / lever.modes.stiffness[n_modes]);
+    before = error;
+  }
+}
+
+TEST(SparseVibration, MassDampingTakesHalfOfItsFactorOffEveryVibration)
+{
+  auto constants         = constants_of(false, false);
+  constants.mass_damping = 34.;
+  MeshedLever lever(constants, 5);
+  const auto forces = contact_on(lever.structure.ports(), 0.);
+  for (const bool in_contact : { true, false })
+  {
+    const auto &on = in_contact ? forces : PortPerturbation();
+    for (const auto &mode : lever.structure.vibrations(on, 10))
+      EXPECT_NEAR(mode.eigenvalue.real(), -17., 1e-9 * std::abs(mode.eigenvalue));
+    unsigned int vibrations = 0;
+    for (const auto &mode : lever.condensed(10).vibrations(on, 10))
+    {
+      EXPECT_NEAR(mode.eigenvalue.real(), -17., 1e-9 * std::abs(mode.eigenvalue));
+      ++vibrations;
+    }
+    EXPECT_EQ(vibrations, 10u);
+  }
+}

@@ -1,0 +1,291 @@
+#include "model/growth.h"
+
+#include "model/beam.h"
+#include "model/point_contact.h"
+#include "model/reduced_lever.h"
+#include "scene/closed_form.h"
+#include "scene/held_slide.h"
+#include "scenes.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
+
+using namespace sprag;
+
+namespace
+{
+  using Complex = std::complex<double>;
+
+  Scene lever_of(const ModelType model, const bool sprung)
+  {
+    Scene scene             = model_a();
+    scene.analysis.model    = model;
+    scene.support.type      = sprung ? SupportType::sprung : SupportType::rigid;
+    scene.lever.depth       = 6.;
+    scene.contact.stiffness = 10451.;
+    scene.contact.exponent  = 1.4726;
+    return scene;
+  }
+
+  Scene undamped(Scene scene)
+  {
+    scene.stability.damping = false;
+    return held_scene(scene);
+  }
+
+  std::vector<Scene> levers()
+  {
+    return { lever_of(ModelType::rigid, false), lever_of(ModelType::rigid, true), lever_of(ModelType::beam, false),
+             lever_of(ModelType::beam, true) };
+  }
+
+  DrivePoint drive(const double x, const double direction)
+  {
+    return { 0., x, direction * 112., 0. };
+  }
+
+  HeldSlide held(DynamicModel &model, const DrivePoint &at, const ContactFriction friction = ContactFriction::sliding)
+  {
+    const auto slide = model.hold(at, friction);
+    EXPECT_TRUE(slide);
+    return *slide;
+  }
+
+  double sum(const GrowthShares &g)
+  {
+    return g.friction_rotation + g.friction_bending + g.friction_support + g.friction_speed + g.contact_damping +
+           g.structure_damping;
+  }
+
+  double sum(const EnergyShares &e)
+  {
+    return e.rotation + e.bending + e.support + e.contact;
+  }
+
+  std::vector<Eigenmode> modes_at(const Scene &scene, const double x, const double direction,
+                                  const ContactFriction friction = ContactFriction::sliding)
+  {
+    const auto model = make_reduced_lever(scene);
+    return model->vibrations(held(*model, drive(x, direction), friction), true, 10);
+  }
+} // namespace
+
+// Everything is on: damping of lever, contact and support, mu(v), friction. The parts are quadratic forms of round-off 1e-16 of
+// their terms, of which the largest are lambda times the energies.
+TEST(Growth, SharesAddUp)
+{
+  for (const auto &scene : levers())
+    for (const double direction : { 1., -1. })
+      for (const double x : { 10., 65. })
+        for (const auto &mode : modes_at(scene, x, direction))
+        {
+          const Complex lambda = mode.mode.eigenvalue;
+          EXPECT_NEAR(sum(mode.growth), lambda.real(), 1e-11 * std::abs(lambda)) << lambda;
+          EXPECT_NEAR(sum(mode.energy), 1., 1e-12);
+          EXPECT_LT(mode.growth.structure_damping, 0. + 1e-300);
+          EXPECT_LE(mode.growth.contact_damping, 0.);
+          EXPECT_LT(mode.mode.residual, 1e-12);
+        }
+}
+
+TEST(Growth, OnlyDampingIsLeftWithoutFriction)
+{
+  for (const auto &scene : levers())
+    for (const auto &mode : modes_at(scene, 65., -1., ContactFriction::none))
+    {
+      EXPECT_EQ(mode.growth.friction_rotation, 0.);
+      EXPECT_EQ(mode.growth.friction_bending, 0.);
+      EXPECT_EQ(mode.growth.friction_support, 0.);
+      EXPECT_EQ(mode.growth.friction_speed, 0.);
+      EXPECT_LT(mode.mode.eigenvalue.real(), 0.);
+    }
+}
+
+// A flutter of the undamped lever under constant mu is fed by friction as it follows displacements and by nothing else.
+TEST(Growth, OfAnUndampedFlutterIsFrictions)
+{
+  const auto modes = modes_at(undamped(with_coulomb(lever_of(ModelType::beam, false), 0.73)), 65., -1.);
+  double largest   = 0.;
+  for (const auto &mode : modes)
+  {
+    EXPECT_EQ(mode.growth.friction_speed, 0.);
+    EXPECT_EQ(mode.growth.contact_damping, 0.);
+    EXPECT_EQ(std::abs(mode.growth.structure_damping), 0.);
+    largest = std::max(largest, mode.growth.friction_rotation + mode.growth.friction_bending);
+  }
+  EXPECT_GT(largest, 50.);
+}
+
+// C = alpha M: lambda^2 + alpha lambda = -omega^2, and without friction every omega^2 > 0. The support has its own damping.
+TEST(MassDamping, TakesHalfOfItsFactorOffEveryVibration)
+{
+  for (const auto model_type : { ModelType::rigid, ModelType::beam })
+  {
+    Scene scene              = undamped(lever_of(model_type, false));
+    scene.lever.mass_damping = 34.;
+    const auto model         = make_reduced_lever(scene);
+    for (const bool in_contact : { true, false })
+    {
+      const auto modes = model->vibrations(held(*model, drive(44., 1.), ContactFriction::none), in_contact, 10);
+      EXPECT_EQ(modes.size(), model_type == ModelType::rigid ? 1u : 17u);
+      for (const auto &mode : modes)
+        EXPECT_NEAR(mode.mode.eigenvalue.real(), -17., 1e-12 * std::abs(mode.mode.eigenvalue));
+    }
+  }
+}
+
+// At equal mass-proportional damping friction changes no more than it does without: lambda = -alpha/2 + sqrt(alpha^2/4 + mu^2).
+TEST(MassDamping, ShiftsTheEigenvaluesOfAFlutter)
+{
+  Scene scene              = undamped(with_coulomb(lever_of(ModelType::beam, false), 0.73));
+  const auto without       = modes_at(scene, 65., -1.);
+  scene.lever.mass_damping = 34.;
+  const auto with          = modes_at(scene, 65., -1.);
+  for (unsigned int i = 0; i < 4; ++i)
+  {
+    const Complex before = without[i].mode.eigenvalue;
+    double nearest       = 1e300;
+    for (const Complex root :
+         { -17. + std::sqrt(289. + before * before), -17. - std::sqrt(289. + before * before),
+           -17. + std::sqrt(289. + std::conj(before * before)), -17. - std::sqrt(289. + std::conj(before * before)) })
+      nearest = std::min(nearest, std::abs(root - with[i].mode.eigenvalue));
+    EXPECT_LT(nearest, 1e-9 * std::abs(before)) << before;
+  }
+}
+
+TEST(Vibrations, OutOfContactAreThoseOfTheFreeLever)
+{
+  const Scene scene = undamped(lever_of(ModelType::beam, false));
+  const auto model  = make_reduced_lever(scene);
+  const auto modes  = model->vibrations(held(*model, drive(65., -1.)), false, 10);
+  const auto free   = free_frequencies(scene, { beam_elements, scene.lever.length });
+  ASSERT_EQ(modes.size(), free.size());
+  for (std::size_t i = 0; i < free.size(); ++i)
+  {
+    // Seen beside the highest, 1e7 rad/s, whose square is 1e10 times that of the lowest.
+    EXPECT_NEAR(modes[i].mode.eigenvalue.imag(), free[i], 1e-12 * free[i]) << i;
+    EXPECT_EQ(modes[i].energy.contact, 0.);
+  }
+}
+
+// Moments about the pivot: k (theta - theta_0) = P (s + sigma mu e R/(R - delta)), P = k_c delta. And its derivatives:
+// det(1 - G df/dz) = 1 - dM/dtheta / k, with d(delta)/d(theta) = -s and ds/d(theta) = -(R - e - delta) for h = 0.
+TEST(HeldSlide, OfARigidLeverIsTheEquilibriumOfMoments)
+{
+  Scene scene            = held_scene(model_a());
+  scene.analysis.model   = ModelType::rigid;
+  const auto model       = make_reduced_lever(scene);
+  const double R         = scene.geometry.cylinder_radius;
+  const double e         = scene.geometry.interface_offset;
+  const double k         = scene.spring_stiffness;
+  const double stiffness = scene.contact.stiffness;
+  const double rest      = kinematics(scene.geometry, 0.).theta;
+  for (const double x : { 5., 30., 65. })
+    for (const double direction : { 1., -1. })
+    {
+      const auto slide   = held(*model, drive(x, direction));
+      const double delta = slide.indentation;
+      const double theta = rest + slide.ports[0];
+      const double s     = (scene.geometry.pivot_distance - x) * std::cos(theta);
+      const double share = direction * slide.mu * e;
+      const double P     = stiffness * delta;
+      // The overlap has the round-off of the gap, 3e-14 mm.
+      EXPECT_NEAR(delta, R - e - (scene.geometry.pivot_distance - x) * std::sin(theta), 1e-13);
+      EXPECT_NEAR(k * slide.ports[0], P * (s + share * R / (R - delta)), 1e-8 * k * slide.ports[0]);
+
+      const double slope_normal   = -stiffness * s * s - P * (R - e - delta);
+      const double slope_friction = -share * (stiffness * s * R / (R - delta) + P * s * R / ((R - delta) * (R - delta)));
+      EXPECT_NEAR(slide.uniqueness, (k - slope_normal - slope_friction) / (k - slope_normal), 1e-11);
+      // In the limit of a stiff contact (s + sigma mu e)/s; the spring and the contact's yield leave these.
+      EXPECT_NEAR(slide.uniqueness, 1. + share / s, std::abs(share / s) * (k / (stiffness * s * s) + 2. * delta / (R - e)));
+      EXPECT_NEAR(held(*model, drive(x, direction), ContactFriction::none).uniqueness, 1., 1e-15);
+    }
+}
+
+// The forces at its ports are those that hold it there.
+TEST(HeldSlide, OfABeamIsInEquilibrium)
+{
+  for (const bool sprung : { false, true })
+  {
+    const Scene scene = held_scene(lever_of(ModelType::beam, sprung));
+    const auto model  = make_reduced_lever(scene);
+    ModalStructure structure(beam_modes(scene, { beam_elements, scene.lever.length }));
+    for (const double direction : { 1., -1. })
+      for (const auto friction : { ContactFriction::sliding, ContactFriction::none, ContactFriction::stuck })
+      {
+        const auto slide = held(*model, drive(65., direction), friction);
+        PortForces forces;
+        forces.ports  = slide.motion.forces.ports;
+        forces.values = slide.motion.forces.values;
+        auto position = structure.port_positions(structure.deform(forces));
+        position -= slide.ports;
+        // Forces of 25 N moved by 1e-14 of 200 mm of the contact's 2000 N/mm, on a compliance of 0.2 mm/N.
+        EXPECT_LT(position.linfty_norm(), 1e-10);
+        EXPECT_GT(slide.forces.P, 10.);
+      }
+  }
+}
+
+// In time the held slide stays where it is while the surface runs on.
+TEST(HeldSlide, StaysInTime)
+{
+  for (const auto &lever : levers())
+  {
+    const Scene scene = held_scene(lever);
+    const auto model  = make_reduced_lever(scene);
+    const auto slide  = held(*model, drive(65., 1.));
+    const auto w      = generalised_alpha(0.8, 2e-5);
+    Motion motion     = slide.motion;
+    for (unsigned int i = 1; i <= 50; ++i)
+    {
+      const DrivePoint to{ i * w.dt, 65., 0., 0., i * w.dt * slide.speed };
+      const auto step = model->step(motion, to, w);
+      ASSERT_TRUE(step.motion);
+      motion = *step.motion;
+    }
+    Row row;
+    model->observe(motion, row);
+    EXPECT_NEAR(row[Column::P], slide.forces.P, 1e-7 * slide.forces.P);
+    EXPECT_NEAR(row[Column::Q], slide.forces.Q, 1e-7 * slide.forces.P);
+    EXPECT_NEAR(row[Column::v_rel], slide.speed, 1e-6 * slide.speed);
+    EXPECT_NEAR(row[Column::mu], slide.mu, 1e-8);
+  }
+}
+
+// Perturbed along a mode that decays it follows exp(lambda t): the hub's rotation after one period, in small steps. With stick
+// resolved and mu(v) it would not: there mu is that of the slip less what the contact's tangential spring takes, whose rate the
+// linearisation leaves out.
+TEST(HeldSlide, PerturbedFollowsItsEigenvalue)
+{
+  for (const bool regularised : { false, true })
+  {
+    Scene scene                         = lever_of(ModelType::beam, false);
+    scene                               = held_scene(regularised ? scene : with_coulomb(scene, 0.73));
+    scene.lever.depth                   = 20.;
+    scene.friction.regularisation_speed = regularised ? 1. : 0.;
+    const auto model                    = make_reduced_lever(scene);
+    const auto slide                    = held(*model, drive(65., -1.));
+    const auto mode                     = model->vibrations(slide, true, 1).front();
+    const auto lambda                   = mode.mode.eigenvalue;
+    const auto start                    = model->perturbed(slide, mode, 1e-4 * slide.indentation);
+    const double T                      = 2. * M_PI / lambda.imag();
+    constexpr unsigned int steps        = 400;
+    const auto w                        = generalised_alpha(1., T / steps);
+    Motion motion                       = start;
+    for (unsigned int i = 1; i <= steps; ++i)
+    {
+      const auto step = model->step(motion, { i * w.dt, 65., 0., 0., i * w.dt * slide.speed }, w);
+      ASSERT_TRUE(step.motion);
+      motion = *step.motion;
+    }
+    const auto turned = [&](const Motion &at)
+    {
+      Row row;
+      model->observe(at, row);
+      return row[Column::theta] - kinematics(scene.geometry, 0.).theta - slide.ports[slide.ports.size() - 1];
+    };
+    // The phase of the steps, (omega dt)^2 / 12 a radian, is 1.3e-4 over the period; the amplitude of 1e-4 bends the law by as
+    // much.
+    EXPECT_NEAR(turned(motion) / turned(start), std::exp(lambda.real() * T), 1e-3) << regularised;
+  }
+}

@@ -1,0 +1,164 @@
+"""Maps from outside: the same numbers whether killed or not and for any number of processes; interrupted, refused, journals of
+others. Run with /usr/bin/python3; environment: SPRAG, the program, and SPRAG_SOURCE, the sources."""
+
+import os
+import shutil
+import signal
+import subprocess
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+SOURCE = Path(os.environ.get("SPRAG_SOURCE", Path(__file__).resolve().parents[2]))
+SPRAG = os.environ.get("SPRAG", str(SOURCE / "build" / "sprag"))
+TIMEOUT = 120  # seconds: a run that hangs is a failed test
+
+SCENE = SOURCE / "params" / "map-friction-depth-a.prm"
+# Every point of the grid: long enough, some 1700 cells, to be killed on the way.
+LONG = ("--set", "Map/Coarsest=1", "--set", "Map/First points=41", "--set", "Map/Second points=41", "--set", "Map/Bisections=2")
+SHORT = ("--set", "Map/Coarsest=4", "--set", "Map/First points=9", "--set", "Map/Second points=9", "--set", "Map/Bisections=1")
+MESHED = (*SHORT, "--set", "Analysis/Model=condensed", "--set", "Mesh/Face size=4", "--set", "Map/Second points=5")
+
+
+def command(output, *options, scene=SCENE):
+    return [SPRAG, str(scene), "--output", str(output), *map(str, options)]
+
+
+def numbers(output):
+    """Name -> bytes of every dataset of the map and its boundaries."""
+    with h5py.File(output / "result.h5", "r") as file:
+        return {f"{group}/{name}": data[()].tobytes() for group in ("map", "table") for name, data in file[group].items()}
+
+
+def status(output):
+    with h5py.File(output / "result.h5", "r") as file:
+        return file["summary/status"].asstr()[()]
+
+
+class MapTest(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory(prefix="sprag-test-")
+        self.addCleanup(temporary.cleanup)
+        self.folder = Path(temporary.name)
+
+    def completed(self, name, *options):
+        """Runs a map to its end: its folder and what it said on standard error."""
+        output = self.folder / name
+        done = subprocess.run(command(output, *options), capture_output=True, text=True, check=False, timeout=TIMEOUT)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(status(output), "completed")
+        self.assertFalse((output / "map.journal").exists())
+        return output, done.stderr
+
+    def started(self, output, cells, *options):
+        """A running map that has `cells` in its journal."""
+        process = subprocess.Popen(command(output, *options), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.addCleanup(process.communicate)
+        self.addCleanup(process.kill)
+        journal = output / "map.journal"
+        end = time.monotonic() + TIMEOUT
+        while not journal.exists() or len(journal.read_bytes().splitlines()) < cells + 1:
+            self.assertIsNone(process.poll(), "ended before it could be killed")
+            self.assertLess(time.monotonic(), end)
+            time.sleep(0.02)
+        return process
+
+    def test_killed_and_started_again(self):
+        whole, _ = self.completed("whole", *LONG)
+        killed = self.folder / "killed"
+        for jobs, cells in ((1, 200), (2, 700)):
+            process = self.started(killed, cells, *LONG, "--jobs", jobs)
+            process.kill()
+            process.wait(TIMEOUT)
+        with open(killed / "map.journal", "rb+") as journal:  # torn in the middle of a line
+            journal.truncate(journal.seek(-30, os.SEEK_END))
+        _, said = self.completed("killed", *LONG)
+        self.assertRegex(said, r"map.journal: \d+ cells taken over")
+        with h5py.File(killed / "result.h5", "r") as file:
+            self.assertGreater(file["meta/cells_taken_over"][()], 600)
+        self.assertEqual(numbers(killed), numbers(whole))
+
+    def test_any_number_of_processes(self):
+        one, _ = self.completed("one", *SHORT, "--jobs", 1)
+        for jobs in (2, 3):
+            several, _ = self.completed(f"several-{jobs}", *SHORT, "--jobs", jobs)
+            with h5py.File(several / "result.h5", "r") as file:
+                self.assertEqual(file["meta/ranks"][()], jobs if shutil.which("mpirun") else 1)
+            self.assertEqual(numbers(several), numbers(one))
+
+    def test_any_number_of_processes_with_meshes(self):
+        one, _ = self.completed("one", *MESHED, "--jobs", 1)
+        two, _ = self.completed("two", *MESHED, "--jobs", 2)
+        self.assertEqual(numbers(two), numbers(one))
+        with h5py.File(one / "result.h5", "r") as file:
+            self.assertTrue(np.isfinite(file["map/growth_rate_backward"][:]).all())
+
+    def test_interrupted(self):
+        for number in (signal.SIGINT, signal.SIGTERM):
+            for jobs in (1, 2):
+                with self.subTest(signal=number, jobs=jobs):
+                    output = self.folder / f"{number}-{jobs}"
+                    process = self.started(output, 100, *LONG, "--quiet", "--jobs", jobs)
+                    process.send_signal(number)
+                    said = process.communicate(timeout=TIMEOUT)
+                    self.assertEqual(process.returncode, 1)
+                    self.assertEqual(said[0], "")
+                    self.assertEqual(len(said[1].splitlines()), 1, said[1])
+                    self.assertIn("interrupted", status(output))
+                    with h5py.File(output / "result.h5", "r") as file:
+                        judged = file["map/evaluated"][:] == 1
+                        self.assertGreaterEqual(judged.sum(), 100)
+                        self.assertTrue(np.isfinite(file["map/growth_rate_forward"][:][judged]).all())
+                    self.assertTrue((output / "map.journal").exists())
+
+    def test_another_scene_begins_anew(self):
+        output = self.folder / "output"
+        process = self.started(output, 100, *LONG, "--jobs", 1)
+        process.kill()
+        process.wait(TIMEOUT)
+        _, said = self.completed("output", *SHORT)
+        self.assertIn("another scene", said)
+        fresh, _ = self.completed("fresh", *SHORT)
+        self.assertEqual(numbers(output), numbers(fresh))
+
+    def test_an_older_result_stays_until_the_map_is_written(self):
+        output, _ = self.completed("output", *SHORT)
+        before = (output / "result.h5").read_bytes()
+        process = self.started(output, 100, *LONG, "--jobs", 1)
+        process.kill()
+        process.wait(TIMEOUT)
+        self.assertEqual((output / "result.h5").read_bytes(), before)
+
+    def test_bad_input_is_told_once(self):
+        for option in ("Map/Coarsest=3", "Map/First parameter=Lever/Depht", "Map/First from=1.2"):
+            with self.subTest(option=option):
+                output = self.folder / "refused"
+                done = subprocess.run(
+                    command(output, "--set", option, "--jobs", 2), capture_output=True, text=True, check=False, timeout=TIMEOUT
+                )
+                self.assertEqual((done.returncode, done.stdout), (2, ""))
+                self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+                self.assertFalse(output.exists())
+
+    def test_scenes_that_are_refused_are_a_kind(self):
+        # Beyond R - e there is no lever that starts on the cylinder.
+        height = ("--set", "Map/Second parameter=Geometry/Pivot height")
+        options = (*height, "--set", "Map/Second from=0", "--set", "Map/Second to=16")
+        output, _ = self.completed("output", *SHORT, *options)
+        with h5py.File(output / "result.h5", "r") as file:
+            refused = file["map/kind_forward"][:] == 4
+            height = file["map/second"][:]
+            np.testing.assert_array_equal(refused, np.broadcast_to(height >= 56 - 45.6, refused.shape))
+            self.assertTrue(np.isnan(file["map/theta_0"][:][refused]).all())
+            along = file["table/along"][:] == 2
+            found = file["table/second"][:][along & (np.maximum(file["table/kind_low"][:], file["table/kind_high"][:]) == 4)]
+            self.assertGreater(len(found), 0)
+            self.assertLessEqual(np.abs(found - (56 - 45.6)).max(), 16 / 8 / 2 / 2)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,234 @@
+#include "verification/held_slides.h"
+
+#include <algorithm>
+#include <cmath>
+#include <gtest/gtest.h>
+
+using namespace sprag;
+
+namespace
+{
+  void ignore(const Row &)
+  {
+  }
+
+  Growth growth_of(const JudgedSlide &judged)
+  {
+    HeldRun run(judged.dynamics.model(), judged.step());
+    return measure_growth(judged.dynamics.model(), judged.stability, judged.scene.sprag_slip, run, ignore);
+  }
+
+  /// Undamped steps turn lambda into lambda + lambda^3 dt^2 / 12 + O(dt^4): 6e-4 off the growth and 2e-4 off the frequency.
+  std::complex<double> in_steps(const std::complex<double> lambda, const double dt)
+  {
+    return lambda * (1. + lambda * lambda * dt * dt / 12.);
+  }
+
+  void expect_as_predicted(const JudgedSlide &judged, const Growth &growth)
+  {
+    EXPECT_TRUE(growth.reached);
+    EXPECT_TRUE(growth.slid);
+    EXPECT_LT(std::abs(growth.growth_difference()), 0.03);
+    EXPECT_LT(std::abs(growth.frequency_difference()), 0.005);
+    // Left is what an amplitude of 1e-3 of the indentation makes of a contact that is not linear, and what the first steps excite
+    // beside the mode: 1e-4 of the growth, and of the frequency as many times less as a radian is shorter than the window.
+    const auto expected = in_steps(growth.eigenvalue, judged.step());
+    EXPECT_NEAR(growth.envelope.rate, expected.real(), 1e-4 * std::abs(expected.real()));
+    EXPECT_NEAR(growth.frequency, expected.imag() / (2. * M_PI), 1e-5 * expected.imag() / (2. * M_PI));
+    EXPECT_LT(growth.envelope.scatter, 1e-3);
+  }
+
+  /// Largest deviation of P from a slide that nothing perturbs, over P.
+  double drift(const JudgedSlide &judged, const unsigned int steps)
+  {
+    HeldRun run(judged.dynamics.model(), judged.step());
+    run.begin(judged.slide().motion);
+    const auto path = held_path(run.drive(), judged.slide());
+    double largest  = 0.;
+    for (unsigned int i = 0; i < steps; ++i)
+      largest = std::max(largest, std::abs(run.step(path)[Column::P] / judged.slide().forces.P - 1.));
+    EXPECT_TRUE(run.slides(judged.slide().speed));
+    return largest;
+  }
+
+  /// Cork on aluminium, whose mu rises with speed, changing sign over 1 mm/s.
+  Scene regularised_cork(Scene scene)
+  {
+    scene.friction                      = {};
+    scene.friction.regularisation_speed = 1.;
+    return scene;
+  }
+} // namespace
+
+// The table turned on a circle whose centre stands still is an exact equilibrium of the steps: what is left is round-off of a
+// displacement of some 30 mm, 30 * 1e-16 mm times 2000 N/mm = 1e-11 N, as often as it is taken up in 2000 steps.
+TEST(HeldSlide, StaysWhereItIs)
+{
+  for (const auto type : { ModelType::rigid, ModelType::beam })
+    for (const auto support : { SupportType::rigid, SupportType::sprung })
+      for (const bool rises : { false, true })
+      {
+        Scene scene        = backward_a(type, 20.);
+        scene.support.type = support;
+        EXPECT_LT(drift(JudgedSlide(rises ? regularised_cork(scene) : scene), 2000), 1e-9) << static_cast<int>(type) << rises;
+      }
+}
+
+TEST(HeldSlide, OfAMeshedLeverStaysWhereItIs)
+{
+  // Its static shapes carry round-off of the condensed basis, 1e-7 N.
+  EXPECT_LT(drift(JudgedSlide(backward_a(ModelType::condensed, 20.)), 2000), 1e-7);
+}
+
+TEST(Growth, OfModelAIsThatOfItsEigenvalue)
+{
+  const JudgedSlide judged(backward_a(ModelType::beam, 6.));
+  ASSERT_EQ(judged.stability.kind, SlideKind::flutter);
+  expect_as_predicted(judged, growth_of(judged));
+}
+
+TEST(Growth, OfModelBIsThatOfItsEigenvalue)
+{
+  const JudgedSlide judged(backward_b());
+  ASSERT_EQ(judged.stability.kind, SlideKind::flutter);
+  expect_as_predicted(judged, growth_of(judged));
+}
+
+TEST(Growth, OfACondensedLeverIsThatOfItsEigenvalue)
+{
+  const JudgedSlide judged(backward_a(ModelType::condensed, 6.));
+  ASSERT_EQ(judged.stability.kind, SlideKind::flutter);
+  expect_as_predicted(judged, growth_of(judged));
+}
+
+// The statics of the full mesh leave 4e-5 of P out of balance: it begins above that.
+TEST(Growth, OfAMeshedLeverIsThatOfItsEigenvalueSlow)
+{
+  Scene scene              = backward_a(ModelType::finite_element, 6.);
+  scene.stability.modes    = 4;
+  scene.sprag_slip.initial = 1e-4;
+  scene.sprag_slip.final   = 1e-2;
+  const JudgedSlide judged(scene);
+  ASSERT_EQ(judged.stability.kind, SlideKind::flutter);
+  const auto growth = growth_of(judged);
+  EXPECT_TRUE(growth.reached);
+  EXPECT_TRUE(growth.slid);
+  EXPECT_LT(std::abs(growth.growth_difference()), 0.03);
+  EXPECT_LT(std::abs(growth.frequency_difference()), 0.005);
+}
+
+TEST(Growth, OfAStableSlideIsItsDecay)
+{
+  for (const auto type : { ModelType::rigid, ModelType::beam })
+    for (const auto support : { SupportType::rigid, SupportType::sprung })
+    {
+      Scene scene        = backward_a(type, 20.);
+      scene.support.type = support;
+      const JudgedSlide judged(scene);
+      ASSERT_EQ(judged.stability.kind, SlideKind::stable);
+      const auto growth = growth_of(judged);
+      EXPECT_LT(growth.envelope.rate, 0.);
+      EXPECT_TRUE(growth.reached);
+      EXPECT_LT(std::abs(growth.growth_difference()), 0.03) << static_cast<int>(type) << static_cast<int>(support);
+      EXPECT_LT(std::abs(growth.frequency_difference()), 0.005) << static_cast<int>(type) << static_cast<int>(support);
+    }
+}
+
+// A regularised law has no spring in series: mu'(v) damps in time as it does in the eigenvalue. Its speed of slip is extrapolated
+// from step to step, second order as everything else.
+TEST(Growth, UnderARegularisedLawThatRisesWithSpeedIsThatOfItsEigenvalue)
+{
+  const JudgedSlide judged(regularised_cork(backward_a(ModelType::beam, 6.)));
+  const JudgedSlide constant(backward_a(ModelType::beam, 6.));
+  const auto growth = growth_of(judged);
+  EXPECT_TRUE(growth.reached);
+  EXPECT_LT(std::abs(growth.growth_difference()), 1e-3);
+  EXPECT_LT(std::abs(growth.frequency_difference()), 1e-3);
+  EXPECT_GT(std::abs(judged.stability.growth_rate() / constant.stability.growth_rate() - 1.), 0.1);
+}
+
+// What these comparisons would say of a linearisation without friction's part: a decay.
+TEST(Growth, IsFrictions)
+{
+  for (const auto &scene : { backward_a(ModelType::beam, 6.), backward_b() })
+  {
+    const JudgedSlide judged(scene);
+    HeldSlide without = judged.slide();
+    without.friction  = ContactFriction::none;
+    double largest    = -1e9;
+    for (const auto &mode : judged.dynamics.model().vibrations(without, true, 10))
+      largest = std::max(largest, mode.mode.eigenvalue.real());
+    EXPECT_LT(largest, 0.);
+    EXPECT_GT(growth_of(judged).envelope.rate, 50.);
+  }
+}
+
+namespace
+{
+  /// A run on the true drive, slowly backward from the held x, perturbed along a mode by an amplitude over the indentation.
+  Motion driven(const JudgedSlide &judged, const DrivePoint &start, const double amplitude)
+  {
+    auto &model      = judged.dynamics.model();
+    const auto held  = judged.slide().motion;
+    const auto mode  = model.perturbed(judged.slide(), judged.mode(), amplitude * judged.slide().indentation);
+    Motion motion    = model.initial_motion(start);
+    const auto added = [](dealii::Vector<double> &to, const dealii::Vector<double> &with, const dealii::Vector<double> &less)
+    {
+      to += with;
+      to -= less;
+    };
+    added(motion.coordinates.position, mode.coordinates.position, held.coordinates.position);
+    added(motion.coordinates.velocity, mode.coordinates.velocity, held.coordinates.velocity);
+    added(motion.coordinates.acceleration, mode.coordinates.acceleration, held.coordinates.acceleration);
+    if (motion.face_force.size() > 0)
+      added(motion.face_force, mode.face_force, held.face_force);
+    return motion;
+  }
+
+  /// P of a perturbed run less that of its twin in the same steps, from the perturbation's initial to its final amplitude.
+  std::vector<Sample> difference_of_twins(const JudgedSlide &judged, const double speed, double &travel)
+  {
+    const auto &settings = judged.scene.sprag_slip;
+    auto &model          = judged.dynamics.model();
+    const DrivePoint start{ 0., judged.slide().drive.x, -speed, 0., 0. };
+    const auto drive = [&](const double time) -> DrivePoint { return { time, start.x - speed * time, -speed, 0., 0. }; };
+    HeldRun perturbed(model, judged.step()), twin(model, judged.step());
+    perturbed.begin(driven(judged, start, settings.initial));
+    twin.begin(driven(judged, start, 0.));
+    const double rate     = judged.stability.growth_rate();
+    const double duration = std::log(settings.final / settings.initial) / rate;
+    std::vector<Sample> signal;
+    for (double time = 0.; time < duration; time += judged.step())
+    {
+      const double P = perturbed.step(drive)[Column::P];
+      signal.push_back({ time, P - twin.step(drive)[Column::P] });
+      EXPECT_TRUE(perturbed.slides(-speed));
+    }
+    travel = speed * duration;
+    signal.erase(signal.begin(), signal.begin() + 2 * settings.steps_per_period);
+    return signal;
+  }
+} // namespace
+
+// On the drive itself, so slow that x hardly moves, and fast enough that the perturbation does not stop the slip: 0.6 mm/s.
+TEST(Growth, OnACreepingDriveIsThatOfItsEigenvalue)
+{
+  constexpr double speed = 0.6;
+  for (const auto &scene : { backward_a(ModelType::beam, 6.), backward_b(), backward_a(ModelType::condensed, 6.) })
+  {
+    Scene slow = scene;
+    slow.drive = Drive(DriveProfile::triangle, 0., 65., speed, 1.);
+    const JudgedSlide judged(slow);
+    double travel      = 0.;
+    const auto signal  = difference_of_twins(judged, speed, travel);
+    const auto fit     = fit_exponential(envelope_of(signal));
+    const auto lambda  = judged.mode().mode.eigenvalue;
+    const double found = fit_frequency(crossings(signal));
+    EXPECT_LT(travel, 0.05);
+    EXPECT_NEAR(fit.rate, lambda.real(), 0.03 * lambda.real());
+    EXPECT_NEAR(found, lambda.imag() / (2. * M_PI), 0.005 * lambda.imag() / (2. * M_PI));
+    // By 1e-3 in amplitude altogether: it grows through all of the window.
+    const auto sizes = envelope_of(signal);
+    EXPECT_GT(sizes.back().value / sizes.front().value, 100.);
+  }
+}

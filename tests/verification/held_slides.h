@@ -1,0 +1,67 @@
+#pragma once
+
+#include "analysis/sprag_slip.h"
+#include "mpi_environment.h"
+#include "scene/held_slide.h"
+#include "verification/run_transient.h"
+
+namespace sprag
+{
+  /// A scene's model with its slide judged.
+  struct JudgedSlide
+  {
+    Scene scene;
+    Dynamics dynamics;
+    SlideStability stability;
+
+    explicit JudgedSlide(const Scene &of)
+        : scene(held_scene(of))
+        , dynamics(DynamicsMaker().make(scene))
+        , stability(judge(dynamics.model(), held_drive(scene), scene.stability.modes))
+    {
+    }
+
+    const HeldSlide &slide() const
+    {
+      return *stability.slide;
+    }
+
+    const Eigenmode &mode() const
+    {
+      return watched_mode(stability);
+    }
+
+    double step() const
+    {
+      return step_of(mode(), scene.sprag_slip);
+    }
+
+    /// At another x, by the same model.
+    SlideStability judged_at(const double x) const
+    {
+      DrivePoint there = held_drive(scene);
+      there.x          = x;
+      return judge(dynamics.model(), there, scene.stability.modes);
+    }
+  };
+
+  inline Scene held_at(Scene scene, const double x)
+  {
+    scene.stability.position = x;
+    return scene;
+  }
+
+  /// Model A moving back at x = 65: flutter with the lever of 6 mm, stable with that of 20 mm.
+  inline Scene backward_a(const ModelType model, const double depth)
+  {
+    Scene scene          = with_lever(with_coulomb(in_time(model_a(), model), 0.73), depth, 12133.9, 1.50555);
+    scene.mesh.face_size = 2.;
+    return held_at(scene, 65.);
+  }
+
+  /// Model B moving back at x = 44 with a lever of 12 mm on a stiff contact: flutter.
+  inline Scene backward_b()
+  {
+    return held_at(with_lever(with_coulomb(in_time(model_b(), ModelType::beam), 0.73), 12., 1e4, 1.), 44.);
+  }
+} // namespace sprag

@@ -1,0 +1,112 @@
+#include "analysis/continuation.h"
+#include "verification/held_slides.h"
+
+#include <algorithm>
+#include <cmath>
+#include <gtest/gtest.h>
+
+using namespace sprag;
+
+namespace
+{
+  void ignore(const Row &)
+  {
+  }
+
+  /// What a kick of the slide comes to.
+  Settled after_kick(const JudgedSlide &judged, const double kick, HeldRun &run)
+  {
+    run.use_spectral_radius(judged.scene.time.spectral_radius);
+    run.begin(judged.dynamics.model().perturbed(judged.slide(), judged.mode(), kick * judged.slide().indentation));
+    const double period = judged.step() * judged.scene.sprag_slip.steps_per_period;
+    return settle(run, judged.slide(), { period, judged.scene.sprag_slip.settling, 2. }, ignore);
+  }
+
+  Settled after_kick(const JudgedSlide &judged, const double kick)
+  {
+    HeldRun run(judged.dynamics.model(), judged.step());
+    return after_kick(judged, kick, run);
+  }
+
+  Scene with_steps(Scene scene, const unsigned int per_period)
+  {
+    scene.sprag_slip.steps_per_period = per_period;
+    return scene;
+  }
+} // namespace
+
+// An attractor does not depend on where it is approached from, nor on the step: 128 a period err by 2 %/100 of the frequency, and
+// by less than 1 % of impacts that last half a period.
+TEST(LimitCycle, IsTheSameFromBelowAndAboveAndInShorterSteps)
+{
+  const auto below  = after_kick(JudgedSlide(backward_b()), 1e-3);
+  const auto above  = after_kick(JudgedSlide(backward_b()), 5.);
+  const auto finely = after_kick(JudgedSlide(with_steps(backward_b(), 512)), 1e-3);
+  for (const auto *found : { &below, &above, &finely })
+  {
+    ASSERT_EQ(found->kind, Settling::cycle);
+    EXPECT_GT(found->window.open_share, 0.1);
+    EXPECT_NEAR(found->window.amplitude_P, below.window.amplitude_P, 0.01 * below.window.amplitude_P);
+    EXPECT_NEAR(found->window.amplitude_indentation, below.window.amplitude_indentation,
+                0.01 * below.window.amplitude_indentation);
+    EXPECT_NEAR(found->window.frequency, below.window.frequency, 1e-3 * below.window.frequency);
+    EXPECT_NEAR(found->window.open_share, below.window.open_share, 0.02);
+  }
+  // P swings from 0: its amplitude is half of its peak; without contact the indentation is none.
+  EXPECT_GT(below.window.amplitude_P, 14. / 2.);
+}
+
+// Friction and damping take what the turning cylinder gives, over whole cycles and with everything that opens and sticks.
+TEST(LimitCycle, ClosesTheLedger)
+{
+  for (const auto &scene : { backward_b(), backward_a(ModelType::beam, 6.) })
+  {
+    const JudgedSlide judged(scene);
+    HeldRun run(judged.dynamics.model(), judged.step());
+    EXPECT_TRUE(after_kick(judged, 1., run).vibrates());
+    EXPECT_LT(run.ledger().share(), 1e-6);
+    EXPECT_GT(run.ledger().largest_work, 100.);
+  }
+}
+
+TEST(LimitCycle, DiesWhereTheSlideIsStableAndTheKickSmall)
+{
+  const JudgedSlide judged(backward_a(ModelType::beam, 20.));
+  EXPECT_EQ(after_kick(judged, 0.5).kind, Settling::slide);
+}
+
+// Model B backward loses its stability between x = 41 and 42 and keeps the cycle that lives there down to below x = 40.
+TEST(Continuation, FindsWhereASlideAndACycleCoexist)
+{
+  Scene scene                   = backward_b();
+  scene.sprag_slip.continuation = 6;
+  const JudgedSlide judged(scene);
+  HeldRun run(judged.dynamics.model(), judged.step());
+  const auto start    = after_kick(judged, 1e-3, run);
+  const double period = judged.step() * scene.sprag_slip.steps_per_period;
+  Continuation continuation(judged.dynamics.model(), run, held_drive(scene), period, scene.stability.modes, scene.sprag_slip);
+  unsigned int calls = 0;
+  continuation.go(judged.stability, start, 38., [&] { ++calls; });
+  EXPECT_GE(calls, 13u);
+  EXPECT_LT(run.ledger().share(), 1e-6);
+
+  const auto found = continuation.coexistence();
+  ASSERT_TRUE(found);
+  EXPECT_EQ(judged.judged_at(found->to - 2e-3).kind, SlideKind::stable);
+  EXPECT_EQ(judged.judged_at(found->to + 2e-3).kind, SlideKind::flutter);
+  EXPECT_LT(found->from, 40.);
+
+  // Without continuation: at one x inside a small perturbation dies and a large one does not, and it is the same cycle.
+  const JudgedSlide inside(held_at(scene, 41.));
+  EXPECT_EQ(after_kick(inside, Continuation::small_kick).kind, Settling::slide);
+  const auto &points = continuation.points();
+  const auto at_41 = std::find_if(points.begin(), points.end(), [](const auto &point) { return std::abs(point.x - 41.) < 1e-9; });
+  ASSERT_NE(at_41, points.end());
+  EXPECT_TRUE(at_41->coexist());
+  EXPECT_EQ(at_41->back.kind, Settling::slide);
+  const auto kicked = after_kick(inside, 2.);
+  EXPECT_TRUE(kicked.vibrates());
+  EXPECT_NEAR(at_41->away.window.amplitude_P, kicked.window.amplitude_P, 0.01 * kicked.window.amplitude_P);
+  // Beyond its death only the slide is left.
+  EXPECT_EQ(points.back().away.kind, Settling::slide);
+}
