@@ -6,6 +6,7 @@
 #include "analysis/quasi_static.h"
 #include "analysis/recorder.h"
 #include "analysis/run_map.h"
+#include "analysis/run_sprag_slip.h"
 #include "analysis/run_stability.h"
 #include "analysis/run_transient.h"
 #include "analysis/slope.h"
@@ -244,7 +245,7 @@ namespace sprag
     case AnalysisType::map:
       return run_map(scene, options);
     case AnalysisType::sprag_slip:
-      break;
+      return run_sprag_slip(scene, options);
     }
   }
 } // namespace sprag
