@@ -153,7 +153,7 @@ def continuation(result):
     sizes.set_ylabel("amplitude of $P$ [N]")
     draw_rate(rate, points)
     shade_coexistence(result, (sizes, rate))
-    sizes.legend(loc="best")
+    sizes.legend(loc="upper left")
     rate.set_xlabel("$x$ [mm]")
     for axes, letter in zip((sizes, rate), "ab"):
         panel_letter(axes, letter)

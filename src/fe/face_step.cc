@@ -174,6 +174,7 @@ namespace sprag
     const auto at    = configuration(sliding.ports, sliding.drive.x);
     const auto law   = friction_of_step(properties.friction, sliding.drive.v);
     const auto range = clip(face.near(at, properties.geometry.cylinder_radius));
+    sliding_law      = law;
     theta            = at.theta;
     relative_x       = at.x;
     for (unsigned int patch = range.begin; patch < range.end; ++patch)
@@ -286,6 +287,45 @@ namespace sprag
           for (unsigned int e = 0; e < 2; ++e)
             of_patch.tangent[row][2 * b + e] += weight * point.shapes[b] * tangent[d][e];
       }
+  }
+
+  std::vector<FrictionDelay> FaceStepContact::friction_delays() const
+  {
+    std::vector<FrictionDelay> result;
+    const auto &penalty = properties.penalties;
+    for (const auto &state : states)
+    {
+      if (!state.slipping || sliding_law.regularisation_speed > 0.)
+        continue;
+      const auto share  = sliding_friction(sliding_law, state.slip_change);
+      const double time = share.derivative * state.pressure / penalty.tangential;
+      if (!(time > 0.))
+        continue;
+      const auto contact  = moving_circle_contact(properties.geometry, state.position, relative_x, theta);
+      const double weight = face.points()[state.index].weight;
+      const auto on_ports = [&](const Tensor<1, 4> &row) { return spread(row, state); };
+      result.push_back({ time, on_ports(-weight * contact.slip_row),
+                         on_ports(-share.coefficient * penalty.normal * contact.gap_row),
+                         on_ports(share.derivative * state.pressure * contact.slip_row) });
+    }
+    return result;
+  }
+
+  /// A row of a point's coordinates as one of the loaded ports.
+  Vector<double> FaceStepContact::spread(const Tensor<1, 4> &row, const PointState &state) const
+  {
+    Vector<double> result(static_cast<unsigned int>(summed.ports.size()));
+    const auto &point         = face.points()[state.index];
+    const auto &patch         = face.patches()[state.patch];
+    const bool sprung         = properties.ports.sprung;
+    const unsigned int turned = result.size() - (sprung ? 2 : 1);
+    for (unsigned int a = 0; a < patch.n_nodes; ++a)
+      for (unsigned int d = 0; d < 2; ++d)
+        result[place[patch.nodes[a]] + d] += point.shapes[a] * row[d];
+    result[turned] = row[2];
+    if (sprung)
+      result[turned + 1] = -row[3];
+    return result;
   }
 
   /// The support's coordinate moves the circle's position back.

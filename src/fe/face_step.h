@@ -36,6 +36,9 @@ namespace sprag
 
     const PortForces &forces() const;
 
+    /// Delays of friction at the points in contact, at the last evaluate_sliding(), on the ports of forces().
+    std::vector<FrictionDelay> friction_delays() const;
+
     /// Ports near the cylinder at x from the pivot frame's origin and inclination theta, far beyond the contact's width.
     const PortSelection &reachable_ports(double x, double theta);
 
@@ -108,6 +111,7 @@ namespace sprag
     void add(const FacePatches::Point &point, unsigned int n_nodes, const dealii::Tensor<1, 4> &force,
              const dealii::Tensor<2, 4> &tangent, PatchForces &of_patch) const;
     void sum_forces();
+    dealii::Vector<double> spread(const dealii::Tensor<1, 4> &row, const PointState &state) const;
     FacePatches::Range clip(const FacePatches::Range &range);
     void reach(const FacePatches::Range &range);
     unsigned int middle_of_contact() const;
@@ -131,6 +135,7 @@ namespace sprag
     StepWork work;
     std::vector<PointState> states;
     std::vector<PatchForces> loaded;
+    FrictionLaw sliding_law; ///< of evaluate_sliding(), none but then
     PortForces summed;
     std::vector<unsigned int> place; ///< of the face nodes' forces among those summed
     unsigned int remembered = 0;     ///< entry of the accepted memory at which the search for a point goes on

@@ -19,7 +19,11 @@ namespace sprag
 
     /// Change of the lowest mode by an inverse iteration. In a higher one round-off of the lowest comes back as many times as its
     /// frequency is higher.
-    constexpr double largest_residual = 1e-8;
+    constexpr double largest_residual = 1e-4;
+
+    /// Frequency that rates are divided by, over the lowest. What is stiff moves from q to q' / frequency and no further, at an
+    /// eigenvalue 1 / frequency that is none: it must be smaller than those wanted.
+    constexpr double span = 1000.;
 
     void check(const PetscErrorCode code)
     {
@@ -79,12 +83,18 @@ namespace sprag
         add_port_forces(forces.inertia, -1., rate, load);
         solve(load, result);
 
-        structure.stiffness(result, work);
-        load -= work;
-        add_port_forces(stiffness, 1., result, load);
+        constexpr unsigned int corrections = 2;
+        Vector<double> left(size());
         Vector<double> correction(size());
-        solve(load, correction);
-        result += correction;
+        for (unsigned int i = 0; i < corrections; ++i)
+        {
+          structure.stiffness(result, work);
+          left = load;
+          left -= work;
+          add_port_forces(stiffness, 1., result, left);
+          solve(left, correction);
+          result += correction;
+        }
       }
 
       /// Makes phi -K^-1 (lambda^2 M + lambda C) phi, forces included, which takes out what stiff modes it is mixed with. Returns
@@ -194,7 +204,7 @@ namespace sprag
       }
     };
 
-    /// The problem in (q, q' / frequency), whose halves are of one size.
+    /// The problem in (q, q' / frequency).
     struct ScaledProblem
     {
       InverseProblem &of;
@@ -255,7 +265,8 @@ namespace sprag
       Eigensolver(InverseProblem &inverse, const unsigned int number)
           : n(inverse.size())
           , modes{ number }
-          , problem{ inverse, inverse.low_frequency() }
+          , lowest(inverse.low_frequency())
+          , problem{ inverse, span * lowest }
       {
         const auto rows = static_cast<PetscInt>(2 * n);
         check(MatCreateShell(PETSC_COMM_SELF, rows, rows, rows, rows, &problem, &matrix));
@@ -298,10 +309,10 @@ namespace sprag
       /// Of the size of the lowest.
       double frequency() const
       {
-        return problem.frequency;
+        return lowest;
       }
 
-      /// Eigenvalue of the inverse and the second half of its vector, a multiple of the first.
+      /// Eigenvalue of the inverse and the first half of its vector.
       Complex pair(const unsigned int i, ComplexVector &vector) const
       {
         PetscScalar value_real = 0., value_imaginary = 0.;
@@ -311,7 +322,7 @@ namespace sprag
         {
           const PetscScalar *values = nullptr;
           check(VecGetArrayRead(parts[part], &values));
-          vector[part] = Vector<double>(values + n, values + 2 * n);
+          vector[part] = Vector<double>(values, values + n);
           check(VecRestoreArrayRead(parts[part], &values));
         }
         return { value_real, value_imaginary };
@@ -331,6 +342,7 @@ namespace sprag
 
       const unsigned int n;
       ModeCount modes;
+      const double lowest;
       ScaledProblem problem;
       EPS eps       = nullptr;
       Mat matrix    = nullptr;

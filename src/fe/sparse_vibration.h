@@ -24,7 +24,8 @@ namespace sprag
 
   /// At least the `number` solutions exp(lambda t) of smallest |lambda|, under linear forces on the ports, by increasing
   /// |lambda|: the Krylov-Schur method of SLEPc for the inverse of the linearised problem, (q, q') -> (-K^-1 (C q + M q'), q),
-  /// the forces included in K, C and M. Throws AnalysisError if they are not found to a backward error of 1e-8.
+  /// the forces included in K, C and M. Throws AnalysisError if they are not found, or an inverse
+  /// iteration still changes one by 1e-4 of |lambda| over the lowest.
   std::vector<StructureMode> sparse_vibrations(const SparseOperator &structure, const PortPerturbation &forces,
                                                unsigned int number);
 } // namespace sprag

@@ -307,8 +307,22 @@ namespace sprag
         spread(part(TangentPart::friction), result.ports, result.friction);
         spread(part(TangentPart::pressure_rate), result.ports, result.pressure_rate);
         spread(part(TangentPart::friction_rate), result.ports, result.friction_rate);
+        for (const auto &delay : contact->friction_delays())
+          result.delays.push_back({ delay.time, spread(delay.force, loaded, result.ports),
+                                    spread(delay.stiffness_row, loaded, result.ports),
+                                    spread(delay.rate_row, loaded, result.ports) });
       }
       coupling.add_inertia(result.ports, theta, result.inertia);
+      return result;
+    }
+
+    /// From entries of some ports to entries of more.
+    static dealii::Vector<double> spread(const dealii::Vector<double> &values, const std::vector<unsigned int> &of,
+                                         const std::vector<unsigned int> &ports)
+    {
+      dealii::Vector<double> result(static_cast<unsigned int>(ports.size()));
+      for (unsigned int a = 0; a < values.size(); ++a)
+        result[static_cast<unsigned int>(std::lower_bound(ports.begin(), ports.end(), of[a]) - ports.begin())] = values[a];
       return result;
     }
 

@@ -69,8 +69,15 @@ namespace sprag
     const double rate      = std::norm(lambda);
     const double energy    = rate * mass + potential;
 
-    auto &growth        = result.growth;
-    const auto friction = powers(perturbation.friction, z);
+    auto &growth       = result.growth;
+    const auto delayed = perturbation.by_delays(lambda, z);
+    auto friction      = powers(perturbation.friction, z);
+    double of_velocity = rate * form(perturbation.friction_rate, z);
+    for (unsigned int a = 0; a < z.size(); ++a)
+    {
+      friction[a] += std::conj(z[a]) * delayed.by_displacement[a];
+      of_velocity += (std::conj(lambda * z[a]) * delayed.by_velocity[a]).real();
+    }
     for (unsigned int a = 0; a < friction.size(); ++a)
     {
       const unsigned int port = perturbation.ports[a];
@@ -82,7 +89,7 @@ namespace sprag
       else
         growth.friction_support += share;
     }
-    growth.friction_speed    = rate * form(perturbation.friction_rate, z) / energy;
+    growth.friction_speed    = of_velocity / energy;
     growth.contact_damping   = rate * form(perturbation.pressure_rate, z) / energy;
     growth.structure_damping = -rate * forms.damping / energy;
 

@@ -2,23 +2,94 @@
 
 namespace sprag
 {
+  using dealii::FullMatrix;
+  using Complex = std::complex<double>;
+
   namespace
   {
-    dealii::FullMatrix<double> sum(const dealii::FullMatrix<double> &a, const dealii::FullMatrix<double> &b)
+    FullMatrix<double> sum(const FullMatrix<double> &a, const FullMatrix<double> &b)
     {
-      dealii::FullMatrix<double> result = a;
+      FullMatrix<double> result = a;
       result.add(1., b);
+      return result;
+    }
+
+    void subtract_product(const dealii::Vector<double> &column, const dealii::Vector<double> &row, FullMatrix<double> &matrix)
+    {
+      for (unsigned int i = 0; i < matrix.m(); ++i)
+        for (unsigned int j = 0; j < matrix.n(); ++j)
+          matrix(i, j) -= column[i] * row[j];
+    }
+
+    void add_product(const Complex factor, const FullMatrix<double> &matrix, const ComplexAmplitudes &z, ComplexAmplitudes &sum)
+    {
+      for (unsigned int i = 0; i < matrix.m(); ++i)
+        for (unsigned int j = 0; j < matrix.n(); ++j)
+          sum[i] += factor * matrix(i, j) * z[j];
+    }
+
+    Complex product(const dealii::Vector<double> &row, const ComplexAmplitudes &z)
+    {
+      Complex result;
+      for (unsigned int i = 0; i < row.size(); ++i)
+        result += row[i] * z[i];
       return result;
     }
   } // namespace
 
-  dealii::FullMatrix<double> PortPerturbation::stiffness() const
+  FullMatrix<double> PortPerturbation::stiffness() const
   {
     return sum(pressure, friction);
   }
 
-  dealii::FullMatrix<double> PortPerturbation::damping() const
+  FullMatrix<double> PortPerturbation::damping() const
   {
     return sum(pressure_rate, friction_rate);
+  }
+
+  FullMatrix<double> PortPerturbation::immediate_stiffness() const
+  {
+    auto result = stiffness();
+    for (const auto &delay : delays)
+      subtract_product(delay.force, delay.stiffness_row, result);
+    return result;
+  }
+
+  FullMatrix<double> PortPerturbation::immediate_damping() const
+  {
+    auto result = damping();
+    for (const auto &delay : delays)
+      subtract_product(delay.force, delay.rate_row, result);
+    return result;
+  }
+
+  ComplexAmplitudes PortPerturbation::forces(const Complex lambda, const ComplexAmplitudes &z) const
+  {
+    auto [result, by_velocity] = by_delays(lambda, z);
+    for (unsigned int i = 0; i < result.size(); ++i)
+      result[i] += by_velocity[i];
+    for (const auto *const matrix : { &pressure, &friction })
+      add_product(1., *matrix, z, result);
+    for (const auto *const matrix : { &pressure_rate, &friction_rate })
+      add_product(lambda, *matrix, z, result);
+    add_product(-lambda * lambda, inertia, z, result);
+    return result;
+  }
+
+  PortPerturbation::DelayedForces PortPerturbation::by_delays(const Complex lambda, const ComplexAmplitudes &z) const
+  {
+    DelayedForces result{ ComplexAmplitudes(z.size()), ComplexAmplitudes(z.size()) };
+    for (const auto &delay : delays)
+    {
+      const Complex change       = -lambda * delay.time / (1. + lambda * delay.time);
+      const Complex displacement = change * product(delay.stiffness_row, z);
+      const Complex velocity     = change * lambda * product(delay.rate_row, z);
+      for (unsigned int i = 0; i < z.size(); ++i)
+      {
+        result.by_displacement[i] += delay.force[i] * displacement;
+        result.by_velocity[i] += delay.force[i] * velocity;
+      }
+    }
+    return result;
   }
 } // namespace sprag

@@ -6,6 +6,9 @@
 
 namespace sprag
 {
+  /// Of some ports.
+  using ComplexAmplitudes = std::vector<std::complex<double>>;
+
   /// Which part of the contact's tangent is wanted. By displacements: of the pressure, with the change of its direction, and of
   /// friction; by velocities: of contact damping, and of friction, as pressure and mu follow the velocities.
   enum class TangentPart
@@ -36,7 +39,19 @@ namespace sprag
     std::vector<double> across;
   };
 
-  /// Forces f on some ports by a small perturbation z(t) of them, about a held slide:
+  /// Friction at a point as mu grows with the speed of slip: the spring of stick stands in series and delays what mu does,
+  ///   time tau' + tau = stiffness_row . z + rate_row . z',   time = mu'(v) p / (stiffness of stick),
+  /// tau the point's traction and `force` what a unit of it is on the ports. Where mu falls with speed that would be a runaway of
+  /// the massless spring, which no step in time follows: friction there is taken without delay.
+  struct FrictionDelay
+  {
+    double time; ///< [s], > 0
+    dealii::Vector<double> force;
+    dealii::Vector<double> stiffness_row;
+    dealii::Vector<double> rate_row;
+  };
+
+  /// Forces f on some ports by a small perturbation z(t) of them, about a held slide, delays of friction apart:
   ///   f = (pressure + friction) z + (pressure_rate + friction_rate) z' - inertia z''
   struct PortPerturbation
   {
@@ -46,8 +61,24 @@ namespace sprag
     dealii::FullMatrix<double> pressure_rate;
     dealii::FullMatrix<double> friction_rate;
     dealii::FullMatrix<double> inertia; ///< coupling with a sprung support, symmetric
+    std::vector<FrictionDelay> delays;  ///< of forces that are all in `friction` and `friction_rate`
 
     dealii::FullMatrix<double> stiffness() const; ///< df/dz, all of it
     dealii::FullMatrix<double> damping() const;   ///< df/dz'
+
+    // Without the forces that are delayed.
+    dealii::FullMatrix<double> immediate_stiffness() const;
+    dealii::FullMatrix<double> immediate_damping() const;
+
+    /// Complex forces by z exp(lambda t).
+    ComplexAmplitudes forces(std::complex<double> lambda, const ComplexAmplitudes &z) const;
+
+    /// What friction's delays add to those without: by the displacements, and by the velocities.
+    struct DelayedForces
+    {
+      ComplexAmplitudes by_displacement;
+      ComplexAmplitudes by_velocity;
+    };
+    DelayedForces by_delays(std::complex<double> lambda, const ComplexAmplitudes &z) const;
   };
 } // namespace sprag

@@ -16,15 +16,13 @@ namespace sprag
   {
     using Complex = std::complex<double>;
 
-    /// The problem A s = lambda E s in s = (q, q', u).
+    /// The problem A s = lambda E s in s = (q, q', u, tau).
     class StateProblem
     {
     public:
       StateProblem(const ModalData &data_, const PortPerturbation &forces_)
           : data(data_)
           , forces(forces_)
-          , stiffness(forces.stiffness())
-          , damping(forces.damping())
           , n(static_cast<unsigned int>(data.stiffness.size()))
           , n_forces(static_cast<unsigned int>(forces.ports.size()))
       {
@@ -70,7 +68,7 @@ namespace sprag
           result.face_force[part].reinit(static_cast<unsigned int>(data.face_compliance.m()));
         }
         const auto z = port_amplitudes(pair);
-        const auto f = port_forces(lambda, z);
+        const auto f = forces.forces(lambda, z);
         for (unsigned int a = 0; a < n_static; ++a)
         {
           const Complex elastic                 = f[a] / (1. + lambda * data.relaxation);
@@ -84,8 +82,6 @@ namespace sprag
     private:
       const ModalData &data;
       const PortPerturbation &forces;
-      const FullMatrix<double> stiffness;
-      const FullMatrix<double> damping;
       const unsigned int n;
       const unsigned int n_forces;
       unsigned int n_static = 0; ///< of the forces, the first ones
@@ -95,7 +91,12 @@ namespace sprag
 
       unsigned int size() const
       {
-        return 2 * n + n_static;
+        return 2 * n + n_static + n_delays();
+      }
+
+      unsigned int n_delays() const
+      {
+        return static_cast<unsigned int>(forces.delays.size());
       }
 
       /// Adds factor * left * middle * right at a block.
@@ -142,6 +143,8 @@ namespace sprag
           of_state(at_u + a, at_u + a) -= 1.;
           of_rate(at_u + a, at_u + a) += data.relaxation;
         }
+        const auto stiffness = forces.immediate_stiffness();
+        const auto damping   = forces.immediate_damping();
         add_product(transposed, stiffness, shapes, 1., n, 0, of_state);
         add_product(transposed, damping, shapes, 1., n, n, of_state);
         add_product(transposed, stiffness, into_static, 1., n, at_u, of_state);
@@ -151,6 +154,37 @@ namespace sprag
         add_product(compliance, damping, shapes, 1., at_u, n, of_state);
         add_product(compliance, stiffness, into_static, 1., at_u, at_u, of_state);
         add_product(compliance, damping, into_static, -1., at_u, at_u, of_rate);
+        if (n_delays() > 0)
+          assemble_delays(transposed, into_static, compliance);
+      }
+
+      /// time tau' + tau = stiffness_row . z + rate_row . z', and tau's forces.
+      void assemble_delays(const FullMatrix<double> &transposed, const FullMatrix<double> &into_static,
+                           const FullMatrix<double> &compliance)
+      {
+        const unsigned int at_u   = 2 * n;
+        const unsigned int at_tau = at_u + n_static;
+        FullMatrix<double> force(n_forces, n_delays()), stiffness(n_delays(), n_forces), rate(n_delays(), n_forces);
+        const FullMatrix<double> one_force = dealii::IdentityMatrix(n_forces);
+        const FullMatrix<double> one_delay = dealii::IdentityMatrix(n_delays());
+        for (unsigned int i = 0; i < n_delays(); ++i)
+        {
+          const auto &delay = forces.delays[i];
+          of_state(at_tau + i, at_tau + i) -= 1.;
+          of_rate(at_tau + i, at_tau + i) += delay.time;
+          for (unsigned int a = 0; a < n_forces; ++a)
+          {
+            force(a, i)     = delay.force[a];
+            stiffness(i, a) = delay.stiffness_row[a];
+            rate(i, a)      = delay.rate_row[a];
+          }
+        }
+        add_product(transposed, force, one_delay, 1., n, at_tau, of_state);
+        add_product(compliance, force, one_delay, 1., at_u, at_tau, of_state);
+        add_product(stiffness, one_force, shapes, 1., at_tau, 0, of_state);
+        add_product(rate, one_force, shapes, 1., at_tau, n, of_state);
+        add_product(stiffness, one_force, into_static, 1., at_tau, at_u, of_state);
+        add_product(rate, one_force, into_static, -1., at_tau, at_u, of_rate);
       }
 
       std::vector<Complex> port_amplitudes(const Eigenpair &pair) const
@@ -164,17 +198,6 @@ namespace sprag
             z[a] += Complex(pair.vector[0][2 * n + a], pair.vector[1][2 * n + a]);
         }
         return z;
-      }
-
-      std::vector<Complex> port_forces(const Complex lambda, const std::vector<Complex> &z) const
-      {
-        std::vector<Complex> f(n_forces);
-        for (unsigned int a = 0; a < n_forces; ++a)
-          for (unsigned int b = 0; b < n_forces; ++b)
-            f[a] += (stiffness(a, b) + lambda * damping(a, b) -
-                     (forces.inertia.m() > 0 ? lambda * lambda * forces.inertia(a, b) : Complex())) *
-                    z[b];
-        return f;
       }
 
       /// What is out of balance in modes and static shapes over the sum of the terms' sizes, by their parts in the displacements.

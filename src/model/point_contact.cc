@@ -255,76 +255,93 @@ namespace sprag
     const auto normal  = mean_normal_force(properties.normal, end.gap, end.gap);
     const auto dashpot = end_damping(properties.damping, normal.end, end.gap, end.gap_row * rate);
     slip_rate          = state.speed + end.slip_row * rate;
-    const auto share   = slides ? sliding_friction(law, slip_rate) : SlidingFriction{};
+    sliding            = slides ? sliding_friction(law, slip_rate) : SlidingFriction{};
+    sticks             = slides && law.regularisation_speed == 0.;
+    d_pressure         = (1. + dashpot.d_normal) * normal.d_end * end.gap_row;
+    d_pressure_rate    = dashpot.d_rate * end.gap_row;
 
     response                   = {};
-    response.mu                = std::abs(share.coefficient);
+    response.mu                = std::abs(sliding.coefficient);
     response.pressure          = normal.end + dashpot.force;
-    response.traction          = share.coefficient * response.pressure;
+    response.traction          = sliding.coefficient * response.pressure;
     response.slipping          = slides;
     response.memory.traction   = response.traction;
     response.memory.damping    = dashpot.force;
     response.memory.slip_speed = state.speed;
-    response.energy            = normal.energy + 0.5 * response.traction * response.traction / properties.tangential;
+    const double stretched     = law.regularisation_speed > 0. ? 0. : response.traction;
+    response.energy            = normal.energy + 0.5 * stretched * stretched / properties.tangential;
     response.force             = response.pressure * end.gap_row - response.traction * end.slip_row;
-    response.tangent           = sliding_tangent(state.part, state.friction, share, normal, dashpot);
+    response.tangent           = sliding_tangent(state.part, state.friction);
     work                       = {};
     sum_forces(response.force, response.tangent);
   }
 
-  PointContact::LocalMatrix PointContact::sliding_tangent(const TangentPart part, const ContactFriction friction,
-                                                          const SlidingFriction &share, const MeanNormalForce &normal,
-                                                          const EndDamping &dashpot) const
+  PointContact::LocalMatrix PointContact::sliding_tangent(const TangentPart part, const ContactFriction friction) const
   {
-    const Local d_normal = (1. + dashpot.d_normal) * normal.d_end * end.gap_row;
-    const Local d_rate   = dashpot.d_rate * end.gap_row;
     switch (part)
     {
     case TangentPart::all:
-      return sliding_tangent(TangentPart::pressure, friction, share, normal, dashpot) +
-             sliding_tangent(TangentPart::friction, friction, share, normal, dashpot);
+      return sliding_tangent(TangentPart::pressure, friction) + sliding_tangent(TangentPart::friction, friction);
     case TangentPart::pressure:
-      return outer_product(end.gap_row, d_normal) + response.pressure * end.gap_curvature;
+      return outer_product(end.gap_row, d_pressure) + response.pressure * end.gap_curvature;
     case TangentPart::friction:
       if (friction == ContactFriction::stuck)
         return -properties.tangential * outer_product(end.slip_row, end.slip_row);
-      return -share.coefficient * outer_product(end.slip_row, d_normal) - response.traction * end.slip_curvature;
+      return -sliding.coefficient * outer_product(end.slip_row, d_pressure) - response.traction * end.slip_curvature;
     case TangentPart::pressure_rate:
-      return outer_product(end.gap_row, d_rate);
+      return outer_product(end.gap_row, d_pressure_rate);
     case TangentPart::friction_rate:
-      return -share.coefficient * outer_product(end.slip_row, d_rate) -
-             share.derivative * response.pressure * outer_product(end.slip_row, end.slip_row);
+      return -sliding.coefficient * outer_product(end.slip_row, d_pressure_rate) -
+             sliding.derivative * response.pressure * outer_product(end.slip_row, end.slip_row);
     }
     return {};
   }
 
+  std::vector<FrictionDelay> PointContact::friction_delays() const
+  {
+    const double time = sliding.derivative * response.pressure / properties.tangential;
+    if (!sticks || !(time > 0.))
+      return {};
+    const auto places = local_ports();
+    const auto n_used = static_cast<unsigned int>(places.size());
+    FrictionDelay delay{ time, Vector<double>(n_used), Vector<double>(n_used), Vector<double>(n_used) };
+    const Local by_rate = sliding.coefficient * d_pressure_rate + sliding.derivative * response.pressure * end.slip_row;
+    for (unsigned int i = 0; i < n_used; ++i)
+    {
+      const auto &[local, port, sign] = places[i];
+      delay.force[i]                  = -sign * end.slip_row[local];
+      delay.stiffness_row[i]          = sign * sliding.coefficient * d_pressure[local];
+      delay.rate_row[i]               = sign * by_rate[local];
+    }
+    return { delay };
+  }
+
+  std::vector<PointContact::LocalPort> PointContact::local_ports() const
+  {
+    std::vector<LocalPort> result;
+    for (unsigned int i = 0; i < n_nodal && properties.mesh.elements > 0; ++i)
+      if (window + i / 2 > 0)
+        result.push_back({ i, 2 * window + i - 2, 1. });
+    result.push_back({ theta_index, properties.ports.rotation(), 1. });
+    if (properties.ports.sprung)
+      result.push_back({ x_index, properties.ports.support(), -1. });
+    return result;
+  }
+
   void PointContact::sum_forces(const Local &force, const LocalMatrix &tangent)
   {
-    unsigned int index[n];
-    double sign[n];
+    const auto places = local_ports();
+    const auto used   = static_cast<unsigned int>(places.size());
     summed.ports.clear();
-    for (unsigned int i = 0; i < n; ++i)
-    {
-      const bool nodal = i < n_nodal && properties.mesh.elements > 0 && window + i / 2 > 0;
-      if (!nodal && i < n_nodal)
-        continue;
-      if (i == x_index && !properties.ports.sprung)
-        continue;
-      const auto place = static_cast<unsigned int>(summed.ports.size());
-      index[place]     = i;
-      sign[place]      = i == x_index ? -1. : 1.;
-      summed.ports.push_back(nodal              ? 2 * window + i - 2
-                             : i == theta_index ? properties.ports.rotation()
-                                                : properties.ports.support());
-    }
-    const auto used = static_cast<unsigned int>(summed.ports.size());
     summed.values.reinit(used);
     summed.tangent.reinit(used, used);
     for (unsigned int i = 0; i < used; ++i)
     {
-      summed.values[i] = sign[i] * force[index[i]];
+      const auto &row = places[i];
+      summed.ports.push_back(row.port);
+      summed.values[i] = row.sign * force[row.local];
       for (unsigned int j = 0; j < used; ++j)
-        summed.tangent(i, j) = sign[i] * sign[j] * tangent[index[i]][index[j]];
+        summed.tangent(i, j) = row.sign * places[j].sign * tangent[row.local][places[j].local];
     }
   }
 

@@ -36,6 +36,9 @@ namespace sprag
     void evaluate_sliding(const SlidingState &state);
     const PortForces &forces() const;
 
+    /// Delays of friction at the last evaluate_sliding(), on the ports of forces().
+    std::vector<FrictionDelay> friction_delays() const;
+
     /// Ports that a contact at that drive position may reach: all.
     const PortSelection &reachable_ports(double x, double theta);
     bool within_reach() const;
@@ -85,8 +88,16 @@ namespace sprag
     Configuration configure(const Local &q) const;
     StepKinematics<n> step_kinematics(const PortStep &step, const Local &end_rates);
     void sum_forces(const Local &force, const LocalMatrix &tangent);
-    LocalMatrix sliding_tangent(TangentPart part, ContactFriction friction, const SlidingFriction &share,
-                                const MeanNormalForce &normal, const EndDamping &dashpot) const;
+    LocalMatrix sliding_tangent(TangentPart part, ContactFriction friction) const;
+
+    /// A local coordinate that is a port, and the sign between them.
+    struct LocalPort
+    {
+      unsigned int local;
+      unsigned int port;
+      double sign;
+    };
+    std::vector<LocalPort> local_ports() const;
 
     const PointContactProperties properties;
     unsigned int window = 0; ///< node before the first local one
@@ -95,7 +106,11 @@ namespace sprag
     Configuration end;
     StepResponse<n> response;
     StepWork work;
-    double slip_rate = 0.; ///< at the end of the step [mm/s]
+    double slip_rate = 0.;   ///< at the end of the step [mm/s]
+    SlidingFriction sliding; ///< of evaluate_sliding()
+    Local d_pressure;        ///< dP/dq there
+    Local d_pressure_rate;   ///< dP/dq'
+    bool sticks = false;     ///< whether stick is resolved there, by a spring
     PortForces summed;
     const PortSelection all;
   };

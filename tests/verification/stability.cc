@@ -163,7 +163,8 @@ TEST(MeshedLever, MassDampingTakesHalfOfItsFactorOffEveryVibration)
   }
 }
 
-// Everything on: friction with mu(v), damping of lever, layer and support. The solver leaves 1e-8 of the lowest eigenvalue.
+// Everything on: friction with mu(v), damping of lever, layer and support. The solver's vectors are good to 1e-6 or less
+// and the forms to its square but for friction.
 TEST(MeshedLever, SharesOfGrowthAddUp)
 {
   DynamicsMaker maker(false);
@@ -178,7 +179,7 @@ TEST(MeshedLever, SharesOfGrowthAddUp)
       for (const auto &mode : judge(scene, maker).modes)
       {
         const Complex lambda = mode.mode.eigenvalue;
-        EXPECT_NEAR(sum(mode.growth), lambda.real(), 1e-8 * std::abs(lambda)) << lambda;
+        EXPECT_NEAR(sum(mode.growth), lambda.real(), 1e-7 * std::abs(lambda)) << lambda;
         EXPECT_NEAR(mode.energy.rotation + mode.energy.bending + mode.energy.support + mode.energy.contact, 1., 1e-10);
       }
     }
