@@ -81,10 +81,10 @@ namespace sprag
                             " mm. Try another Stability/Position or a smaller friction coefficient.");
     }
 
-    /// Whether friction at this speed is the same in the eigenvalue and in time.
+    /// Whether friction at this speed is the same in the eigenvalue and in time, see FrictionDelay.
     bool linearised_exactly(const FrictionLaw &law, const double speed)
     {
-      return law.regularisation_speed > 0. || friction_coefficient(law, std::abs(speed)).derivative == 0.;
+      return law.regularisation_speed > 0. || friction_coefficient(law, std::abs(speed)).derivative >= 0.;
     }
 
     /// Growth, vibration and continuation, one after the other; what is finished stands in `found` whatever happens.

@@ -12,9 +12,8 @@ namespace sprag
 
   /// How a small perturbation of a held slide grows or decays in time, beside its eigenvalue.
   ///
-  /// The eigenvalue is that of the contact that slides on without stick. With a constant mu the contact in time is the same as
-  /// long as it slides; with mu(v) its tangential spring stands in series with friction's damping, which the eigenvalue leaves
-  /// out.
+  /// The eigenvalue is that of the contact that slides on without stick, which is the contact in time as long as it slides; only
+  /// where mu falls with speed the spring of stick, in series with friction then, is left out of the eigenvalue.
   struct Growth
   {
     std::complex<double> eigenvalue;    ///< predicted [1/s]

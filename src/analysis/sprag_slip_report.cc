@@ -126,7 +126,7 @@ namespace sprag
       add_growth(*found.growth, entries);
       entries.push_back(
           { "linearisation", found.exact ? "exact" : "without the tangential spring of stick", "",
-            "of friction in the eigenvalue; the spring counts where mu depends on speed, Regularisation speed = 0" });
+            "of friction in the eigenvalue; the spring is left out where mu falls with speed, Regularisation speed = 0" });
     }
     if (found.settled)
       add_vibration(*found.settled, *found.slide.slide, found.settled_begin, entries);

@@ -230,7 +230,7 @@ namespace sprag
   {
     ParameterRange first{ "Friction/Factor", 0.5, 2., 33 };
     ParameterRange second{ "Lever/Depth", 3., 25., 33 };
-    unsigned int coarsest   = 8; ///< intervals of the grid between points of the first level, a power of 2
+    unsigned int coarsest   = 4; ///< intervals of the grid between points of the first level, a power of 2
     unsigned int bisections = 3; ///< of each edge that a boundary crosses
   };
 

@@ -114,6 +114,11 @@ namespace
     void observe(Row &) const
     {
     }
+    std::vector<FrictionDelay> friction_delays() const
+    {
+      return {};
+    }
+
     SurfaceShape surface_shape(const dealii::Vector<double> &) const
     {
       return {};

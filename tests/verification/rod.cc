@@ -152,6 +152,11 @@ namespace
     {
       return 0.;
     }
+    std::vector<FrictionDelay> friction_delays() const
+    {
+      return {};
+    }
+
     SurfaceShape surface_shape(const dealii::Vector<double> &) const
     {
       return {};
