@@ -5,6 +5,8 @@
 
 #include <deal.II/lac/vector.h>
 
+#include <cmath>
+
 namespace sprag
 {
   /// Where the lever and the cylinder are: displacements of the face nodes (two entries a node, others may follow), rotation of
@@ -16,6 +18,14 @@ namespace sprag
     double x;
     LeverPoint centre; ///< of the cylinder
   };
+
+  /// Of a point of the deformed face to the cylinder [mm].
+  inline double gap(const LeverPoint &point, const FaceConfiguration &at, const double radius)
+  {
+    const double along  = point.xi - at.centre.xi;
+    const double across = point.eta - at.centre.eta;
+    return std::sqrt(along * along + across * across) - radius;
+  }
 
   /// A friction face laid out for the search and summation of every iteration of every step in time: patch by patch, without
   /// indirection within a patch.
