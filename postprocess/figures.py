@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Makes Figs. 6 to 11 of the paper by running the scenes of params/ through sprag."""
+"""Makes the pictures of postprocess/pictures, Figs. 6 to 11 of the paper among them, by running the scenes of params/."""
 
 import argparse
 import subprocess
@@ -22,17 +22,23 @@ class RunFailed(Exception):
 
 
 class Runner:
-    """Runs scenes into folders of their own below a given one."""
+    """Runs scenes into folders of their own below a given one, each once."""
 
     def __init__(self, sprag, folder):
         self.sprag = sprag
         self.folder = folder
 
     def __call__(self, scene, name=None, changes=None):
-        """The result of params/<scene>.prm; changes as {"Section/Name": value}."""
+        """The result of params/<scene>.prm; changes as {"Section/Name": value}, under another name then."""
         output = self.folder / (name or scene)
+        if not output.exists():
+            self.carry_out(scene, output, changes or {})
+        return read_result(output)
+
+    def carry_out(self, scene, output, changes):
+        print(f"{output.name} ...", file=sys.stderr)
         command = [self.sprag, ROOT / "params" / f"{scene}.prm", "--output", output, "--quiet"]
-        for parameter, value in (changes or {}).items():
+        for parameter, value in changes.items():
             command += ["--set", f"{parameter}={value}"]
         try:
             done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
@@ -40,7 +46,6 @@ class Runner:
             raise RunFailed(f"{self.sprag}: {error.strerror}") from error
         if done.returncode != 0:
             raise RunFailed(f"{scene}.prm: sprag ended with {done.returncode}\n{done.stdout.strip()}")
-        return read_result(output)
 
 
 def friction_over_speed(run):
@@ -57,8 +62,14 @@ def friction_over_speed(run):
     return figure
 
 
-def slopes_of_models(sweeps, coefficient):
+def sweeps_of_models(run):
+    return [run("fig10"), run("closed-form-b", "fig10-b", changes={"Analysis/Type": "slope"})]
+
+
+def slopes_of_models(run):
     """Fig. 10: both models, marked where the experiment stands."""
+    sweeps = sweeps_of_models(run)
+    coefficient = experiment_coefficient(run)
     names = ("model A", "model B")
     figure = plot.slopes_over_coefficient(sweeps, names)
     for axes, direction in zip(figure.axes, ("forward", "backward")):
@@ -68,9 +79,12 @@ def slopes_of_models(sweeps, coefficient):
     return figure
 
 
-def slopes_of_geometries(geometries, sweeps, inclinations, coefficient):
+def slopes_of_geometries(run):
     """Fig. 11: a curve for every e/R, models A and B marked."""
-    figure = plot.slopes_over_inclination(geometries)
+    sweeps = sweeps_of_models(run)
+    coefficient = experiment_coefficient(run)
+    inclinations = [run(scene).table["theta"][0] for scene in ("closed-form-a", "closed-form-b")]
+    figure = plot.slopes_over_inclination(run("fig11"))
     for axes, direction in zip(figure.axes, ("forward", "backward")):
         for index, name in enumerate("AB"):
             slope = slope_at(sweeps[index], coefficient, direction)
@@ -80,55 +94,82 @@ def slopes_of_geometries(geometries, sweeps, inclinations, coefficient):
     return figure
 
 
+def experiment_coefficient(run):
+    return float(run("fig11").parameter("Friction", "Coefficient"))
+
+
 def slope_at(sweep, coefficient, direction):
     return np.interp(coefficient, sweep.table["mu"], sweep.table[f"dimensionless_{direction}"])
 
 
-def in_time(run):
-    """Reversals of models A and B, sprag-slip, a harmonic drive, the contact law, and one scene at every fidelity."""
-    thick = run("reversal-a")
-    models = ("closed form", "rigid", "condensed", "finite element")
-    ladder = [run("reversal-a", model, changes={"Analysis/Model": model, "Drive/Start": 55}) for model in models]
-    ladder.insert(2, run("reversal-a", "beam", changes={"Drive/Start": 55}))
-    return {
-        "reversal-a": plot.reversal(thick),
-        "energy-a": plot.energy(thick),
-        "sprag-slip-a": plot.reversal(run("sprag-slip-a")),
-        "reversal-b": plot.reversal(run("reversal-b")),
-        "harmonic-a": plot.forces_over_x([run("harmonic-a")]),
-        "contact-law-a": plot.contact_law(run("contact-law-a")),
-        "ladder-a": plot.comparison(ladder),
-    }
+def ladder(run):
+    """One scene at every fidelity."""
+    models = ("closed form", "rigid", "beam", "condensed", "finite element")
+    start = {"Drive/Start": 55}
+    return plot.comparison([run("reversal-a", model, changes={"Analysis/Model": model, **start}) for model in models])
 
 
-def figures(run):
-    """{picture name: figure}, all of them."""
-    model_a, model_b = run("model-a"), run("model-b")
-    geometries = run("fig11")
-    coefficient = float(geometries.parameter("Friction", "Coefficient"))
-    sweeps = [run("fig10"), run("closed-form-b", "fig10-b", changes={"Analysis/Type": "slope"})]
-    inclinations = [run(scene).table["theta"][0] for scene in ("closed-form-a", "closed-form-b")]
-    return {
-        "fig-06": friction_over_speed(run),
-        "fig-07": plot.forces_over_time([model_a]),
-        "fig-08": plot.forces_over_x([model_a]),
-        "fig-09": plot.forces_over_x([model_b]),
-        "fig-10": slopes_of_models(sweeps, coefficient),
-        "fig-11": slopes_of_geometries(geometries, sweeps, inclinations, coefficient),
-        "contact": plot.contact(model_a),
-        **in_time(run),
-    }
+def drawn(scene, picture):
+    """One of the pictures that plot.py draws of a scene."""
+    return lambda run: plot.draw([run(scene)])[picture]
 
 
-def main(arguments=None):
+MAPS = (
+    "map-position-depth-a",
+    "map-position-depth-b",
+    "map-friction-depth-a",
+    "map-friction-position-a",
+    "map-stiffness-depth-a",
+    "map-offset-inclination",
+)
+
+# Name -> what draws the picture once it is given a Runner.
+FIGURES = {
+    "fig-06": friction_over_speed,
+    "fig-07": lambda run: plot.forces_over_time([run("model-a")]),
+    "fig-08": lambda run: plot.forces_over_x([run("model-a")]),
+    "fig-09": lambda run: plot.forces_over_x([run("model-b")]),
+    "fig-10": slopes_of_models,
+    "fig-11": slopes_of_geometries,
+    "contact": lambda run: plot.contact(run("model-a")),
+    # In time.
+    "reversal-a": lambda run: plot.reversal(run("reversal-a")),
+    "energy-a": lambda run: plot.energy(run("reversal-a")),
+    "sprag-slip-a": lambda run: plot.reversal(run("sprag-slip-a")),
+    "reversal-b": lambda run: plot.reversal(run("reversal-b")),
+    "harmonic-a": lambda run: plot.forces_over_x([run("harmonic-a")]),
+    "contact-law-a": lambda run: plot.contact_law(run("contact-law-a")),
+    "ladder-a": ladder,
+    # Slides held at one x.
+    "modes-a": drawn("modal-a", "modes"),
+    "stability-a": drawn("stability-a", "stability"),
+    "stability-b": drawn("stability-b", "stability"),
+    **{f"onset-a-{picture}": drawn("onset-a", picture) for picture in ("growth", "cycle", "continuation")},
+    **{f"onset-b-{picture}": drawn("onset-b", picture) for picture in ("cycle", "continuation")},
+    **{name: drawn(name, "map") for name in MAPS},
+}
+
+
+def read_arguments(arguments):
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--sprag", type=Path, default=ROOT / "build" / "sprag", help="the program (build/sprag)")
     parser.add_argument("--output", type=Path, default=ROOT / "postprocess" / "pictures", help="postprocess/pictures")
+    parser.add_argument("--only", nargs="+", metavar="NAME", default=list(FIGURES), help="these pictures and the runs they need")
     options = parser.parse_args(arguments)
+    unknown = [name for name in options.only if name not in FIGURES]
+    if unknown:
+        parser.error(f"no picture {', '.join(unknown)}; there are {', '.join(FIGURES)}")
+    return options
+
+
+def main(arguments=None):
+    options = read_arguments(arguments)
     plot.use_print_style()
     try:
         with tempfile.TemporaryDirectory(prefix="sprag-figures-") as folder:
-            plot.save(figures(Runner(options.sprag.resolve(), Path(folder))), options.output, dpi=DPI)
+            run = Runner(options.sprag.resolve(), Path(folder))
+            for name in options.only:
+                plot.save({name: FIGURES[name](run)}, options.output, dpi=DPI)
     except (RunFailed, NotAResult, OSError) as error:
         print(f"figures.py: {error}", file=sys.stderr)
         return 1

@@ -16,6 +16,9 @@ AREAS = {JAMMED: ("0.75", "////"), INADMISSIBLE: ("1", "...."), FAILED: ("0.9", 
 # Of the line between two kinds, by the one farther from stability.
 LINES = {"flutter": "-", "divergence": (0, (5, 1.5)), "jammed": (0, (1.2, 1.2)), "inadmissible": ":", "failed": ":"}
 
+# The cells that were judged; between them the map is interpolated.
+JUDGED = {"color": "black", "markersize": 1.2, "alpha": 0.5, "markeredgewidth": 0}
+
 AXES = {
     "Friction/Factor": r"friction factor",
     "Friction/Coefficient": r"friction coefficient $\mu$",
@@ -139,7 +142,7 @@ def stability_map(result):
         present |= draw_areas(axes, chart, way)
         judged = chart.values["evaluated"] == 1
         places = [place[judged] for place in positions(chart)]
-        axes.plot(*places, ".", color="black", markersize=0.7, alpha=0.5, markeredgewidth=0)
+        axes.plot(*places, ".", **JUDGED)
         for kind, lines in boundary_lines(result, chart, direction).items():
             for line in lines:
                 axes.plot(*line, color="black", linestyle=LINES[KINDS[kind]], linewidth=1.1, solid_capstyle="round")
@@ -212,6 +215,6 @@ def draw_legend(figure, present):
         else:
             line = {"color": "black", "linestyle": LINES[KINDS[kind]], "linewidth": 1.1}
             handles.append(plt.Line2D([], [], label=f"onset of {KINDS[kind]}", **line))
-    if handles:
-        figure.suptitle(" ", fontsize=7)  # keeps room
-        figure.legend(handles=handles, loc="upper center", ncol=len(handles))
+    handles.append(plt.Line2D([], [], linestyle="", marker=".", label="judged", **{**JUDGED, "markersize": 3}))
+    figure.suptitle(" ", fontsize=7)  # keeps room
+    figure.legend(handles=handles, loc="upper center", ncol=len(handles))

@@ -10,7 +10,7 @@ import numpy as np
 from comparison import comparison
 from map import is_map, stability_map
 from results import NotAResult, read_result
-from sprag_slip import sprag_slip_pictures
+from sprag_slip import is_sprag_slip, sprag_slip_pictures
 from style import COLOURS, MARKERS, MILLIMETRE, ONE_COLUMN, TWO_COLUMNS  # noqa: F401  (for figures.py and mesh.py)
 from style import label, look, panel_letter, plt, set_labels, show_legend, use_print_style
 from transient import energy, has_reversal, is_transient, reversal
@@ -248,7 +248,8 @@ def draw(results):
         return {"map": stability_map(results[0])}
     if len(results) == 1 and "P_fitted" in results[0].table:
         return {"contact-law": contact_law(results[0])}
-    if len(results) == 1 and "linear_growth_rate" in results[0].summary:
+    if len(results) == 1 and is_sprag_slip(results[0]):
+        check_steps(results)
         return sprag_slip_pictures(results[0])
     if len(results) == 1 and "modes" in results[0].groups:
         return vibration_pictures(results[0])
@@ -265,7 +266,8 @@ def check_steps(results):
         if result.is_sweep:
             raise NotAResult(f"{result.folder}: a sweep of the slope is drawn by itself")
         if len(result.table["time"]) == 0:
-            raise NotAResult(f"{result.folder}: no step is finished yet")
+            reason = result.summary.get("status")
+            raise NotAResult(f"{result.folder}: " + (f"no step was made: {reason}" if reason else "no step is finished yet"))
 
 
 def pictures_of_one(result):

@@ -89,6 +89,8 @@ def read_result(folder):
     """The Result in a folder. Throws NotAResult."""
     folder = Path(folder)
     path = folder / "result.h5"
+    if not path.is_file() and (folder / "map.journal").is_file():
+        raise NotAResult(f"{folder}: a map that was cut short or goes on; where it was cut short, the same command takes it up")
     if not path.is_file():
         raise NotAResult(f"{folder}: no result.h5 there")
     with open_result(path) as file:

@@ -2,18 +2,27 @@
 
 import numpy as np
 
-from style import COLOURS, LINES, MILLIMETRE, TWO_COLUMNS, panel_letter, plt
+from style import COLOURS, LINES, MILLIMETRE, TWO_COLUMNS, legend_on_top, panel_letter, plt
 
 AWAY, BACK = 0, 1
-KINDS = {"away": (AWAY, "o", "going away"), "back": (BACK, "s", "coming back")}
+WAYS = {"away": (AWAY, "o", "away from"), "back": (BACK, "s", "back to")}
 PREDICTED = {"color": "black", "linestyle": (0, (4, 3)), "linewidth": 0.9}
-VIBRATES = (1, 2)  # of the kinds: a cycle, an irregular vibration
+SLIDE, CYCLE, IRREGULAR, UNDECIDED = range(4)
+MINUS = "\N{MINUS SIGN}"
 SHADE = {"color": "0.88", "linewidth": 0, "zorder": 0}
+
+
+def is_sprag_slip(result):
+    """By its parameters: a run that goes on or was killed has no summary."""
+    try:
+        return result.parameter("Analysis", "Type") == "sprag slip"
+    except KeyError:
+        return False
 
 
 def sprag_slip_pictures(result):
     pictures = {"growth": growth(result)}
-    if "cycle_begin" in result.summary:
+    if np.isfinite(number(result, "cycle_begin")):
         pictures["cycle"] = cycle(result)
     if "continuation" in result.groups:
         pictures["continuation"] = continuation(result)
@@ -28,14 +37,16 @@ def number(result, name):
 
 
 def growth(result):
-    """The envelope beside what the eigenvalue says, and P from the perturbation on."""
-    figure, (sizes, force) = plt.subplots(1, 2, figsize=(TWO_COLUMNS, 66 * MILLIMETRE))
+    """The envelope beside what the eigenvalue says, once it is measured, and P from the perturbation on."""
     measured = result.groups.get("growth")
-    if measured is not None:
-        draw_envelope(sizes, result, measured)
-    draw_force(force, result, measured)
+    if measured is None or len(measured["time"]) == 0:
+        figure, force = plt.subplots(figsize=(TWO_COLUMNS / 2, 66 * MILLIMETRE))
+        draw_force(force, result, 0.0)
+        return figure
+    figure, (sizes, force) = plt.subplots(1, 2, figsize=(TWO_COLUMNS, 66 * MILLIMETRE))
+    draw_envelope(sizes, result, measured)
+    draw_force(force, result, measured["time"][-1])
     for axes, letter in zip((sizes, force), "ab"):
-        axes.set_xlabel("$t$ [ms]")
         panel_letter(axes, letter)
     return figure
 
@@ -45,7 +56,8 @@ def draw_envelope(axes, result, measured):
     step = max(1, len(time) // 40)
     axes.semilogy(time[::step], measured["amplitude"][::step], "o", color=COLOURS[0], markersize=3.5, label=in_time(result))
     axes.semilogy(time, measured["predicted"], label=by_eigenvalue(result), **PREDICTED)
-    axes.set_ylabel("amplitude of indentation / its mean")
+    axes.set_xlabel("$t$ [ms]")
+    axes.set_ylabel("amplitude of indentation over its mean")
     axes.legend(loc="upper left" if number(result, "linear_growth_rate") > 0 else "upper right")
     low, high = axes.get_ylim()
     axes.set_ylim(low, high * (high / low) ** 0.25)  # room for the legend
@@ -60,22 +72,23 @@ def by_eigenvalue(result):
 
 
 def rates(name, result, kind):
-    return f"{name}: {number(result, f'{kind}_growth_rate'):.5g}/s, {number(result, f'{kind}_frequency'):.5g} Hz"
+    growth, frequency = (number(result, f"{kind}_{what}") for what in ("growth_rate", "frequency"))
+    return f"{name}: {growth:#.5g} 1/s, {frequency:#.5g} Hz".replace("-", MINUS)
 
 
-def draw_force(axes, result, measured):
-    """P while it grows, and on to where it has grown."""
+def draw_force(axes, result, grown):
+    """P while it grows until the time `grown`, and on to where it has grown; all of it while the run goes on."""
     time, P = (result.table[name] for name in ("time", "P"))
-    begin = number(result, "cycle_begin")
-    grown = measured["time"][-1] if measured is not None and len(measured["time"]) else 0
     lost = time[P == 0]
     end = max(grown, lost[0] if len(lost) else 0) + 20 / frequency(result)
-    shown = time <= (min(end, begin) if np.isfinite(begin) else end)
+    shown = time <= np.nanmin((end, number(result, "cycle_begin"), time[-1]))
     axes.plot(1e3 * time[shown], P[shown], color=COLOURS[0], linewidth=0.5)
-    axes.axhline(number(result, "P"), **PREDICTED)
+    axes.axhline(result.table["P_quasi_static"][0], label="the slide", **PREDICTED)
+    axes.set_xlabel("$t$ [ms]")
     axes.set_ylabel("$P$ [N]")
-    axes.annotate("slide", (1, number(result, "P")), xycoords=axes.get_yaxis_transform(), xytext=(-2, 3), ha="right",
-                  textcoords="offset points", fontsize=7)  # fmt: skip
+    axes.legend(loc="upper left" if number(result, "linear_growth_rate") > 0 else "upper right")
+    low, high = axes.get_ylim()
+    axes.set_ylim(low, high + 0.12 * (high - low))  # room for the legend
 
 
 def frequency(result):
@@ -129,6 +142,8 @@ def draw_portrait(axes, table, rows):
     axes.set_ylabel(r"$\dot\theta$ [rad/s]")
     if is_open.any():
         axes.legend(loc="upper right", markerscale=5, handlelength=1)
+        low, high = axes.get_ylim()
+        axes.set_ylim(low, high + 0.1 * (high - low))  # room for the legend
 
 
 def cycle_text(result):
@@ -148,12 +163,16 @@ def continuation(result):
         2, 1, sharex=True, figsize=(TWO_COLUMNS, 100 * MILLIMETRE), gridspec_kw={"height_ratios": (3, 2)}
     )
     points = result.groups["continuation"]
-    for way, (index, marker, name) in KINDS.items():
-        draw_branch(sizes, points, way, name, marker, index)
-    sizes.set_ylabel("amplitude of $P$ [N]")
+    for way, (index, marker, name) in WAYS.items():
+        draw_branch(sizes, points, way, f"{name} $x$ = {number(result, 'x'):.4g} mm", marker, index)
+    sizes.set_ylabel("amplitude\nof $P$ [N]")
     draw_rate(rate, points)
     shade_coexistence(result, (sizes, rate))
-    sizes.legend(loc="upper left")
+    if any((points[f"kind_{way}"] == IRREGULAR).any() for way in WAYS):
+        sizes.plot([], [], "o", color="black", markerfacecolor="white", markersize=4, label="hollow: irregular")
+    if any((points[f"kind_{way}"] == UNDECIDED).any() for way in WAYS):
+        sizes.plot([], [], "x", color="black", markersize=6, label="undecided")
+    legend_on_top(figure, *sizes.get_legend_handles_labels())
     rate.set_xlabel("$x$ [mm]")
     for axes, letter in zip((sizes, rate), "ab"):
         panel_letter(axes, letter)
@@ -162,16 +181,23 @@ def continuation(result):
 
 
 def draw_branch(axes, points, way, name, marker, index):
-    """Where it vibrates and where it slides, each joined along the way; irregular vibrations hollow."""
+    """Where it vibrates and where it slides, each joined along the way, with dots from one to the other; irregular vibrations
+    hollow, undecided ones crossed out."""
     order = np.argsort(points["x"])
     x, kind = points["x"][order], points[f"kind_{way}"][order]
-    size = np.where(np.isin(kind, VIBRATES), points[f"amplitude_P_{way}"][order], 0.0)
+    vibrates = np.isin(kind, (CYCLE, IRREGULAR))
+    size = np.where(kind == SLIDE, 0.0, points[f"amplitude_P_{way}"][order])
     size[~np.isfinite(kind)] = np.nan
-    look = {"color": COLOURS[index], "linewidth": 0.9, "linestyle": LINES[index]}
-    axes.plot(x, size, marker=marker, markersize=5 - 2 * index, label=f"{name}", **look)
-    irregular = kind == 2
-    axes.plot(x[irregular], size[irregular], marker, markersize=5 - 2 * index, color=COLOURS[index], markerfacecolor="white",
-              label=f"{name}, irregular" if irregular.any() else None)  # fmt: skip
+    look = {"color": COLOURS[index], "markersize": 5 - 2 * index}
+    for begin in np.flatnonzero(np.isfinite(size[:-1]) & np.isfinite(size[1:])):
+        joined = vibrates[begin] == vibrates[begin + 1]
+        line = {"linestyle": LINES[index], "linewidth": 0.9} if joined else {"linestyle": ":", "linewidth": 0.7}
+        axes.plot(x[begin : begin + 2], size[begin : begin + 2], color=COLOURS[index], **line)
+    axes.plot(x, size, linestyle="", marker=marker, **look)
+    axes.plot([], [], marker=marker, linestyle=LINES[index], linewidth=0.9, label=name, **look)
+    irregular, undecided = kind == IRREGULAR, kind == UNDECIDED
+    axes.plot(x[irregular], size[irregular], marker, markerfacecolor="white", **look)
+    axes.plot(x[undecided], size[undecided], "x", color="black", markersize=6)
 
 
 def draw_rate(axes, points):
@@ -189,4 +215,4 @@ def shade_coexistence(result, panels):
         return
     for axes in panels:
         axes.axvspan(begin, end, **SHADE)
-    panels[0].axvspan(begin, begin, label=f"slide and vibration coexist, {begin:.4g} to {end:.4g} mm", **SHADE)
+    panels[0].axvspan(begin, begin, label=f"coexistence, {begin:.4g} to {end:.4g} mm", **SHADE)

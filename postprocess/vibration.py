@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from style import COLOURS, MILLIMETRE, TWO_COLUMNS, panel_letter, plt
+from results import NotAResult
+from style import COLOURS, MILLIMETRE, ONE_COLUMN, TWO_COLUMNS, panel_letter, plt
 
 KINDS = ("stable", "flutter", "divergence")
 FEEDS = (
@@ -16,27 +17,34 @@ FEEDS = (
 
 
 def vibration_pictures(result):
+    """{picture name: figure}. Throws NotAResult."""
     modes = result.groups["modes"]
     pictures = {}
     if len(modes["frequency"]) > 0:
         pictures["modes"] = mode_shapes(modes)
-    if "growth_rate" in result.summary:
+    if "verdict" in result.summary:
         pictures["stability"] = stability(result)
+    if not pictures:
+        raise NotAResult(f"{result.folder}: no mode was found")
     return pictures
 
 
 def mode_shapes(modes, most=6):
     """Deflection of the lever's face over a cycle: eight phases, the first one drawn strongly."""
     chosen = shown_modes(modes, most)
+    columns = min(len(chosen), 2)
     rows = (len(chosen) + 1) // 2
-    figure, panels = plt.subplots(rows, 2, sharex=True, figsize=(TWO_COLUMNS, (12 + 28 * rows) * MILLIMETRE), squeeze=False)
+    size = (TWO_COLUMNS if columns == 2 else ONE_COLUMN, (16 + 28 * rows) * MILLIMETRE)
+    figure, panels = plt.subplots(rows, columns, sharex=True, sharey=True, figsize=size, squeeze=False)
     for axes, mode in zip(panels.flat, chosen):
         draw_shape(axes, modes, mode)
     for axes in panels.flat[len(chosen) :]:
         axes.set_axis_off()
-    for axes in panels[-1]:
-        axes.set_xlabel(r"lever coordinate $\xi$ [mm]")
-    figure.supylabel("deflection / largest, rotation included", fontsize=8)
+    for column in range(columns):
+        lowest = panels[(len(chosen) - 1 - column) // columns][column]
+        lowest.set_xlabel(r"lever coordinate $\xi$ [mm]")
+        lowest.tick_params(labelbottom=True)
+    figure.supylabel("deflection over the largest, rotation included", fontsize=8)
     return figure
 
 
@@ -48,37 +56,60 @@ def shown_modes(modes, most):
 
 
 def draw_shape(axes, modes, mode):
-    xi = modes["xi"]
-    order = np.argsort(xi)
-    complex_part = lambda name: modes[f"{name}_real"][mode] + 1j * modes[f"{name}_imaginary"][mode]
-    shape = complex_part("across") + xi * complex_part("rotation")
-    if len(xi) == 1:  # a rigid lever has no shape but its rotation
-        xi, order = np.array((0.0, 200.0)), np.array((0, 1))
-        shape = xi * complex_part("rotation")
-    shape = shape / shape[np.abs(shape).argmax()]
+    xi, shape = deflection(modes, mode)
     colour = COLOURS[1] if modes["kind"][mode] > 0 else COLOURS[0]
     axes.axhline(0, color="black", linewidth=0.5)
     for phase in np.arange(8) * np.pi / 4:
         strong = phase == 0
-        axes.plot(xi[order], (shape * np.exp(1j * phase)).real[order], color=colour, linewidth=1.4 if strong else 0.5)
+        axes.plot(xi, (shape * np.exp(1j * phase)).real, color=colour, linewidth=1.4 if strong else 0.5)
     axes.set_ylim(-1.1, 1.1)
+    axes.set_xlim(0, xi[-1])
     axes.set_title(mode_name(modes, mode), fontsize=8, loc="left")
+
+
+def deflection(modes, mode):
+    """Lever coordinates in their order, and the complex deflection there over the largest one."""
+    complex_part = lambda name: modes[f"{name}_real"][mode] + 1j * modes[f"{name}_imaginary"][mode]
+    xi = modes["xi"]
+    if len(xi) == 1:  # a rigid lever has no shape but its rotation
+        xi = np.array((0.0, 200.0))
+        shape = xi * complex_part("rotation")
+    else:
+        shape = complex_part("across") + xi * complex_part("rotation")
+    order = np.argsort(xi)
+    return xi[order], (shape / (shape[np.abs(shape).argmax()] or 1))[order]
 
 
 def mode_name(modes, mode):
     kind = KINDS[int(modes["kind"][mode])]
     growth = modes["growth_rate"][mode]
-    rate = f", {growth:+.3g} 1/s" if abs(growth) > 1e-9 * (1 + modes["frequency"][mode]) else ""
-    return f"{modes['frequency'][mode]:.4g} Hz{rate}" + (f", {kind}" if kind != "stable" else "")
+    rate = f", {rate_text(growth)} 1/s" if abs(growth) > 1e-9 * (1 + modes["frequency"][mode]) else ""
+    return frequency_text(modes["frequency"][mode]) + rate + (f", {kind}" if kind != "stable" else "")
+
+
+def frequency_text(frequency):
+    return f"{frequency:.0f} Hz" if frequency >= 1000 else f"{frequency:.4g} Hz"
+
+
+def rate_text(rate):
+    text = f"{rate:+.0f}" if abs(rate) >= 1000 else f"{rate:+.3g}"
+    return text.replace("-", "\N{MINUS SIGN}")
 
 
 def stability(result):
-    """(a) Eigenvalues, (b) what feeds each mode, (c) the slide with one ingredient left out."""
-    figure, panels = plt.subplots(1, 3, figsize=(TWO_COLUMNS, 75 * MILLIMETRE), gridspec_kw={"width_ratios": (1, 1.25, 1)})
+    """(a) Eigenvalues, (b) the slide with one ingredient left out, (c) what feeds each mode; without modes (b) alone."""
     modes = result.groups["modes"]
+    if len(modes["frequency"]) == 0:
+        figure, axes = plt.subplots(figsize=(ONE_COLUMN, 55 * MILLIMETRE))
+        draw_roles(axes, result.summary)
+        return figure
+    figure = plt.figure(figsize=(TWO_COLUMNS, 125 * MILLIMETRE))
+    grid = figure.add_gridspec(2, 2)
+    places = (grid[0, 0], grid[0, 1], grid[1, :])
+    panels = [figure.add_subplot(place) for place in places]
     draw_eigenvalues(panels[0], modes)
-    draw_feeds(panels[1], modes)
-    draw_roles(panels[2], result.summary)
+    draw_roles(panels[1], result.summary)
+    draw_feeds(panels[2], modes)
     for axes, letter in zip(panels, "abc"):
         panel_letter(axes, letter)
     return figure
@@ -90,40 +121,61 @@ def draw_eigenvalues(axes, modes):
         if of_kind.any():
             axes.plot(modes["growth_rate"][of_kind], modes["frequency"][of_kind], marker, color=COLOURS[kind], markersize=4, label=name)
     axes.axvline(0, color="black", linewidth=0.8)
-    axes.set_yscale("log")
+    use_log_scale(axes, modes["frequency"])
     axes.set_xlabel(r"growth rate $\mathrm{Re}\,\lambda$ [1/s]")
     axes.set_ylabel(r"frequency $\mathrm{Im}\,\lambda/2\pi$ [Hz]")
-    axes.legend(loc="lower left")
+    axes.legend(loc="lower left", handlelength=1)
 
 
-def draw_feeds(axes, modes, most=4):
-    chosen = shown_modes(modes, most)
-    height = 0.8 / len(FEEDS)
-    used = [feed for feed in FEEDS if np.abs(modes[f"growth_by_{feed[0]}"][chosen]).max() > 1e-6]
-    for index, (name, text) in enumerate(used):
-        places = np.arange(len(chosen)) + (index - (len(used) - 1) / 2) * height
-        axes.barh(places, modes[f"growth_by_{name}"][chosen], height, color=COLOURS[index], label=text)
-    axes.axvline(0, color="black", linewidth=0.8)
-    axes.set_yticks(range(len(chosen)), [f"{modes['frequency'][i]:.0f} Hz\n{modes['growth_rate'][i]:+.3g}" for i in chosen])
-    axes.set_ylim(-0.6, len(chosen) - 0.4 + 0.28 * len(used))
-    axes.set_xlabel("part of the growth rate [1/s]")
-    axes.legend(loc="upper left", fontsize=6)
-    axes.grid(axis="y", visible=False)
+def use_log_scale(axes, frequencies):
+    """Logarithmic; with zero on it where a mode does not oscillate."""
+    oscillating = frequencies[frequencies > 0]
+    if len(oscillating) == len(frequencies):
+        axes.set_yscale("log")
+        axes.set_ylim(frequencies.min() / 3, frequencies.max() * 2)  # room for the legend
+    elif len(oscillating) > 0:
+        axes.set_yscale("symlog", linthresh=10 ** np.floor(np.log10(oscillating.min())), linscale=0.5)
 
 
 def draw_roles(axes, summary):
-    names = [name[: -len("_growth_rate")] for name in summary if name.startswith("without_") and name.endswith("_growth_rate")]
-    rates = [summary["growth_rate"]] + [summary[f"{name}_growth_rate"] for name in names]
+    ending = "_growth_rate"
+    names = [name[: -len(ending)] for name in summary if name.startswith("without_") and name.endswith(ending)]
+    # A slide that is jammed has no growth rate.
+    rates = [summary.get("growth_rate", np.nan)] + [summary[name + ending] for name in names]
     verdicts = [summary["verdict"]] + [summary[f"{name}_verdict"] for name in names]
     texts = ["as it is"] + [name.replace("_", " ").replace("friction derivative", "$\\mu'(v)$") for name in names]
     for place, (rate, verdict) in enumerate(zip(rates, verdicts)):
-        colour = COLOURS[0] if verdict == "stable" else COLOURS[1]
+        colour = COLOURS[KINDS.index(verdict)] if verdict in KINDS else "black"
         if np.isfinite(rate):
             axes.barh(place, rate, 0.6, color=colour)
         else:
-            axes.text(0, place, f" {verdict}", va="center", color=colour, fontsize=7)
+            axes.annotate(verdict, (0, place), xytext=(4, 0), textcoords="offset points", va="center", color=colour, fontsize=7)
     axes.axvline(0, color="black", linewidth=0.8)
+    if not np.isfinite(rates).any():
+        axes.set_xlim(0, 1)
+        axes.set_xticks([])
     axes.set_yticks(range(len(texts)), texts)
     axes.set_ylim(len(texts) - 0.4, -0.6)
     axes.set_xlabel("largest growth rate [1/s]")
     axes.grid(axis="y", visible=False)
+
+
+def draw_feeds(axes, modes, most=4):
+    """Bars side by side for each mode, those that count somewhere."""
+    chosen = shown_modes(modes, most)
+    parts = [modes[f"growth_by_{name}"][chosen] for name, _ in FEEDS]
+    least = 1e-3 * np.abs(parts).max()
+    used = [index for index, values in enumerate(parts) if np.abs(values).max() > least]
+    width = 0.8 / max(len(used), 1)
+    for place, index in enumerate(used):
+        places = np.arange(len(chosen)) + (place - (len(used) - 1) / 2) * width
+        axes.bar(places, parts[index], width, color=COLOURS[index], label=FEEDS[index][1])
+    axes.axhline(0, color="black", linewidth=0.8)
+    names = [f"{frequency_text(modes['frequency'][i])}\n{rate_text(modes['growth_rate'][i])} 1/s" for i in chosen]
+    axes.set_xticks(range(len(chosen)), names)
+    axes.set_xlabel("mode: frequency and growth rate")
+    axes.set_ylabel("part of the growth rate [1/s]")
+    axes.grid(axis="x", visible=False)
+    if used:
+        style = {"handlelength": 1, "columnspacing": 1.2, "borderaxespad": 0.3}
+        axes.legend(loc="lower right", bbox_to_anchor=(1, 1), ncol=len(used), **style)

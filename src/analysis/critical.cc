@@ -39,20 +39,27 @@ namespace sprag
 
   CriticalSearch critical_values(const Scene &scene, const ParameterRange &range, const double tolerance, DynamicsMaker &maker)
   {
-    CriticalSearch result{ range, {}, {} };
+    CriticalSearch result{ range, {}, {}, {} };
+    const auto attempt = [&](const double value)
+    {
+      const Tried tried = sprag::attempt(scene, range.name, value, maker);
+      if (!tried.kind)
+        result.not_judged.push_back(value);
+      return tried;
+    };
     const double width = range.to - range.from;
-    Tried before       = attempt(scene, range.name, range.from, maker);
+    Tried before       = attempt(range.from);
     result.first       = before.kind;
     for (unsigned int i = 1; i < range.points; ++i)
     {
-      const Tried after = attempt(scene, range.name, range.from + width * i / (range.points - 1), maker);
+      const Tried after = attempt(range.from + width * i / (range.points - 1));
       Tried low         = before;
       if (!result.first)
         result.first = after.kind;
       Tried high = after;
       while (low.kind && high.kind && low.kind != high.kind && std::abs(high.value - low.value) > tolerance * std::abs(width))
       {
-        const Tried middle                     = attempt(scene, range.name, 0.5 * (low.value + high.value), maker);
+        const Tried middle                     = attempt(0.5 * (low.value + high.value));
         (middle.kind == low.kind ? low : high) = middle;
       }
       if (low.kind && high.kind && low.kind != high.kind)

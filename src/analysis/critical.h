@@ -20,9 +20,10 @@ namespace sprag
     ParameterRange range;
     std::optional<SlideKind> first; ///< kind at the smallest value that could be judged; none: none could
     std::vector<CriticalValue> changes;
+    std::vector<double> not_judged; ///< values that the scene does not admit, or at which the analysis failed; in their order
   };
 
   /// The changes of kind along one parameter of the scene: tried at the range's points and bisected in between to `tolerance` of
-  /// the range. Values that the scene does not admit, or at which the analysis fails, are passed over.
+  /// the range. Values that cannot be judged are passed over.
   CriticalSearch critical_values(const Scene &scene, const ParameterRange &range, double tolerance, DynamicsMaker &maker);
 } // namespace sprag

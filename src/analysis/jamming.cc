@@ -83,7 +83,8 @@ namespace sprag
     if (margin.flexible)
       text += "; margin of the flexible one " + rounded_text(*margin.flexible);
     if (margin.flexible_critical_mu)
-      text += ", jams at mu = " + rounded_text(*margin.flexible_critical_mu);
+      text +=
+          (margin.flexible ? ", jams at mu = " : "; the flexible one jams at mu = ") + rounded_text(*margin.flexible_critical_mu);
     return text;
   }
 } // namespace sprag

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <gmsh.h>
 #include <iostream>
@@ -51,8 +52,15 @@ namespace sprag
       existing = existing.parent_path();
     if (!fs::is_directory(existing, ignored))
       throw InputError("--output = " + folder + ": " + existing.string() + " is not a folder");
-    if (::access(existing.c_str(), W_OK) != 0)
+    // Permissions say little where root asks: only a file that is made tells.
+    std::string trial = (existing / ".sprag-XXXXXX").string();
+    const int file    = ::mkstemp(trial.data());
+    if (file < 0)
       throw InputError("--output = " + folder + ": " + existing.string() + " cannot be written to");
+    ::close(file);
+    ::unlink(trial.c_str());
+    if (fs::is_directory(fs::path(folder) / "result.h5", ignored))
+      throw InputError("--output = " + folder + ": result.h5 is a folder there");
   }
 
   void prepare_folder(const std::string &folder)

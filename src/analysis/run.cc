@@ -151,11 +151,15 @@ namespace sprag
                 << std::flush;
     }
 
-    /// Before every run in which a cylinder is put somewhere.
+    /// Before every run in which a cylinder is put somewhere, once nothing is left for which it could be refused.
     void announce_margin(const Scene &scene, const RunOptions &options)
     {
-      const bool is_first = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
-      if (options.quiet || !is_first || scene.analysis.type == AnalysisType::slope)
+      if (options.quiet || scene.analysis.type == AnalysisType::slope)
+        return;
+      require_writable(options.folder);
+      if (!scene.mesh.file.empty())
+        validate(scene);
+      if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) != 0)
         return;
       const ModelType model = scene.analysis.model;
       const bool rigid      = model == ModelType::closed_form || model == ModelType::rigid;

@@ -3,13 +3,16 @@
 #include "analysis/map_team.h"
 #include "analysis/recorder.h"
 #include "base/errors.h"
+#include "base/progress.h"
 #include "scene/sections.h"
 
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <chrono>
 #include <ctime>
 #include <iostream>
+#include <optional>
 
 namespace sprag
 {
@@ -22,31 +25,37 @@ namespace sprag
       return MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
     }
 
-    /// A line at the beginning of each round and every ten seconds.
+    /// A line at the beginning of each round and how far it has come.
     class MapProgress
     {
     public:
       explicit MapProgress(const bool is_quiet)
-          : quiet(is_quiet)
+          : style(progress_style(is_quiet))
       {
       }
 
       void say(const std::string &text)
       {
-        if (!quiet)
+        bar.reset();
+        if (style != ProgressStyle::quiet)
           std::cerr << text << std::endl;
-        last = std::chrono::steady_clock::now();
       }
 
       void judged(const std::size_t done, const std::size_t wanted)
       {
-        if (std::chrono::steady_clock::now() - last > std::chrono::seconds(10))
-          say("  " + std::to_string(done) + " of " + std::to_string(wanted));
+        if (!bar)
+          bar.emplace(std::cerr, style, static_cast<double>(wanted));
+        bar->update(static_cast<double>(done), {});
+      }
+
+      void finish()
+      {
+        bar.reset();
       }
 
     private:
-      const bool quiet;
-      std::chrono::steady_clock::time_point last;
+      const ProgressStyle style;
+      std::optional<Progress> bar;
     };
 
     struct StabilityMap
@@ -242,6 +251,7 @@ namespace sprag
     {
       status = error.what();
     }
+    progress.finish();
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
     const auto meta                             = cost_of_map(team, seconds.count());
     on_first_rank([&] { write_map(scene, options, map, team.cells(), status, meta); });

@@ -4,6 +4,7 @@
 #include "analysis/sprag_slip_report.h"
 #include "analysis/transient_report.h"
 #include "base/errors.h"
+#include "base/text.h"
 #include "scene/held_slide.h"
 
 #include <cmath>
@@ -77,7 +78,7 @@ namespace sprag
     void require_slide(const SpragSlip &found, const double x)
     {
       if (found.slide.kind == SlideKind::jammed)
-        throw AnalysisError("no slide in contact that could be perturbed at x = " + std::to_string(x) +
+        throw AnalysisError("no slide in contact that could be perturbed at x = " + rounded_text(x) +
                             " mm. Try another Stability/Position or a smaller friction coefficient.");
     }
 

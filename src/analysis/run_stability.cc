@@ -4,6 +4,7 @@
 #include "analysis/report.h"
 #include "analysis/vibration_report.h"
 #include "base/errors.h"
+#include "base/text.h"
 #include "fe/field_frames.h"
 #include "model/growth.h"
 #include "scene/held_slide.h"
@@ -38,10 +39,13 @@ namespace sprag
       {
       }
 
-      void finish(std::vector<Entry> summary, const std::string &status, DynamicsMaker &maker, const std::vector<Group> &groups)
+      void finish(std::vector<Entry> summary, const std::vector<Entry> &facts, DynamicsMaker &maker,
+                  const std::vector<Group> &groups)
       {
-        summary.push_back({ "status", status, "", "how the run ended" });
-        file.finish(summary, process_entries(maker.timer()), groups);
+        summary.push_back({ "status", "completed", "", "how the run ended" });
+        auto meta = process_entries(maker.timer());
+        meta.insert(meta.end(), facts.begin(), facts.end());
+        file.finish(summary, meta, groups);
       }
 
     private:
@@ -51,8 +55,27 @@ namespace sprag
     struct Vibrations
     {
       std::vector<Entry> summary;
+      std::vector<Entry> meta; ///< of the mesh, if there is one
       std::vector<Group> groups;
     };
+
+    std::vector<Entry> meshed_entries(const Dynamics &dynamics)
+    {
+      if (!dynamics.lever)
+        return {};
+      return { { "degrees_of_freedom", static_cast<double>(dynamics.lever->body->n_dofs()), "1",
+                 "displacements, those of the hub included" },
+               { "coordinates", static_cast<double>(dynamics.meshed.n_coordinates), "1",
+                 "generalised coordinates of the model" } };
+    }
+
+    /// Counts the wall and CPU time of finding a slide and its vibrations.
+    template <class Find>
+    auto timed(DynamicsMaker &maker, const Find &find)
+    {
+      const dealii::TimerOutput::Scope scope(maker.timer(), "eigenvalues");
+      return find();
+    }
 
     /// Real parts of the modes as fields for ParaView, number i at time i, the largest displacement a tenth of the lever's depth.
     void write_fields(const Scene &scene, const Dynamics &dynamics, const std::vector<Eigenmode> &modes,
@@ -79,15 +102,17 @@ namespace sprag
       const auto friction        = scene.stability.contact == HeldContact::stuck ? ContactFriction::stuck : ContactFriction::none;
       const auto dynamics        = maker.make(undamped);
       auto &model                = dynamics.model();
-      const auto slide           = model.hold(held_drive(undamped), friction);
+      const auto slide           = timed(maker, [&] { return model.hold(held_drive(undamped), friction); });
       if (!slide)
-        throw AnalysisError("no equilibrium at x = " + std::to_string(held_drive(undamped).x) +
+        throw AnalysisError("no equilibrium at x = " + rounded_text(held_drive(undamped).x) +
                             " mm. Try another Stability/Position.");
       const bool in_contact = scene.stability.contact != HeldContact::open;
-      const auto modes      = reported(model.vibrations(*slide, in_contact, scene.stability.modes), scene.stability.modes);
+      const auto found      = timed(maker, [&] { return model.vibrations(*slide, in_contact, scene.stability.modes); });
+      const auto modes      = reported(found, scene.stability.modes);
       if (!options.quiet)
         print_modes(std::cout, modes);
       Vibrations result;
+      result.meta = meshed_entries(dynamics);
       for (std::size_t i = 0; i < modes.size(); ++i)
         result.summary.push_back({ "frequency_" + std::to_string(i + 1), modes[i].mode.eigenvalue.imag() / (2. * M_PI), "Hz",
                                    "of the undamped mode" });
@@ -108,7 +133,8 @@ namespace sprag
       {
         const Scene held    = held_scene(scene);
         const auto dynamics = maker.make(held);
-        found               = judge(dynamics.model(), held_drive(scene), scene.stability.modes);
+        found               = timed(maker, [&] { return judge(dynamics.model(), held_drive(scene), scene.stability.modes); });
+        result.meta         = meshed_entries(dynamics);
         const auto modes    = reported(found.modes, scene.stability.modes);
         result.groups       = { mode_group(modes, dynamics.model()) };
         write_fields(scene, dynamics, modes, options.folder);
@@ -144,6 +170,6 @@ namespace sprag
     DynamicsMaker maker;
     const bool undamped = scene.analysis.type == AnalysisType::modal;
     const auto found    = undamped ? modal(scene, maker, options) : stability(scene, maker, options);
-    Output(scene, options).finish(found.summary, "completed", maker, found.groups);
+    Output(scene, options).finish(found.summary, found.meta, maker, found.groups);
   }
 } // namespace sprag

@@ -68,8 +68,10 @@ namespace sprag
             [share](const auto &mode) { return mode.growth.*share; });
       };
       growth("friction_rotation", &GrowthShares::friction_rotation, "friction that follows displacements, on the hub's rotation");
-      growth("friction_bending", &GrowthShares::friction_bending, "the same, on the deflection of the lever");
-      growth("friction_support", &GrowthShares::friction_support, "the same, on the displacement of the support");
+      growth("friction_bending", &GrowthShares::friction_bending,
+             "friction that follows displacements, on the deflection of the lever");
+      growth("friction_support", &GrowthShares::friction_support,
+             "friction that follows displacements, on the displacement of the support");
       growth("friction_speed", &GrowthShares::friction_speed,
              "friction that follows velocities: mu'(v), and mu times the contact damping's pressure");
       growth("contact_damping", &GrowthShares::contact_damping, "contact damping");
@@ -156,6 +158,8 @@ namespace sprag
 
   void print_modes(std::ostream &stream, const std::vector<Eigenmode> &modes)
   {
+    if (modes.empty())
+      return;
     stream << "\n  frequency       energy [%] in\n"
            << "       [Hz]  spring  lever  suppt contact\n";
     for (const auto &mode : modes)
@@ -168,6 +172,8 @@ namespace sprag
 
   void print_growth(std::ostream &stream, const std::vector<Eigenmode> &modes)
   {
+    if (modes.empty())
+      return;
     stream << "\n  frequency    growth  kind        growth [1/s] by friction on               friction's   damping of\n"
            << "       [Hz]     [1/s]               rotation    bending   support  velocities   contact  structure\n";
     for (const auto &mode : modes)
@@ -247,17 +253,24 @@ namespace sprag
   void print_critical(std::ostream &stream, const std::vector<CriticalSearch> &searches)
   {
     stream << "\nCritical values, everything else as it is:\n";
-    for (const auto &[range, first, changes] : searches)
+    for (const auto &[range, first, changes, not_judged] : searches)
     {
       stream << "  " << range.name << " from " << rounded_text(range.from) << " to " << rounded_text(range.to) << ": "
-             << (first ? kind_name(*first) : "not admitted");
+             << (first ? kind_name(*first) : "cannot be judged");
       for (const auto &critical : changes)
       {
         const bool of_friction = range.name == "Friction/Factor" && !std::isnan(critical.mu);
         stream << ", " << kind_name(critical.above) << " from " << rounded_text(critical.value)
                << (of_friction ? " (mu = " + rounded_text(critical.mu) + ")" : "");
       }
-      stream << (first && changes.empty() ? " throughout\n" : "\n");
+      stream << (first && changes.empty() ? " throughout" : "");
+      if (first && !not_judged.empty())
+      {
+        const auto [least, most] = std::minmax_element(not_judged.begin(), not_judged.end());
+        stream << "; cannot be judged at " << rounded_text(*least)
+               << (*least < *most ? " to " + rounded_text(*most) + " (" + std::to_string(not_judged.size()) + " values)" : "");
+      }
+      stream << '\n';
     }
   }
 } // namespace sprag

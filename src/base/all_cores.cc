@@ -1,5 +1,7 @@
 #include "base/all_cores.h"
 
+#include "base/progress.h"
+
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
@@ -52,6 +54,8 @@ namespace sprag
       // Kept where they are set already.
       for (const char *name : { "OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS" })
         ::setenv(name, "1", 0);
+      if (::isatty(STDERR_FILENO) != 0)
+        ::setenv(terminal_variable, "1", 1);
       if (::geteuid() == 0)
         for (const char *name : { "OMPI_ALLOW_RUN_AS_ROOT", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM" })
           ::setenv(name, "1", 0);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdlib>
 #include <iomanip>
 #include <ostream>
 #include <sstream>
@@ -51,7 +52,8 @@ namespace sprag
   {
     if (quiet)
       return ProgressStyle::quiet;
-    return isatty(STDERR_FILENO) != 0 ? ProgressStyle::terminal : ProgressStyle::log;
+    const bool terminal = isatty(STDERR_FILENO) != 0 || std::getenv(terminal_variable) != nullptr;
+    return terminal ? ProgressStyle::terminal : ProgressStyle::log;
   }
 
   Progress::Progress(std::ostream &output, const ProgressStyle chosen_style, const double whole)
@@ -103,7 +105,8 @@ namespace sprag
     add_field(text, "x", fields.x, "mm");
     add_field(text, "P", fields.P, "N");
     add_field(text, "Q", fields.Q, "N");
-    text << "  " << std::setw(2) << fields.iterations << " it";
+    if (fields.iterations > 0)
+      text << "  " << std::setw(2) << fields.iterations << " it";
     const double elapsed = clock() - start;
     if (share >= 1.)
       text << "  " << duration_text(elapsed) << " in all";

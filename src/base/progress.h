@@ -14,7 +14,7 @@ namespace sprag
     double x                = std::numeric_limits<double>::quiet_NaN(); ///< [mm]
     double P                = std::numeric_limits<double>::quiet_NaN(); ///< [N]
     double Q                = std::numeric_limits<double>::quiet_NaN(); ///< [N]
-    unsigned int iterations = 0;                                        ///< of the last step
+    unsigned int iterations = 0;                                        ///< of the last step; 0: left out
   };
 
   /// Where the lines go and what they may look like there.
@@ -24,6 +24,9 @@ namespace sprag
     log,      ///< a line every tenth of the way
     quiet     ///< nothing
   };
+
+  /// Environment variable that says that standard error ends at a terminal although something stands between.
+  inline constexpr const char *terminal_variable = "SPRAG_TERMINAL";
 
   /// The style for the standard error stream.
   ProgressStyle progress_style(bool quiet);

@@ -31,6 +31,18 @@ namespace sprag
       }
     }
 
+    /// The matrix times a vector in extended precision, of which sums of large terms that nearly cancel lose little.
+    void multiply(const std::vector<long double> &vector, dealii::Vector<double> &result) const
+    {
+      for (unsigned int i = 0; i + 1 < row_begin.size(); ++i)
+      {
+        long double sum = 0.;
+        for (unsigned int a = row_begin[i]; a < row_begin[i + 1]; ++a)
+          sum += values[a] * vector[columns[a]];
+        result[i] = static_cast<double>(sum);
+      }
+    }
+
   private:
     std::vector<unsigned int> row_begin;
     std::vector<unsigned int> columns;

@@ -12,11 +12,15 @@ namespace sprag
       result[n_lever] = constants.support_mass * q[n_lever];
   }
 
+  /// In extended precision: what round-off of the metal's stiffness makes of a vibration is as soft as the whole lever, 1e-9 of
+  /// it.
   void SparseStructure::stiffness_product(const Vector<double> &q, Vector<double> &result) const
   {
-    Vector<double> elastic(q.begin(), q.begin() + n_lever);
-    elastic.add(-q[n_lever - 1], rigid_rotation);
-    stiffness.multiply<1>({ { &elastic } }, { { &result } });
+    std::vector<long double> elastic(n_lever);
+    const long double rotation = q[n_lever - 1];
+    for (unsigned int i = 0; i < n_lever; ++i)
+      elastic[i] = q[i] - rotation * rigid_rotation[i];
+    stiffness.multiply(elastic, result);
     result[n_lever - 1] += constants.spring_stiffness * q[n_lever - 1];
     if (constants.sprung)
       result[n_lever] = constants.support_stiffness * q[n_lever];

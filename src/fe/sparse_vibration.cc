@@ -1,13 +1,12 @@
 #include "fe/sparse_vibration.h"
 
+#include "base/eigenvalues.h"
 #include "base/errors.h"
 #include "base/text.h"
-
-#include <deal.II/lac/lapack_full_matrix.h>
+#include "fe/inverse_problem.h"
 
 #include <algorithm>
 #include <cmath>
-#include <slepceps.h>
 
 namespace sprag
 {
@@ -17,365 +16,208 @@ namespace sprag
   {
     using Complex = std::complex<double>;
 
-    /// Change of the lowest mode by an inverse iteration. In a higher one round-off of the lowest comes back as many times as its
-    /// frequency is higher.
-    constexpr double largest_residual = 1e-4;
+    /// Relative residual at which the method of Arnoldi has found an eigenpair. Solutions have errors of this size.
+    constexpr double tolerance = 1e-12;
 
-    /// Frequency that rates are divided by, over the lowest. What is stiff moves from q to q' / frequency and no further, at an
-    /// eigenvalue 1 / frequency that is none: it must be smaller than those wanted.
-    constexpr double span = 1000.;
-
-    void check(const PetscErrorCode code)
+    struct RitzPair
     {
-      if (code != 0)
-        throw AnalysisError("the eigenvalue solver failed (PETSc error " + std::to_string(code) + ")");
-    }
+      Complex value; ///< of the inverse, imaginary part <= 0
+      std::array<Vector<double>, 2> vector;
+      double residual; ///< over the value's size
+    };
 
-    /// The linearised problem: products with its inverse, and residuals.
-    class InverseProblem
+    /// The method of Arnoldi in the energy's product, without restarts: problem * V = V H + last * e^T.
+    class KrylovSpace
     {
     public:
-      InverseProblem(const SparseOperator &structure_, const PortPerturbation &forces_)
-          : structure(structure_)
-          , forces(forces_)
-          , stiffness(forces.stiffness())
-          , damping(forces.damping())
-          , n_forces(static_cast<unsigned int>(forces.ports.size()))
-          , work(structure.size)
-          , load(structure.size)
-          , portable(n_forces)
+      KrylovSpace(const InverseProblem &inverse_problem, const unsigned int largest)
+          : problem(inverse_problem)
+          , most(std::min(largest, problem.size()))
+          , projected(most + 1, most)
       {
-        find_responses();
+        exhausted = !start();
       }
 
       unsigned int size() const
       {
-        return structure.size;
+        return n;
       }
 
-      /// Circular frequency of the size of the lowest one, by the power method.
-      double low_frequency()
+      /// Whether it cannot grow.
+      bool is_full() const
       {
-        constexpr unsigned int iterations = 5;
-        const Vector<double> none(size());
-        Vector<double> q(size());
-        Vector<double> next(size());
-        q            = 1.;
-        double ratio = 1.;
-        for (unsigned int i = 0; i < iterations; ++i)
-        {
-          apply(none, q, next);
-          ratio = next.l2_norm() / q.l2_norm();
-          q.equ(1. / next.l2_norm(), next);
-        }
-        return 1. / std::sqrt(ratio);
+        return exhausted || n == most;
       }
 
-      /// -K^-1 (C q + M q'). The rotational spring is so soft beside the contact that solutions without the contact have lost
-      /// half their digits: what they leave out of balance is solved for once more.
-      void apply(const Vector<double> &q, const Vector<double> &rate, Vector<double> &result)
+      void grow()
       {
-        structure.damping(q, load);
-        structure.mass(rate, work);
-        load += work;
-        load *= -1.;
-        add_port_forces(damping, 1., q, load);
-        add_port_forces(forces.inertia, -1., rate, load);
-        solve(load, result);
-
-        constexpr unsigned int corrections = 2;
-        Vector<double> left(size());
-        Vector<double> correction(size());
-        for (unsigned int i = 0; i < corrections; ++i)
+        SparseState next    = problem.apply(basis[n]);
+        const double before = std::sqrt(std::max(0., problem.momenta(next) * next));
+        Vector<double> column(n + 1);
+        const double left = orthogonalise(next, column);
+        for (unsigned int i = 0; i <= n; ++i)
+          projected(i, n) = column[i];
+        ++n;
+        if (left > 1e-13 * before)
         {
-          structure.stiffness(result, work);
-          left = load;
-          left -= work;
-          add_port_forces(stiffness, 1., result, left);
-          solve(left, correction);
-          result += correction;
+          projected(n, n - 1) = left;
+          next.scale(1. / left);
+          basis.push_back(std::move(next));
         }
+        else
+          exhausted = !start();
       }
 
-      /// Makes phi -K^-1 (lambda^2 M + lambda C) phi, forces included, which takes out what stiff modes it is mixed with. Returns
-      /// by how much of its size that changed it. (Of the forces K phi the stiff ones would drown all others.)
-      double refine(const Complex lambda, ComplexVector &phi)
+      /// By decreasing size. Of a complex pair one stands for both.
+      std::vector<RitzPair> pairs() const
       {
-        const ComplexVector rate = multiple(lambda, phi);
-        ComplexVector answer{ { Vector<double>(size()), Vector<double>(size()) } };
-        for (unsigned int part = 0; part < 2; ++part)
-          apply(phi[part], rate[part], answer[part]);
-        ComplexVector refined = multiple(lambda, answer);
-        double change         = 0.;
-        double whole          = 0.;
-        for (unsigned int part = 0; part < 2; ++part)
+        FullMatrix<double> square(n, n);
+        for (unsigned int i = 0; i < n; ++i)
+          for (unsigned int j = 0; j < n; ++j)
+            square(i, j) = projected(i, j);
+        std::vector<RitzPair> result;
+        for (auto &pair : eigenpairs(square))
         {
-          whole += refined[part].norm_sqr();
-          phi[part] -= refined[part];
-          change += phi[part].norm_sqr();
+          pair.vector[1] *= -1.;
+          const double last = n < basis.size() ? projected(n, n - 1) : 0.;
+          const double tail = std::hypot(pair.vector[0][n - 1], pair.vector[1][n - 1]);
+          result.push_back({ std::conj(pair.value), pair.vector, last * tail / std::abs(pair.value) });
         }
-        phi = refined;
-        return std::sqrt(change / whole);
-      }
-
-    private:
-      const SparseOperator &structure;
-      const PortPerturbation &forces;
-      const FullMatrix<double> stiffness;
-      const FullMatrix<double> damping;
-      const unsigned int n_forces;
-      Vector<double> work;
-      Vector<double> load;
-      std::vector<Vector<double>> responses; ///< of the structure to unit forces on the ports
-      LAPACKFullMatrix<double> portable;     ///< factors of 1 - G df/dz
-
-      void find_responses()
-      {
-        FullMatrix<double> compliance(n_forces, n_forces);
-        for (unsigned int b = 0; b < n_forces; ++b)
-        {
-          load = 0.;
-          structure.ports.add_force(forces.ports[b], 1., load);
-          responses.emplace_back(size());
-          structure.solve(load, responses.back());
-          const auto z = loaded_ports(responses.back());
-          for (unsigned int a = 0; a < n_forces; ++a)
-            compliance(a, b) = z[a];
-        }
-        if (n_forces == 0)
-          return;
-        FullMatrix<double> matrix(n_forces, n_forces);
-        compliance.mmult(matrix, stiffness);
-        matrix *= -1.;
-        for (unsigned int a = 0; a < n_forces; ++a)
-          matrix(a, a) += 1.;
-        portable = matrix;
-        try
-        {
-          portable.compute_lu_factorization();
-        }
-        catch (const ExceptionBase &)
-        {
-          throw AnalysisError("the slide is at the limit of its stability: it has a mode without stiffness");
-        }
-      }
-
-      static ComplexVector multiple(const Complex factor, const ComplexVector &vector)
-      {
-        ComplexVector result{ { vector[0], vector[1] } };
-        result[0].sadd(factor.real(), -factor.imag(), vector[1]);
-        result[1].sadd(factor.real(), factor.imag(), vector[0]);
+        std::sort(result.begin(), result.end(),
+                  [](const auto &a, const auto &b) { return std::abs(a.value) > std::abs(b.value); });
         return result;
       }
 
-      Vector<double> loaded_ports(const Vector<double> &q) const
+      SparseState combined(const Vector<double> &factors) const
       {
-        const auto all = structure.ports.displacements(q);
-        Vector<double> z(n_forces);
-        for (unsigned int a = 0; a < z.size(); ++a)
-          z[a] = all[forces.ports[a]];
-        return z;
-      }
-
-      void add_port_forces(const FullMatrix<double> &matrix, const double factor, const Vector<double> &q,
-                           Vector<double> &sum) const
-      {
-        if (n_forces == 0)
-          return;
-        const auto z = loaded_ports(q);
-        Vector<double> values(z.size());
-        matrix.vmult(values, z);
-        for (unsigned int a = 0; a < n_forces; ++a)
-          structure.ports.add_force(forces.ports[a], factor * values[a], sum);
-      }
-
-      /// With the stiffness of structure and forces: f = A (1 - G A)^-1 z where the structure alone went to z.
-      void solve(const Vector<double> &right_hand_side, Vector<double> &q) const
-      {
-        structure.solve(right_hand_side, q);
-        if (n_forces == 0)
-          return;
-        auto z = loaded_ports(q);
-        portable.solve(z);
-        Vector<double> values(n_forces);
-        stiffness.vmult(values, z);
-        for (unsigned int a = 0; a < n_forces; ++a)
-          q.add(values[a], responses[a]);
-      }
-    };
-
-    /// The problem in (q, q' / frequency).
-    struct ScaledProblem
-    {
-      InverseProblem &of;
-      double frequency;
-    };
-
-    PetscErrorCode multiply(Mat matrix, Vec from, Vec to)
-    {
-      ScaledProblem *problem = nullptr;
-      MatShellGetContext(matrix, &problem);
-      const unsigned int n    = problem->of.size();
-      const PetscScalar *read = nullptr;
-      PetscScalar *write      = nullptr;
-      VecGetArrayRead(from, &read);
-      Vector<double> q(read, read + n);
-      Vector<double> rate(read + n, read + 2 * n);
-      VecRestoreArrayRead(from, &read);
-      rate *= problem->frequency;
-      Vector<double> result(n);
-      problem->of.apply(q, rate, result);
-      q /= problem->frequency;
-      VecGetArray(to, &write);
-      std::copy(result.begin(), result.end(), write);
-      std::copy(q.begin(), q.end(), write + n);
-      VecRestoreArray(to, &write);
-      return 0;
-    }
-
-    /// Complex pairs count once. Of the last restart: the solver is asked to stop before it tells of this one.
-    struct ModeCount
-    {
-      unsigned int wanted;
-      unsigned int found = 0;
-    };
-
-    PetscErrorCode count_modes(EPS, PetscInt, PetscInt converged, PetscScalar *, PetscScalar *imaginary, PetscReal *, PetscInt,
-                               void *count)
-    {
-      auto &modes = *static_cast<ModeCount *>(count);
-      modes.found = static_cast<unsigned int>(
-          std::count_if(imaginary, imaginary + converged, [](const PetscScalar part) { return part >= 0.; }));
-      return 0;
-    }
-
-    PetscErrorCode stop_at_number(EPS eps, PetscInt restart, PetscInt most, PetscInt converged, PetscInt wanted,
-                                  EPSConvergedReason *reason, void *count)
-    {
-      const auto &modes = *static_cast<const ModeCount *>(count);
-      EPSStoppingBasic(eps, restart, most, converged, wanted, reason, nullptr);
-      if (*reason == EPS_CONVERGED_ITERATING && modes.found >= modes.wanted)
-        *reason = EPS_CONVERGED_USER;
-      return 0;
-    }
-
-    class Eigensolver
-    {
-    public:
-      Eigensolver(InverseProblem &inverse, const unsigned int number)
-          : n(inverse.size())
-          , modes{ number }
-          , lowest(inverse.low_frequency())
-          , problem{ inverse, span * lowest }
-      {
-        const auto rows = static_cast<PetscInt>(2 * n);
-        check(MatCreateShell(PETSC_COMM_SELF, rows, rows, rows, rows, &problem, &matrix));
-        check(MatShellSetOperation(matrix, MATOP_MULT, reinterpret_cast<void (*)()>(&multiply)));
-        check(MatCreateVecs(matrix, &real, &imaginary));
-        check(EPSCreate(PETSC_COMM_SELF, &eps));
-        check(EPSSetOperators(eps, matrix, nullptr));
-        check(EPSSetProblemType(eps, EPS_NHEP));
-        check(EPSSetWhichEigenpairs(eps, EPS_LARGEST_MAGNITUDE));
-        check(EPSSetDimensions(eps, std::min(static_cast<PetscInt>(2 * number), rows), PETSC_DEFAULT, PETSC_DEFAULT));
-        check(EPSSetTolerances(eps, 1e-10, 50));
-        if (3 * 2 * number > 2 * n)
-          check(EPSSetType(eps, EPSLAPACK));
-        else
-        {
-          check(EPSSetType(eps, EPSKRYLOVSCHUR));
-          check(EPSMonitorSet(eps, &count_modes, &modes, nullptr));
-          check(EPSSetStoppingTestFunction(eps, &stop_at_number, &modes, nullptr));
-        }
-        start_alike();
-        check(EPSSolve(eps));
-      }
-      Eigensolver(const Eigensolver &)            = delete;
-      Eigensolver &operator=(const Eigensolver &) = delete;
-      ~Eigensolver()
-      {
-        EPSDestroy(&eps);
-        MatDestroy(&matrix);
-        VecDestroy(&real);
-        VecDestroy(&imaginary);
-      }
-
-      unsigned int n_converged() const
-      {
-        PetscInt result = 0;
-        check(EPSGetConverged(eps, &result));
-        return static_cast<unsigned int>(result);
-      }
-
-      /// Of the size of the lowest.
-      double frequency() const
-      {
-        return lowest;
-      }
-
-      /// Eigenvalue of the inverse and the first half of its vector.
-      Complex pair(const unsigned int i, ComplexVector &vector) const
-      {
-        PetscScalar value_real = 0., value_imaginary = 0.;
-        check(EPSGetEigenpair(eps, static_cast<PetscInt>(i), &value_real, &value_imaginary, real, imaginary));
-        const Vec parts[] = { real, imaginary };
-        for (unsigned int part = 0; part < 2; ++part)
-        {
-          const PetscScalar *values = nullptr;
-          check(VecGetArrayRead(parts[part], &values));
-          vector[part] = Vector<double>(values, values + n);
-          check(VecRestoreArrayRead(parts[part], &values));
-        }
-        return { value_real, value_imaginary };
+        SparseState result = problem.zero();
+        for (unsigned int i = 0; i < n; ++i)
+          result.add(factors[i], basis[i]);
+        return result;
       }
 
     private:
-      /// The same start in every run, so that results are the same to the last bit.
-      void start_alike()
+      const InverseProblem &problem;
+      const unsigned int most;
+      unsigned int n        = 0; ///< columns that are known
+      unsigned int n_starts = 0;
+      bool exhausted        = false;
+      std::vector<SparseState> basis;
+      FullMatrix<double> projected;
+
+      /// Subtracts what lies in the space, twice, as once leaves round-off of the first; returns the energy's root of the rest.
+      double orthogonalise(SparseState &state, Vector<double> &parts) const
       {
-        PetscScalar *values = nullptr;
-        check(VecGetArray(real, &values));
-        for (unsigned int i = 0; i < 2 * n; ++i)
-          values[i] = 1. + 0.5 * std::sin(1. + i);
-        check(VecRestoreArray(real, &values));
-        check(EPSSetInitialSpace(eps, 1, &real));
+        for (unsigned int pass = 0; pass < 2; ++pass)
+        {
+          const auto momenta = problem.momenta(state);
+          for (unsigned int i = 0; i < basis.size(); ++i)
+          {
+            const double part = basis[i] * momenta;
+            parts[i] += part;
+            state.add(-part, basis[i]);
+          }
+        }
+        return std::sqrt(std::max(0., problem.momenta(state) * state));
       }
 
-      const unsigned int n;
-      ModeCount modes;
-      const double lowest;
-      ScaledProblem problem;
-      EPS eps       = nullptr;
-      Mat matrix    = nullptr;
-      Vec real      = nullptr;
-      Vec imaginary = nullptr;
+      /// Another direction, the same in every run; false if there is none left.
+      bool start()
+      {
+        SparseState state = problem.zero();
+        ++n_starts;
+        for (unsigned int i = 0; i < state.q.size(); ++i)
+          state.rate[i] = 1. + 0.5 * std::sin(n_starts * (1. + i));
+        state               = problem.apply(problem.apply(state));
+        const double before = std::sqrt(std::max(0., problem.momenta(state) * state));
+        Vector<double> parts(static_cast<unsigned int>(basis.size()));
+        const double left = orthogonalise(state, parts);
+        if (!(left > 1e-10 * before))
+          return false;
+        state.scale(1. / left);
+        basis.push_back(std::move(state));
+        return true;
+      }
     };
+
+    /// Far enough within the decaying half for what its residual leaves open. A damped layer and friction's delays have bands of
+    /// such eigenvalues, close to each other, that no space of this kind tells apart.
+    bool surely_decays(const RitzPair &pair)
+    {
+      constexpr double condition = 10.;
+      return pair.value.real() < -condition * pair.residual * std::abs(pair.value);
+    }
+
+    /// Pairs that are found, up to the first that is not and may grow.
+    std::vector<RitzPair> found_pairs(const KrylovSpace &space)
+    {
+      std::vector<RitzPair> result;
+      for (auto &pair : space.pairs())
+        if (pair.residual <= tolerance)
+          result.push_back(std::move(pair));
+        else if (!surely_decays(pair))
+          break;
+      return result;
+    }
+
+    unsigned int n_vibrations(const std::vector<RitzPair> &pairs)
+    {
+      return static_cast<unsigned int>(
+          std::count_if(pairs.begin(), pairs.end(), [](const auto &pair) { return pair.value.imag() < 0.; }));
+    }
+
+    StructureMode refined(const RitzPair &pair, const KrylovSpace &space, const InverseProblem &problem)
+    {
+      const SparseState before[] = { space.combined(pair.vector[0]), space.combined(pair.vector[1]) };
+      const SparseState after[]  = { problem.apply(before[0]), problem.apply(before[1]) };
+      StructureMode mode;
+      mode.eigenvalue = { (1. / pair.value).real(), std::abs((1. / pair.value).imag()) };
+      double change   = 0.;
+      double whole    = 0.;
+      for (unsigned int part = 0; part < 2; ++part)
+      {
+        SparseState left = after[part];
+        left.add(-pair.value.real(), before[part]);
+        left.add(part == 0 ? pair.value.imag() : -pair.value.imag(), before[1 - part]);
+        change += problem.mass_form(left, std::norm(mode.eigenvalue));
+        whole += problem.mass_form(after[part], std::norm(mode.eigenvalue));
+        mode.coordinates[part] = after[part].q;
+      }
+      mode.residual = std::sqrt(change / whole);
+      return mode;
+    }
   } // namespace
 
   std::vector<StructureMode> sparse_vibrations(const SparseOperator &structure, const PortPerturbation &forces,
                                                const unsigned int number)
   {
-    InverseProblem problem(structure, forces);
-    const Eigensolver solver(problem, number);
-    std::vector<StructureMode> result;
-    for (unsigned int i = 0; i < solver.n_converged(); ++i)
+    constexpr unsigned int growth = 10;
+    const InverseProblem problem(structure, forces);
+    KrylovSpace space(problem, 12 * number + 100);
+    std::vector<RitzPair> pairs;
+    while (n_vibrations(pairs) < number && !space.is_full())
     {
-      StructureMode mode;
-      const Complex inverse = solver.pair(i, mode.coordinates);
-      if (inverse.imag() > 0.)
-        continue; // its conjugate has Im lambda > 0
-      mode.eigenvalue = { (1. / inverse).real(), std::abs((1. / inverse).imag()) };
-      mode.residual   = problem.refine(mode.eigenvalue, mode.coordinates);
-      if (!(mode.residual < largest_residual * std::max(1., std::abs(mode.eigenvalue) / solver.frequency())))
-        throw AnalysisError("the vibration at " + rounded_text(mode.eigenvalue.imag() / (2. * M_PI)) +
-                            " Hz was found with a backward error of only " + rounded_text(mode.residual) +
-                            ". Try fewer Stability/Modes.");
-      result.push_back(std::move(mode));
+      for (unsigned int i = 0; i < growth && !space.is_full(); ++i)
+        space.grow();
+      if (space.size() > number)
+        pairs = found_pairs(space);
     }
-    if (result.size() < std::min(number, problem.size()))
-      throw AnalysisError("only " + std::to_string(result.size()) + " of " + std::to_string(number) +
+    const bool all = space.size() == problem.size();
+    if (n_vibrations(pairs) < number && !all)
+      throw AnalysisError("only " + std::to_string(n_vibrations(pairs)) + " of " + std::to_string(number) +
                           " vibrations were found. Try fewer Stability/Modes.");
-    std::sort(result.begin(), result.end(),
-              [](const auto &a, const auto &b) { return std::abs(a.eigenvalue) < std::abs(b.eigenvalue); });
+
+    std::vector<StructureMode> result;
+    for (const auto &pair : pairs)
+    {
+      auto mode = refined(pair, space, problem);
+      if (mode.residual < largest_backward_error)
+        result.push_back(std::move(mode));
+      else if (!all && (mode.eigenvalue.imag() > 0. || mode.eigenvalue.real() > 0.))
+        throw AnalysisError("the vibration at " + rounded_text(mode.eigenvalue.imag() / (2. * M_PI)) +
+                            " Hz was found with a backward error of " + rounded_text(mode.residual) + ", more than " +
+                            rounded_text(largest_backward_error) + ". Try fewer Stability/Modes or a larger Mesh/Face size.");
+    }
     return result;
   }
 } // namespace sprag

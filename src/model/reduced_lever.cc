@@ -8,9 +8,9 @@
 
 namespace sprag
 {
-  std::unique_ptr<DynamicModel> make_reduced_lever(const Scene &scene)
+  std::unique_ptr<DynamicModel> make_reduced_lever(const Scene &scene, const unsigned int elements)
   {
-    const BeamMesh mesh  = { scene.analysis.model == ModelType::beam ? beam_elements : 0, scene.lever.length };
+    const BeamMesh mesh  = { scene.analysis.model == ModelType::beam ? elements : 0, scene.lever.length };
     const auto reference = contact_reference(scene);
     auto structure       = std::make_unique<ModalStructure>(beam_modes(scene, mesh));
 

@@ -10,6 +10,6 @@ namespace sprag
   /// Elements of the beam: 8 give frequencies to 1e-5 and growth rates to 0.7 %.
   inline constexpr unsigned int beam_elements = 8;
 
-  /// The scene's lever as rigid body or beam with a point contact, Analysis/Model = rigid or beam.
-  std::unique_ptr<DynamicModel> make_reduced_lever(const Scene &scene);
+  /// The scene's lever as rigid body or beam of that many elements, with a point contact: Analysis/Model = rigid or beam.
+  std::unique_ptr<DynamicModel> make_reduced_lever(const Scene &scene, unsigned int elements = beam_elements);
 } // namespace sprag

@@ -264,6 +264,16 @@ namespace sprag
                                rounded_text(scene.drive.maximum()) + " mm" });
     }
 
+    void turn(const Scene &scene, Violations &result)
+    {
+      const double position = scene.stability.position.value_or(scene.drive.maximum());
+      if (scene.sprag_slip.continuation > 0 && scene.sprag_slip.turn.value_or(scene.drive.minimum()) == position)
+        result.push_back({ "Sprag slip/Turn",
+                           { "Analysis/Type", "Sprag slip/Continuation", "Stability/Position", "Drive/Profile", "Drive/Start",
+                             "Drive/Stroke", "Drive/Table" },
+                           "must be another x than Stability/Position = " + rounded_text(position) + " mm" });
+    }
+
     Violations held(const Scene &scene)
     {
       Violations result;
@@ -275,6 +285,7 @@ namespace sprag
       if (scene.analysis.type == AnalysisType::sprag_slip)
       {
         within_drive(scene, "Sprag slip/Turn", scene.sprag_slip.turn, result);
+        turn(scene, result);
         if (scene.sprag_slip.initial >= scene.sprag_slip.final)
           result.push_back({ "Sprag slip/Final amplitude",
                              { "Analysis/Type", "Sprag slip/Initial amplitude" },

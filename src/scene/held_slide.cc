@@ -10,20 +10,26 @@ namespace sprag
 {
   namespace
   {
-    constexpr unsigned int tried_points = 13;
+    /// Reduced models cost so little that islands can be looked for.
+    unsigned int tried_points(const Scene &scene)
+    {
+      const bool reduced = scene.analysis.model == ModelType::rigid || scene.analysis.model == ModelType::beam;
+      return reduced ? 49 : 13;
+    }
 
     std::vector<ParameterRange> usual_searches(const Scene &scene)
     {
+      const unsigned int tried           = tried_points(scene);
       std::vector<ParameterRange> result = {
-        { "Friction/Factor", 0., 3., tried_points },
+        { "Friction/Factor", 0., 3., tried },
         { "Stability/Position", scene.drive.minimum() + 0.05 * (scene.drive.maximum() - scene.drive.minimum()),
-          scene.drive.maximum(), tried_points },
+          scene.drive.maximum(), tried },
       };
       if (scene.drive.profile() != DriveProfile::table)
-        result.push_back({ "Drive/Speed", 1., 800., tried_points });
+        result.push_back({ "Drive/Speed", 1., 800., tried });
       const ModelType model = scene.analysis.model;
       if (model == ModelType::beam)
-        result.push_back({ "Lever/Depth", 2., 30., tried_points });
+        result.push_back({ "Lever/Depth", 2., 30., tried });
       return result;
     }
 
@@ -37,7 +43,6 @@ namespace sprag
       if (words.size() < 3)
         return {};
       ParameterRange range;
-      range.points = tried_points;
       for (std::size_t i = 0; i + 2 < words.size(); ++i)
         range.name += (i == 0 ? "" : " ") + words[i];
       const auto number = [](const std::string &word) -> std::optional<double>
@@ -87,9 +92,10 @@ namespace sprag
     std::istringstream stream(text);
     for (std::string entry; std::getline(stream, entry, ';');)
     {
-      const auto range = range_of(entry);
+      auto range = range_of(entry);
       if (!range)
         return {};
+      range->points = tried_points(scene);
       result.push_back(*range);
     }
     return result;

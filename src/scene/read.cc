@@ -213,6 +213,9 @@ namespace sprag
         }
       if (meant == nullptr)
         return report(parameter, range.name + " is no parameter with a number" + did_you_mean(nearest(range.name, names)));
+      const bool of_other_law = input.friction.law != FrictionChoice::coulomb && !doubtful("Friction/Law");
+      if (range.name == "Friction/Coefficient" && of_other_law)
+        return report(parameter, range.name + " counts only with Friction/Law = Coulomb; Friction/Factor multiplies any law");
       for (const double value : { range.from, range.to })
         if (const auto broken = violation(meant->rule, number_text(value)))
           return report(parameter, range.name + " = " + number_text(value) + " " + *broken);

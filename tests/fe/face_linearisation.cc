@@ -89,6 +89,66 @@ TEST(FaceLinearisation, RatesAreTheDerivativeOfTheForcesByVelocities)
       }
 }
 
+// A step from the slide, all weight on its end: at every point the return to the cone of stick is Euler's backward rule for the
+// delay, (1 + time/dt) tau = stiffness_row . z + rate_row . z/dt. Over 2e-6 mm points of 1e-6 mm come and go.
+TEST(FaceLinearisation, FrictionThatGrowsWithSpeedIsDelayedAsInSteps)
+{
+  const MeshedBar bar(shape());
+  for (const bool sprung : { false, true })
+    for (const double speed : { 100., -100. })
+      for (const double dt : { 1e-5, 1e-4 })
+      {
+        const auto properties = properties_of(*bar, sprung, 0.);
+        FaceStepContact contact(*bar, properties);
+        const Vector at = pressed(properties.ports, 0.01);
+        PortPerturbation linear;
+        const auto part = [&](const TangentPart wanted) {
+          return forces_of(contact, { at, { 0., 0., speed, 0. }, speed, nullptr, ContactFriction::sliding, wanted }).tangent;
+        };
+        linear.pressure      = part(TangentPart::pressure);
+        linear.friction      = part(TangentPart::friction);
+        linear.pressure_rate = part(TangentPart::pressure_rate);
+        linear.friction_rate = part(TangentPart::friction_rate);
+        linear.ports         = contact.forces().ports;
+        linear.delays        = contact.friction_delays();
+        ASSERT_GT(linear.delays.size(), 10u);
+        Motion accepted;
+        accepted.contact = contact.memory();
+        Full exact       = linear.immediate_stiffness();
+        exact.add(1. / dt, linear.immediate_damping());
+        double longest = 0.;
+        for (const auto &delay : linear.delays)
+        {
+          longest = std::max(longest, delay.time);
+          for (unsigned int i = 0; i < exact.m(); ++i)
+            for (unsigned int j = 0; j < exact.n(); ++j)
+              exact(i, j) += delay.force[i] * (delay.stiffness_row[j] + delay.rate_row[j] / dt) / (1. + delay.time / dt);
+        }
+        EXPECT_GT(longest, 1e-5);
+        const Vector rest(at.size());
+        const Kinematic begin{ at, rest, rest };
+        const DrivePoint to{ dt, 0., 0., 0., speed * dt };
+        const auto moved = [&](const unsigned int port, const double by)
+        {
+          Vector end = at, rate(at.size());
+          end[port] += by;
+          rate[port] = by / dt;
+          contact.evaluate(PortStep{ accepted, to, begin, end, rate, { dt, 0., 0., 0.25, 0.5 } });
+          return contact.forces();
+        };
+        const double largest = exact.linfty_norm();
+        for (unsigned int j = 0; j < linear.ports.size(); ++j)
+        {
+          const double h   = 2e-6 / (linear.ports[j] == properties.ports.rotation() ? 12. : 1.);
+          const auto right = moved(linear.ports[j], h);
+          const auto left  = moved(linear.ports[j], -h);
+          ASSERT_EQ(right.ports, linear.ports);
+          for (unsigned int i = 0; i < linear.ports.size(); ++i)
+            EXPECT_NEAR(exact(i, j), (right.values[i] - left.values[i]) / (2. * h), 1e-5 * largest) << sprung << i << " " << j;
+        }
+      }
+}
+
 // A step without movement, all weight on its end, that begins without friction.
 TEST(FaceLinearisation, StuckIsTheTangentOfAStepInStick)
 {

@@ -70,8 +70,9 @@ namespace
   }
 } // namespace
 
-// Everything is on: damping of lever, contact and support, mu(v), friction. The parts are quadratic forms of round-off 1e-16 of
-// their terms, of which the largest are lambda times the energies.
+// Everything is on: damping of lever, contact and support, mu(v) behind the spring of stick, friction. The parts are quadratic
+// forms of round-off 1e-16 of their terms, of which the largest are lambda times the energies; a traction that is delayed is
+// divided by 1 + lambda time, a hundredth or less at the eigenvalue that the delay itself brings along.
 TEST(Growth, SharesAddUp)
 {
   for (const auto &scene : levers())
@@ -80,11 +81,11 @@ TEST(Growth, SharesAddUp)
         for (const auto &mode : modes_at(scene, x, direction))
         {
           const Complex lambda = mode.mode.eigenvalue;
-          EXPECT_NEAR(sum(mode.growth), lambda.real(), 1e-11 * std::abs(lambda)) << lambda;
+          EXPECT_NEAR(sum(mode.growth), lambda.real(), 1e-10 * std::abs(lambda)) << lambda;
           EXPECT_NEAR(sum(mode.energy), 1., 1e-12);
           EXPECT_LT(mode.growth.structure_damping, 0. + 1e-300);
           EXPECT_LE(mode.growth.contact_damping, 0.);
-          EXPECT_LT(mode.mode.residual, 1e-12);
+          EXPECT_LT(mode.mode.residual, 1e-11) << lambda;
         }
 }
 
@@ -252,40 +253,40 @@ TEST(HeldSlide, StaysInTime)
   }
 }
 
-// Perturbed along a mode that decays it follows exp(lambda t): the hub's rotation after one period, in small steps. With stick
-// resolved and mu(v) it would not: there mu is that of the slip less what the contact's tangential spring takes, whose rate the
-// linearisation leaves out.
+// Perturbed along a mode that decays it follows exp(lambda t): the hub's rotation after one period, in small steps. Constant mu,
+// mu(v) behind the spring of stick, mu(v) regularised.
 TEST(HeldSlide, PerturbedFollowsItsEigenvalue)
 {
-  for (const bool regularised : { false, true })
-  {
-    Scene scene                         = lever_of(ModelType::beam, false);
-    scene                               = held_scene(regularised ? scene : with_coulomb(scene, 0.73));
-    scene.lever.depth                   = 20.;
-    scene.friction.regularisation_speed = regularised ? 1. : 0.;
-    const auto model                    = make_reduced_lever(scene);
-    const auto slide                    = held(*model, drive(65., -1.));
-    const auto mode                     = model->vibrations(slide, true, 1).front();
-    const auto lambda                   = mode.mode.eigenvalue;
-    const auto start                    = model->perturbed(slide, mode, 1e-4 * slide.indentation);
-    const double T                      = 2. * M_PI / lambda.imag();
-    constexpr unsigned int steps        = 400;
-    const auto w                        = generalised_alpha(1., T / steps);
-    Motion motion                       = start;
-    for (unsigned int i = 1; i <= steps; ++i)
+  for (const auto type : { ModelType::rigid, ModelType::beam })
+    for (unsigned int law = 0; law < 3; ++law)
     {
-      const auto step = model->step(motion, { i * w.dt, 65., 0., 0., i * w.dt * slide.speed }, w);
-      ASSERT_TRUE(step.motion);
-      motion = *step.motion;
+      Scene scene                         = lever_of(type, false);
+      scene                               = held_scene(law > 0 ? scene : with_coulomb(scene, 0.73));
+      scene.lever.depth                   = 20.;
+      scene.friction.regularisation_speed = law == 2 ? 1. : 0.;
+      const auto model                    = make_reduced_lever(scene);
+      const auto slide                    = held(*model, drive(65., -1.));
+      const auto mode                     = model->vibrations(slide, true, 1).front();
+      const auto lambda                   = mode.mode.eigenvalue;
+      const auto start                    = model->perturbed(slide, mode, 1e-4 * slide.indentation);
+      const double T                      = 2. * M_PI / lambda.imag();
+      constexpr unsigned int steps        = 400;
+      const auto w                        = generalised_alpha(1., T / steps);
+      Motion motion                       = start;
+      for (unsigned int i = 1; i <= steps; ++i)
+      {
+        const auto step = model->step(motion, { i * w.dt, 65., 0., 0., i * w.dt * slide.speed }, w);
+        ASSERT_TRUE(step.motion);
+        motion = *step.motion;
+      }
+      const auto turned = [&](const Motion &at)
+      {
+        Row row;
+        model->observe(at, row);
+        return row[Column::theta] - kinematics(scene.geometry, 0.).theta - slide.ports[slide.ports.size() - 1];
+      };
+      // The phase of the steps, (omega dt)^2 / 12 a radian, is 1.3e-4 over the period; the amplitude of 1e-4 bends the law by as
+      // much.
+      EXPECT_NEAR(turned(motion) / turned(start), std::exp(lambda.real() * T), 1e-3) << static_cast<int>(type) << law;
     }
-    const auto turned = [&](const Motion &at)
-    {
-      Row row;
-      model->observe(at, row);
-      return row[Column::theta] - kinematics(scene.geometry, 0.).theta - slide.ports[slide.ports.size() - 1];
-    };
-    // The phase of the steps, (omega dt)^2 / 12 a radian, is 1.3e-4 over the period; the amplitude of 1e-4 bends the law by as
-    // much.
-    EXPECT_NEAR(turned(motion) / turned(start), std::exp(lambda.real() * T), 1e-3) << regularised;
-  }
 }

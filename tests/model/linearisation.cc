@@ -178,6 +178,60 @@ TEST(Linearisation, RatesAreTheDerivativeOfTheForcesByVelocities)
   }
 }
 
+// A step from the slide, all weight on its end: the return to the cone of stick is Euler's backward rule for the delay,
+//   (1 + time/dt) tau = stiffness_row . z + rate_row . z/dt.
+// Over 2e-7 mm: round-off as above makes 2e-4 N/mm; rates are up to 0.02 mm/s, whose square times mu'' is nothing.
+TEST(Linearisation, FrictionThatGrowsWithSpeedIsDelayedAsInSteps)
+{
+  unsigned int delayed = 0;
+  for (const auto &slide : slides(0.05))
+    for (const double dt : { 1e-5, 1e-4 })
+    {
+      if (slide.contact.friction.regularisation_speed > 0.)
+        continue;
+      const Vector at = slide.position(overlap);
+      PointContact contact(slide.contact);
+      contact.evaluate_sliding({ at, slide.drive(), slide.speed() });
+      Motion accepted;
+      accepted.drive   = { 0., place, 0., 0. };
+      accepted.contact = contact.memory();
+      PortPerturbation linear;
+      linear.ports         = contact.forces().ports;
+      linear.delays        = contact.friction_delays();
+      linear.pressure      = forces(slide, at, TangentPart::pressure).tangent;
+      linear.friction      = forces(slide, at, TangentPart::friction).tangent;
+      linear.pressure_rate = forces(slide, at, TangentPart::pressure_rate).tangent;
+      linear.friction_rate = forces(slide, at, TangentPart::friction_rate).tangent;
+      ASSERT_EQ(linear.delays.size(), std::holds_alternative<CorkOnAluminium>(slide.contact.friction.law) ? 1u : 0u);
+
+      Full exact = linear.immediate_stiffness();
+      exact.add(1. / dt, linear.immediate_damping());
+      for (const auto &delay : linear.delays)
+      {
+        EXPECT_GT(delay.time, 1e-5);
+        ++delayed;
+        for (unsigned int i = 0; i < exact.m(); ++i)
+          for (unsigned int j = 0; j < exact.n(); ++j)
+            exact(i, j) += delay.force[i] * (delay.stiffness_row[j] + delay.rate_row[j] / dt) / (1. + delay.time / dt);
+      }
+      const Vector rest(at.size());
+      const Kinematic begin{ at, rest, rest };
+      const DrivePoint to{ dt, place, 0., 0., slide.speed() * dt };
+      expect_derivative(
+          slide, exact,
+          [&](const Vector &change)
+          {
+            Vector end = at, rate = change;
+            end += change;
+            rate /= dt;
+            contact.evaluate(PortStep{ accepted, to, begin, end, rate, { dt, 0., 0., 0.25, 0.5 } });
+            return contact.forces();
+          },
+          2e-7, 2e-3);
+    }
+  EXPECT_GT(delayed, 0u);
+}
+
 TEST(Linearisation, PartsByPressureAreSymmetricAndFrictionIsNot)
 {
   for (const auto &slide : slides(0.05))

@@ -72,10 +72,6 @@ class ProgramTest(unittest.TestCase):
         self.assertEqual(tree(self.folder), before)
         return done.stderr.splitlines()
 
-
-class BadScene(ProgramTest):
-    """Mistakes that reading the scene finds."""
-
     def refused_lines(self, lines, *options, also=(), **checks):
         """Each line of the scene is refused by one message that names it and holds the texts paired with the line; those paired
         with None are none. `also`: texts of messages about the options, one each."""
@@ -88,6 +84,10 @@ class BadScene(ProgramTest):
             self.assertEqual(len(found), 1, messages)
             for text in texts:
                 self.assertIn(text, found[0])
+
+
+class BadScene(ProgramTest):
+    """Mistakes that reading the scene finds."""
 
     def test_all_mistakes_at_once(self):
         self.refused_lines(
@@ -116,33 +116,6 @@ class BadScene(ProgramTest):
             *("--set", "Mesh/Degree=3"),
             also=["--set: Mesh/Degree = 3"],
             older=True,
-        )
-
-    def test_parameters_by_name(self):
-        self.refused_lines(
-            [
-                ("subsection Analysis", None),
-                ("  set Type = map", None),
-                ("  set Model = beam", None),
-                ("end", None),
-                ("subsection Map", None),
-                ("  set First parameter = Lever/Dept", ["Map/First parameter", "did you mean 'Lever/Depth'"]),
-                ("  set Second parameter = Friction/Law", ["Map/Second parameter", "no parameter with a number"]),
-                ("  set Coarsest = 6", ["Map/Coarsest", "power of 2"]),
-            ]
-            + [("end", None)],
-        )
-        self.refused_lines(
-            [
-                ("subsection Analysis", None),
-                ("  set Type = stability", None),
-                ("  set Model = closed form", ["Analysis/Model", "no vibration"]),
-                ("end", None),
-                ("subsection Stability", None),
-                ("  set Position = 80", ["Stability/Position = 80", "0 ... 65"]),
-                ("  set Critical = Lever/Depth -3 25", ["Stability/Critical", "Lever/Depth = -3", "> 0"]),
-            ]
-            + [("end", None)],
         )
 
     def test_no_possible_number(self):

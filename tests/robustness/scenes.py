@@ -18,21 +18,22 @@ SCENES = sorted((SOURCE / "params").glob("*.prm"))
 # Long ones are cut down: what they are there for is kept.
 COARSE = {"Mesh/Face size": "4", "Analysis/Step": "5"}
 MAP = {"Map/First points": "3", "Map/Second points": "3", "Map/Coarsest": "1", "Map/Bisections": "1"}
+SHORT = {"Sprag slip/Continuation": "1", "Sprag slip/Turn": "64", "Sprag slip/Settling time": "0.02"}
 CHANGES = {
     "neo-hookean-a": {"Drive/Stroke": "10"},
-    "map-friction-depth-a": MAP,
-    "map-friction-position-a": MAP,
-    "map-offset-inclination": MAP,
-    "map-stiffness-depth-a": MAP,
-    "onset-a": {"Sprag slip/Continuation": "1", "Sprag slip/Settling time": "0.02"},
-    "onset-b": {"Sprag slip/Continuation": "1", "Sprag slip/Settling time": "0.02"},
+    "onset-a": SHORT,
+    "onset-b": {**SHORT, "Sprag slip/Turn": "45"},
 }
 GROUPS = {
     "modal": {"modes": {"frequency", "growth_rate", "kind", "xi", "across_real"}},
     "stability": {"modes": {"frequency", "growth_rate", "growth_by_friction_rotation", "energy_bending"}},
-    "map": {"map": {"growth_rate_forward", "growth_rate_backward", "kind_backward"}, "boundary": set()},
-    "sprag slip": {"growth": set()},
+    "map": {"map": {"growth_rate_forward", "growth_rate_backward", "kind_backward", "theta_0"}},
+    "sprag slip": {
+        "growth": {"time", "amplitude", "predicted"},
+        "continuation": {"x", "growth_rate", "kind_away", "amplitude_P_back"},
+    },
 }
+STABLE, FLUTTER, DIVERGENCE = range(3)
 
 NEVER_NAN = ("time", "x", "v", "theta", "P", "F", "Q", "drive_work", "friction_work", "spring_energy")
 NEVER_NAN_MESHED = NEVER_NAN + (
@@ -101,13 +102,53 @@ class ScenesTest(unittest.TestCase):
         # The elements are wider here than the contact of small P; at their default size 0.024.
         self.assertLess(file["summary/rms_error"][()], 0.2)
 
-    def check_groups(self, file):
-        kind = parameter(file["parameters"].asstr()[()], "Analysis", "Type")
+    def check_groups(self, file, kind):
         for group, names in GROUPS[kind].items():
             self.assertLessEqual(names, set(file[group]))
             for data in file[group].values():
                 self.assertIn("unit", data.attrs)
                 self.assertTrue(data.attrs["description"])
+
+    def check_modes(self, file):
+        self.check_groups(file, parameter(file["parameters"].asstr()[()], "Analysis", "Type"))
+        modes = {name: data[:] for name, data in file["modes"].items()}
+        self.assertGreater(len(modes["frequency"]), 0)
+        self.assertLess(modes["residual"].max(), 1e-8)
+        pulsation = 2 * np.pi * modes["frequency"]
+        parts = sum(values for name, values in modes.items() if name.startswith("growth_by_"))
+        self.assertLess(np.abs((parts - modes["growth_rate"]) / np.hypot(pulsation, modes["growth_rate"])).max(), 1e-8)
+        energies = sum(values for name, values in modes.items() if name.startswith("energy_"))
+        self.assertLess(np.abs(energies - 1).max(), 1e-8)
+
+    def check_stability(self, file):
+        self.check_modes(file)
+        summary = {name: data[()] for name, data in file["summary"].items()}
+        self.assertEqual(summary["verdict"], b"flutter")
+        # Both are there to show a lever that cannot flutter once it is rigid.
+        self.assertEqual(summary["without_flexure_verdict"], b"stable")
+        self.assertGreater(summary["growth_rate"], 0)
+        self.assertEqual(summary["growth_rate"], file["modes/growth_rate"][:].max())
+
+    def check_map(self, file):
+        self.check_groups(file, "map")
+        for way in ("forward", "backward"):
+            kind, rate = (file[f"map/{name}_{way}"][:] for name in ("kind", "growth_rate"))
+            self.assertEqual(kind.shape, (3, 3))
+            unstable = (kind == FLUTTER) | (kind == DIVERGENCE)
+            self.assertTrue((rate[unstable] > 0).all(), way)
+            self.assertTrue((rate[kind == STABLE] < 0).all(), way)
+        # A boundary between neighbours of different kind and nowhere else.
+        sides = [np.diff(file[f"map/kind_{way}"][:], axis=axis) for way in ("forward", "backward") for axis in (0, 1)]
+        self.assertEqual(len(file["table/first"]), sum(np.count_nonzero(side) for side in sides))
+
+    def check_sprag_slip(self, file):
+        self.check_groups(file, "sprag slip")
+        summary = {name: data[()] for name, data in file["summary"].items()}
+        self.assertEqual((summary["slide"], summary["linearisation"]), (b"flutter", b"exact"))
+        self.assertLess(abs(summary["measured_growth_rate"] / summary["linear_growth_rate"] - 1), 1e-3)
+        self.assertLess(abs(summary["measured_frequency"] / summary["linear_frequency"] - 1), 1e-3)
+        # It grows until the contact opens.
+        self.assertTrue(0.1 < summary["cycle_open_share"] < 0.9)
 
     def check_run(self, file):
         table = file["table"]
@@ -128,12 +169,33 @@ class ScenesTest(unittest.TestCase):
         self.assertLess(table["Q"][:].min(), 0)
         self.assertEqual("face" in file, meshed)
 
+    def check(self, file):
+        kind = parameter(file["parameters"].asstr()[()], "Analysis", "Type")
+        checks = {
+            "slope": self.check_sweep,
+            "contact law": self.check_contact_law,
+            "modal": self.check_modes,
+            "stability": self.check_stability,
+            "map": self.check_map,
+            "sprag slip": self.check_sprag_slip,
+        }
+        checks.get(kind, self.check_run)(file)
+
+    def check_fields(self, file, output):
+        """Of finite elements alone; those of modes are a frame each."""
+        condensed = parameter(file["parameters"].asstr()[()], "Analysis", "Model") == "condensed"
+        modes = "modes" in file and condensed
+        self.assertEqual((output / "fields.xdmf").is_file(), modes or "face" in file)
+        if modes:
+            self.assertEqual(len(list(output.glob("fields-*.h5"))), len(file["modes/frequency"]))
+
     def test_all_run(self):
         for scene in SCENES:
             with self.subTest(scene=scene.stem):
                 output = self.output / scene.stem
+                changes = MAP if scene.stem.startswith("map-") else CHANGES.get(scene.stem, {})
                 options = []
-                for name, value in {**COARSE, **CHANGES.get(scene.stem, {})}.items():
+                for name, value in {**COARSE, **changes}.items():
                     options += ["--set", f"{name}={value}"]
                 done = sprag(scene, *options, "--output", output, "--quiet")
                 self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
@@ -143,11 +205,14 @@ class ScenesTest(unittest.TestCase):
                         self.assertTrue(data.attrs["description"])
                     self.assertEqual(file["summary/status"].asstr()[()], "completed")
                     self.assertIn("cpu_time", file["meta"])
-                    kind = parameter(file["parameters"].asstr()[()], "Analysis", "Type")
-                    checks = {"slope": self.check_sweep, "contact law": self.check_contact_law}
-                    checks.get(kind, self.check_groups if kind in GROUPS else self.check_run)(file)
-                    fields = "face" in file
-                self.assertEqual((output / "fields.xdmf").is_file(), fields)
+                    self.check(file)
+                    self.check_fields(file, output)
+
+    def test_modes_without_fields(self):
+        scene = SOURCE / "params" / "modal-a.prm"
+        options = ("--set", "Mesh/Face size=4", "--set", "Output/Fields=none", "--output", self.output, "--quiet")
+        self.assertEqual(sprag(scene, *options).returncode, 0)
+        self.assertEqual([path.name for path in self.output.iterdir()], ["result.h5"])
 
 
 if __name__ == "__main__":

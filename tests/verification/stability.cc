@@ -2,6 +2,7 @@
 
 #include "analysis/contact_law.h"
 #include "model/modal_vibration.h"
+#include "model/reduced_lever.h"
 #include "mpi_environment.h"
 #include "scene/held_slide.h"
 #include "scenes.h"
@@ -61,6 +62,8 @@ namespace
     scene.contact.exponent  = fit.exponent;
     return scene;
   }
+
+  constexpr DrivePoint at_65 = { 0., 65., -112., 0. };
 
   double bisected(const std::function<bool(double)> &is_beyond, double low, double high)
   {
@@ -133,6 +136,56 @@ TEST(ModelB, NeverFluttersWithItsNeutralAxisAtThePivot)
       }
 }
 
+// Flutter of model A's lever of 6 mm at x = 65 backward, with damping and mu(v): frequency and growth against 32 elements.
+// Hermite elements of length h leave h^4 of frequencies; growth is a small difference of two meeting ones.
+TEST(Beam, OfEightElementsHasConverged)
+{
+  Scene scene = stability_scene(with_depth(model_a(), 6.), ModelType::beam);
+  for (const bool coulomb : { false, true })
+  {
+    if (coulomb)
+      scene = with_coulomb(scene, 0.73);
+    const Scene held   = held_scene(scene);
+    const auto flutter = [&](const unsigned int elements)
+    {
+      const auto found = judge(*make_reduced_lever(held, elements), at_65, 10);
+      EXPECT_EQ(found.kind, SlideKind::flutter) << elements;
+      return found.worst_mode().mode.eigenvalue;
+    };
+    const Complex fine = flutter(32);
+    const Complex used = flutter(beam_elements);
+    EXPECT_NEAR(used.real(), fine.real(), 0.007 * fine.real());
+    EXPECT_NEAR(used.imag(), fine.imag(), 5e-4 * fine.imag());
+    // The cubic shapes' order between 4 and 8 elements, as far as the contact's place in its element allows.
+    EXPECT_LT(std::abs(used - fine), 0.25 * std::abs(flutter(4) - fine));
+    RecordProperty("growth_at_8", std::to_string(used.real() / fine.real() - 1.));
+    RecordProperty("frequency_at_8", std::to_string(used.imag() / fine.imag() - 1.));
+  }
+}
+
+// Static face shapes answer at once for what the modes leave out.
+TEST(Condensed, OfTwentyModesHasConverged)
+{
+  DynamicsMaker maker(false);
+  Scene scene        = stability_scene(with_depth(coarse(model_a()), 6.), ModelType::condensed);
+  const auto flutter = [&](const unsigned int modes)
+  {
+    scene.condensed.modes = modes;
+    const auto found      = judge(scene, maker);
+    EXPECT_EQ(found.kind, SlideKind::flutter) << modes;
+    return found.worst_mode().mode.eigenvalue;
+  };
+  const Complex fine = flutter(40);
+  for (const unsigned int modes : { 10u, 20u })
+  {
+    const Complex used = flutter(modes);
+    EXPECT_NEAR(used.real(), fine.real(), 1e-3 * fine.real()) << modes;
+    EXPECT_NEAR(used.imag(), fine.imag(), 1e-4 * fine.imag()) << modes;
+    RecordProperty("growth_at_" + std::to_string(modes), std::to_string(used.real() / fine.real() - 1.));
+    RecordProperty("frequency_at_" + std::to_string(modes), std::to_string(used.imag() / fine.imag() - 1.));
+  }
+}
+
 // With the mesh's neutral axis, behind the interface by the layer and half the depth, it can: 12 mm, mu 0.73, k_c = 1e4 N/mm,
 // x = 44 backward grows by about 159/s at 778 Hz (a prototype's figures, three digits).
 TEST(ModelB, FluttersWithAnAxisBehindTheInterfaceOnAStiffContact)
@@ -163,26 +216,62 @@ TEST(MeshedLever, MassDampingTakesHalfOfItsFactorOffEveryVibration)
   }
 }
 
-// Everything on: friction with mu(v), damping of lever, layer and support. The solver's vectors are good to 1e-6 or less
-// and the forms to its square but for friction.
+// Everything on: friction with mu(v) behind the spring of stick, or constant, damping of lever, layer and support. To round-off
+// of 1e-16 of the stiffest, 1e8 times what moves. An eigenvalue that a point's delay brings along is close to its -1/time, and
+// the traction is divided by the difference.
 TEST(MeshedLever, SharesOfGrowthAddUp)
 {
   DynamicsMaker maker(false);
   for (const auto model : meshed_models)
     for (const auto support : { SupportType::rigid, SupportType::sprung })
-    {
-      Scene scene                   = with_depth(coarse(stability_scene(model_a(), model)), 6.);
-      scene.support.type            = support;
-      scene.lever.mass_damping      = 5.;
-      scene.lever.stiffness_damping = 1e-6;
-      scene.stability.modes         = 6;
-      for (const auto &mode : judge(scene, maker).modes)
+      for (const bool coulomb : { false, true })
       {
-        const Complex lambda = mode.mode.eigenvalue;
-        EXPECT_NEAR(sum(mode.growth), lambda.real(), 1e-7 * std::abs(lambda)) << lambda;
-        EXPECT_NEAR(mode.energy.rotation + mode.energy.bending + mode.energy.support + mode.energy.contact, 1., 1e-10);
+        Scene scene = with_depth(coarse(stability_scene(model_a(), model)), 6.);
+        if (coulomb)
+          scene = with_coulomb(scene, 0.73);
+        scene.support.type            = support;
+        scene.lever.mass_damping      = 5.;
+        scene.lever.stiffness_damping = 1e-6;
+        scene.stability.modes         = 6;
+        unsigned int vibrations       = 0;
+        for (const auto &mode : judge(scene, maker).modes)
+        {
+          const Complex lambda   = mode.mode.eigenvalue;
+          const double round_off = lambda.imag() > 0. ? 1e-8 : 1e-5;
+          EXPECT_NEAR(sum(mode.growth), lambda.real(), round_off * std::abs(lambda)) << lambda;
+          EXPECT_NEAR(mode.energy.rotation + mode.energy.bending + mode.energy.support + mode.energy.contact, 1., 1e-10);
+          EXPECT_EQ(mode.growth.friction_speed == 0., coulomb);
+          vibrations += lambda.imag() > 0. ? 1 : 0;
+        }
+        EXPECT_GE(vibrations, 6u);
       }
+}
+
+// The condensed lever has 40 modes more than are compared: of these its static shapes leave out inertia worth (f/f_41)^4.
+TEST(MeshedLever, UnderALawThatRisesWithSpeedCondensedVibratesAsTheFiniteElements)
+{
+  DynamicsMaker maker(false);
+  for (const auto support : { SupportType::rigid, SupportType::sprung })
+  {
+    Scene scene           = with_depth(coarse(stability_scene(model_a(), ModelType::finite_element)), 6.);
+    scene.support.type    = support;
+    scene.condensed.modes = 40;
+    scene.stability.modes = 6;
+    const auto whole      = judge(scene, maker);
+    const auto condensed  = judge(stability_scene(scene, ModelType::condensed), maker);
+    EXPECT_GT(std::abs(whole.worst_mode().growth.friction_speed), 10.);
+    for (unsigned int i = 0; i < whole.modes.size(); ++i)
+    {
+      const Complex lambda = whole.modes[i].mode.eigenvalue;
+      if (lambda.imag() <= 0.)
+        continue;
+      double nearest = 1e300;
+      for (const auto &other : condensed.modes)
+        nearest = std::min(nearest, std::abs(other.mode.eigenvalue - lambda));
+      EXPECT_LT(nearest, 1e-4 * std::abs(lambda)) << lambda;
+      RecordProperty("difference_at_" + std::to_string(lambda.imag()), std::to_string(1e9 * nearest / std::abs(lambda)));
     }
+  }
 }
 
 TEST(MeshedLever, OutOfContactVibratesAsItsFreeModes)

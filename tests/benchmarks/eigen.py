@@ -1,0 +1,120 @@
+#!/usr/bin/python3
+"""Prints what the eigenvalues of a slide cost: wall and CPU time of making the model and of finding the slide and its vibrations, for
+beam, condensed lever and finite elements of two sizes, and ratios of the CPU times. Run it on a machine that does nothing else;
+see README.md."""
+
+import argparse
+import os
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+ROOT = Path(__file__).resolve().parents[2]
+MAKING = ("mesh", "basis", "model")
+COLUMNS = ("model", "face mm", "DOF", "coordinates", "model wall", "model CPU", "eigen wall", "eigen CPU", "growth 1/s", "Hz",
+           "residual", "MiB", "eigen / beam", "/ finite element")
+WIDTHS = (16, 9, 8, 13, 12, 11, 12, 11, 12, 9, 10, 6, 14, 18)
+
+# Model, face size [mm]. About 14 000 and 50 000 degrees of freedom.
+RUNS = (
+    ("beam", 0.5),
+    ("condensed", 0.5),
+    ("finite element", 0.5),
+    ("condensed", 0.16),
+    ("finite element", 0.16),
+)
+
+
+def total(meta, kind, phases):
+    names = [f"{kind}_time_{phase}" for phase in phases]
+    return sum(meta[name][()] for name in names if name in meta)
+
+
+def run(sprag, scene, model, face_size, modes, output):
+    changes = {
+        "Analysis/Model": model,
+        "Mesh/Face size": face_size,
+        "Condensed/Cache": output.with_suffix(".cache"),
+        "Stability/Roles": "off",
+        "Stability/Critical": "none",
+        "Stability/Modes": modes,
+        "Output/Fields": "none",
+    }
+    command = [sprag, scene, "--output", output, "--quiet"]
+    for name, value in changes.items():
+        command += ["--set", f"{name}={value}"]
+    environment = {**os.environ, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
+    done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
+    if done.returncode != 0:
+        return done.stderr.strip()
+    with h5py.File(output / "result.h5", "r") as file:
+        meta, summary = file["meta"], file["summary"]
+        return {
+            "model": model,
+            "face mm": face_size if "coordinates" in meta else np.nan,
+            "DOF": meta["degrees_of_freedom"][()] if "coordinates" in meta else np.nan,
+            "coordinates": meta["coordinates"][()] if "coordinates" in meta else np.nan,
+            "model wall": total(meta, "wall", MAKING),
+            "model CPU": total(meta, "cpu", MAKING),
+            "eigen wall": meta["wall_time_eigenvalues"][()],
+            "eigen CPU": meta["cpu_time_eigenvalues"][()],
+            "growth 1/s": summary["growth_rate"][()],
+            "Hz": summary["frequency"][()],
+            "residual": file["modes"]["residual"][:].max(),
+            "MiB": meta["peak_memory"][()],
+        }
+
+
+def text(value):
+    if isinstance(value, str):
+        return value
+    if np.isnan(value):
+        return "-"
+    if value == round(value):
+        return f"{value:.0f}"
+    return f"{value:.2e}" if abs(value) < 1e-3 else f"{value:.4g}"
+
+
+def print_row(cells):
+    line = cells[0].ljust(WIDTHS[0])
+    for cell, width in zip(cells[1:], WIDTHS[1:]):
+        line += cell.rjust(width)
+    print(line, flush=True)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    default = Path(os.environ.get("SPRAG", ROOT / "build" / "sprag"))
+    parser.add_argument("--sprag", type=Path, default=default, help="the program; default $SPRAG or build/sprag")
+    parser.add_argument("--scene", type=Path, default=ROOT / "params" / "stability-a.prm")
+    parser.add_argument("--modes", type=int, default=10)
+    options = parser.parse_args()
+
+    print_row(COLUMNS)
+    beam, elements, failed = np.nan, {}, 0
+    rows = []
+    with tempfile.TemporaryDirectory(prefix="sprag-eigen-") as folder:
+        for i, (model, face_size) in enumerate(RUNS):
+            row = run(options.sprag.resolve(), options.scene, model, face_size, options.modes, Path(folder) / str(i))
+            if isinstance(row, str):
+                print(f"{model}, {face_size} mm: {row}", file=sys.stderr)
+                failed += 1
+                continue
+            rows.append((face_size, row))
+            if model == "beam":
+                beam = row["eigen CPU"]
+            if model == "finite element":
+                elements[face_size] = row["eigen CPU"]
+    for face_size, row in rows:
+        row["eigen / beam"] = row["eigen CPU"] / beam
+        row["/ finite element"] = row["eigen CPU"] / elements.get(face_size, np.nan)
+        print_row([text(row[column]) for column in COLUMNS])
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

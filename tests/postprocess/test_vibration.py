@@ -1,0 +1,281 @@
+"""Pictures of modes, stability and sprag slip on small files of the shape sprag writes; run with /usr/bin/python3."""
+
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+FOLDER = Path(__file__).resolve().parents[2] / "postprocess"
+sys.path.insert(0, str(FOLDER))
+
+import results  # noqa: E402
+import sprag_slip  # noqa: E402
+import vibration  # noqa: E402
+from style import plt  # noqa: E402
+
+FEEDS = [f"growth_by_{name}" for name, _ in vibration.FEEDS]
+TEXTS = h5py.string_dtype()
+
+
+def put(group, name, values):
+    data = group.create_dataset(name, data=values, dtype=TEXTS if isinstance(values, str) else None)
+    data.attrs["unit"] = "1"
+    data.attrs["description"] = f"{name} of a test"
+
+
+def new_file(folder, kind, **arguments):
+    folder.mkdir()
+    file = h5py.File(folder / "result.h5", "w", **arguments)
+    file.attrs["format"] = "sprag result"
+    file["parameters"] = f"subsection Analysis\n  set Type = {kind}\nend\n"
+    file.create_group("table")
+    return file
+
+
+def finish(file, **summary):
+    for name, value in {"status": "completed", **summary}.items():
+        put(file.require_group("summary"), name, value)
+    file.require_group("meta")
+    file.close()
+
+
+def fill_modes(file, eigenvalues, xi):
+    """Standing waves of growing number of nodes, the rotation turning the lever about its pivot; the lever's points in disorder."""
+    modes = file.create_group("modes")
+    eigenvalues = np.asarray(eigenvalues, dtype=complex)
+    number = len(eigenvalues)
+    put(modes, "frequency", eigenvalues.imag / (2 * np.pi))
+    put(modes, "growth_rate", eigenvalues.real)
+    put(modes, "kind", np.where(eigenvalues.real > 0, np.where(eigenvalues.imag > 0, 1.0, 2.0), 0.0))
+    for name in FEEDS:
+        put(modes, name, eigenvalues.real / len(FEEDS))
+    if number == 0:
+        return
+    put(modes, "xi", xi)
+    wave = np.sin(np.pi * np.arange(1, number + 1)[:, None] * xi / 200)
+    for part, factor in (("real", 1.0), ("imaginary", 0.2)):
+        put(modes, f"across_{part}", factor * wave)
+        put(modes, f"rotation_{part}", np.full(number, factor * 0.01))
+
+
+FACE = np.array((200.0, 0.0, 100.0, 50.0, 150.0))
+GROWING = (-180 + 1047j, 78 + 1162j, -110 + 4467j, -300 + 7700j, -400 + 15000j)
+
+
+def make_stability(folder, eigenvalues=GROWING, xi=FACE, kind="stability", **summary):
+    file = new_file(folder, kind)
+    fill_modes(file, eigenvalues, xi)
+    finish(file, **summary)
+    return folder
+
+
+def role(name, verdict, rate):
+    return {f"without_{name}_verdict": verdict, f"without_{name}_growth_rate": rate, f"without_{name}_frequency": np.nan}
+
+
+FLUTTER = {"verdict": "flutter", "growth_rate": 78.0, **role("damping", "flutter", 87.0), **role("flexure", "stable", -81.0)}
+JAMMED = {"verdict": "jammed", **role("damping", "jammed", np.nan), **role("inertia", "jammed", np.nan)}
+
+
+class SpragSlipRun:
+    """Growth at a rate until P reaches zero, then a vibration out of contact half of the time."""
+
+    rate, frequency, steady, turn = 100.0, 180.0, 24.0, 0.14
+
+    def table(self, end=0.3):
+        time = np.arange(0, end, 2e-4)
+        swing = np.exp(self.rate * np.minimum(time - 0.13, 0)) * np.sin(2 * np.pi * self.frequency * time)
+        P = np.maximum(self.steady * (1 + np.where(time > self.turn, 2, 1) * swing), 0)
+        columns = {"time": time, "P": P, "indentation": P / 1500, "theta": 0.05 + 1e-3 * swing, "theta_rate": swing}
+        return {**columns, "P_quasi_static": np.full(len(time), self.steady), "x": np.full(len(time), 65.0), "Q": P / 2}
+
+    def fill_growth(self, file):
+        time = np.arange(0.01, 0.07, 1 / 180)
+        for name, values in {"time": time, "amplitude": 1e-6 * np.exp(self.rate * time)}.items():
+            put(file.require_group("growth"), name, values)
+        put(file["growth"], "predicted", 1e-6 * np.exp(1.01 * self.rate * time))
+
+    def fill_continuation(self, file, x, kind_away, kind_back):
+        group = file.create_group("continuation")
+        put(group, "x", x)
+        put(group, "growth_rate", 10.0 * (x - 62))
+        for way, kinds in (("away", kind_away), ("back", kind_back)):
+            put(group, f"kind_{way}", kinds)
+            put(group, f"amplitude_P_{way}", 40.0 + 0.0 * x)
+
+    summary = {
+        "slide": "flutter",
+        "x": 65.0,
+        "P": 24.0,
+        "indentation": 0.016,
+        "linear_growth_rate": 101.0,
+        "linear_frequency": 180.0,
+        "measured_growth_rate": 100.0,
+        "measured_frequency": 180.0,
+    }
+    cycle = {"cycle": "cycle", "cycle_begin": 0.2, "cycle_amplitude_P": 40.0, "cycle_frequency": 180.0, "cycle_open_share": 0.5}
+
+
+def make_sprag_slip(folder, end=0.3, **arguments):
+    file = new_file(folder, "sprag slip", **arguments)
+    for name, values in SpragSlipRun().table(end).items():
+        put(file["table"], name, values)
+    return file
+
+
+class PictureTest(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory(prefix="sprag-test-")
+        self.addCleanup(temporary.cleanup)
+        self.addCleanup(plt.close, "all")
+        self.folder = Path(temporary.name)
+        self.pictures = self.folder / "pictures"
+
+    def plot(self, folder):
+        command = ["/usr/bin/python3", FOLDER / "plot.py", "--output", self.pictures, folder]
+        return subprocess.run(command, capture_output=True, text=True, check=False)
+
+    def expect_pictures(self, done, names):
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertEqual(sorted(path.name for path in self.pictures.iterdir()), sorted(f"{name}.png" for name in names))
+        for path in self.pictures.iterdir():
+            self.assertGreater(path.stat().st_size, 5000)
+
+    def expect_refusal(self, done, *words):
+        self.assertEqual(done.returncode, 2)
+        self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+        for word in words:
+            self.assertIn(word, done.stderr)
+
+
+class Vibration(PictureTest):
+    def modes(self, *arguments, **options):
+        return results.read_result(make_stability(self.folder / "a", *arguments, **options)).groups["modes"]
+
+    def test_deflection_turns_with_the_hub(self):
+        xi, shape = vibration.deflection(self.modes(), 0)
+        np.testing.assert_array_equal(xi, (0, 50, 100, 150, 200))
+        expected = np.sin(np.pi * xi / 200) + 0.01 * xi
+        np.testing.assert_allclose(shape, expected / expected.max(), rtol=0, atol=1e-12)
+
+    def test_rigid_lever_is_straight(self):
+        modes = self.modes((-10 + 600j,), np.array((0.0,)))
+        xi, shape = vibration.deflection(modes, 0)
+        np.testing.assert_allclose(shape, xi / xi[-1], rtol=0, atol=1e-15)
+
+    def test_growing_modes_are_always_shown(self):
+        modes = self.modes((*GROWING[2:], 5 + 90000j))
+        self.assertEqual(vibration.shown_modes(modes, 2), [0, 3])
+        self.assertEqual(vibration.shown_modes(modes, 10), [0, 1, 2, 3])
+
+    def test_names_of_modes(self):
+        modes = self.modes((-1234 + 2000j * np.pi, 0.5 + 200j * np.pi, 40 + 0j))
+        names = [vibration.mode_name(modes, mode) for mode in range(3)]
+        minus = "\N{MINUS SIGN}"
+        self.assertEqual(names, [f"1000 Hz, {minus}1234 1/s", "100 Hz, +0.5 1/s, flutter", "0 Hz, +40 1/s, divergence"])
+
+    def test_bars_of_roles(self):
+        """Growth as bars, in the order given; without a rate the verdict alone."""
+        _, axes = plt.subplots()
+        vibration.draw_roles(axes, {**FLUTTER, **role("inertia", "stable", np.nan)})
+        self.assertEqual([bar.get_width() for bar in axes.patches], [78, 87, -81])
+        self.assertEqual([text.get_text() for text in axes.texts], ["stable"])
+
+    def test_divergence_is_on_the_axis(self):
+        _, axes = plt.subplots()
+        vibration.draw_eigenvalues(axes, self.modes((40 + 0j, -10 + 600j)))
+        low, high = axes.get_ylim()
+        self.assertLessEqual(low, 0)
+        self.assertGreater(high, 600 / (2 * np.pi))
+
+    def test_pictures(self):
+        cases = {
+            "flutter": (make_stability(self.folder / "flutter", **FLUTTER), ["modes", "stability"]),
+            "modal": (make_stability(self.folder / "modal", 1j * np.imag(GROWING), kind="modal"), ["modes"]),
+            "rigid": (make_stability(self.folder / "rigid", GROWING[1:2], np.zeros(1), **FLUTTER), ["modes", "stability"]),
+            "jammed": (make_stability(self.folder / "jammed", (), **JAMMED), ["stability"]),
+            "roles off": (make_stability(self.folder / "off", verdict="stable", growth_rate=-3.0), ["modes", "stability"]),
+            "divergence": (make_stability(self.folder / "divergence", (5 + 0j,), **FLUTTER), ["modes", "stability"]),
+        }
+        for name, (run, pictures) in cases.items():
+            with self.subTest(case=name):
+                self.pictures = self.folder / f"pictures of {name}"
+                self.expect_pictures(self.plot(run), pictures)
+
+    def test_nothing_to_draw(self):
+        self.expect_refusal(self.plot(make_stability(self.folder / "a", (), kind="modal")), "no mode")
+
+
+class SpragSlip(PictureTest):
+    given = SpragSlipRun()
+
+    def test_all_pictures(self):
+        x = np.arange(58.0, 66)
+        with make_sprag_slip(self.folder / "a") as file:
+            self.given.fill_growth(file)
+            self.given.fill_continuation(file, x, np.where(x > 60, 1.0, 0.0), np.where(x > 62, 2.0, 0.0))
+            finish(file, coexistence_from=61.0, coexistence_to=62.0, **self.given.summary, **self.given.cycle)
+        self.expect_pictures(self.plot(self.folder / "a"), ["growth", "cycle", "continuation"])
+
+    def test_branches_jump(self):
+        """From slide to vibration no line is drawn but dots."""
+        x = np.array((3.0, 1, 2, 4, 5))
+        points = {"x": x, "kind_away": np.array((1.0, 0, 0, 2, np.nan)), "amplitude_P_away": 10 * x}
+        _, axes = plt.subplots()
+        sprag_slip.draw_branch(axes, points, "away", "name", "o", 0)
+        lines = [(line.get_linestyle(), *line.get_ydata()) for line in axes.get_lines() if len(line.get_xdata()) == 2]
+        self.assertEqual(lines, [("-", 0, 0), (":", 0, 30), ("-", 30, 40)])
+        hollow = [line for line in axes.get_lines() if line.get_markerfacecolor() == "white"]
+        self.assertEqual([list(line.get_ydata()) for line in hollow], [[40]])
+
+    def test_force_until_the_vibration_is_told_apart(self):
+        with make_sprag_slip(self.folder / "a") as file:
+            finish(file, **self.given.summary, **self.given.cycle)
+        result = results.read_result(self.folder / "a")
+        _, axes = plt.subplots()
+        sprag_slip.draw_force(axes, result, 0.06)
+        shown = axes.get_lines()[0].get_xdata()
+        lost = result.table["time"][result.table["P"] == 0][0]
+        self.assertAlmostEqual(shown[-1] / 1e3, min(lost + 20 / 180, 0.2), delta=2.1e-4)
+
+    def test_a_slide_that_does_not_oscillate(self):
+        with make_sprag_slip(self.folder / "a") as file:
+            self.given.fill_growth(file)
+            finish(file, **{**self.given.summary, "linear_frequency": 0.0, "measured_frequency": np.nan})
+        self.expect_pictures(self.plot(self.folder / "a"), ["growth"])
+
+    def test_stopped_before_the_vibration_is_told(self):
+        with make_sprag_slip(self.folder / "a") as file:
+            self.given.fill_growth(file)
+            finish(file, **{**self.given.summary, "cycle_begin": np.nan, "status": "interrupted"})
+        self.expect_pictures(self.plot(self.folder / "a"), ["growth"])
+
+    def test_nothing_measured(self):
+        """Stopped while it grows: groups of no length."""
+        with make_sprag_slip(self.folder / "a", 0.01) as file:
+            for name in ("time", "amplitude", "predicted"):
+                put(file.require_group("growth"), name, np.empty(0))
+            finish(file, **self.given.summary)
+        self.expect_pictures(self.plot(self.folder / "a"), ["growth"])
+
+    def test_going_on_or_killed(self):
+        with make_sprag_slip(self.folder / "a", libver="latest") as file:
+            file.swmr_mode = True
+            self.expect_pictures(self.plot(self.folder / "a"), ["growth"])
+
+    def test_jammed(self):
+        with make_sprag_slip(self.folder / "a", 0.0) as file:
+            finish(file, slide="jammed", status="no slide in contact that could be perturbed")
+        self.expect_refusal(self.plot(self.folder / "a"), "no step was made: no slide in contact")
+
+    def test_map_that_was_killed(self):
+        (self.folder / "map.journal").write_text("sprag map 1\n")
+        self.expect_refusal(self.plot(self.folder), "a map that was cut short", "takes it up")
+
+
+if __name__ == "__main__":
+    unittest.main()

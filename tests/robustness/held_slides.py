@@ -1,0 +1,179 @@
+"""Held slides from outside: what modal, stability, map and sprag-slip scenes are refused for, and what becomes of a slide that jams.
+Run with /usr/bin/python3; environment: SPRAG, the program, and SPRAG_SOURCE, the sources."""
+
+import re
+import unittest
+
+import h5py
+import numpy as np
+
+from bad_input import COARSE, SOURCE, ProgramTest, sprag
+
+
+def section(name, **settings):
+    """Lines of a section, and what is said about each: {name with _ for blanks: (value, texts or None)}."""
+    entries = [(f"  set {setting.replace('_', ' ')} = {value}", texts) for setting, (value, texts) in settings.items()]
+    return [(f"subsection {name}", None), *entries, ("end", None)]
+
+
+class BadSlide(ProgramTest):
+    """Mistakes that reading the scene finds."""
+
+    def test_map_of_other_parameters(self):
+        analysis = section("Analysis", Type=("map", None), Model=("beam", None))
+        first = ("Lever/Dept", ["Map/First parameter", "Lever/Dept is no parameter with a number", "did you mean 'Lever/Depth'"])
+        second = ("Friction/Law", ["Map/Second parameter", "no parameter with a number"])
+        coarsest = ("6", ["Map/Coarsest = 6", "power of 2"])
+        parameters = section("Map", First_parameter=first, Second_parameter=second, Coarsest=coarsest)
+        self.refused_lines(analysis + parameters, older=True)
+
+    def test_map_of_bad_ranges(self):
+        analysis = section("Analysis", Type=("map", None), Model=("beam", None))
+        ranges = section(
+            "Map",
+            First_parameter=("Lever/Depth", ["Map/First parameter", "Lever/Depth = 0 ", "> 0"]),
+            First_from=("0", None),
+            First_to=("25", None),
+            First_points=("1", ["Map/First points = 1", ">= 2"]),
+            Second_parameter=("Friction/Factor", ["Map/Second parameter", "Friction/Factor must have a range, not 0.5 alone"]),
+            Second_from=("0.5", None),
+            Second_to=("0.5", None),
+            Second_points=("2.5", ["Map/Second points = 2.5", "must be an integer >= 2"]),
+            Bisections=("-1", ["Map/Bisections = -1"]),
+        )
+        self.refused_lines(analysis + ranges)
+
+    def test_map_of_one_parameter(self):
+        analysis = section("Analysis", Type=("map", None), Model=("beam", None))
+        settings = dict(Second_parameter=("Lever/Depth", ["Map/Second parameter", "must be another than First parameter"]))
+        ranges = dict(First_from=("3", None), First_to=("9", None), Second_from=("3", None), Second_to=("9", None))
+        self.refused_lines(analysis + section("Map", First_parameter=("Lever/Depth", None), **settings, **ranges))
+
+    def test_slide_that_cannot_be_held(self):
+        for kind in ("modal", "stability", "sprag slip"):
+            with self.subTest(kind=kind):
+                place = section("Stability", Position=("80", ["Stability/Position = 80", "0 ... 65 mm"]))
+                contact = section("Contact", Type=("ideal", ["Contact/Type = ideal", "must be compliant"]))
+                model = ("closed form", ["Analysis/Model = closed form", "which has no vibration"])
+                analysis = section("Analysis", Type=(kind, None), Model=model)
+                self.refused_lines(analysis + place + contact)
+
+    def test_slide_of_what_is_not_linear(self):
+        for kind in ("modal", "stability", "sprag slip", "map"):
+            with self.subTest(kind=kind):
+                held = "where a slide is held"
+                lines = section("Analysis", Type=(kind, None), Model=("condensed", None))
+                lines += section("Lever", Material=("neo-Hookean", ["Lever/Material", "must be linear", held]))
+                enforcement = ("augmented Lagrangian", ["Contact/Enforcement", "must be penalty", held])
+                lines += section("Contact", Enforcement=enforcement)
+                self.refused_lines(lines)
+
+    def test_critical_values(self):
+        for text, says in {
+            "Lever/Depth -3 25": ["Lever/Depth = -3", "> 0"],
+            "Lever/Depht 3 25": ["Lever/Depht is no parameter with a number", "did you mean 'Lever/Depth'"],
+            "Lever/Material 0 1": ["Lever/Material is no parameter with a number"],
+            "Lever/Depth 3 3": ["Lever/Depth must have a range, not 3 alone"],
+            "Lever/Depth 3": ["must be auto, none or a list of SECTION/NAME FROM TO"],
+            "Lever/Depth 3 25;; Friction/Factor 0 2": ["must be auto, none or a list"],
+            "Lever/Depth three 25": ["must be auto, none or a list"],
+            "Lever/Depth 3 25mm": ["must be auto, none or a list"],
+            "Friction/Coefficient 0.1 1": ["Friction/Coefficient counts only with Friction/Law = Coulomb", "Friction/Factor"],
+            "yes": ["must be auto, none or a list"],
+        }.items():
+            with self.subTest(critical=text):
+                analysis = section("Analysis", Type=("stability", None), Model=("beam", None))
+                critical = section("Stability", Critical=(text, [f"Stability/Critical = {text}", *says]))
+                self.refused_lines(analysis + critical)
+
+    def test_sprag_slip_that_cannot_begin(self):
+        analysis = section("Analysis", Type=("sprag slip", None), Model=("beam", None))
+        lines = analysis + section(
+            "Sprag slip",
+            Initial_amplitude=("0.1", None),
+            Final_amplitude=("0.01", ["Sprag slip/Final amplitude = 0.01", "more than Initial amplitude = 0.1"]),
+            Turn=("70", ["Sprag slip/Turn = 70", "0 ... 65 mm"]),
+        )
+        self.refused_lines(lines, older=True)
+
+    def test_continuation_to_where_it_begins(self):
+        analysis = section("Analysis", Type=("sprag slip", None), Model=("beam", None))
+        turn = ("30", ["Sprag slip/Turn = 30", "must be another x than Stability/Position = 30 mm"])
+        lines = analysis + section("Stability", Position=("30", None)) + section("Sprag slip", Turn=turn)
+        self.refused_lines(lines)
+        scene = self.write("".join(f"{line}\n" for line, _ in lines))
+        done = sprag(scene, "--set", "Sprag slip/Continuation=0", "--validate")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+
+    def test_values_that_cannot_be_judged_are_told(self):
+        """The drive ends at 65 mm; 100 mm is a number like any other."""
+        scene = SOURCE / "params" / "stability-a.prm"
+        options = ("--set", "Stability/Roles=off", "--set", "Stability/Critical=Stability/Position 40 100")
+        done = sprag(scene, *options, "--output", self.output)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        found = re.search(r"from 40 to 100: stable, flutter from 5\d\.\d+; cannot be judged at (\S+) to 100 \(\d+ values\)\n", done.stdout)
+        self.assertTrue(found, done.stdout)
+        self.assertTrue(65 < float(found.group(1)) <= 70, found.group(0))
+
+    def test_processes_of_a_map(self):
+        scene = SOURCE / "params" / "map-friction-depth-a.prm"
+        for number in ("0", "-1", "x", "1.5", ""):
+            with self.subTest(jobs=number):
+                self.refused(scene, "--jobs", number, says=["--jobs"])
+
+
+class JammedSlide(ProgramTest):
+    """Model A moving back at x = 65 mm with 5 times the friction, mu = 3.6: s = 120 mm < mu e = 164 mm."""
+
+    def run_at(self, kind, *changes):
+        scene = SOURCE / "params" / "stability-a.prm"
+        options = ("--set", f"Analysis/Type={kind}", "--set", "Friction/Factor=5", *changes)
+        return sprag(scene, *options, "--output", self.output)
+
+    def summary(self):
+        with h5py.File(self.output / "result.h5", "r") as file:
+            return {name: data.asstr()[()] if data.dtype.kind == "O" else data[()] for name, data in file["summary"].items()}
+
+    def test_is_a_verdict(self):
+        for model in ("rigid", "beam", "condensed"):
+            with self.subTest(model=model):
+                changes = (*COARSE, "--set", f"Analysis/Model={model}", "--set", "Stability/Critical=none")
+                done = self.run_at("stability", *changes)
+                self.assertEqual((done.returncode, done.stderr), (0, ""))
+                self.assertRegex(done.stdout, r"verdict +jammed\n")
+                found = self.summary()
+                self.assertEqual((found["verdict"], found["status"]), ("jammed", "completed"))
+                self.assertTrue(np.isnan(found.get("growth_rate", np.nan)))
+
+    def test_critical_friction_of_the_rigid_lever(self):
+        """It locks at mu e = s, the closed form's s at x = 65 mm. A contact of stiffness k_c gives way by delta = P/k_c, which takes
+        it there at a margin m of about sqrt(delta_0/s) already: with P = 18.6 N / m and k_c = 1e9 N/mm that is 1e-5."""
+        changes = ("Analysis/Model=rigid", "Friction/Law=Coulomb", "Friction/Factor=1", "Contact/Stiffness=1e9", "Contact/Exponent=1")
+        search = "Stability/Critical=Friction/Coefficient 1 5"
+        done = self.run_at("stability", *(part for change in (*changes, search) for part in ("--set", change)))
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        radius, offset, pivot = 56.0, 45.6, 185.5
+        distance = pivot - 65
+        expected = distance * np.cos(np.arcsin((radius - offset) / distance)) / offset
+        found = self.summary()["critical_friction_coefficient_1"]
+        self.assertAlmostEqual(found, expected, delta=1e-4 * expected)
+
+    def test_has_modes(self):
+        done = self.run_at("modal")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        with h5py.File(self.output / "result.h5", "r") as file:
+            self.assertTrue((file["modes/frequency"][:] > 0).all())
+
+    def test_cannot_be_perturbed(self):
+        done = self.run_at("sprag slip")
+        self.assertEqual(done.returncode, 1)
+        self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+        for text in ("no slide in contact", "x = 65 mm", "Try another Stability/Position or a smaller friction"):
+            self.assertIn(text, done.stderr)
+        found = self.summary()
+        self.assertEqual(found["slide"], "jammed")
+        self.assertIn("no slide in contact", found["status"])
+
+
+if __name__ == "__main__":
+    unittest.main()
