@@ -191,12 +191,12 @@ namespace sprag
   std::vector<StructureMode> sparse_vibrations(const SparseOperator &structure, const PortPerturbation &forces,
                                                const unsigned int number)
   {
-    constexpr unsigned int growth = 10;
     const InverseProblem problem(structure, forces);
     KrylovSpace space(problem, 12 * number + 100);
     std::vector<RitzPair> pairs;
     while (n_vibrations(pairs) < number && !space.is_full())
     {
+      const unsigned int growth = std::max(10u, space.size() / 8);
       for (unsigned int i = 0; i < growth && !space.is_full(); ++i)
         space.grow();
       if (space.size() > number)
