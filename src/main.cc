@@ -73,6 +73,9 @@ namespace
         std::cout << arguments.file << ": valid\n";
       return;
     }
+    const bool alone = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) == 1;
+    if (!alone && scene.analysis.type != sprag::AnalysisType::map)
+      throw sprag::InputError("only Analysis/Type = map runs in several processes: leave out mpirun");
     sprag::run(scene, { folder_of(arguments, scene), arguments.quiet });
   }
 
