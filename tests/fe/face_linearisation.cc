@@ -1,6 +1,6 @@
 #include "fe/face_step.h"
 
-#include "bar.h"
+#include "bar_on_cylinder.h"
 #include "mpi_environment.h"
 
 #include <gtest/gtest.h>
@@ -11,29 +11,6 @@ namespace
 {
   using Vector = dealii::Vector<double>;
   using Full   = dealii::FullMatrix<double>;
-
-  constexpr double rest_inclination = 0.05;
-
-  Bar shape()
-  {
-    Bar bar;
-    bar.n = 40;
-    return bar;
-  }
-
-  /// A bar of 20 mm whose lower side lies on the cylinder some 12 mm from the pivot.
-  FaceStepProperties properties_of(const ElasticBody<2> &body, const bool sprung, const double regularisation_speed)
-  {
-    const double R = 6.;
-    FaceStepProperties result;
-    result.geometry         = { R, 3., 12., (R - 3. - 12. * std::sin(rest_inclination)) / std::cos(rest_inclination) };
-    result.ports            = { 2 * static_cast<unsigned int>(body.friction_face().nodes.size()), sprung };
-    result.rest_inclination = rest_inclination;
-    result.penalties        = { 240., 120. };
-    result.friction         = { CorkOnAluminium{}, FrictionSpeed::sliding, regularisation_speed };
-    result.layer_thickness  = 0.5;
-    return result;
-  }
 
   /// The face moved down by `depth` [mm], uneven by micrometres.
   Vector pressed(const PortLayout &ports, const double depth)
@@ -55,7 +32,7 @@ namespace
 // third derivative at 100 mm/s.
 TEST(FaceLinearisation, RatesAreTheDerivativeOfTheForcesByVelocities)
 {
-  const MeshedBar bar(shape());
+  const MeshedBar bar(bar_on_cylinder());
   for (const bool sprung : { false, true })
     for (const double regularisation : { 0., 20. })
       for (const double speed : { 100., -100. })
@@ -93,7 +70,7 @@ TEST(FaceLinearisation, RatesAreTheDerivativeOfTheForcesByVelocities)
 // delay, (1 + time/dt) tau = stiffness_row . z + rate_row . z/dt. Over 2e-6 mm points of 1e-6 mm come and go.
 TEST(FaceLinearisation, FrictionThatGrowsWithSpeedIsDelayedAsInSteps)
 {
-  const MeshedBar bar(shape());
+  const MeshedBar bar(bar_on_cylinder());
   for (const bool sprung : { false, true })
     for (const double speed : { 100., -100. })
       for (const double dt : { 1e-5, 1e-4 })
@@ -152,7 +129,7 @@ TEST(FaceLinearisation, FrictionThatGrowsWithSpeedIsDelayedAsInSteps)
 // A step without movement, all weight on its end, that begins without friction.
 TEST(FaceLinearisation, StuckIsTheTangentOfAStepInStick)
 {
-  const MeshedBar bar(shape());
+  const MeshedBar bar(bar_on_cylinder());
   for (const bool sprung : { false, true })
   {
     const auto properties = properties_of(*bar, sprung, 0.);
@@ -175,7 +152,7 @@ TEST(FaceLinearisation, StuckIsTheTangentOfAStepInStick)
 
 TEST(FaceLinearisation, IsNothingOutOfContact)
 {
-  const MeshedBar bar(shape());
+  const MeshedBar bar(bar_on_cylinder());
   const auto properties = properties_of(*bar, true, 0.);
   FaceStepContact contact(*bar, properties);
   const Vector ports = pressed(properties.ports, -0.1);

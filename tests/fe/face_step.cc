@@ -1,6 +1,6 @@
 #include "fe/face_step.h"
 
-#include "bar.h"
+#include "bar_on_cylinder.h"
 #include "mpi_environment.h"
 
 #include <gtest/gtest.h>
@@ -11,30 +11,6 @@ using namespace sprag;
 namespace
 {
   using Vector = dealii::Vector<double>;
-
-  constexpr double rest_inclination = 0.05;
-
-  /// A bar of 20 mm whose lower side, turned by 0.05, lies on the cylinder some 12 mm from the pivot.
-  Bar shape()
-  {
-    Bar bar;
-    bar.n = 40;
-    return bar;
-  }
-
-  FaceStepProperties properties_of(const ElasticBody<2> &body, const bool sprung, const double regularisation_speed)
-  {
-    const double R = 6.;
-    FaceStepProperties result;
-    // Touching at x = 0: l sin theta + h cos theta = R - e.
-    result.geometry         = { R, 3., 12., (R - 3. - 12. * std::sin(rest_inclination)) / std::cos(rest_inclination) };
-    result.ports            = { 2 * static_cast<unsigned int>(body.friction_face().nodes.size()), sprung };
-    result.rest_inclination = rest_inclination;
-    result.penalties        = { 240., 120. };
-    result.friction         = { CorkOnAluminium{}, FrictionSpeed::sliding, regularisation_speed };
-    result.layer_thickness  = 0.5;
-    return result;
-  }
 
   Vector random_ports(const PortLayout &ports, const unsigned int seed)
   {
@@ -135,7 +111,7 @@ namespace
 // 1e-7 mm, so that a difference is that of a smooth function.
 TEST(FaceStepContact, TangentIsTheDerivativeOfTheForces)
 {
-  const MeshedBar bar(shape());
+  const MeshedBar bar(bar_on_cylinder());
   for (const bool sprung : { false, true })
     for (const double regularisation : { 0., 20. })
       // Sliding on, sticking, sliding back.
@@ -151,7 +127,7 @@ TEST(FaceStepContact, TangentIsTheDerivativeOfTheForces)
 
 TEST(FaceStepContact, TangentOfSteadySlidingIsTheDerivativeOfTheForces)
 {
-  const MeshedBar bar(shape());
+  const MeshedBar bar(bar_on_cylinder());
   for (const bool sprung : { false, true })
     for (const double speed : { 100., -100. })
     {
@@ -166,7 +142,7 @@ TEST(FaceStepContact, TangentOfSteadySlidingIsTheDerivativeOfTheForces)
 // What the ports and the drive do is stored or dissipated, up to third order in the movement of a step.
 TEST(FaceStepContact, WorksBalance)
 {
-  const MeshedBar bar(shape());
+  const MeshedBar bar(bar_on_cylinder());
   double last = 0.;
   for (const double share : { 1., 0.5 })
   {
@@ -191,7 +167,7 @@ TEST(FaceStepContact, WorksBalance)
 
 TEST(FaceStepContact, FindsAllPointsInReach)
 {
-  const MeshedBar bar(shape());
+  const MeshedBar bar(bar_on_cylinder());
   const auto properties = properties_of(*bar, false, 0.);
   const FacePatches face((*bar).friction_face());
   const double R = properties.geometry.cylinder_radius;
@@ -220,7 +196,7 @@ TEST(FaceStepContact, FindsAllPointsInReach)
 
 TEST(FaceStepContact, ForcesOfSlidingAreThoseObserved)
 {
-  const MeshedBar bar(shape());
+  const MeshedBar bar(bar_on_cylinder());
   const auto properties = properties_of(*bar, false, 0.);
   FaceStepContact contact(*bar, properties);
   const Step step(contact, properties.ports, 1.01);
@@ -241,7 +217,7 @@ TEST(FaceStepContact, ForcesOfSlidingAreThoseObserved)
 
 TEST(FaceStepContact, ApartNothingHappens)
 {
-  const MeshedBar bar(shape());
+  const MeshedBar bar(bar_on_cylinder());
   const auto properties = properties_of(*bar, false, 0.);
   FaceStepContact contact(*bar, properties);
   Vector ports(properties.ports.size());
@@ -263,7 +239,7 @@ TEST(FaceStepContact, ApartNothingHappens)
 // A drive that moves the cylinder along the face by dx slips it by dx cos theta.
 TEST(FaceStepContact, TellsTheMeanSlip)
 {
-  const MeshedBar bar(shape());
+  const MeshedBar bar(bar_on_cylinder());
   const auto properties = properties_of(*bar, false, 0.);
   FaceStepContact contact(*bar, properties);
   const Step step(contact, properties.ports, 1.01);

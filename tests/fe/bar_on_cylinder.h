@@ -1,0 +1,34 @@
+#pragma once
+
+#include "bar.h"
+#include "fe/face_step.h"
+
+#include <cmath>
+
+namespace sprag
+{
+  // A bar of 20 mm whose lower side, turned by 0.05, lies on the cylinder some 12 mm from the pivot.
+
+  inline constexpr double rest_inclination = 0.05;
+
+  inline Bar bar_on_cylinder()
+  {
+    Bar bar;
+    bar.n = 40;
+    return bar;
+  }
+
+  inline FaceStepProperties properties_of(const ElasticBody<2> &body, const bool sprung, const double regularisation_speed)
+  {
+    const double R = 6.;
+    FaceStepProperties result;
+    // Touching at x = 0: l sin theta + h cos theta = R - e.
+    result.geometry         = { R, 3., 12., (R - 3. - 12. * std::sin(rest_inclination)) / std::cos(rest_inclination) };
+    result.ports            = { 2 * static_cast<unsigned int>(body.friction_face().nodes.size()), sprung };
+    result.rest_inclination = rest_inclination;
+    result.penalties        = { 240., 120. };
+    result.friction         = { CorkOnAluminium{}, FrictionSpeed::sliding, regularisation_speed };
+    result.layer_thickness  = 0.5;
+    return result;
+  }
+} // namespace sprag
