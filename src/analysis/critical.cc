@@ -37,7 +37,8 @@ namespace sprag
     }
   } // namespace
 
-  CriticalSearch critical_values(const Scene &scene, const ParameterRange &range, const double tolerance, DynamicsMaker &maker)
+  CriticalSearch critical_values(const Scene &scene, const ParameterRange &range, const double tolerance, DynamicsMaker &maker,
+                                 const std::function<void()> &point_done)
   {
     CriticalSearch result{ range, {}, {}, {} };
     const auto attempt = [&](const double value)
@@ -50,6 +51,7 @@ namespace sprag
     const double width = range.to - range.from;
     Tried before       = attempt(range.from);
     result.first       = before.kind;
+    point_done();
     for (unsigned int i = 1; i < range.points; ++i)
     {
       const Tried after = attempt(range.from + width * i / (range.points - 1));
@@ -66,6 +68,7 @@ namespace sprag
         result.changes.push_back(
             { 0.5 * (low.value + high.value), std::isnan(low.mu) ? high.mu : low.mu, *low.kind, *high.kind });
       before = after;
+      point_done();
     }
     return result;
   }

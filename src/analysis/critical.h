@@ -3,6 +3,8 @@
 #include "analysis/stability.h"
 #include "scene/scene.h"
 
+#include <functional>
+
 namespace sprag
 {
   /// A value of a parameter at which the kind of a slide changes.
@@ -24,6 +26,8 @@ namespace sprag
   };
 
   /// The changes of kind along one parameter of the scene: tried at the range's points and bisected in between to `tolerance` of
-  /// the range. Values that cannot be judged are passed over.
-  CriticalSearch critical_values(const Scene &scene, const ParameterRange &range, double tolerance, DynamicsMaker &maker);
+  /// the range. Values that cannot be judged are passed over. `point_done` is called after each of the range's points.
+  CriticalSearch critical_values(
+      const Scene &scene, const ParameterRange &range, double tolerance, DynamicsMaker &maker,
+      const std::function<void()> &point_done = [] {});
 } // namespace sprag

@@ -4,29 +4,42 @@
 #include "analysis/report.h"
 #include "analysis/vibration_report.h"
 #include "base/errors.h"
+#include "base/progress.h"
 #include "base/text.h"
 #include "fe/field_frames.h"
 #include "model/growth.h"
 #include "scene/held_slide.h"
 
+#include <algorithm>
 #include <iostream>
 
 namespace sprag
 {
   namespace
   {
-    /// Of the distance searched: reduced models cost nothing.
-    double tolerance_of(const Scene &scene)
+    /// Whether a slide is judged in no time.
+    bool is_reduced(const Scene &scene)
     {
-      const ModelType model = scene.analysis.model;
-      return model == ModelType::rigid || model == ModelType::beam ? 1e-8 : 1e-3;
+      return scene.analysis.model == ModelType::rigid || scene.analysis.model == ModelType::beam;
     }
 
-    std::vector<CriticalSearch> all_critical(const Scene &scene, DynamicsMaker &maker)
+    /// Of the distance searched.
+    double tolerance_of(const Scene &scene)
     {
+      return is_reduced(scene) ? 1e-8 : 1e-3;
+    }
+
+    std::vector<CriticalSearch> all_critical(const Scene &scene, DynamicsMaker &maker, const bool quiet)
+    {
+      const auto ranges = critical_searches(scene).value_or(std::vector<ParameterRange>());
+      double points     = 0.;
+      for (const auto &range : ranges)
+        points += range.points;
+      Progress progress(std::cerr, progress_style(quiet || is_reduced(scene)), std::max(1., points));
+      double done = 0.;
       std::vector<CriticalSearch> result;
-      for (const auto &range : critical_searches(scene).value_or(std::vector<ParameterRange>()))
-        result.push_back(critical_values(scene, range, tolerance_of(scene), maker));
+      for (const auto &range : ranges)
+        result.push_back(critical_values(scene, range, tolerance_of(scene), maker, [&] { progress.update(++done, {}); }));
       return result;
     }
 
@@ -155,7 +168,7 @@ namespace sprag
       }
       if (scene.stability.critical != "none")
       {
-        const auto critical = all_critical(scene, maker);
+        const auto critical = all_critical(scene, maker, options.quiet);
         append(result.summary, critical_entries(critical));
         if (!options.quiet)
           print_critical(std::cout, critical);
