@@ -181,11 +181,23 @@ namespace sprag
     Vector<double> load(lever_ports.n_coordinates());
     for (unsigned int a = 0; a < forces.ports.size(); ++a)
       lever_ports.add_force(forces.ports[a], forces.values[a], load);
-    const auto of_lever = statics->system->solve(Vector<double>(load.begin(), load.begin() + n_lever));
-    Motion motion       = rest();
-    std::copy(of_lever.begin(), of_lever.end(), motion.coordinates.position.begin());
+    // The rotational spring is soft beside the lever: what the first solution leaves out of balance is solved for again.
+    constexpr unsigned int corrections = 2;
+    Motion motion                      = rest();
+    auto &q                            = motion.coordinates.position;
+    Vector<double> left                = load;
+    Vector<double> product(load.size());
+    for (unsigned int i = 0; i <= corrections; ++i)
+    {
+      const auto of_lever = statics->system->solve(Vector<double>(left.begin(), left.begin() + n_lever));
+      for (unsigned int j = 0; j < n_lever; ++j)
+        q[j] += of_lever[j];
+      stiffness_product(q, product);
+      left = load;
+      left -= product;
+    }
     if (constants.sprung)
-      motion.coordinates.position[n_lever] = load[n_lever] / constants.support_stiffness;
+      q[n_lever] = load[n_lever] / constants.support_stiffness;
     return motion;
   }
 

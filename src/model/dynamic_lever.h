@@ -115,9 +115,18 @@ namespace sprag
       const bool slides             = friction == ContactFriction::sliding;
       const auto P_without_friction = [&]
       { return solve_sliding(drive, 1., ContactFriction::none) == nullptr ? 0. : observed_forces().P; };
-      const double P_free           = slides ? P_without_friction() : 0.;
-      const double ratio            = slides ? speed_ratio(drive, 1e-3 * frame.geometry.cylinder_radius) : 1.;
-      const PortForces *const force = solve_sliding(drive, ratio, slides ? friction : ContactFriction::none);
+      const double P_free     = slides ? P_without_friction() : 0.;
+      const double ratio      = slides ? speed_ratio(drive, 1e-3 * frame.geometry.cylinder_radius) : 1.;
+      const auto law          = slides ? friction : ContactFriction::none;
+      const PortForces *force = solve_sliding(drive, ratio, law);
+      // Where the structure answers otherwise than its compliance, by round-off, that is put right.
+      dealii::Vector<double> round_off(frame.ports.size());
+      for (unsigned int i = 0; i < 2 && force != nullptr; ++i)
+      {
+        round_off += structure->port_positions(structure->deform(*force));
+        round_off -= last_sliding;
+        force = solve_sliding(drive, ratio, law, &round_off);
+      }
       if (force == nullptr)
         return {};
       HeldSlide slide;
@@ -346,15 +355,20 @@ namespace sprag
     }
 
     /// Contact and its forces in steady sliding at the ratio of speeds; null where there is no equilibrium.
+    /// `round_off`: displacements that the ports have besides.
     const PortForces *solve_sliding(const DrivePoint &drive, const double ratio,
-                                    const ContactFriction friction = ContactFriction::sliding)
+                                    const ContactFriction friction          = ContactFriction::sliding,
+                                    const dealii::Vector<double> *round_off = nullptr)
     {
       structure->use_statics();
-      const unsigned int hub            = frame.ports.rotation();
-      const double ideal                = kinematics(frame.geometry, drive.x).theta;
-      const auto &near                  = contact->reachable_ports(drive.x, ideal);
-      const dealii::Vector<double> free = structure->port_positions(structure->rest(), near);
-      dealii::Vector<double> z          = free;
+      const unsigned int hub      = frame.ports.rotation();
+      const double ideal          = kinematics(frame.geometry, drive.x).theta;
+      const auto &near            = contact->reachable_ports(drive.x, ideal);
+      dealii::Vector<double> free = structure->port_positions(structure->rest(), near);
+      if (round_off != nullptr)
+        for (const unsigned int port : near)
+          free[port] += (*round_off)[port];
+      dealii::Vector<double> z = free;
       add_response(structure->compliance(), last_forces.ports, last_forces.values, near, z);
       z[hub] = (last_sliding.size() > 0 ? last_sliding[hub] - last_sliding_theta : -frame.rest_inclination) + ideal;
 
@@ -371,7 +385,7 @@ namespace sprag
       if (!contact->within_reach())
       {
         contact->widen_reach();
-        return solve_sliding(drive, ratio, friction);
+        return solve_sliding(drive, ratio, friction, round_off);
       }
       last_sliding       = z;
       last_sliding_theta = ideal;

@@ -108,20 +108,13 @@ TEST(Growth, OfACondensedLeverIsThatOfItsEigenvalue)
   expect_as_predicted(judged, growth_of(judged));
 }
 
-// The statics of the full mesh leave 4e-5 of P out of balance: it begins above that.
 TEST(Growth, OfAMeshedLeverIsThatOfItsEigenvalueSlow)
 {
-  Scene scene              = backward_a(ModelType::finite_element, 6.);
-  scene.stability.modes    = 4;
-  scene.sprag_slip.initial = 1e-4;
-  scene.sprag_slip.final   = 1e-2;
+  Scene scene           = backward_a(ModelType::finite_element, 6.);
+  scene.stability.modes = 4;
   const JudgedSlide judged(scene);
   ASSERT_EQ(judged.stability.kind, SlideKind::flutter);
-  const auto growth = growth_of(judged);
-  EXPECT_TRUE(growth.reached);
-  EXPECT_TRUE(growth.slid);
-  EXPECT_LT(std::abs(growth.growth_difference()), 0.03);
-  EXPECT_LT(std::abs(growth.frequency_difference()), 0.005);
+  expect_as_predicted(judged, growth_of(judged));
 }
 
 TEST(Growth, OfAStableSlideIsItsDecay)
