@@ -120,11 +120,17 @@ namespace sprag
       const auto law          = slides ? friction : ContactFriction::none;
       const PortForces *force = solve_sliding(drive, ratio, law);
       // Where the structure answers otherwise than its compliance, by round-off, that is put right.
+      constexpr unsigned int most_corrections = 2;
       dealii::Vector<double> round_off(frame.ports.size());
-      for (unsigned int i = 0; i < 2 && force != nullptr; ++i)
+      for (unsigned int i = 0; i < most_corrections && force != nullptr; ++i)
       {
-        round_off += structure->port_positions(structure->deform(*force));
-        round_off -= last_sliding;
+        auto change = structure->port_positions(structure->deform(*force));
+        change -= last_sliding;
+        const auto counts = [&](const unsigned int port)
+        { return std::abs(frame.lengths[port] * change[port]) > 1e-10 * contact->overlap(); };
+        if (std::none_of(force->ports.begin(), force->ports.end(), counts))
+          break;
+        round_off += change;
         force = solve_sliding(drive, ratio, law, &round_off);
       }
       if (force == nullptr)

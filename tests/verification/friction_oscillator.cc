@@ -1,6 +1,6 @@
 #include "analysis/energy_ledger.h"
-#include "model/dynamic_lever.h"
 #include "model/modal_structure.h"
+#include "verification/point_at_port.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +22,7 @@ namespace
   constexpr double dt      = 1e-4;
 
   /// Friction under a given normal force on one displacement.
-  class Floor
+  class Floor : public PointAtPort
   {
   public:
     static constexpr bool uses_rates = false;
@@ -30,9 +30,6 @@ namespace
     explicit Floor(const FrictionLaw &friction_law)
         : law(friction_law)
     {
-      at_port.ports = all;
-      at_port.values.reinit(1);
-      at_port.tangent.reinit(1, 1);
     }
 
     void evaluate(const PortStep &step)
@@ -75,68 +72,12 @@ namespace
       return mu * normal / holding;
     }
 
-    double gap_change(const dealii::Vector<double> &) const
-    {
-      return 0.;
-    }
-
-    const PortForces &forces() const
-    {
-      return at_port;
-    }
-
-    const PortSelection &reachable_ports(double, double) const
-    {
-      return all;
-    }
-
-    bool within_reach() const
-    {
-      return true;
-    }
-
-    void widen_reach()
-    {
-    }
-
-    // Not of this problem: nothing slides steadily.
-    void evaluate_sliding(const SlidingState &)
-    {
-    }
-    std::vector<ContactMemory> touch(const dealii::Vector<double> &, const DrivePoint &)
-    {
-      return { ContactMemory{} };
-    }
-    double mean_slip(const dealii::Vector<double> &, double, const dealii::Vector<double> &, double) const
-    {
-      return 0.;
-    }
     void observe(Row &) const
     {
-    }
-    std::vector<FrictionDelay> friction_delays() const
-    {
-      return {};
-    }
-
-    SurfaceShape surface_shape(const dealii::Vector<double> &) const
-    {
-      return {};
-    }
-
-    FacePoints face_points() const
-    {
-      return {};
-    }
-    FaceState face_state(const DrivePoint &) const
-    {
-      return {};
     }
 
   private:
     const FrictionLaw law;
-    const PortSelection all = { 0 };
-    PortForces at_port;
     ContactMemory memory_before;
     EndFriction friction{};
     double duration = 0.;

@@ -1,7 +1,7 @@
 #include "analysis/energy_ledger.h"
 #include "model/contact_step.h"
-#include "model/dynamic_lever.h"
 #include "model/modal_structure.h"
+#include "verification/point_at_port.h"
 
 #include <algorithm>
 #include <cmath>
@@ -59,17 +59,10 @@ namespace
   }
 
   /// A rigid wall without friction: the gap is the displacement.
-  class Wall
+  class Wall : public PointAtPort
   {
   public:
     static constexpr bool uses_rates = false;
-
-    Wall()
-    {
-      at_port.ports = all;
-      at_port.values.reinit(1);
-      at_port.tangent.reinit(1, 1);
-    }
 
     void evaluate(const PortStep &step)
     {
@@ -110,70 +103,12 @@ namespace
       return response.pressure / penalty;
     }
 
-    double gap_change(const dealii::Vector<double> &) const
-    {
-      return 0.;
-    }
-
-    const PortForces &forces() const
-    {
-      return at_port;
-    }
-
-    const PortSelection &reachable_ports(double, double) const
-    {
-      return all;
-    }
-
-    bool within_reach() const
-    {
-      return true;
-    }
-
-    void widen_reach()
-    {
-    }
-
     void observe(Row &row) const
     {
       row[Column::P] = response.force[0]; // of the step
     }
 
-    std::vector<ContactMemory> touch(const dealii::Vector<double> &, const DrivePoint &)
-    {
-      return { ContactMemory{} };
-    }
-
-    // Not of this problem.
-    void evaluate_sliding(const SlidingState &)
-    {
-    }
-    double mean_slip(const dealii::Vector<double> &, double, const dealii::Vector<double> &, double) const
-    {
-      return 0.;
-    }
-    std::vector<FrictionDelay> friction_delays() const
-    {
-      return {};
-    }
-
-    SurfaceShape surface_shape(const dealii::Vector<double> &) const
-    {
-      return {};
-    }
-
-    FacePoints face_points() const
-    {
-      return {};
-    }
-    FaceState face_state(const DrivePoint &) const
-    {
-      return {};
-    }
-
   private:
-    const PortSelection all = { 0 };
-    PortForces at_port;
     StepResponse<1> response;
   };
 
