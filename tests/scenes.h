@@ -11,7 +11,7 @@ namespace sprag
   {
     Scene scene;
     scene.geometry         = { 56., 45.6, 185.5, 0. };
-    scene.spring_stiffness = 7.40e4;
+    scene.spring.stiffness = 7.40e4;
     scene.drive            = Drive(DriveProfile::triangle, 0., 65., 112., 1.);
     scene.friction         = { CorkOnAluminium{}, FrictionSpeed::sliding };
     return scene;
@@ -21,7 +21,7 @@ namespace sprag
   {
     Scene scene            = model_a();
     scene.geometry         = { 21.1, 0., 193.9, 0. };
-    scene.spring_stiffness = 6.41e4;
+    scene.spring.stiffness = 6.41e4;
     return scene;
   }
 

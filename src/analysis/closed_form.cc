@@ -37,7 +37,7 @@ namespace sprag
       row[Column::P_closed_form]      = state.P;
       row[Column::Q_closed_form]      = state.Q;
       row[Column::theta_closed_form]  = state.contact.theta;
-      row[Column::spring_energy]      = 0.5 * scene.spring_stiffness * turn * turn;
+      row[Column::spring_energy]      = 0.5 * scene.spring.stiffness * turn * turn;
       for (const auto column : { Column::centre_offset, Column::contact_width, Column::penetration, Column::indentation,
                                  Column::cone_violation, Column::elastic_slip, Column::elastic_energy })
         row[column] = 0.;

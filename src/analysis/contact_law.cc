@@ -23,7 +23,7 @@ namespace sprag
       result.friction.law = CoulombFriction{ 0. };
       result.drive        = Drive(DriveProfile::triangle, 0., scene.drive.maximum(), scene.drive.peak_speed(), 0.5);
       const double P      = closed_form(result, scene.drive.maximum(), 1.).P;
-      result.spring_stiffness *= beyond * reference.P / P;
+      result.spring.stiffness *= beyond * reference.P / P;
       return result;
     }
 

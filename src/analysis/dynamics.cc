@@ -34,7 +34,7 @@ namespace sprag
                                   scene.mesh.face_size,
                                   scene.geometry.cylinder_radius,
                                   scene.geometry.interface_offset,
-                                  scene.spring_stiffness,
+                                  scene.spring.stiffness,
                                   lever.length,
                                   lever.depth,
                                   lever.width,

@@ -126,7 +126,7 @@ namespace sprag
         add_stroke(all, stroke(rows, direction, settling), way, entries);
         const double mu = sliding_friction(scene, 0., direction * scene.drive.peak_speed()).coefficient;
         entries.push_back({ "representative_slope_" + way,
-                            representative_slope(scene.geometry, scene.spring_stiffness, mu, direction), "N/mm",
+                            representative_slope(scene.geometry, scene.spring.stiffness, mu, direction), "N/mm",
                             "C_Q of the closed form at x = 0 with mu at the drive's peak speed" });
       }
 

@@ -5,6 +5,7 @@
 #include "analysis/jamming.h"
 #include "analysis/quasi_static.h"
 #include "analysis/recorder.h"
+#include "analysis/run_calibration.h"
 #include "analysis/run_map.h"
 #include "analysis/run_sprag_slip.h"
 #include "analysis/run_stability.h"
@@ -250,6 +251,8 @@ namespace sprag
       return run_map(scene, options);
     case AnalysisType::sprag_slip:
       return run_sprag_slip(scene, options);
+    case AnalysisType::calibration:
+      return run_calibration(scene, options);
     }
   }
 } // namespace sprag

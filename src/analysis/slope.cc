@@ -24,8 +24,8 @@ namespace sprag
       for (unsigned int i = 0; i < scene.slope.number_of_points; ++i)
       {
         const double mu = scene.slope.maximum_coefficient * i / (scene.slope.number_of_points - 1.);
-        sweep.rows.push_back({ mu, representative_slope(at, scene.spring_stiffness, mu, 1),
-                               representative_slope(at, scene.spring_stiffness, mu, -1), dimensionless_slope(at, mu, 1),
+        sweep.rows.push_back({ mu, representative_slope(at, scene.spring.stiffness, mu, 1),
+                               representative_slope(at, scene.spring.stiffness, mu, -1), dimensionless_slope(at, mu, 1),
                                dimensionless_slope(at, mu, -1) });
       }
       return sweep;

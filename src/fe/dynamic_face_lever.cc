@@ -18,13 +18,13 @@ namespace sprag
 
     BasisSettings basis_settings(const Scene &scene)
     {
-      return { scene.condensed.modes, scene.spring_stiffness, inertia_of(scene), scene.condensed.cache };
+      return { scene.condensed.modes, scene.spring.stiffness, inertia_of(scene), scene.condensed.cache };
     }
 
     LeverDynamics constants_of(const Scene &scene, const double relaxation, const double lever_mass)
     {
       LeverDynamics result;
-      result.spring_stiffness  = scene.spring_stiffness;
+      result.spring_stiffness  = scene.spring.stiffness;
       result.mass_damping      = scene.lever.mass_damping;
       result.stiffness_damping = scene.lever.stiffness_damping;
       result.relaxation        = relaxation;
@@ -65,7 +65,7 @@ namespace sprag
   {
     const auto matrices = std::make_shared<InertialMatrices<2>>(body, inertia_of(scene));
     dealii::PETScWrappers::SparseMatrix stiffness;
-    matrices->sum({ 0., 1., 0., scene.spring_stiffness }, stiffness);
+    matrices->sum({ 0., 1., 0., scene.spring.stiffness }, stiffness);
     return { matrices, free_modes(stiffness, matrices->mass, scene.condensed.modes) };
   }
 

@@ -4,7 +4,6 @@
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_values.h>
-#include <deal.II/fe/mapping_q1.h>
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
 #include <deal.II/numerics/vector_tools.h>
 
@@ -39,20 +38,24 @@ namespace sprag
   } // namespace
 
   template <int dim>
-  ElasticBody<dim>::ElasticBody(const Triangulation<dim> &triangulation, BodyProperties body_properties)
+  ElasticBody<dim>::ElasticBody(const Triangulation<dim> &triangulation, BodyProperties body_properties,
+                                const Constrain &constrain)
       : properties(std::move(body_properties))
       , fe(FE_Q<dim>(properties.degree), dim)
+      , mapping(properties.curved ? properties.degree : 1)
       , dof_handler(triangulation)
   {
     dof_handler.distribute_dofs(fe);
-    find_constraints();
-    face = find_friction_face(dof_handler, constraints, properties);
+    find_constraints(constrain);
+    face             = find_friction_face(mapping, dof_handler, constraints, properties, boundary_id::friction_face);
+    face_of_cylinder = find_friction_face(mapping, dof_handler, constraints, properties, boundary_id::cylinder_face);
   }
 
   template <int dim>
-  void ElasticBody<dim>::find_constraints()
+  void ElasticBody<dim>::find_constraints(const Constrain &constrain)
   {
-    VectorTools::interpolate_boundary_values(dof_handler, boundary_id::hub, Functions::ZeroFunction<dim>(dim), constraints);
+    for (const auto held_boundary : { boundary_id::hub, boundary_id::core })
+      VectorTools::interpolate_boundary_values(dof_handler, held_boundary, Functions::ZeroFunction<dim>(dim), constraints);
     std::vector<types::global_dof_index> indices(fe.n_dofs_per_cell());
     for (const auto &cell : dof_handler.active_cell_iterators())
       if (cell->material_id() == material_id::hub)
@@ -61,6 +64,8 @@ namespace sprag
         for (const auto index : indices)
           constraints.add_line(index);
       }
+    if (constrain)
+      constrain(dof_handler, constraints);
     constraints.close();
   }
 
@@ -74,6 +79,24 @@ namespace sprag
   const FrictionFace<dim> &ElasticBody<dim>::friction_face() const
   {
     return face;
+  }
+
+  template <int dim>
+  const FrictionFace<dim> &ElasticBody<dim>::cylinder_face() const
+  {
+    return face_of_cylinder;
+  }
+
+  template <int dim>
+  const Mapping<dim> &ElasticBody<dim>::cell_mapping() const
+  {
+    return mapping;
+  }
+
+  template <int dim>
+  const AffineConstraints<double> &ElasticBody<dim>::held() const
+  {
+    return constraints;
   }
 
   template <int dim>
@@ -120,7 +143,7 @@ namespace sprag
   void ElasticBody<dim>::assemble(const Vector<double> &displacement, PETScWrappers::SparseMatrix &matrix,
                                   Vector<double> &forces) const
   {
-    FEValues<dim> values(fe, QGauss<dim>(properties.degree + 1), update_gradients | update_JxW_values);
+    FEValues<dim> values(mapping, fe, QGauss<dim>(properties.degree + 1), update_gradients | update_JxW_values);
     const unsigned int n = fe.n_dofs_per_cell();
 
     FullMatrix<double> cell_matrix(n, n);
@@ -147,7 +170,7 @@ namespace sprag
           gradients[i] = values.shape_grad(i, q);
           gradient[fe.system_to_component_index(i).first] += cell_displacement[i] * gradients[i];
         }
-        const double volume = values.JxW(q) * properties.width;
+        const double volume = values.JxW(q) * properties.width_of(cell->material_id());
         const auto at_point = stress<dim>(properties.material, constants, gradient);
         for (unsigned int j = 0; j < n; ++j)
         {
@@ -178,7 +201,7 @@ namespace sprag
   template <int dim>
   double ElasticBody<dim>::energy(const Vector<double> &displacement) const
   {
-    FEValues<dim> values(fe, QGauss<dim>(properties.degree + 1), update_gradients | update_JxW_values);
+    FEValues<dim> values(mapping, fe, QGauss<dim>(properties.degree + 1), update_gradients | update_JxW_values);
     std::vector<Tensor<2, dim>> gradients(values.n_quadrature_points);
     double sum = 0.;
     for (const auto &cell : dof_handler.active_cell_iterators())
@@ -188,7 +211,8 @@ namespace sprag
         values.reinit(cell);
         values[FEValuesExtractors::Vector(0)].get_function_gradients(displacement, gradients);
         for (const unsigned int q : values.quadrature_point_indices())
-          sum += energy_density<dim>(properties.material, constants, gradients[q]) * values.JxW(q) * properties.width;
+          sum += energy_density<dim>(properties.material, constants, gradients[q]) * values.JxW(q) *
+                 properties.width_of(cell->material_id());
       }
     return sum;
   }
@@ -196,14 +220,14 @@ namespace sprag
   template <int dim>
   std::array<double, 2> ElasticBody<dim>::mass_and_inertia(const double density) const
   {
-    FEValues<dim> values(fe, QGauss<dim>(2), update_quadrature_points | update_JxW_values);
+    FEValues<dim> values(mapping, fe, QGauss<dim>(2), update_quadrature_points | update_JxW_values);
     std::array<double, 2> result{};
     for (const auto &cell : dof_handler.active_cell_iterators())
     {
       values.reinit(cell);
       for (const unsigned int q : values.quadrature_point_indices())
       {
-        const double mass = density * values.JxW(q) * properties.width;
+        const double mass = density * values.JxW(q) * properties.width_of(cell->material_id());
         result[0] += mass;
         result[1] += mass * values.quadrature_point(q).square();
       }

@@ -5,12 +5,14 @@
 #include <deal.II/base/point.h>
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/fe/fe_system.h>
+#include <deal.II/fe/mapping_q.h>
 #include <deal.II/grid/tria.h>
 #include <deal.II/lac/affine_constraints.h>
 #include <deal.II/lac/petsc_sparse_matrix.h>
 #include <deal.II/lac/vector.h>
 
 #include <array>
+#include <functional>
 #include <map>
 #include <vector>
 
@@ -22,14 +24,25 @@ namespace sprag
   class ElasticBody
   {
   public:
+    /// Adds constraints to those of hub and core.
+    using Constrain = std::function<void(const dealii::DoFHandler<dim> &, dealii::AffineConstraints<double> &)>;
+
     /// The triangulation is kept by reference and must outlive the body.
-    ElasticBody(const dealii::Triangulation<dim> &triangulation, BodyProperties properties);
+    ElasticBody(const dealii::Triangulation<dim> &triangulation, BodyProperties properties, const Constrain &constrain = {});
     ElasticBody(const ElasticBody &)            = delete;
     ElasticBody &operator=(const ElasticBody &) = delete;
 
     unsigned int n_dofs() const;
 
     const FrictionFace<dim> &friction_face() const;
+
+    /// Where an elastic cylinder can touch the friction face; empty without one.
+    const FrictionFace<dim> &cylinder_face() const;
+
+    const dealii::Mapping<dim> &cell_mapping() const;
+
+    /// Which degrees of freedom are held or follow others.
+    const dealii::AffineConstraints<double> &held() const;
 
     /// A matrix for the stiffness with `extra` further rows and columns, which couple with the friction face and themselves.
     void reinit(dealii::PETScWrappers::SparseMatrix &matrix, unsigned int extra) const;
@@ -53,12 +66,14 @@ namespace sprag
     bool is_held(unsigned int dof) const;
 
   private:
-    void find_constraints();
+    void find_constraints(const Constrain &constrain);
 
     const BodyProperties properties;
     const dealii::FESystem<dim> fe;
+    const dealii::MappingQ<dim> mapping;
     dealii::DoFHandler<dim> dof_handler;
     dealii::AffineConstraints<double> constraints;
     FrictionFace<dim> face;
+    FrictionFace<dim> face_of_cylinder;
   };
 } // namespace sprag

@@ -2,7 +2,6 @@
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_values.h>
-#include <deal.II/fe/mapping_q1.h>
 
 #include <algorithm>
 #include <cmath>
@@ -25,9 +24,10 @@ namespace sprag
     class Collector
     {
     public:
-      Collector(const DoFHandler<dim> &dof_handler, const AffineConstraints<double> &constraints_,
+      Collector(const Mapping<dim> &mapping_, const DoFHandler<dim> &dof_handler, const AffineConstraints<double> &constraints_,
                 const BodyProperties &properties_)
-          : constraints(constraints_)
+          : mapping(mapping_)
+          , constraints(constraints_)
           , properties(properties_)
           , fe(dof_handler.get_fe())
       {
@@ -43,7 +43,7 @@ namespace sprag
         values.reinit(cell, f);
         std::vector<FacePoint<dim>> points;
         for (const unsigned int q : values.quadrature_point_indices())
-          points.push_back({ values.quadrature_point(q), properties.width * values.JxW(q), {} });
+          points.push_back({ values.quadrature_point(q), properties.width_of(cell->material_id()) * values.JxW(q), {} });
         add_nodes(cell, f, values, points);
         std::sort(points.begin(), points.end(), [](const auto &a, const auto &b) { return a.position[0] < b.position[0]; });
         cells.push_back({ std::move(points), length });
@@ -70,7 +70,7 @@ namespace sprag
       FEFaceValues<dim> &values_for(const unsigned int parts)
       {
         const UpdateFlags flags = update_values | update_JxW_values | update_quadrature_points;
-        return values_by_parts.try_emplace(parts, fe, QIterated<dim - 1>(QGauss<1>(2), parts), flags).first->second;
+        return values_by_parts.try_emplace(parts, mapping, fe, QIterated<dim - 1>(QGauss<1>(2), parts), flags).first->second;
       }
 
       void add_nodes(const typename DoFHandler<dim>::active_cell_iterator &cell, const unsigned int f,
@@ -88,12 +88,13 @@ namespace sprag
             continue;
           const auto node = index_by_dof.try_emplace(dofs[0], static_cast<unsigned int>(nodes.size()));
           if (node.second)
-            nodes.push_back({ MappingQ1<dim>().transform_unit_to_real_cell(cell, fe.get_unit_support_points()[in_cell]), dofs });
+            nodes.push_back({ mapping.transform_unit_to_real_cell(cell, fe.get_unit_support_points()[in_cell]), dofs });
           for (const unsigned int q : values.quadrature_point_indices())
             points[q].nodes.emplace_back(node.first->second, values.shape_value(in_cell, q));
         }
       }
 
+      const Mapping<dim> &mapping;
       const AffineConstraints<double> &constraints;
       const BodyProperties &properties;
       const FiniteElement<dim> &fe;
@@ -107,16 +108,18 @@ namespace sprag
   } // namespace
 
   template <int dim>
-  FrictionFace<dim> find_friction_face(const DoFHandler<dim> &dof_handler, const AffineConstraints<double> &constraints,
-                                       const BodyProperties &properties)
+  FrictionFace<dim> find_friction_face(const Mapping<dim> &mapping, const DoFHandler<dim> &dof_handler,
+                                       const AffineConstraints<double> &constraints, const BodyProperties &properties,
+                                       const types::boundary_id boundary)
   {
-    Collector<dim> collector(dof_handler, constraints, properties);
+    Collector<dim> collector(mapping, dof_handler, constraints, properties);
     for (const auto &cell : dof_handler.active_cell_iterators())
       for (const unsigned int f : cell->face_indices())
-        if (cell->face(f)->at_boundary() && cell->face(f)->boundary_id() == boundary_id::friction_face)
+        if (cell->face(f)->at_boundary() && cell->face(f)->boundary_id() == boundary)
           collector.add(cell, f);
     return collector.face();
   }
 
-  template FrictionFace<2> find_friction_face(const DoFHandler<2> &, const AffineConstraints<double> &, const BodyProperties &);
+  template FrictionFace<2> find_friction_face(const Mapping<2> &, const DoFHandler<2> &, const AffineConstraints<double> &,
+                                              const BodyProperties &, types::boundary_id);
 } // namespace sprag

@@ -4,6 +4,7 @@
 
 #include <deal.II/base/point.h>
 #include <deal.II/dofs/dof_handler.h>
+#include <deal.II/fe/mapping.h>
 #include <deal.II/lac/affine_constraints.h>
 
 #include <array>
@@ -48,10 +49,11 @@ namespace sprag
     double depth         = 0.; ///< largest size of its cells normal to the face [mm]
   };
 
-  /// Reads the faces marked boundary_id::friction_face. The integration points are denser than the nodes, about
+  /// Reads the faces marked `boundary`. The integration points are denser than the nodes, about
   /// `BodyProperties::point_spacing` apart, so that a contact narrower than a cell has its resultant in the right place and
   /// direction; at most 48 a cell.
   template <int dim>
-  FrictionFace<dim> find_friction_face(const dealii::DoFHandler<dim> &dof_handler,
-                                       const dealii::AffineConstraints<double> &constraints, const BodyProperties &properties);
+  FrictionFace<dim> find_friction_face(const dealii::Mapping<dim> &mapping, const dealii::DoFHandler<dim> &dof_handler,
+                                       const dealii::AffineConstraints<double> &constraints, const BodyProperties &properties,
+                                       dealii::types::boundary_id boundary);
 } // namespace sprag

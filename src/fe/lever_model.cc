@@ -63,7 +63,7 @@ namespace sprag
     { return circle_contact(geometry, point, x, theta); };
     result.centre           = [geometry](double x, double theta) { return cylinder_centre(geometry, x, theta).xi; };
     result.ideal_theta      = [geometry](double x) { return kinematics(geometry, x).theta; };
-    result.spring           = { scene.spring_stiffness, kinematics(geometry, 0.).theta, geometry.pivot_distance };
+    result.spring           = { scene.spring.stiffness, kinematics(geometry, 0.).theta, geometry.pivot_distance };
     result.friction         = scene.friction;
     result.contact          = scene.contact;
     result.solution         = scene.analysis.solution;

@@ -93,7 +93,7 @@ namespace sprag
       {
         m.mass(0, 0)      = lever.moment_of_inertia;
         m.momentum[0]     = 0.5 * rho * lever.length * lever.length + lever.tip_mass * lever.length;
-        m.stiffness(0, 0) = scene.spring_stiffness;
+        m.stiffness(0, 0) = scene.spring.stiffness;
         return m;
       }
       for (unsigned int element = 0; element < mesh.elements; ++element)
@@ -102,7 +102,7 @@ namespace sprag
       m.mass(0, 0) += (rho * lever.length + lever.tip_mass) * e_a * e_a;
       m.mass(tip, tip) += lever.tip_mass;
       m.momentum[tip] += lever.tip_mass;
-      use_turning_axes(mesh, scene.spring_stiffness, m);
+      use_turning_axes(mesh, scene.spring.stiffness, m);
       return m;
     }
 
@@ -191,7 +191,7 @@ namespace sprag
           data.damping(i, i) += 2. * lever.modal_damping * std::sqrt(data.stiffness[i]);
         data.damping(i, i) += lever.mass_damping + lever.stiffness_damping * data.stiffness[i];
         for (unsigned int j = 0; j < modes.n(); ++j)
-          data.damping(i, j) -= lever.stiffness_damping * scene.spring_stiffness * modes(0, i) * modes(0, j);
+          data.damping(i, j) -= lever.stiffness_damping * scene.spring.stiffness * modes(0, i) * modes(0, j);
       }
     }
 
@@ -215,7 +215,7 @@ namespace sprag
     ModalData data;
     data.ports            = { mesh.ports(), scene.support.type == SupportType::sprung };
     data.stiffness        = modes.stiffness;
-    data.spring_stiffness = scene.spring_stiffness;
+    data.spring_stiffness = scene.spring.stiffness;
     const auto all        = modes.shapes.n() + (data.ports.sprung ? 1 : 0);
     data.shapes.reinit(data.ports.size(), all);
     data.damping.reinit(all, all);

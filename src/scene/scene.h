@@ -1,6 +1,7 @@
 #pragma once
 
 #include "laws/friction.h"
+#include "scene/apparatus.h"
 #include "scene/drive.h"
 
 #include <optional>
@@ -21,7 +22,8 @@ namespace sprag
     modal,       ///< undamped modes of the lever at one x, out of contact or in it
     stability,   ///< eigenvalues of the steady slide, what feeds them, and where it loses stability or jams
     map,         ///< the same over a grid of two parameters
-    sprag_slip   ///< the steady slide perturbed, in time, against its eigenvalue; limit cycles
+    sprag_slip,  ///< the steady slide perturbed, in time, against its eigenvalue; limit cycles
+    calibration  ///< leaf thickness and added mass for a given k and J; constants of the reduced models for a mesh
   };
 
   enum class ModelType
@@ -73,8 +75,15 @@ namespace sprag
     neo_hookean
   };
 
+  enum class InertiaSource
+  {
+    scaled,  ///< densities scaled so that the moment of inertia is met
+    as_built ///< densities as they are; the moment of inertia follows
+  };
+
   struct Lever
   {
+    LeverOutline outline     = LeverOutline::bar;
     double length            = 210.;
     double depth             = 20.; ///< metal only [mm]
     double width             = 40.;
@@ -83,11 +92,13 @@ namespace sprag
     double density           = 2.7e-9;                ///< [t/mm^3]
     MaterialModel material   = MaterialModel::linear; ///< of lever and friction layer
     double moment_of_inertia = 6.45;                  ///< J about the pivot, arm and tip mass included [t mm^2]
-    double tip_mass          = 0.;                    ///< at the neutral axis [t]
-    std::optional<double> neutral_axis_offset;        ///< e_a [mm], from the pivot; none: e + layer + depth/2
-    double modal_damping     = 0.01;                  ///< of critical, on each bending mode of the free lever
-    double mass_damping      = 0.;                    ///< Rayleigh: C = this M + ... [1/s]
-    double stiffness_damping = 0.;                    ///< Rayleigh: ... + this K, the rotational spring left out [s]
+    InertiaSource inertia    = InertiaSource::scaled;
+    double hub_inertia       = 0.;             ///< of what turns with the rigid hub, about the pivot [t mm^2], >= 0
+    double tip_mass          = 0.;             ///< at the neutral axis [t]
+    std::optional<double> neutral_axis_offset; ///< e_a [mm], from the pivot; none: e + layer + depth/2
+    double modal_damping     = 0.01;           ///< of critical, on each bending mode of the free lever
+    double mass_damping      = 0.;             ///< Rayleigh: C = this M + ... [1/s]
+    double stiffness_damping = 0.;             ///< Rayleigh: ... + this K, the rotational spring left out [s]
   };
 
   struct FrictionLayer
@@ -246,6 +257,20 @@ namespace sprag
     std::optional<double> turn;          ///< x at which the continuation turns; none: the drive's smallest
   };
 
+  enum class AddedMass
+  {
+    hub, ///< Lever/Hub inertia
+    tip  ///< Lever/Tip mass
+  };
+
+  /// What the meshed parts are made to have.
+  struct CalibrationSettings
+  {
+    std::optional<double> stiffness;         ///< k [N mm/rad] by the leaf spring's thickness; none: the leaf as it is
+    std::optional<double> moment_of_inertia; ///< J [t mm^2] by added mass; none: as it is
+    AddedMass mass = AddedMass::hub;
+  };
+
   struct Scene
   {
     AnalysisSettings analysis;
@@ -254,7 +279,11 @@ namespace sprag
     FrictionLaw friction;
     Lever lever;
     FrictionLayer layer;
-    double spring_stiffness = 7.40e4; ///< k [N mm/rad], > 0
+    LeverFrameShape frame;
+    FrictionPlate plate;
+    Cylinder cylinder;
+    RotationalSpring spring;
+    MirroredPair pair;
     Support support;
     TimeSettings time;
     CondensedSettings condensed;
@@ -265,6 +294,7 @@ namespace sprag
     StabilitySettings stability;
     MapSettings map;
     SpragSlipSettings sprag_slip;
+    CalibrationSettings calibration;
     std::string name;            ///< file name without folder and ending
     std::string parameters_text; ///< every parameter as used, in .prm form
   };

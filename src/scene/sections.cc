@@ -1,90 +1,12 @@
 #include "scene/sections.h"
 
-#include "base/text.h"
-
-#include <algorithm>
+#include "scene/apparatus_sections.h"
+#include "scene/section.h"
 
 namespace sprag
 {
   namespace
   {
-    template <typename T>
-    using Choices = std::vector<std::pair<std::string, T>>;
-
-    /// Collects the parameters of one section, each bound to the variable it sets.
-    class Section
-    {
-    public:
-      Section(std::vector<Parameter> &all, std::string section_name)
-          : parameters(all)
-          , name(std::move(section_name))
-      {
-      }
-
-      void number(const std::string &entry, double &value, const Interval &interval, const std::string &unit,
-                  const std::string &meaning)
-      {
-        add(entry, number_text(value), { Rule::Kind::number, interval, unit, {} }, meaning,
-            [&value](const auto &text) { value = leading_number(text)->value; });
-      }
-
-      void integer(const std::string &entry, unsigned int &value, const Interval &interval, const std::string &meaning)
-      {
-        add(entry, std::to_string(value), { Rule::Kind::integer, interval, "", {} }, meaning,
-            [&value](const auto &text) { value = static_cast<unsigned int>(leading_number(text)->value); });
-      }
-
-      void number_or_auto(const std::string &entry, std::optional<double> &value, const Interval &interval,
-                          const std::string &unit, const std::string &meaning)
-      {
-        add(entry, "auto", { Rule::Kind::number_or_auto, interval, unit, {} }, meaning,
-            [&value](const auto &text)
-            { value = text == "auto" ? std::nullopt : std::make_optional(leading_number(text)->value); });
-      }
-
-      void numbers(const std::string &entry, std::vector<double> &values, const Interval &interval, const std::string &meaning)
-      {
-        std::string text;
-        for (const double value : values)
-          text += (text.empty() ? "" : ", ") + number_text(value);
-        add(entry, text, { Rule::Kind::numbers, interval, "", {} }, meaning,
-            [&values](const auto &list) { values = list_of_numbers(list); });
-      }
-
-      void text(const std::string &entry, std::string &value, const std::string &meaning)
-      {
-        add(entry, value, {}, meaning, [&value](const auto &given) { value = given; });
-      }
-
-      template <typename T>
-      void choice(const std::string &entry, T &value, const Choices<T> &choices, const std::string &meaning)
-      {
-        Rule rule;
-        rule.kind = Rule::Kind::choice;
-        std::string present;
-        for (const auto &[word, meant] : choices)
-        {
-          rule.choices.push_back(word);
-          if (meant == value)
-            present = word;
-        }
-        add(entry, present, rule, meaning,
-            [&value, choices](const auto &text) {
-              value = std::find_if(choices.begin(), choices.end(), [&](const auto &pair) { return pair.first == text; })->second;
-            });
-      }
-
-    private:
-      std::vector<Parameter> &parameters;
-      const std::string name;
-
-      void add(const std::string &entry, const std::string &value, const Rule &rule, const std::string &meaning,
-               const std::function<void(const std::string &)> &store)
-      {
-        parameters.push_back({ name, entry, value, rule, meaning, store });
-      }
-    };
-
     void analysis(Section section, AnalysisSettings &settings)
     {
       section.choice<AnalysisType>("Type", settings.type,
@@ -95,11 +17,13 @@ namespace sprag
                                      { "modal", AnalysisType::modal },
                                      { "stability", AnalysisType::stability },
                                      { "map", AnalysisType::map },
-                                     { "sprag slip", AnalysisType::sprag_slip } },
+                                     { "sprag slip", AnalysisType::sprag_slip },
+                                     { "calibration", AnalysisType::calibration } },
                                    "Follow the drive without inertia, sweep the representative slope C_Q, follow the drive "
                                    "with inertia, fit the contact of rigid and beam to finite elements, find vibration modes at "
-                                   "one x, judge whether the slide there is stable, the same over two parameters, or perturb "
-                                   "it in time and follow it to its limit cycle");
+                                   "one x, judge whether the slide there is stable, the same over two parameters, perturb it "
+                                   "in time and follow it to its limit cycle, or make parts that have a given k and J and "
+                                   "tell the constants of the reduced models");
       section.choice<ModelType>(
           "Model", settings.model,
           { { "closed form", ModelType::closed_form },
@@ -169,6 +93,9 @@ namespace sprag
 
     void lever(Section section, Lever &settings)
     {
+      section.choice<LeverOutline>("Outline", settings.outline,
+                                   { { "bar", LeverOutline::bar }, { "frame", LeverOutline::frame } },
+                                   "A bar of constant depth on a rigid hub, or the two parts of a lever frame");
       section.number("Length", settings.length, above(0.), "mm", "From the pivot to the tip");
       section.number("Depth", settings.depth, above(0.), "mm", "Of the metal, without the friction layer");
       section.number("Width", settings.width, above(0.), "mm", "Out of plane");
@@ -179,7 +106,12 @@ namespace sprag
                                     { { "linear", MaterialModel::linear }, { "neo-Hookean", MaterialModel::neo_hookean } },
                                     "Of lever and friction layer: small strain, or finite strain (plane strain only)");
       section.number("Moment of inertia", settings.moment_of_inertia, above(0.), "t mm2",
-                     "J about the pivot, tip mass included; densities are scaled to it");
+                     "J about the pivot, of all that turns with the hub; densities are scaled to it");
+      section.choice<InertiaSource>("Inertia", settings.inertia,
+                                    { { "scaled", InertiaSource::scaled }, { "as built", InertiaSource::as_built } },
+                                    "Whether densities are scaled to the Moment of inertia, or that follows from them");
+      section.number("Hub inertia", settings.hub_inertia, at_least(0.), "t mm2",
+                     "Of what turns with the rigid hub, about the pivot");
       section.number("Tip mass", settings.tip_mass, at_least(0.), "t", "At the tip, on the neutral axis");
       section.number_or_auto("Neutral axis offset", settings.neutral_axis_offset, any_number(), "mm",
                              "e_a of rigid and beam, from the pivot to the neutral axis; auto: e + layer + Depth/2, 0: each "
@@ -281,7 +213,7 @@ namespace sprag
       section.number("Maximum coefficient", settings.maximum_coefficient, above(0.), "", "Largest mu of the sweep over mu");
       section.number("Maximum inclination", maximum_inclination, between(0., 90.), "deg",
                      "Largest theta_0 of the sweep over theta_0");
-      section.numbers("Offset ratios", settings.offset_ratios, { 0., 1., true, false }, "e/R of the curves over theta_0");
+      section.numbers("Offset ratios", settings.offset_ratios, { 0., 1., true, false }, "", "e/R of the curves over theta_0");
     }
 
     void stability(Section section, StabilitySettings &settings)
@@ -347,9 +279,7 @@ namespace sprag
     friction({ all, "Friction" }, settings.friction);
     lever({ all, "Lever" }, scene.lever);
     friction_layer({ all, "Friction layer" }, scene.layer);
-    Section(all, "Rotational spring")
-        .number("Stiffness", scene.spring_stiffness, above(0.), "N mm/rad",
-                "k, moment of the leaf springs over the lever's rotation");
+    add_apparatus_parameters(scene, all);
     support({ all, "Support" }, scene.support);
     contact({ all, "Contact" }, scene.contact);
     time({ all, "Time" }, scene.time, settings.time_tolerance);

@@ -254,7 +254,7 @@ TEST(LeverModel, MomentOfTheContactIsTheSprings)
   Row row;
   model.observe(state, row);
   const double rest    = kinematics(scene.geometry, 0.).theta;
-  const double moment  = scene.spring_stiffness * (row[Column::theta] - rest);
+  const double moment  = scene.spring.stiffness * (row[Column::theta] - rest);
   const double contact = row[Column::P] * row[Column::s] + row[Column::F] * scene.geometry.interface_offset;
   // Deflections of some 0.1 mm under s = 150 mm and e = 45.6 mm.
   EXPECT_NEAR(contact, moment, 3e-3 * moment);

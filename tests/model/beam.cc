@@ -19,7 +19,7 @@ namespace
   {
     Scene scene                     = model_a();
     scene.analysis.model            = ModelType::beam;
-    scene.spring_stiffness          = spring_stiffness;
+    scene.spring.stiffness          = spring_stiffness;
     scene.lever.neutral_axis_offset = neutral_axis;
     scene.lever.tip_mass            = tip_mass;
     return scene;
@@ -126,7 +126,7 @@ TEST(BeamFrequencies, OfBarsWithATipMass)
     const auto frequencies = free_frequencies(scene, mesh_of(scene));
     for (unsigned int i = 1; i < 4; ++i)
       expect_frequency(scene, frequencies[i], root(pinned, i * 3.14159, i * 3.14159 + 1.));
-    scene.spring_stiffness = 1e16;
+    scene.spring.stiffness = 1e16;
     const auto held        = free_frequencies(scene, mesh_of(scene));
     const double before[]  = { 0.5, 3.2, 6.3 };
     const double behind[]  = { 1.9, 4.8, 7.9 };

@@ -178,7 +178,7 @@ TEST(HeldSlide, OfARigidLeverIsTheEquilibriumOfMoments)
   const auto model       = make_reduced_lever(scene);
   const double R         = scene.geometry.cylinder_radius;
   const double e         = scene.geometry.interface_offset;
-  const double k         = scene.spring_stiffness;
+  const double k         = scene.spring.stiffness;
   const double stiffness = scene.contact.stiffness;
   const double rest      = kinematics(scene.geometry, 0.).theta;
   for (const double x : { 5., 30., 65. })

@@ -65,7 +65,7 @@ namespace
   {
     auto &g = scene.geometry;
     g       = { g.cylinder_radius / 1e3, g.interface_offset / 1e3, g.pivot_distance / 1e3, g.pivot_height / 1e3 };
-    scene.spring_stiffness /= 1e3;
+    scene.spring.stiffness /= 1e3;
     scene.drive = Drive(DriveProfile::triangle, 0., 0.065, 0.112, 1.);
     return scene;
   }
@@ -107,10 +107,10 @@ TEST(ClosedForm, RateOfInclinationIsTheDerivativeOfInclination)
 TEST(ClosedForm, SlopesOfBothModelsAreTheReference)
 {
   const Scene a = model_a(), b = model_b();
-  EXPECT_NEAR(representative_slope(a.geometry, a.spring_stiffness, 0.73, 1), 0.0804711777, 5e-11);
-  EXPECT_NEAR(representative_slope(a.geometry, a.spring_stiffness, 0.73, -1), -0.0992025652, 5e-11);
-  EXPECT_NEAR(representative_slope(b.geometry, b.spring_stiffness, 0.73, 1), 0.1566745505, 5e-11);
-  EXPECT_NEAR(representative_slope(b.geometry, b.spring_stiffness, 0.73, -1), -0.1158129739, 5e-11);
+  EXPECT_NEAR(representative_slope(a.geometry, a.spring.stiffness, 0.73, 1), 0.0804711777, 5e-11);
+  EXPECT_NEAR(representative_slope(a.geometry, a.spring.stiffness, 0.73, -1), -0.0992025652, 5e-11);
+  EXPECT_NEAR(representative_slope(b.geometry, b.spring.stiffness, 0.73, 1), 0.1566745505, 5e-11);
+  EXPECT_NEAR(representative_slope(b.geometry, b.spring.stiffness, 0.73, -1), -0.1158129739, 5e-11);
   EXPECT_NEAR(dimensionless_slope(a.geometry, 0.73, 1), 0.0112964134, 5e-11);
   EXPECT_NEAR(dimensionless_slope(a.geometry, 0.73, -1), -0.0139258952, 5e-11);
   EXPECT_NEAR(dimensionless_slope(b.geometry, 0.73, 1), 0.0100000159, 5e-11);
@@ -126,7 +126,7 @@ TEST(ClosedForm, SlopeIsTheDerivativeOfTheForceAtTheStart)
       Scene scene           = with_coulomb(model_a(), 0.73);
       scene.geometry        = geometry;
       const double expected = derivative([&](const double x) { return closed_form(scene, x, sign * 112.).Q; }, 0.);
-      const double slope    = representative_slope(geometry, scene.spring_stiffness, 0.73, sign);
+      const double slope    = representative_slope(geometry, scene.spring.stiffness, 0.73, sign);
       EXPECT_NEAR(slope, expected, 1e-9 * std::abs(expected));
     }
 }
@@ -178,7 +178,7 @@ TEST(ClosedForm, MomentsAboutThePivotBalance)
     {
       const auto state  = closed_form(scene, 50., v);
       const double turn = state.contact.theta - kinematics(scene.geometry, 0.).theta;
-      const double M    = scene.spring_stiffness * turn;
+      const double M    = scene.spring.stiffness * turn;
       EXPECT_NEAR(state.contact.s * state.P + scene.geometry.interface_offset * state.F, M, 1e-13 * M);
       EXPECT_NEAR(std::abs(state.F), state.mu * state.P, 1e-14 * state.P);
     }
@@ -231,7 +231,7 @@ TEST(ClosedForm, HalfACycleStoresTheEnergyOfTheSpring)
   Scene scene         = model_a();
   scene.drive         = Drive(DriveProfile::triangle, 0., 65., 112., 0.5);
   const double turn   = kinematics(scene.geometry, 65.).theta - kinematics(scene.geometry, 0.).theta;
-  const double stored = 0.5 * scene.spring_stiffness * turn * turn;
+  const double stored = 0.5 * scene.spring.stiffness * turn * turn;
   EXPECT_NEAR(loop_area(scene), friction_work(scene) + stored, 1e-9 * loop_area(scene));
 }
 

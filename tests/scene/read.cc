@@ -48,7 +48,7 @@ TEST(ReadScene, EmptyFileIsModelA)
   const Scene scene = read_scene(written(""));
   const Scene defaults;
   EXPECT_EQ(scene.geometry.interface_offset, defaults.geometry.interface_offset);
-  EXPECT_EQ(scene.spring_stiffness, 7.4e4);
+  EXPECT_EQ(scene.spring.stiffness, 7.4e4);
   EXPECT_EQ(scene.drive.duration(), Drive().duration());
   EXPECT_TRUE(std::holds_alternative<CorkOnAluminium>(scene.friction.law));
   EXPECT_FALSE(scene.contact.penalty);
@@ -73,7 +73,7 @@ TEST(ReadScene, EverySectionReachesTheScene)
   EXPECT_EQ(scene.friction.speed, FrictionSpeed::drive);
   EXPECT_EQ(scene.lever.young_modulus, 210000.);
   EXPECT_EQ(scene.layer.thickness, 0.);
-  EXPECT_EQ(scene.spring_stiffness, 1e4);
+  EXPECT_EQ(scene.spring.stiffness, 1e4);
   EXPECT_EQ(scene.contact.enforcement, Enforcement::augmented_lagrangian);
   EXPECT_EQ(scene.contact.penalty, 1234.);
   EXPECT_EQ(scene.mesh.degree, 1u);

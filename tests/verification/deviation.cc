@@ -77,7 +77,7 @@ namespace
       const auto centre = cylinder_centre(scene.geometry, x, theta);
       const double sine = std::sin(beta), cosine = std::cos(beta);
       const double arm    = centre.xi * cosine - centre.eta * sine + signed_mu * (centre.xi * sine + centre.eta * cosine + R);
-      const double normal = scene.spring_stiffness * (theta - theta_0) / arm;
+      const double normal = scene.spring.stiffness * (theta - theta_0) / arm;
       P                   = normal * (cosine + signed_mu * sine);
       F                   = normal * (signed_mu * cosine - sine);
       const auto bent     = bending(scene, centre.xi + R * sine, P, F);

@@ -37,7 +37,7 @@ namespace
     const double a = units.length;
     auto &g        = scene.geometry;
     g              = { a * g.cylinder_radius, a * g.interface_offset, a * g.pivot_distance, a * g.pivot_height };
-    scene.spring_stiffness *= units.modulus * a * a * a;
+    scene.spring.stiffness *= units.modulus * a * a * a;
     scene.lever.length *= a;
     scene.lever.depth *= a;
     scene.lever.width *= a;
@@ -164,7 +164,7 @@ TEST(Units, ForcesGrowInProportionToAllStiffnesses)
       const Scene coarse = with_face_size(with_drive(scene, Drive(DriveProfile::triangle, 30., 65., 112., 1.)), 2.);
       const double c     = 37.;
       Scene stiffer      = with_stiffness(coarse, c);
-      stiffer.spring_stiffness *= c;
+      stiffer.spring.stiffness *= c;
       expect_same(run_scene(stiffer), run_scene(coarse), 1., c, round_off, moved);
     }
 }

@@ -88,7 +88,7 @@ TEST(RigidLever, FollowsTheClosedFormOnAStiffContactUnderASlowDrive)
         continue;
       const auto ideal   = closed_form(scene, row[Column::x], row[Column::v]);
       const double arm   = ideal.contact.s + std::copysign(ideal.mu, row[Column::v]) * scene.geometry.interface_offset;
-      const double share = scene.spring_stiffness / (ideal.contact.s * arm) / scene.contact.stiffness;
+      const double share = scene.spring.stiffness / (ideal.contact.s * arm) / scene.contact.stiffness;
       const double off   = share + 2e-6;
       EXPECT_NEAR(row[Column::P], ideal.P, off * ideal.P + 2e-5) << "x " << row[Column::x];
       EXPECT_NEAR(row[Column::Q], ideal.Q, off * (ideal.P * ideal.mu + std::abs(ideal.Q)) + 2e-5) << "x " << row[Column::x];

@@ -1,0 +1,149 @@
+#pragma once
+
+#include "laws/moment_law.h"
+
+#include <array>
+#include <vector>
+
+namespace sprag
+{
+  // Parts of the apparatus (Fig. 4 of the paper), each a choice of the scene. Lever axes: xi along the lever from the pivot, eta
+  // from the friction interface into the lever.
+
+  enum class SpringType
+  {
+    torsional, ///< one number at the hub
+    leaf       ///< a meshed leaf spring
+  };
+
+  /// What holds a leaf spring at its far end, the spring joint. Along the spring it is free or held, see LeafSpring::axial.
+  enum class LeafEnd
+  {
+    clamped, ///< neither turns nor moves across the spring
+    pinned,  ///< turns, does not move across
+    guided   ///< does not turn, moves across
+  };
+
+  enum class LeafAxial
+  {
+    free,
+    held
+  };
+
+  /// A leaf spring behind the pivot: clamped in the hub, from there along -xi to the spring joint, which the pivot frame carries.
+  struct LeafSpring
+  {
+    double length         = 100.; ///< between clamp and joint at rest [mm], > 0
+    double thickness      = 1.4;  ///< [mm], > 0
+    double width          = 40.;
+    double young_modulus  = 206000.;
+    double poisson_ratio  = 0.3;
+    double density        = 7.85e-9; ///< [t/mm^3]
+    LeafEnd end           = LeafEnd::clamped;
+    LeafAxial axial       = LeafAxial::free;
+    double clamp_distance = 0.;   ///< from the pivot to the clamp [mm], >= 0
+    double sagitta        = 0.;   ///< of the unloaded spring, an arc bent towards +eta [mm], signed
+    double room           = 150.; ///< from the pivot to the end of the pivot frame [mm]
+  };
+
+  /// What a lever feels of a leaf spring besides its stiffness: from finite elements, at every fidelity.
+  struct LeafBehaviour
+  {
+    MomentLaw law;
+    double mass    = 0.; ///< [t]
+    double inertia = 0.; ///< about the pivot, of the shape it takes when the hub turns [t mm^2]
+
+    /// Of a unit rate of the hub, in the axes of the lever at rest: momentum along xi, eta [t mm].
+    std::array<double, 2> momentum{};
+
+    /// Vibrations with the hub held, of mass 1.
+    struct Mode
+    {
+      double stiffness     = 0.;        ///< omega^2 [1/s^2]
+      double participation = 0.;        ///< mass that couples it with the hub's rotation [sqrt(t) mm]
+      std::array<double, 2> momentum{}; ///< along xi, eta [sqrt(t)]
+    };
+    std::vector<Mode> modes;
+  };
+
+  struct RotationalSpring
+  {
+    SpringType type  = SpringType::torsional;
+    double stiffness = 7.40e4; ///< k [N mm/rad], > 0; of a leaf spring that of its behaviour
+    LeafSpring leaf;
+    LeafBehaviour behaviour; ///< filled in by with_leaf_spring(), empty for a torsional spring
+  };
+
+  enum class LeverOutline
+  {
+    bar,  ///< of constant depth, on a rigid hub
+    frame ///< two parts: 2b around the pivot, 2a along the face, with a web and pockets
+  };
+
+  /// Lever frame of two parts: the arm 2a along the friction face, of flanges and a thinner web between them, and the root 2b
+  /// that carries it on the pivot. In the plane a web is a region of smaller width.
+  struct LeverFrameShape
+  {
+    double tip_depth     = 12.; ///< of the arm at its tip; at the root it has Lever/Depth [mm], > 0
+    double flange        = 4.;  ///< depth of each flange [mm], > 0
+    double web           = 10.; ///< width of the web in the pockets [mm], 0: holes
+    unsigned int pockets = 3;
+    double rib           = 6.;  ///< length of the full width between pockets and at the ends [mm], > 0
+    double root          = 30.; ///< length of the root 2b along xi, in front of the pivot [mm], > 0
+  };
+
+  enum class PlateType
+  {
+    none,
+    on_sensors ///< the friction layer on a plate of its own
+  };
+
+  /// Friction plate (3) with its cork sheet, held to the lever through spacers by force sensors, which carry normal force alone,
+  /// and by a linear guide, which carries the tangential one.
+  struct FrictionPlate
+  {
+    PlateType type       = PlateType::none;
+    double begin         = 95.; ///< first xi of the plate [mm]
+    double end           = 205.;
+    double thickness     = 8.;
+    double spacer        = 6.; ///< distance of plate and lever [mm], > 0
+    double young_modulus = 70000.;
+    double poisson_ratio = 0.33;
+    double density       = 2.7e-9;
+    std::vector<double> sensors{ 105., 135., 165., 195. }; ///< xi of their middles [mm], increasing, at least two
+    double sensor_length    = 6.;                          ///< along xi, over which a sensor presses [mm]
+    double sensor_stiffness = 2e5;                         ///< of each [N/mm]
+    double guide            = 150.;                        ///< xi of the guide's middle [mm]
+    double guide_stiffness  = 1e6;                         ///< along the plate [N/mm]
+  };
+
+  enum class CylinderType
+  {
+    rigid,
+    solid, ///< elastic, on a rigid core
+    ring   ///< elastic, on a rigid shaft of the inner radius
+  };
+
+  struct Cylinder
+  {
+    CylinderType type    = CylinderType::rigid;
+    double inner_radius  = 28.; ///< of the rigid core or shaft [mm], > 0, < R
+    double young_modulus = 70000.;
+    double poisson_ratio = 0.33;
+    double density       = 2.7e-9;
+    double face_size     = 0.25; ///< element length where it touches the lever [mm]
+  };
+
+  enum class LeverPair
+  {
+    half, ///< one lever, the other its mirror image in the x-axis
+    full  ///< both, with their own motion, on one pivot frame and with joined leaf springs
+  };
+
+  struct MirroredPair
+  {
+    LeverPair levers       = LeverPair::half;
+    double cylinder_offset = 0.; ///< of the cylinder's path from the x-axis towards the first lever [mm]
+    double joint_mass      = 0.; ///< of the spring joint [t], >= 0
+  };
+} // namespace sprag

@@ -1,0 +1,110 @@
+#include "scene/apparatus_sections.h"
+
+#include "scene/section.h"
+
+namespace sprag
+{
+  namespace
+  {
+    void spring(Section section, RotationalSpring &settings)
+    {
+      section.choice<SpringType>("Type", settings.type, { { "torsional", SpringType::torsional }, { "leaf", SpringType::leaf } },
+                                 "A number at the hub, or a leaf spring of finite elements");
+      section.number("Stiffness", settings.stiffness, above(0.), "N mm/rad",
+                     "k, moment over the lever's rotation; that of a leaf spring follows from its dimensions");
+    }
+
+    void leaf(Section section, LeafSpring &settings)
+    {
+      section.number("Length", settings.length, above(0.), "mm", "From its clamp in the hub to the spring joint, at rest");
+      section.number("Thickness", settings.thickness, above(0.), "mm", "In the plane");
+      section.number("Width", settings.width, above(0.), "mm", "Out of plane");
+      section.number("Young's modulus", settings.young_modulus, above(0.), "MPa", "E");
+      section.number("Poisson's ratio", settings.poisson_ratio, between(-1., 0.5), "", "nu");
+      section.number("Density", settings.density, above(0.), "t/mm3", "rho");
+      section.choice<LeafEnd>(
+          "Joint", settings.end,
+          { { "clamped", LeafEnd::clamped }, { "pinned", LeafEnd::pinned }, { "guided", LeafEnd::guided } },
+          "Far end: neither turns nor moves across, turns only, or moves across only (4, 3 and 1 times EI/L)");
+      section.choice<LeafAxial>("Axial", settings.axial, { { "free", LeafAxial::free }, { "held", LeafAxial::held } },
+                                "Of the joint along the spring: free as between mirrored levers, or held");
+      section.number("Clamp distance", settings.clamp_distance, at_least(0.), "mm", "From the pivot back to the clamp");
+      section.number("Sagitta", settings.sagitta, any_number(), "mm",
+                     "Of the unloaded spring, an arc; positive: away from the cylinder; 0: straight");
+      section.number("Room", settings.room, above(0.), "mm", "From the pivot back to the end of the pivot frame");
+    }
+
+    void lever_frame(Section section, LeverFrameShape &settings)
+    {
+      section.number("Tip depth", settings.tip_depth, above(0.), "mm", "Of the arm at its tip; Lever/Depth at its root");
+      section.number("Flange", settings.flange, above(0.), "mm", "Depth of each of the two flanges");
+      section.number("Web", settings.web, at_least(0.), "mm", "Width of the web in the pockets, out of plane; 0: holes");
+      section.integer("Pockets", settings.pockets, { 0., 50. }, "Between flanges, one after another");
+      section.number("Rib", settings.rib, above(0.), "mm", "Length of full width between pockets and at the ends of the arm");
+      section.number("Root", settings.root, above(0.), "mm", "Length along the lever of part 2b, which the pivot carries");
+    }
+
+    void friction_plate(Section section, FrictionPlate &settings)
+    {
+      section.choice<PlateType>("Type", settings.type, { { "none", PlateType::none }, { "on sensors", PlateType::on_sensors } },
+                                "Friction layer on the lever, or on a plate of its own held by force sensors");
+      section.number("Begin", settings.begin, above(0.), "mm", "Of plate and layer, from the pivot along the lever");
+      section.number("End", settings.end, above(0.), "mm", "Of plate and layer");
+      section.number("Thickness", settings.thickness, above(0.), "mm", "Of the metal");
+      section.number("Spacer", settings.spacer, above(0.), "mm", "Distance of plate and lever");
+      section.number("Young's modulus", settings.young_modulus, above(0.), "MPa", "E of the metal");
+      section.number("Poisson's ratio", settings.poisson_ratio, between(-1., 0.5), "", "nu of the metal");
+      section.number("Density", settings.density, above(0.), "t/mm3", "rho of the metal");
+      section.numbers("Sensors", settings.sensors, above(0.), "mm",
+                      "Middles of the force sensors, from the pivot along the lever");
+      section.number("Sensor length", settings.sensor_length, above(0.), "mm", "Along the lever, over which each presses");
+      section.number("Sensor stiffness", settings.sensor_stiffness, above(0.), "N/mm", "Of each, normal to the plate");
+      section.number("Guide", settings.guide, above(0.), "mm", "Middle of the linear guide, from the pivot along the lever");
+      section.number("Guide stiffness", settings.guide_stiffness, above(0.), "N/mm", "Of the guide along the plate");
+    }
+
+    void cylinder(Section section, Cylinder &settings)
+    {
+      section.choice<CylinderType>(
+          "Type", settings.type,
+          { { "rigid", CylinderType::rigid }, { "solid", CylinderType::solid }, { "ring", CylinderType::ring } },
+          "A rigid circle, or finite elements on a rigid core or shaft");
+      section.number("Inner radius", settings.inner_radius, above(0.), "mm",
+                     "Of the rigid core of a solid one, of a ring's shaft");
+      section.number("Young's modulus", settings.young_modulus, above(0.), "MPa", "E");
+      section.number("Poisson's ratio", settings.poisson_ratio, between(-1., 0.5), "", "nu");
+      section.number("Density", settings.density, above(0.), "t/mm3", "rho");
+      section.number("Face size", settings.face_size, above(0.), "mm", "Element length where it touches the lever");
+    }
+
+    void pair(Section section, MirroredPair &settings)
+    {
+      section.choice<LeverPair>("Levers", settings.levers, { { "half", LeverPair::half }, { "full", LeverPair::full } },
+                                "One lever of a symmetric pair, or both on one pivot frame with joined springs");
+      section.number("Cylinder offset", settings.cylinder_offset, any_number(), "mm",
+                     "Of the cylinder's path from the x-axis towards the first lever");
+      section.number("Joint mass", settings.joint_mass, at_least(0.), "t", "Of the spring joint");
+    }
+
+    void calibration(Section section, CalibrationSettings &settings)
+    {
+      section.number_or_auto("Stiffness", settings.stiffness, above(0.), "N mm/rad",
+                             "k to be met by the leaf spring's thickness; auto: the leaf as it is");
+      section.number_or_auto("Moment of inertia", settings.moment_of_inertia, above(0.), "t mm2",
+                             "J to be met by added mass, densities as built; auto: as it is");
+      section.choice<AddedMass>("Mass", settings.mass, { { "hub", AddedMass::hub }, { "tip", AddedMass::tip } },
+                                "Where mass is added: Lever/Hub inertia or Lever/Tip mass");
+    }
+  } // namespace
+
+  void add_apparatus_parameters(Scene &scene, std::vector<Parameter> &all)
+  {
+    spring({ all, "Rotational spring" }, scene.spring);
+    leaf({ all, "Leaf spring" }, scene.spring.leaf);
+    lever_frame({ all, "Lever frame" }, scene.frame);
+    friction_plate({ all, "Friction plate" }, scene.plate);
+    cylinder({ all, "Cylinder" }, scene.cylinder);
+    pair({ all, "Mirrored pair" }, scene.pair);
+    calibration({ all, "Calibration" }, scene.calibration);
+  }
+} // namespace sprag

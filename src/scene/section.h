@@ -1,0 +1,90 @@
+#pragma once
+
+#include "base/parameters.h"
+#include "base/text.h"
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace sprag
+{
+  template <typename T>
+  using Choices = std::vector<std::pair<std::string, T>>;
+
+  /// Collects the parameters of one section, each bound to the variable it sets.
+  class Section
+  {
+  public:
+    Section(std::vector<Parameter> &all, std::string section_name)
+        : parameters(all)
+        , name(std::move(section_name))
+    {
+    }
+
+    void number(const std::string &entry, double &value, const Interval &interval, const std::string &unit,
+                const std::string &meaning)
+    {
+      add(entry, number_text(value), { Rule::Kind::number, interval, unit, {} }, meaning,
+          [&value](const auto &text) { value = leading_number(text)->value; });
+    }
+
+    void integer(const std::string &entry, unsigned int &value, const Interval &interval, const std::string &meaning)
+    {
+      add(entry, std::to_string(value), { Rule::Kind::integer, interval, "", {} }, meaning,
+          [&value](const auto &text) { value = static_cast<unsigned int>(leading_number(text)->value); });
+    }
+
+    void number_or_auto(const std::string &entry, std::optional<double> &value, const Interval &interval, const std::string &unit,
+                        const std::string &meaning)
+    {
+      add(entry, "auto", { Rule::Kind::number_or_auto, interval, unit, {} }, meaning,
+          [&value](const auto &text)
+          { value = text == "auto" ? std::nullopt : std::make_optional(leading_number(text)->value); });
+    }
+
+    void numbers(const std::string &entry, std::vector<double> &values, const Interval &interval, const std::string &unit,
+                 const std::string &meaning)
+    {
+      std::string text;
+      for (const double value : values)
+        text += (text.empty() ? "" : ", ") + number_text(value);
+      add(entry, text, { Rule::Kind::numbers, interval, unit, {} }, meaning,
+          [&values](const auto &list) { values = list_of_numbers(list); });
+    }
+
+    void text(const std::string &entry, std::string &value, const std::string &meaning)
+    {
+      add(entry, value, {}, meaning, [&value](const auto &given) { value = given; });
+    }
+
+    template <typename T>
+    void choice(const std::string &entry, T &value, const Choices<T> &choices, const std::string &meaning)
+    {
+      Rule rule;
+      rule.kind = Rule::Kind::choice;
+      std::string present;
+      for (const auto &[word, meant] : choices)
+      {
+        rule.choices.push_back(word);
+        if (meant == value)
+          present = word;
+      }
+      add(entry, present, rule, meaning,
+          [&value, choices](const auto &text) {
+            value = std::find_if(choices.begin(), choices.end(), [&](const auto &pair) { return pair.first == text; })->second;
+          });
+    }
+
+  private:
+    std::vector<Parameter> &parameters;
+    const std::string name;
+
+    void add(const std::string &entry, const std::string &value, const Rule &rule, const std::string &meaning,
+             const std::function<void(const std::string &)> &store)
+    {
+      parameters.push_back({ name, entry, value, rule, meaning, store });
+    }
+  };
+} // namespace sprag
