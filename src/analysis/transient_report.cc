@@ -89,9 +89,9 @@ namespace sprag
       case ModelType::closed_form:
         return "rigid lever without mass";
       case ModelType::rigid:
-        return "rigid lever with J = " + rounded_text(scene.lever.moment_of_inertia) + " t mm2";
+        return "rigid lever with J = " + rounded_text(moment_of_inertia(scene)) + " t mm2";
       case ModelType::beam:
-        return "lever of Euler-Bernoulli beam elements with J = " + rounded_text(scene.lever.moment_of_inertia) + " t mm2";
+        return "lever of Euler-Bernoulli beam elements with J = " + rounded_text(moment_of_inertia(scene)) + " t mm2";
       case ModelType::condensed:
         return "meshed lever condensed to " + std::to_string(scene.condensed.modes) + " modes and the static shapes of its face";
       case ModelType::finite_element:

@@ -187,9 +187,10 @@ namespace sprag
   } // namespace
 
   template <int dim>
-  TotalCoordinates<dim>::TotalCoordinates(const ElasticBody<dim> &body)
+  TotalCoordinates<dim>::TotalCoordinates(const ElasticBody<dim> &body, const unsigned int attached_coordinates)
       : movers(body.n_dofs())
       , arms(body.n_dofs())
+      , n_attached(attached_coordinates)
   {
     std::vector<Point<dim>> positions(body.n_dofs());
     DoFTools::map_dofs_to_support_points(MappingQ1<dim>(), body.dofs(), positions);
@@ -209,19 +210,25 @@ namespace sprag
         movers[dof] = { n_free++, 1. };
     for (unsigned int dof = 0; dof < body.n_dofs(); ++dof)
       if (body.is_held(dof))
-        movers[dof] = { n_free, arms[dof] };
+        movers[dof] = { rotation(), arms[dof] };
   }
 
   template <int dim>
   unsigned int TotalCoordinates<dim>::size() const
   {
-    return n_free + 1;
+    return n_free + n_attached + 1;
   }
 
   template <int dim>
   unsigned int TotalCoordinates<dim>::rotation() const
   {
-    return n_free;
+    return n_free + n_attached;
+  }
+
+  template <int dim>
+  unsigned int TotalCoordinates<dim>::attached(const unsigned int i) const
+  {
+    return n_free + i;
   }
 
   template <int dim>
@@ -258,15 +265,20 @@ namespace sprag
 
   template <int dim>
   InertialMatrices<dim>::InertialMatrices(const ElasticBody<dim> &body, const LeverInertia &inertia)
-      : coordinates(body)
+      : coordinates(body, static_cast<unsigned int>(inertia.leaf.modes.size()))
   {
     const double of_cells = inertia_of_cells(body, inertia.densities);
     const double of_tip   = inertia.tip_mass > 0. ? inertia_of_tip(body, inertia.tip_mass) : 0.;
-    if (inertia.moment_of_inertia <= of_tip)
-      throw InputError("the tip mass alone has a moment of inertia of " + rounded_text(of_tip) +
-                       " t mm^2 about the pivot: Lever/Moment of inertia = " + rounded_text(inertia.moment_of_inertia) +
-                       " must be larger");
-    density_factor = (inertia.moment_of_inertia - of_tip) / of_cells;
+    const double added    = of_tip + inertia.hub + inertia.leaf.inertia;
+    if (inertia.source == InertiaSource::scaled)
+    {
+      if (inertia.moment_of_inertia <= added)
+        throw InputError("tip mass, hub and leaf spring alone have a moment of inertia of " + rounded_text(added) +
+                         " t mm^2 about the pivot: Lever/Moment of inertia = " + rounded_text(inertia.moment_of_inertia) +
+                         " must be larger");
+      density_factor = (inertia.moment_of_inertia - added) / of_cells;
+    }
+    moment_of_inertia = density_factor * of_cells + added;
 
     auto densities = inertia.densities;
     for (auto &density : densities)
@@ -279,6 +291,7 @@ namespace sprag
     assemble_cells(body, densities);
     if (inertia.tip_mass > 0.)
       assemble_tip(body, inertia.tip_mass);
+    attach_hub(inertia.hub, inertia.leaf);
     for (auto *const matrix : { &mass, &stiffness, &layer_stiffness })
       matrix->compress(VectorOperation::add);
   }
@@ -297,7 +310,14 @@ namespace sprag
             pattern.add(coordinates.mover(static_cast<unsigned int>(i)).coordinate,
                         coordinates.mover(static_cast<unsigned int>(j)).coordinate);
       }
-    pattern.add(coordinates.rotation(), coordinates.rotation());
+    const unsigned int hub = coordinates.rotation();
+    pattern.add(hub, hub);
+    for (unsigned int attached = coordinates.attached(0); attached < hub; ++attached)
+    {
+      pattern.add(attached, attached);
+      pattern.add(attached, hub);
+      pattern.add(hub, attached);
+    }
   }
 
   template <int dim>
@@ -356,6 +376,30 @@ namespace sprag
       const auto face_mass = local_mass<dim>(values, tip_mass / length);
       scatter.add(face_mass, mass);
       total_mass += scatter.add_momentum(face_mass, fe, momentum);
+    }
+  }
+
+  template <int dim>
+  void InertialMatrices<dim>::attach_hub(const double of_hub, const LeafBehaviour &leaf)
+  {
+    const unsigned int hub  = coordinates.rotation();
+    const auto add_momentum = [&](const unsigned int coordinate, const std::array<double, 2> &of_unit_rate)
+    {
+      for (unsigned int axis = 0; axis < 2; ++axis)
+        momentum[axis][coordinate] += of_unit_rate[axis];
+    };
+    mass.add(hub, hub, of_hub + leaf.inertia);
+    add_momentum(hub, leaf.momentum);
+    total_mass += leaf.mass;
+    for (unsigned int i = 0; i < leaf.modes.size(); ++i)
+    {
+      const auto &mode              = leaf.modes[i];
+      const unsigned int coordinate = coordinates.attached(i);
+      mass.add(coordinate, coordinate, 1.);
+      mass.add(coordinate, hub, mode.participation);
+      mass.add(hub, coordinate, mode.participation);
+      stiffness.add(coordinate, coordinate, mode.stiffness);
+      add_momentum(coordinate, mode.momentum);
     }
   }
 

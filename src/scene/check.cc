@@ -224,25 +224,24 @@ namespace sprag
     {
       if (scene.support.type == SupportType::rigid)
         return {};
-      Violations result;
-      if (!use.transient)
-        result.push_back({ "Support/Type", { "Analysis/Type" }, "sprung needs Analysis/Type = transient" });
-      else if (use.in_time && scene.analysis.model == ModelType::closed_form)
-        result.push_back({ "Support/Type", { "Analysis/Model" }, "sprung needs an Analysis/Model other than closed form" });
-      return result;
+      if (use.in_time && scene.analysis.model == ModelType::closed_form)
+        return { { "Support/Type", { "Analysis/Model" }, "sprung needs an Analysis/Model other than closed form in time" } };
+      if (use.follows_drive)
+        return {};
+      return { { "Support/Type", { "Analysis/Type" }, "must be rigid where the cylinder follows no drive" } };
     }
 
     Violations inertia(const Scene &scene)
     {
-      const Lever &lever  = scene.lever;
-      const double offset = neutral_axis_offset(scene);
-      const double of_tip = lever.tip_mass * (lever.length * lever.length + offset * offset);
-      if (lever.moment_of_inertia > of_tip)
+      const double added = added_inertia(scene);
+      if (scene.lever.inertia == InertiaSource::as_built || scene.lever.moment_of_inertia > added)
         return {};
       return { { "Lever/Moment of inertia",
-                 { "Analysis/Type", "Analysis/Model", "Lever/Tip mass", "Lever/Length", "Lever/Depth",
+                 { "Analysis/Type", "Analysis/Model", "Lever/Tip mass", "Lever/Hub inertia", "Lever/Length", "Lever/Depth",
                    "Lever/Neutral axis offset", "Geometry/Interface offset", "Friction layer/Thickness" },
-                 "must be more than that of the tip mass alone, Tip mass (L^2 + e_a^2) = " + rounded_text(of_tip) + " t mm2" } };
+                 "must be more than that of tip mass, hub and leaf spring alone, Tip mass (L^2 + e_a^2) + Hub inertia + J of the "
+                 "leaf = " +
+                     rounded_text(added) + " t mm2" } };
     }
 
     Violations time(const Scene &scene)
