@@ -65,6 +65,11 @@ namespace sprag
     }
   } // namespace
 
+  double mesh_inertia(const Scene &scene, const ElasticBody<2> &body)
+  {
+    return InertialMatrices<2>(body, inertia_of(scene)).moment_of_inertia;
+  }
+
   FiniteElementBasis make_finite_element_basis(const Scene &scene, const ElasticBody<2> &body)
   {
     const auto matrices = std::make_shared<InertialMatrices<2>>(body, inertia_of(scene));

@@ -2,6 +2,7 @@
 
 #include "base/errors.h"
 #include "base/text.h"
+#include "fe/end_face.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_tools.h>
@@ -9,7 +10,6 @@
 #include <deal.II/fe/mapping_q1.h>
 
 #include <algorithm>
-#include <limits>
 
 namespace sprag
 {
@@ -112,45 +112,6 @@ namespace sprag
     }
 
     template <int dim>
-    using Faces = std::vector<std::pair<typename DoFHandler<dim>::active_cell_iterator, unsigned int>>;
-
-    /// Faces of the lever's material farthest along the first axis.
-    template <int dim>
-    Faces<dim> end_face(const DoFHandler<dim> &dofs)
-    {
-      double end    = std::numeric_limits<double>::lowest();
-      double extent = 0.;
-      for (const auto &cell : dofs.active_cell_iterators())
-        if (cell->material_id() == material_id::lever)
-          for (const unsigned int v : cell->vertex_indices())
-          {
-            end    = std::max(end, cell->vertex(v)[0]);
-            extent = std::max(extent, std::abs(cell->vertex(v)[0]));
-          }
-      Faces<dim> result;
-      for (const auto &cell : dofs.active_cell_iterators())
-        if (cell->material_id() == material_id::lever)
-          for (const unsigned int f : cell->face_indices())
-          {
-            bool at_end = cell->face(f)->at_boundary();
-            for (unsigned int v = 0; v < cell->face(f)->n_vertices(); ++v)
-              at_end = at_end && cell->face(f)->vertex(v)[0] > end - 1e-6 * extent;
-            if (at_end)
-              result.emplace_back(cell, f);
-          }
-      return result;
-    }
-
-    template <int dim>
-    double total_length(const Faces<dim> &faces)
-    {
-      double length = 0.;
-      for (const auto &[cell, f] : faces)
-        length += cell->face(f)->measure();
-      return length;
-    }
-
-    template <int dim>
     double inertia_of_cells(const ElasticBody<dim> &body, const std::map<types::material_id, double> &densities)
     {
       const auto &properties = body.body_properties();
@@ -171,7 +132,7 @@ namespace sprag
     double inertia_of_tip(const ElasticBody<dim> &body, const double tip_mass)
     {
       const auto faces    = end_face(body.dofs());
-      const double length = total_length<dim>(faces);
+      const double length = total_measure<dim>(faces);
       if (faces.empty())
         throw InputError("the mesh has no straight end face across the lever to carry Lever/Tip mass");
       FEFaceValues<dim> values(body.dofs().get_fe(), QGauss<dim - 1>(2), update_quadrature_points | update_JxW_values);
@@ -366,7 +327,7 @@ namespace sprag
   {
     const auto &fe      = body.dofs().get_fe();
     const auto faces    = end_face(body.dofs());
-    const double length = total_length<dim>(faces);
+    const double length = total_measure<dim>(faces);
     FEFaceValues<dim> values(fe, QGauss<dim - 1>(body.body_properties().degree + 1), update_values | update_JxW_values);
     Scatter<dim> scatter(coordinates, fe.n_dofs_per_cell());
     for (const auto &[cell, f] : faces)
