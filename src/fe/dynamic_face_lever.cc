@@ -11,9 +11,14 @@ namespace sprag
   {
     LeverInertia inertia_of(const Scene &scene)
     {
-      return { { { material_id::lever, scene.lever.density }, { material_id::layer, scene.layer.density } },
+      return { { { material_id::lever, scene.lever.density },
+                 { material_id::web, scene.lever.density },
+                 { material_id::plate, scene.plate.density },
+                 { material_id::layer, scene.layer.density } },
                scene.lever.tip_mass,
-               scene.lever.moment_of_inertia };
+               scene.lever.moment_of_inertia,
+               scene.lever.hub_inertia,
+               scene.lever.inertia };
     }
 
     BasisSettings basis_settings(const Scene &scene)
@@ -86,6 +91,7 @@ namespace sprag
     result.n_coordinates        = matrices.coordinates.size();
     result.density_factor       = matrices.density_factor;
     result.lever_mass           = matrices.total_mass;
+    result.moment_of_inertia    = matrices.moment_of_inertia;
     result.elastic_displacement = [lever = structure.get()](const Motion &motion) { return lever->elastic_displacement(motion); };
     result.model                = assemble(scene, body, std::move(structure), result);
     return result;
@@ -100,6 +106,7 @@ namespace sprag
     result.n_coordinates     = structure->n_modes();
     result.density_factor    = basis->density_factor;
     result.lever_mass        = basis->lever_mass;
+    result.moment_of_inertia = basis->moment_of_inertia;
     result.basis_from_cache  = basis->from_cache;
     result.basis_cpu_seconds = basis->cpu_seconds;
     result.message           = basis->message;

@@ -162,7 +162,8 @@ namespace sprag
         {
           values.reinit(cell);
           for (const unsigned int q : values.quadrature_point_indices())
-            sum += densities.at(cell->material_id()) * properties.width * values.JxW(q) * values.quadrature_point(q).square();
+            sum += densities.at(cell->material_id()) * properties.width_of(cell->material_id()) * values.JxW(q) *
+                   values.quadrature_point(q).square();
         }
       return sum;
     }
@@ -183,6 +184,15 @@ namespace sprag
           sum += tip_mass / length * values.JxW(q) * values.quadrature_point(q).square();
       }
       return sum;
+    }
+
+    double scale(const double moment_of_inertia, const double added, const double of_cells)
+    {
+      if (moment_of_inertia <= added)
+        throw InputError("tip mass and hub alone have a moment of inertia of " + rounded_text(added) +
+                         " t mm^2 about the pivot: Lever/Moment of inertia = " + rounded_text(moment_of_inertia) +
+                         " must be larger");
+      return (moment_of_inertia - added) / of_cells;
     }
   } // namespace
 
@@ -237,6 +247,20 @@ namespace sprag
   }
 
   template <int dim>
+  std::vector<std::pair<unsigned int, double>> TotalCoordinates<dim>::row(const Connector &connector) const
+  {
+    std::vector<std::pair<unsigned int, double>> result;
+    double of_rotation = 0.;
+    for (const auto &[dof, weight] : connector.row)
+    {
+      result.emplace_back(movers[dof].coordinate, weight);
+      of_rotation -= weight * arms[dof];
+    }
+    result.emplace_back(rotation(), of_rotation);
+    return result;
+  }
+
+  template <int dim>
   Vector<double> TotalCoordinates<dim>::rigid_rotation() const
   {
     Vector<double> result(size());
@@ -262,11 +286,10 @@ namespace sprag
   {
     const double of_cells = inertia_of_cells(body, inertia.densities);
     const double of_tip   = inertia.tip_mass > 0. ? inertia_of_tip(body, inertia.tip_mass) : 0.;
-    if (inertia.moment_of_inertia <= of_tip)
-      throw InputError("the tip mass alone has a moment of inertia of " + rounded_text(of_tip) +
-                       " t mm^2 about the pivot: Lever/Moment of inertia = " + rounded_text(inertia.moment_of_inertia) +
-                       " must be larger");
-    density_factor = (inertia.moment_of_inertia - of_tip) / of_cells;
+    const double added    = of_tip + inertia.hub_inertia;
+    if (inertia.source == InertiaSource::scaled)
+      density_factor = scale(inertia.moment_of_inertia, added, of_cells);
+    moment_of_inertia = added + density_factor * of_cells;
 
     auto densities = inertia.densities;
     for (auto &density : densities)
@@ -277,6 +300,8 @@ namespace sprag
     for (auto &row : momentum)
       row.reinit(coordinates.size());
     assemble_cells(body, densities);
+    assemble_connectors(body);
+    mass.add(coordinates.rotation(), coordinates.rotation(), inertia.hub_inertia);
     if (inertia.tip_mass > 0.)
       assemble_tip(body, inertia.tip_mass);
     for (auto *const matrix : { &mass, &stiffness, &layer_stiffness })
@@ -297,6 +322,13 @@ namespace sprag
             pattern.add(coordinates.mover(static_cast<unsigned int>(i)).coordinate,
                         coordinates.mover(static_cast<unsigned int>(j)).coordinate);
       }
+    for (const auto &connector : body.connectors())
+    {
+      const auto row = coordinates.row(connector);
+      for (const auto &i : row)
+        for (const auto &j : row)
+          pattern.add(i.first, j.first);
+    }
     pattern.add(coordinates.rotation(), coordinates.rotation());
   }
 
@@ -331,13 +363,25 @@ namespace sprag
       const auto elasticity = linear_elastic<dim>(constants, Tensor<2, dim>()).tangent;
       values.reinit(cell);
       scatter.reinit(cell);
-      const auto of_cell   = cell_stiffness(values, elasticity, properties.width);
-      const auto cell_mass = local_mass<dim>(values, densities.at(material) * properties.width);
+      const auto of_cell   = cell_stiffness(values, elasticity, properties.width_of(material));
+      const auto cell_mass = local_mass<dim>(values, densities.at(material) * properties.width_of(material));
       scatter.add(of_cell, stiffness);
       scatter.add(cell_mass, mass);
       if (material == material_id::layer)
         scatter.add(of_cell, layer_stiffness);
       total_mass += scatter.add_momentum(cell_mass, fe, momentum);
+    }
+  }
+
+  template <int dim>
+  void InertialMatrices<dim>::assemble_connectors(const ElasticBody<dim> &body)
+  {
+    for (const auto &connector : body.connectors())
+    {
+      const auto row = coordinates.row(connector);
+      for (const auto &[i, weight_i] : row)
+        for (const auto &[j, weight_j] : row)
+          stiffness.add(i, j, connector.stiffness * weight_i * weight_j);
     }
   }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "fe/elastic_body.h"
+#include "scene/scene.h"
 
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
 
@@ -35,6 +36,9 @@ namespace sprag
     /// Displacement of a degree of freedom by a unit of rigid rotation [mm].
     double arm(unsigned int dof) const;
 
+    /// The row of a connector: its product with the coordinates is the compression.
+    std::vector<std::pair<unsigned int, double>> row(const Connector &connector) const;
+
     /// A unit of rigid rotation, in these coordinates.
     dealii::Vector<double> rigid_rotation() const;
 
@@ -47,12 +51,14 @@ namespace sprag
     unsigned int n_free = 0;
   };
 
-  /// What a lever weighs. The hub is massless.
+  /// What a lever weighs. A hub in the mesh is massless.
   struct LeverInertia
   {
     std::map<dealii::types::material_id, double> densities; ///< before scaling [t/mm^3]
     double tip_mass          = 0.;                          ///< a line mass on the lever's end face [t]
-    double moment_of_inertia = 0.; ///< about the pivot, what the densities are scaled to; tip mass included [t mm^2]
+    double moment_of_inertia = 0.; ///< about the pivot, what the densities are scaled to; tip mass and hub included [t mm^2]
+    double hub_inertia       = 0.; ///< of what turns with the hub, on its rotation alone [t mm^2]
+    InertiaSource source     = InertiaSource::scaled; ///< as_built: the densities stay, moment_of_inertia counts for nothing
   };
 
   /// Matrices of small vibrations in total coordinates, without the hub's spring.
@@ -60,16 +66,17 @@ namespace sprag
   class InertialMatrices
   {
   public:
-    /// Throws InputError if the tip mass alone has more than the moment of inertia, or there is no end face for it.
+    /// Throws InputError if tip mass and hub alone have more than the moment of inertia, or there is no end face for the tip.
     InertialMatrices(const ElasticBody<dim> &body, const LeverInertia &inertia);
 
     const TotalCoordinates<dim> coordinates;
     dealii::PETScWrappers::SparseMatrix mass;
-    dealii::PETScWrappers::SparseMatrix stiffness;       ///< of lever and friction layer
+    dealii::PETScWrappers::SparseMatrix stiffness;       ///< of lever, friction layer and connectors
     dealii::PETScWrappers::SparseMatrix layer_stiffness; ///< the layer's part of it
     std::array<dealii::Vector<double>, dim> momentum;    ///< integral of rho u along each axis = row times coordinates [t]
-    double density_factor = 1.;                          ///< by which the densities were scaled
-    double total_mass     = 0.;                          ///< [t]
+    double density_factor    = 1.;                       ///< by which the densities were scaled
+    double total_mass        = 0.;                       ///< [t]
+    double moment_of_inertia = 0.;                       ///< about the pivot [t mm^2]
 
     /// Factors of a sum of mass, stiffness, the layer's stiffness and a unit on the hub's rotation.
     struct Weights
@@ -85,6 +92,7 @@ namespace sprag
   private:
     void find_pattern(const ElasticBody<dim> &body);
     void assemble_cells(const ElasticBody<dim> &body, const std::map<dealii::types::material_id, double> &densities);
+    void assemble_connectors(const ElasticBody<dim> &body);
     void assemble_tip(const ElasticBody<dim> &body, double tip_mass);
 
     dealii::DynamicSparsityPattern pattern;
