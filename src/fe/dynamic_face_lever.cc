@@ -11,14 +11,16 @@ namespace sprag
   {
     LeverInertia inertia_of(const Scene &scene)
     {
-      return { { { material_id::lever, scene.lever.density },
-                 { material_id::web, scene.lever.density },
+      const Lever &lever = scene.lever;
+      return { { { material_id::lever, lever.density },
+                 { material_id::web, lever.density },
                  { material_id::plate, scene.plate.density },
                  { material_id::layer, scene.layer.density } },
-               scene.lever.tip_mass,
-               scene.lever.moment_of_inertia,
-               scene.lever.hub_inertia,
-               scene.lever.inertia };
+               lever.tip_mass,
+               lever.moment_of_inertia,
+               lever.inertia,
+               lever.hub_inertia,
+               scene.spring.behaviour };
     }
 
     BasisSettings basis_settings(const Scene &scene)
@@ -65,6 +67,11 @@ namespace sprag
           lever_frame(scene, ports, facts.lever_mass));
     }
   } // namespace
+
+  double mesh_inertia(const Scene &scene, const ElasticBody<2> &body)
+  {
+    return InertialMatrices<2>(body, inertia_of(scene)).moment_of_inertia;
+  }
 
   FiniteElementBasis make_finite_element_basis(const Scene &scene, const ElasticBody<2> &body)
   {

@@ -12,17 +12,21 @@
 namespace sprag
 {
   /// Coordinates of a body in axes that do not turn, linear in the rotation of its hub: the total displacements
-  /// u_tot = u_e + theta~ (-eta, xi) of all nodes which the hub does not hold, and last theta~ itself.
+  /// u_tot = u_e + theta~ (-eta, xi) of all nodes which the hub does not hold, attached ones, and last theta~ itself.
   template <int dim>
   class TotalCoordinates
   {
   public:
-    explicit TotalCoordinates(const ElasticBody<dim> &body);
+    /// `attached`: number of further coordinates, before the rotation, which move no node.
+    explicit TotalCoordinates(const ElasticBody<dim> &body, unsigned int attached = 0);
 
     /// How many, the rotation included.
     unsigned int size() const;
 
     unsigned int rotation() const;
+
+    /// The i-th of the attached ones.
+    unsigned int attached(unsigned int i) const;
 
     /// What moves a degree of freedom of the body: a coordinate, and by how much a unit of it does.
     struct Mover
@@ -48,7 +52,8 @@ namespace sprag
   private:
     std::vector<Mover> movers;
     std::vector<double> arms;
-    unsigned int n_free = 0;
+    unsigned int n_free     = 0;
+    unsigned int n_attached = 0;
   };
 
   /// What a lever weighs. A hub in the mesh is massless.
@@ -56,9 +61,10 @@ namespace sprag
   {
     std::map<dealii::types::material_id, double> densities; ///< before scaling [t/mm^3]
     double tip_mass          = 0.;                          ///< a line mass on the lever's end face [t]
-    double moment_of_inertia = 0.; ///< about the pivot, what the densities are scaled to; tip mass and hub included [t mm^2]
-    double hub_inertia       = 0.; ///< of what turns with the hub, on its rotation alone [t mm^2]
-    InertiaSource source     = InertiaSource::scaled; ///< as_built: the densities stay, moment_of_inertia counts for nothing
+    double moment_of_inertia = 0.; ///< about the pivot, what the densities are scaled to; all below included [t mm^2]
+    InertiaSource source     = InertiaSource::scaled;
+    double hub               = 0.; ///< of what turns with the hub besides [t mm^2]
+    LeafBehaviour leaf       = {}; ///< its vibrations are attached coordinates
   };
 
   /// Matrices of small vibrations in total coordinates, without the hub's spring.
@@ -74,9 +80,9 @@ namespace sprag
     dealii::PETScWrappers::SparseMatrix stiffness;       ///< of lever, friction layer and connectors
     dealii::PETScWrappers::SparseMatrix layer_stiffness; ///< the layer's part of it
     std::array<dealii::Vector<double>, dim> momentum;    ///< integral of rho u along each axis = row times coordinates [t]
+    double moment_of_inertia = 0.;                       ///< about the pivot, of all that turns with the hub [t mm^2]
     double density_factor    = 1.;                       ///< by which the densities were scaled
-    double total_mass        = 0.;                       ///< [t]
-    double moment_of_inertia = 0.;                       ///< about the pivot [t mm^2]
+    double total_mass        = 0.;                       ///< of lever, tip and leaf spring [t]
 
     /// Factors of a sum of mass, stiffness, the layer's stiffness and a unit on the hub's rotation.
     struct Weights
@@ -94,6 +100,7 @@ namespace sprag
     void assemble_cells(const ElasticBody<dim> &body, const std::map<dealii::types::material_id, double> &densities);
     void assemble_connectors(const ElasticBody<dim> &body);
     void assemble_tip(const ElasticBody<dim> &body, double tip_mass);
+    void attach_hub(double of_hub, const LeafBehaviour &leaf);
 
     dealii::DynamicSparsityPattern pattern;
   };
