@@ -226,9 +226,10 @@ namespace sprag
     const std::string key    = key_of(body, settings);
     if (auto stored = load_arrays(folder, key))
     {
-      const auto n_sensors = static_cast<unsigned int>(body.sensors().size());
-      const auto n_face    = 2 * static_cast<unsigned int>(body.friction_face().nodes.size()) + n_sensors + 1;
-      if (auto basis = basis_of(std::move(*stored), n_face, TotalCoordinates<2>(body).size()))
+      const auto n_attached = static_cast<unsigned int>(settings.inertia.leaf.modes.size());
+      const auto n_sensors  = static_cast<unsigned int>(body.sensors().size());
+      const auto n_face     = 2 * static_cast<unsigned int>(body.friction_face().nodes.size()) + n_sensors + 1;
+      if (auto basis = basis_of(std::move(*stored), n_face, TotalCoordinates<2>(body, n_attached).size()))
       {
         basis->sensors = n_sensors;
         return *basis;

@@ -276,5 +276,15 @@ namespace sprag
     return result;
   }
 
+  template <int dim>
+  std::vector<double> sensor_forces(const ElasticBody<dim> &body, const Vector<double> &displacement)
+  {
+    std::vector<double> result;
+    for (const auto &sensor : body.sensors())
+      result.push_back(sensor.stiffness * sensor.compression(displacement));
+    return result;
+  }
+
   template class ElasticBody<2>;
+  template std::vector<double> sensor_forces(const ElasticBody<2> &, const Vector<double> &);
 } // namespace sprag

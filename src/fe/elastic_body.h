@@ -86,4 +86,8 @@ namespace sprag
     FrictionFace<dim> face_of_cylinder;
     std::vector<Connector> springs;
   };
+
+  /// Forces of the body's sensors at a displacement [N].
+  template <int dim>
+  std::vector<double> sensor_forces(const ElasticBody<dim> &body, const dealii::Vector<double> &displacement);
 } // namespace sprag

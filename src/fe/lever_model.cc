@@ -191,6 +191,8 @@ namespace sprag
     row[Column::Q]             = row[Column::P] * std::sin(theta) + row[Column::F] * std::cos(theta);
     if (properties.body.material != MaterialModel::linear)
       row[Column::elastic_energy] = body.energy(body_displacement(trial));
+    if (!body.connectors().empty())
+      row.sensor_forces = sensor_forces(body, body_displacement(trial));
   }
 
   FacePoints LeverModel::face_points() const

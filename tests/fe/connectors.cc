@@ -70,14 +70,6 @@ namespace
     factors.solve(load, result);
     return result;
   }
-
-  std::vector<double> sensor_forces(const ElasticBody<2> &body, const Vector &displacement)
-  {
-    std::vector<double> result;
-    for (const auto &sensor : body.sensors())
-      result.push_back(sensor.stiffness * sensor.compression(displacement));
-    return result;
-  }
 } // namespace
 
 TEST(Connectors, MeasureTheMeanOverPadsBetweenNodes)

@@ -91,7 +91,7 @@ TEST(Widths, AsBuiltTheInertiaIsThatOfTheMaterial)
   LeverInertia inertia;
   inertia.densities         = { { material_id::lever, 2.7e-9 }, { material_id::web, 2.7e-9 } };
   inertia.moment_of_inertia = 123.;
-  inertia.hub       = 2e-4;
+  inertia.hub               = 2e-4;
   inertia.source            = InertiaSource::as_built;
   const InertialMatrices<2> matrices(*bar.body, inertia);
   const auto of_strip = [&](const double from, const double to, const double width)
@@ -115,7 +115,7 @@ TEST(Widths, ScaledDensitiesLeaveTheHubsShare)
   inertia.source            = InertiaSource::as_built;
   const double built        = InertialMatrices<2>(*bar.body, inertia).moment_of_inertia;
   inertia.source            = InertiaSource::scaled;
-  inertia.hub       = 0.7 * built;
+  inertia.hub               = 0.7 * built;
   inertia.moment_of_inertia = 2.7 * built;
   const InertialMatrices<2> matrices(*bar.body, inertia);
   EXPECT_NEAR(matrices.density_factor, 2., 1e-12);
