@@ -2,6 +2,9 @@
 
 #include "base/errors.h"
 
+#include <deal.II/lac/dynamic_sparsity_pattern.h>
+#include <deal.II/lac/sparsity_tools.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -84,34 +87,41 @@ namespace sprag
       if (coordinate != held)
         n = std::max(n, coordinate + 1);
     body.reinit(tangent, 0);
-    find_pattern();
-    reduced_tangent.reinit(pattern);
+    arrange_band();
   }
 
-  void FiniteStatics::find_pattern()
+  void FiniteStatics::arrange_band()
   {
     const Rows rows(tangent);
-    pattern.reinit(n, n);
-    for (PetscInt row = 0; row < rows.n; ++row)
-      for (PetscInt a = rows.begin[row]; a < rows.begin[row + 1]; ++a)
-        if (coordinate_of[row] != held && coordinate_of[rows.column[a]] != held)
-          pattern.add(coordinate_of[row], coordinate_of[rows.column[a]]);
+    DynamicSparsityPattern pattern(n, n);
+    const auto for_all_entries = [&](const auto &act, const std::vector<unsigned int> &index_of)
+    {
+      for (PetscInt row = 0; row < rows.n; ++row)
+        for (PetscInt a = rows.begin[row]; a < rows.begin[row + 1]; ++a)
+          if (index_of[row] != held && index_of[rows.column[a]] != held)
+            act(a, index_of[row], index_of[rows.column[a]]);
+    };
+    for_all_entries([&](PetscInt, const unsigned int i, const unsigned int j) { pattern.add(i, j); }, coordinate_of);
 
-    Matrix reduced;
-    reduced.reinit(pattern);
-    const Rows reduced_rows(reduced);
+    std::vector<DynamicSparsityPattern::size_type> places(n);
+    SparsityTools::reorder_Cuthill_McKee(pattern, places);
+    place_of.assign(coordinate_of.size(), held);
+    for (unsigned int dof = 0; dof < coordinate_of.size(); ++dof)
+      if (coordinate_of[dof] != held)
+        place_of[dof] = static_cast<unsigned int>(places[coordinate_of[dof]]);
+
+    unsigned int width = 0;
+    for_all_entries([&](PetscInt, const unsigned int i, const unsigned int j) { width = std::max(width, std::max(i, j) - i); },
+                    place_of);
+    band = BandFactors(n, width);
     targets.assign(static_cast<std::size_t>(rows.begin[rows.n]), nowhere);
-    for (PetscInt row = 0; row < rows.n; ++row)
-      for (PetscInt a = rows.begin[row]; a < rows.begin[row + 1]; ++a)
-      {
-        const unsigned int i = coordinate_of[row];
-        const unsigned int j = coordinate_of[rows.column[a]];
-        if (i == held || j == held)
-          continue;
-        const auto *const begin = reduced_rows.column + reduced_rows.begin[i];
-        const auto *const end   = reduced_rows.column + reduced_rows.begin[i + 1];
-        targets[a] = static_cast<std::size_t>(std::lower_bound(begin, end, static_cast<PetscInt>(j)) - reduced_rows.column);
-      }
+    for_all_entries(
+        [&](const PetscInt a, const unsigned int i, const unsigned int j)
+        {
+          if (i <= j)
+            targets[a] = band.position(i, j);
+        },
+        place_of);
   }
 
   unsigned int FiniteStatics::n_coordinates() const
@@ -121,22 +131,47 @@ namespace sprag
 
   void FiniteStatics::reduce(const Matrix &of_body, Matrix &reduced) const
   {
-    if (reduced.m() != n)
-      reduced.reinit(pattern);
-    reduced = 0.;
-    const Values from(of_body);
-    const Values to(reduced);
-    for (std::size_t a = 0; a < targets.size(); ++a)
-      if (targets[a] != nowhere)
-        to[targets[a]] += from[a];
+    const Rows rows(of_body);
+    const Values values(of_body);
+    DynamicSparsityPattern pattern(n, n);
+    for (const bool fill : { false, true })
+    {
+      if (fill)
+        reduced.reinit(pattern);
+      for (PetscInt row = 0; row < rows.n; ++row)
+        for (PetscInt a = rows.begin[row]; a < rows.begin[row + 1]; ++a)
+        {
+          const unsigned int i = coordinate_of[row];
+          const unsigned int j = coordinate_of[rows.column[a]];
+          if (i != held && j != held && fill)
+            reduced.add(i, j, values[a]);
+          else if (i != held && j != held)
+            pattern.add(i, j);
+        }
+    }
+    reduced.compress(VectorOperation::add);
   }
 
-  Vector<double> FiniteStatics::collect(const Vector<double> &of_body) const
+  double FiniteStatics::norm_on_coordinates(const Vector<double> &forces) const
   {
-    Vector<double> result(n);
+    Vector<double> sums(n);
     for (unsigned int dof = 0; dof < coordinate_of.size(); ++dof)
       if (coordinate_of[dof] != held)
-        result[coordinate_of[dof]] += of_body[dof];
+        sums[coordinate_of[dof]] += forces[dof];
+    return sums.l2_norm();
+  }
+
+  Vector<double> FiniteStatics::solve(const Vector<double> &forces) const
+  {
+    Vector<double> placed(n);
+    for (unsigned int dof = 0; dof < place_of.size(); ++dof)
+      if (place_of[dof] != held)
+        placed[place_of[dof]] += forces[dof];
+    band.solve(placed);
+    Vector<double> result(body.n_dofs());
+    for (unsigned int dof = 0; dof < place_of.size(); ++dof)
+      if (place_of[dof] != held)
+        result[dof] = placed[place_of[dof]];
     return result;
   }
 
@@ -154,26 +189,28 @@ namespace sprag
     tangent  = 0.;
     internal = 0.;
     body.assemble(displacement, tangent, internal);
-    reduce(tangent, reduced_tangent);
-    factors.factorise(reduced_tangent);
+    auto &entries = band.entries();
+    std::fill(entries.begin(), entries.end(), 0.);
+    const Values values(tangent);
+    for (std::size_t a = 0; a < targets.size(); ++a)
+      if (targets[a] != nowhere)
+        entries[targets[a]] += values[a];
+    negative_pivots = band.factorise();
   }
 
   void FiniteStatics::balance(Vector<double> &displacement, const Vector<double> &loads)
   {
-    Vector<double> correction(n);
     for (unsigned int i = 0; i < most_iterations; ++i)
     {
       linearise(displacement);
       Vector<double> unbalanced = loads;
       unbalanced -= internal;
-      const auto residual = collect(unbalanced);
-      const double size   = internal.l2_norm() + loads.l2_norm();
+      const double size = internal.l2_norm() + loads.l2_norm();
       if (!std::isfinite(size))
         break;
-      if (residual.l2_norm() <= tolerance * size)
+      if (norm_on_coordinates(unbalanced) <= tolerance * size)
         return;
-      factors.solve(residual, correction);
-      displacement += expand(correction);
+      displacement += solve(unbalanced);
     }
     throw AnalysisError("Newton's method found no equilibrium of a body at finite strain in " + std::to_string(most_iterations) +
                         " iterations");
@@ -203,14 +240,17 @@ namespace sprag
         result[dof] = of_held[dof];
     Vector<double> loads = of_loads;
     loads -= stiffness_product(result);
-    Vector<double> coordinates(n);
-    factors.solve(collect(loads), coordinates);
-    result += expand(coordinates);
+    result += solve(loads);
     return result;
+  }
+
+  bool FiniteStatics::is_stable() const
+  {
+    return negative_pivots == 0;
   }
 
   const Matrix &FiniteStatics::stiffness() const
   {
-    return reduced_tangent;
+    return tangent;
   }
 } // namespace sprag

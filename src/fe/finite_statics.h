@@ -1,9 +1,7 @@
 #pragma once
 
+#include "fe/band_factors.h"
 #include "fe/elastic_body.h"
-#include "fe/mumps.h"
-
-#include <deal.II/lac/dynamic_sparsity_pattern.h>
 
 #include <limits>
 #include <vector>
@@ -11,7 +9,8 @@
 namespace sprag
 {
   /// Statics of a body at finite strain by Newton's method. A degree of freedom of the body is held at a given displacement, or
-  /// follows a coordinate, alone or together with others. The body itself must hold none.
+  /// follows a coordinate, alone or together with others. The body itself must hold none, and be slender: the tangent is
+  /// factorised as a band.
   class FiniteStatics
   {
   public:
@@ -38,28 +37,32 @@ namespace sprag
     /// Tangent stiffness times a displacement.
     dealii::Vector<double> stiffness_product(const dealii::Vector<double> &displacement) const;
 
-    /// On the coordinates.
+    /// Whether the equilibrium last balanced is stable.
+    bool is_stable() const;
+
+    /// The tangent stiffness of the body, without regard to what holds it.
     const dealii::PETScWrappers::SparseMatrix &stiffness() const;
 
-    /// A matrix of the body, of the pattern that the body gives, on the coordinates.
+    /// A matrix of the body, on the coordinates.
     void reduce(const dealii::PETScWrappers::SparseMatrix &of_body, dealii::PETScWrappers::SparseMatrix &reduced) const;
 
     /// Displacement of all degrees of freedom, 0 where held, from the coordinates.
     dealii::Vector<double> expand(const dealii::Vector<double> &coordinates) const;
 
   private:
-    void find_pattern();
+    void arrange_band();
     void linearise(const dealii::Vector<double> &displacement);
-    dealii::Vector<double> collect(const dealii::Vector<double> &of_body) const;
+    double norm_on_coordinates(const dealii::Vector<double> &forces) const;
+    dealii::Vector<double> solve(const dealii::Vector<double> &forces) const;
 
     const ElasticBody<2> &body;
     const std::vector<unsigned int> coordinate_of;
     unsigned int n = 0;
-    dealii::DynamicSparsityPattern pattern;
-    std::vector<std::size_t> targets; ///< entry of the reduced matrix, or none, to which one of the body's is added
     dealii::PETScWrappers::SparseMatrix tangent;
-    dealii::PETScWrappers::SparseMatrix reduced_tangent;
+    std::vector<unsigned int> place_of; ///< in the band, of each degree of freedom, or `held`
+    std::vector<std::size_t> targets;   ///< entry of the band, or none, to which one of the tangent is added
     dealii::Vector<double> internal;
-    Mumps factors;
+    BandFactors band;
+    unsigned int negative_pivots = 0;
   };
 } // namespace sprag

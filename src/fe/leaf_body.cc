@@ -198,6 +198,8 @@ namespace sprag
     result.turn         = turn;
     result.displacement = std::move(guess);
     finite_statics.balance(result.displacement, no_loads);
+    if (!finite_statics.is_stable())
+      throw AnalysisError("the leaf spring buckles when the hub turns by " + rounded_text(turn) + " rad");
     result.rate = finite_statics.response(rate, no_loads);
     // The work of what is left unbalanced on the rate makes the moment's error one of second order.
     result.moment    = result.rate * finite_statics.forces();
@@ -223,9 +225,10 @@ namespace sprag
       {
         step *= 0.5;
         if (!(std::abs(step) > smallest_step))
-          throw AnalysisError("the leaf spring finds no equilibrium when the hub turns by more than " + rounded_text(at.turn) +
-                              " rad: it may snap through there. Try a thinner or longer one, a smaller 'Leaf spring/Sagitta', or "
-                              "'Leaf spring/Axial' = free");
+          throw AnalysisError(
+              "the leaf spring finds no equilibrium when the hub turns by more than " + rounded_text(at.turn) +
+              " rad: it buckles or snaps through there. Try a smaller 'Leaf spring/Sagitta' or one of the other sign, or "
+              "'Leaf spring/Axial' = free");
       }
     }
     return result;

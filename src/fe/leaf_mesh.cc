@@ -53,7 +53,7 @@ namespace sprag
 
   LeafElements leaf_elements(const LeafSpring &leaf)
   {
-    return { static_cast<unsigned int>(std::ceil(6. * std::sqrt(leaf.length / leaf.thickness))), 2 };
+    return { static_cast<unsigned int>(std::ceil(7. * std::sqrt(leaf.length / leaf.thickness))), 2 };
   }
 
   void make_leaf_mesh(const LeafSpring &leaf, const LeafElements &elements, Triangulation<2> &triangulation)

@@ -66,22 +66,24 @@ namespace sprag
 
   void add_inertia(LeafBody &leaf, const double density, LeafBehaviour &behaviour)
   {
-    const auto &body = leaf.body();
-    const auto shape = leaf.rest().rate;
-    const auto axes  = translations(body);
-    PETScWrappers::SparseMatrix mass, reduced_mass;
+    const auto &body    = leaf.body();
+    const auto &statics = leaf.statics();
+    const auto shape    = leaf.rest().rate;
+    const auto axes     = translations(body);
+    PETScWrappers::SparseMatrix mass, reduced_mass, reduced_stiffness;
     assemble_mass(body, density, mass);
-    leaf.statics().reduce(mass, reduced_mass);
+    statics.reduce(mass, reduced_mass);
+    statics.reduce(statics.stiffness(), reduced_stiffness);
 
     const auto weighed = product(mass, shape);
     behaviour.mass     = body.mass_and_inertia(density)[0];
     behaviour.inertia  = weighed * shape;
     behaviour.momentum = { { weighed * axes[0], weighed * axes[1] } };
 
-    const auto modes = free_modes(leaf.statics().stiffness(), reduced_mass, n_modes);
+    const auto modes = free_modes(reduced_stiffness, reduced_mass, n_modes);
     for (unsigned int i = 0; i < modes.shapes.size(); ++i)
     {
-      const auto of_mode = product(mass, leaf.statics().expand(modes.shapes[i]));
+      const auto of_mode = product(mass, statics.expand(modes.shapes[i]));
       behaviour.modes.push_back({ modes.stiffness[i], of_mode * shape, { { of_mode * axes[0], of_mode * axes[1] } } });
     }
   }
