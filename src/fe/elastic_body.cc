@@ -25,16 +25,31 @@ namespace sprag
     template <int dim>
     Stress<dim> stress(const MaterialModel model, const Lame &constants, const Tensor<2, dim> &displacement_gradient)
     {
-      return model == MaterialModel::linear ? linear_elastic<dim>(constants, displacement_gradient)
-                                            : neo_hookean<dim>(constants, identity<dim>() + displacement_gradient);
+      switch (model)
+      {
+      case MaterialModel::linear:
+        return linear_elastic<dim>(constants, displacement_gradient);
+      case MaterialModel::neo_hookean:
+        return neo_hookean<dim>(constants, identity<dim>() + displacement_gradient);
+      case MaterialModel::st_venant_kirchhoff:
+        break;
+      }
+      return st_venant_kirchhoff<dim>(constants, displacement_gradient);
     }
 
     template <int dim>
     double energy_density(const MaterialModel model, const Lame &constants, const Tensor<2, dim> &displacement_gradient)
     {
-      return model == MaterialModel::linear
-                 ? 0.5 * scalar_product(linear_elastic<dim>(constants, displacement_gradient).piola, displacement_gradient)
-                 : neo_hookean_energy<dim>(constants, identity<dim>() + displacement_gradient);
+      switch (model)
+      {
+      case MaterialModel::linear:
+        return 0.5 * scalar_product(linear_elastic<dim>(constants, displacement_gradient).piola, displacement_gradient);
+      case MaterialModel::neo_hookean:
+        return neo_hookean_energy<dim>(constants, identity<dim>() + displacement_gradient);
+      case MaterialModel::st_venant_kirchhoff:
+        break;
+      }
+      return st_venant_kirchhoff_energy<dim>(constants, displacement_gradient);
     }
   } // namespace
 
