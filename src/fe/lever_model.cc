@@ -28,12 +28,24 @@ namespace sprag
       return { body, properties.obstacle, properties.friction, properties.contact.enforcement,
                contact_penalties(body.friction_face(), properties.contact, properties.layer_thickness) };
     }
+
     std::variant<FaceCompliance, FullStiffness> make_system(const ElasticBody<2> &body, const LeverProperties &properties)
     {
       using System = std::variant<FaceCompliance, FullStiffness>;
       if (properties.solution == Solution::automatic && properties.body.material == MaterialModel::linear)
         return System(std::in_place_type<FaceCompliance>, body);
       return System(std::in_place_type<FullStiffness>, body);
+    }
+
+    std::vector<ConnectorSettings> plate_connectors(const FrictionPlate &plate)
+    {
+      if (plate.type == PlateType::none)
+        return {};
+      std::vector<ConnectorSettings> result;
+      for (const double middle : plate.sensors)
+        result.push_back({ ConnectorType::sensor, middle, plate.sensor_length, plate.sensor_stiffness });
+      result.push_back({ ConnectorType::guide, plate.guide, plate.sensor_length, plate.guide_stiffness });
+      return result;
     }
   } // namespace
 
@@ -48,12 +60,17 @@ namespace sprag
   LeverProperties lever_properties(const Scene &scene)
   {
     LeverProperties result;
-    result.body.degree    = scene.mesh.degree;
-    result.body.plane     = scene.analysis.plane;
-    result.body.material  = scene.lever.material;
-    result.body.width     = scene.lever.width;
-    result.body.constants = { { material_id::lever, { scene.lever.young_modulus, scene.lever.poisson_ratio } },
-                              { material_id::layer, { scene.layer.young_modulus, scene.layer.poisson_ratio } } };
+    result.body.degree   = scene.mesh.degree;
+    result.body.plane    = scene.analysis.plane;
+    result.body.material = scene.lever.material;
+    result.body.width    = scene.lever.width;
+    const ElasticConstants metal{ scene.lever.young_modulus, scene.lever.poisson_ratio };
+    result.body.constants  = { { material_id::lever, metal },
+                               { material_id::web, metal },
+                               { material_id::plate, { scene.plate.young_modulus, scene.plate.poisson_ratio } },
+                               { material_id::layer, { scene.layer.young_modulus, scene.layer.poisson_ratio } } };
+    result.body.widths     = { { material_id::web, scene.frame.web } };
+    result.body.connectors = plate_connectors(scene.plate);
 
     // Half a spacing off, the direction of a contact narrower than it is wrong by 1/8000 at most.
     result.body.point_spacing = scene.geometry.cylinder_radius / 4000.;
@@ -174,6 +191,8 @@ namespace sprag
     row[Column::Q]             = row[Column::P] * std::sin(theta) + row[Column::F] * std::cos(theta);
     if (properties.body.material != MaterialModel::linear)
       row[Column::elastic_energy] = body.energy(body_displacement(trial));
+    if (!body.connectors().empty())
+      row.sensor_forces = sensor_forces(body, body_displacement(trial));
   }
 
   FacePoints LeverModel::face_points() const
