@@ -225,9 +225,10 @@ namespace sprag
       if (scene.support.type == SupportType::rigid)
         return {};
       Violations result;
-      if (!use.transient)
-        result.push_back({ "Support/Type", { "Analysis/Type" }, "sprung needs Analysis/Type = transient" });
-      else if (use.in_time && scene.analysis.model == ModelType::closed_form)
+      const bool closed_form = scene.analysis.model == ModelType::closed_form;
+      if (!use.follows_drive)
+        result.push_back({ "Support/Type", { "Analysis/Type" }, "sprung needs an Analysis/Type that follows the drive" });
+      else if (!use.held && closed_form)
         result.push_back({ "Support/Type", { "Analysis/Model" }, "sprung needs an Analysis/Model other than closed form" });
       return result;
     }

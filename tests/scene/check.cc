@@ -117,12 +117,14 @@ TEST(CheckScene, IdealContactNeedsARigidLever)
   EXPECT_EQ(mistakes_of({ "Analysis/Type=transient", "Analysis/Model=rigid", "Contact/Type=ideal" }, locking).size(), 1u);
 }
 
-TEST(CheckScene, SprungSupportNeedsInertia)
+TEST(CheckScene, SprungSupportNeedsADriveAndALever)
 {
-  EXPECT_EQ(mistakes_of({ "Support/Type=sprung" }),
-            (Messages{ "--set: Support/Type = sprung: sprung needs Analysis/Type = transient" }));
-  EXPECT_EQ(mistakes_of(transient("closed form"), { "Support/Type=sprung" }),
-            (Messages{ "--set: Support/Type = sprung: sprung needs an Analysis/Model other than closed form" }));
+  EXPECT_TRUE(mistakes_of({ "Support/Type=sprung" }).empty());
+  EXPECT_EQ(mistakes_of({ "Support/Type=sprung", "Analysis/Type=slope" }),
+            (Messages{ "--set: Support/Type = sprung: sprung needs an Analysis/Type that follows the drive" }));
+  const Messages closed_form{ "--set: Support/Type = sprung: sprung needs an Analysis/Model other than closed form" };
+  EXPECT_EQ(mistakes_of({ "Support/Type=sprung", "Analysis/Model=closed form" }), closed_form);
+  EXPECT_EQ(mistakes_of(transient("closed form"), { "Support/Type=sprung" }), closed_form);
   EXPECT_TRUE(mistakes_of({ "Support/Mass=1" }).empty());
 }
 
