@@ -165,7 +165,8 @@ namespace sprag
           pattern.add(i.first, j.first);
     for (unsigned int e = n_dofs(); e < n; ++e)
     {
-      pattern.add(e, e);
+      for (unsigned int other = n_dofs(); other < n; ++other)
+        pattern.add(e, other);
       for (const auto &node : face.nodes)
         for (const unsigned int dof : node.dofs)
         {
