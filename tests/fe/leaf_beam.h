@@ -80,7 +80,7 @@ namespace sprag
     double moment(const double turn)
     {
       std::array<double, 3> unknowns{}; // H, V, moment at the clamp
-      const unsigned int steps = 10;
+      const unsigned int steps = 30;
       for (unsigned int i = 1; i <= steps; ++i)
         solve(turn * i / steps, unknowns);
       const auto [H, V, M] = unknowns;

@@ -39,7 +39,7 @@ namespace
   public:
     explicit Cantilever(const LeafSpring &leaf, const LeafElements &elements)
         : body(meshed(leaf, elements), properties_of(leaf))
-        , statics(body, coordinates())
+        , statics(body, clamp())
         , displacement(body.n_dofs())
     {
     }
@@ -114,15 +114,12 @@ namespace
       return properties;
     }
 
-    std::vector<unsigned int> coordinates() const
+    AffineConstraints<double> clamp() const
     {
-      std::vector<unsigned int> result(body.n_dofs(), 0);
+      AffineConstraints<double> result;
       for (const auto dof : DoFTools::extract_boundary_dofs(body.dofs(), {}, { boundary_id::clamp }))
-        result[dof] = FiniteStatics::held;
-      unsigned int n = 0;
-      for (auto &coordinate : result)
-        if (coordinate != FiniteStatics::held)
-          coordinate = n++;
+        result.add_line(dof);
+      result.close();
       return result;
     }
 
