@@ -9,6 +9,7 @@
 #include <boost/math/special_functions/ellint_1.hpp>
 #include <boost/math/special_functions/ellint_2.hpp>
 #include <cmath>
+#include <cstdio>
 #include <gtest/gtest.h>
 
 using namespace sprag;
