@@ -7,6 +7,7 @@
 #include "scene/closed_form.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <gtest/gtest.h>
 
 using namespace sprag;
