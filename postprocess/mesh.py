@@ -66,7 +66,8 @@ def of_folder(folder):
     if (folder / "leaf-0000.h5").is_file():
         leaf = read_frame(folder / "leaf-0000.h5")
         add_parts(mesh, leaf, leaf.nodes)
-    edges = nodes[frame.borders(["layer"] if "layer" in mesh.parts else ["lever"])]
+    outermost = next(name for name in ("layer", "plate", "lever") if name in mesh.parts)
+    edges = nodes[frame.borders([outermost])]
     offset = number(result, "Geometry", "Interface offset")
     mesh.curves["friction face"] = edges[(np.abs(edges[..., 1] - offset) < 1e-4).all(axis=1)]
     if "cylinder" not in mesh.parts:
