@@ -37,4 +37,19 @@ namespace sprag
     scene.friction.speed = FrictionSpeed::drive;
     return scene;
   }
+
+  /// A rotational spring of moment k (turn + cubic turn^3) up to a turn of 0.2 either way.
+  inline RotationalSpring with_cubic_hardening(const double stiffness, const double cubic)
+  {
+    std::vector<MomentLaw::Sample> samples;
+    for (int i = -4; i <= 4; ++i)
+    {
+      const double turn = 0.05 * i;
+      samples.push_back({ turn, stiffness * turn * (1. + cubic * turn * turn), stiffness * (1. + 3. * cubic * turn * turn) });
+    }
+    RotationalSpring spring;
+    spring.stiffness     = stiffness;
+    spring.behaviour.law = MomentLaw(stiffness, samples);
+    return spring;
+  }
 } // namespace sprag

@@ -78,7 +78,7 @@ namespace sprag
   {
     Dynamics result;
     const bool condensed = scene.analysis.model == ModelType::condensed;
-    if (!condensed && scene.analysis.model != ModelType::finite_element)
+    if (!is_meshed(scene.analysis.model))
     {
       result.reduced = make_reduced_lever(scene);
       return result;

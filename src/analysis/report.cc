@@ -78,6 +78,13 @@ namespace sprag
       return n < 3 ? std::numeric_limits<double>::quiet_NaN() : (p * c - q * b) / (a * c - b * b);
     }
 
+    /// Without inertia; a model without a support has none in it.
+    double stored_energy(const Row &row)
+    {
+      const double support = row[Column::support_energy];
+      return row[Column::spring_energy] + row[Column::elastic_energy] + (std::isnan(support) ? 0. : support);
+    }
+
     double sum(const std::vector<Row> &rows, const Column column)
     {
       double total = 0.;
@@ -134,8 +141,7 @@ namespace sprag
     const Row &last         = rows.back();
     const double work       = last[Column::drive_work];
     const double dissipated = last[Column::friction_work];
-    const double stored     = last[Column::spring_energy] + last[Column::elastic_energy] - rows.front()[Column::spring_energy] -
-                          rows.front()[Column::elastic_energy];
+    const double stored     = stored_energy(last) - stored_energy(rows.front());
     entries.push_back({ "loop_area", work, "N mm", "integral of Q over x; the loop area after whole cycles" });
     entries.push_back({ "friction_work", dissipated, "N mm", "work dissipated by friction" });
     entries.push_back(

@@ -73,7 +73,7 @@ namespace sprag
 
     std::string contact_text(const Scene &scene)
     {
-      const bool meshed = scene.analysis.model == ModelType::condensed || scene.analysis.model == ModelType::finite_element;
+      const bool meshed = is_meshed(scene.analysis.model);
       if (meshed)
         return "contact along the friction face by penalty";
       if (scene.analysis.model == ModelType::closed_form || scene.contact.type == ContactType::ideal)

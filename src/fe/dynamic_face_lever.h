@@ -20,6 +20,7 @@ namespace sprag
     unsigned int n_coordinates = 0;
     double density_factor      = 1.; ///< by which the densities were scaled to meet the moment of inertia
     double lever_mass          = 0.; ///< [t]
+    double moment_of_inertia   = 0.; ///< about the pivot [t mm^2]
     std::vector<double> frequencies; ///< of the lever on its spring out of contact [Hz]
     ContactPenalties penalties{};
 
@@ -35,6 +36,9 @@ namespace sprag
     std::shared_ptr<const InertialMatrices<2>> matrices;
     FreeModes modes;
   };
+
+  /// J about the pivot of all that turns with the hub, by the mesh [t mm^2].
+  double mesh_inertia(const Scene &scene, const ElasticBody<2> &body);
 
   FiniteElementBasis make_finite_element_basis(const Scene &scene, const ElasticBody<2> &body);
 

@@ -1,49 +1,42 @@
 #pragma once
 
-#include "fe/face_contact.h"
+#include "fe/elastic_body.h"
 #include "fe/mumps.h"
+#include "fe/static_ports.h"
+#include "model/port_forces.h"
 
 namespace sprag
 {
-  /// The rotational spring at the hub.
-  struct HubSpring
-  {
-    double stiffness; ///< k [N mm/rad], > 0
-    double rest;      ///< inclination without moment [rad]
-    double arm;       ///< length that turns a rotation into a movement [mm], > 0
-  };
-
-  /// Newton iteration for a linear body, factorised once. Coordinates: displacement of the face nodes (two entries a node) and
-  /// hub rotation. With C the compliance of the face and f(u, theta) the contact forces, equilibrium is
-  ///   u = C f,   k (theta - theta_0) = m.
-  /// Only nodes under pressure carry stiffness, so a correction is a dense solve of those, and the iterates are those of the
-  /// full system.
+  /// A linear body on linear springs in statics, factorised once and seen through its ports: z = G f(z). The compliance G is
+  /// dense on the face nodes and diagonal on hub and support, which do not move the body in its own axes. Only ports with forces
+  /// carry tangents, so a Newton correction is a dense solve of those, and the iterates are those of the full system.
+  /// Coordinates: displacements of the ports.
   class FaceCompliance
   {
   public:
-    explicit FaceCompliance(const ElasticBody<2> &body);
+    /// The body must outlive this.
+    FaceCompliance(const ElasticBody<2> &body, const StaticPorts &ports, const PortSprings &springs);
 
     unsigned int n_coordinates() const;
 
-    dealii::Vector<double> face_displacement(const dealii::Vector<double> &coordinates) const;
+    const dealii::Vector<double> &port_displacements(const dealii::Vector<double> &coordinates) const;
 
-    /// Norm of the unbalance, as a displacement [mm].
-    double unbalance(const dealii::Vector<double> &coordinates, const FaceContact &contact, const HubSpring &spring);
+    /// Norm of G f - z, as a displacement [mm].
+    double unbalance(const dealii::Vector<double> &coordinates, const PortForces &forces);
 
-    /// Correction at the last unbalance().
-    dealii::Vector<double> correction(const FaceContact &contact, const HubSpring &spring) const;
+    /// Correction at the last unbalance(). Throws AnalysisError if the tangent is singular.
+    dealii::Vector<double> correction(const PortForces &forces) const;
 
-    /// Displacement of the whole body under the contact's forces, by one back-substitution.
-    dealii::Vector<double> body_displacement(const dealii::Vector<double> &coordinates, const FaceContact &contact) const;
+    /// Displacement of the whole body under the forces, by one back-substitution.
+    dealii::Vector<double> body_displacement(const dealii::Vector<double> &coordinates, const PortForces &forces) const;
 
   private:
-    /// Adds C `loads` (two a node) to `displacement`.
-    void add_response(const std::vector<unsigned int> &nodes, const dealii::Vector<double> &loads,
-                      dealii::Vector<double> &displacement) const;
-
     const ElasticBody<2> &body;
+    const StaticPorts ports;
+    const double arm;
+    const PortSelection all;
     Mumps factors;
     dealii::FullMatrix<double> compliance;
-    dealii::Vector<double> mismatch; ///< C f - u, then (m - k (theta - theta_0)) / k
+    dealii::Vector<double> mismatch; ///< G f - z
   };
 } // namespace sprag

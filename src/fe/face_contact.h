@@ -1,16 +1,18 @@
 #pragma once
 
 #include "fe/elastic_body.h"
+#include "fe/static_ports.h"
 #include "model/circle.h"
 #include "model/model.h"
+#include "model/port_forces.h"
 
 #include <functional>
 
 namespace sprag
 {
-  /// What the lever rubs against, a convex body: kinematics of a point of the lever at drive position x and hub rotation theta,
-  /// in the coordinates (displacement along xi, along eta, theta).
-  using Obstacle = std::function<ContactKinematics<3>(const LeverPoint &point, double x, double theta)>;
+  /// What the lever rubs against, a convex body: kinematics of a point of the lever at the obstacle's position x from the pivot
+  /// frame's origin and hub rotation theta, in the coordinates (displacement along xi, along eta, theta, x).
+  using Obstacle = std::function<ContactKinematics<4>(const LeverPoint &point, double x, double theta)>;
 
   /// [N/mm^3], > 0
   struct ContactPenalties
@@ -19,12 +21,14 @@ namespace sprag
     double tangential;
   };
 
-  /// Generalised contact forces on the nodes that points under pressure move, and on the hub rotation.
-  struct ContactForces
+  struct FaceContactProperties
   {
-    std::vector<unsigned int> nodes;    ///< increasing
-    dealii::Vector<double> values;      ///< two a node: along xi, along eta [N]; last the moment [N mm]
-    dealii::FullMatrix<double> tangent; ///< their derivative by displacements of the nodes and theta, unsymmetric
+    Obstacle obstacle;
+    FrictionLaw friction;
+    Enforcement enforcement = Enforcement::penalty;
+    ContactPenalties penalties{};
+    StaticPorts ports;
+    double rest_inclination = 0.; ///< theta where the hub has not turned [rad]
   };
 
   /// Contact along the friction face, integrated over points denser than the nodes. In the augmented Lagrangian method the
@@ -34,14 +38,13 @@ namespace sprag
   {
   public:
     /// The body must outlive the contact.
-    FaceContact(const ElasticBody<2> &body, Obstacle obstacle, FrictionLaw friction, Enforcement enforcement,
-                ContactPenalties penalties);
+    FaceContact(const ElasticBody<2> &body, FaceContactProperties properties);
 
-    /// Tractions at the displacement of the face nodes (two entries a node) and the rotation, in a step that began at `accepted`.
-    void evaluate(const dealii::Vector<double> &displacement, double theta, const State &trial, const State &accepted,
-                  FrictionMode mode);
+    /// Tractions at the displacements of the ports, in a step that began at `accepted`.
+    void evaluate(const dealii::Vector<double> &ports, const State &trial, const State &accepted, FrictionMode mode);
 
-    const ContactForces &forces() const;
+    /// On the nodes that points under pressure move, hub and support.
+    const PortForces &forces() const;
 
     /// Largest overlap [mm]: of a point (penalty), or weighted with a node's shape function (augmented Lagrangian).
     double penetration() const;
@@ -66,13 +69,13 @@ namespace sprag
       double trial_pressure; ///< lambda - eps g: the pressure where positive [MPa]
       double slip_change;    ///< in the step [mm]
       double elastic_slip;   ///< of the tangential penalty [mm]
-      ContactResponse<3> response;
+      ContactResponse<4> response;
     };
 
     /// The points of all patches near the obstacle, increasing; those elsewhere are open.
     const std::vector<PointState> &points() const;
 
-    /// Displacements of the face nodes at the last evaluation, two entries a node [mm].
+    /// Displacements of the ports at the last evaluation.
     const dealii::Vector<double> &displacements() const;
 
     /// Duration of the step of the last evaluation [s].
@@ -85,23 +88,23 @@ namespace sprag
     LeverPoint position(unsigned int point) const;
     bool is_near(const FacePatch &patch) const;
     PointState evaluate_point(unsigned int q, const ContactLaw &law, FrictionMode mode) const;
+    void find_loaded();
     void sum_forces();
+    void add_forces(const PointState &state);
     double largest_weighted_overlap() const;
-    std::vector<double> projected(double ContactResponse<3>::*traction) const;
+    std::vector<double> projected(double ContactResponse<4>::*traction) const;
 
     const ElasticBody<2> &body;
-    const Obstacle obstacle;
-    const FrictionLaw friction;
-    const Enforcement enforcement;
-    const ContactPenalties stiffness;
+    const FaceContactProperties properties;
 
     // Of the last evaluation.
     std::vector<ContactMemory> start; ///< memory and multipliers it used
-    dealii::Vector<double> nodal_displacement;
+    dealii::Vector<double> ports;
     double theta         = 0.;
-    double x             = 0.;
+    double x             = 0.; ///< of the obstacle from the pivot frame's origin
     double step_duration = 0.;
     std::vector<PointState> states;
-    ContactForces summed;
+    std::vector<unsigned int> loaded; ///< nodes under pressure, increasing
+    PortForces summed;
   };
 } // namespace sprag

@@ -1,60 +1,66 @@
 #include "fe/full_stiffness.h"
 
+#include <cmath>
+
 namespace sprag
 {
   using namespace dealii;
 
-  FullStiffness::FullStiffness(const ElasticBody<2> &body_)
+  FullStiffness::FullStiffness(const ElasticBody<2> &body_, const StaticPorts &ports_, const PortSprings &springs_)
       : body(body_)
+      , ports(ports_)
+      , springs(springs_)
   {
-    body.reinit(matrix, 1);
-  }
-
-  unsigned int FullStiffness::index_of(const ContactForces &forces, const unsigned int i) const
-  {
-    return i / 2 < forces.nodes.size() ? body.friction_face().nodes[forces.nodes[i / 2]].dofs[i % 2] : body.n_dofs();
+    const unsigned int of_hub_and_support = ports.size() - ports.surface;
+    for (const auto &node : body.friction_face().nodes)
+      coordinate_of.insert(coordinate_of.end(), node.dofs.begin(), node.dofs.end());
+    for (unsigned int i = 0; i < of_hub_and_support; ++i)
+      coordinate_of.push_back(body.n_dofs() + i);
+    body.reinit(matrix, of_hub_and_support);
   }
 
   unsigned int FullStiffness::n_coordinates() const
   {
-    return body.n_dofs() + 1;
+    return body.n_dofs() + ports.size() - ports.surface;
   }
 
-  Vector<double> FullStiffness::face_displacement(const Vector<double> &coordinates) const
+  Vector<double> FullStiffness::port_displacements(const Vector<double> &coordinates) const
   {
-    const auto n_nodes = static_cast<unsigned int>(body.friction_face().nodes.size());
-    Vector<double> result(2 * n_nodes);
-    for (unsigned int i = 0; i < n_nodes; ++i)
-      for (unsigned int d = 0; d < 2; ++d)
-        result[2 * i + d] = coordinates[body.friction_face().nodes[i].dofs[d]];
+    Vector<double> result(ports.size());
+    for (unsigned int port = 0; port < result.size(); ++port)
+      result[port] = coordinates[coordinate_of[port]];
     return result;
   }
 
-  double FullStiffness::unbalance(const Vector<double> &coordinates, const FaceContact &contact, const HubSpring &spring)
+  double FullStiffness::unbalance(const Vector<double> &coordinates, const PortForces &forces)
   {
-    const unsigned int rotation = body.n_dofs();
+    const unsigned int rotation = coordinate_of[ports.rotation()];
     Vector<double> internal(n_coordinates());
     matrix = 0.;
     body.assemble(coordinates, matrix, internal);
-    internal[rotation] = spring.stiffness * (coordinates[rotation] - spring.rest);
+    internal[rotation] = springs.rotation * coordinates[rotation];
+    if (ports.sprung)
+      internal[coordinate_of[ports.support()]] = springs.support * coordinates[coordinate_of[ports.support()]];
 
     residual.reinit(n_coordinates());
     residual -= internal;
-    const auto &forces = contact.forces();
-    for (unsigned int i = 0; i < forces.values.size(); ++i)
-      residual[index_of(forces, i)] += forces.values[i];
-    return std::sqrt(residual.norm_sqr() + (1. / (spring.arm * spring.arm) - 1.) * residual[rotation] * residual[rotation]);
+    for (unsigned int i = 0; i < forces.ports.size(); ++i)
+      residual[coordinate_of[forces.ports[i]]] += forces.values[i];
+    const double moment = residual[rotation];
+    return std::sqrt(residual.norm_sqr() + (1. / (springs.arm * springs.arm) - 1.) * moment * moment);
   }
 
-  Vector<double> FullStiffness::correction(const FaceContact &contact, const HubSpring &spring)
+  Vector<double> FullStiffness::correction(const PortForces &forces)
   {
-    const unsigned int rotation = body.n_dofs();
-    matrix.add(rotation, rotation, spring.stiffness);
-    const auto &forces = contact.forces();
-    for (unsigned int i = 0; i < forces.values.size(); ++i)
-      for (unsigned int j = 0; j < forces.values.size(); ++j)
+    const auto add_spring = [&](const unsigned int port, const double stiffness)
+    { matrix.add(coordinate_of[port], coordinate_of[port], stiffness); };
+    add_spring(ports.rotation(), springs.rotation);
+    if (ports.sprung)
+      add_spring(ports.support(), springs.support);
+    for (unsigned int i = 0; i < forces.ports.size(); ++i)
+      for (unsigned int j = 0; j < forces.ports.size(); ++j)
         if (forces.tangent(i, j) != 0.)
-          matrix.add(index_of(forces, i), index_of(forces, j), -forces.tangent(i, j));
+          matrix.add(coordinate_of[forces.ports[i]], coordinate_of[forces.ports[j]], -forces.tangent(i, j));
     matrix.compress(VectorOperation::add);
     factors.factorise(matrix);
     Vector<double> result;
@@ -62,8 +68,8 @@ namespace sprag
     return result;
   }
 
-  Vector<double> FullStiffness::body_displacement(const Vector<double> &coordinates, const FaceContact &) const
+  Vector<double> FullStiffness::body_displacement(const Vector<double> &coordinates, const PortForces &) const
   {
-    return Vector<double>(coordinates.begin(), coordinates.end() - 1);
+    return Vector<double>(coordinates.begin(), coordinates.begin() + body.n_dofs());
   }
 } // namespace sprag

@@ -1,35 +1,39 @@
 #pragma once
 
-#include "fe/face_compliance.h"
+#include "fe/elastic_body.h"
+#include "fe/mumps.h"
+#include "fe/static_ports.h"
+#include "model/port_forces.h"
 
 namespace sprag
 {
   /// Newton iteration for any material: assembles and factorises at every iterate. Coordinates: displacement of all degrees of
-  /// freedom of the body and hub rotation.
+  /// freedom of the body, then those of the ports of hub and support.
   class FullStiffness
   {
   public:
-    explicit FullStiffness(const ElasticBody<2> &body);
+    /// The body must outlive this.
+    FullStiffness(const ElasticBody<2> &body, const StaticPorts &ports, const PortSprings &springs);
 
     unsigned int n_coordinates() const;
 
-    dealii::Vector<double> face_displacement(const dealii::Vector<double> &coordinates) const;
+    dealii::Vector<double> port_displacements(const dealii::Vector<double> &coordinates) const;
 
     /// Norm of the unbalanced forces [N].
-    double unbalance(const dealii::Vector<double> &coordinates, const FaceContact &contact, const HubSpring &spring);
+    double unbalance(const dealii::Vector<double> &coordinates, const PortForces &forces);
 
     /// Correction at the last unbalance(). Throws AnalysisError if the factorisation fails.
-    dealii::Vector<double> correction(const FaceContact &contact, const HubSpring &spring);
+    dealii::Vector<double> correction(const PortForces &forces);
 
-    dealii::Vector<double> body_displacement(const dealii::Vector<double> &coordinates, const FaceContact &contact) const;
+    dealii::Vector<double> body_displacement(const dealii::Vector<double> &coordinates, const PortForces &forces) const;
 
   private:
-    /// Coordinate of the i-th of the contact forces.
-    unsigned int index_of(const ContactForces &forces, unsigned int i) const;
-
     const ElasticBody<2> &body;
+    const StaticPorts ports;
+    const PortSprings springs;
+    std::vector<unsigned int> coordinate_of; ///< of each port
     Mumps factors;
     dealii::PETScWrappers::SparseMatrix matrix;
-    dealii::Vector<double> residual; ///< forces of the contact less those of body and spring
+    dealii::Vector<double> residual; ///< forces on the ports less those of body and springs
   };
 } // namespace sprag

@@ -2,6 +2,7 @@
 
 #include "base/errors.h"
 #include "base/text.h"
+#include "fe/end_face.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_tools.h>
@@ -9,7 +10,6 @@
 #include <deal.II/fe/mapping_q1.h>
 
 #include <algorithm>
-#include <limits>
 
 namespace sprag
 {
@@ -112,45 +112,6 @@ namespace sprag
     }
 
     template <int dim>
-    using Faces = std::vector<std::pair<typename DoFHandler<dim>::active_cell_iterator, unsigned int>>;
-
-    /// Faces of the lever's material farthest along the first axis.
-    template <int dim>
-    Faces<dim> end_face(const DoFHandler<dim> &dofs)
-    {
-      double end    = std::numeric_limits<double>::lowest();
-      double extent = 0.;
-      for (const auto &cell : dofs.active_cell_iterators())
-        if (cell->material_id() == material_id::lever)
-          for (const unsigned int v : cell->vertex_indices())
-          {
-            end    = std::max(end, cell->vertex(v)[0]);
-            extent = std::max(extent, std::abs(cell->vertex(v)[0]));
-          }
-      Faces<dim> result;
-      for (const auto &cell : dofs.active_cell_iterators())
-        if (cell->material_id() == material_id::lever)
-          for (const unsigned int f : cell->face_indices())
-          {
-            bool at_end = cell->face(f)->at_boundary();
-            for (unsigned int v = 0; v < cell->face(f)->n_vertices(); ++v)
-              at_end = at_end && cell->face(f)->vertex(v)[0] > end - 1e-6 * extent;
-            if (at_end)
-              result.emplace_back(cell, f);
-          }
-      return result;
-    }
-
-    template <int dim>
-    double total_length(const Faces<dim> &faces)
-    {
-      double length = 0.;
-      for (const auto &[cell, f] : faces)
-        length += cell->face(f)->measure();
-      return length;
-    }
-
-    template <int dim>
     double inertia_of_cells(const ElasticBody<dim> &body, const std::map<types::material_id, double> &densities)
     {
       const auto &properties = body.body_properties();
@@ -162,7 +123,8 @@ namespace sprag
         {
           values.reinit(cell);
           for (const unsigned int q : values.quadrature_point_indices())
-            sum += densities.at(cell->material_id()) * properties.width * values.JxW(q) * values.quadrature_point(q).square();
+            sum += densities.at(cell->material_id()) * properties.width_of(cell->material_id()) * values.JxW(q) *
+                   values.quadrature_point(q).square();
         }
       return sum;
     }
@@ -171,7 +133,7 @@ namespace sprag
     double inertia_of_tip(const ElasticBody<dim> &body, const double tip_mass)
     {
       const auto faces    = end_face(body.dofs());
-      const double length = total_length<dim>(faces);
+      const double length = total_measure<dim>(faces);
       if (faces.empty())
         throw InputError("the mesh has no straight end face across the lever to carry Lever/Tip mass");
       FEFaceValues<dim> values(body.dofs().get_fe(), QGauss<dim - 1>(2), update_quadrature_points | update_JxW_values);
@@ -244,6 +206,20 @@ namespace sprag
   }
 
   template <int dim>
+  std::vector<std::pair<unsigned int, double>> TotalCoordinates<dim>::row(const Connector &connector) const
+  {
+    std::vector<std::pair<unsigned int, double>> result;
+    double of_rotation = 0.;
+    for (const auto &[dof, weight] : connector.row)
+    {
+      result.emplace_back(movers[dof].coordinate, weight);
+      of_rotation -= weight * arms[dof];
+    }
+    result.emplace_back(rotation(), of_rotation);
+    return result;
+  }
+
+  template <int dim>
   Vector<double> TotalCoordinates<dim>::rigid_rotation() const
   {
     Vector<double> result(size());
@@ -289,6 +265,7 @@ namespace sprag
     for (auto &row : momentum)
       row.reinit(coordinates.size());
     assemble_cells(body, densities);
+    assemble_connectors(body);
     if (inertia.tip_mass > 0.)
       assemble_tip(body, inertia.tip_mass);
     attach_hub(inertia.hub, inertia.leaf);
@@ -310,6 +287,13 @@ namespace sprag
             pattern.add(coordinates.mover(static_cast<unsigned int>(i)).coordinate,
                         coordinates.mover(static_cast<unsigned int>(j)).coordinate);
       }
+    for (const auto &connector : body.connectors())
+    {
+      const auto row = coordinates.row(connector);
+      for (const auto &i : row)
+        for (const auto &j : row)
+          pattern.add(i.first, j.first);
+    }
     const unsigned int hub = coordinates.rotation();
     pattern.add(hub, hub);
     for (unsigned int attached = coordinates.attached(0); attached < hub; ++attached)
@@ -351,8 +335,8 @@ namespace sprag
       const auto elasticity = linear_elastic<dim>(constants, Tensor<2, dim>()).tangent;
       values.reinit(cell);
       scatter.reinit(cell);
-      const auto of_cell   = cell_stiffness(values, elasticity, properties.width);
-      const auto cell_mass = local_mass<dim>(values, densities.at(material) * properties.width);
+      const auto of_cell   = cell_stiffness(values, elasticity, properties.width_of(material));
+      const auto cell_mass = local_mass<dim>(values, densities.at(material) * properties.width_of(material));
       scatter.add(of_cell, stiffness);
       scatter.add(cell_mass, mass);
       if (material == material_id::layer)
@@ -362,11 +346,23 @@ namespace sprag
   }
 
   template <int dim>
+  void InertialMatrices<dim>::assemble_connectors(const ElasticBody<dim> &body)
+  {
+    for (const auto &connector : body.connectors())
+    {
+      const auto row = coordinates.row(connector);
+      for (const auto &[i, weight_i] : row)
+        for (const auto &[j, weight_j] : row)
+          stiffness.add(i, j, connector.stiffness * weight_i * weight_j);
+    }
+  }
+
+  template <int dim>
   void InertialMatrices<dim>::assemble_tip(const ElasticBody<dim> &body, const double tip_mass)
   {
     const auto &fe      = body.dofs().get_fe();
     const auto faces    = end_face(body.dofs());
-    const double length = total_length<dim>(faces);
+    const double length = total_measure<dim>(faces);
     FEFaceValues<dim> values(fe, QGauss<dim - 1>(body.body_properties().degree + 1), update_values | update_JxW_values);
     Scatter<dim> scatter(coordinates, fe.n_dofs_per_cell());
     for (const auto &[cell, f] : faces)

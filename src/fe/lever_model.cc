@@ -2,6 +2,7 @@
 
 #include "base/text.h"
 #include "fe/face_observation.h"
+#include "model/spring_excess.h"
 #include "scene/closed_form.h"
 
 #include <algorithm>
@@ -23,17 +24,41 @@ namespace sprag
     /// Compression of the friction face beyond which linear elasticity says nothing.
     constexpr double largest_strain = 0.5;
 
-    FaceContact make_contact(const ElasticBody<2> &body, const LeverProperties &properties)
+    StaticPorts static_ports(const ElasticBody<2> &body, const LeverProperties &properties)
     {
-      return { body, properties.obstacle, properties.friction, properties.contact.enforcement,
-               contact_penalties(body.friction_face(), properties.contact, properties.layer_thickness) };
+      return { 2 * static_cast<unsigned int>(body.friction_face().nodes.size()), properties.support_stiffness.has_value() };
     }
+
+    FaceContactProperties contact_properties(const ElasticBody<2> &body, const LeverProperties &properties)
+    {
+      return { properties.obstacle,
+               properties.friction,
+               properties.contact.enforcement,
+               contact_penalties(body.friction_face(), properties.contact, properties.layer_thickness),
+               static_ports(body, properties),
+               properties.spring.rest };
+    }
+
     std::variant<FaceCompliance, FullStiffness> make_system(const ElasticBody<2> &body, const LeverProperties &properties)
     {
-      using System = std::variant<FaceCompliance, FullStiffness>;
+      using System     = std::variant<FaceCompliance, FullStiffness>;
+      const auto ports = static_ports(body, properties);
+      const PortSprings springs{ properties.spring.law.linear_stiffness(), properties.support_stiffness.value_or(0.),
+                                 properties.spring.arm };
       if (properties.solution == Solution::automatic && properties.body.material == MaterialModel::linear)
-        return System(std::in_place_type<FaceCompliance>, body);
-      return System(std::in_place_type<FullStiffness>, body);
+        return System(std::in_place_type<FaceCompliance>, body, ports, springs);
+      return System(std::in_place_type<FullStiffness>, body, ports, springs);
+    }
+
+    std::vector<ConnectorSettings> plate_connectors(const FrictionPlate &plate)
+    {
+      if (plate.type == PlateType::none)
+        return {};
+      std::vector<ConnectorSettings> result;
+      for (const double middle : plate.sensors)
+        result.push_back({ ConnectorType::sensor, middle, plate.sensor_length, plate.sensor_stiffness });
+      result.push_back({ ConnectorType::guide, plate.guide, plate.sensor_length, plate.guide_stiffness });
+      return result;
     }
   } // namespace
 
@@ -48,22 +73,31 @@ namespace sprag
   LeverProperties lever_properties(const Scene &scene)
   {
     LeverProperties result;
-    result.body.degree    = scene.mesh.degree;
-    result.body.plane     = scene.analysis.plane;
-    result.body.material  = scene.lever.material;
-    result.body.width     = scene.lever.width;
-    result.body.constants = { { material_id::lever, { scene.lever.young_modulus, scene.lever.poisson_ratio } },
-                              { material_id::layer, { scene.layer.young_modulus, scene.layer.poisson_ratio } } };
+    result.body.degree   = scene.mesh.degree;
+    result.body.plane    = scene.analysis.plane;
+    result.body.material = scene.lever.material;
+    result.body.width    = scene.lever.width;
+    const ElasticConstants metal{ scene.lever.young_modulus, scene.lever.poisson_ratio };
+    result.body.constants  = { { material_id::lever, metal },
+                               { material_id::web, metal },
+                               { material_id::plate, { scene.plate.young_modulus, scene.plate.poisson_ratio } },
+                               { material_id::layer, { scene.layer.young_modulus, scene.layer.poisson_ratio } } };
+    result.body.widths     = { { material_id::web, scene.frame.web } };
+    result.body.connectors = plate_connectors(scene.plate);
 
     // Half a spacing off, the direction of a contact narrower than it is wrong by 1/8000 at most.
     result.body.point_spacing = scene.geometry.cylinder_radius / 4000.;
 
     const Geometry geometry = scene.geometry;
     result.obstacle         = [geometry](const LeverPoint &point, double x, double theta)
-    { return circle_contact(geometry, point, x, theta); };
-    result.centre           = [geometry](double x, double theta) { return cylinder_centre(geometry, x, theta).xi; };
-    result.ideal_theta      = [geometry](double x) { return kinematics(geometry, x).theta; };
-    result.spring           = { scene.spring.stiffness, kinematics(geometry, 0.).theta, geometry.pivot_distance };
+    { return moving_circle_contact(geometry, point, x, theta); };
+    result.centre      = [geometry](double x, double theta) { return cylinder_centre(geometry, x, theta).xi; };
+    result.ideal_theta = [geometry](double x) { return kinematics(geometry, x).theta; };
+    const auto &law    = scene.spring.behaviour.law;
+    result.spring      = { law.is_linear() ? MomentLaw(scene.spring.stiffness) : law, kinematics(geometry, 0.).theta,
+                      geometry.pivot_distance };
+    if (scene.support.type == SupportType::sprung)
+      result.support_stiffness = scene.support.stiffness;
     result.friction         = scene.friction;
     result.contact          = scene.contact;
     result.solution         = scene.analysis.solution;
@@ -75,53 +109,84 @@ namespace sprag
   LeverModel::LeverModel(const Triangulation<2> &triangulation, LeverProperties lever)
       : properties(std::move(lever))
       , body(triangulation, properties.body)
-      , contact(make_contact(body, properties))
+      , ports(static_ports(body, properties))
+      , contact(body, contact_properties(body, properties))
       , system(make_system(body, properties))
   {
   }
 
   State LeverModel::initial_state(const DrivePoint &drive) const
   {
+    const double theta = properties.ideal_theta(drive.x);
     State state;
     state.drive = drive;
     state.coordinates.reinit(std::visit([](const auto &s) { return s.n_coordinates(); }, system));
-    state.coordinates[state.coordinates.size() - 1] = properties.ideal_theta(drive.x);
+    state.coordinates[rotation()] = theta - properties.spring.rest;
     state.contact.resize(body.friction_face().points.size());
     for (std::size_t i = 0; i < state.contact.size(); ++i)
     {
       const auto &position  = body.friction_face().points[i].position;
-      state.contact[i].slip = properties.obstacle({ position[0], position[1] }, drive.x, properties.ideal_theta(drive.x)).slip;
+      state.contact[i].slip = properties.obstacle({ position[0], position[1] }, drive.x, theta).slip;
     }
     return state;
   }
 
   void LeverModel::predict(State &trial, const State &accepted) const
   {
-    trial.coordinates[trial.coordinates.size() - 1] +=
-        properties.ideal_theta(trial.drive.x) - properties.ideal_theta(accepted.drive.x);
+    const double u = support_displacement(accepted);
+    trial.coordinates[rotation()] += properties.ideal_theta(trial.drive.x - u) - properties.ideal_theta(accepted.drive.x - u);
   }
 
   Unbalance LeverModel::evaluate(const State &trial, const State &accepted, const FrictionMode mode)
   {
-    const auto &q = trial.coordinates;
+    const auto &law = properties.spring.law;
     return std::visit(
         [&](auto &s)
         {
-          contact.evaluate(s.face_displacement(q), q[q.size() - 1], trial, accepted, mode);
-          return Unbalance{ s.unbalance(q, contact, properties.spring), contact.overlap() };
+          contact.evaluate(s.port_displacements(trial.coordinates), trial, accepted, mode);
+          if (!law.is_linear())
+          {
+            with_excess = contact.forces();
+            add_spring_excess(law, ports.rotation(), turn(trial), with_excess);
+          }
+          return Unbalance{ s.unbalance(trial.coordinates, port_forces()), contact.overlap() };
         },
         system);
   }
 
+  /// Of the last evaluation.
+  const PortForces &LeverModel::port_forces() const
+  {
+    return properties.spring.law.is_linear() ? contact.forces() : with_excess;
+  }
+
   Vector<double> LeverModel::correction()
   {
-    return std::visit([&](auto &s) { return s.correction(contact, properties.spring); }, system);
+    return std::visit([&](auto &s) { return s.correction(port_forces()); }, system);
+  }
+
+  /// Index of the hub's turn among the coordinates, which end with hub and support.
+  unsigned int LeverModel::rotation() const
+  {
+    const unsigned int n = std::visit([](const auto &s) { return s.n_coordinates(); }, system);
+    return n - (ports.size() - ports.rotation());
+  }
+
+  double LeverModel::turn(const State &state) const
+  {
+    return state.coordinates[rotation()];
+  }
+
+  /// u along x [mm].
+  double LeverModel::support_displacement(const State &state) const
+  {
+    return ports.sprung ? state.coordinates[rotation() + 1] : 0.;
   }
 
   double LeverModel::movement(const Vector<double> &correction) const
   {
     Vector<double> in_lengths = correction;
-    in_lengths[in_lengths.size() - 1] *= properties.spring.arm;
+    in_lengths[rotation()] *= properties.spring.arm;
     return in_lengths.linfty_norm();
   }
 
@@ -164,16 +229,25 @@ namespace sprag
 
   void LeverModel::observe(const State &trial, Row &row) const
   {
-    const auto &q              = trial.coordinates;
-    const double theta         = q[q.size() - 1];
-    const double turn          = theta - properties.spring.rest;
+    const double theta         = properties.spring.rest + turn(trial);
+    const double u             = support_displacement(trial);
     row[Column::theta]         = theta;
-    row[Column::spring_energy] = 0.5 * properties.spring.stiffness * turn * turn;
+    row[Column::spring_energy] = properties.spring.law.energy(turn(trial));
     observe_face(view(contact), properties.layer_thickness, row);
-    row[Column::centre_offset] = row[Column::s] - properties.centre(trial.drive.x, theta);
-    row[Column::Q]             = row[Column::P] * std::sin(theta) + row[Column::F] * std::cos(theta);
+    row[Column::centre_offset]        = row[Column::s] - properties.centre(trial.drive.x - u, theta);
+    row[Column::Q]                    = row[Column::P] * std::sin(theta) + row[Column::F] * std::cos(theta);
+    row[Column::support_displacement] = u;
+    row[Column::Q_support]            = row[Column::Q];
+    row[Column::support_energy]       = 0.;
+    if (properties.support_stiffness)
+    {
+      row[Column::Q_support]      = *properties.support_stiffness * u;
+      row[Column::support_energy] = 0.5 * *properties.support_stiffness * u * u;
+    }
     if (properties.body.material != MaterialModel::linear)
       row[Column::elastic_energy] = body.energy(body_displacement(trial));
+    if (!body.connectors().empty())
+      row.sensor_forces = sensor_forces(body, body_displacement(trial));
   }
 
   FacePoints LeverModel::face_points() const
@@ -198,6 +272,6 @@ namespace sprag
 
   Vector<double> LeverModel::body_displacement(const State &state) const
   {
-    return std::visit([&](const auto &s) { return s.body_displacement(state.coordinates, contact); }, system);
+    return std::visit([&](const auto &s) { return s.body_displacement(state.coordinates, contact.forces()); }, system);
   }
 } // namespace sprag

@@ -1,13 +1,23 @@
 #pragma once
 
+#include "fe/face_compliance.h"
+#include "fe/face_contact.h"
 #include "fe/full_stiffness.h"
 #include "fe/mesh.h"
 
-#include <memory>
+#include <optional>
 #include <variant>
 
 namespace sprag
 {
+  /// The rotational spring at the hub.
+  struct HubSpring
+  {
+    MomentLaw law;
+    double rest = 0.; ///< inclination without moment [rad]
+    double arm  = 1.; ///< length that turns a rotation into a movement [mm], > 0
+  };
+
   /// Everything that makes a meshed lever but its mesh.
   struct LeverProperties
   {
@@ -16,6 +26,7 @@ namespace sprag
     std::function<double(double)> ideal_theta;    ///< inclination that first guesses follow, over x [rad]
     std::function<double(double, double)> centre; ///< lever coordinate of the obstacle's centre over x and theta [mm]
     HubSpring spring;
+    std::optional<double> support_stiffness; ///< k_f of a sprung support [N/mm], > 0; none: it is rigid
     FrictionLaw friction;
     ContactSettings contact;
     Solution solution       = Solution::automatic;
@@ -28,7 +39,8 @@ namespace sprag
   /// The settings' penalties, or what suits mesh and layer.
   ContactPenalties contact_penalties(const FrictionFace<2> &face, const ContactSettings &settings, double layer_thickness);
 
-  /// Meshed lever on its hub and rotational spring against a rigid obstacle: Model in lever axes, which turn with the hub.
+  /// Meshed lever on its hub, rotational spring and support against a rigid obstacle: Model in lever axes, which turn with the
+  /// hub.
   class LeverModel : public Model
   {
   public:
@@ -57,9 +69,16 @@ namespace sprag
     dealii::Vector<double> body_displacement(const State &state) const;
 
   private:
+    unsigned int rotation() const;
+    double turn(const State &state) const;
+    double support_displacement(const State &state) const;
+    const PortForces &port_forces() const;
+
     const LeverProperties properties;
     const ElasticBody<2> body;
+    const StaticPorts ports;
     FaceContact contact;
     std::variant<FaceCompliance, FullStiffness> system;
+    PortForces with_excess; ///< the contact's forces and the spring's beyond its linear stiffness
   };
 } // namespace sprag

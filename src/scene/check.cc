@@ -1,6 +1,8 @@
 #include "scene/check.h"
 
 #include "base/text.h"
+#include "scene/check_plate.h"
+#include "scene/check_spring.h"
 #include "scene/closed_form.h"
 #include "scene/contact_reference.h"
 
@@ -131,11 +133,6 @@ namespace sprag
              type == AnalysisType::sprag_slip;
     }
 
-    bool finite_elements(const ModelType model)
-    {
-      return model == ModelType::condensed || model == ModelType::finite_element;
-    }
-
     /// What a type of analysis takes of the scene. The model counts only where the cylinder follows the drive.
     struct Use
     {
@@ -144,8 +141,9 @@ namespace sprag
           , held(holds(scene.analysis.type))
           , transient(in_time || held)
           , follows_drive(transient || scene.analysis.type == AnalysisType::quasi_static)
-          , positions(follows_drive || scene.analysis.type == AnalysisType::contact_law)
-          , meshed(positions && (!follows_drive || finite_elements(scene.analysis.model)))
+          , calibrated(scene.analysis.type == AnalysisType::calibration)
+          , positions(follows_drive || calibrated || scene.analysis.type == AnalysisType::contact_law)
+          , meshed(positions && (!follows_drive || is_meshed(scene.analysis.model)))
           , lever(meshed || (transient && scene.analysis.model != ModelType::closed_form))
           , own_mesh(meshed && !scene.mesh.file.empty())
       {
@@ -155,6 +153,7 @@ namespace sprag
       const bool held;      ///< the slide, at one x
       const bool transient; ///< with inertia
       const bool follows_drive;
+      const bool calibrated;
       const bool positions; ///< whether the cylinder is put somewhere
       const bool meshed;
       const bool lever; ///< whether it has dimensions
@@ -193,11 +192,11 @@ namespace sprag
         result.push_back({ "Analysis/Model",
                            { "Analysis/Type" },
                            "needs Analysis/Type = transient: without inertia there are closed form and finite element" });
-      if (use.follows_drive && finite_elements(model) && scene.lever.neutral_axis_offset)
+      if (use.follows_drive && is_meshed(model) && scene.lever.neutral_axis_offset)
         result.push_back({ "Lever/Neutral axis offset",
                            { "Analysis/Type", "Analysis/Model" },
                            "must be auto, the finite elements have their own; only rigid and beam take another" });
-      if (use.transient && finite_elements(model))
+      if (use.transient && is_meshed(model))
         append(result, linear_structure(scene, use));
       return result;
     }
@@ -319,6 +318,8 @@ namespace sprag
       append(result, support(scene, use));
       if (use.meshed)
         append(result, mesh_and_material(scene, use));
+      if (use.meshed)
+        append(result, plate_violations(scene, use.own_mesh));
       if (use.transient && use.lever && !use.own_mesh)
         append(result, inertia(scene));
       if (use.in_time)
@@ -327,6 +328,12 @@ namespace sprag
         append(result, held(scene));
       if (use.transient && analysis.model == ModelType::condensed)
         append(result, cache(scene.condensed));
+      if (use.positions)
+        append(result, spring_violations(scene));
+      if (use.meshed)
+        append(result, cylinder_violations(scene));
+      if (use.calibrated)
+        append(result, calibration_violations(scene));
       return result;
     }
 
@@ -348,6 +355,8 @@ namespace sprag
         append(result, sliding(scene));
       if (result.empty() && use.lever && !use.own_mesh)
         append(result, tip(scene));
+      if (result.empty() && use.meshed && !use.own_mesh)
+        append(result, sweep_violations(scene));
       if (result.empty() && can_lock(scene, use))
         append(result, locked(scene));
       return result;

@@ -17,7 +17,7 @@ namespace sprag
   {
     return [=](const LeverPoint &point, const double x, double)
     {
-      ContactKinematics<3> result;
+      ContactKinematics<4> result;
       result.gap         = point.eta - height(x);
       result.gap_row[1]  = 1.;
       result.slip        = point.xi - place(x);
@@ -33,13 +33,15 @@ namespace sprag
     {
       const auto at           = centre(x);
       const Geometry geometry = { radius, 0., at.xi, -at.eta };
-      auto result             = circle_contact(geometry, point, 0., 0.);
-      for (unsigned int i = 0; i < 3; ++i)
+      auto result             = moving_circle_contact(geometry, point, 0., 0.);
+      for (const unsigned int i : { 2, 3 })
       {
-        result.gap_row[i] *= i == 2 ? 0. : 1.;
-        result.slip_row[i] *= i == 2 ? 0. : 1.;
-        result.gap_curvature[2][i] = result.gap_curvature[i][2] = 0.;
-        result.slip_curvature[2][i] = result.slip_curvature[i][2] = 0.;
+        result.gap_row[i] = result.slip_row[i] = 0.;
+        for (unsigned int j = 0; j < 4; ++j)
+        {
+          result.gap_curvature[i][j] = result.gap_curvature[j][i] = 0.;
+          result.slip_curvature[i][j] = result.slip_curvature[j][i] = 0.;
+        }
       }
       return result;
     };
@@ -53,7 +55,7 @@ namespace sprag
     result.obstacle    = std::move(obstacle);
     result.ideal_theta = [](double) { return 0.; };
     result.centre      = [](double, double) { return 0.; };
-    result.spring      = { 1e9, 0., 1. };
+    result.spring      = { MomentLaw(1e9), 0., 1. };
     result.friction    = { CoulombFriction{ coefficient }, FrictionSpeed::sliding };
     return result;
   }
