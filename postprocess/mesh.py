@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
 
 import plot
-from frames import number, pose, read_frame
+from frames import has_leaf, number, pose, read_frame
 from results import NotAResult, read_result
 
 import matplotlib.pyplot as plt  # isort: skip (plot chooses what draws)
@@ -63,7 +63,7 @@ def of_folder(folder):
     centre = stands.centre()
     nodes = np.where(frame.shown(["cylinder"])[:, None], frame.nodes + centre, frame.nodes)
     add_parts(mesh, frame, nodes)
-    if (folder / "leaf-0000.h5").is_file():
+    if has_leaf(result) and (folder / "leaf-0000.h5").is_file():
         leaf = read_frame(folder / "leaf-0000.h5")
         add_parts(mesh, leaf, leaf.nodes)
     outermost = next(name for name in ("layer", "plate", "lever") if name in mesh.parts)
