@@ -132,11 +132,20 @@ def number(result, section, name, otherwise=None):
         return otherwise
 
 
+def has_leaf(result):
+    """Whether frames of a leaf spring in the folder are of this run, not of one before it."""
+    try:
+        return result.parameter("Rotational spring", "Type") == "leaf"
+    except KeyError:
+        return False
+
+
 @dataclass
 class Written:
     """A frame that is there to be chosen."""
 
     file: Path
+    time: float  # as the index gives it, to six places
     row: int  # of the table
     x: float
     way: int  # 1 forward, -1 backward; a turning point belongs to the stroke that led to it
@@ -153,8 +162,8 @@ def written_frames(result):
     moving = np.flatnonzero(steps)
     last = np.maximum(np.searchsorted(moving, np.arange(len(x)), side="right") - 1, 0)
     ways = np.sign(steps[moving[last]]).astype(int) if len(moving) else np.ones(len(x), dtype=int)
-    rows = [(int(np.abs(times - time).argmin()), file) for time, file in indexed(result.folder)]
-    return [Written(file, row, x[row], ways[row]) for row, file in rows if file.is_file()]
+    found = [(file, time, int(np.abs(times - time).argmin())) for time, file in indexed(result.folder) if file.is_file()]
+    return [Written(file, time, row, x[row], ways[row]) for file, time, row in found]
 
 
 def chosen_frame(result, x=None, way=None):

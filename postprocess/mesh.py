@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
 
 import plot
-from frames import number, pose, read_frame
+from frames import has_leaf, number, pose, read_frame
 from results import NotAResult, read_result
 
 import matplotlib.pyplot as plt  # isort: skip (plot chooses what draws)
@@ -63,10 +63,11 @@ def of_folder(folder):
     centre = stands.centre()
     nodes = np.where(frame.shown(["cylinder"])[:, None], frame.nodes + centre, frame.nodes)
     add_parts(mesh, frame, nodes)
-    if (folder / "leaf-0000.h5").is_file():
+    if has_leaf(result) and (folder / "leaf-0000.h5").is_file():
         leaf = read_frame(folder / "leaf-0000.h5")
         add_parts(mesh, leaf, leaf.nodes)
-    edges = nodes[frame.borders(["layer"] if "layer" in mesh.parts else ["lever"])]
+    outermost = next(name for name in ("layer", "plate", "lever") if name in mesh.parts)
+    edges = nodes[frame.borders([outermost])]
     offset = number(result, "Geometry", "Interface offset")
     mesh.curves["friction face"] = edges[(np.abs(edges[..., 1] - offset) < 1e-4).all(axis=1)]
     if "cylinder" not in mesh.parts:

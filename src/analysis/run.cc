@@ -14,6 +14,7 @@
 #include "analysis/slope.h"
 #include "base/errors.h"
 #include "fe/field_frames.h"
+#include "fe/leaf_frames.h"
 #include "fe/lever_model.h"
 #include "scene/closed_form.h"
 
@@ -189,6 +190,9 @@ namespace sprag
       std::optional<FieldFrames> frames;
       if (scene.output.fields != FieldOutput::none)
         frames.emplace(model->elastic_body(), options.folder);
+      std::optional<LeafFrames> leaf_frames;
+      if (frames && scene.spring.type == SpringType::leaf)
+        leaf_frames.emplace(scene, options.folder);
 
       double travelled = 0., last_frame = 0., x = scene.drive.at(0.).x, stick = 0.;
       const auto write = [&](const State &state, const Row &row)
@@ -198,8 +202,11 @@ namespace sprag
         recorder.record(model->face_state(state));
         travelled += std::abs(state.drive.x - x);
         x = state.drive.x;
-        if (wants_fields(scene, state.drive, travelled, last_frame))
-          frames->write(model->body_displacement(state), state.drive.time);
+        if (!wants_fields(scene, state.drive, travelled, last_frame))
+          return;
+        frames->write(model->body_displacement(state), state.drive.time);
+        if (leaf_frames)
+          leaf_frames->write(row[Column::theta], state.drive.time);
       };
       QuasiStaticSettings settings{ scene.analysis.step, scene.analysis.minimum_step, scene.contact };
       record_run(

@@ -7,6 +7,7 @@
 #include "analysis/transient_report.h"
 #include "base/errors.h"
 #include "fe/field_frames.h"
+#include "fe/leaf_frames.h"
 #include "model/reduced_lever.h"
 #include "scene/contact_reference.h"
 
@@ -147,6 +148,9 @@ namespace sprag
       std::optional<FieldFrames> frames;
       if (scene.output.fields != FieldOutput::none)
         frames.emplace(body, options.folder);
+      std::optional<LeafFrames> leaf_frames;
+      if (frames && scene.spring.type == SpringType::leaf)
+        leaf_frames.emplace(scene, options.folder);
 
       double travelled = 0., last_frame = 0., x = scene.drive.at(0.).x;
       const auto write = [&](const Motion &motion, const Row &row)
@@ -159,6 +163,8 @@ namespace sprag
         const Timer::Scope scope(timer, "fields");
         recorder.record(lever.model->face_state(motion));
         frames->write(lever.elastic_displacement(motion), motion.drive.time);
+        if (leaf_frames)
+          leaf_frames->write(row[Column::theta], motion.drive.time);
       };
       record_steps(scene, recorder, timer, meshed_entries(lever, body),
                    [&] { return run_transient(*lever.model, scene.drive, settings_of(scene), write); });

@@ -126,6 +126,9 @@ subsection Output
   set Field interval = 10
   set Fields = FIELDS
 end
+subsection Rotational spring
+  set Type = leaf
+end
 """
 
 
@@ -239,6 +242,15 @@ class PlaceTest(TemporaryFolder):
         distance = np.hypot(points[:, 0] - 30, points[:, 1])
         self.assertAlmostEqual(distance.max(), RADIUS, 9)
         self.assertTrue((distance > 10 * np.cos(np.pi / 80) - 1e-9).all())
+
+    def test_leaf_of_the_same_time(self):
+        result = make_run(self.folder / "a", lever_blocks())
+        write_frames(self.folder / "a", [0.2, 0.5], leaf_blocks(), "leaf")
+        for x, way, there in ((20, "forward", True), (30, "forward", False), (30, "backward", True)):
+            scenery = fields.Scenery(result, frames.chosen_frame(result, x, way), "all")
+            self.assertEqual(scenery.leaf is not None, there)
+        result.parameters = result.parameters.replace("Type = leaf", "Type = torsional")
+        self.assertIsNone(fields.Scenery(result, frames.chosen_frame(result, 20), "all").leaf)
 
     def test_magnified_contact_leaves_the_circle_in_view(self):
         window = fields.Window(self.scenery(lever_blocks()))
