@@ -14,7 +14,7 @@ from results import NotAResult, read_result
 
 import matplotlib.pyplot as plt  # isort: skip (plot chooses what draws)
 
-FILLS = {"lever": "#cfe2f3", "layer": "#e8c28c", "hub": "#bfbfbf", "": "white"}
+FILLS = {"lever": "#cfe2f3", "web": "#9fc5e8", "plate": "#b6d7a8", "layer": "#e8c28c", "hub": "#bfbfbf", "": "white"}
 HALF_WIDTH = 6.0  # mm shown in the zoom to each side
 DPI = 150
 
@@ -24,7 +24,7 @@ class Mesh:
 
     def __init__(self, name):
         self.name = name
-        self.parts = {}  # "lever", "layer", "hub" or "" -> [cells x vertices x 2]
+        self.parts = {}  # a name of FILLS -> [cells x vertices x 2]
         self.face = np.empty((0, 2, 2))  # segments
         self.centre = None  # of the zoom, along the lever
         self.circle = None  # centre x, centre y, radius of the cylinder
@@ -49,6 +49,32 @@ def outlines(cells, per_cell):
     return np.array(result)
 
 
+def face_begin(result):
+    """Where the friction face begins; a lever frame's root has nodes at its height too."""
+    if result.parameter("Mesh", "File"):
+        return 0.0
+    if result.parameter("Friction plate", "Type") == "on sensors":
+        return float(result.parameter("Friction plate", "Begin"))
+    if result.parameter("Lever", "Outline") == "frame":
+        return float(result.parameter("Lever frame", "Root")) + float(result.parameter("Lever frame", "Rib"))
+    return 0.0
+
+
+def built_in_parts(result, corners):
+    """Cells by part, told from where they lie; the web of a frame counts as lever."""
+    middle = corners.mean(axis=1)
+    length = lambda section, name: float(result.parameter(section, name))
+    hub = (middle[:, 0] < 0) & (result.parameter("Lever", "Outline") == "bar")
+    height = middle[:, 1] - length("Geometry", "Interface offset") - length("Friction layer", "Thickness")
+    before = ~hub & (middle[:, 0] > face_begin(result))
+    layer = before & (height < 0)
+    plate = np.zeros_like(layer)
+    if result.parameter("Friction plate", "Type") == "on sensors":
+        plate = before & ~layer & (height < length("Friction plate", "Thickness"))
+    parts = {"lever": ~hub & ~layer & ~plate, "layer": layer, "plate": plate, "hub": hub}
+    return {name: corners[part] for name, part in parts.items() if part.any()}
+
+
 def of_folder(folder):
     """The mesh of a run, undeformed, and the cylinder at its turning point."""
     result = read_result(folder)
@@ -63,12 +89,9 @@ def of_folder(folder):
     if result.parameter("Mesh", "File"):
         mesh.parts = {"": corners}
     else:
-        middle = corners.mean(axis=1)
-        hub = middle[:, 0] < 0
-        layer = ~hub & (middle[:, 1] < offset + float(result.parameter("Friction layer", "Thickness")))
-        mesh.parts = {"lever": corners[~hub & ~layer], "layer": corners[layer], "hub": corners[hub]}
+        mesh.parts = built_in_parts(result, corners)
     low = np.abs(nodes[:, 1] - offset) < 1e-6
-    along = nodes[low & (nodes[:, 0] >= -1e-9), 0]
+    along = nodes[low & (nodes[:, 0] >= face_begin(result) - 1e-9), 0]
     mesh.face = np.array([[[along.min(), offset], [along.max(), offset]]])
     turn = np.nanargmax(result.table["x"])
     mesh.centre = result.table["s"][turn]
