@@ -11,6 +11,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import plot
+from fields import fields
 from results import NotAResult, read_result
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -132,6 +133,7 @@ FIGURES = {
     "fig-10": slopes_of_models,
     "fig-11": slopes_of_geometries,
     "contact": lambda run: plot.contact(run("model-a")),
+    "fields-a": lambda run: fields(run("model-a")),
     # In time.
     "reversal-a": lambda run: plot.reversal(run("reversal-a")),
     "energy-a": lambda run: plot.energy(run("reversal-a")),

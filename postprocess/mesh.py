@@ -1,103 +1,83 @@
 #!/usr/bin/python3
-"""Draws meshes: of a result folder of sprag (with fields), or of a gmsh .msh file in ASCII, version 2.2 or 4.1."""
+"""Draws meshes, each part in a colour: of a result folder of sprag (with fields), or of an ASCII .msh file of version 2.2 or 4.1."""
 
 import argparse
 import sys
 from pathlib import Path
 
-import h5py
 import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
 
 import plot
+from frames import number, pose, read_frame
 from results import NotAResult, read_result
 
 import matplotlib.pyplot as plt  # isort: skip (plot chooses what draws)
 
-FILLS = {"lever": "#cfe2f3", "web": "#9fc5e8", "plate": "#b6d7a8", "layer": "#e8c28c", "hub": "#bfbfbf", "": "white"}
-HALF_WIDTH = 6.0  # mm shown in the zoom to each side
+FILLS = {
+    "lever": "#cfe2f3",
+    "layer": "#e8c28c",
+    "hub": "#bfbfbf",
+    "web": "#e7d4e8",
+    "plate": "#b8e0c8",
+    "cylinder": "#f6e8a6",
+    "leaf": "#f4c7b8",
+    "": "white",
+}
+CURVES = {
+    "friction face": "#D55E00",
+    "hub": "black",
+    "core": "#7f3b08",
+    "cylinder face": "#CC79A7",
+    "sensor plate": "#0072B2",
+    "sensor lever": "#009E73",
+    "joint": "#E69F00",
+}
+HALF_WIDTH, HALF_HEIGHT = 6.0, 2.5  # mm shown in the zoom to each side
 DPI = 150
 
 
 class Mesh:
-    """Polygons by part, the friction face, and where to look closely."""
+    """Polygons by part, named curves, and where to look closely."""
 
     def __init__(self, name):
         self.name = name
         self.parts = {}  # a name of FILLS -> [cells x vertices x 2]
-        self.face = np.empty((0, 2, 2))  # segments
-        self.centre = None  # of the zoom, along the lever
-        self.circle = None  # centre x, centre y, radius of the cylinder
+        self.curves = {}  # a name of CURVES -> segments [n x 2 x 2]
+        self.look = None  # middle of what is seen closely
+        self.circle = None  # centre x, centre y, radius of a rigid cylinder
 
-
-def outlines(cells, per_cell):
-    """Vertex numbers around groups of `per_cell` consecutive quadrilaterals: a cell of degree p is written in p x p pieces."""
-    result = []
-    for group in cells.reshape(-1, per_cell, 4):
-        edges = {}
-        for quad in group:
-            for a, b in zip(quad, np.roll(quad, -1)):
-                if (b, a) in edges:
-                    del edges[(b, a)]
-                else:
-                    edges[(a, b)] = b
-        following = {a: b for a, b in edges}
-        around = [next(iter(following))]
-        while len(around) < len(following):
-            around.append(following[around[-1]])
-        result.append(around)
-    return np.array(result)
-
-
-def face_begin(result):
-    """Where the friction face begins; a lever frame's root has nodes at its height too."""
-    if result.parameter("Mesh", "File"):
-        return 0.0
-    if result.parameter("Friction plate", "Type") == "on sensors":
-        return float(result.parameter("Friction plate", "Begin"))
-    if result.parameter("Lever", "Outline") == "frame":
-        return float(result.parameter("Lever frame", "Root")) + float(result.parameter("Lever frame", "Rib"))
-    return 0.0
-
-
-def built_in_parts(result, corners):
-    """Cells by part, told from where they lie; the web of a frame counts as lever."""
-    middle = corners.mean(axis=1)
-    length = lambda section, name: float(result.parameter(section, name))
-    hub = (middle[:, 0] < 0) & (result.parameter("Lever", "Outline") == "bar")
-    height = middle[:, 1] - length("Geometry", "Interface offset") - length("Friction layer", "Thickness")
-    before = ~hub & (middle[:, 0] > face_begin(result))
-    layer = before & (height < 0)
-    plate = np.zeros_like(layer)
-    if result.parameter("Friction plate", "Type") == "on sensors":
-        plate = before & ~layer & (height < length("Friction plate", "Thickness"))
-    parts = {"lever": ~hub & ~layer & ~plate, "layer": layer, "plate": plate, "hub": hub}
-    return {name: corners[part] for name, part in parts.items() if part.any()}
+    def every_point(self):
+        return np.concatenate([cells.reshape(-1, 2) for cells in self.parts.values()])
 
 
 def of_folder(folder):
-    """The mesh of a run, undeformed, and the cylinder at its turning point."""
+    """The mesh of a run, undeformed, with the cylinder at its turning point and the leaf spring as it was made."""
     result = read_result(folder)
-    frame = folder / "fields-0000.h5"
-    if not frame.is_file():
+    frame_file = folder / "fields-0000.h5"
+    if not frame_file.is_file():
         raise NotAResult(f"{folder}: no fields-0000.h5 there; Output/Fields must not be none")
-    with h5py.File(frame, "r") as file:
-        nodes, cells = file["nodes"][:, :2], file["cells"][:]
-    corners = nodes[outlines(cells, int(result.parameter("Mesh", "Degree")) ** 2)]
     mesh = Mesh(folder.resolve().name)
-    offset = float(result.parameter("Geometry", "Interface offset"))
-    if result.parameter("Mesh", "File"):
-        mesh.parts = {"": corners}
-    else:
-        mesh.parts = built_in_parts(result, corners)
-    low = np.abs(nodes[:, 1] - offset) < 1e-6
-    along = nodes[low & (nodes[:, 0] >= face_begin(result) - 1e-9), 0]
-    mesh.face = np.array([[[along.min(), offset], [along.max(), offset]]])
-    turn = np.nanargmax(result.table["x"])
-    mesh.centre = result.table["s"][turn]
-    radius = float(result.parameter("Geometry", "Cylinder radius"))
-    mesh.circle = (mesh.centre - result.table["centre_offset"][turn], offset - radius, radius)
+    frame = read_frame(frame_file)
+    stands = pose(result, int(np.nanargmax(result.table["x"])) if "x" in result.table else 0)
+    centre = stands.centre()
+    nodes = np.where(frame.shown(["cylinder"])[:, None], frame.nodes + centre, frame.nodes)
+    add_parts(mesh, frame, nodes)
+    if (folder / "leaf-0000.h5").is_file():
+        leaf = read_frame(folder / "leaf-0000.h5")
+        add_parts(mesh, leaf, leaf.nodes)
+    edges = nodes[frame.borders(["layer"] if "layer" in mesh.parts else ["lever"])]
+    offset = number(result, "Geometry", "Interface offset")
+    mesh.curves["friction face"] = edges[(np.abs(edges[..., 1] - offset) < 1e-4).all(axis=1)]
+    if "cylinder" not in mesh.parts:
+        mesh.circle = (*centre, number(result, "Geometry", "Cylinder radius"))
+    mesh.look = (centre[0], offset + 1.5)
     return mesh
+
+
+def add_parts(mesh, frame, nodes):
+    for name in dict.fromkeys(frame.cell_part):
+        mesh.parts[name if name in FILLS else ""] = nodes[frame.outlines[frame.cell_part == name]]
 
 
 def sections(path):
@@ -163,51 +143,69 @@ def of_msh(path):
     except (OSError, KeyError, ValueError, IndexError, StopIteration) as error:
         raise NotAResult(f"{path}: cannot be read as a .msh file ({error})") from error
     mesh = Mesh(path.name)
-    parts, face = {}, []
+    parts, curves = {}, {}
     for kind, group, vertices in elements:
         if kind == 3:
             name = names.get((2, group), "")
             parts.setdefault(name if name in FILLS else "", []).append([nodes[v] for v in vertices[-4:]])
-        elif kind == 1 and names.get((1, group)) == "friction face":
-            face.append([nodes[v] for v in vertices[-2:]])
+        elif kind == 1 and names.get((1, group)) in CURVES:
+            curves.setdefault(names[1, group], []).append([nodes[v] for v in vertices[-2:]])
     if not parts:
         raise NotAResult(f"{path}: no quadrilaterals in it")
     mesh.parts = {name: np.array(cells) for name, cells in parts.items()}
-    mesh.face = np.array(face).reshape(-1, 2, 2)
-    every = mesh.face if len(face) else np.concatenate(list(mesh.parts.values()))
-    mesh.centre = every[..., 0].min() / 2 + every[..., 0].max() / 2
+    mesh.curves = {name: np.array(segments) for name, segments in curves.items()}
+    mesh.look = look_of(mesh)
     return mesh
+
+
+def look_of(mesh):
+    """The contact where there is one to be; a leaf spring's joint."""
+    for name, up in (("friction face", 1.5), ("cylinder face", -1.5), ("joint", 0)):
+        if name in mesh.curves:
+            points = mesh.curves[name].reshape(-1, 2)
+            return (points.min(axis=0) + points.max(axis=0)) / 2 + (0, up)
+    return mesh.every_point().mean(axis=0)
 
 
 def draw_parts(axes, mesh, width):
     for name, cells in mesh.parts.items():
         axes.add_collection(PolyCollection(cells, facecolor=FILLS[name], edgecolor="0.25", linewidth=width, label=name or None))
-    axes.add_collection(LineCollection(mesh.face, colors="#D55E00", linewidths=1.4, label="friction face"))
+    for name, segments in mesh.curves.items():
+        axes.add_collection(LineCollection(segments, colors=CURVES[name], linewidths=1.4, label=label_of(mesh, name), zorder=3))
     axes.set_aspect("equal")
     axes.grid(False)
     axes.set_xlabel("along the lever [mm]")
     axes.set_ylabel("across [mm]")
 
 
+def label_of(mesh, curve):
+    """A curve may bear the name of a part."""
+    return f"{curve} (curve)" if curve in mesh.parts else curve
+
+
 def figure_of(mesh):
-    figure, (whole, zoom) = plt.subplots(2, 1, figsize=(plot.TWO_COLUMNS, 125 * plot.MILLIMETRE), height_ratios=(1, 0.95))
-    vertices = np.concatenate([cells.reshape(-1, 2) for cells in mesh.parts.values()])
-    (left, low), (right, high) = vertices.min(axis=0), vertices.max(axis=0)
+    (left, low), (right, high) = mesh.every_point().min(axis=0), mesh.every_point().max(axis=0)
+    low = min(low, 0)
+    height = np.clip((high - low + 11) / (right - left + 8), 0.25, 0.8) * 152
+    figure, (whole, zoom) = plt.subplots(
+        2, 1, figsize=(plot.TWO_COLUMNS, (height + 90) * plot.MILLIMETRE), height_ratios=(height, 65)
+    )
     draw_parts(whole, mesh, 0.15)
     whole.set_xlim(left - 4, right + 4)
-    whole.set_ylim(min(low, 0) - 6, high + 5)
-    whole.plot(0, 0, "ko", markersize=4, label="pivot")
-    whole.legend(loc="lower right", ncols=5)
+    whole.set_ylim(low - 6, high + 5)
+    if set(mesh.parts) != {"cylinder"}:
+        whole.plot(0, 0, "ko", markersize=4, label="pivot", zorder=4)
+    handles, names = whole.get_legend_handles_labels()
+    plot.legend_on_top(figure, handles, names)
     whole.set_title(mesh.name, fontsize=8)
 
-    bottom = mesh.face[..., 1].min() if len(mesh.face) else low
     draw_parts(zoom, mesh, 0.4)
     if mesh.circle:
         x, y, radius = mesh.circle
         zoom.add_patch(plt.Circle((x, y), radius, facecolor="0.93", edgecolor="black", linewidth=0.8, zorder=0))
-        zoom.annotate("cylinder", (x, bottom - 0.55), ha="center", va="center")
-    zoom.set_xlim(mesh.centre - HALF_WIDTH, mesh.centre + HALF_WIDTH)
-    zoom.set_ylim(bottom - 1, bottom + 4)
+        zoom.annotate("cylinder", (x, y + radius - 0.55), ha="center", va="center")
+    zoom.set_xlim(mesh.look[0] - HALF_WIDTH, mesh.look[0] + HALF_WIDTH)
+    zoom.set_ylim(mesh.look[1] - HALF_HEIGHT, mesh.look[1] + HALF_HEIGHT)
     return figure
 
 

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Draws result folders of sprag: forces over time and x, the contact, reversals, energies, sweeps of the slope, comparisons."""
+"""Draws result folders of sprag: forces, contact, fields, sensors, reversals, energies, sweeps, calibrations, comparisons."""
 
 import argparse
 import sys
@@ -7,12 +7,16 @@ from pathlib import Path
 
 import numpy as np
 
+from calibration import calibration, is_calibration
 from comparison import comparison
+from fields import fields
+from frames import written_frames
 from map import is_map, stability_map
 from results import NotAResult, read_result
+from sensors import has_sensors, sensor_forces
 from sprag_slip import is_sprag_slip, sprag_slip_pictures
 from style import COLOURS, MARKERS, MILLIMETRE, ONE_COLUMN, TWO_COLUMNS  # noqa: F401  (for figures.py and mesh.py)
-from style import label, look, panel_letter, plt, set_labels, show_legend, use_print_style
+from style import label, legend_on_top, look, panel_letter, plt, set_labels, show_legend, use_print_style  # noqa: F401
 from transient import energy, has_reversal, is_transient, reversal
 from vibration import vibration_pictures
 
@@ -246,6 +250,8 @@ def draw(results):
     """{picture name: figure} for one or several results."""
     if len(results) == 1 and is_map(results[0]):
         return {"map": stability_map(results[0])}
+    if len(results) == 1 and is_calibration(results[0]):
+        return {"calibration": calibration(results[0])}
     if len(results) == 1 and "P_fitted" in results[0].table:
         return {"contact-law": contact_law(results[0])}
     if len(results) == 1 and is_sprag_slip(results[0]):
@@ -278,7 +284,18 @@ def pictures_of_one(result):
         pictures["reversal"] = reversal(result)
     if is_transient(result) and result.has("energy_residual"):
         pictures["energy"] = energy(result)
-    return pictures
+    if has_sensors(result):
+        pictures["sensors"] = sensor_forces(result)
+    return {**pictures, **picture_of_fields(result)}
+
+
+def picture_of_fields(result):
+    """Of the frame of the largest x. One that cannot be read, as while it is written, must not keep the others from being drawn."""
+    try:
+        return {"fields": fields(result)} if written_frames(result) else {}
+    except NotAResult as error:
+        print(f"plot.py: no picture of the fields: {error}", file=sys.stderr)
+        return {}
 
 
 def save(pictures, folder, formats=("png",), dpi=300):

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <regex>
 
 namespace sprag
 {
@@ -72,12 +73,17 @@ namespace sprag
     };
   } // namespace
 
-  FieldFrames::FieldFrames(const ElasticBody<2> &body_, std::string folder_)
+  FieldFrames::FieldFrames(const ElasticBody<2> &body_, std::string folder_, std::string name_)
       : body(body_)
       , folder(std::move(folder_))
+      , name(std::move(name_))
+      , part(body.dofs().get_triangulation().n_active_cells())
   {
+    for (const auto &cell : body.dofs().active_cell_iterators())
+      part[cell->active_cell_index()] = static_cast<float>(cell->material_id());
+    const std::regex earlier(name + R"((-\d+\.h5|\.xdmf))");
     for (const auto &entry : std::filesystem::directory_iterator(folder))
-      if (entry.path().filename().string().rfind("fields", 0) == 0)
+      if (std::regex_match(entry.path().filename().string(), earlier))
         std::filesystem::remove(entry.path());
   }
 
@@ -90,14 +96,20 @@ namespace sprag
     data.attach_dof_handler(body.dofs());
     data.add_data_vector(displacement, std::vector<std::string>(2, "displacement"), DataOut<2>::type_dof_data, vector);
     data.add_data_vector(displacement, stress);
-    data.build_patches(body.body_properties().degree);
+    data.add_data_vector(part, "part", DataOut<2>::type_cell_data);
+    const auto &properties = body.body_properties();
+    // Of curved cells positions are in single precision, too.
+    data.build_patches(body.cell_mapping(), properties.degree,
+                       properties.curved ? DataOut<2>::curved_inner_cells : DataOut<2>::no_curved_cells);
 
-    char name[32];
-    std::snprintf(name, sizeof(name), "fields-%04zu.h5", frames.size());
-    DataOutBase::DataOutFilter filter(DataOutBase::DataOutFilterFlags(true, true));
+    // Cells share no nodes: where parts meet, each shows a stress and a number of its own.
+    char number[24];
+    std::snprintf(number, sizeof(number), "-%04zu.h5", frames.size());
+    const std::string file = name + number;
+    DataOutBase::DataOutFilter filter(DataOutBase::DataOutFilterFlags(false, true));
     data.write_filtered_data(filter);
-    data.write_hdf5_parallel(filter, folder + "/" + name, MPI_COMM_SELF);
-    frames.push_back(data.create_xdmf_entry(filter, name, time, MPI_COMM_SELF));
-    data.write_xdmf_file(frames, folder + "/fields.xdmf", MPI_COMM_SELF);
+    data.write_hdf5_parallel(filter, folder + "/" + file, MPI_COMM_SELF);
+    frames.push_back(data.create_xdmf_entry(filter, file, time, MPI_COMM_SELF));
+    data.write_xdmf_file(frames, folder + "/" + name + ".xdmf", MPI_COMM_SELF);
   }
 } // namespace sprag

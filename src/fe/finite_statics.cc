@@ -21,8 +21,6 @@ namespace sprag
 
     constexpr unsigned int most_iterations = 20;
 
-    constexpr auto nowhere = std::numeric_limits<std::size_t>::max();
-
     /// Row beginnings and columns of a sequential matrix, in the order of its values.
     class Rows
     {
@@ -49,6 +47,17 @@ namespace sprag
     private:
       const Mat matrix;
     };
+
+    /// Calls act(entry, mover of its row, mover of its column).
+    template <typename Movers, typename Act>
+    void for_all_couplings(const Rows &rows, const Movers &movers, const Act &act)
+    {
+      for (PetscInt row = 0; row < rows.n; ++row)
+        for (PetscInt a = rows.begin[row]; a < rows.begin[row + 1]; ++a)
+          for (const auto &of_row : movers[row])
+            for (const auto &of_column : movers[rows.column[a]])
+              act(static_cast<std::size_t>(a), of_row, of_column);
+    }
 
     /// Entries of a sequential matrix.
     class Values
@@ -78,50 +87,55 @@ namespace sprag
     };
   } // namespace
 
-  FiniteStatics::FiniteStatics(const ElasticBody<2> &body_, std::vector<unsigned int> coordinate_of_)
+  FiniteStatics::FiniteStatics(const ElasticBody<2> &body_, const AffineConstraints<double> &held)
       : body(body_)
-      , coordinate_of(std::move(coordinate_of_))
       , internal(body.n_dofs())
   {
-    for (const unsigned int coordinate : coordinate_of)
-      if (coordinate != held)
-        n = std::max(n, coordinate + 1);
     body.reinit(tangent, 0);
+    number_coordinates(held);
     arrange_band();
+  }
+
+  void FiniteStatics::number_coordinates(const AffineConstraints<double> &held)
+  {
+    const unsigned int n_dofs = body.n_dofs();
+    std::vector<unsigned int> number(n_dofs);
+    for (unsigned int dof = 0; dof < n_dofs; ++dof)
+      if (!held.is_constrained(dof))
+        number[dof] = n++;
+    movers.resize(n_dofs);
+    for (unsigned int dof = 0; dof < n_dofs; ++dof)
+      if (!held.is_constrained(dof))
+        movers[dof] = { { number[dof], 1. } };
+      else
+        for (const auto &[leader, share] : *held.get_constraint_entries(dof))
+          movers[dof].push_back({ number[leader], share });
+
+    DynamicSparsityPattern pattern(n, n);
+    for_all_couplings(Rows(tangent), movers,
+                      [&](std::size_t, const auto &row, const auto &column) { pattern.add(row.coordinate, column.coordinate); });
+    std::vector<DynamicSparsityPattern::size_type> places(n);
+    SparsityTools::reorder_Cuthill_McKee(pattern, places);
+    for (auto &of_dof : movers)
+      for (auto &mover : of_dof)
+        mover.coordinate = static_cast<unsigned int>(places[mover.coordinate]);
   }
 
   void FiniteStatics::arrange_band()
   {
     const Rows rows(tangent);
-    DynamicSparsityPattern pattern(n, n);
-    const auto for_all_entries = [&](const auto &act, const std::vector<unsigned int> &index_of)
-    {
-      for (PetscInt row = 0; row < rows.n; ++row)
-        for (PetscInt a = rows.begin[row]; a < rows.begin[row + 1]; ++a)
-          if (index_of[row] != held && index_of[rows.column[a]] != held)
-            act(a, index_of[row], index_of[rows.column[a]]);
-    };
-    for_all_entries([&](PetscInt, const unsigned int i, const unsigned int j) { pattern.add(i, j); }, coordinate_of);
-
-    std::vector<DynamicSparsityPattern::size_type> places(n);
-    SparsityTools::reorder_Cuthill_McKee(pattern, places);
-    place_of.assign(coordinate_of.size(), held);
-    for (unsigned int dof = 0; dof < coordinate_of.size(); ++dof)
-      if (coordinate_of[dof] != held)
-        place_of[dof] = static_cast<unsigned int>(places[coordinate_of[dof]]);
-
     unsigned int width = 0;
-    for_all_entries([&](PetscInt, const unsigned int i, const unsigned int j) { width = std::max(width, std::max(i, j) - i); },
-                    place_of);
+    for_all_couplings(rows, movers,
+                      [&](std::size_t, const Mover &row, const Mover &column)
+                      { width = std::max(width, std::max(row.coordinate, column.coordinate) - row.coordinate); });
     band = BandFactors(n, width);
-    targets.assign(static_cast<std::size_t>(rows.begin[rows.n]), nowhere);
-    for_all_entries(
-        [&](const PetscInt a, const unsigned int i, const unsigned int j)
+    for_all_couplings(
+        rows, movers,
+        [&](const std::size_t a, const Mover &row, const Mover &column)
         {
-          if (i <= j)
-            targets[a] = band.position(i, j);
-        },
-        place_of);
+          if (row.coordinate <= column.coordinate)
+            contributions.push_back({ a, band.position(row.coordinate, column.coordinate), row.share * column.share });
+        });
   }
 
   unsigned int FiniteStatics::n_coordinates() const
@@ -134,53 +148,31 @@ namespace sprag
     const Rows rows(of_body);
     const Values values(of_body);
     DynamicSparsityPattern pattern(n, n);
-    for (const bool fill : { false, true })
-    {
-      if (fill)
-        reduced.reinit(pattern);
-      for (PetscInt row = 0; row < rows.n; ++row)
-        for (PetscInt a = rows.begin[row]; a < rows.begin[row + 1]; ++a)
-        {
-          const unsigned int i = coordinate_of[row];
-          const unsigned int j = coordinate_of[rows.column[a]];
-          if (i != held && j != held && fill)
-            reduced.add(i, j, values[a]);
-          else if (i != held && j != held)
-            pattern.add(i, j);
-        }
-    }
+    for_all_couplings(rows, movers,
+                      [&](std::size_t, const Mover &row, const Mover &column)
+                      { pattern.add(row.coordinate, column.coordinate); });
+    reduced.reinit(pattern);
+    for_all_couplings(rows, movers,
+                      [&](const std::size_t a, const Mover &row, const Mover &column)
+                      { reduced.add(row.coordinate, column.coordinate, row.share * column.share * values[a]); });
     reduced.compress(VectorOperation::add);
   }
 
-  double FiniteStatics::norm_on_coordinates(const Vector<double> &forces) const
+  Vector<double> FiniteStatics::collect(const Vector<double> &forces_on_dofs) const
   {
-    Vector<double> sums(n);
-    for (unsigned int dof = 0; dof < coordinate_of.size(); ++dof)
-      if (coordinate_of[dof] != held)
-        sums[coordinate_of[dof]] += forces[dof];
-    return sums.l2_norm();
-  }
-
-  Vector<double> FiniteStatics::solve(const Vector<double> &forces) const
-  {
-    Vector<double> placed(n);
-    for (unsigned int dof = 0; dof < place_of.size(); ++dof)
-      if (place_of[dof] != held)
-        placed[place_of[dof]] += forces[dof];
-    band.solve(placed);
-    Vector<double> result(body.n_dofs());
-    for (unsigned int dof = 0; dof < place_of.size(); ++dof)
-      if (place_of[dof] != held)
-        result[dof] = placed[place_of[dof]];
+    Vector<double> result(n);
+    for (unsigned int dof = 0; dof < movers.size(); ++dof)
+      for (const auto &mover : movers[dof])
+        result[mover.coordinate] += mover.share * forces_on_dofs[dof];
     return result;
   }
 
   Vector<double> FiniteStatics::expand(const Vector<double> &coordinates) const
   {
     Vector<double> result(body.n_dofs());
-    for (unsigned int dof = 0; dof < coordinate_of.size(); ++dof)
-      if (coordinate_of[dof] != held)
-        result[dof] = coordinates[coordinate_of[dof]];
+    for (unsigned int dof = 0; dof < movers.size(); ++dof)
+      for (const auto &mover : movers[dof])
+        result[dof] += mover.share * coordinates[mover.coordinate];
     return result;
   }
 
@@ -192,9 +184,8 @@ namespace sprag
     auto &entries = band.entries();
     std::fill(entries.begin(), entries.end(), 0.);
     const Values values(tangent);
-    for (std::size_t a = 0; a < targets.size(); ++a)
-      if (targets[a] != nowhere)
-        entries[targets[a]] += values[a];
+    for (const auto &[from, to, factor] : contributions)
+      entries[to] += factor * values[from];
     negative_pivots = band.factorise();
   }
 
@@ -205,12 +196,14 @@ namespace sprag
       linearise(displacement);
       Vector<double> unbalanced = loads;
       unbalanced -= internal;
+      auto residual     = collect(unbalanced);
       const double size = internal.l2_norm() + loads.l2_norm();
       if (!std::isfinite(size))
         break;
-      if (norm_on_coordinates(unbalanced) <= tolerance * size)
+      if (residual.l2_norm() <= tolerance * size)
         return;
-      displacement += solve(unbalanced);
+      band.solve(residual);
+      displacement += expand(residual);
     }
     throw AnalysisError("Newton's method found no equilibrium of a body at finite strain in " + std::to_string(most_iterations) +
                         " iterations");
@@ -235,12 +228,14 @@ namespace sprag
   Vector<double> FiniteStatics::response(const Vector<double> &of_held, const Vector<double> &of_loads) const
   {
     Vector<double> result(body.n_dofs());
-    for (unsigned int dof = 0; dof < coordinate_of.size(); ++dof)
-      if (coordinate_of[dof] == held)
+    for (unsigned int dof = 0; dof < movers.size(); ++dof)
+      if (movers[dof].empty())
         result[dof] = of_held[dof];
     Vector<double> loads = of_loads;
     loads -= stiffness_product(result);
-    result += solve(loads);
+    auto coordinates = collect(loads);
+    band.solve(coordinates);
+    result += expand(coordinates);
     return result;
   }
 

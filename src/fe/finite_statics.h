@@ -3,27 +3,22 @@
 #include "fe/band_factors.h"
 #include "fe/elastic_body.h"
 
-#include <limits>
 #include <vector>
 
 namespace sprag
 {
-  /// Statics of a body at finite strain by Newton's method. A degree of freedom of the body is held at a given displacement, or
-  /// follows a coordinate, alone or together with others. The body itself must hold none, and be slender: the tangent is
-  /// factorised as a band.
+  /// Statics of a slender body at finite strain by Newton's method; the tangent is factorised as a band.
   class FiniteStatics
   {
   public:
-    /// In place of a coordinate.
-    static constexpr unsigned int held = std::numeric_limits<unsigned int>::max();
-
-    /// `coordinate_of` each degree of freedom: 0, 1, ... without gaps, or `held`.
-    FiniteStatics(const ElasticBody<2> &body, std::vector<unsigned int> coordinate_of);
+    /// The body itself must hold nothing. What it is held by is closed and without inhomogeneities: a degree of freedom whose
+    /// line is empty is held at a given displacement, one with entries follows others, the rest are the coordinates.
+    FiniteStatics(const ElasticBody<2> &body, const dealii::AffineConstraints<double> &held);
 
     unsigned int n_coordinates() const;
 
     /// Brings `displacement` of all degrees of freedom into equilibrium with dead `loads` [N] on them, the held ones as they are
-    /// given. Those that share a coordinate must begin alike. Throws AnalysisError where the iteration finds none.
+    /// given. Those that follow others must begin so. Throws AnalysisError where the iteration finds none.
     void balance(dealii::Vector<double> &displacement, const dealii::Vector<double> &loads);
 
     // Of all degrees of freedom at the displacement last balanced.
@@ -37,7 +32,7 @@ namespace sprag
     /// Tangent stiffness times a displacement.
     dealii::Vector<double> stiffness_product(const dealii::Vector<double> &displacement) const;
 
-    /// Whether the equilibrium last balanced is stable.
+    /// Whether the equilibrium is stable.
     bool is_stable() const;
 
     /// The tangent stiffness of the body, without regard to what holds it.
@@ -50,17 +45,31 @@ namespace sprag
     dealii::Vector<double> expand(const dealii::Vector<double> &coordinates) const;
 
   private:
+    /// A coordinate that moves a degree of freedom, and by how much a unit of it does.
+    struct Mover
+    {
+      unsigned int coordinate;
+      double share;
+    };
+
+    /// An entry of the tangent, the entry of the band it is added to, and the factor.
+    struct Contribution
+    {
+      std::size_t from;
+      std::size_t to;
+      double factor;
+    };
+
+    void number_coordinates(const dealii::AffineConstraints<double> &held);
     void arrange_band();
+    dealii::Vector<double> collect(const dealii::Vector<double> &forces) const;
     void linearise(const dealii::Vector<double> &displacement);
-    double norm_on_coordinates(const dealii::Vector<double> &forces) const;
-    dealii::Vector<double> solve(const dealii::Vector<double> &forces) const;
 
     const ElasticBody<2> &body;
-    const std::vector<unsigned int> coordinate_of;
     unsigned int n = 0;
     dealii::PETScWrappers::SparseMatrix tangent;
-    std::vector<unsigned int> place_of; ///< in the band, of each degree of freedom, or `held`
-    std::vector<std::size_t> targets;   ///< entry of the band, or none, to which one of the tangent is added
+    std::vector<std::vector<Mover>> movers; ///< of each degree of freedom, none where held
+    std::vector<Contribution> contributions;
     dealii::Vector<double> internal;
     BandFactors band;
     unsigned int negative_pivots = 0;

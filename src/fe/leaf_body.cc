@@ -3,10 +3,13 @@
 #include "base/errors.h"
 #include "base/text.h"
 
+#include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_tools.h>
+#include <deal.II/fe/fe_values.h>
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace sprag
 {
@@ -46,67 +49,48 @@ namespace sprag
       return result;
     }
 
-    std::vector<Point<2>> positions_of(const ElasticBody<2> &body)
+    void hold_all(const std::vector<unsigned int> &dofs, AffineConstraints<double> &constraints)
     {
-      std::vector<Point<2>> result(body.n_dofs());
-      DoFTools::map_dofs_to_support_points(body.cell_mapping(), body.dofs(), result);
-      return result;
-    }
-
-    /// Of a set of degrees of freedom on the joint that at the middle of its section.
-    unsigned int middle_of(const std::vector<unsigned int> &dofs, const std::vector<Point<2>> &positions)
-    {
-      Point<2> middle;
       for (const unsigned int dof : dofs)
-        middle += Tensor<1, 2>(positions[dof]) / static_cast<double>(dofs.size());
-      return *std::min_element(dofs.begin(), dofs.end(),
-                               [&](const unsigned int a, const unsigned int b)
-                               { return positions[a].distance_square(middle) < positions[b].distance_square(middle); });
+        constraints.add_line(dof);
     }
 
-    /// What moves the degrees of freedom, before they are numbered.
-    class Followers
+    void move_alike(const std::vector<unsigned int> &dofs, AffineConstraints<double> &constraints)
     {
-    public:
-      explicit Followers(const unsigned int n_dofs)
-          : leaders(n_dofs)
+      for (std::size_t i = 1; i < dofs.size(); ++i)
       {
-        for (unsigned int dof = 0; dof < n_dofs; ++dof)
-          leaders[dof] = dof;
+        constraints.add_line(dofs[i]);
+        constraints.add_entry(dofs[i], dofs.front(), 1.);
       }
+    }
 
-      void hold(const std::vector<unsigned int> &dofs)
-      {
-        for (const unsigned int dof : dofs)
-          leaders[dof] = FiniteStatics::held;
-      }
+    /// Holds the mean over the joint's section. A single node that were held would dent the leaf by more the finer its mesh.
+    void hold_mean(const ElasticBody<2> &body, const unsigned int component, AffineConstraints<double> &constraints)
+    {
+      const auto &fe = body.dofs().get_fe();
+      FEFaceValues<2> values(body.cell_mapping(), fe, QGauss<1>(fe.degree + 1), update_values | update_JxW_values);
+      std::vector<types::global_dof_index> indices(fe.n_dofs_per_cell());
+      std::map<types::global_dof_index, double> weights;
+      for (const auto &cell : body.dofs().active_cell_iterators())
+        for (const unsigned int f : cell->face_indices())
+          if (cell->face(f)->at_boundary() && cell->face(f)->boundary_id() == boundary_id::joint)
+          {
+            values.reinit(cell, f);
+            cell->get_dof_indices(indices);
+            for (unsigned int i = 0; i < indices.size(); ++i)
+              if (fe.system_to_component_index(i).first == component && fe.has_support_on_face(i, f))
+                for (const unsigned int q : values.quadrature_point_indices())
+                  weights[indices[i]] += values.shape_value(i, q) * values.JxW(q);
+          }
+      const auto largest =
+          std::max_element(weights.begin(), weights.end(), [](const auto &a, const auto &b) { return a.second < b.second; });
+      constraints.add_line(largest->first);
+      for (const auto &[dof, weight] : weights)
+        if (dof != largest->first)
+          constraints.add_entry(largest->first, dof, -weight / largest->second);
+    }
 
-      void tie(const std::vector<unsigned int> &dofs)
-      {
-        for (const unsigned int dof : dofs)
-          leaders[dof] = dofs.front();
-      }
-
-      std::vector<unsigned int> coordinates() const
-      {
-        std::vector<unsigned int> number(leaders.size(), FiniteStatics::held);
-        unsigned int n = 0;
-        for (unsigned int dof = 0; dof < leaders.size(); ++dof)
-          if (leaders[dof] == dof)
-            number[dof] = n++;
-        std::vector<unsigned int> result(leaders.size(), FiniteStatics::held);
-        for (unsigned int dof = 0; dof < leaders.size(); ++dof)
-          if (leaders[dof] != FiniteStatics::held)
-            result[dof] = number[leaders[dof]];
-        return result;
-      }
-
-    private:
-      std::vector<unsigned int> leaders;
-    };
-
-    void hold_joint(const LeafSpring &leaf, const ElasticBody<2> &body, const std::vector<Point<2>> &positions,
-                    Followers &followers)
+    void hold_joint(const LeafSpring &leaf, const ElasticBody<2> &body, AffineConstraints<double> &constraints)
     {
       const auto along  = dofs_on(body, 0, boundary_id::joint);
       const auto across = dofs_on(body, 1, boundary_id::joint);
@@ -114,21 +98,21 @@ namespace sprag
       switch (leaf.end)
       {
       case LeafEnd::clamped:
-        followers.hold(across);
+        hold_all(across, constraints);
         break;
       case LeafEnd::guided:
-        followers.tie(across);
+        move_alike(across, constraints);
         break;
       case LeafEnd::pinned:
-        followers.hold({ middle_of(across, positions) });
+        hold_mean(body, 1, constraints);
         if (!slides)
-          followers.hold({ middle_of(along, positions) });
+          hold_mean(body, 0, constraints);
         return;
       }
       if (slides)
-        followers.tie(along);
+        move_alike(along, constraints);
       else
-        followers.hold(along);
+        hold_all(along, constraints);
     }
 
     /// Along the tangent.
@@ -147,23 +131,25 @@ namespace sprag
 
   LeafBody::LeafBody(const LeafSpring &leaf, const PlaneState plane, const LeafElements &elements)
       : elastic(meshed(leaf, elements, triangulation), properties_of(leaf, plane))
-      , finite_statics(elastic, find_coordinates(leaf))
+      , finite_statics(elastic, hold(leaf))
   {
   }
 
-  std::vector<unsigned int> LeafBody::find_coordinates(const LeafSpring &leaf)
+  AffineConstraints<double> LeafBody::hold(const LeafSpring &leaf)
   {
-    const auto positions = positions_of(elastic);
-    Followers followers(elastic.n_dofs());
+    std::vector<Point<2>> positions(elastic.n_dofs());
+    DoFTools::map_dofs_to_support_points(elastic.cell_mapping(), elastic.dofs(), positions);
+    AffineConstraints<double> constraints;
     for (const unsigned int component : { 0u, 1u })
     {
       const auto dofs = dofs_on(elastic, component, boundary_id::clamp);
-      followers.hold(dofs);
+      hold_all(dofs, constraints);
       for (const unsigned int dof : dofs)
         clamp.push_back({ dof, component, positions[dof] });
     }
-    hold_joint(leaf, elastic, positions, followers);
-    return followers.coordinates();
+    hold_joint(leaf, elastic, constraints);
+    constraints.close();
+    return constraints;
   }
 
   const ElasticBody<2> &LeafBody::body() const

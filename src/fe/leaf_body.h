@@ -10,7 +10,7 @@ namespace sprag
 {
   /// A leaf spring of finite elements, degree 2, St. Venant-Kirchhoff, in axes of the lever at rest. Its clamp moves as a rigid
   /// body that the hub turns about the pivot, its joint as LeafSpring::end and axial allow: a clamped or guided end moves as one
-  /// without turning, a pinned one turns about its middle, as it likes.
+  /// without turning, of a pinned one the mean over the section is held.
   class LeafBody
   {
   public:
@@ -51,7 +51,7 @@ namespace sprag
       dealii::Point<2> position;
     };
 
-    std::vector<unsigned int> find_coordinates(const LeafSpring &leaf);
+    dealii::AffineConstraints<double> hold(const LeafSpring &leaf);
 
     dealii::Triangulation<2> triangulation;
     const ElasticBody<2> elastic;

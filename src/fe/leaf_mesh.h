@@ -12,7 +12,7 @@ namespace sprag
     unsigned int across;
   };
 
-  /// As many elements of degree 2 as put the stiffness of a thin leaf within 2e-4 of that of a fine mesh.
+  /// As many elements of degree 2 as put the stiffness of a thin leaf within 2.5e-4 of that of a fine mesh.
   LeafElements leaf_elements(const LeafSpring &leaf);
 
   /// The built-in `meshes/leaf.geo`, in axes of the lever at rest: material_id::leaf from boundary_id::clamp to

@@ -69,11 +69,24 @@ namespace sprag
         all.push_back({ state.turn, state.moment, state.stiffness });
       }
 
+      State middle_of(const State &from, const State &to)
+      {
+        const double turn = 0.5 * (from.turn + to.turn);
+        try
+        {
+          return leaf.state(turn, middle_displacement(from, to));
+        }
+        catch (const AnalysisError &)
+        {
+          return leaf.steps(from, turn).back();
+        }
+      }
+
       /// Adds what comes after `from` up to `to`. Halving a step divides the error of cubic interpolation by 16, of which half is
       /// trusted.
       void refine(const State &from, const State &to, const unsigned int halvings)
       {
-        const State middle = leaf.state(0.5 * (from.turn + to.turn), middle_displacement(from, to));
+        const State middle = middle_of(from, to);
         const bool fine    = std::abs(middle.moment - middle_moment(from, to)) <= 8. * allowed;
         if (!fine && halvings == 0)
           throw AnalysisError("the moment of the leaf spring jumps over its turn: it snaps through. Try a smaller 'Leaf "

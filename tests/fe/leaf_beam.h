@@ -80,7 +80,7 @@ namespace sprag
     double moment(const double turn)
     {
       std::array<double, 3> unknowns{}; // H, V, moment at the clamp
-      const unsigned int steps = 10;
+      const unsigned int steps = 20;
       for (unsigned int i = 1; i <= steps; ++i)
         solve(turn * i / steps, unknowns);
       const auto [H, V, M] = unknowns;
@@ -106,7 +106,7 @@ namespace sprag
       const auto [H, V, M] = unknowns;
       const double c       = leaf.clamp_distance;
       State at{ { c * std::cos(turn), c * std::sin(turn), turn - half_angle, M } };
-      const unsigned int n = 400;
+      const unsigned int n = 100;
       const double h       = arc_length / n;
       const auto moved     = [](State state, const double by, const State &along)
       {

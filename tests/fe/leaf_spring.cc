@@ -7,6 +7,7 @@
 #include "scene/closed_form.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <gtest/gtest.h>
 
 using namespace sprag;
@@ -16,7 +17,7 @@ namespace
   constexpr double pi = dealii::numbers::PI;
 
   /// What the default mesh leaves in stiffnesses, measured by StiffnessConvergesFromAbove.
-  constexpr double of_mesh = 2e-4;
+  constexpr double of_mesh = 2.5e-4;
 
   LeafSpring leaf_of(const LeafEnd end, const double thickness, const double poisson_ratio = 0.)
   {
@@ -84,11 +85,15 @@ TEST(LeafSpring, ClampsStiffenALittleByPoissonsRatio)
   }
 }
 
+// Poisson's ratio is then nu/(1 - nu), which the clamps hinder as above.
 TEST(LeafSpring, PlaneStrainIsAPlate)
 {
   const LeafSpring leaf = leaf_of(LeafEnd::guided, 1., 0.3);
   const double plate    = beam_stiffness(leaf) / (1. - 0.09);
-  EXPECT_NEAR(LeafBody(leaf, PlaneState::strain).rest().stiffness, plate, of_mesh * plate);
+  const double more     = LeafBody(leaf, PlaneState::strain).rest().stiffness / plate - 1.;
+  const double ratio    = 0.3 / 0.7;
+  EXPECT_GT(more, 0.);
+  EXPECT_LE(more, 2. * ratio * ratio / (1. - ratio * ratio) * 0.5 * leaf.thickness / leaf.length + of_mesh);
 }
 
 // Prescribed displacements: a coarser mesh is stiffer. Without locking the error, of third order at least as for the smooth part
@@ -109,7 +114,7 @@ TEST(LeafSpring, StiffnessConvergesFromAbove)
         const double error = stiffness_of(leaf, { along, 4 }) / fine - 1.;
         std::printf(" %u: %.1e", along, error);
         EXPECT_GT(error, 0.);
-        EXPECT_LE(error, last / 4.);
+        EXPECT_LE(error, std::max(0.25 * last, of_mesh));
         last = error;
       }
       std::printf("\n");
@@ -293,10 +298,12 @@ TEST(LeafSpring, RefusesWhatItCannotDo)
   {
     EXPECT_EQ(error.messages.size(), 2u);
   }
-  // An arch that is turned against its bend, its ends held, snaps through.
+  // The joint of an arch, held along it, moves across: it snaps through.
   leaf           = LeafSpring();
-  leaf.thickness = 1.;
-  leaf.sagitta   = -5.;
+  leaf.thickness = 0.5;
+  leaf.sagitta   = 10.;
+  leaf.end       = LeafEnd::guided;
   leaf.axial     = LeafAxial::held;
-  EXPECT_THROW(leaf_behaviour(leaf, PlaneState::stress, -0.5, 0.5), AnalysisError);
+  EXPECT_THROW(leaf_behaviour(leaf, PlaneState::stress, -0.01, 0.2), AnalysisError);
+  EXPECT_NO_THROW(leaf_behaviour(leaf, PlaneState::stress, -0.01, 0.02));
 }

@@ -1,0 +1,71 @@
+"""What the force sensors of a friction plate feel beside the normal force at the contact."""
+
+import re
+
+import numpy as np
+
+from style import COLOURS, MILLIMETRE, TWO_COLUMNS, legend_on_top, look, panel_letter, plt
+from transient import LEAD, has_reversal, is_transient, reversal_time, zoom_end
+
+PAIR = (("P", "$P$ at the contact", COLOURS[0], "-"), ("sensor_sum", "sum of the sensors", COLOURS[1], (0, (5, 1.5))))
+
+
+def has_sensors(result):
+    return result.has("sensor_sum") and result.has("P")
+
+
+def sensors_of(result):
+    """Columns of the single sensors, counted from the pivot."""
+    return sorted((name for name in result.table if re.fullmatch(r"sensor_\d+", name)), key=lambda name: int(name[7:]))
+
+
+def sensor_forces(result):
+    """P and the sum of the sensors; each sensor; the difference.
+
+    Over x, forward and backward; with inertia over time, with a look at the first reversal.
+    """
+    columns = views(result)
+    size = (TWO_COLUMNS, 135 * MILLIMETRE)
+    figure, panels = plt.subplots(
+        3, len(columns), sharex="col", sharey="row", squeeze=False, figsize=size, height_ratios=(3, 3, 2)
+    )
+    for index, (over, values, rows) in enumerate(columns):
+        draw_column(panels[:, index], result, values, rows)
+        panels[-1, index].set_xlabel(over)
+        panels[-1, index].set_xlim(np.nanmin(values[rows]), np.nanmax(values[rows]))
+    for axes, letter in zip(panels.flat, "abcdef"):
+        panel_letter(axes, letter)
+    unit = result.units["P"]
+    for axes, text in zip(panels[:, 0], (f"force [{unit}]", f"each sensor [{unit}]", f"sum less $P$ [{unit}]")):
+        axes.set_ylabel(text)
+    handles, names = panels[0, 0].get_legend_handles_labels()
+    more = panels[1, 0].get_legend_handles_labels()
+    legend_on_top(figure, handles + more[0], names + more[1])
+    figure.align_ylabels()
+    return figure
+
+
+def views(result):
+    """[(label, values, rows shown)], a column of panels each."""
+    time, x = result.table["time"], result.table["x"]
+    if not is_transient(result):
+        steps = np.diff(x, prepend=x[0] - 1)
+        ways = (("forward", steps > 0), ("backward", steps < 0))
+        return [(f"$x$ [{result.units['x']}], {way}", x, rows) for way, rows in ways if rows.any()]
+    found = [("$t$ [s]", time, np.ones(len(time), dtype=bool))]
+    if has_reversal(result):
+        since = time - reversal_time(result)
+        near = (since >= -LEAD) & (since <= zoom_end(result))
+        found.append(("$t$ from the turning point [ms]", 1e3 * since, near))
+    return found
+
+
+def draw_column(panels, result, over, rows):
+    table = result.table
+    for column, name, colour, line in PAIR:
+        panels[0].plot(over[rows], table[column][rows], color=colour, linestyle=line, label=name, linewidth=0.9)
+    for index, column in enumerate(sensors_of(result)):
+        panels[1].plot(over[rows], table[column][rows], label=column.replace("_", " "), **{**look(index + 2), "linewidth": 0.9})
+    panels[2].plot(over[rows], (table["sensor_sum"] - table["P"])[rows], color="black", linewidth=0.9)
+    for axes in panels:
+        axes.axhline(0, color="black", linewidth=0.5, zorder=1)
