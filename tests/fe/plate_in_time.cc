@@ -22,7 +22,6 @@ namespace
   {
     LeverDynamics result;
     result.spring_stiffness  = spring_stiffness;
-    result.relaxation        = sprung ? 2e-5 : 0.;
     result.sprung            = sprung;
     result.support_mass      = 2e-5;
     result.support_stiffness = 50.;
@@ -179,7 +178,9 @@ TEST(PlateInTime, CondensedSensorsAreThoseOfTheFiniteElements)
       return largest;
     };
     EXPECT_LT(error(all), 1e-8) << sprung;
-    EXPECT_LT(error(20), 1e-2) << sprung;
+    // Modes left out answer at once, as in statics.
+    EXPECT_LT(error(20), 2e-2) << sprung;
+    EXPECT_LT(error(80), 2e-3) << sprung;
   }
 }
 

@@ -56,7 +56,7 @@ TEST(Widths, UniformTensionIsHeldByBothWidths)
   const WebbedBar bar(0.);
   const double strain = 1e-3;
   const auto places   = positions(*bar.body);
-  const auto axis     = dealii::DoFTools::extract_dofs(bar.body->dofs(), dealii::ComponentMask({ true, false }));
+  const auto axis     = dealii::DoFTools::extract_dofs(bar.body->dofs(), dealii::ComponentMask(std::vector<bool>{ true, false }));
   Vector u(bar.body->n_dofs()), forces(bar.body->n_dofs());
   for (unsigned int i = 0; i < u.size(); ++i)
     u[i] = axis.is_element(i) ? strain * places[i][0] : 0.;
