@@ -24,10 +24,9 @@ namespace sprag
 
     double leaf_stiffness(const Scene &scene, const double thickness)
     {
-      constexpr double small_turn = 1e-4;
-      LeafSpring leaf             = scene.spring.leaf;
-      leaf.thickness              = thickness;
-      return leaf_behaviour(leaf, scene.analysis.plane, -small_turn, small_turn).law.linear_stiffness();
+      LeafSpring leaf = scene.spring.leaf;
+      leaf.thickness  = thickness;
+      return leaf_behaviour(leaf, scene.analysis.plane, 0., 0.).law.linear_stiffness();
     }
 
     double calibrated_thickness(const Scene &scene, const double target)
