@@ -21,7 +21,6 @@ namespace sprag
   private:
     const double rest_inclination;
     LeafBody leaf;
-    LeafBody::State last;
     FieldFrames frames;
   };
 } // namespace sprag
