@@ -16,19 +16,20 @@ namespace sprag
     constexpr double smallest     = 0.05; ///< P counted, over the run's largest
     constexpr double points_drawn = 40.;
 
-    /// The scene without friction and with a linear spring that leads to the largest P.
+    /// The scene without friction and with a spring that leads to the largest P.
     Scene indentation_scene(const Scene &scene, const ContactReference &reference)
     {
       Scene result            = scene;
       result.friction.law     = CoulombFriction{ 0. };
       result.drive            = Drive(DriveProfile::triangle, 0., scene.drive.maximum(), scene.drive.peak_speed(), 0.5);
-      result.spring.behaviour = {};
       const double P          = closed_form(result, scene.drive.maximum(), 1.).P;
+      result.spring.type      = SpringType::torsional;
+      result.spring.behaviour = {};
       result.spring.stiffness *= beyond * reference.P / P;
       return result;
     }
 
-    double bending_stiffness(const Scene &scene)
+    double bar_stiffness(const Scene &scene)
     {
       const Lever &lever  = scene.lever;
       const double nu     = lever.poisson_ratio;
@@ -36,11 +37,11 @@ namespace sprag
       return lever.young_modulus / strain * lever.width * std::pow(lever.depth, 3) / 12.;
     }
 
-    Indentation indentation(const Scene &scene, const Row &row)
+    Indentation indentation(const Scene &scene, const double bending_stiffness, const Row &row)
     {
       const auto centre = cylinder_centre(scene.geometry, row[Column::x], row[Column::theta]);
       return { row[Column::P], scene.geometry.cylinder_radius - scene.geometry.interface_offset + centre.eta,
-               row[Column::P] * std::pow(centre.xi, 3) / (3. * bending_stiffness(scene)) };
+               row[Column::P] * std::pow(centre.xi, 3) / (3. * bending_stiffness) };
     }
   } // namespace
 
@@ -74,6 +75,11 @@ namespace sprag
 
   FittedContact indent(const Scene &scene)
   {
+    return indent(scene, bar_stiffness(scene));
+  }
+
+  FittedContact indent(const Scene &scene, const double bending_stiffness)
+  {
     const auto reference = contact_reference(scene);
     const Scene pressed  = indentation_scene(scene, reference);
     dealii::Triangulation<2> triangulation;
@@ -87,7 +93,7 @@ namespace sprag
                      [&](const State &, const Row &row)
                      {
                        if (row[Column::P] >= from)
-                         result.points.push_back(indentation(pressed, row));
+                         result.points.push_back(indentation(pressed, bending_stiffness, row));
                      });
     result.fit = fit_contact_law(result.points);
     return result;

@@ -42,4 +42,7 @@ namespace sprag
   /// Indents the scene's meshed lever by a cylinder moved along the drive without friction, the rotational spring scaled so that
   /// P grows to 1.2 times the largest of the run. Points from 5 % of that on.
   FittedContact indent(const Scene &scene);
+
+  /// The same for a lever that bends as a beam of that EI [N mm^2] does, instead of the scene's bar.
+  FittedContact indent(const Scene &scene, double bending_stiffness);
 } // namespace sprag

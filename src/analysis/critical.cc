@@ -1,5 +1,6 @@
 #include "analysis/critical.h"
 
+#include "analysis/prepared_scene.h"
 #include "base/errors.h"
 #include "scene/read.h"
 
@@ -21,7 +22,7 @@ namespace sprag
     {
       try
       {
-        const auto found = judge(variant(scene, { override_text(parameter, value) }), maker);
+        const auto found = judge(prepared(variant(scene, { override_text(parameter, value) })), maker);
         Tried result{ value, found.kind };
         if (found.slide)
           result.mu = found.slide->mu;

@@ -26,7 +26,10 @@ namespace sprag
     {
       const auto &lever = scene.lever;
       const auto &layer = scene.layer;
+      const auto &leaf  = scene.spring.behaviour;
       std::string key   = scene.mesh.file;
+      for (const auto &mode : leaf.modes)
+        key += ' ' + number_text(mode.stiffness) + ' ' + number_text(mode.participation);
       for (const double value : { static_cast<double>(scene.analysis.model),
                                   static_cast<double>(scene.analysis.plane),
                                   static_cast<double>(scene.mesh.degree),
@@ -43,6 +46,9 @@ namespace sprag
                                   lever.density,
                                   lever.moment_of_inertia,
                                   lever.tip_mass,
+                                  lever.hub_inertia,
+                                  static_cast<double>(lever.inertia),
+                                  leaf.inertia,
                                   layer.thickness,
                                   layer.young_modulus,
                                   layer.poisson_ratio,
@@ -72,7 +78,7 @@ namespace sprag
   {
     Dynamics result;
     const bool condensed = scene.analysis.model == ModelType::condensed;
-    if (!condensed && scene.analysis.model != ModelType::finite_element)
+    if (!is_meshed(scene.analysis.model))
     {
       result.reduced = make_reduced_lever(scene);
       return result;

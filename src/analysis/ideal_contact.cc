@@ -19,6 +19,7 @@ namespace sprag
           : scene(the_scene)
           , inertia(moment_of_inertia)
           , rest(kinematics(the_scene.geometry, 0.).theta)
+          , spring(moment_law(the_scene.spring))
       {
       }
 
@@ -35,7 +36,7 @@ namespace sprag
             (std::cos(contact.theta) * contact.theta_x * contact.s - std::sin(contact.theta) * s_x) / (contact.s * contact.s);
         const double rate         = contact.theta_x * point.v;
         const double acceleration = contact.theta_x * point.a + theta_xx * point.v * point.v;
-        const double moment       = inertia * acceleration + scene.spring.stiffness * (contact.theta - rest);
+        const double moment       = inertia * acceleration + spring.moment(contact.theta - rest);
         const double P            = moment / (contact.s + signed_mu * g.interface_offset);
         const double F            = signed_mu * P;
         const double speed        = sliding_speed(g, point.x, point.v);
@@ -57,7 +58,7 @@ namespace sprag
         result[Column::mu]                 = mu;
         result[Column::friction_power]     = F * speed;
         result[Column::kinetic_energy]     = 0.5 * inertia * rate * rate;
-        result[Column::spring_energy]      = 0.5 * scene.spring.stiffness * (contact.theta - rest) * (contact.theta - rest);
+        result[Column::spring_energy]      = spring.energy(contact.theta - rest);
         const auto quasi_static            = closed_form(scene, point.x, v);
         result[Column::P_quasi_static]     = quasi_static.P;
         result[Column::Q_quasi_static]     = quasi_static.Q;
@@ -73,6 +74,7 @@ namespace sprag
       const Scene &scene;
       const double inertia;
       const double rest;
+      const MomentLaw spring;
     };
 
     StoredEnergy stored(const Row &row)

@@ -1,5 +1,6 @@
 #include "analysis/map_cell.h"
 
+#include "analysis/prepared_scene.h"
 #include "analysis/stability.h"
 #include "base/errors.h"
 #include "scene/closed_form.h"
@@ -101,8 +102,8 @@ namespace sprag
   Scene CellJudge::scene_at(const MapSite &site) const
   {
     const auto &[first, second, coarsest, bisections] = scene.map;
-    return variant(scene, { override_text(first.name, parameter_at(first, site.first)),
-                            override_text(second.name, parameter_at(second, site.second)) });
+    return prepared(variant(scene, { override_text(first.name, parameter_at(first, site.first)),
+                                     override_text(second.name, parameter_at(second, site.second)) }));
   }
 
   MapCell CellJudge::judge(const MapSite &site)
@@ -137,8 +138,7 @@ namespace sprag
 
   std::optional<unsigned int> CellJudge::mesh_parameter() const
   {
-    const bool meshed = scene.analysis.model == ModelType::condensed || scene.analysis.model == ModelType::finite_element;
-    if (!meshed || changes_mesh(0) == changes_mesh(1))
+    if (!is_meshed(scene.analysis.model) || changes_mesh(0) == changes_mesh(1))
       return {};
     return changes_mesh(0) ? 0 : 1;
   }

@@ -114,7 +114,8 @@ namespace sprag
   {
     if (row[Column::v] == 0.)
       return;
-    const auto state               = closed_form(scene, row[Column::x], row[Column::v]);
+    const double moved             = row[Column::support_displacement];
+    const auto state               = closed_form(scene, row[Column::x] - (std::isnan(moved) ? 0. : moved), row[Column::v]);
     row[Column::theta_closed_form] = state.contact.theta;
     if (state.P < 0. || !std::isfinite(state.P))
       return;

@@ -3,6 +3,7 @@
 #include "analysis/closed_form.h"
 #include "analysis/contact_law.h"
 #include "analysis/jamming.h"
+#include "analysis/prepared_scene.h"
 #include "analysis/quasi_static.h"
 #include "analysis/recorder.h"
 #include "analysis/run_calibration.h"
@@ -219,8 +220,9 @@ namespace sprag
     }
   } // namespace
 
-  void validate(const Scene &scene)
+  void validate(const Scene &given)
   {
+    const Scene scene  = prepared(given);
     const bool inertia = scene.analysis.type != AnalysisType::quasi_static;
     const bool meshed =
         scene.analysis.model == ModelType::finite_element || (inertia && scene.analysis.model == ModelType::condensed);
@@ -230,8 +232,9 @@ namespace sprag
     make_mesh(scene, triangulation);
   }
 
-  void run(const Scene &scene, const RunOptions &options)
+  void run(const Scene &given, const RunOptions &options)
   {
+    const Scene scene = prepared(given);
     announce_margin(scene, options);
     switch (scene.analysis.type)
     {

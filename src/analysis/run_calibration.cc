@@ -1,11 +1,121 @@
 #include "analysis/run_calibration.h"
 
+#include "analysis/calibration.h"
+#include "analysis/prepared_scene.h"
+#include "analysis/recorder.h"
+#include "analysis/report.h"
 #include "base/errors.h"
+#include "scene/read.h"
+
+#include <deal.II/base/timer.h>
+
+#include <cmath>
+#include <fstream>
+#include <iostream>
 
 namespace sprag
 {
-  void run_calibration(const Scene &, const RunOptions &)
+  namespace
   {
-    throw AnalysisError("calibration is not there yet");
+    using Entries = std::vector<Entry>;
+
+    /// Of whichever model, but with inertia: what both files of a calibration are for.
+    const std::string in_time = "Analysis/Type=transient";
+
+    void write_scene(const std::string &file, const std::string &purpose, const Scene &scene)
+    {
+      std::ofstream stream(file);
+      stream << "# " << purpose << '\n' << scene.parameters_text;
+      stream.close();
+      if (!stream)
+        throw AnalysisError(file + " cannot be written");
+    }
+
+    std::vector<std::string> joined(std::vector<std::string> first, const std::vector<std::string> &second)
+    {
+      first.insert(first.end(), second.begin(), second.end());
+      return first;
+    }
+
+    Entries part_entries(const CalibratedParts &parts, const ReducedConstants &reduced)
+    {
+      Entries entries;
+      if (parts.thickness)
+        entries.push_back({ "leaf_thickness", *parts.thickness, "mm", "of the leaf spring, for the stiffness asked for" });
+      if (parts.added && parts.scene.calibration.mass == AddedMass::tip)
+        entries.push_back({ "tip_mass", *parts.added, "t", "at the tip, for the moment of inertia asked for" });
+      else if (parts.added)
+        entries.push_back({ "hub_inertia", *parts.added, "t mm^2", "at the hub, for the moment of inertia asked for" });
+      entries.push_back({ "stiffness", reduced.stiffness, "N mm/rad", "k at rest" });
+      entries.push_back({ "moment_of_inertia", reduced.moment_of_inertia, "t mm^2", "J about the pivot" });
+      entries.push_back({ "bending_stiffness", reduced.bending.stiffness, "N mm^2", "EI of the beam that bends most like it" });
+      entries.push_back({ "bending_error", reduced.bending.deflection_error, "1", "rms error of that beam's deflections" });
+      entries.push_back({ "neutral_axis_offset", reduced.bending.neutral_axis_offset, "mm", "e_a of that beam" });
+      const auto &law = reduced.contact.fit;
+      entries.push_back({ "contact_stiffness", law.stiffness, "N/mm^n", "Contact/Stiffness" });
+      entries.push_back({ "contact_exponent", law.exponent, "1", "Contact/Exponent" });
+      entries.push_back({ "contact_error", law.rms_error, "1", "rms error of P of that law, relative" });
+      return entries;
+    }
+
+    void add_frequencies(const std::string &name, const std::string &where, const std::array<std::vector<double>, 2> &found,
+                         Entries &entries)
+    {
+      for (std::size_t i = 0; i < std::min(found[0].size(), found[1].size()); ++i)
+      {
+        const std::string number = std::to_string(i + 1);
+        entries.push_back({ name + number, found[0][i], "Hz", "of the meshed lever " + where });
+        entries.push_back({ name + number + "_beam", found[1][i], "Hz", "of the calibrated beam " + where });
+        entries.push_back({ name + number + "_deviation", found[1][i] / found[0][i] - 1., "1", "of the beam from the mesh" });
+      }
+    }
+
+    Entries disagreement_entries(const Disagreement &found)
+    {
+      Entries entries = { { "P_deviation", found.of_forces(0), "1",
+                            "of the beam from the mesh in steady sliding, over the peak" },
+                          { "Q_deviation", found.of_forces(1), "1", "the same of Q" } };
+      add_frequencies("free_frequency_", "out of contact", found.free_frequencies, entries);
+      add_frequencies("contact_frequency_", "in contact, without friction", found.contact_frequencies, entries);
+      return entries;
+    }
+
+    std::vector<ColumnInfo> columns()
+    {
+      return { { "x", "mm", "position of the cylinder" },
+               { "direction", "1", "1 forward, -1 backward" },
+               { "P", "N", "normal force of the meshed lever in steady sliding" },
+               { "P_beam", "N", "of the calibrated beam" },
+               { "Q", "N", "x-force of the meshed lever in steady sliding" },
+               { "Q_beam", "N", "of the calibrated beam" } };
+    }
+  } // namespace
+
+  void run_calibration(const Scene &scene, const RunOptions &options)
+  {
+    dealii::TimerOutput timer(std::cout, dealii::TimerOutput::never, dealii::TimerOutput::cpu_and_wall_times);
+    require_writable(options.folder);
+    const auto parts      = calibrate_parts(scene);
+    const auto reduced    = reduced_constants(parts.scene);
+    const auto calibrated = variant(scene, joined(parts.overrides, { in_time, "Analysis/Model=condensed" }));
+    const auto beam       = variant(scene, joined(joined(parts.overrides, reduced.overrides), { in_time }));
+    const auto found      = compare(prepared(calibrated), prepared(beam));
+
+    prepare_folder(options.folder);
+    write_scene(options.folder + "/calibrated.prm", "Calibrated parts, in time, condensed", calibrated);
+    write_scene(options.folder + "/beam.prm", "The beam calibrated by their mesh, in time", beam);
+    ResultFile file(options.folder + "/result.h5", scene.parameters_text, {}, columns());
+    for (const auto &point : found.sliding)
+      file.append(std::vector<double>{ point.x, point.direction, point.forces[0].P, point.forces[1].P, point.forces[0].Q,
+                                       point.forces[1].Q });
+    auto summary = part_entries(parts, reduced);
+    for (const auto &entry : disagreement_entries(found))
+      summary.push_back(entry);
+    summary.push_back({ "status", std::string("completed"), "", "how the run ended" });
+    file.finish(summary, process_entries(timer));
+    if (options.quiet)
+      return;
+    print_summary(std::cout, summary);
+    std::cout << "\nScenes: " << options.folder << "/calibrated.prm, " << options.folder << "/beam.prm\n";
   }
 } // namespace sprag

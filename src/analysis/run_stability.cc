@@ -17,16 +17,10 @@ namespace sprag
 {
   namespace
   {
-    /// Whether a slide is judged in no time.
-    bool is_reduced(const Scene &scene)
-    {
-      return scene.analysis.model == ModelType::rigid || scene.analysis.model == ModelType::beam;
-    }
-
     /// Of the distance searched.
     double tolerance_of(const Scene &scene)
     {
-      return is_reduced(scene) ? 1e-8 : 1e-3;
+      return is_reduced(scene.analysis.model) ? 1e-8 : 1e-3;
     }
 
     std::vector<CriticalSearch> all_critical(const Scene &scene, DynamicsMaker &maker, const bool quiet)
@@ -35,7 +29,7 @@ namespace sprag
       double points     = 0.;
       for (const auto &range : ranges)
         points += range.points;
-      Progress progress(std::cerr, progress_style(quiet || is_reduced(scene)), std::max(1., points));
+      Progress progress(std::cerr, progress_style(quiet || is_reduced(scene.analysis.model)), std::max(1., points));
       double done = 0.;
       std::vector<CriticalSearch> result;
       for (const auto &range : ranges)

@@ -75,7 +75,7 @@ namespace sprag
     void run_ideal(const Scene &scene, const RunOptions &options)
     {
       Timer timer(std::cout, Timer::never, Timer::cpu_and_wall_times);
-      const double inertia = scene.analysis.model == ModelType::rigid ? scene.lever.moment_of_inertia : 0.;
+      const double inertia = scene.analysis.model == ModelType::rigid ? moment_of_inertia(scene) : 0.;
       Recorder recorder(scene, options.folder, options.quiet, {});
       announce(scene, options);
       record_steps(scene, recorder, timer, {},

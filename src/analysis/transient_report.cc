@@ -73,7 +73,7 @@ namespace sprag
 
     std::string contact_text(const Scene &scene)
     {
-      const bool meshed = scene.analysis.model == ModelType::condensed || scene.analysis.model == ModelType::finite_element;
+      const bool meshed = is_meshed(scene.analysis.model);
       if (meshed)
         return "contact along the friction face by penalty";
       if (scene.analysis.model == ModelType::closed_form || scene.contact.type == ContactType::ideal)
@@ -89,9 +89,9 @@ namespace sprag
       case ModelType::closed_form:
         return "rigid lever without mass";
       case ModelType::rigid:
-        return "rigid lever with J = " + rounded_text(scene.lever.moment_of_inertia) + " t mm2";
+        return "rigid lever with J = " + rounded_text(moment_of_inertia(scene)) + " t mm2";
       case ModelType::beam:
-        return "lever of Euler-Bernoulli beam elements with J = " + rounded_text(scene.lever.moment_of_inertia) + " t mm2";
+        return "lever of Euler-Bernoulli beam elements with J = " + rounded_text(moment_of_inertia(scene)) + " t mm2";
       case ModelType::condensed:
         return "meshed lever condensed to " + std::to_string(scene.condensed.modes) + " modes and the static shapes of its face";
       case ModelType::finite_element:

@@ -31,6 +31,15 @@ namespace sprag
       }
     }
 
+    void add_leaf(const LeafBehaviour &leaf, Fingerprint &key)
+    {
+      for (const double value : { leaf.mass, leaf.inertia, leaf.momentum[0], leaf.momentum[1] })
+        key.add(value);
+      for (const auto &mode : leaf.modes)
+        for (const double value : { mode.stiffness, mode.participation, mode.momentum[0], mode.momentum[1] })
+          key.add(value);
+    }
+
     std::string key_of(const ElasticBody<2> &body, const BasisSettings &settings)
     {
       Fingerprint key;
@@ -52,6 +61,9 @@ namespace sprag
       }
       key.add(settings.inertia.tip_mass);
       key.add(settings.inertia.moment_of_inertia);
+      key.add(static_cast<double>(settings.inertia.source));
+      key.add(settings.inertia.hub);
+      add_leaf(settings.inertia.leaf, key);
       key.add(settings.spring_stiffness);
       key.add(settings.modes);
       add_mesh(body.dofs().get_triangulation(), key);

@@ -11,9 +11,13 @@ namespace sprag
   {
     LeverInertia inertia_of(const Scene &scene)
     {
-      return { { { material_id::lever, scene.lever.density }, { material_id::layer, scene.layer.density } },
-               scene.lever.tip_mass,
-               scene.lever.moment_of_inertia };
+      const Lever &lever = scene.lever;
+      return { { { material_id::lever, lever.density }, { material_id::layer, scene.layer.density } },
+               lever.tip_mass,
+               lever.moment_of_inertia,
+               lever.inertia,
+               lever.hub_inertia,
+               scene.spring.behaviour };
     }
 
     BasisSettings basis_settings(const Scene &scene)
@@ -60,6 +64,11 @@ namespace sprag
           lever_frame(scene, ports, facts.lever_mass));
     }
   } // namespace
+
+  double mesh_inertia(const Scene &scene, const ElasticBody<2> &body)
+  {
+    return InertialMatrices<2>(body, inertia_of(scene)).moment_of_inertia;
+  }
 
   FiniteElementBasis make_finite_element_basis(const Scene &scene, const ElasticBody<2> &body)
   {

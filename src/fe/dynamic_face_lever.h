@@ -36,6 +36,9 @@ namespace sprag
     FreeModes modes;
   };
 
+  /// J about the pivot of all that turns with the hub, by the mesh [t mm^2].
+  double mesh_inertia(const Scene &scene, const ElasticBody<2> &body);
+
   FiniteElementBasis make_finite_element_basis(const Scene &scene, const ElasticBody<2> &body);
 
   /// From the scene's cache if it is there; made, and stored there if `store`, if not.

@@ -2,6 +2,7 @@
 
 #include "base/errors.h"
 #include "base/text.h"
+#include "fe/end_face.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_tools.h>
@@ -9,7 +10,6 @@
 #include <deal.II/fe/mapping_q1.h>
 
 #include <algorithm>
-#include <limits>
 
 namespace sprag
 {
@@ -112,45 +112,6 @@ namespace sprag
     }
 
     template <int dim>
-    using Faces = std::vector<std::pair<typename DoFHandler<dim>::active_cell_iterator, unsigned int>>;
-
-    /// Faces of the lever's material farthest along the first axis.
-    template <int dim>
-    Faces<dim> end_face(const DoFHandler<dim> &dofs)
-    {
-      double end    = std::numeric_limits<double>::lowest();
-      double extent = 0.;
-      for (const auto &cell : dofs.active_cell_iterators())
-        if (cell->material_id() == material_id::lever)
-          for (const unsigned int v : cell->vertex_indices())
-          {
-            end    = std::max(end, cell->vertex(v)[0]);
-            extent = std::max(extent, std::abs(cell->vertex(v)[0]));
-          }
-      Faces<dim> result;
-      for (const auto &cell : dofs.active_cell_iterators())
-        if (cell->material_id() == material_id::lever)
-          for (const unsigned int f : cell->face_indices())
-          {
-            bool at_end = cell->face(f)->at_boundary();
-            for (unsigned int v = 0; v < cell->face(f)->n_vertices(); ++v)
-              at_end = at_end && cell->face(f)->vertex(v)[0] > end - 1e-6 * extent;
-            if (at_end)
-              result.emplace_back(cell, f);
-          }
-      return result;
-    }
-
-    template <int dim>
-    double total_length(const Faces<dim> &faces)
-    {
-      double length = 0.;
-      for (const auto &[cell, f] : faces)
-        length += cell->face(f)->measure();
-      return length;
-    }
-
-    template <int dim>
     double inertia_of_cells(const ElasticBody<dim> &body, const std::map<types::material_id, double> &densities)
     {
       const auto &properties = body.body_properties();
@@ -171,7 +132,7 @@ namespace sprag
     double inertia_of_tip(const ElasticBody<dim> &body, const double tip_mass)
     {
       const auto faces    = end_face(body.dofs());
-      const double length = total_length<dim>(faces);
+      const double length = total_measure<dim>(faces);
       if (faces.empty())
         throw InputError("the mesh has no straight end face across the lever to carry Lever/Tip mass");
       FEFaceValues<dim> values(body.dofs().get_fe(), QGauss<dim - 1>(2), update_quadrature_points | update_JxW_values);
@@ -187,9 +148,10 @@ namespace sprag
   } // namespace
 
   template <int dim>
-  TotalCoordinates<dim>::TotalCoordinates(const ElasticBody<dim> &body)
+  TotalCoordinates<dim>::TotalCoordinates(const ElasticBody<dim> &body, const unsigned int attached_coordinates)
       : movers(body.n_dofs())
       , arms(body.n_dofs())
+      , n_attached(attached_coordinates)
   {
     std::vector<Point<dim>> positions(body.n_dofs());
     DoFTools::map_dofs_to_support_points(MappingQ1<dim>(), body.dofs(), positions);
@@ -209,19 +171,25 @@ namespace sprag
         movers[dof] = { n_free++, 1. };
     for (unsigned int dof = 0; dof < body.n_dofs(); ++dof)
       if (body.is_held(dof))
-        movers[dof] = { n_free, arms[dof] };
+        movers[dof] = { rotation(), arms[dof] };
   }
 
   template <int dim>
   unsigned int TotalCoordinates<dim>::size() const
   {
-    return n_free + 1;
+    return n_free + n_attached + 1;
   }
 
   template <int dim>
   unsigned int TotalCoordinates<dim>::rotation() const
   {
-    return n_free;
+    return n_free + n_attached;
+  }
+
+  template <int dim>
+  unsigned int TotalCoordinates<dim>::attached(const unsigned int i) const
+  {
+    return n_free + i;
   }
 
   template <int dim>
@@ -258,15 +226,20 @@ namespace sprag
 
   template <int dim>
   InertialMatrices<dim>::InertialMatrices(const ElasticBody<dim> &body, const LeverInertia &inertia)
-      : coordinates(body)
+      : coordinates(body, static_cast<unsigned int>(inertia.leaf.modes.size()))
   {
     const double of_cells = inertia_of_cells(body, inertia.densities);
     const double of_tip   = inertia.tip_mass > 0. ? inertia_of_tip(body, inertia.tip_mass) : 0.;
-    if (inertia.moment_of_inertia <= of_tip)
-      throw InputError("the tip mass alone has a moment of inertia of " + rounded_text(of_tip) +
-                       " t mm^2 about the pivot: Lever/Moment of inertia = " + rounded_text(inertia.moment_of_inertia) +
-                       " must be larger");
-    density_factor = (inertia.moment_of_inertia - of_tip) / of_cells;
+    const double added    = of_tip + inertia.hub + inertia.leaf.inertia;
+    if (inertia.source == InertiaSource::scaled)
+    {
+      if (inertia.moment_of_inertia <= added)
+        throw InputError("tip mass, hub and leaf spring alone have a moment of inertia of " + rounded_text(added) +
+                         " t mm^2 about the pivot: Lever/Moment of inertia = " + rounded_text(inertia.moment_of_inertia) +
+                         " must be larger");
+      density_factor = (inertia.moment_of_inertia - added) / of_cells;
+    }
+    moment_of_inertia = density_factor * of_cells + added;
 
     auto densities = inertia.densities;
     for (auto &density : densities)
@@ -279,6 +252,7 @@ namespace sprag
     assemble_cells(body, densities);
     if (inertia.tip_mass > 0.)
       assemble_tip(body, inertia.tip_mass);
+    attach_hub(inertia.hub, inertia.leaf);
     for (auto *const matrix : { &mass, &stiffness, &layer_stiffness })
       matrix->compress(VectorOperation::add);
   }
@@ -297,7 +271,14 @@ namespace sprag
             pattern.add(coordinates.mover(static_cast<unsigned int>(i)).coordinate,
                         coordinates.mover(static_cast<unsigned int>(j)).coordinate);
       }
-    pattern.add(coordinates.rotation(), coordinates.rotation());
+    const unsigned int hub = coordinates.rotation();
+    pattern.add(hub, hub);
+    for (unsigned int attached = coordinates.attached(0); attached < hub; ++attached)
+    {
+      pattern.add(attached, attached);
+      pattern.add(attached, hub);
+      pattern.add(hub, attached);
+    }
   }
 
   template <int dim>
@@ -346,7 +327,7 @@ namespace sprag
   {
     const auto &fe      = body.dofs().get_fe();
     const auto faces    = end_face(body.dofs());
-    const double length = total_length<dim>(faces);
+    const double length = total_measure<dim>(faces);
     FEFaceValues<dim> values(fe, QGauss<dim - 1>(body.body_properties().degree + 1), update_values | update_JxW_values);
     Scatter<dim> scatter(coordinates, fe.n_dofs_per_cell());
     for (const auto &[cell, f] : faces)
@@ -356,6 +337,30 @@ namespace sprag
       const auto face_mass = local_mass<dim>(values, tip_mass / length);
       scatter.add(face_mass, mass);
       total_mass += scatter.add_momentum(face_mass, fe, momentum);
+    }
+  }
+
+  template <int dim>
+  void InertialMatrices<dim>::attach_hub(const double of_hub, const LeafBehaviour &leaf)
+  {
+    const unsigned int hub  = coordinates.rotation();
+    const auto add_momentum = [&](const unsigned int coordinate, const std::array<double, 2> &of_unit_rate)
+    {
+      for (unsigned int axis = 0; axis < 2; ++axis)
+        momentum[axis][coordinate] += of_unit_rate[axis];
+    };
+    mass.add(hub, hub, of_hub + leaf.inertia);
+    add_momentum(hub, leaf.momentum);
+    total_mass += leaf.mass;
+    for (unsigned int i = 0; i < leaf.modes.size(); ++i)
+    {
+      const auto &mode              = leaf.modes[i];
+      const unsigned int coordinate = coordinates.attached(i);
+      mass.add(coordinate, coordinate, 1.);
+      mass.add(coordinate, hub, mode.participation);
+      mass.add(hub, coordinate, mode.participation);
+      stiffness.add(coordinate, coordinate, mode.stiffness);
+      add_momentum(coordinate, mode.momentum);
     }
   }
 

@@ -11,17 +11,21 @@
 namespace sprag
 {
   /// Coordinates of a body in axes that do not turn, linear in the rotation of its hub: the total displacements
-  /// u_tot = u_e + theta~ (-eta, xi) of all nodes which the hub does not hold, and last theta~ itself.
+  /// u_tot = u_e + theta~ (-eta, xi) of all nodes which the hub does not hold, attached ones, and last theta~ itself.
   template <int dim>
   class TotalCoordinates
   {
   public:
-    explicit TotalCoordinates(const ElasticBody<dim> &body);
+    /// `attached`: number of further coordinates, before the rotation, which move no node.
+    explicit TotalCoordinates(const ElasticBody<dim> &body, unsigned int attached = 0);
 
     /// How many, the rotation included.
     unsigned int size() const;
 
     unsigned int rotation() const;
+
+    /// The i-th of the attached ones.
+    unsigned int attached(unsigned int i) const;
 
     /// What moves a degree of freedom of the body: a coordinate, and by how much a unit of it does.
     struct Mover
@@ -44,7 +48,8 @@ namespace sprag
   private:
     std::vector<Mover> movers;
     std::vector<double> arms;
-    unsigned int n_free = 0;
+    unsigned int n_free     = 0;
+    unsigned int n_attached = 0;
   };
 
   /// What a lever weighs. The hub is massless.
@@ -52,7 +57,10 @@ namespace sprag
   {
     std::map<dealii::types::material_id, double> densities; ///< before scaling [t/mm^3]
     double tip_mass          = 0.;                          ///< a line mass on the lever's end face [t]
-    double moment_of_inertia = 0.; ///< about the pivot, what the densities are scaled to; tip mass included [t mm^2]
+    double moment_of_inertia = 0.; ///< about the pivot, what the densities are scaled to; all below included [t mm^2]
+    InertiaSource source     = InertiaSource::scaled;
+    double hub               = 0.; ///< of what turns with the hub besides [t mm^2]
+    LeafBehaviour leaf       = {}; ///< its vibrations are attached coordinates
   };
 
   /// Matrices of small vibrations in total coordinates, without the hub's spring.
@@ -68,8 +76,9 @@ namespace sprag
     dealii::PETScWrappers::SparseMatrix stiffness;       ///< of lever and friction layer
     dealii::PETScWrappers::SparseMatrix layer_stiffness; ///< the layer's part of it
     std::array<dealii::Vector<double>, dim> momentum;    ///< integral of rho u along each axis = row times coordinates [t]
-    double density_factor = 1.;                          ///< by which the densities were scaled
-    double total_mass     = 0.;                          ///< [t]
+    double moment_of_inertia = 0.;                       ///< about the pivot, of all that turns with the hub [t mm^2]
+    double density_factor    = 1.;                       ///< by which the densities were scaled
+    double total_mass        = 0.;                       ///< of lever, tip and leaf spring [t]
 
     /// Factors of a sum of mass, stiffness, the layer's stiffness and a unit on the hub's rotation.
     struct Weights
@@ -86,6 +95,7 @@ namespace sprag
     void find_pattern(const ElasticBody<dim> &body);
     void assemble_cells(const ElasticBody<dim> &body, const std::map<dealii::types::material_id, double> &densities);
     void assemble_tip(const ElasticBody<dim> &body, double tip_mass);
+    void attach_hub(double of_hub, const LeafBehaviour &leaf);
 
     dealii::DynamicSparsityPattern pattern;
   };

@@ -69,6 +69,10 @@ namespace sprag
     result.body.constants = { { material_id::lever, { scene.lever.young_modulus, scene.lever.poisson_ratio } },
                               { material_id::layer, { scene.layer.young_modulus, scene.layer.poisson_ratio } } };
 
+    if (scene.cylinder.type != CylinderType::rigid)
+      result.body.constants[material_id::cylinder] = { scene.cylinder.young_modulus, scene.cylinder.poisson_ratio };
+    result.body.curved = scene.cylinder.type != CylinderType::rigid;
+
     // Half a spacing off, the direction of a contact narrower than it is wrong by 1/8000 at most.
     result.body.point_spacing = scene.geometry.cylinder_radius / 4000.;
 

@@ -2,6 +2,7 @@
 
 #include "base/errors.h"
 #include "base/text.h"
+#include "fe/cylinder_mesh.h"
 #include "fe/elastic_body.h"
 #include "fe/geometry_script.h"
 #include "scene/closed_form.h"
@@ -118,5 +119,7 @@ namespace sprag
     else
       read_gmsh(scene.mesh.file, {}, lever_groups(), triangulation);
     check_position(scene, triangulation);
+    if (scene.cylinder.type != CylinderType::rigid)
+      add_cylinder(scene, triangulation);
   }
 } // namespace sprag

@@ -11,7 +11,8 @@ namespace sprag
 
   namespace
   {
-    /// Rotation of the pivot, then deflection and slope of nodes 1, 2, ... in axes that turn with it; node 0 is pinned.
+    /// Rotation of the pivot, then deflection and slope of nodes 1, 2, ... in axes that turn with it, node 0 being pinned; last
+    /// the vibrations of a leaf spring with the hub held.
     struct BeamMatrices
     {
       LAPACKFullMatrix<double> stiffness;
@@ -75,10 +76,24 @@ namespace sprag
       }
     }
 
+    /// Inertia of what turns with the hub, and the leaf spring's own vibrations in the last coordinates.
+    void attach_hub(const Scene &scene, const unsigned int first, BeamMatrices &m)
+    {
+      const auto &leaf = scene.spring.behaviour;
+      m.mass(0, 0) += scene.lever.hub_inertia + leaf.inertia;
+      for (unsigned int i = 0; i < leaf.modes.size(); ++i)
+      {
+        const unsigned int a = first + i;
+        m.mass(a, 0) = m.mass(0, a) = leaf.modes[i].participation;
+        m.mass(a, a)                = 1.;
+        m.stiffness(a, a)           = leaf.modes[i].stiffness;
+      }
+    }
+
     BeamMatrices make_matrices(const Scene &scene, const BeamMesh &mesh)
     {
       const Lever &lever   = scene.lever;
-      const unsigned int n = 1 + mesh.ports();
+      const unsigned int n = 1 + mesh.ports() + static_cast<unsigned int>(scene.spring.behaviour.modes.size());
       const double rho     = mass_per_length(scene);
       const double e_a     = neutral_axis_offset(scene);
       const double modulus = scene.analysis.plane == PlaneState::stress
@@ -91,9 +106,10 @@ namespace sprag
       m.mass      = 0.;
       if (mesh.elements == 0)
       {
-        m.mass(0, 0)      = lever.moment_of_inertia;
+        m.mass(0, 0)      = moment_of_inertia(scene) - lever.hub_inertia - scene.spring.behaviour.inertia;
         m.momentum[0]     = 0.5 * rho * lever.length * lever.length + lever.tip_mass * lever.length;
         m.stiffness(0, 0) = scene.spring.stiffness;
+        attach_hub(scene, 1, m);
         return m;
       }
       for (unsigned int element = 0; element < mesh.elements; ++element)
@@ -102,6 +118,7 @@ namespace sprag
       m.mass(0, 0) += (rho * lever.length + lever.tip_mass) * e_a * e_a;
       m.mass(tip, tip) += lever.tip_mass;
       m.momentum[tip] += lever.tip_mass;
+      attach_hub(scene, 1 + mesh.ports(), m);
       use_turning_axes(mesh, scene.spring.stiffness, m);
       return m;
     }
@@ -163,11 +180,26 @@ namespace sprag
       return modes;
     }
 
+    double lever_mass(const Scene &scene)
+    {
+      return mass_per_length(scene) * scene.lever.length + scene.lever.tip_mass;
+    }
+
+    /// Momentum of the leaf spring along xi (0) or eta (1) in a mode of the lever.
+    double leaf_momentum(const Scene &scene, const BeamMesh &mesh, const FullMatrix<double> &modes, const unsigned int mode,
+                         const unsigned int axis)
+    {
+      const auto &leaf = scene.spring.behaviour;
+      double sum       = leaf.momentum[axis] * modes(0, mode);
+      for (unsigned int i = 0; i < leaf.modes.size(); ++i)
+        sum += leaf.modes[i].momentum[axis] * modes(1 + mesh.ports() + i, mode);
+      return sum;
+    }
+
     /// Port rows: deflections and slopes in lever axes, rotation, momentum.
     void set_shapes(const Scene &scene, const BeamMesh &mesh, const BeamMatrices &m, const FullMatrix<double> &modes,
                     ModalData &data)
     {
-      const double mass = mass_per_length(scene) * scene.lever.length + scene.lever.tip_mass;
       for (unsigned int i = 0; i < modes.n(); ++i)
       {
         const double rotation = modes(0, i);
@@ -178,7 +210,9 @@ namespace sprag
           continue;
         for (unsigned int a = 0; a < modes.m(); ++a)
           data.shapes(data.ports.momentum_eta(), i) += m.momentum[a] * modes(a, i);
-        data.shapes(data.ports.momentum_xi(), i) = -neutral_axis_offset(scene) * mass * rotation;
+        data.shapes(data.ports.momentum_eta(), i) += leaf_momentum(scene, mesh, modes, i, 1);
+        data.shapes(data.ports.momentum_xi(), i) =
+            leaf_momentum(scene, mesh, modes, i, 0) - neutral_axis_offset(scene) * lever_mass(scene) * rotation;
       }
     }
 
@@ -199,14 +233,19 @@ namespace sprag
     {
       const Support &support = scene.support;
       const unsigned int i   = static_cast<unsigned int>(data.stiffness.size());
-      const double lever     = mass_per_length(scene) * scene.lever.length + scene.lever.tip_mass;
-      const double mass      = support.mass + lever;
+      const double on_frame  = carried_mass(scene);
+      const double mass      = support.mass + on_frame;
       data.support           = i;
       data.stiffness.push_back(support.stiffness / mass);
-      data.damping(i, i)                   = support_damping(support, lever) / mass;
+      data.damping(i, i)                   = support_damping(support, on_frame) / mass;
       data.shapes(data.ports.support(), i) = 1. / std::sqrt(mass);
     }
   } // namespace
+
+  double carried_mass(const Scene &scene)
+  {
+    return lever_mass(scene) + scene.spring.behaviour.mass;
+  }
 
   ModalData beam_modes(const Scene &scene, const BeamMesh &mesh)
   {

@@ -23,8 +23,12 @@ namespace sprag
   };
 
   /// Euler-Bernoulli lever at the neutral axis' offset on its rotational spring, in all modes of its elements; mass by
-  /// mass_per_length(), modal damping on each bending mode, Rayleigh damping, tip mass, and the support if it is sprung.
+  /// mass_per_length(), modal damping on each bending mode, Rayleigh damping, tip mass, the leaf spring's
+  /// own vibrations, and the support if it is sprung.
   ModalData beam_modes(const Scene &scene, const BeamMesh &mesh);
+
+  /// Mass of lever and leaf spring, which moves with a sprung support [t].
+  double carried_mass(const Scene &scene);
 
   /// Circular frequencies of the free lever without support, increasing [rad/s].
   std::vector<double> free_frequencies(const Scene &scene, const BeamMesh &mesh);

@@ -5,6 +5,7 @@
 #include "model/dynamic_model.h"
 #include "model/frame_coupling.h"
 #include "model/growth.h"
+#include "model/hub_spring.h"
 #include "model/lever_frame.h"
 #include "model/linearisation.h"
 #include "model/port_newton.h"
@@ -28,6 +29,7 @@ namespace sprag
         , contact(std::move(contact_))
         , frame(std::move(frame_))
         , coupling(frame.ports, frame.rest_inclination)
+        , hub_spring(frame.ports, frame.spring)
     {
     }
 
@@ -58,8 +60,9 @@ namespace sprag
     StepOutcome step(const Motion &accepted, const DrivePoint &to, const StepWeights &weights) override
     {
       structure->use_step(weights);
-      const bool rates = Contact::uses_rates || frame.ports.sprung;
-      const auto &near = reachable_ports(accepted);
+      const unsigned int hub = frame.ports.rotation();
+      const bool rates       = Contact::uses_rates || frame.ports.sprung;
+      const auto &near       = reachable_ports(accepted);
       Kinematic begin =
           rates ? structure->port_kinematics(accepted) : Kinematic{ structure->port_positions(accepted, near), {}, {} };
       const Kinematic drifted = rates ? unaccelerated(begin, weights) : Kinematic{};
@@ -74,7 +77,8 @@ namespace sprag
           rate.add(weights.rate(), z, -weights.rate(), drifted.position);
         }
         contact->evaluate(PortStep{ accepted, to, begin, z, rate, weights });
-        return coupling.add_forces(contact->forces(), begin, z, weights);
+        return hub_spring.add_forces(coupling.add_forces(contact->forces(), begin, z, weights), begin.position[hub], z[hub],
+                                     weights);
       };
 
       StepOutcome outcome;
@@ -96,6 +100,7 @@ namespace sprag
       structure->add_work(accepted, motion, outcome.work);
       contact->add_work(outcome.work);
       coupling.add_work(begin, z, weights, outcome.work);
+      hub_spring.add_work(begin.position[hub], z[hub], weights, outcome.work);
       outcome.error  = weights.wants_error ? std::abs(contact->gap_change(structure->port_error(accepted, motion))) : 0.;
       outcome.motion = std::move(motion);
       return outcome;
@@ -206,6 +211,7 @@ namespace sprag
     {
       StoredEnergy energy = structure->stored_energy(motion);
       energy.contact      = contact->energy();
+      energy.spring += hub_spring.energy(structure->port_state(motion, frame.ports.rotation()).position);
       if (frame.ports.sprung)
         energy.kinetic += coupling.kinetic_energy(structure->port_kinematics(motion));
       return energy;
@@ -244,6 +250,7 @@ namespace sprag
     const std::unique_ptr<Contact> contact;
     const LeverFrame frame;
     FrameCoupling coupling;
+    HubSpringExcess hub_spring;
     dealii::Vector<double> last_sliding; ///< ports of the last equilibrium, from which the next one starts
     PortLoads last_forces;               ///< there
     double last_sliding_theta = 0.;      ///< of the ideal contact there
@@ -307,9 +314,9 @@ namespace sprag
       };
       if (in_contact)
         result.ports = part(TangentPart::all).ports;
-      const auto loaded  = result.ports;
-      const auto coupled = coupling.coupled_ports();
-      result.ports.insert(result.ports.end(), coupled.begin(), coupled.end());
+      const auto loaded = result.ports;
+      for (const auto &others : { coupling.coupled_ports(), hub_spring.loaded_ports() })
+        result.ports.insert(result.ports.end(), others.begin(), others.end());
       std::sort(result.ports.begin(), result.ports.end());
       result.ports.erase(std::unique(result.ports.begin(), result.ports.end()), result.ports.end());
       const auto n = static_cast<unsigned int>(result.ports.size());
@@ -328,6 +335,7 @@ namespace sprag
                                     spread(delay.rate_row, loaded, result.ports) });
       }
       coupling.add_inertia(result.ports, theta, result.inertia);
+      hub_spring.add_stiffness(result.ports, slide.ports[frame.ports.rotation()], result.pressure);
       return result;
     }
 
@@ -382,7 +390,7 @@ namespace sprag
       const auto evaluate = [&](const dealii::Vector<double> &ports) -> const PortForces &
       {
         contact->evaluate_sliding(SlidingState{ ports, drive, speed, nullptr, friction, TangentPart::all });
-        return contact->forces();
+        return hub_spring.add_forces(contact->forces(), ports[hub]);
       };
       const auto solved = solve_ports(
           structure->compliance(), free, frame.lengths, near, evaluate, [&] { return contact->overlap(); }, z);

@@ -11,6 +11,7 @@ namespace sprag
     LeverFrame frame{ scene.geometry,
                       ports,
                       kinematics(scene.geometry, 0.).theta,
+                      moment_law(scene.spring),
                       scene.support.stiffness,
                       support_damping(scene.support, lever_mass),
                       dealii::Vector<double>(ports.size()) };

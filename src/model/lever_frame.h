@@ -13,6 +13,7 @@ namespace sprag
     Geometry geometry;
     PortLayout ports;
     double rest_inclination;        ///< theta without moment [rad]
+    MomentLaw spring;               ///< rotational, over the turn from there
     double support_stiffness;       ///< k_f [N/mm]; counts on a sprung support
     double support_damping;         ///< c_f [N s/mm]
     dealii::Vector<double> lengths; ///< what a unit of each port moves [mm]: 1, and an arm for rotations

@@ -25,7 +25,7 @@ namespace sprag
     properties.tangential          = reference.tangential;
     properties.friction            = scene.friction;
 
-    LeverFrame frame = lever_frame(scene, structure->ports(), mass_per_length(scene) * scene.lever.length + scene.lever.tip_mass);
+    LeverFrame frame = lever_frame(scene, structure->ports(), carried_mass(scene));
     for (unsigned int slope = 1; slope < mesh.ports(); slope += 2)
       frame.lengths[slope] = mesh.element_length();
     return std::make_unique<DynamicLever<ModalStructure, PointContact>>(

@@ -1,8 +1,5 @@
 #pragma once
 
-#include "results/columns.h"
-#include "scene/drive.h"
-
 #include <deal.II/lac/vector.h>
 
 #include <array>
@@ -11,8 +8,6 @@
 
 namespace sprag
 {
-  struct Motion;
-
   /// What friction does where a slide is held.
   enum class ContactFriction
   {

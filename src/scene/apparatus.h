@@ -74,6 +74,12 @@ namespace sprag
     LeafBehaviour behaviour; ///< filled in by with_leaf_spring(), empty for a torsional spring
   };
 
+  /// Moment over turn of the spring, whatever its type.
+  inline MomentLaw moment_law(const RotationalSpring &spring)
+  {
+    return spring.behaviour.law.is_linear() ? MomentLaw(spring.stiffness) : spring.behaviour.law;
+  }
+
   enum class LeverOutline
   {
     bar,  ///< of constant depth, on a rigid hub

@@ -1,6 +1,7 @@
 #include "scene/check.h"
 
 #include "base/text.h"
+#include "scene/check_spring.h"
 #include "scene/closed_form.h"
 #include "scene/contact_reference.h"
 
@@ -131,11 +132,6 @@ namespace sprag
              type == AnalysisType::sprag_slip;
     }
 
-    bool finite_elements(const ModelType model)
-    {
-      return model == ModelType::condensed || model == ModelType::finite_element;
-    }
-
     /// What a type of analysis takes of the scene. The model counts only where the cylinder follows the drive.
     struct Use
     {
@@ -144,8 +140,9 @@ namespace sprag
           , held(holds(scene.analysis.type))
           , transient(in_time || held)
           , follows_drive(transient || scene.analysis.type == AnalysisType::quasi_static)
-          , positions(follows_drive || scene.analysis.type == AnalysisType::contact_law)
-          , meshed(positions && (!follows_drive || finite_elements(scene.analysis.model)))
+          , calibrated(scene.analysis.type == AnalysisType::calibration)
+          , positions(follows_drive || calibrated || scene.analysis.type == AnalysisType::contact_law)
+          , meshed(positions && (!follows_drive || is_meshed(scene.analysis.model)))
           , lever(meshed || (transient && scene.analysis.model != ModelType::closed_form))
           , own_mesh(meshed && !scene.mesh.file.empty())
       {
@@ -155,6 +152,7 @@ namespace sprag
       const bool held;      ///< the slide, at one x
       const bool transient; ///< with inertia
       const bool follows_drive;
+      const bool calibrated;
       const bool positions; ///< whether the cylinder is put somewhere
       const bool meshed;
       const bool lever; ///< whether it has dimensions
@@ -193,11 +191,11 @@ namespace sprag
         result.push_back({ "Analysis/Model",
                            { "Analysis/Type" },
                            "needs Analysis/Type = transient: without inertia there are closed form and finite element" });
-      if (use.follows_drive && finite_elements(model) && scene.lever.neutral_axis_offset)
+      if (use.follows_drive && is_meshed(model) && scene.lever.neutral_axis_offset)
         result.push_back({ "Lever/Neutral axis offset",
                            { "Analysis/Type", "Analysis/Model" },
                            "must be auto, the finite elements have their own; only rigid and beam take another" });
-      if (use.transient && finite_elements(model))
+      if (use.transient && is_meshed(model))
         append(result, linear_structure(scene, use));
       return result;
     }
@@ -224,26 +222,24 @@ namespace sprag
     {
       if (scene.support.type == SupportType::rigid)
         return {};
-      Violations result;
-      const bool closed_form = scene.analysis.model == ModelType::closed_form;
-      if (!use.follows_drive)
-        result.push_back({ "Support/Type", { "Analysis/Type" }, "sprung needs an Analysis/Type that follows the drive" });
-      else if (!use.held && closed_form)
-        result.push_back({ "Support/Type", { "Analysis/Model" }, "sprung needs an Analysis/Model other than closed form" });
-      return result;
+      if (use.in_time && scene.analysis.model == ModelType::closed_form)
+        return { { "Support/Type", { "Analysis/Model" }, "sprung needs an Analysis/Model other than closed form in time" } };
+      if (use.follows_drive)
+        return {};
+      return { { "Support/Type", { "Analysis/Type" }, "must be rigid where the cylinder follows no drive" } };
     }
 
     Violations inertia(const Scene &scene)
     {
-      const Lever &lever  = scene.lever;
-      const double offset = neutral_axis_offset(scene);
-      const double of_tip = lever.tip_mass * (lever.length * lever.length + offset * offset);
-      if (lever.moment_of_inertia > of_tip)
+      const double added = added_inertia(scene);
+      if (scene.lever.inertia == InertiaSource::as_built || scene.lever.moment_of_inertia > added)
         return {};
       return { { "Lever/Moment of inertia",
-                 { "Analysis/Type", "Analysis/Model", "Lever/Tip mass", "Lever/Length", "Lever/Depth",
+                 { "Analysis/Type", "Analysis/Model", "Lever/Tip mass", "Lever/Hub inertia", "Lever/Length", "Lever/Depth",
                    "Lever/Neutral axis offset", "Geometry/Interface offset", "Friction layer/Thickness" },
-                 "must be more than that of the tip mass alone, Tip mass (L^2 + e_a^2) = " + rounded_text(of_tip) + " t mm2" } };
+                 "must be more than that of tip mass, hub and leaf spring alone, Tip mass (L^2 + e_a^2) + Hub inertia + J of the "
+                 "leaf = " +
+                     rounded_text(added) + " t mm2" } };
     }
 
     Violations time(const Scene &scene)
@@ -329,6 +325,12 @@ namespace sprag
         append(result, held(scene));
       if (use.transient && analysis.model == ModelType::condensed)
         append(result, cache(scene.condensed));
+      if (use.positions)
+        append(result, spring_violations(scene));
+      if (use.meshed)
+        append(result, cylinder_violations(scene));
+      if (use.calibrated)
+        append(result, calibration_violations(scene));
       return result;
     }
 

@@ -77,7 +77,7 @@ namespace sprag
     state.contact        = kinematics(geometry, x);
     state.v_rel          = sliding_speed(geometry, x, v);
     state.mu             = sliding_friction(scene, x, v).coefficient;
-    state.P              = scene.spring.stiffness * (state.contact.theta - theta_0) /
+    state.P              = moment_law(scene.spring).moment(state.contact.theta - theta_0) /
               (state.contact.s + sign * state.mu * geometry.interface_offset);
     state.F = sign * state.mu * state.P;
     state.Q = state.P * std::sin(state.contact.theta) + state.F * std::cos(state.contact.theta);

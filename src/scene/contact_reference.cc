@@ -41,7 +41,7 @@ namespace sprag
 
     const double n     = contact.exponent;
     result.stiffness   = n * std::pow(contact.stiffness, 1. / n) * std::pow(result.P, 1. - 1. / n);
-    const double omega = result.s * std::sqrt(result.stiffness / scene.lever.moment_of_inertia);
+    const double omega = result.s * std::sqrt(result.stiffness / moment_of_inertia(scene));
     result.relaxation  = 2. * contact.damping / omega;
     const double nu    = layer.thickness > 0. ? layer.poisson_ratio : scene.lever.poisson_ratio;
     result.tangential  = contact.tangential_stiffness.value_or(result.stiffness / (2. * (1. + nu)));
@@ -54,11 +54,29 @@ namespace sprag
     return scene.lever.neutral_axis_offset.value_or(mesh);
   }
 
+  double added_inertia(const Scene &scene)
+  {
+    const Lever &lever = scene.lever;
+    const double e_a   = neutral_axis_offset(scene);
+    return lever.tip_mass * (lever.length * lever.length + e_a * e_a) + lever.hub_inertia + scene.spring.behaviour.inertia;
+  }
+
   double mass_per_length(const Scene &scene)
   {
+    const Lever &lever = scene.lever;
+    if (lever.inertia == InertiaSource::as_built)
+      return lever.width * (lever.depth * lever.density + scene.layer.thickness * scene.layer.density);
+    const double L   = lever.length;
+    const double e_a = neutral_axis_offset(scene);
+    return (lever.moment_of_inertia - added_inertia(scene)) / (L * L * L / 3. + L * e_a * e_a);
+  }
+
+  double moment_of_inertia(const Scene &scene)
+  {
+    if (scene.lever.inertia == InertiaSource::scaled)
+      return scene.lever.moment_of_inertia;
     const double L   = scene.lever.length;
     const double e_a = neutral_axis_offset(scene);
-    const double J   = scene.lever.moment_of_inertia - scene.lever.tip_mass * (L * L + e_a * e_a);
-    return J / (L * L * L / 3. + L * e_a * e_a);
+    return mass_per_length(scene) * (L * L * L / 3. + L * e_a * e_a) + added_inertia(scene);
   }
 } // namespace sprag

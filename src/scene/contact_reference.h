@@ -17,8 +17,15 @@ namespace sprag
 
   ContactReference contact_reference(const Scene &scene);
 
-  /// Density [t/mm] per length of a beam with the scene's moment of inertia: rho A = (J - m_t (L^2 + e_a^2)) / (L^3/3 + L e_a^2).
+  /// Density [t/mm] per length of a beam: with the scene's moment of inertia, rho A = (J - J_0) / (L^3/3 + L e_a^2), J_0 that of
+  /// tip mass, hub and leaf spring; or that of bar and layer as built.
   double mass_per_length(const Scene &scene);
+
+  /// J about the pivot [t mm^2] of all that turns with the hub: the scene's, or as built.
+  double moment_of_inertia(const Scene &scene);
+
+  /// That of tip mass, hub and leaf spring alone.
+  double added_inertia(const Scene &scene);
 
   /// e_a [mm]: given, or that of the meshed bar.
   double neutral_axis_offset(const Scene &scene);

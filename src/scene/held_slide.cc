@@ -13,7 +13,7 @@ namespace sprag
     /// Reduced models cost so little that islands can be looked for.
     unsigned int tried_points(const Scene &scene)
     {
-      const bool reduced = scene.analysis.model == ModelType::rigid || scene.analysis.model == ModelType::beam;
+      const bool reduced = is_reduced(scene.analysis.model);
       return reduced ? 49 : 13;
     }
 

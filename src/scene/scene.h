@@ -35,6 +35,17 @@ namespace sprag
     finite_element
   };
 
+  inline bool is_meshed(const ModelType model)
+  {
+    return model == ModelType::condensed || model == ModelType::finite_element;
+  }
+
+  /// A few coordinates, no mesh: judged in no time.
+  inline bool is_reduced(const ModelType model)
+  {
+    return model == ModelType::rigid || model == ModelType::beam;
+  }
+
   enum class PlaneState
   {
     stress,

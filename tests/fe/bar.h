@@ -76,6 +76,11 @@ namespace sprag
 
   inline LeverInertia bar_inertia(const double moment_of_inertia, const double tip_mass)
   {
-    return { { { material_id::lever, 2.7e-9 }, { material_id::layer, 2e-10 } }, tip_mass, moment_of_inertia };
+    return { { { material_id::lever, 2.7e-9 }, { material_id::layer, 2e-10 } },
+             tip_mass,
+             moment_of_inertia,
+             InertiaSource::scaled,
+             0.,
+             {} };
   }
 } // namespace sprag

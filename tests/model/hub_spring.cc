@@ -1,0 +1,128 @@
+#include "model/hub_spring.h"
+
+#include "model/beam.h"
+#include "scenes.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
+
+using namespace sprag;
+
+namespace
+{
+  constexpr double k = 1000.;
+  constexpr double c = 5e5;
+
+  double excess_energy(const double turn)
+  {
+    return 0.25 * c * std::pow(turn, 4);
+  }
+
+  MomentLaw hardening()
+  {
+    std::vector<MomentLaw::Sample> samples;
+    for (int i = -10; i <= 10; ++i)
+    {
+      const double turn = 0.01 * i;
+      samples.push_back({ turn, k * turn + c * std::pow(turn, 3), k + 3. * c * turn * turn });
+    }
+    return MomentLaw(k, samples);
+  }
+
+  /// On the rotation, 4, and on others.
+  PortForces contact_forces(const std::vector<unsigned int> &ports)
+  {
+    const auto n = static_cast<unsigned int>(ports.size());
+    PortForces forces{ ports, dealii::Vector<double>(n), dealii::FullMatrix<double>(n, n) };
+    for (unsigned int i = 0; i < n; ++i)
+    {
+      forces.values[i] = 1. + i;
+      for (unsigned int j = 0; j < n; ++j)
+        forces.tangent(i, j) = 10. * i + j;
+    }
+    return forces;
+  }
+
+  const PortLayout layout{ 4, false };
+} // namespace
+
+TEST(HubSpring, ALinearOneAddsNothing)
+{
+  HubSpringExcess spring(layout, MomentLaw(k));
+  const auto forces = contact_forces({ 1, 2 });
+  EXPECT_EQ(&spring.add_forces(forces, 0.03), &forces);
+  EXPECT_EQ(&spring.add_forces(forces, 0.01, 0.03, generalised_alpha(1., 1e-4)), &forces);
+  EXPECT_TRUE(spring.loaded_ports().empty());
+}
+
+TEST(HubSpring, ActsOnTheRotationBesidesTheContact)
+{
+  HubSpringExcess spring(layout, hardening());
+  const double turn  = 0.023;
+  const double force = -c * std::pow(turn, 3);
+  const auto apart   = spring.add_forces(contact_forces({ 1, 2 }), turn);
+  EXPECT_EQ(apart.ports, (std::vector<unsigned int>{ 1, 2, 4 }));
+  EXPECT_EQ(apart.values[1], 2.);
+  EXPECT_EQ(apart.tangent(1, 0), 10.);
+  EXPECT_EQ(apart.tangent(2, 0), 0.);
+  EXPECT_NEAR(apart.values[2], force, 1e-12 * k);
+  EXPECT_NEAR(apart.tangent(2, 2), -3. * c * turn * turn, 1e-12 * k);
+
+  const auto together = spring.add_forces(contact_forces({ 1, 4 }), turn);
+  EXPECT_EQ(together.ports, (std::vector<unsigned int>{ 1, 4 }));
+  EXPECT_NEAR(together.values[1], 2. + force, 1e-12 * k);
+  EXPECT_NEAR(together.tangent(1, 1), 11. - 3. * c * turn * turn, 1e-12 * k);
+}
+
+/// Work of the force of a step is the change of energy and, with a delay, what the scheme dissipates.
+TEST(HubSpring, ItsForceOfAStepMakesNoEnergy)
+{
+  HubSpringExcess spring(layout, hardening());
+  for (const double radius : { 1., 0.8, 0. })
+    for (const auto &[begin, end] : { std::pair<double, double>{ 0.01, 0.04 }, { 0.03, -0.02 }, { 0.02, 0.02 + 1e-9 } })
+    {
+      const auto weights = generalised_alpha(radius, 1e-4);
+      const auto forces  = spring.add_forces(contact_forces({}), begin, end, weights);
+      StepWork work;
+      spring.add_work(begin, end, weights, work);
+      const double done = -forces.values[0] * (end - begin);
+      EXPECT_NEAR(done, excess_energy(end) - excess_energy(begin) + work.algorithmic, 1e-12 * k * 1e-4);
+      EXPECT_GE(work.algorithmic, 0.);
+    }
+}
+
+TEST(HubSpring, ItsTangentOfAStepMatchesDifferences)
+{
+  HubSpringExcess spring(layout, hardening());
+  const auto weights = generalised_alpha(0.8, 1e-4);
+  const double h     = 1e-5;
+  for (const double end : { 0.04, -0.013 })
+  {
+    const auto force     = [&](const double at) { return spring.add_forces(contact_forces({}), 0.01, at, weights).values[0]; };
+    const double tangent = spring.add_forces(contact_forces({}), 0.01, end, weights).tangent(0, 0);
+    // Third derivatives of the excess, 6 c, by h^2 / 6; round-off of the moments over h.
+    EXPECT_NEAR(tangent, (force(end + h) - force(end - h)) / (2. * h), c * h * h + 1e-13 * k / h);
+  }
+}
+
+/// A rigid lever with a leaf spring of one vibration: two degrees of freedom by hand.
+TEST(HubSpring, ALeafsVibrationCouplesWithTheRotation)
+{
+  Scene scene             = model_a();
+  scene.lever.hub_inertia = 0.4;
+  const double omega      = 2. * M_PI * 180.;
+  auto &leaf              = scene.spring.behaviour;
+  leaf.inertia            = 0.1;
+  leaf.modes              = { { omega * omega, 0.2, { { 0., 0. } } } };
+  const double J          = scene.lever.moment_of_inertia;
+
+  // det [k - l J, -l p; -l p, w^2 - l] = 0
+  const double a   = J - 0.04;
+  const double b   = -(scene.spring.stiffness + J * omega * omega);
+  const double at  = scene.spring.stiffness * omega * omega;
+  const double d   = std::sqrt(b * b - 4. * a * at);
+  const auto found = free_frequencies(scene, { 0, scene.lever.length });
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_NEAR(found[0], std::sqrt((-b - d) / (2. * a)), 1e-10 * found[0]);
+  EXPECT_NEAR(found[1], std::sqrt((-b + d) / (2. * a)), 1e-10 * found[1]);
+}
