@@ -2,7 +2,6 @@
 
 #include "base/text.h"
 #include "fe/face_observation.h"
-#include "model/spring_excess.h"
 #include "scene/closed_form.h"
 
 #include <algorithm>
@@ -100,6 +99,7 @@ namespace sprag
       , ports(static_ports(body, properties))
       , contact(body, contact_properties(body, properties))
       , system(make_system(body, properties))
+      , excess({ ports.surface, false }, properties.spring.law)
   {
   }
 
@@ -127,30 +127,19 @@ namespace sprag
 
   Unbalance LeverModel::evaluate(const State &trial, const State &accepted, const FrictionMode mode)
   {
-    const auto &law = properties.spring.law;
     return std::visit(
         [&](auto &s)
         {
           contact.evaluate(s.port_displacements(trial.coordinates), trial, accepted, mode);
-          if (!law.is_linear())
-          {
-            with_excess = contact.forces();
-            add_spring_excess(law, ports.rotation(), turn(trial), with_excess);
-          }
-          return Unbalance{ s.unbalance(trial.coordinates, port_forces()), contact.overlap() };
+          forces = &excess.add_forces(contact.forces(), turn(trial));
+          return Unbalance{ s.unbalance(trial.coordinates, *forces), contact.overlap() };
         },
         system);
   }
 
-  /// Of the last evaluation.
-  const PortForces &LeverModel::port_forces() const
-  {
-    return properties.spring.law.is_linear() ? contact.forces() : with_excess;
-  }
-
   Vector<double> LeverModel::correction()
   {
-    return std::visit([&](auto &s) { return s.correction(port_forces()); }, system);
+    return std::visit([&](auto &s) { return s.correction(*forces); }, system);
   }
 
   /// Index of the hub's turn among the coordinates, which end with hub and support.

@@ -4,6 +4,7 @@
 #include "fe/face_contact.h"
 #include "fe/full_stiffness.h"
 #include "fe/mesh.h"
+#include "model/hub_spring.h"
 
 #include <optional>
 #include <variant>
@@ -72,13 +73,13 @@ namespace sprag
     unsigned int rotation() const;
     double turn(const State &state) const;
     double support_displacement(const State &state) const;
-    const PortForces &port_forces() const;
 
     const LeverProperties properties;
     const ElasticBody<2> body;
     const StaticPorts ports;
     FaceContact contact;
     std::variant<FaceCompliance, FullStiffness> system;
-    PortForces with_excess; ///< the contact's forces and the spring's beyond its linear stiffness
+    HubSpringExcess excess;
+    const PortForces *forces = nullptr; ///< of contact and excess, at the last evaluation
   };
 } // namespace sprag
