@@ -16,15 +16,15 @@ namespace sprag
     constexpr double smallest     = 0.05; ///< P counted, over the run's largest
     constexpr double points_drawn = 40.;
 
-    /// The scene without friction and with a spring that leads to the largest P.
+    /// The scene without friction and with a linear spring that leads to the largest P.
     Scene indentation_scene(const Scene &scene, const ContactReference &reference)
     {
       Scene result            = scene;
       result.friction.law     = CoulombFriction{ 0. };
       result.drive            = Drive(DriveProfile::triangle, 0., scene.drive.maximum(), scene.drive.peak_speed(), 0.5);
-      const double P          = closed_form(result, scene.drive.maximum(), 1.).P;
       result.spring.type      = SpringType::torsional;
       result.spring.behaviour = {};
+      const double P          = closed_form(result, scene.drive.maximum(), 1.).P;
       result.spring.stiffness *= beyond * reference.P / P;
       return result;
     }

@@ -106,6 +106,9 @@ namespace sprag
         { "penalty", lever.penalties.normal, "N/mm^3", "normal penalty in use" },
         { "tangential_penalty", lever.penalties.tangential, "N/mm^3", "tangential penalty in use" },
         { "density_factor", lever.density_factor, "1", "by which the densities were scaled to meet Lever/Moment of inertia" },
+        { "moment_of_inertia", lever.moment_of_inertia, "t mm^2",
+          "of all that turns with the hub, about the pivot: Lever/Moment of inertia, or what follows from the densities as "
+          "built" },
         { "lever_mass", lever.lever_mass, "t", "mass of lever and layer after scaling, tip mass included" },
         { "basis_from_cache", lever.basis_from_cache ? 1. : 0., "1", "whether a stored condensed basis was used" },
         { "basis_cpu_time", lever.basis_cpu_seconds, "s", "that the condensed basis took, or would have taken" }

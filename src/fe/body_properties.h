@@ -5,6 +5,7 @@
 #include <deal.II/base/types.h>
 
 #include <map>
+#include <vector>
 
 namespace sprag
 {
@@ -35,7 +36,23 @@ namespace sprag
     inline constexpr dealii::types::boundary_id sensor_plate  = 5; ///< of the friction plate, towards the sensors
     inline constexpr dealii::types::boundary_id sensor_lever  = 6; ///< of the lever, towards the sensors
     inline constexpr dealii::types::boundary_id joint         = 7; ///< far end of a leaf spring
+    inline constexpr dealii::types::boundary_id clamp         = 8; ///< of a leaf spring in the hub, which turns it
   }                                                                // namespace boundary_id
+
+  enum class ConnectorType
+  {
+    sensor, ///< carries normal force alone
+    guide   ///< carries tangential force alone
+  };
+
+  /// A spring between friction plate and lever, see Connector.
+  struct ConnectorSettings
+  {
+    ConnectorType type = ConnectorType::sensor;
+    double middle      = 0.; ///< along the lever from the pivot [mm]
+    double length      = 1.; ///< of its pads along the lever [mm], > 0
+    double stiffness   = 0.; ///< [N/mm], > 0
+  };
 
   struct BodyProperties
   {
@@ -47,6 +64,7 @@ namespace sprag
     bool curved          = false;                        ///< whether cells follow the triangulation's manifolds
     double point_spacing = 0.02;                         ///< aimed at between integration points of the friction face [mm]
     std::map<dealii::types::material_id, ElasticConstants> constants;
+    std::vector<ConnectorSettings> connectors; ///< of a friction plate
 
     double width_of(const dealii::types::material_id id) const
     {

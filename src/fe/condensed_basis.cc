@@ -13,7 +13,7 @@ namespace sprag
   namespace
   {
     /// Of the content of stored files and of the numbers in them.
-    constexpr double format_version = 1.;
+    constexpr double format_version = 2.;
 
     void add_mesh(const Triangulation<2> &triangulation, Fingerprint &key)
     {
@@ -48,6 +48,18 @@ namespace sprag
       key.add(properties.degree);
       key.add(static_cast<double>(properties.plane));
       key.add(properties.width);
+      for (const auto &[material, width] : properties.widths)
+      {
+        key.add(material);
+        key.add(width);
+      }
+      for (const auto &connector : properties.connectors)
+      {
+        key.add(static_cast<double>(connector.type));
+        key.add(connector.middle);
+        key.add(connector.length);
+        key.add(connector.stiffness);
+      }
       for (const auto &[material, constants] : properties.constants)
       {
         key.add(material);
@@ -117,7 +129,7 @@ namespace sprag
                { "layer_stiffness", flat(basis.layer_stiffness) },
                { "face_compliance", upper_triangle(basis.face_compliance) },
                { "coordinate_shapes", flat(basis.coordinate_shapes) },
-               { "scalars", { basis.density_factor, basis.lever_mass, basis.cpu_seconds } } };
+               { "scalars", { basis.density_factor, basis.lever_mass, basis.moment_of_inertia, basis.cpu_seconds } } };
     }
 
     std::optional<CondensedBasis> basis_of(StoredArrays arrays, const unsigned int n_face, const unsigned int n_coordinates)
@@ -126,15 +138,16 @@ namespace sprag
       basis.stiffness     = arrays["stiffness"];
       const auto m        = static_cast<unsigned int>(basis.stiffness.size());
       const auto &scalars = arrays["scalars"];
-      if (m == 0 || scalars.size() != 3 || !unpack(arrays["shapes"], n_face + 2, m, basis.shapes) ||
+      if (m == 0 || scalars.size() != 4 || !unpack(arrays["shapes"], n_face + 2, m, basis.shapes) ||
           !unpack(arrays["layer_stiffness"], m, m, basis.layer_stiffness) ||
           !unpack_symmetric(arrays["face_compliance"], n_face, basis.face_compliance) ||
           !unpack(arrays["coordinate_shapes"], m, n_coordinates, basis.coordinate_shapes))
         return {};
-      basis.density_factor = scalars[0];
-      basis.lever_mass     = scalars[1];
-      basis.cpu_seconds    = scalars[2];
-      basis.from_cache     = true;
+      basis.density_factor    = scalars[0];
+      basis.lever_mass        = scalars[1];
+      basis.moment_of_inertia = scalars[2];
+      basis.cpu_seconds       = scalars[3];
+      basis.from_cache        = true;
       return basis;
     }
 
@@ -199,9 +212,11 @@ namespace sprag
     matrices.sum({ 0., 1., 0., settings.spring_stiffness }, stiffness);
     set_modes(free_modes(stiffness, matrices.mass, settings.modes), matrices, ports, basis);
     set_face_compliance(matrices, ports, settings.spring_stiffness, basis);
-    basis.density_factor = matrices.density_factor;
-    basis.lever_mass     = matrices.total_mass;
-    basis.cpu_seconds    = timer.cpu_time();
+    basis.density_factor    = matrices.density_factor;
+    basis.lever_mass        = matrices.total_mass;
+    basis.moment_of_inertia = matrices.moment_of_inertia;
+    basis.sensors           = ports.layout().sensors;
+    basis.cpu_seconds       = timer.cpu_time();
     return basis;
   }
 
@@ -211,9 +226,14 @@ namespace sprag
     const std::string key    = key_of(body, settings);
     if (auto stored = load_arrays(folder, key))
     {
-      const auto n_face = 2 * static_cast<unsigned int>(body.friction_face().nodes.size()) + 1;
-      if (auto basis = basis_of(std::move(*stored), n_face, TotalCoordinates<2>(body).size()))
+      const auto n_attached = static_cast<unsigned int>(settings.inertia.leaf.modes.size());
+      const auto n_sensors  = static_cast<unsigned int>(body.sensors().size());
+      const auto n_face     = 2 * static_cast<unsigned int>(body.friction_face().nodes.size()) + n_sensors + 1;
+      if (auto basis = basis_of(std::move(*stored), n_face, TotalCoordinates<2>(body, n_attached).size()))
+      {
+        basis->sensors = n_sensors;
         return *basis;
+      }
     }
     CondensedBasis basis      = make_basis(body, settings);
     const std::string trouble = store_arrays(folder, key, arrays_of(basis));
@@ -227,7 +247,8 @@ namespace sprag
     const auto n_lever   = static_cast<unsigned int>(basis.stiffness.size());
     const unsigned int n = n_lever + (constants.sprung ? 1 : 0);
     ModalData data;
-    data.ports.surface    = static_cast<unsigned int>(basis.face_compliance.m()) - 1;
+    data.ports.sensors    = basis.sensors;
+    data.ports.surface    = static_cast<unsigned int>(basis.face_compliance.m()) - 1 - basis.sensors;
     data.ports.sprung     = constants.sprung;
     data.stiffness        = basis.stiffness;
     data.face_compliance  = basis.face_compliance;

@@ -13,15 +13,17 @@ namespace sprag
   /// a residual compliance (MacNeal 1971, Rubin 1975), so that static deflections are those of the finite elements.
   struct CondensedBasis
   {
-    std::vector<double> stiffness;                ///< omega^2 of the modes [1/s^2]
-    dealii::FullMatrix<double> shapes;            ///< a row a port, momentum included and support not; a column a mode
-    dealii::FullMatrix<double> layer_stiffness;   ///< of the friction layer, in the modes
-    dealii::FullMatrix<double> face_compliance;   ///< residual, of face and rotation [mm/N]
+    std::vector<double> stiffness;              ///< omega^2 of the modes [1/s^2]
+    dealii::FullMatrix<double> shapes;          ///< a row a port, momentum included and support not; a column a mode
+    dealii::FullMatrix<double> layer_stiffness; ///< of the friction layer, in the modes
+    dealii::FullMatrix<double> face_compliance; ///< residual, of face, sensors and rotation [mm/N]
+    unsigned int sensors = 0;
     dealii::FullMatrix<double> coordinate_shapes; ///< a row a mode, a column a total coordinate
-    double density_factor = 1.;
-    double lever_mass     = 0.; ///< [t]
-    double cpu_seconds    = 0.; ///< that it took to make
-    bool from_cache       = false;
+    double density_factor    = 1.;
+    double lever_mass        = 0.; ///< [t]
+    double moment_of_inertia = 0.; ///< about the pivot [t mm^2]
+    double cpu_seconds       = 0.; ///< that it took to make
+    bool from_cache          = false;
     std::string message; ///< why it was not stored, empty if it was
   };
 

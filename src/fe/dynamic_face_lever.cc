@@ -12,7 +12,10 @@ namespace sprag
     LeverInertia inertia_of(const Scene &scene)
     {
       const Lever &lever = scene.lever;
-      return { { { material_id::lever, lever.density }, { material_id::layer, scene.layer.density } },
+      return { { { material_id::lever, lever.density },
+                 { material_id::web, lever.density },
+                 { material_id::plate, scene.plate.density },
+                 { material_id::layer, scene.layer.density } },
                lever.tip_mass,
                lever.moment_of_inertia,
                lever.inertia,
@@ -95,6 +98,7 @@ namespace sprag
     result.n_coordinates        = matrices.coordinates.size();
     result.density_factor       = matrices.density_factor;
     result.lever_mass           = matrices.total_mass;
+    result.moment_of_inertia    = matrices.moment_of_inertia;
     result.elastic_displacement = [lever = structure.get()](const Motion &motion) { return lever->elastic_displacement(motion); };
     result.model                = assemble(scene, body, std::move(structure), result);
     return result;
@@ -109,6 +113,7 @@ namespace sprag
     result.n_coordinates     = structure->n_modes();
     result.density_factor    = basis->density_factor;
     result.lever_mass        = basis->lever_mass;
+    result.moment_of_inertia = basis->moment_of_inertia;
     result.basis_from_cache  = basis->from_cache;
     result.basis_cpu_seconds = basis->cpu_seconds;
     result.message           = basis->message;

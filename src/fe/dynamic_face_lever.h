@@ -20,6 +20,7 @@ namespace sprag
     unsigned int n_coordinates = 0;
     double density_factor      = 1.; ///< by which the densities were scaled to meet the moment of inertia
     double lever_mass          = 0.; ///< [t]
+    double moment_of_inertia   = 0.; ///< about the pivot [t mm^2]
     std::vector<double> frequencies; ///< of the lever on its spring out of contact [Hz]
     ContactPenalties penalties{};
 

@@ -85,13 +85,16 @@ namespace sprag
     invert(of_face);
     ports.transform(of_face);
     FullMatrix<double> result(layout.size(), layout.size());
-    for (unsigned int i = 0; i <= layout.rotation(); ++i)
-      for (unsigned int j = 0; j <= layout.rotation(); ++j)
-        result(i, j) = 0.5 * (of_face(i, j) + of_face(j, i));
+    for (unsigned int i = 0; i < of_face.m(); ++i)
+      for (unsigned int j = 0; j < of_face.m(); ++j)
+        result(ports.port_of_face(i), ports.port_of_face(j)) = 0.5 * (of_face(i, j) + of_face(j, i));
     subtract_low_rank(result);
+    for (unsigned int sensor = 0; sensor < layout.sensors; ++sensor)
+      append(layout.sensor(sensor), result);
     if (layout.sprung)
     {
-      append_momentum(result);
+      append(layout.momentum_eta(), result);
+      append(layout.momentum_xi(), result);
       result(layout.support(), layout.support()) = of_support;
     }
     return result;
@@ -119,17 +122,14 @@ namespace sprag
         compliance(i, j) -= product(i, j);
   }
 
-  void EffectiveSystem::append_momentum(FullMatrix<double> &compliance) const
+  void EffectiveSystem::append(const unsigned int port, FullMatrix<double> &compliance) const
   {
     const auto &layout = ports.layout();
-    for (const unsigned int port : { layout.momentum_eta(), layout.momentum_xi() })
-    {
-      Vector<double> with_support(ports.n_coordinates());
-      const auto &of_lever = response(port);
-      std::copy(of_lever.begin(), of_lever.end(), with_support.begin());
-      const auto displacements = ports.displacements(with_support);
-      for (unsigned int i = 0; i < layout.support(); ++i)
-        compliance(i, port) = compliance(port, i) = displacements[i];
-    }
+    Vector<double> with_support(ports.n_coordinates());
+    const auto &of_lever = response(port);
+    std::copy(of_lever.begin(), of_lever.end(), with_support.begin());
+    const auto displacements = ports.displacements(with_support);
+    for (unsigned int i = 0; i < std::min(layout.support(), layout.size()); ++i)
+      compliance(i, port) = compliance(port, i) = displacements[i];
   }
 } // namespace sprag

@@ -35,7 +35,9 @@ namespace sprag
   private:
     void find_low_rank(double weight_of_damping);
     void subtract_low_rank(dealii::FullMatrix<double> &compliance) const;
-    void append_momentum(dealii::FullMatrix<double> &compliance) const;
+
+    /// Row and column of a port that is not a coordinate.
+    void append(unsigned int port, dealii::FullMatrix<double> &compliance) const;
 
     const InertialMatrices<2> &matrices;
     const LeverPorts &ports;

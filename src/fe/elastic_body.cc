@@ -8,6 +8,7 @@
 #include <deal.II/numerics/vector_tools.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace sprag
 {
@@ -24,16 +25,31 @@ namespace sprag
     template <int dim>
     Stress<dim> stress(const MaterialModel model, const Lame &constants, const Tensor<2, dim> &displacement_gradient)
     {
-      return model == MaterialModel::linear ? linear_elastic<dim>(constants, displacement_gradient)
-                                            : neo_hookean<dim>(constants, identity<dim>() + displacement_gradient);
+      switch (model)
+      {
+      case MaterialModel::linear:
+        return linear_elastic<dim>(constants, displacement_gradient);
+      case MaterialModel::neo_hookean:
+        return neo_hookean<dim>(constants, identity<dim>() + displacement_gradient);
+      case MaterialModel::st_venant_kirchhoff:
+        break;
+      }
+      return st_venant_kirchhoff<dim>(constants, displacement_gradient);
     }
 
     template <int dim>
     double energy_density(const MaterialModel model, const Lame &constants, const Tensor<2, dim> &displacement_gradient)
     {
-      return model == MaterialModel::linear
-                 ? 0.5 * scalar_product(linear_elastic<dim>(constants, displacement_gradient).piola, displacement_gradient)
-                 : neo_hookean_energy<dim>(constants, identity<dim>() + displacement_gradient);
+      switch (model)
+      {
+      case MaterialModel::linear:
+        return 0.5 * scalar_product(linear_elastic<dim>(constants, displacement_gradient).piola, displacement_gradient);
+      case MaterialModel::neo_hookean:
+        return neo_hookean_energy<dim>(constants, identity<dim>() + displacement_gradient);
+      case MaterialModel::st_venant_kirchhoff:
+        break;
+      }
+      return st_venant_kirchhoff_energy<dim>(constants, displacement_gradient);
     }
   } // namespace
 
@@ -49,6 +65,7 @@ namespace sprag
     find_constraints(constrain);
     face             = find_friction_face(mapping, dof_handler, constraints, properties, boundary_id::friction_face);
     face_of_cylinder = find_friction_face(mapping, dof_handler, constraints, properties, boundary_id::cylinder_face);
+    springs          = find_connectors(mapping, dof_handler, constraints, properties.connectors);
   }
 
   template <int dim>
@@ -85,6 +102,22 @@ namespace sprag
   const FrictionFace<dim> &ElasticBody<dim>::cylinder_face() const
   {
     return face_of_cylinder;
+  }
+
+  template <int dim>
+  const std::vector<Connector> &ElasticBody<dim>::connectors() const
+  {
+    return springs;
+  }
+
+  template <int dim>
+  std::vector<Connector> ElasticBody<dim>::sensors() const
+  {
+    std::vector<Connector> result;
+    for (const auto &spring : springs)
+      if (spring.type == ConnectorType::sensor)
+        result.push_back(spring);
+    return result;
   }
 
   template <int dim>
@@ -126,6 +159,10 @@ namespace sprag
     DoFTools::make_sparsity_pattern(dof_handler, of_body, constraints, true);
     for (const auto &entry : of_body)
       pattern.add(entry.row(), entry.column());
+    for (const auto &spring : springs)
+      for (const auto &i : spring.row)
+        for (const auto &j : spring.row)
+          pattern.add(i.first, j.first);
     for (unsigned int e = n_dofs(); e < n; ++e)
     {
       for (unsigned int other = n_dofs(); other < n; ++other)
@@ -191,6 +228,7 @@ namespace sprag
       }
       constraints.distribute_local_to_global(cell_matrix, cell_forces, indices, matrix, forces);
     }
+    add_connectors(displacement, matrix, forces);
     for (const auto &line : constraints.get_lines())
     {
       matrix.add(line.index, line.index, 1.);
@@ -200,11 +238,29 @@ namespace sprag
   }
 
   template <int dim>
+  void ElasticBody<dim>::add_connectors(const Vector<double> &displacement, PETScWrappers::SparseMatrix &matrix,
+                                        Vector<double> &forces) const
+  {
+    for (const auto &spring : springs)
+    {
+      const double force = spring.stiffness * spring.compression(displacement);
+      for (const auto &[i, weight_i] : spring.row)
+      {
+        forces[i] += weight_i * force;
+        for (const auto &[j, weight_j] : spring.row)
+          matrix.add(i, j, spring.stiffness * weight_i * weight_j);
+      }
+    }
+  }
+
+  template <int dim>
   double ElasticBody<dim>::energy(const Vector<double> &displacement) const
   {
     FEValues<dim> values(mapping, fe, QGauss<dim>(properties.degree + 1), update_gradients | update_JxW_values);
     std::vector<Tensor<2, dim>> gradients(values.n_quadrature_points);
     double sum = 0.;
+    for (const auto &spring : springs)
+      sum += 0.5 * spring.stiffness * std::pow(spring.compression(displacement), 2);
     for (const auto &cell : dof_handler.active_cell_iterators())
       if (cell->material_id() != material_id::hub)
       {
@@ -236,5 +292,15 @@ namespace sprag
     return result;
   }
 
+  template <int dim>
+  std::vector<double> sensor_forces(const ElasticBody<dim> &body, const Vector<double> &displacement)
+  {
+    std::vector<double> result;
+    for (const auto &sensor : body.sensors())
+      result.push_back(sensor.stiffness * sensor.compression(displacement));
+    return result;
+  }
+
   template class ElasticBody<2>;
+  template std::vector<double> sensor_forces(const ElasticBody<2> &, const Vector<double> &);
 } // namespace sprag

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "fe/connectors.h"
 #include "fe/friction_face.h"
 
 #include <deal.II/base/point.h>
@@ -39,6 +40,12 @@ namespace sprag
     /// Where an elastic cylinder can touch the friction face; empty without one.
     const FrictionFace<dim> &cylinder_face() const;
 
+    /// Springs between friction plate and lever, part of stiffness and energy.
+    const std::vector<Connector> &connectors() const;
+
+    /// Those of them that are force sensors.
+    std::vector<Connector> sensors() const;
+
     const dealii::Mapping<dim> &cell_mapping() const;
 
     /// Which degrees of freedom are held or follow others.
@@ -67,6 +74,8 @@ namespace sprag
 
   private:
     void find_constraints(const Constrain &constrain);
+    void add_connectors(const dealii::Vector<double> &displacement, dealii::PETScWrappers::SparseMatrix &matrix,
+                        dealii::Vector<double> &forces) const;
 
     const BodyProperties properties;
     const dealii::FESystem<dim> fe;
@@ -75,5 +84,10 @@ namespace sprag
     dealii::AffineConstraints<double> constraints;
     FrictionFace<dim> face;
     FrictionFace<dim> face_of_cylinder;
+    std::vector<Connector> springs;
   };
+
+  /// Forces of the body's sensors at a displacement [N].
+  template <int dim>
+  std::vector<double> sensor_forces(const ElasticBody<dim> &body, const dealii::Vector<double> &displacement);
 } // namespace sprag

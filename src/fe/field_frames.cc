@@ -56,8 +56,14 @@ namespace sprag
           const auto stress = linear_elastic<2>(lame, gradient).piola;
           return von_mises(stress, properties.plane == PlaneState::strain ? constants.poisson_ratio * trace(stress) : 0.);
         }
-        const auto F      = Tensor<2, 2>(unit_symmetric_tensor<2>()) + gradient;
-        const double J    = determinant(F);
+        const auto F   = Tensor<2, 2>(unit_symmetric_tensor<2>()) + gradient;
+        const double J = determinant(F);
+        if (properties.material == MaterialModel::st_venant_kirchhoff)
+        {
+          const auto stress  = st_venant_kirchhoff<2>(lame, gradient).piola * transpose(F) / J;
+          const double trace = 0.5 * (F.norm_square() - 2.); // of the strain
+          return von_mises(stress, properties.plane == PlaneState::strain ? lame.lambda * trace / J : 0.);
+        }
         const auto stress = neo_hookean<2>(lame, F).piola * transpose(F) / J;
         return von_mises(stress, lame.lambda * std::log(J) / J);
       }

@@ -123,7 +123,8 @@ namespace sprag
         {
           values.reinit(cell);
           for (const unsigned int q : values.quadrature_point_indices())
-            sum += densities.at(cell->material_id()) * properties.width * values.JxW(q) * values.quadrature_point(q).square();
+            sum += densities.at(cell->material_id()) * properties.width_of(cell->material_id()) * values.JxW(q) *
+                   values.quadrature_point(q).square();
         }
       return sum;
     }
@@ -205,6 +206,20 @@ namespace sprag
   }
 
   template <int dim>
+  std::vector<std::pair<unsigned int, double>> TotalCoordinates<dim>::row(const Connector &connector) const
+  {
+    std::vector<std::pair<unsigned int, double>> result;
+    double of_rotation = 0.;
+    for (const auto &[dof, weight] : connector.row)
+    {
+      result.emplace_back(movers[dof].coordinate, weight);
+      of_rotation -= weight * arms[dof];
+    }
+    result.emplace_back(rotation(), of_rotation);
+    return result;
+  }
+
+  template <int dim>
   Vector<double> TotalCoordinates<dim>::rigid_rotation() const
   {
     Vector<double> result(size());
@@ -250,6 +265,7 @@ namespace sprag
     for (auto &row : momentum)
       row.reinit(coordinates.size());
     assemble_cells(body, densities);
+    assemble_connectors(body);
     if (inertia.tip_mass > 0.)
       assemble_tip(body, inertia.tip_mass);
     attach_hub(inertia.hub, inertia.leaf);
@@ -271,6 +287,13 @@ namespace sprag
             pattern.add(coordinates.mover(static_cast<unsigned int>(i)).coordinate,
                         coordinates.mover(static_cast<unsigned int>(j)).coordinate);
       }
+    for (const auto &connector : body.connectors())
+    {
+      const auto row = coordinates.row(connector);
+      for (const auto &i : row)
+        for (const auto &j : row)
+          pattern.add(i.first, j.first);
+    }
     const unsigned int hub = coordinates.rotation();
     pattern.add(hub, hub);
     for (unsigned int attached = coordinates.attached(0); attached < hub; ++attached)
@@ -312,13 +335,25 @@ namespace sprag
       const auto elasticity = linear_elastic<dim>(constants, Tensor<2, dim>()).tangent;
       values.reinit(cell);
       scatter.reinit(cell);
-      const auto of_cell   = cell_stiffness(values, elasticity, properties.width);
-      const auto cell_mass = local_mass<dim>(values, densities.at(material) * properties.width);
+      const auto of_cell   = cell_stiffness(values, elasticity, properties.width_of(material));
+      const auto cell_mass = local_mass<dim>(values, densities.at(material) * properties.width_of(material));
       scatter.add(of_cell, stiffness);
       scatter.add(cell_mass, mass);
       if (material == material_id::layer)
         scatter.add(of_cell, layer_stiffness);
       total_mass += scatter.add_momentum(cell_mass, fe, momentum);
+    }
+  }
+
+  template <int dim>
+  void InertialMatrices<dim>::assemble_connectors(const ElasticBody<dim> &body)
+  {
+    for (const auto &connector : body.connectors())
+    {
+      const auto row = coordinates.row(connector);
+      for (const auto &[i, weight_i] : row)
+        for (const auto &[j, weight_j] : row)
+          stiffness.add(i, j, connector.stiffness * weight_i * weight_j);
     }
   }
 

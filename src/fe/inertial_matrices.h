@@ -1,6 +1,7 @@
 #pragma once
 
 #include "fe/elastic_body.h"
+#include "scene/scene.h"
 
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
 
@@ -39,6 +40,9 @@ namespace sprag
     /// Displacement of a degree of freedom by a unit of rigid rotation [mm].
     double arm(unsigned int dof) const;
 
+    /// The row of a connector: its product with the coordinates is the compression.
+    std::vector<std::pair<unsigned int, double>> row(const Connector &connector) const;
+
     /// A unit of rigid rotation, in these coordinates.
     dealii::Vector<double> rigid_rotation() const;
 
@@ -52,7 +56,7 @@ namespace sprag
     unsigned int n_attached = 0;
   };
 
-  /// What a lever weighs. The hub is massless.
+  /// What a lever weighs. A hub in the mesh is massless.
   struct LeverInertia
   {
     std::map<dealii::types::material_id, double> densities; ///< before scaling [t/mm^3]
@@ -68,12 +72,12 @@ namespace sprag
   class InertialMatrices
   {
   public:
-    /// Throws InputError if the tip mass alone has more than the moment of inertia, or there is no end face for it.
+    /// Throws InputError if tip mass and hub alone have more than the moment of inertia, or there is no end face for the tip.
     InertialMatrices(const ElasticBody<dim> &body, const LeverInertia &inertia);
 
     const TotalCoordinates<dim> coordinates;
     dealii::PETScWrappers::SparseMatrix mass;
-    dealii::PETScWrappers::SparseMatrix stiffness;       ///< of lever and friction layer
+    dealii::PETScWrappers::SparseMatrix stiffness;       ///< of lever, friction layer and connectors
     dealii::PETScWrappers::SparseMatrix layer_stiffness; ///< the layer's part of it
     std::array<dealii::Vector<double>, dim> momentum;    ///< integral of rho u along each axis = row times coordinates [t]
     double moment_of_inertia = 0.;                       ///< about the pivot, of all that turns with the hub [t mm^2]
@@ -94,6 +98,7 @@ namespace sprag
   private:
     void find_pattern(const ElasticBody<dim> &body);
     void assemble_cells(const ElasticBody<dim> &body, const std::map<dealii::types::material_id, double> &densities);
+    void assemble_connectors(const ElasticBody<dim> &body);
     void assemble_tip(const ElasticBody<dim> &body, double tip_mass);
     void attach_hub(double of_hub, const LeafBehaviour &leaf);
 

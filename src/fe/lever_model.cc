@@ -48,6 +48,17 @@ namespace sprag
         return System(std::in_place_type<FaceCompliance>, body, ports, springs);
       return System(std::in_place_type<FullStiffness>, body, ports, springs);
     }
+
+    std::vector<ConnectorSettings> plate_connectors(const FrictionPlate &plate)
+    {
+      if (plate.type == PlateType::none)
+        return {};
+      std::vector<ConnectorSettings> result;
+      for (const double middle : plate.sensors)
+        result.push_back({ ConnectorType::sensor, middle, plate.sensor_length, plate.sensor_stiffness });
+      result.push_back({ ConnectorType::guide, plate.guide, plate.sensor_length, plate.guide_stiffness });
+      return result;
+    }
   } // namespace
 
   ContactPenalties contact_penalties(const FrictionFace<2> &face, const ContactSettings &settings, const double layer_thickness)
@@ -61,12 +72,17 @@ namespace sprag
   LeverProperties lever_properties(const Scene &scene)
   {
     LeverProperties result;
-    result.body.degree    = scene.mesh.degree;
-    result.body.plane     = scene.analysis.plane;
-    result.body.material  = scene.lever.material;
-    result.body.width     = scene.lever.width;
-    result.body.constants = { { material_id::lever, { scene.lever.young_modulus, scene.lever.poisson_ratio } },
-                              { material_id::layer, { scene.layer.young_modulus, scene.layer.poisson_ratio } } };
+    result.body.degree   = scene.mesh.degree;
+    result.body.plane    = scene.analysis.plane;
+    result.body.material = scene.lever.material;
+    result.body.width    = scene.lever.width;
+    const ElasticConstants metal{ scene.lever.young_modulus, scene.lever.poisson_ratio };
+    result.body.constants  = { { material_id::lever, metal },
+                               { material_id::web, metal },
+                               { material_id::plate, { scene.plate.young_modulus, scene.plate.poisson_ratio } },
+                               { material_id::layer, { scene.layer.young_modulus, scene.layer.poisson_ratio } } };
+    result.body.widths     = { { material_id::web, scene.frame.web } };
+    result.body.connectors = plate_connectors(scene.plate);
 
     if (scene.cylinder.type != CylinderType::rigid)
       result.body.constants[material_id::cylinder] = { scene.cylinder.young_modulus, scene.cylinder.poisson_ratio };
@@ -223,6 +239,8 @@ namespace sprag
     }
     if (properties.body.material != MaterialModel::linear)
       row[Column::elastic_energy] = body.energy(body_displacement(trial));
+    if (!body.connectors().empty())
+      row.sensor_forces = sensor_forces(body, body_displacement(trial));
   }
 
   FacePoints LeverModel::face_points() const

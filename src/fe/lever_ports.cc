@@ -5,7 +5,8 @@ namespace sprag
   using namespace dealii;
 
   LeverPorts::LeverPorts(const ElasticBody<2> &body, const InertialMatrices<2> &matrices, const bool sprung)
-      : ports{ 2 * static_cast<unsigned int>(body.friction_face().nodes.size()), sprung }
+      : ports{ 2 * static_cast<unsigned int>(body.friction_face().nodes.size()), sprung,
+               static_cast<unsigned int>(body.sensors().size()) }
       , n_lever(matrices.coordinates.size())
       , arms(ports.surface)
   {
@@ -15,6 +16,8 @@ namespace sprag
         arms[static_cast<unsigned int>(coordinates.size())] = matrices.coordinates.arm(dof);
         coordinates.push_back(matrices.coordinates.mover(dof).coordinate);
       }
+    for (const auto &sensor : body.sensors())
+      sensors.push_back(matrices.coordinates.row(sensor));
     if (sprung)
       momentum = { { matrices.momentum[1], matrices.momentum[0] } };
   }
@@ -35,6 +38,9 @@ namespace sprag
     const double rotation = q[n_lever - 1];
     for (unsigned int i = 0; i < ports.surface; ++i)
       result[i] = q[coordinates[i]] - rotation * arms[i];
+    for (unsigned int s = 0; s < ports.sensors; ++s)
+      for (const auto &[i, weight] : sensors[s])
+        result[ports.sensor(s)] += weight * q[i];
     result[ports.rotation()] = rotation;
     if (ports.sprung)
     {
@@ -54,6 +60,9 @@ namespace sprag
       forces[coordinates[port]] += force;
       forces[n_lever - 1] -= arms[port] * force;
     }
+    else if (port < ports.rotation())
+      for (const auto &[i, weight] : sensors[port - ports.surface])
+        forces[i] += weight * force;
     else if (port == ports.rotation())
       forces[n_lever - 1] += force;
     else if (port == ports.support())
@@ -70,9 +79,14 @@ namespace sprag
     return result;
   }
 
+  unsigned int LeverPorts::port_of_face(const unsigned int coordinate) const
+  {
+    return coordinate < ports.surface ? coordinate : ports.rotation();
+  }
+
   void LeverPorts::transform(FullMatrix<double> &compliance) const
   {
-    const unsigned int rotation = ports.rotation();
+    const unsigned int rotation = ports.surface;
     for (unsigned int j = 0; j <= rotation; ++j)
       for (unsigned int i = 0; i < rotation; ++i)
         compliance(i, j) -= arms[i] * compliance(rotation, j);

@@ -7,8 +7,9 @@
 
 namespace sprag
 {
-  /// Ports of a meshed lever in total coordinates: elastic displacements of the friction face's nodes (two entries a node), the
-  /// hub's rotation and, on a sprung support, the momentum. The support's displacement follows the coordinates of the lever.
+  /// Ports of a meshed lever in total coordinates: elastic displacements of the friction face's nodes (two entries a node),
+  /// compressions of the force sensors, the hub's rotation and, on a sprung support, the momentum. The support's displacement
+  /// follows the coordinates of the lever.
   class LeverPorts
   {
   public:
@@ -27,14 +28,18 @@ namespace sprag
     /// Coordinates of the face and the rotation, on which a compliance can be found.
     std::vector<unsigned int> face_coordinates() const;
 
+    /// Their ports, in the same order.
+    unsigned int port_of_face(unsigned int coordinate) const;
+
     /// From the compliance of those to that of the ports of face and rotation.
     void transform(dealii::FullMatrix<double> &compliance) const;
 
   private:
     PortLayout ports;
     unsigned int n_lever;
-    std::vector<unsigned int> coordinates;          ///< of the face's ports
-    dealii::Vector<double> arms;                    ///< what a unit of rotation moves them [mm]
-    std::array<dealii::Vector<double>, 2> momentum; ///< rows of the ports along eta and xi
+    std::vector<unsigned int> coordinates;                             ///< of the face's ports
+    dealii::Vector<double> arms;                                       ///< what a unit of rotation moves them [mm]
+    std::vector<std::vector<std::pair<unsigned int, double>>> sensors; ///< rows of the sensors' ports
+    std::array<dealii::Vector<double>, 2> momentum;                    ///< rows of the ports along eta and xi
   };
 } // namespace sprag

@@ -2,11 +2,24 @@
 
 #include "base/errors.h"
 
+#include <deal.II/base/symmetric_tensor.h>
+
 #include <cmath>
 
 namespace sprag
 {
   using dealii::Tensor;
+
+  namespace
+  {
+    /// From the displacement gradient, so that nothing is lost to the unit matrix where strains are small.
+    template <int dim>
+    Tensor<2, dim> green_lagrange(const Tensor<2, dim> &displacement_gradient)
+    {
+      return 0.5 * (displacement_gradient + transpose(displacement_gradient) +
+                    transpose(displacement_gradient) * displacement_gradient);
+    }
+  } // namespace
 
   Lame plane_constants(const ElasticConstants &constants, const PlaneState plane)
   {
@@ -63,7 +76,37 @@ namespace sprag
            0.5 * constants.lambda * log_J * log_J;
   }
 
+  template <int dim>
+  Stress<dim> st_venant_kirchhoff(const Lame &constants, const Tensor<2, dim> &displacement_gradient)
+  {
+    const auto [lambda, mu]   = constants;
+    const Tensor<2, dim> unit = dealii::unit_symmetric_tensor<dim>();
+    const auto strain         = green_lagrange(displacement_gradient);
+    const Tensor<2, dim> F    = unit + displacement_gradient;
+    const Tensor<2, dim> S    = lambda * trace(strain) * unit + 2. * mu * strain;
+    const Tensor<2, dim> b    = F * transpose(F);
+
+    Stress<dim> stress;
+    stress.piola = F * S;
+    for (unsigned int i = 0; i < dim; ++i)
+      for (unsigned int a = 0; a < dim; ++a)
+        for (unsigned int k = 0; k < dim; ++k)
+          for (unsigned int c = 0; c < dim; ++c)
+            stress.tangent[i * dim + a][k * dim + c] =
+                (i == k ? S[a][c] : 0.) + lambda * F[i][a] * F[k][c] + mu * ((a == c ? b[i][k] : 0.) + F[i][c] * F[k][a]);
+    return stress;
+  }
+
+  template <int dim>
+  double st_venant_kirchhoff_energy(const Lame &constants, const Tensor<2, dim> &displacement_gradient)
+  {
+    const auto strain = green_lagrange(displacement_gradient);
+    return 0.5 * constants.lambda * trace(strain) * trace(strain) + constants.mu * strain.norm_square();
+  }
+
   template Stress<2> linear_elastic(const Lame &, const Tensor<2, 2> &);
   template Stress<2> neo_hookean(const Lame &, const Tensor<2, 2> &);
   template double neo_hookean_energy(const Lame &, const Tensor<2, 2> &);
+  template Stress<2> st_venant_kirchhoff(const Lame &, const Tensor<2, 2> &);
+  template double st_venant_kirchhoff_energy(const Lame &, const Tensor<2, 2> &);
 } // namespace sprag

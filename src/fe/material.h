@@ -44,4 +44,14 @@ namespace sprag
   /// W of neo_hookean [mJ/mm^3].
   template <int dim>
   double neo_hookean_energy(const Lame &constants, const dealii::Tensor<2, dim> &deformation_gradient);
+
+  /// St. Venant-Kirchhoff solid, for large rotations and small strains: S = lambda tr(E) I + 2 mu E, P = F S with the
+  /// Green-Lagrange strain E = (F^T F - I)/2; in plane strain, or in plane stress (S_33 = 0, the width taken as it was), as the
+  /// constants are.
+  template <int dim>
+  Stress<dim> st_venant_kirchhoff(const Lame &constants, const dealii::Tensor<2, dim> &displacement_gradient);
+
+  /// W = lambda/2 tr(E)^2 + mu E : E of st_venant_kirchhoff [mJ/mm^3].
+  template <int dim>
+  double st_venant_kirchhoff_energy(const Lame &constants, const dealii::Tensor<2, dim> &displacement_gradient);
 } // namespace sprag

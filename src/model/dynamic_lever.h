@@ -231,6 +231,7 @@ namespace sprag
         row[Column::support_displacement] = support.position;
         row[Column::Q_support]            = frame.support_stiffness * support.position + frame.support_damping * support.velocity;
       }
+      observe_sensors(motion, row);
       const double x             = motion.drive.x - row[Column::support_displacement];
       row[Column::centre_offset] = row[Column::s] - cylinder_centre(frame.geometry, x, row[Column::theta]).xi;
     }
@@ -254,6 +255,19 @@ namespace sprag
     dealii::Vector<double> last_sliding; ///< ports of the last equilibrium, from which the next one starts
     PortLoads last_forces;               ///< there
     double last_sliding_theta = 0.;      ///< of the ideal contact there
+
+    void observe_sensors(const Motion &motion, Row &row) const
+    {
+      if (frame.ports.sensors == 0)
+        return;
+      PortSelection sensors;
+      for (unsigned int i = 0; i < frame.ports.sensors; ++i)
+        sensors.push_back(frame.ports.sensor(i));
+      const auto compressions = structure->port_positions(motion, sensors);
+      row.sensor_forces.clear();
+      for (const unsigned int port : sensors)
+        row.sensor_forces.push_back(frame.sensor_stiffness * compressions[port]);
+    }
 
     const PortSelection &reachable_ports(const Motion &motion) const
     {

@@ -14,7 +14,8 @@ namespace sprag
                       moment_law(scene.spring),
                       scene.support.stiffness,
                       support_damping(scene.support, lever_mass),
-                      dealii::Vector<double>(ports.size()) };
+                      dealii::Vector<double>(ports.size()),
+                      scene.plate.sensor_stiffness };
     frame.lengths                   = 1.;
     frame.lengths[ports.rotation()] = scene.geometry.pivot_distance;
     return frame;

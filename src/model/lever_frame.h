@@ -17,6 +17,7 @@ namespace sprag
     double support_stiffness;       ///< k_f [N/mm]; counts on a sprung support
     double support_damping;         ///< c_f [N s/mm]
     dealii::Vector<double> lengths; ///< what a unit of each port moves [mm]: 1, and an arm for rotations
+    double sensor_stiffness = 0.;   ///< of each force sensor of a friction plate [N/mm]
   };
 
   /// With lengths 1 but for the hub's rotation. `lever_mass` [t] moves with a sprung support.

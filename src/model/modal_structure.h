@@ -15,13 +15,14 @@ namespace sprag
   struct ModalData
   {
     PortLayout ports;
-    std::vector<double> stiffness;              ///< omega^2 [1/s^2], > 0
-    dealii::FullMatrix<double> damping;         ///< symmetric [1/s]
-    dealii::FullMatrix<double> shapes;          ///< a row a port, a column a mode
-    dealii::FullMatrix<double> face_compliance; ///< static shapes: of the surface ports [mm/N], symmetric; empty without
-    double relaxation       = 0.;               ///< damping of the static shapes, over their stiffness [s]
-    double spring_stiffness = 0.;               ///< of the rotation [N mm/rad], part of `stiffness` already
-    unsigned int support    = -1u;              ///< mode that is the support's; -1u without
+    std::vector<double> stiffness;      ///< omega^2 [1/s^2], > 0
+    dealii::FullMatrix<double> damping; ///< symmetric [1/s]
+    dealii::FullMatrix<double> shapes;  ///< a row a port, a column a mode
+    dealii::FullMatrix<double>
+        face_compliance;           ///< static shapes: of the ports to the rotation's [mm/N], symmetric; empty without
+    double relaxation       = 0.;  ///< damping of the static shapes, over their stiffness [s]
+    double spring_stiffness = 0.;  ///< of the rotation [N mm/rad], part of `stiffness` already
+    unsigned int support    = -1u; ///< mode that is the support's; -1u without
   };
 
   /// Answers of a ModalData to forces on its ports, static or in steps of the generalised-alpha method.

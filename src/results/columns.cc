@@ -59,6 +59,19 @@ namespace sprag
     return columns;
   }
 
+  std::vector<ColumnInfo> table_columns(const FrictionPlate &plate)
+  {
+    std::vector<ColumnInfo> result = all_columns();
+    if (plate.type == PlateType::none)
+      return result;
+    const std::string reason = ", positive in compression; finite elements only: other models have no friction plate";
+    for (std::size_t i = 1; i <= plate.sensors.size(); ++i)
+      result.push_back({ "sensor_" + std::to_string(i), "N",
+                         "force of sensor " + std::to_string(i) + " of the friction plate, counted from the pivot" + reason });
+    result.push_back({ "sensor_sum", "N", "sum of the forces of the friction plate's sensors" + reason });
+    return result;
+  }
+
   const ColumnInfo &column_info(const Column column)
   {
     return all_columns().at(static_cast<std::size_t>(column));

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "scene/apparatus.h"
+
 #include <array>
 #include <cstddef>
 #include <limits>
@@ -74,6 +76,9 @@ namespace sprag
   /// Every Column in the order of the enumeration.
   const std::vector<ColumnInfo> &all_columns();
 
+  /// Columns of the table of a run: with a friction plate on sensors also sensor_1 ... sensor_n and sensor_sum.
+  std::vector<ColumnInfo> table_columns(const FrictionPlate &plate);
+
   /// One accepted step.
   class Row
   {
@@ -92,6 +97,8 @@ namespace sprag
     {
       return values[static_cast<std::size_t>(column)];
     }
+
+    std::vector<double> sensor_forces; ///< [N], positive in compression; empty where the model has none
 
   private:
     std::array<double, n_columns> values;

@@ -8,6 +8,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <numeric>
 #include <optional>
 
 namespace sprag
@@ -113,6 +114,11 @@ namespace sprag
         Assert(row.size() == series.size(), dealii::ExcDimensionMismatch(row.size(), series.size()));
         for (std::size_t i = 0; i < row.size(); ++i)
           pending[i].push_back(row[i]);
+      }
+
+      std::size_t n_columns() const
+      {
+        return series.size();
       }
 
       std::size_t pending_bytes() const
@@ -233,10 +239,17 @@ namespace sprag
 
   void ResultFile::append(const Row &row)
   {
-    std::vector<double> values;
-    values.reserve(n_columns);
+    Assert(implementation->writer, dealii::ExcMessage("The result file is finished."));
+    std::vector<double> values(implementation->writer->table.n_columns(), std::numeric_limits<double>::quiet_NaN());
     for (std::size_t i = 0; i < n_columns; ++i)
-      values.push_back(row[static_cast<Column>(i)]);
+      values[i] = row[static_cast<Column>(i)];
+    const auto &sensors = row.sensor_forces;
+    if (!sensors.empty() && values.size() > n_columns)
+    {
+      Assert(values.size() == n_columns + sensors.size() + 1, dealii::ExcDimensionMismatch(values.size(), sensors.size()));
+      std::copy(sensors.begin(), sensors.end(), values.begin() + n_columns);
+      values.back() = std::accumulate(sensors.begin(), sensors.end(), 0.);
+    }
     append(values);
   }
 

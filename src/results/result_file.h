@@ -62,7 +62,7 @@ namespace sprag
     ResultFile(ResultFile &&) noexcept;
     ~ResultFile();
 
-    /// For a file with all_columns().
+    /// For a file with all_columns() or table_columns().
     void append(const Row &row);
 
     /// A value for each of the columns given to the constructor.

@@ -1,6 +1,7 @@
 #include "scene/check.h"
 
 #include "base/text.h"
+#include "scene/check_plate.h"
 #include "scene/check_spring.h"
 #include "scene/closed_form.h"
 #include "scene/contact_reference.h"
@@ -317,6 +318,8 @@ namespace sprag
       append(result, support(scene, use));
       if (use.meshed)
         append(result, mesh_and_material(scene, use));
+      if (use.meshed)
+        append(result, plate_violations(scene, use.own_mesh));
       if (use.transient && use.lever && !use.own_mesh)
         append(result, inertia(scene));
       if (use.in_time)
@@ -352,6 +355,8 @@ namespace sprag
         append(result, sliding(scene));
       if (result.empty() && use.lever && !use.own_mesh)
         append(result, tip(scene));
+      if (result.empty() && use.meshed && !use.own_mesh)
+        append(result, sweep_violations(scene));
       if (result.empty() && can_lock(scene, use))
         append(result, locked(scene));
       return result;

@@ -83,7 +83,8 @@ namespace sprag
   enum class MaterialModel
   {
     linear,
-    neo_hookean
+    neo_hookean,
+    st_venant_kirchhoff ///< of leaf springs
   };
 
   enum class InertiaSource

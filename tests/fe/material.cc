@@ -128,3 +128,63 @@ TEST(PlaneConstants, PullingMeetsYoungsModulus)
     EXPECT_NEAR(modulus(plane_constants({ 20., nu }, PlaneState::strain)), 20. / (1. - nu * nu), 1e-12);
   }
 }
+
+// Strains of up to 1.5 make derivatives of order 4 up to 1e3 MPa too: W is a polynomial of degree 4 in F.
+TEST(StVenantKirchhoff, StressAndTangentAreDerivativesOfTheEnergy)
+{
+  for (const PlaneState plane : { PlaneState::strain, PlaneState::stress })
+    for (const auto &deformation : deformations)
+      for (unsigned int j = 0; j < 4; ++j)
+        for (const double h : { 1e-3, 1e-4, 1e-5 })
+        {
+          const auto lame         = plane_constants({ 20., 0.3 }, plane);
+          const auto displacement = deformation - deformations[0];
+          const auto right        = moved(displacement, j, h);
+          const auto left         = moved(displacement, j, -h);
+          const auto at           = st_venant_kirchhoff<2>(lame, displacement);
+          const double difference = st_venant_kirchhoff_energy<2>(lame, right) - st_venant_kirchhoff_energy<2>(lame, left);
+          EXPECT_NEAR(at.piola[j / 2][j % 2], difference / (2. * h), allowed(h));
+          const auto of_stress = st_venant_kirchhoff<2>(lame, right).piola - st_venant_kirchhoff<2>(lame, left).piola;
+          for (unsigned int i = 0; i < 4; ++i)
+            EXPECT_NEAR(at.tangent[i][j], of_stress[i / 2][i % 2] / (2. * h), 2. * allowed(h)) << i << j;
+        }
+}
+
+TEST(StVenantKirchhoff, RotationsCostNothingAndTurnTheStress)
+{
+  const auto strained = gradient(1.1, 0.2, -0.1, 0.9);
+  for (const double angle : { 0.1, 1., 3. })
+  {
+    const auto rotation = gradient(std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle));
+    EXPECT_NEAR(st_venant_kirchhoff_energy<2>(constants, rotation - deformations[0]), 0., 1e-13);
+    EXPECT_NEAR(st_venant_kirchhoff<2>(constants, rotation - deformations[0]).piola.norm(), 0., 1e-13);
+    // P(Q F) = Q P(F), stresses of up to 10 MPa.
+    const auto turned  = st_venant_kirchhoff<2>(constants, rotation * strained - deformations[0]).piola;
+    const auto at_rest = st_venant_kirchhoff<2>(constants, strained - deformations[0]).piola;
+    EXPECT_NEAR((turned - rotation * at_rest).norm(), 0., 1e-13);
+  }
+}
+
+TEST(StVenantKirchhoff, IsLinearElasticityAtRest)
+{
+  const auto difference =
+      st_venant_kirchhoff<2>(constants, Gradient()).tangent - linear_elastic<2>(constants, Gradient()).tangent;
+  EXPECT_NEAR(difference.norm(), 0., 1e-14 * constants.mu);
+}
+
+// Pulled to a stretch L with the other axis free: S_11 = E (L^2 - 1)/2 with Young's modulus, in plane strain E/(1 - nu^2).
+TEST(StVenantKirchhoff, PullingMeetsYoungsModulusAtFiniteStretch)
+{
+  for (const PlaneState plane : { PlaneState::strain, PlaneState::stress })
+  {
+    const auto lame       = plane_constants({ 20., 0.3 }, plane);
+    const double modulus  = plane == PlaneState::strain ? 20. / (1. - 0.09) : 20.;
+    const double ratio    = lame.lambda / (lame.lambda + 2. * lame.mu);
+    const double stretch  = 1.2;
+    const double strain   = 0.5 * (stretch * stretch - 1.);
+    const double narrowed = std::sqrt(1. - 2. * ratio * strain);
+    const auto stress     = st_venant_kirchhoff<2>(lame, gradient(stretch - 1., 0., 0., narrowed - 1.)).piola;
+    EXPECT_NEAR(stress[0][0], stretch * modulus * strain, 1e-13);
+    EXPECT_NEAR(stress[1][1], 0., 1e-13);
+  }
+}

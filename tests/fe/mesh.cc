@@ -103,6 +103,97 @@ namespace
       EXPECT_GT(cell->measure(), 0.);
   }
 
+  constexpr double model_a_offset = 45.6;
+
+  /// A lever with a frame or plate on the models' friction face.
+  Scene built(const double offset, const LeverOutline outline, const PlateType plate)
+  {
+    Scene scene         = coarse_scene(offset, 1.);
+    scene.lever.outline = outline;
+    scene.plate.type    = plate;
+    if (offset == 0.)
+    {
+      scene.geometry.cylinder_radius = 21.1;
+      scene.geometry.pivot_distance  = 193.9;
+    }
+    return scene;
+  }
+
+  /// Area of the arm's metal between two xi and between two parts of its depth, flanges of given depth aside.
+  double taper(const Scene &scene, const double from, const double to, const double flanges)
+  {
+    const auto depth = [&](const double xi)
+    {
+      const double way = (xi - scene.frame.root) / (scene.lever.length - scene.frame.root);
+      return scene.lever.depth + way * (scene.frame.tip_depth - scene.lever.depth) - flanges;
+    };
+    return 0.5 * (to - from) * (depth(from) + depth(to));
+  }
+
+  double area_of_pockets(const Scene &scene)
+  {
+    const auto &frame   = scene.frame;
+    const double pocket = (scene.lever.length - frame.root - (frame.pockets + 1) * frame.rib) / frame.pockets;
+    double sum          = 0.;
+    for (unsigned int i = 0; i < frame.pockets; ++i)
+    {
+      const double begin = frame.root + frame.rib + i * (pocket + frame.rib);
+      sum += taper(scene, begin, begin + pocket, 2. * frame.flange);
+    }
+    return sum;
+  }
+
+  /// Metal of full width: the arm less its pockets, and the root around a hub of 5 mm with 10 mm from its axis to the outside.
+  double area_of_frame(const Scene &scene, const double front)
+  {
+    const double arm  = taper(scene, scene.frame.root, scene.lever.length, 0.);
+    const double root = (scene.frame.root + 10.) * (10. + std::max(front + scene.lever.depth, 10.));
+    return arm - area_of_pockets(scene) + root - M_PI * 25.;
+  }
+
+  void expect_plate(const Scene &scene, const dealii::Triangulation<2> &triangulation)
+  {
+    const double back = scene.geometry.interface_offset + 1. + scene.plate.thickness;
+    auto area         = areas(triangulation);
+    EXPECT_NEAR(area[material_id::plate], 110. * 8., 1e-8);
+    EXPECT_NEAR(area[material_id::layer], 110., 1e-8);
+    const auto face = boundary(triangulation, boundary_id::friction_face);
+    EXPECT_NEAR(face.begin, 95., 1e-9);
+    EXPECT_NEAR(face.end, 205., 1e-9);
+    const auto plate = boundary(triangulation, boundary_id::sensor_plate);
+    EXPECT_NEAR(plate.length, 110., 1e-9);
+    EXPECT_NEAR(plate.lowest, back, 1e-9);
+    EXPECT_NEAR(plate.highest, back, 1e-9);
+    const auto lever = boundary(triangulation, boundary_id::sensor_lever);
+    EXPECT_LE(lever.begin, 95.);
+    EXPECT_GE(lever.end, 205.);
+    EXPECT_NEAR(lever.lowest, back + scene.plate.spacer, 1e-9);
+    EXPECT_NEAR(lever.highest, back + scene.plate.spacer, 1e-9);
+  }
+
+  /// No smaller angle than this at any corner, and the finest cells where the cylinder sweeps.
+  void expect_good_cells(const Scene &scene, const dealii::Triangulation<2> &triangulation)
+  {
+    const double smallest = std::sin(10. * M_PI / 180.);
+    for (const auto &cell : triangulation.active_cell_iterators())
+    {
+      EXPECT_GT(cell->measure(), 0.);
+      const unsigned int around[] = { 0, 1, 3, 2 };
+      for (unsigned int v = 0; v < 4; ++v)
+      {
+        const auto a = cell->vertex(around[(v + 3) % 4]) - cell->vertex(around[v]);
+        const auto b = cell->vertex(around[(v + 1) % 4]) - cell->vertex(around[v]);
+        EXPECT_GT((b[0] * a[1] - b[1] * a[0]) / (a.norm() * b.norm()), smallest) << cell->center();
+      }
+      for (const auto &face : cell->face_iterators())
+        if (face->at_boundary() && face->boundary_id() == boundary_id::friction_face && face->center()[0] > 131. &&
+            face->center()[0] < 184.)
+        {
+          EXPECT_LE(face->measure(), scene.mesh.face_size + 1e-9);
+        }
+    }
+  }
+
   /// A plain bar on a curve `hub` whose lower side lies at `offset`, from `begin` to `begin` + 200 mm; names as given.
   std::string bar(const std::string &surface, const std::string &face, const std::string &hub, const double offset = 45.6,
                   const double length = 210., const std::string &options = "Recombine Surface {1};\n")
@@ -175,6 +266,84 @@ TEST(Mesh, BuiltInLeverHasTheFaceSizeWhereTheCylinderSweeps)
       ++n_fine;
     }
   EXPECT_GE(n_fine, 31u);
+}
+
+TEST(Mesh, PlateLiesFreeBeforeTheBar)
+{
+  for (const double offset : { 0., model_a_offset })
+  {
+    const auto scene = built(offset, LeverOutline::bar, PlateType::on_sensors);
+    dealii::Triangulation<2> triangulation;
+    make_mesh(scene, triangulation);
+    auto area = areas(triangulation);
+    EXPECT_NEAR(area[material_id::lever], 210. * 20., 1e-8);
+    EXPECT_NEAR(area[material_id::hub], 10. * (20. + offset + 1. + 8. + 6.), 1e-8);
+    expect_plate(scene, triangulation);
+    expect_good_cells(scene, triangulation);
+  }
+}
+
+TEST(Mesh, FrameHasRootArmAndWebs)
+{
+  for (const double offset : { 0., 4., model_a_offset })
+  {
+    const auto scene = built(offset, LeverOutline::frame, PlateType::none);
+    dealii::Triangulation<2> triangulation;
+    make_mesh(scene, triangulation);
+    auto area = areas(triangulation);
+    // The hub's circle is a polygon of 30 sides and more.
+    EXPECT_NEAR(area[material_id::lever], area_of_frame(scene, offset + 1.), 0.8);
+    EXPECT_NEAR(area[material_id::web], area_of_pockets(scene), 1e-8);
+    EXPECT_NEAR(area[material_id::layer], 174., 1e-8);
+    const auto face = boundary(triangulation, boundary_id::friction_face);
+    EXPECT_NEAR(face.begin, 36., 1e-9);
+    EXPECT_NEAR(face.end, 210., 1e-9);
+    EXPECT_NEAR(face.lowest, offset, 1e-9);
+    const auto hub = boundary(triangulation, boundary_id::hub);
+    EXPECT_NEAR(hub.length, 2. * M_PI * 5., 0.3);
+    EXPECT_NEAR(hub.begin, -5., 0.1);
+    EXPECT_NEAR(hub.highest, 5., 0.1);
+    expect_good_cells(scene, triangulation);
+  }
+}
+
+TEST(Mesh, FrameCarriesAPlate)
+{
+  for (const double offset : { 0., model_a_offset })
+  {
+    const auto scene = built(offset, LeverOutline::frame, PlateType::on_sensors);
+    dealii::Triangulation<2> triangulation;
+    make_mesh(scene, triangulation);
+    EXPECT_NEAR(areas(triangulation)[material_id::lever], area_of_frame(scene, offset + 15.), 0.8);
+    expect_plate(scene, triangulation);
+    expect_good_cells(scene, triangulation);
+  }
+}
+
+TEST(Mesh, FrameWithoutWebHasHoles)
+{
+  auto scene      = built(model_a_offset, LeverOutline::frame, PlateType::none);
+  scene.frame.web = 0.;
+  dealii::Triangulation<2> triangulation;
+  make_mesh(scene, triangulation);
+  auto area = areas(triangulation);
+  EXPECT_EQ(area.count(material_id::web), 0u);
+  EXPECT_NEAR(area[material_id::lever], area_of_frame(scene, model_a_offset + 1.), 0.8);
+}
+
+TEST(Mesh, FrameWithoutPocketsIsSolid)
+{
+  auto scene            = built(0., LeverOutline::frame, PlateType::none);
+  scene.frame.pockets   = 0;
+  scene.frame.flange    = 1.5;
+  scene.lever.depth     = 5.;
+  scene.frame.tip_depth = 4.;
+  dealii::Triangulation<2> triangulation;
+  make_mesh(scene, triangulation);
+  auto area = areas(triangulation);
+  EXPECT_EQ(area.count(material_id::web), 0u);
+  EXPECT_NEAR(area[material_id::lever], 180. * 4.5 + 40. * 20. - M_PI * 25., 0.8);
+  expect_good_cells(scene, triangulation);
 }
 
 TEST(Mesh, UsersGeometryIsMeshed)
@@ -256,6 +425,31 @@ TEST(Mesh, FaceThatTheContactLeavesIsRefusedWithBothSpans)
   const auto message = complaint(bar("lever", "friction face", "hub", 45.6, 150.));
   expect_named(message, "150");
   expect_named(message, "sweeps");
+}
+
+TEST(Mesh, PlateThatTheFileLacksIsNamed)
+{
+  const TemporaryFolder folder;
+  Scene scene      = coarse_scene(45.6, 0.);
+  scene.plate.type = PlateType::on_sensors;
+  scene.mesh.file  = folder.write("bar.geo", bar("lever", "friction face", "hub"));
+  dealii::Triangulation<2> triangulation;
+  try
+  {
+    make_mesh(scene, triangulation);
+    FAIL();
+  }
+  catch (const InputError &error)
+  {
+    expect_named(error.what(), "Friction plate/Type = on sensors, but there is no physical surface 'plate'");
+    expect_named(error.what(), "'sensor plate'");
+    expect_named(error.what(), "'sensor lever'");
+  }
+}
+
+TEST(Mesh, PlateThatTheSceneLacksIsNamed)
+{
+  expect_named(complaint(bar("plate", "friction face", "hub")), "has a surface 'plate', but Friction plate/Type = none");
 }
 
 TEST(Mesh, MissingFileIsNamed)

@@ -1,0 +1,90 @@
+#include "fe/leaf_vibration.h"
+
+#include "fe/compressed_rows.h"
+#include "fe/free_modes.h"
+
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/fe/fe_values.h>
+
+namespace sprag
+{
+  using namespace dealii;
+
+  namespace
+  {
+    constexpr unsigned int n_modes = 8;
+
+    void assemble_mass(const ElasticBody<2> &body, const double density, PETScWrappers::SparseMatrix &mass)
+    {
+      const auto &fe = body.dofs().get_fe();
+      FEValues<2> values(body.cell_mapping(), fe, QGauss<2>(fe.degree + 1), update_values | update_JxW_values);
+      const unsigned int n = fe.n_dofs_per_cell();
+      FullMatrix<double> local(n, n);
+      std::vector<types::global_dof_index> indices(n);
+      body.reinit(mass, 0);
+      for (const auto &cell : body.dofs().active_cell_iterators())
+      {
+        values.reinit(cell);
+        local = 0.;
+        for (const unsigned int q : values.quadrature_point_indices())
+        {
+          const double weight = density * body.body_properties().width_of(cell->material_id()) * values.JxW(q);
+          for (unsigned int i = 0; i < n; ++i)
+            for (unsigned int j = 0; j < n; ++j)
+              if (fe.system_to_component_index(i).first == fe.system_to_component_index(j).first)
+                local(i, j) += weight * values.shape_value(i, q) * values.shape_value(j, q);
+        }
+        cell->get_dof_indices(indices);
+        mass.add(indices, local);
+      }
+      mass.compress(VectorOperation::add);
+    }
+
+    /// Unit displacements of all along xi and along eta.
+    std::array<Vector<double>, 2> translations(const ElasticBody<2> &body)
+    {
+      std::array<Vector<double>, 2> result{ { Vector<double>(body.n_dofs()), Vector<double>(body.n_dofs()) } };
+      const auto &fe = body.dofs().get_fe();
+      std::vector<types::global_dof_index> indices(fe.n_dofs_per_cell());
+      for (const auto &cell : body.dofs().active_cell_iterators())
+      {
+        cell->get_dof_indices(indices);
+        for (unsigned int i = 0; i < indices.size(); ++i)
+          result[fe.system_to_component_index(i).first][indices[i]] = 1.;
+      }
+      return result;
+    }
+
+    Vector<double> product(const PETScWrappers::SparseMatrix &matrix, const Vector<double> &vector)
+    {
+      const CompressedRows rows(matrix);
+      Vector<double> result(vector.size());
+      rows.multiply<1>({ { &vector } }, { { &result } });
+      return result;
+    }
+  } // namespace
+
+  void add_inertia(LeafBody &leaf, const double density, LeafBehaviour &behaviour)
+  {
+    const auto &body    = leaf.body();
+    const auto &statics = leaf.statics();
+    const auto shape    = leaf.rest().rate;
+    const auto axes     = translations(body);
+    PETScWrappers::SparseMatrix mass, reduced_mass, reduced_stiffness;
+    assemble_mass(body, density, mass);
+    statics.reduce(mass, reduced_mass);
+    statics.reduce(statics.stiffness(), reduced_stiffness);
+
+    const auto weighed = product(mass, shape);
+    behaviour.mass     = body.mass_and_inertia(density)[0];
+    behaviour.inertia  = weighed * shape;
+    behaviour.momentum = { { weighed * axes[0], weighed * axes[1] } };
+
+    const auto modes = free_modes(reduced_stiffness, reduced_mass, n_modes);
+    for (unsigned int i = 0; i < modes.shapes.size(); ++i)
+    {
+      const auto of_mode = product(mass, statics.expand(modes.shapes[i]));
+      behaviour.modes.push_back({ modes.stiffness[i], of_mode * shape, { { of_mode * axes[0], of_mode * axes[1] } } });
+    }
+  }
+} // namespace sprag

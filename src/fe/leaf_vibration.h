@@ -1,0 +1,10 @@
+#pragma once
+
+#include "fe/leaf_body.h"
+
+namespace sprag
+{
+  /// Fills in mass, inertia, momentum and the lowest vibrations with the hub held, linear about rest, all with the consistent
+  /// mass matrix of a density [t/mm^3].
+  void add_inertia(LeafBody &leaf, double density, LeafBehaviour &behaviour);
+} // namespace sprag

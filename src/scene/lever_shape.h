@@ -1,0 +1,28 @@
+#pragma once
+
+#include "scene/scene.h"
+
+#include <array>
+
+namespace sprag
+{
+  // Dimensions that follow from those of the scene, in lever axes [mm].
+
+  /// The pivot's axle, which holds a lever frame: of a rigid hub.
+  inline constexpr double frame_hub_radius = 5.;
+
+  /// Least metal of the root around it.
+  inline constexpr double frame_wall = 5.;
+
+  /// Offset of the lever's metal from the pivot: behind the friction layer, or behind the plate's spacers.
+  double lever_front(const Scene &scene);
+
+  /// Length of each pocket of the lever frame along xi; not positive if they do not fit. 0 without pockets.
+  double pocket_length(const Scene &scene);
+
+  /// First and last xi that the contact of a rigid lever sweeps in the drive.
+  std::array<double, 2> swept_contact(const Scene &scene);
+
+  /// Part of the lever or plate that carries the friction layer, first and last xi.
+  std::array<double, 2> friction_face(const Scene &scene);
+} // namespace sprag

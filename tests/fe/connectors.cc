@@ -1,0 +1,203 @@
+#include "fe/connectors.h"
+
+#include "base/errors.h"
+#include "fe/compressed_rows.h"
+#include "fe/mumps.h"
+#include "mpi_environment.h"
+#include "plate.h"
+
+#include <deal.II/base/function_lib.h>
+#include <deal.II/numerics/vector_tools.h>
+
+#include <functional>
+#include <gtest/gtest.h>
+
+using namespace sprag;
+
+namespace
+{
+  using Vector = dealii::Vector<double>;
+  using Matrix = dealii::PETScWrappers::SparseMatrix;
+  using Field  = std::function<std::array<double, 2>(double xi, double eta)>;
+
+  /// Nodal values of a displacement, held nodes included.
+  Vector displacement(const ElasticBody<2> &body, const Field &field)
+  {
+    class Given : public dealii::Function<2>
+    {
+    public:
+      explicit Given(const Field &field_)
+          : dealii::Function<2>(2)
+          , field(field_)
+      {
+      }
+      double value(const dealii::Point<2> &point, const unsigned int component) const override
+      {
+        return field(point[0], point[1])[component];
+      }
+
+    private:
+      const Field &field;
+    };
+    Vector result(body.n_dofs());
+    dealii::VectorTools::interpolate(body.dofs(), Given(field), result);
+    return result;
+  }
+
+  /// Displacement under forces on the nodes of the friction face next to xi, spread over two.
+  Vector loaded(const ElasticBody<2> &body, const double xi, const std::array<double, 2> &force)
+  {
+    Vector load(body.n_dofs());
+    const auto &nodes = body.friction_face().nodes;
+    for (const auto &left : nodes)
+      for (const auto &right : nodes)
+      {
+        const double gap = right.position[0] - left.position[0];
+        if (gap <= 0. || gap > 1.3 || left.position[0] > xi || right.position[0] <= xi)
+          continue;
+        for (unsigned int d = 0; d < 2; ++d)
+        {
+          load[left.dofs[d]]  = force[d] * (right.position[0] - xi) / gap;
+          load[right.dofs[d]] = force[d] * (xi - left.position[0]) / gap;
+        }
+      }
+    Matrix stiffness;
+    Vector ignored(body.n_dofs()), result;
+    body.reinit(stiffness, 0);
+    body.assemble(Vector(body.n_dofs()), stiffness, ignored);
+    Mumps factors;
+    factors.factorise(stiffness);
+    factors.solve(load, result);
+    return result;
+  }
+} // namespace
+
+TEST(Connectors, MeasureTheMeanOverPadsBetweenNodes)
+{
+  const PlateOnBar scene;
+  const MeshedPlate plate(scene);
+  // Quadratic elements hold these fields exactly; the mean of xi^2 over a pad is its middle squared and length^2 / 12.
+  const auto bulge = displacement(*plate,
+                                  [&](const double xi, const double eta) -> std::array<double, 2> {
+                                    return { { eta < scene.front() ? 3. * xi * xi : 0., eta < scene.front() ? xi * xi : 5. } };
+                                  });
+  const auto mean  = [&](const double middle) { return middle * middle + scene.sensor_length * scene.sensor_length / 12.; };
+  const auto &all  = plate->connectors();
+  ASSERT_EQ(all.size(), 3u);
+  for (unsigned int i = 0; i < 2; ++i)
+    EXPECT_NEAR(all[i].compression(bulge), mean(scene.sensors[i]) - 5., 1e-10);
+  EXPECT_NEAR(all[2].compression(bulge), 3. * mean(scene.guide), 1e-10);
+}
+
+TEST(Connectors, NoRigidMovementCompressesThem)
+{
+  const MeshedPlate plate(PlateOnBar{});
+  const auto moved = displacement(*plate,
+                                  [](const double xi, const double eta) -> std::array<double, 2> {
+                                    return { { 2. - 0.3 * eta, 7. + 0.3 * xi } };
+                                  });
+  for (const auto &connector : plate->connectors())
+    EXPECT_NEAR(connector.compression(moved), 0., 1e-12);
+}
+
+TEST(Connectors, APlateOnTwoSensorsFollowsTheLeverRule)
+{
+  // Statically determinate: the forces do not depend on what bends.
+  const PlateOnBar scene;
+  const MeshedPlate plate(scene);
+  const double x_1 = scene.sensors[0], x_2 = scene.sensors[1];
+  const double P = 30., F = 20.;
+  for (const double xi : { 12., 20.3, 33. })
+  {
+    const auto u      = loaded(*plate, xi, { { -F, P } });
+    const auto forces = sensor_forces(*plate, u);
+    // Moments about the guide's line, the plate's back: friction along -xi acts layer and plate in front of it.
+    const double tilt = F * (scene.back() - scene.offset) / (x_2 - x_1);
+    EXPECT_NEAR(forces[0], P * (x_2 - xi) / (x_2 - x_1) + tilt, 1e-8 * P) << xi;
+    EXPECT_NEAR(forces[1], P * (xi - x_1) / (x_2 - x_1) - tilt, 1e-8 * P) << xi;
+    const auto &guide = plate->connectors().back();
+    EXPECT_NEAR(guide.stiffness * guide.compression(u), -F, 1e-8 * F) << xi;
+  }
+}
+
+TEST(Connectors, AStiffPlateSharesItsLoadLinearlyAmongFourSensors)
+{
+  PlateOnBar scene;
+  scene.sensors    = { 13., 18., 27., 34. };
+  const double P   = 30.;
+  const double xi  = 21.;
+  const auto rigid = [&](const double sensor)
+  {
+    // k (a + b (x - mean)) with sum P and moment P (xi - mean).
+    const double mean = 23., spread = 100. + 25. + 16. + 121.;
+    return P * (0.25 + (xi - mean) * (sensor - mean) / spread);
+  };
+  std::array<double, 2> error{};
+  for (const double stiffer : { 1., 1000. })
+  {
+    scene.stiffer = stiffer;
+    const MeshedPlate plate(scene);
+    const auto forces = sensor_forces(*plate, loaded(*plate, xi, { { 0., P } }));
+    for (unsigned int i = 0; i < 4; ++i)
+      error[stiffer > 1.] = std::max(error[stiffer > 1.], std::abs(forces[i] - rigid(scene.sensors[i])));
+  }
+  // What bends falls off with the stiffness: the metal's is infinite in comparison at 1000 times.
+  EXPECT_GT(error[0], 0.05 * P);
+  EXPECT_LT(error[1], 3. * error[0] / 1000. + 1e-3 * P);
+}
+
+TEST(Connectors, TheirEnergyIsTheWorkOfTheLoad)
+{
+  const MeshedPlate plate(PlateOnBar{});
+  const auto u = loaded(*plate, 20., { { -5., 10. } });
+  Matrix stiffness;
+  Vector forces(plate->n_dofs());
+  plate->reinit(stiffness, 0);
+  plate->assemble(u, stiffness, forces);
+  const double energy = plate->energy(u);
+  EXPECT_NEAR(energy, 0.5 * (u * forces), 1e-10 * energy);
+  double of_springs = 0.;
+  for (const auto &connector : plate->connectors())
+    of_springs += 0.5 * connector.stiffness * std::pow(connector.compression(u), 2);
+  EXPECT_GT(of_springs, 1e-3 * energy);
+}
+
+TEST(Connectors, APadBesideItsSideIsRefusedByName)
+{
+  PlateOnBar scene;
+  scene.sensors[1] = scene.end - 0.4 * scene.sensor_length;
+  try
+  {
+    const MeshedPlate plate(scene);
+    FAIL();
+  }
+  catch (const InputError &error)
+  {
+    EXPECT_NE(std::string(error.what()).find("force sensor at xi = 34.84 mm"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("'sensor plate'"), std::string::npos) << error.what();
+  }
+}
+
+TEST(Connectors, RotationOfTheHubCostsNothing)
+{
+  const MeshedPlate plate(PlateOnBar{});
+  const InertialMatrices<2> matrices(*plate, plate_inertia());
+  const auto turned = matrices.coordinates.rigid_rotation();
+  Vector forces(turned.size());
+  CompressedRows(matrices.stiffness).multiply<1>({ { &turned } }, { { &forces } });
+  // Round-off of stresses of the size of Young's modulus on areas of some 10 mm^2, displaced by 40 mm.
+  EXPECT_NEAR(forces.linfty_norm(), 0., 1e-13 * 7e4 * 10. * 40.);
+}
+
+TEST(Connectors, TotalCoordinatesHaveTheStiffnessOfTheBody)
+{
+  const MeshedPlate plate(PlateOnBar{});
+  const InertialMatrices<2> matrices(*plate, plate_inertia());
+  Vector total(matrices.coordinates.size());
+  for (unsigned int i = 0; i < total.size(); ++i)
+    total[i] = 1e-3 * std::sin(1. + i);
+  Vector product(total.size());
+  CompressedRows(matrices.stiffness).multiply<1>({ { &total } }, { { &product } });
+  const double energy = plate->energy(matrices.coordinates.elastic_displacement(total));
+  EXPECT_NEAR(energy, 0.5 * (total * product), 1e-11 * energy);
+}

@@ -1,0 +1,196 @@
+#include "fe/compressed_rows.h"
+#include "fe/condensed_basis.h"
+#include "fe/sparse_structure.h"
+#include "model/modal_structure.h"
+#include "mpi_environment.h"
+#include "plate.h"
+
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/fe/fe_values.h>
+
+#include <gtest/gtest.h>
+
+using namespace sprag;
+
+namespace
+{
+  using Vector = dealii::Vector<double>;
+
+  constexpr double spring_stiffness = 1e4;
+
+  LeverDynamics constants_of(const bool sprung)
+  {
+    LeverDynamics result;
+    result.spring_stiffness  = spring_stiffness;
+    result.relaxation        = sprung ? 2e-5 : 0.;
+    result.sprung            = sprung;
+    result.support_mass      = 2e-5;
+    result.support_stiffness = 50.;
+    return result;
+  }
+
+  SparseStructure finite_elements(const ElasticBody<2> &body, const unsigned int modes, const bool sprung)
+  {
+    const auto matrices = std::make_shared<InertialMatrices<2>>(body, plate_inertia());
+    dealii::PETScWrappers::SparseMatrix stiffness;
+    matrices->sum({ 0., 1., 0., spring_stiffness }, stiffness);
+    return SparseStructure(body, matrices, free_modes(stiffness, matrices->mass, modes), constants_of(sprung));
+  }
+
+  /// On some nodes of the friction face, growing.
+  PortForces forces_of(const unsigned int step)
+  {
+    PortForces forces;
+    forces.ports  = { 10, 11, 24, 25 };
+    forces.values = Vector(4);
+    for (unsigned int i = 0; i < 4; ++i)
+      forces.values[i] = (1. + step) * std::cos(0.4 + i);
+    return forces;
+  }
+
+  template <class Structure, class Look>
+  void march(Structure &structure, const Look &look)
+  {
+    const auto weights = generalised_alpha(0.8, 2e-5);
+    structure.use_step(weights);
+    Motion motion = structure.rest();
+    for (unsigned int step = 0; step < 12; ++step)
+    {
+      const auto forces = forces_of(step);
+      structure.free_ports(motion, all_ports(structure.ports().size()));
+      const auto before = motion;
+      motion            = structure.advance(motion, forces, {});
+      look(before, motion, forces, weights);
+    }
+  }
+
+  /// Row whose product with total coordinates is the momentum of plate and layer along eta.
+  Vector momentum_of_plate(const ElasticBody<2> &body, const LeverInertia &inertia)
+  {
+    const TotalCoordinates<2> coordinates(body);
+    Vector row(coordinates.size());
+    const auto &fe = body.dofs().get_fe();
+    dealii::FEValues<2> values(fe, dealii::QGauss<2>(3), dealii::update_values | dealii::update_JxW_values);
+    std::vector<dealii::types::global_dof_index> dofs(fe.n_dofs_per_cell());
+    for (const auto &cell : body.dofs().active_cell_iterators())
+      if (cell->material_id() != material_id::lever)
+      {
+        values.reinit(cell);
+        cell->get_dof_indices(dofs);
+        for (unsigned int i = 0; i < dofs.size(); ++i)
+          if (fe.system_to_component_index(i).first == 1)
+            for (const unsigned int q : values.quadrature_point_indices())
+              row[coordinates.mover(static_cast<unsigned int>(dofs[i])).coordinate] += inertia.densities.at(cell->material_id()) *
+                                                                                       body.body_properties().width *
+                                                                                       values.shape_value(i, q) * values.JxW(q);
+      }
+    return row;
+  }
+
+  double sensor_sum(const PlateOnBar &scene, const Vector &ports, const PortLayout &layout)
+  {
+    double sum = 0.;
+    for (unsigned int i = 0; i < layout.sensors; ++i)
+      sum += scene.sensor_stiffness * ports[layout.sensor(i)];
+    return sum;
+  }
+} // namespace
+
+TEST(PlateInTime, ContactLessSensorsIsThePlatesInertia)
+{
+  const PlateOnBar scene;
+  const MeshedPlate plate(scene);
+  auto structure     = finite_elements(*plate, 4, false);
+  const auto &layout = structure.ports();
+  ASSERT_EQ(layout.sensors, 2u);
+  const auto momentum = momentum_of_plate(*plate, plate_inertia());
+  double largest      = 0.;
+  march(structure,
+        [&](const Motion &before, const Motion &after, const PortForces &forces, const StepWeights &w)
+        {
+          // Forces and accelerations of a step of the generalised-alpha method are weighted means of its ends.
+          const double sensors = (1. - w.alpha_f) * sensor_sum(scene, structure.port_positions(after), layout) +
+                                 w.alpha_f * sensor_sum(scene, structure.port_positions(before), layout);
+          const double inertia = (1. - w.alpha_m) * (momentum * after.coordinates.acceleration) +
+                                 w.alpha_m * (momentum * before.coordinates.acceleration);
+          const double contact = forces.values[1] + forces.values[3];
+          EXPECT_NEAR(contact - sensors, inertia, 1e-8 * std::abs(contact));
+          largest = std::max(largest, std::abs(inertia / contact));
+        });
+  EXPECT_GT(largest, 0.05);
+}
+
+TEST(PlateInTime, SensorsAreOnlyReadButAnswerAsPorts)
+{
+  const PlateOnBar scene;
+  const MeshedPlate plate(scene);
+  for (const bool sprung : { false, true })
+  {
+    auto structure     = finite_elements(*plate, 4, sprung);
+    const auto &layout = structure.ports();
+    structure.use_statics();
+    const auto forces = forces_of(0);
+    const auto motion = structure.deform(forces);
+    const auto ports  = structure.port_positions(motion);
+    for (unsigned int i = 0; i < layout.sensors; ++i)
+    {
+      const unsigned int port = layout.sensor(i);
+      EXPECT_NEAR(structure.port_state(motion, port).position, ports[port], 1e-15);
+      double by_compliance = 0.;
+      for (unsigned int a = 0; a < 4; ++a)
+      {
+        EXPECT_EQ(structure.compliance()(port, forces.ports[a]), structure.compliance()(forces.ports[a], port));
+        by_compliance += structure.compliance()(port, forces.ports[a]) * forces.values[a];
+      }
+      EXPECT_NEAR(by_compliance, ports[port], 1e-9 * std::abs(ports[port]));
+    }
+    // At rest the sensors carry what is laid on.
+    EXPECT_NEAR(sensor_sum(scene, ports, layout), forces.values[1] + forces.values[3], 1e-8);
+  }
+}
+
+TEST(PlateInTime, CondensedSensorsAreThoseOfTheFiniteElements)
+{
+  const PlateOnBar scene;
+  const MeshedPlate plate(scene);
+  const unsigned int all = TotalCoordinates<2>(*plate).size();
+  for (const bool sprung : { false, true })
+  {
+    auto whole         = finite_elements(*plate, 4, sprung);
+    const auto layout  = whole.ports();
+    const auto sensors = [&](auto &structure)
+    {
+      std::vector<double> history;
+      march(structure, [&](const Motion &, const Motion &after, const PortForces &, const StepWeights &)
+            { history.push_back(sensor_sum(scene, structure.port_positions(after), layout)); });
+      return history;
+    };
+    const auto expected = sensors(whole);
+    const auto error    = [&](const unsigned int modes)
+    {
+      const auto basis = make_basis(*plate, { modes, spring_stiffness, plate_inertia(), {} });
+      ModalStructure condensed(modal_data(basis, constants_of(sprung)));
+      EXPECT_EQ(condensed.ports().sensors, 2u);
+      EXPECT_EQ(condensed.ports().rotation(), layout.rotation());
+      const auto found = sensors(condensed);
+      double largest   = 0.;
+      for (std::size_t i = 0; i < found.size(); ++i)
+        largest = std::max(largest, std::abs(found[i] - expected[i]) / std::abs(expected.back()));
+      return largest;
+    };
+    EXPECT_LT(error(all), 1e-8) << sprung;
+    EXPECT_LT(error(20), 1e-2) << sprung;
+  }
+}
+
+TEST(PlateInTime, CondensedStaticsAreExactWithAnyNumberOfModes)
+{
+  const PlateOnBar scene;
+  const MeshedPlate plate(scene);
+  const auto basis = make_basis(*plate, { 3, spring_stiffness, plate_inertia(), {} });
+  ModalStructure condensed(modal_data(basis, constants_of(false)));
+  condensed.use_statics();
+  const auto forces = forces_of(0);
+  const auto ports  = condensed.port_positions(condensed.deform(forces));
+  EXPECT_NEAR(sensor_sum(scene, ports, condensed.ports()), forces.values[1] + forces.values[3], 1e-8);
+}
