@@ -2,6 +2,7 @@
 
 #include "analysis/contact_law.h"
 #include "fe/effective_bending.h"
+#include "model/dynamic_model.h"
 
 #include <array>
 #include <optional>
