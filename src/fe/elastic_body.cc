@@ -167,14 +167,32 @@ namespace sprag
     {
       for (unsigned int other = n_dofs(); other < n; ++other)
         pattern.add(e, other);
-      for (const auto &node : face.nodes)
-        for (const unsigned int dof : node.dofs)
-        {
-          pattern.add(e, dof);
-          pattern.add(dof, e);
-        }
+      for (const auto *const touched : { &face, &face_of_cylinder })
+        for (const auto &node : touched->nodes)
+          for (const unsigned int dof : node.dofs)
+          {
+            pattern.add(e, dof);
+            pattern.add(dof, e);
+          }
     }
+    if (extra > 0)
+      couple_faces(pattern);
     matrix.reinit(pattern);
+  }
+
+  /// Each node of a cylinder's face with all of both faces: the material of the lever slides along it.
+  template <int dim>
+  void ElasticBody<dim>::couple_faces(DynamicSparsityPattern &pattern) const
+  {
+    for (const auto &node : face_of_cylinder.nodes)
+      for (const unsigned int dof : node.dofs)
+        for (const auto *const touched : { &face, &face_of_cylinder })
+          for (const auto &other : touched->nodes)
+            for (const unsigned int other_dof : other.dofs)
+            {
+              pattern.add(dof, other_dof);
+              pattern.add(other_dof, dof);
+            }
   }
 
   template <int dim>

@@ -9,6 +9,7 @@
 #include <deal.II/fe/mapping_q.h>
 #include <deal.II/grid/tria.h>
 #include <deal.II/lac/affine_constraints.h>
+#include <deal.II/lac/dynamic_sparsity_pattern.h>
 #include <deal.II/lac/petsc_sparse_matrix.h>
 #include <deal.II/lac/vector.h>
 
@@ -51,7 +52,8 @@ namespace sprag
     /// Which degrees of freedom are held or follow others.
     const dealii::AffineConstraints<double> &held() const;
 
-    /// A matrix for the stiffness with `extra` further rows and columns, which couple with the friction face and themselves.
+    /// A matrix for the stiffness with `extra` further rows and columns, which couple with the faces and themselves; with any,
+    /// friction face and cylinder face couple too.
     void reinit(dealii::PETScWrappers::SparseMatrix &matrix, unsigned int extra) const;
 
     /// Adds the stiffness at `displacement` to `matrix` and the internal forces [N] to `forces`; both may be longer than
@@ -74,6 +76,7 @@ namespace sprag
 
   private:
     void find_constraints(const Constrain &constrain);
+    void couple_faces(dealii::DynamicSparsityPattern &pattern) const;
     void add_connectors(const dealii::Vector<double> &displacement, dealii::PETScWrappers::SparseMatrix &matrix,
                         dealii::Vector<double> &forces) const;
 

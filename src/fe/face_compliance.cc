@@ -8,20 +8,10 @@ namespace sprag
 {
   using namespace dealii;
 
-  namespace
-  {
-    std::vector<unsigned int> face_dofs(const ElasticBody<2> &body)
-    {
-      std::vector<unsigned int> result;
-      for (const auto &node : body.friction_face().nodes)
-        result.insert(result.end(), node.dofs.begin(), node.dofs.end());
-      return result;
-    }
-  } // namespace
-
   FaceCompliance::FaceCompliance(const ElasticBody<2> &body_, const StaticPorts &ports_, const PortSprings &springs)
       : body(body_)
       , ports(ports_)
+      , surface(surface_dofs(body))
       , arm(springs.arm)
       , all(all_ports(ports.size()))
       , compliance(ports.size(), ports.size())
@@ -31,7 +21,7 @@ namespace sprag
     Vector<double> forces(body.n_dofs());
     body.reinit(stiffness, 0);
     body.assemble(Vector<double>(body.n_dofs()), stiffness, forces);
-    const auto condensed = factors.factorise_with_schur_complement(stiffness, face_dofs(body));
+    const auto condensed = factors.factorise_with_schur_complement(stiffness, surface);
     LAPACKFullMatrix<double> schur(ports.surface);
     schur = condensed;
     schur.set_property(LAPACKSupport::symmetric);
@@ -72,7 +62,7 @@ namespace sprag
   {
     Vector<double> loads(body.n_dofs());
     for (unsigned int i = 0; i < forces.ports.size() && forces.ports[i] < ports.surface; ++i)
-      loads[body.friction_face().nodes[forces.ports[i] / 2].dofs[forces.ports[i] % 2]] = forces.values[i];
+      loads[surface[forces.ports[i]]] = forces.values[i];
     Vector<double> result;
     factors.solve(loads, result);
     return result;

@@ -8,8 +8,8 @@
 namespace sprag
 {
   /// A linear body on linear springs in statics, factorised once and seen through its ports: z = G f(z). The compliance G is
-  /// dense on the face nodes and diagonal on hub and support, which do not move the body in its own axes. Only ports with forces
-  /// carry tangents, so a Newton correction is a dense solve of those, and the iterates are those of the full system.
+  /// dense on the nodes of the faces and diagonal on hub and support, which do not move the body in its own axes. Only ports with
+  /// forces carry tangents, so a Newton correction is a dense solve of those, and the iterates are those of the full system.
   /// Coordinates: displacements of the ports.
   class FaceCompliance
   {
@@ -33,6 +33,7 @@ namespace sprag
   private:
     const ElasticBody<2> &body;
     const StaticPorts ports;
+    const std::vector<unsigned int> surface; ///< degrees of freedom of its ports
     const double arm;
     const PortSelection all;
     Mumps factors;

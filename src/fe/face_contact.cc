@@ -13,85 +13,56 @@ namespace sprag
 
   namespace
   {
-    unsigned int place_of(const unsigned int node, const std::vector<unsigned int> &nodes)
+    unsigned int place_of(const unsigned int number, const std::vector<unsigned int> &numbers)
     {
-      return static_cast<unsigned int>(std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin());
+      return static_cast<unsigned int>(std::lower_bound(numbers.begin(), numbers.end(), number) - numbers.begin());
+    }
+
+    void make_set(std::vector<unsigned int> &numbers)
+    {
+      std::sort(numbers.begin(), numbers.end());
+      numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
     }
   } // namespace
 
-  FaceContact::FaceContact(const ElasticBody<2> &body_, FaceContactProperties contact_properties)
+  FaceContact::FaceContact(const ElasticBody<2> &body_, std::unique_ptr<StaticSurface> surface_,
+                           FaceContactProperties contact_properties)
       : body(body_)
+      , surface(std::move(surface_))
       , properties(std::move(contact_properties))
   {
   }
 
-  Tensor<1, 2> FaceContact::displacement(const unsigned int point) const
+  FaceConfiguration FaceContact::configuration(const Vector<double> &displacements, const double of_drive) const
   {
-    Tensor<1, 2> result;
-    for (const auto &[node, shape] : body.friction_face().points[point].nodes)
-    {
-      result[0] += shape * ports[2 * node];
-      result[1] += shape * ports[2 * node + 1];
-    }
-    return result;
+    const auto &layout = properties.ports;
+    const double theta = properties.rest_inclination + displacements[layout.rotation()];
+    const double x     = of_drive - (layout.sprung ? displacements[layout.support()] : 0.);
+    return { &displacements, theta, x, properties.centre(x, theta) };
   }
 
-  LeverPoint FaceContact::position(const unsigned int point) const
-  {
-    const auto moved = body.friction_face().points[point].position + displacement(point);
-    return { moved[0], moved[1] };
-  }
-
-  /// The gap along a straight patch to a convex obstacle lies above its tangent at the first point; the margin covers bending.
-  bool FaceContact::is_near(const FacePatch &patch) const
-  {
-    const auto begin   = position(patch.begin);
-    const auto end     = position(patch.end - 1);
-    const auto contact = properties.obstacle(begin, x, theta);
-    const double rise  = contact.gap_row[0] * (end.xi - begin.xi) + contact.gap_row[1] * (end.eta - begin.eta);
-    return contact.gap + std::min(0., rise) < 0.02 * patch.length;
-  }
-
-  FaceContact::PointState FaceContact::evaluate_point(const unsigned int q, const ContactLaw &law, const FrictionMode mode) const
-  {
-    PointState state;
-    const auto &memory   = start[q];
-    state.index          = q;
-    state.position       = position(q);
-    const auto contact   = properties.obstacle(state.position, x, theta);
-    state.gap            = contact.gap;
-    state.trial_pressure = memory.normal_multiplier - properties.penalties.normal * contact.gap;
-    state.slip_change    = contact.slip - memory.slip;
-    if (state.trial_pressure > 0.)
-      state.response = contact_response(contact, memory, law, mode);
-    const double held = properties.enforcement == Enforcement::penalty ? 0. : memory.traction;
-    state.elastic_slip =
-        state.trial_pressure > 0. ? std::abs(state.response.traction - held) / properties.penalties.tangential : 0.;
-    return state;
-  }
-
-  void FaceContact::evaluate(const Vector<double> &displacements_of_ports, const State &trial, const State &accepted,
+  void FaceContact::evaluate(const Vector<double> &displacements, const State &trial, const State &accepted,
                              const FrictionMode mode)
   {
-    const auto &layout   = properties.ports;
-    ports                = displacements_of_ports;
-    theta                = properties.rest_inclination + ports[layout.rotation()];
-    x                    = trial.drive.x - (layout.sprung ? ports[layout.support()] : 0.);
-    start                = trial.contact;
-    step_duration        = trial.drive.time - accepted.drive.time;
-    const ContactLaw law = { properties.penalties.normal, properties.penalties.tangential,
-                             friction_of_step(properties.friction, trial.drive.v), step_duration };
+    ports         = displacements;
+    drive_x       = trial.drive.x;
+    start         = trial.contact;
+    step_duration = trial.drive.time - accepted.drive.time;
     // A state with no step behind it can have no slip.
-    const FrictionMode used = step_duration > 0. ? mode : FrictionMode::stick;
+    const StaticStep step{ start,
+                           { properties.penalties.normal, properties.penalties.tangential,
+                             friction_of_step(properties.friction, trial.drive.v), step_duration },
+                           step_duration > 0. ? mode : FrictionMode::stick,
+                           properties.enforcement == Enforcement::augmented_lagrangian };
+    surface->enter(configuration(ports, drive_x));
     states.clear();
-    for (const auto &patch : body.friction_face().patches)
-      if (is_near(patch))
-        for (unsigned int q = patch.begin; q < patch.end; ++q)
-          states.push_back(evaluate_point(q, law, used));
+    patches.clear();
+    for (const unsigned int patch : surface->near())
+      surface->evaluate(patch, step, states, patches);
     sum_forces();
   }
 
-  /// Lists the nodes under pressure, and the ports that carry forces with them.
+  /// Lists the nodes under pressure, and the ports that carry forces.
   void FaceContact::find_loaded()
   {
     loaded.clear();
@@ -99,66 +70,33 @@ namespace sprag
       if (state.trial_pressure > 0.)
         for (const auto &entry : body.friction_face().points[state.index].nodes)
           loaded.push_back(entry.first);
-    std::sort(loaded.begin(), loaded.end());
-    loaded.erase(std::unique(loaded.begin(), loaded.end()), loaded.end());
+    make_set(loaded);
 
     summed.ports.clear();
-    for (const unsigned int node : loaded)
-      for (unsigned int d = 0; d < 2; ++d)
-        summed.ports.push_back(2 * node + d);
     for (unsigned int port = properties.ports.rotation(); port < properties.ports.size(); ++port)
       summed.ports.push_back(port);
-    const auto n = static_cast<unsigned int>(summed.ports.size());
-    summed.values.reinit(n);
-    summed.tangent.reinit(n, n);
+    for (const auto &patch : patches)
+      summed.ports.insert(summed.ports.end(), patch.ports.begin(), patch.ports.end());
+    make_set(summed.ports);
   }
 
   void FaceContact::sum_forces()
   {
     find_loaded();
-    for (const auto &state : states)
-      if (state.trial_pressure > 0.)
-        add_forces(state);
-  }
-
-  /// The support's displacement moves the obstacle's position back.
-  void FaceContact::add_forces(const PointState &state)
-  {
-    struct Mover
+    const auto n = static_cast<unsigned int>(summed.ports.size());
+    summed.values.reinit(n);
+    summed.tangent.reinit(n, n);
+    std::vector<unsigned int> places;
+    for (const auto &patch : patches)
     {
-      unsigned int place; ///< among the ports with forces
-      double weight;
-    };
-    const auto &point = body.friction_face().points[state.index];
-    const auto hub    = 2 * static_cast<unsigned int>(loaded.size());
-    const Mover rest[2]{ { hub, 1. }, { hub + 1, -1. } };
-    const unsigned int n_rest = properties.ports.sprung ? 2 : 1;
-    const auto force          = point.weight * state.response.force;
-    const auto tangent        = point.weight * state.response.tangent;
-    for (unsigned int a = 0; a < n_rest; ++a)
-    {
-      summed.values[rest[a].place] += rest[a].weight * force[2 + a];
-      for (unsigned int b = 0; b < n_rest; ++b)
-        summed.tangent(rest[a].place, rest[b].place) += rest[a].weight * rest[b].weight * tangent[2 + a][2 + b];
-    }
-    for (const auto &[node, shape] : point.nodes)
-    {
-      const unsigned int i = 2 * place_of(node, loaded);
-      for (unsigned int d = 0; d < 2; ++d)
+      places.clear();
+      for (const unsigned int port : patch.ports)
+        places.push_back(place_of(port, summed.ports));
+      for (unsigned int i = 0; i < places.size(); ++i)
       {
-        summed.values[i + d] += shape * force[d];
-        for (unsigned int b = 0; b < n_rest; ++b)
-        {
-          summed.tangent(i + d, rest[b].place) += shape * rest[b].weight * tangent[d][2 + b];
-          summed.tangent(rest[b].place, i + d) += shape * rest[b].weight * tangent[2 + b][d];
-        }
-      }
-      for (const auto &[other_node, other_shape] : point.nodes)
-      {
-        const unsigned int j = 2 * place_of(other_node, loaded);
-        for (unsigned int d = 0; d < 2; ++d)
-          for (unsigned int e = 0; e < 2; ++e)
-            summed.tangent(i + d, j + e) += shape * other_shape * tangent[d][e];
+        summed.values[places[i]] += patch.values[i];
+        for (unsigned int j = 0; j < places.size(); ++j)
+          summed.tangent(places[i], places[j]) += patch.tangent(i, j);
       }
     }
   }
@@ -261,9 +199,31 @@ namespace sprag
     else
       for (const auto &state : states)
         result[state.index].traction = state.response.traction;
-    for (unsigned int q = 0; q < result.size(); ++q)
-      result[q].slip = properties.obstacle(position(q), x, theta).slip;
+    set_slips(configuration(ports, drive_x), result);
     return result;
+  }
+
+  void FaceContact::set_slips(const FaceConfiguration &at, std::vector<ContactMemory> &memory) const
+  {
+    surface->enter(at);
+    for (unsigned int patch = 0; patch < body.friction_face().patches.size(); ++patch)
+    {
+      const auto slips = surface->slips(patch);
+      for (unsigned int q = 0; q < slips.size(); ++q)
+        memory[body.friction_face().patches[patch].begin + q].slip = slips[q];
+    }
+  }
+
+  std::vector<ContactMemory> FaceContact::untouched(const Vector<double> &displacements, const double x) const
+  {
+    std::vector<ContactMemory> result(body.friction_face().points.size());
+    set_slips(configuration(displacements, x), result);
+    return result;
+  }
+
+  std::string FaceContact::objection() const
+  {
+    return surface->objection();
   }
 
   const ContactPenalties &FaceContact::penalties() const

@@ -1,34 +1,24 @@
 #pragma once
 
 #include "fe/elastic_body.h"
-#include "fe/static_ports.h"
-#include "model/circle.h"
+#include "fe/static_surface.h"
 #include "model/model.h"
-#include "model/port_forces.h"
 
 #include <functional>
+#include <memory>
 
 namespace sprag
 {
-  /// What the lever rubs against, a convex body: kinematics of a point of the lever at the obstacle's position x from the pivot
-  /// frame's origin and hub rotation theta, in the coordinates (displacement along xi, along eta, theta, x).
-  using Obstacle = std::function<ContactKinematics<4>(const LeverPoint &point, double x, double theta)>;
-
-  /// [N/mm^3], > 0
-  struct ContactPenalties
-  {
-    double normal;
-    double tangential;
-  };
-
   struct FaceContactProperties
   {
-    Obstacle obstacle;
     FrictionLaw friction;
     Enforcement enforcement = Enforcement::penalty;
     ContactPenalties penalties{};
     StaticPorts ports;
     double rest_inclination = 0.; ///< theta where the hub has not turned [rad]
+
+    /// Centre of what the lever rubs against over its position x from the pivot frame's origin and theta.
+    std::function<LeverPoint(double x, double theta)> centre;
   };
 
   /// Contact along the friction face, integrated over points denser than the nodes. In the augmented Lagrangian method the
@@ -38,7 +28,7 @@ namespace sprag
   {
   public:
     /// The body must outlive the contact.
-    FaceContact(const ElasticBody<2> &body, FaceContactProperties properties);
+    FaceContact(const ElasticBody<2> &body, std::unique_ptr<StaticSurface> surface, FaceContactProperties properties);
 
     /// Tractions at the displacements of the ports, in a step that began at `accepted`.
     void evaluate(const dealii::Vector<double> &ports, const State &trial, const State &accepted, FrictionMode mode);
@@ -58,19 +48,15 @@ namespace sprag
     /// Memory of the points at the end of the step.
     std::vector<ContactMemory> memory() const;
 
+    /// That of points without traction, at displacements of the ports and a position of the drive.
+    std::vector<ContactMemory> untouched(const dealii::Vector<double> &ports, double x) const;
+
+    /// Why the contact of the last evaluation is beyond what can touch; empty if it is not.
+    std::string objection() const;
+
     const ContactPenalties &penalties() const;
 
-    /// What the last evaluation found at an integration point.
-    struct PointState
-    {
-      unsigned int index;  ///< in FrictionFace::points
-      LeverPoint position; ///< deformed, lever axes
-      double gap;
-      double trial_pressure; ///< lambda - eps g: the pressure where positive [MPa]
-      double slip_change;    ///< in the step [mm]
-      double elastic_slip;   ///< of the tangential penalty [mm]
-      ContactResponse<4> response;
-    };
+    using PointState = StaticPoint;
 
     /// The points of all patches near the obstacle, increasing; those elsewhere are open.
     const std::vector<PointState> &points() const;
@@ -84,26 +70,24 @@ namespace sprag
     const ElasticBody<2> &elastic_body() const;
 
   private:
-    dealii::Tensor<1, 2> displacement(unsigned int point) const;
-    LeverPoint position(unsigned int point) const;
-    bool is_near(const FacePatch &patch) const;
-    PointState evaluate_point(unsigned int q, const ContactLaw &law, FrictionMode mode) const;
+    FaceConfiguration configuration(const dealii::Vector<double> &displacements, double x) const;
+    void set_slips(const FaceConfiguration &at, std::vector<ContactMemory> &memory) const;
     void find_loaded();
     void sum_forces();
-    void add_forces(const PointState &state);
     double largest_weighted_overlap() const;
     std::vector<double> projected(double ContactResponse<4>::*traction) const;
 
     const ElasticBody<2> &body;
+    const std::unique_ptr<StaticSurface> surface;
     const FaceContactProperties properties;
 
     // Of the last evaluation.
     std::vector<ContactMemory> start; ///< memory and multipliers it used
     dealii::Vector<double> ports;
-    double theta         = 0.;
-    double x             = 0.; ///< of the obstacle from the pivot frame's origin
+    double drive_x       = 0.;
     double step_duration = 0.;
     std::vector<PointState> states;
+    std::vector<StaticPatch> patches; ///< under pressure
     std::vector<unsigned int> loaded; ///< nodes under pressure, increasing
     PortForces summed;
   };

@@ -44,24 +44,28 @@ namespace sprag
         std::vector<FacePoint<dim>> points;
         for (const unsigned int q : values.quadrature_point_indices())
           points.push_back({ values.quadrature_point(q), properties.width_of(cell->material_id()) * values.JxW(q), {} });
-        add_nodes(cell, f, values, points);
-        std::sort(points.begin(), points.end(), [](const auto &a, const auto &b) { return a.position[0] < b.position[0]; });
-        cells.push_back({ std::move(points), length });
+        FaceEdge<dim> edge;
+        add_nodes(cell, f, values, points, edge);
+        const auto is_before = [](const auto &a, const auto &b) { return a.position[0] < b.position[0]; };
+        std::sort(points.begin(), points.end(), is_before);
+        std::sort(edge.nodes.begin(), edge.nodes.end(), is_before);
+        cells.push_back({ std::move(points), std::move(edge), length });
       }
 
       FrictionFace<dim> face()
       {
         std::sort(cells.begin(), cells.end(),
-                  [](const auto &a, const auto &b) { return a.first.front().position[0] < b.first.front().position[0]; });
+                  [](const auto &a, const auto &b) { return a.points.front().position[0] < b.points.front().position[0]; });
         FrictionFace<dim> result;
         result.nodes         = nodes;
         result.young_modulus = young_modulus;
         result.depth         = depth;
-        for (const auto &[points, length] : cells)
+        for (const auto &[points, edge, length] : cells)
         {
           const auto begin = static_cast<unsigned int>(result.points.size());
           result.points.insert(result.points.end(), points.begin(), points.end());
           result.patches.push_back({ begin, static_cast<unsigned int>(result.points.size()), length });
+          result.edges.push_back(edge);
         }
         return result;
       }
@@ -74,7 +78,7 @@ namespace sprag
       }
 
       void add_nodes(const typename DoFHandler<dim>::active_cell_iterator &cell, const unsigned int f,
-                     const FEFaceValues<dim> &values, std::vector<FacePoint<dim>> &points)
+                     const FEFaceValues<dim> &values, std::vector<FacePoint<dim>> &points, FaceEdge<dim> &edge)
       {
         std::vector<types::global_dof_index> indices(fe.n_dofs_per_cell());
         cell->get_dof_indices(indices);
@@ -84,11 +88,14 @@ namespace sprag
           std::array<unsigned int, dim> dofs;
           for (unsigned int d = 0; d < dim; ++d)
             dofs[d] = indices[fe.face_to_cell_index(i + d, f)];
+          const auto position = mapping.transform_unit_to_real_cell(cell, fe.get_unit_support_points()[in_cell]);
+          edge.nodes.push_back({ position, FaceEdge<dim>::held });
           if (constraints.is_constrained(dofs[0]))
             continue;
           const auto node = index_by_dof.try_emplace(dofs[0], static_cast<unsigned int>(nodes.size()));
           if (node.second)
-            nodes.push_back({ mapping.transform_unit_to_real_cell(cell, fe.get_unit_support_points()[in_cell]), dofs });
+            nodes.push_back({ position, dofs });
+          edge.nodes.back().index = node.first->second;
           for (const unsigned int q : values.quadrature_point_indices())
             points[q].nodes.emplace_back(node.first->second, values.shape_value(in_cell, q));
         }
@@ -101,7 +108,13 @@ namespace sprag
       std::map<unsigned int, FEFaceValues<dim>> values_by_parts;
       std::map<unsigned int, unsigned int> index_by_dof;
       std::vector<FaceNode<dim>> nodes;
-      std::vector<std::pair<std::vector<FacePoint<dim>>, double>> cells; ///< points and length
+      struct OfCell
+      {
+        std::vector<FacePoint<dim>> points;
+        FaceEdge<dim> edge;
+        double length;
+      };
+      std::vector<OfCell> cells;
       double young_modulus = 0.;
       double depth         = 0.;
     };

@@ -38,6 +38,20 @@ namespace sprag
     double length;      ///< diameter [mm]
   };
 
+  /// All nodes of one cell's face, ordered along the first axis.
+  template <int dim>
+  struct FaceEdge
+  {
+    static constexpr unsigned int held = dealii::numbers::invalid_unsigned_int;
+
+    struct Node
+    {
+      dealii::Point<dim> position; ///< undeformed [mm]
+      unsigned int index;          ///< among the free nodes, or `held`
+    };
+    std::vector<Node> nodes;
+  };
+
   /// Where a body can be touched.
   template <int dim>
   struct FrictionFace
@@ -45,8 +59,9 @@ namespace sprag
     std::vector<FaceNode<dim>> nodes;
     std::vector<FacePoint<dim>> points; ///< patch by patch, ordered along the first axis
     std::vector<FacePatch> patches;
-    double young_modulus = 0.; ///< largest of its cells [MPa]
-    double depth         = 0.; ///< largest size of its cells normal to the face [mm]
+    std::vector<FaceEdge<dim>> edges; ///< of the patches
+    double young_modulus = 0.;        ///< largest of its cells [MPa]
+    double depth         = 0.;        ///< largest size of its cells normal to the face [mm]
   };
 
   /// Reads the faces marked `boundary`. The integration points are denser than the nodes, about

@@ -10,10 +10,9 @@ namespace sprag
       : body(body_)
       , ports(ports_)
       , springs(springs_)
+      , coordinate_of(surface_dofs(body))
   {
     const unsigned int of_hub_and_support = ports.size() - ports.surface;
-    for (const auto &node : body.friction_face().nodes)
-      coordinate_of.insert(coordinate_of.end(), node.dofs.begin(), node.dofs.end());
     for (unsigned int i = 0; i < of_hub_and_support; ++i)
       coordinate_of.push_back(body.n_dofs() + i);
     body.reinit(matrix, of_hub_and_support);

@@ -1,8 +1,8 @@
 #include "fe/lever_model.h"
 
 #include "base/text.h"
+#include "fe/elastic_surface.h"
 #include "fe/face_observation.h"
-#include "model/spring_excess.h"
 #include "scene/closed_form.h"
 
 #include <algorithm>
@@ -24,19 +24,42 @@ namespace sprag
     /// Compression of the friction face beyond which linear elasticity says nothing.
     constexpr double largest_strain = 0.5;
 
+    bool has_elastic_cylinder(const ElasticBody<2> &body)
+    {
+      return !body.cylinder_face().patches.empty();
+    }
+
     StaticPorts static_ports(const ElasticBody<2> &body, const LeverProperties &properties)
     {
-      return { 2 * static_cast<unsigned int>(body.friction_face().nodes.size()), properties.support_stiffness.has_value() };
+      return { static_cast<unsigned int>(surface_dofs(body).size()), properties.support_stiffness.has_value() };
+    }
+
+    /// Of an elastic cylinder the softer of both sides counts.
+    ContactPenalties penalties_of(const ElasticBody<2> &body, const LeverProperties &properties)
+    {
+      const auto lever = contact_penalties(body.friction_face(), properties.contact, properties.layer_thickness);
+      if (!has_elastic_cylinder(body))
+        return lever;
+      const auto cylinder = contact_penalties(body.cylinder_face(), properties.contact, 0.);
+      return { std::min(lever.normal, cylinder.normal), std::min(lever.tangential, cylinder.tangential) };
+    }
+
+    std::unique_ptr<StaticSurface> make_surface(const ElasticBody<2> &body, const LeverProperties &properties)
+    {
+      const auto ports = static_ports(body, properties);
+      if (has_elastic_cylinder(body))
+        return std::make_unique<ElasticSurface>(body, properties.obstacle, properties.radius, ports);
+      return std::make_unique<RigidSurface>(body.friction_face(), properties.obstacle, ports);
     }
 
     FaceContactProperties contact_properties(const ElasticBody<2> &body, const LeverProperties &properties)
     {
-      return { properties.obstacle,
-               properties.friction,
+      return { properties.friction,
                properties.contact.enforcement,
-               contact_penalties(body.friction_face(), properties.contact, properties.layer_thickness),
+               penalties_of(body, properties),
                static_ports(body, properties),
-               properties.spring.rest };
+               properties.spring.rest,
+               properties.centre };
     }
 
     std::variant<FaceCompliance, FullStiffness> make_system(const ElasticBody<2> &body, const LeverProperties &properties)
@@ -85,13 +108,18 @@ namespace sprag
     result.body.widths     = { { material_id::web, scene.frame.web } };
     result.body.connectors = plate_connectors(scene.plate);
 
+    if (scene.cylinder.type != CylinderType::rigid)
+      result.body.constants[material_id::cylinder] = { scene.cylinder.young_modulus, scene.cylinder.poisson_ratio };
+    result.body.curved = scene.cylinder.type != CylinderType::rigid;
+
     // Half a spacing off, the direction of a contact narrower than it is wrong by 1/8000 at most.
     result.body.point_spacing = scene.geometry.cylinder_radius / 4000.;
 
     const Geometry geometry = scene.geometry;
     result.obstacle         = [geometry](const LeverPoint &point, double x, double theta)
     { return moving_circle_contact(geometry, point, x, theta); };
-    result.centre      = [geometry](double x, double theta) { return cylinder_centre(geometry, x, theta).xi; };
+    result.centre      = [geometry](double x, double theta) { return cylinder_centre(geometry, x, theta); };
+    result.radius      = geometry.cylinder_radius;
     result.ideal_theta = [geometry](double x) { return kinematics(geometry, x).theta; };
     const auto &law    = scene.spring.behaviour.law;
     result.spring      = { law.is_linear() ? MomentLaw(scene.spring.stiffness) : law, kinematics(geometry, 0.).theta,
@@ -110,8 +138,9 @@ namespace sprag
       : properties(std::move(lever))
       , body(triangulation, properties.body)
       , ports(static_ports(body, properties))
-      , contact(body, contact_properties(body, properties))
+      , contact(body, make_surface(body, properties), contact_properties(body, properties))
       , system(make_system(body, properties))
+      , excess({ ports.surface, false }, properties.spring.law)
   {
   }
 
@@ -122,12 +151,9 @@ namespace sprag
     state.drive = drive;
     state.coordinates.reinit(std::visit([](const auto &s) { return s.n_coordinates(); }, system));
     state.coordinates[rotation()] = theta - properties.spring.rest;
-    state.contact.resize(body.friction_face().points.size());
-    for (std::size_t i = 0; i < state.contact.size(); ++i)
-    {
-      const auto &position  = body.friction_face().points[i].position;
-      state.contact[i].slip = properties.obstacle({ position[0], position[1] }, drive.x, theta).slip;
-    }
+    Vector<double> undeformed(ports.size());
+    undeformed[ports.rotation()] = theta - properties.spring.rest;
+    state.contact                = contact.untouched(undeformed, drive.x);
     return state;
   }
 
@@ -139,30 +165,19 @@ namespace sprag
 
   Unbalance LeverModel::evaluate(const State &trial, const State &accepted, const FrictionMode mode)
   {
-    const auto &law = properties.spring.law;
     return std::visit(
         [&](auto &s)
         {
           contact.evaluate(s.port_displacements(trial.coordinates), trial, accepted, mode);
-          if (!law.is_linear())
-          {
-            with_excess = contact.forces();
-            add_spring_excess(law, ports.rotation(), turn(trial), with_excess);
-          }
-          return Unbalance{ s.unbalance(trial.coordinates, port_forces()), contact.overlap() };
+          forces = &excess.add_forces(contact.forces(), turn(trial));
+          return Unbalance{ s.unbalance(trial.coordinates, *forces), contact.overlap() };
         },
         system);
   }
 
-  /// Of the last evaluation.
-  const PortForces &LeverModel::port_forces() const
-  {
-    return properties.spring.law.is_linear() ? contact.forces() : with_excess;
-  }
-
   Vector<double> LeverModel::correction()
   {
-    return std::visit([&](auto &s) { return s.correction(port_forces()); }, system);
+    return std::visit([&](auto &s) { return s.correction(*forces); }, system);
   }
 
   /// Index of the hub's turn among the coordinates, which end with hub and support.
@@ -209,6 +224,9 @@ namespace sprag
     if (trial.drive.v < 0. && row[Column::F] < 0. && s <= mu_e)
       return "the lever locks: moving back, s = " + rounded_text(s) + " mm <= mu e = " + rounded_text(mu_e) + " mm";
 
+    if (const auto beyond = contact.objection(); !beyond.empty())
+      return beyond;
+
     // A linear material knows no limit of its own.
     const double pressure = contact.overlap() * contact.penalties().normal;
     const double limit    = largest_strain * body.friction_face().young_modulus;
@@ -234,7 +252,7 @@ namespace sprag
     row[Column::theta]         = theta;
     row[Column::spring_energy] = properties.spring.law.energy(turn(trial));
     observe_face(view(contact), properties.layer_thickness, row);
-    row[Column::centre_offset]        = row[Column::s] - properties.centre(trial.drive.x - u, theta);
+    row[Column::centre_offset]        = row[Column::s] - properties.centre(trial.drive.x - u, theta).xi;
     row[Column::Q]                    = row[Column::P] * std::sin(theta) + row[Column::F] * std::cos(theta);
     row[Column::support_displacement] = u;
     row[Column::Q_support]            = row[Column::Q];
@@ -244,10 +262,23 @@ namespace sprag
       row[Column::Q_support]      = *properties.support_stiffness * u;
       row[Column::support_energy] = 0.5 * *properties.support_stiffness * u * u;
     }
+    row[Column::elastic_energy] += cylinder_energy();
     if (properties.body.material != MaterialModel::linear)
       row[Column::elastic_energy] = body.energy(body_displacement(trial));
     if (!body.connectors().empty())
       row.sensor_forces = sensor_forces(body, body_displacement(trial));
+  }
+
+  /// Of a linear one: half the work of its forces [mJ].
+  double LeverModel::cylinder_energy() const
+  {
+    const auto first = 2 * static_cast<unsigned int>(body.friction_face().nodes.size());
+    const auto &on   = contact.forces();
+    double result    = 0.;
+    for (unsigned int i = 0; i < on.ports.size(); ++i)
+      if (on.ports[i] >= first && on.ports[i] < ports.surface)
+        result += 0.5 * on.values[i] * contact.displacements()[on.ports[i]];
+    return result;
   }
 
   FacePoints LeverModel::face_points() const

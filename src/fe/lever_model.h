@@ -4,6 +4,8 @@
 #include "fe/face_contact.h"
 #include "fe/full_stiffness.h"
 #include "fe/mesh.h"
+#include "fe/rigid_surface.h"
+#include "model/hub_spring.h"
 
 #include <optional>
 #include <variant>
@@ -23,8 +25,9 @@ namespace sprag
   {
     BodyProperties body;
     Obstacle obstacle;
-    std::function<double(double)> ideal_theta;    ///< inclination that first guesses follow, over x [rad]
-    std::function<double(double, double)> centre; ///< lever coordinate of the obstacle's centre over x and theta [mm]
+    std::function<double(double)> ideal_theta;        ///< inclination that first guesses follow, over x [rad]
+    std::function<LeverPoint(double, double)> centre; ///< of the obstacle over x and theta
+    double radius = 0.; ///< R of an elastic obstacle, 0 if it turns with the lever, see FacePair [mm]
     HubSpring spring;
     std::optional<double> support_stiffness; ///< k_f of a sprung support [N/mm], > 0; none: it is rigid
     FrictionLaw friction;
@@ -39,8 +42,8 @@ namespace sprag
   /// The settings' penalties, or what suits mesh and layer.
   ContactPenalties contact_penalties(const FrictionFace<2> &face, const ContactSettings &settings, double layer_thickness);
 
-  /// Meshed lever on its hub, rotational spring and support against a rigid obstacle: Model in lever axes, which turn with the
-  /// hub.
+  /// Meshed lever on its hub, rotational spring and support against a rigid obstacle or, where the body has a cylinder's face, an
+  /// elastic one: Model in lever axes, which turn with the hub.
   class LeverModel : public Model
   {
   public:
@@ -72,13 +75,14 @@ namespace sprag
     unsigned int rotation() const;
     double turn(const State &state) const;
     double support_displacement(const State &state) const;
-    const PortForces &port_forces() const;
+    double cylinder_energy() const;
 
     const LeverProperties properties;
     const ElasticBody<2> body;
     const StaticPorts ports;
     FaceContact contact;
     std::variant<FaceCompliance, FullStiffness> system;
-    PortForces with_excess; ///< the contact's forces and the spring's beyond its linear stiffness
+    HubSpringExcess excess;
+    const PortForces *forces = nullptr; ///< of contact and excess, at the last evaluation
   };
 } // namespace sprag

@@ -2,6 +2,7 @@
 
 #include "base/errors.h"
 #include "base/text.h"
+#include "fe/cylinder_mesh.h"
 #include "fe/elastic_body.h"
 #include "fe/geometry_script.h"
 #include "scene/lever_shape.h"
@@ -178,5 +179,7 @@ namespace sprag
     else
       read_gmsh(mesh_script("frame.geo"), frame_constants(scene), lever_groups(scene), triangulation);
     check_position(scene, triangulation);
+    if (scene.cylinder.type != CylinderType::rigid)
+      add_cylinder(scene, triangulation);
   }
 } // namespace sprag

@@ -1,5 +1,7 @@
 #include "mpi_environment.h"
-#include "pressed_block.h"
+#include "two_blocks.h"
+
+#include <cstdio>
 
 using namespace sprag;
 
@@ -13,6 +15,8 @@ namespace
   // Nearly incompressible, as a rigid circle asks for: in plane strain pressure then moves the surface along the face by no more
   // than (1 - 2 nu) / (2 (1 - nu)) = 2 % of what traction does.
   constexpr ElasticConstants elastic = { 100., 0.49 };
+  // Of two equal bodies any will do.
+  constexpr ElasticConstants soft = { 100., 0.3 };
 
   /// Pressed in by 0.07 mm while x goes from 0 to 1, then moved along the face by -0.012 mm (x - 1).
   LeverPoint centre(const double x)
@@ -36,20 +40,21 @@ namespace
     FaceProfile face;
   };
 
+  using PropertiesOf = std::function<LeverProperties(double friction)>;
+
   /// Pressed without friction, then moved along up to each of `positions` in turn.
-  std::vector<Outcome> loaded(const std::vector<double> &positions, const double friction)
+  std::vector<Outcome> loaded(const dealii::Triangulation<2> &triangulation, const PropertiesOf &properties_with,
+                              const std::vector<double> &positions, const double friction)
   {
-    dealii::Triangulation<2> triangulation;
-    make_block(mirrored(graded_parts(cell, 1.2, 1.25, 20.)), graded_parts(cell, 0.3, 1.25, 20.), triangulation);
     State state;
     {
-      const auto properties = properties_of(0.);
+      const auto properties = properties_with(0.);
       LeverModel model(triangulation, properties);
       state = model.initial_state({ 0., 0., 1. });
       for (const double x : { 0.1, 0.25, 0.5, 0.75, 1. })
         state = step_to(model, state, x, properties.contact);
     }
-    const auto properties = properties_of(friction);
+    const auto properties = properties_with(friction);
     LeverModel model(triangulation, properties);
     std::vector<Outcome> outcomes;
     for (const double x : positions)
@@ -60,6 +65,34 @@ namespace
       outcomes.push_back({ row[Column::P], std::abs(row[Column::F]), profile(model, state) });
     }
     return outcomes;
+  }
+
+  /// A block under a rigid circle.
+  std::vector<Outcome> loaded(const std::vector<double> &positions, const double friction)
+  {
+    dealii::Triangulation<2> triangulation;
+    make_block(mirrored(graded_parts(cell, 1.2, 1.25, 20.)), graded_parts(cell, 0.3, 1.25, 20.), triangulation);
+    return loaded(triangulation, properties_of, positions, friction);
+  }
+
+  /// Two equal parabolas, which together are as far apart as circle and block; their cells do not match.
+  std::vector<Outcome> loaded_equal_cylinders(const std::vector<double> &positions)
+  {
+    const BentBlock upper{ mirrored(graded_parts(cell, 1.2, 1.25, 20.)), graded_parts(cell, 0.3, 1.25, 20.), 0.25 / radius };
+    const BentBlock lower{ mirrored(graded_parts(0.9 * cell, 1.2, 1.25, 20.)), downwards(graded_parts(cell, 0.3, 1.25, 20.)),
+                           -0.25 / radius };
+    dealii::Triangulation<2> triangulation;
+    make_two_blocks(upper, lower, triangulation);
+    const auto properties_with = [](const double friction)
+    {
+      const auto move               = [](const double x) { return LeverPoint{ centre(x).xi, centre(x).eta + radius }; };
+      auto properties               = two_block_properties(move, friction);
+      properties.body.point_spacing = 0.002;
+      properties.body.constants     = { { material_id::lever, soft }, { material_id::cylinder, soft } };
+      properties.contact.penalty    = penalty;
+      return properties;
+    };
+    return loaded(triangulation, properties_with, positions, coefficient);
   }
 
   /// Half the length between the outermost points off the cone.
@@ -74,41 +107,56 @@ namespace
       }
     return std::max(0., 0.5 * (end - begin));
   }
+  // With P, Q and the traction as measured: a^2 = 4 P R / (pi E*), p0 = 2 P / (pi a), c = a sqrt(1 - Q / (mu P)),
+  //   q = mu p0 / a (sqrt(a^2 - x^2) - sqrt(c^2 - x^2)), the second term within c alone.
+  // The edge of the stick lies in a cell of 0.025 mm = a / 36, which cannot show the vertical tangent of q there: c is uncertain
+  // by half of it. Beyond one cell from c and inside 0.9 a q is met as the pressure of the half plane is, to 1 % of mu p0, and to
+  // the tangential penalty's share: mu p0 / eps = 2.5e-5 mm is 0.5 % of what the circle moves by at Q = 0.5 mu P.
+  void expect_slip_from_the_edges(const std::vector<Outcome> &outcomes, const double modulus)
+  {
+    double last = 1.;
+    for (const auto &outcome : outcomes)
+    {
+      const double a     = std::sqrt(4. * outcome.P * radius / (pi * modulus));
+      const double p0    = 2. * outcome.P / (pi * a);
+      const double share = outcome.Q / (coefficient * outcome.P);
+      const double c     = a * std::sqrt(1. - share);
+      const double found = stick_half_width(outcome.face, coefficient);
+      EXPECT_NEAR(found, c, 0.5 * cell) << "Q / mu P " << share;
+      EXPECT_LT(found, last);
+      last = found;
+
+      const auto circle = [](const double r, const double x) { return std::sqrt(std::max(0., r * r - x * x)); };
+      double worst      = 0.;
+      for (std::size_t q = 0; q < outcome.face.xi.size(); ++q)
+      {
+        const double x        = outcome.face.xi[q];
+        const double traction = coefficient * p0 / a * (circle(a, x) - circle(c, x));
+        if (std::abs(x) < 0.9 * a && std::abs(std::abs(x) - c) > cell)
+          worst = std::max(worst, std::abs(std::abs(outcome.face.traction[q]) - traction) / (coefficient * p0));
+      }
+      std::printf("Q / mu P %.3f: c %.4f mm, found %.4f; traction off by %.1e mu p0\n", share, c, found, worst);
+      EXPECT_LE(worst, 0.015) << "Q / mu P " << share;
+    }
+    EXPECT_GT(outcomes.back().Q, 0.65 * coefficient * outcomes.back().P);
+  }
+
+  const std::vector<double> growing{ 1.1, 1.25, 1.5, 2., 2.5, 3., 3.5, 4. };
+
+  double plane_modulus(const ElasticConstants &constants)
+  {
+    return constants.young_modulus / (1. - constants.poisson_ratio * constants.poisson_ratio);
+  }
 } // namespace
 
-// With P, Q and the traction as measured: a^2 = 4 P R / (pi E*), p0 = 2 P / (pi a), c = a sqrt(1 - Q / (mu P)),
-//   q = mu p0 / a (sqrt(a^2 - x^2) - sqrt(c^2 - x^2)), the second term within c alone.
-// The edge of the stick lies in a cell of 0.025 mm = a / 36, which cannot show the vertical tangent of q there: c is uncertain
-// by half of it. Beyond one cell from c and inside 0.9 a q is met as the pressure of the half plane is, to 1 % of mu p0, and to
-// the tangential penalty's share: mu p0 / eps = 2.5e-5 mm is 0.5 % of what the circle moves by at Q = 0.5 mu P.
 TEST(CattaneoMindlin, SlipEntersFromTheEdgesAsTheTangentialLoadGrows)
 {
-  const auto outcomes = loaded({ 1.1, 1.25, 1.5, 2., 2.5, 3., 3.5, 4. }, coefficient);
-  double last         = 1.;
-  for (const auto &outcome : outcomes)
-  {
-    const double modulus = elastic.young_modulus / (1. - elastic.poisson_ratio * elastic.poisson_ratio);
-    const double a       = std::sqrt(4. * outcome.P * radius / (pi * modulus));
-    const double p0      = 2. * outcome.P / (pi * a);
-    const double share   = outcome.Q / (coefficient * outcome.P);
-    const double c       = a * std::sqrt(1. - share);
-    const double found   = stick_half_width(outcome.face, coefficient);
-    EXPECT_NEAR(found, c, 0.5 * cell) << "Q / mu P " << share;
-    EXPECT_LT(found, last);
-    last = found;
+  expect_slip_from_the_edges(loaded(growing, coefficient), plane_modulus(elastic));
+}
 
-    const auto circle = [](const double r, const double x) { return std::sqrt(std::max(0., r * r - x * x)); };
-    double worst      = 0.;
-    for (std::size_t q = 0; q < outcome.face.xi.size(); ++q)
-    {
-      const double x        = outcome.face.xi[q];
-      const double traction = coefficient * p0 / a * (circle(a, x) - circle(c, x));
-      if (std::abs(x) < 0.9 * a && std::abs(std::abs(x) - c) > cell)
-        worst = std::max(worst, std::abs(std::abs(outcome.face.traction[q]) - traction) / (coefficient * p0));
-    }
-    EXPECT_LE(worst, 0.015) << "Q / mu P " << share;
-  }
-  EXPECT_GT(outcomes.back().Q, 0.65 * coefficient * outcomes.back().P);
+TEST(CattaneoMindlin, SlipEntersFromTheEdgesOfTwoEqualCylinders)
+{
+  expect_slip_from_the_edges(loaded_equal_cylinders(growing), 0.5 * plane_modulus(soft));
 }
 
 TEST(CattaneoMindlin, PushedFurtherAllOfItSlides)

@@ -1,5 +1,8 @@
+#include "fe/elastic_surface.h"
 #include "mpi_environment.h"
-#include "pressed_block.h"
+#include "two_blocks.h"
+
+#include <deal.II/dofs/dof_tools.h>
 
 using namespace sprag;
 
@@ -23,15 +26,25 @@ namespace
     Row row;
   };
 
-  /// Pressed by 0.1 mm in three steps.
-  Outcome pressed(const unsigned int degree, const Enforcement enforcement, const double penalty)
+  struct Elements
   {
-    dealii::Triangulation<2> triangulation;
-    make_patch(triangulation);
-    auto properties           = block_properties(rigid_plane([](double x) { return 0.1 * x; }, [](double) { return 0.; }), 0.3);
-    properties.body.degree    = degree;
-    properties.body.width     = 5.;
-    properties.body.constants = { { material_id::lever, { modulus, 0. } }, { material_id::layer, { modulus, 0. } } };
+    unsigned int degree;
+    Enforcement enforcement;
+    double penalty; ///< [N/mm^3]
+    Solution solution = Solution::automatic;
+  };
+
+  /// In three steps to x = 1.
+  Outcome pressed(const dealii::Triangulation<2> &triangulation, LeverProperties properties, const Elements &elements)
+  {
+    const auto &[degree, enforcement, penalty, solution] = elements;
+    const ElasticConstants elastic{ modulus, 0. };
+    properties.solution                      = solution;
+    properties.body.degree                   = degree;
+    properties.body.width                    = 5.;
+    properties.body.constants                = { { material_id::lever, elastic },
+                                                 { material_id::layer, elastic },
+                                                 { material_id::cylinder, elastic } };
     properties.contact.enforcement           = enforcement;
     properties.contact.penalty               = penalty;
     properties.contact.penetration_tolerance = 1e-10;
@@ -43,6 +56,24 @@ namespace
     model.observe(state, outcome.row);
     EXPECT_EQ(outcome.face.pressure.size(), model.face_points().xi.size());
     return outcome;
+  }
+
+  /// By 0.1 mm on a rigid plane.
+  Outcome pressed_on_plane(const Elements &elements)
+  {
+    dealii::Triangulation<2> triangulation;
+    make_patch(triangulation);
+    return pressed(triangulation, block_properties(rigid_plane([](double x) { return 0.1 * x; }, [](double) { return 0.; }), 0.3),
+                   elements);
+  }
+
+  /// Two blocks of half the height whose cells do not match, pressed together by 0.1 mm.
+  Outcome pressed_together(const Elements &elements)
+  {
+    dealii::Triangulation<2> triangulation;
+    make_two_blocks({ { 0., 0.35, 0.6, 1.3, 1.5, 2.4, 3. }, { 0., 0.4, 1. }, 0. },
+                    { { 0., 0.5, 0.9, 1.4, 1.9, 3. }, { -1., -0.7, 0. }, 0. }, triangulation);
+    return pressed(triangulation, two_block_properties([](const double x) { return LeverPoint{ 0., 0.1 * x }; }, 0.3), elements);
   }
 
   void expect_uniform(const Outcome &outcome, const double pressure)
@@ -62,7 +93,7 @@ TEST(Patch, AugmentedLagrangianCarriesAUniformPressure)
 {
   for (const unsigned int degree : { 1u, 2u })
     for (const double penalty : { 20., 200. })
-      expect_uniform(pressed(degree, Enforcement::augmented_lagrangian, penalty), 0.1);
+      expect_uniform(pressed_on_plane({ degree, Enforcement::augmented_lagrangian, penalty }), 0.1);
 }
 
 // Block and penalty are springs in series: U / (H / E + 1 / eps).
@@ -70,5 +101,89 @@ TEST(Patch, PenaltyCarriesTheUniformPressureOfSpringsInSeries)
 {
   for (const unsigned int degree : { 1u, 2u })
     for (const double penalty : { 2., 20., 2000. })
-      expect_uniform(pressed(degree, Enforcement::penalty, penalty), 0.1 / (height / modulus + 1. / penalty));
+      expect_uniform(pressed_on_plane({ degree, Enforcement::penalty, penalty }), 0.1 / (height / modulus + 1. / penalty));
+}
+
+TEST(Patch, TwoElasticBlocksOfOtherCellsCarryTheSame)
+{
+  for (const auto solution : { Solution::automatic, Solution::general })
+    for (const unsigned int degree : { 1u, 2u })
+    {
+      for (const double penalty : { 20., 200. })
+        expect_uniform(pressed_together({ degree, Enforcement::augmented_lagrangian, penalty, solution }), 0.1);
+      for (const double penalty : { 2., 20., 2000. })
+        expect_uniform(pressed_together({ degree, Enforcement::penalty, penalty, solution }),
+                       0.1 / (height / modulus + 1. / penalty));
+    }
+}
+
+// Both sides follow a parabola, which a uniform shrinkage by p / (2 lambda + 2 mu) under hydrostatic pressure p makes another
+// one: with p as the multiplier no point overlaps and every node of both sides is in balance. Free corners of the sides apart.
+TEST(Patch, HydrostaticPressureBalancesAcrossACurvedInterface)
+{
+  const double bend = 0.08, pressure = 0.3, width = 5.;
+  const ElasticConstants elastic{ 50., 0.2 };
+  const Lame lame = plane_constants(elastic, PlaneState::strain);
+  dealii::Triangulation<2> triangulation;
+  make_two_blocks({ { -2., -1.5, -1.1, -0.2, 0.3, 1.2, 2. }, { 0., 0.4, 1. }, bend },
+                  { { -2., -1.4, -0.6, 0.1, 0.7, 1.5, 2. }, { -1., -0.7, 0. }, bend }, triangulation);
+  auto properties           = two_block_properties([](double) { return LeverPoint{ 0., 0. }; }, 0.3);
+  properties.body.width     = width;
+  properties.body.constants = { { material_id::lever, elastic }, { material_id::cylinder, elastic } };
+  const ElasticBody<2> body(triangulation, properties.body);
+
+  // Of the whole body, and of the ports.
+  dealii::Vector<double> u(body.n_dofs()), internal(body.n_dofs());
+  const double shrinkage = pressure / (2. * lame.lambda + 2. * lame.mu);
+  std::vector<dealii::Point<2>> support(body.n_dofs());
+  dealii::DoFTools::map_dofs_to_support_points(body.cell_mapping(), body.dofs(), support);
+  for (const auto &cell : body.dofs().active_cell_iterators())
+  {
+    std::vector<dealii::types::global_dof_index> dofs(body.dofs().get_fe().n_dofs_per_cell());
+    cell->get_dof_indices(dofs);
+    for (unsigned int i = 0; i < dofs.size(); ++i)
+      u[dofs[i]] = -shrinkage * support[dofs[i]][body.dofs().get_fe().system_to_component_index(i).first];
+  }
+  dealii::PETScWrappers::SparseMatrix stiffness;
+  body.reinit(stiffness, 0);
+  body.assemble(u, stiffness, internal);
+  const auto dofs = surface_dofs(body);
+  const StaticPorts ports{ static_cast<unsigned int>(dofs.size()), false };
+  dealii::Vector<double> z(ports.size());
+  for (unsigned int i = 0; i < dofs.size(); ++i)
+    z[i] = u[dofs[i]];
+
+  FaceContactProperties constants;
+  constants.friction    = properties.friction;
+  constants.enforcement = Enforcement::augmented_lagrangian;
+  constants.penalties   = { 100., 100. };
+  constants.ports       = ports;
+  constants.centre      = properties.centre;
+  FaceContact contact(body, std::make_unique<ElasticSurface>(body, properties.obstacle, 0., ports), constants);
+  State state;
+  state.contact = contact.untouched(z, 0.);
+  for (auto &memory : state.contact)
+    memory.normal_multiplier = pressure;
+  contact.evaluate(z, state, state, FrictionMode::cone);
+  EXPECT_LT(contact.penetration(), 1e-12);
+  EXPECT_EQ(contact.points().size(), body.friction_face().points.size());
+  const auto &forces     = contact.forces();
+  unsigned int n_checked = 0;
+  for (unsigned int i = 0; i < forces.ports.size() && forces.ports[i] < ports.surface; ++i)
+  {
+    const unsigned int dof = dofs[forces.ports[i]];
+    if (std::abs(support[dof][0]) > 1.99)
+      continue;
+    EXPECT_NEAR(forces.values[i], internal[dof], 1e-11 * pressure * width) << support[dof];
+    ++n_checked;
+  }
+  // All nodes of six edges each, two coordinates, without corners.
+  EXPECT_EQ(n_checked, 2u * 2u * 11u);
+
+  contact.augment(state.contact);
+  for (const auto &memory : state.contact)
+  {
+    EXPECT_NEAR(memory.normal_multiplier, pressure, 1e-8);
+    EXPECT_NEAR(memory.traction, 0., 1e-12);
+  }
 }

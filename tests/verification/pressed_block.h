@@ -54,7 +54,7 @@ namespace sprag
     result.body.plane  = PlaneState::strain;
     result.obstacle    = std::move(obstacle);
     result.ideal_theta = [](double) { return 0.; };
-    result.centre      = [](double, double) { return 0.; };
+    result.centre      = [](double, double) { return LeverPoint{ 0., 0. }; };
     result.spring      = { MomentLaw(1e9), 0., 1. };
     result.friction    = { CoulombFriction{ coefficient }, FrictionSpeed::sliding };
     return result;

@@ -1,0 +1,345 @@
+#include "fe/face_pair.h"
+
+#include "base/errors.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sprag
+{
+  using dealii::Tensor;
+  using dealii::Vector;
+
+  namespace
+  {
+    constexpr double gauss_points[] = { 0.5 * (1. - 0.577350269189625764509), 0.5 * (1. + 0.577350269189625764509) };
+
+    /// What round-off leaves of a point at the end of a face, over the face's length.
+    constexpr double round_off = 1e-10;
+
+    Tensor<1, 2> sum(const unsigned int n, const std::array<double, 3> &shapes, const std::array<Tensor<1, 2>, 3> &nodes)
+    {
+      Tensor<1, 2> result;
+      for (unsigned int a = 0; a < n; ++a)
+        result += shapes[a] * nodes[a];
+      return result;
+    }
+
+    /// From the beginning of an edge to a place on it, by 3 Gauss points: exact to the fourth power of its angle.
+    double arc_to(const double place, const unsigned int n, const std::array<Tensor<1, 2>, 3> &nodes)
+    {
+      constexpr double off = 0.774596669241483377036;
+      double result        = 0.;
+      for (const auto &[point, weight] : { std::pair{ -off, 5. / 18. }, { 0., 8. / 18. }, { off, 5. / 18. } })
+        result += weight * sum(n, edge_shapes(n, 0.5 * place * (1. + point)).slopes, nodes).norm();
+      return place * result;
+    }
+  } // namespace
+
+  EdgeShapes edge_shapes(const unsigned int n_nodes, const double s)
+  {
+    if (n_nodes == 2)
+      return { { { 1. - s, s, 0. } }, { { -1., 1., 0. } }, {} };
+    return { { { (1. - s) * (1. - 2. * s), 4. * s * (1. - s), s * (2. * s - 1.) } },
+             { { 4. * s - 3., 4. - 8. * s, 4. * s - 1. } },
+             { { 4., -8., 4. } } };
+  }
+
+  FacePair::FacePair(const FrictionFace<2> &lever_face, const FrictionFace<2> &cylinder_face)
+  {
+    for (std::size_t i = 0; i < lever_face.edges.size(); ++i)
+    {
+      const auto &patch = lever_face.patches[i];
+      LeverEdge edge{ copy(lever_face.edges[i], 0), patch.end - patch.begin, 0. };
+      const double first = gauss_points[0] * 2. / edge.n_facets;
+      const auto slope   = sum(edge.n_nodes, edge_shapes(edge.n_nodes, first).slopes, edge.positions);
+      edge.width         = lever_face.points[patch.begin].weight * edge.n_facets / slope.norm();
+      lever.push_back(edge);
+    }
+    for (const auto &edge : cylinder_face.edges)
+    {
+      chain.push_back({ copy(edge, static_cast<unsigned int>(lever_face.nodes.size())), length });
+      length += arc_to(1., chain.back().n_nodes, chain.back().positions);
+    }
+    check_chain();
+  }
+
+  void FacePair::check_chain()
+  {
+    if (chain.empty())
+      throw InputError("the elastic cylinder has no face that could touch the lever");
+    degree = chain.front().n_nodes - 1;
+    for (std::size_t i = 1; i < chain.size(); ++i)
+      if ((chain[i].positions[0] - chain[i - 1].positions[degree]).norm() > round_off * length)
+        throw InputError("the elastic cylinder's face is no chain of edges along the lever");
+  }
+
+  FacePair::Edge FacePair::copy(const FaceEdge<2> &edge, const unsigned int first_node)
+  {
+    Edge result;
+    result.n_nodes = static_cast<unsigned int>(edge.nodes.size());
+    if (result.n_nodes > 3)
+      throw AnalysisError("contact of two meshes is limited to elements of degree 2");
+    for (unsigned int a = 0; a < result.n_nodes; ++a)
+    {
+      const unsigned int index = edge.nodes[a].index;
+      result.positions[a]      = edge.nodes[a].position;
+      result.nodes[a]          = index == FaceEdge<2>::held ? index : first_node + index;
+    }
+    return result;
+  }
+
+  FacePair::Nodes FacePair::deformed(const Edge &edge, const Vector<double> &displacements)
+  {
+    Nodes result = edge.positions;
+    for (unsigned int a = 0; a < edge.n_nodes; ++a)
+      if (edge.nodes[a] != FaceEdge<2>::held)
+        for (unsigned int d = 0; d < 2; ++d)
+          result[a][d] += displacements[2 * edge.nodes[a] + d];
+    return result;
+  }
+
+  FacePair::Nodes FacePair::cylinder_nodes(const unsigned int edge, const PairConfiguration &at) const
+  {
+    Nodes result;
+    std::copy_n(at.nodes.begin() + edge * degree, degree + 1, result.begin());
+    return result;
+  }
+
+  PairConfiguration FacePair::configuration(const FaceConfiguration &at) const
+  {
+    PairConfiguration result{ at, {}, {} };
+    const Tensor<1, 2> centre({ at.centre.xi, at.centre.eta });
+    const auto begin = edge_shapes(degree + 1, 0.).slopes;
+    const auto end   = edge_shapes(degree + 1, 1.).slopes;
+    result.nodes.reserve(chain.size() * degree + 1);
+    result.tangents.resize(chain.size() + 1);
+    for (std::size_t i = 0; i < chain.size(); ++i)
+    {
+      const auto nodes = deformed(chain[i], *at.displacement);
+      for (unsigned int a = i == 0 ? 0 : 1; a <= degree; ++a)
+        result.nodes.push_back(centre + nodes[a]);
+      for (const auto &[vertex, slopes] : { std::pair{ i, &begin }, { i + 1, &end } })
+      {
+        const auto slope = sum(degree + 1, *slopes, nodes);
+        result.tangents[vertex] += slope / slope.norm();
+      }
+    }
+    for (auto &tangent : result.tangents)
+      tangent /= tangent.norm();
+    return result;
+  }
+
+  double FacePair::beyond(const Vector2 &position, const unsigned int vertex, const PairConfiguration &at) const
+  {
+    return (position - at.nodes[vertex * degree]) * at.tangents[vertex];
+  }
+
+  /// How far a position lies beside the whole chain, <= 0 above it.
+  double FacePair::outside(const Vector2 &position, const PairConfiguration &at) const
+  {
+    return std::max(-beyond(position, 0, at), beyond(position, static_cast<unsigned int>(chain.size()), at));
+  }
+
+  /// To the edge below a position; from one to a neighbour at the near end.
+  void FacePair::go_to(const Vector2 &position, const PairConfiguration &at, Place &place) const
+  {
+    const unsigned int from = place.edge;
+    while (place.edge + 1 < chain.size() && beyond(position, place.edge + 1, at) > 0.)
+      ++place.edge;
+    while (place.edge > 0 && beyond(position, place.edge, at) < 0.)
+      --place.edge;
+    if (place.edge != from)
+      place.along = 0.5;
+  }
+
+  /// Closest point on the edge at `place`, by Newton's method; the edge goes on beyond its ends where kinks leave a wedge.
+  PairPoint FacePair::project(const Vector2 &position, const PairConfiguration &at, Place &place) const
+  {
+    constexpr unsigned int most_iterations = 30;
+    const auto nodes                       = cylinder_nodes(place.edge, at);
+    const unsigned int n                   = degree + 1;
+    Vector2 apart, slope, bend;
+    const auto set = [&]
+    {
+      const auto shapes = edge_shapes(n, place.along);
+      apart             = position - sum(n, shapes.values, nodes);
+      slope             = sum(n, shapes.slopes, nodes);
+      bend              = sum(n, shapes.bends, nodes);
+    };
+    for (unsigned int i = 0; i < most_iterations; ++i)
+    {
+      set();
+      const double change = apart * slope / (slope * slope - apart * bend);
+      place.along         = std::clamp(place.along + change, -1., 2.);
+      // As convergence is quadratic, what is left is round-off.
+      if (std::abs(change) < 1e-8)
+        break;
+    }
+    set();
+
+    PairPoint point;
+    point.edge        = place.edge;
+    point.cylinder    = edge_shapes(n, place.along);
+    point.speed       = slope.norm();
+    point.tangent     = slope / point.speed;
+    point.normal      = Vector2({ -point.tangent[1], point.tangent[0] });
+    point.gap         = apart * point.normal;
+    point.bend_along  = bend * point.tangent;
+    point.bend_across = bend * point.normal;
+    const auto &edge  = chain[place.edge];
+    const auto before = sum(n, point.cylinder.slopes, edge.positions);
+    point.arc         = edge.arc + arc_to(place.along, n, edge.positions);
+    point.arc_speed   = before.norm();
+    point.arc_bend    = before * sum(n, point.cylinder.bends, edge.positions) / point.arc_speed;
+    return point;
+  }
+
+  /// Where along the lever's edge a vertex of the cylinder lies below it.
+  double FacePair::vertex_above(const unsigned int vertex, const LeverEdge &edge, const Nodes &nodes, const PairConfiguration &at,
+                                const Segment &within) const
+  {
+    const auto value = [&](const double s)
+    { return beyond(sum(edge.n_nodes, edge_shapes(edge.n_nodes, s).values, nodes), vertex, at); };
+    const auto slope = [&](const double s)
+    { return sum(edge.n_nodes, edge_shapes(edge.n_nodes, s).slopes, nodes) * at.tangents[vertex]; };
+    double s = 0.5 * (within.from + within.to);
+    for (unsigned int i = 0; i < 30; ++i)
+    {
+      const double change = -value(s) / slope(s);
+      s                   = std::clamp(s + change, within.from, within.to);
+      if (std::abs(change) < 1e-8 * (within.to - within.from))
+        break;
+    }
+    return s;
+  }
+
+  void FacePair::add_segment(const LeverEdge &edge, const Nodes &nodes, const PairConfiguration &at, const Segment &segment,
+                             Place &place, PatchFacets &result) const
+  {
+    for (const double gauss : gauss_points)
+    {
+      const double s    = segment.from + gauss * (segment.to - segment.from);
+      const auto shapes = edge_shapes(edge.n_nodes, s);
+      auto point        = project(sum(edge.n_nodes, shapes.values, nodes), at, place);
+      point.lever       = shapes.values;
+      point.weight = 0.5 * (segment.to - segment.from) * edge.width * sum(edge.n_nodes, shapes.slopes, edge.positions).norm();
+      result.points.push_back(point);
+    }
+  }
+
+  void FacePair::find_facets(const unsigned int patch, const PairConfiguration &at, PatchFacets &result) const
+  {
+    const auto &edge     = lever[patch];
+    const auto nodes     = deformed(edge, *at.at.displacement);
+    const auto position  = [&](const double s) { return sum(edge.n_nodes, edge_shapes(edge.n_nodes, s).values, nodes); };
+    const double rounded = round_off * length;
+    result.facets.clear();
+    result.points.clear();
+    Vector2 begin = position(0.);
+    Place place;
+    place.edge = static_cast<unsigned int>(chain.size() / 2);
+    for (unsigned int i = 0; i < edge.n_facets; ++i)
+    {
+      const auto end = position((i + 1.) / edge.n_facets);
+      Facet facet;
+      facet.begin        = static_cast<unsigned int>(result.points.size());
+      const double aside = std::max(outside(begin, at), outside(end, at));
+      if (aside > rounded)
+        facet.gap = aside;
+      else
+      {
+        facet.opposed = true;
+        go_to(begin, at, place);
+        Segment rest{ static_cast<double>(i) / edge.n_facets, (i + 1.) / edge.n_facets };
+        while (place.edge + 1 < chain.size() && beyond(end, place.edge + 1, at) > rounded)
+        {
+          const double cut = vertex_above(place.edge + 1, edge, nodes, at, rest);
+          add_segment(edge, nodes, at, { rest.from, cut }, place, result);
+          place     = { place.edge + 1, 0. };
+          rest.from = cut;
+        }
+        add_segment(edge, nodes, at, rest, place, result);
+      }
+      facet.end = static_cast<unsigned int>(result.points.size());
+      average(result, facet);
+      result.facets.push_back(facet);
+      begin = end;
+    }
+  }
+
+  void FacePair::average(const PatchFacets &of, Facet &facet)
+  {
+    if (!facet.opposed)
+      return;
+    double stretch = 0.;
+    for (unsigned int p = facet.begin; p < facet.end; ++p)
+    {
+      const auto &point = of.points[p];
+      facet.weight += point.weight;
+      facet.gap += point.weight * point.gap;
+      facet.arc += point.weight * point.arc;
+      stretch += point.weight * point.stretch();
+    }
+    facet.gap /= facet.weight;
+    facet.arc /= facet.weight;
+    facet.stretch = stretch / facet.weight;
+  }
+
+  /// Smallest gap at the ends and in the middle of a patch, less a margin for its bending.
+  double FacePair::reach(const unsigned int patch, const PairConfiguration &at, Place &place) const
+  {
+    const auto &edge = lever[patch];
+    const auto nodes = deformed(edge, *at.at.displacement);
+    double smallest  = std::numeric_limits<double>::max();
+    for (const double s : { 0., 0.5, 1. })
+    {
+      const auto position = sum(edge.n_nodes, edge_shapes(edge.n_nodes, s).values, nodes);
+      const double aside  = outside(position, at);
+      go_to(position, at, place);
+      smallest = std::min(smallest, aside > 0. ? length + aside : project(position, at, place).gap);
+    }
+    return smallest - 0.02 * (nodes[edge.n_nodes - 1] - nodes[0]).norm();
+  }
+
+  FacePatches::Range FacePair::near(const PairConfiguration &at) const
+  {
+    FacePatches::Range range{ 0, 0 };
+    Place place;
+    unsigned int closest = 0;
+    double smallest      = std::numeric_limits<double>::max();
+    for (unsigned int patch = 0; patch < lever.size(); ++patch)
+    {
+      const double distance = reach(patch, at, place);
+      if (distance < smallest)
+      {
+        smallest = distance;
+        closest  = patch;
+      }
+      if (distance < 0.)
+        range = { range.end == 0 ? patch : range.begin, patch + 1 };
+    }
+    return range.end == 0 ? FacePatches::Range{ closest, closest + 1 } : range;
+  }
+
+  PairCoordinates FacePair::coordinates(const unsigned int patch, const std::initializer_list<const PatchFacets *> facets) const
+  {
+    PairCoordinates result;
+    const auto &edge = lever[patch];
+    result.n_lever   = edge.n_nodes;
+    result.degree    = degree;
+    result.nodes.assign(edge.nodes.begin(), edge.nodes.begin() + edge.n_nodes);
+    auto first        = static_cast<unsigned int>(chain.size());
+    unsigned int last = 0;
+    for (const auto *const of_patch : facets)
+      for (const auto &point : of_patch->points)
+      {
+        first = std::min(first, point.edge);
+        last  = std::max(last, point.edge);
+      }
+    result.first = first * degree;
+    for (unsigned int e = first; e < chain.size() && e <= last; ++e)
+      result.nodes.insert(result.nodes.end(), chain[e].nodes.begin() + (e == first ? 0 : 1), chain[e].nodes.begin() + degree + 1);
+    return result;
+  }
+} // namespace sprag

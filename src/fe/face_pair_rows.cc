@@ -1,0 +1,191 @@
+#include "fe/face_pair_rows.h"
+
+#include <cmath>
+
+namespace sprag
+{
+  using dealii::FullMatrix;
+  using dealii::outer_product;
+  using dealii::Tensor;
+  using dealii::Vector;
+
+  namespace
+  {
+    // With e = y - c from the cylinder's centre to the lever, X(zeta) the cylinder's edge about its centre, e - X = gap n. A form
+    // gives, in a variation of the coordinates, a number from
+    //   w = (de - dX, two entries; dX', two; n . dX''), all of them at fixed zeta.
+    constexpr unsigned int n_forms = 5;
+    using Form                     = Tensor<1, n_forms>;
+    using Bilinear                 = Tensor<2, n_forms>;
+
+    Form apart(const Tensor<1, 2> &a)
+    {
+      return Form({ a[0], a[1], 0., 0., 0. });
+    }
+
+    Form slope(const Tensor<1, 2> &a)
+    {
+      return Form({ 0., 0., a[0], a[1], 0. });
+    }
+
+    Bilinear both(const Form &a, const Form &b)
+    {
+      return outer_product(a, b) + outer_product(b, a);
+    }
+
+    /// First variations at a Gauss point.
+    struct Forms
+    {
+      explicit Forms(const PairPoint &p)
+          : tau(apart(p.tangent))
+          , gap(apart(p.normal))
+          , along(slope(p.tangent))
+          , across(slope(p.normal))
+          , stiffness(p.speed * p.speed - p.gap * p.bend_across)
+          , place((p.speed * tau + p.gap * across) / stiffness)
+          , speed(along + p.bend_along * place)
+          , stretch(speed / p.arc_speed - (p.speed * p.arc_bend / (p.arc_speed * p.arc_speed)) * place)
+      {
+        bend[4] = 1.;
+      }
+
+      Form tau;         ///< t . (de - dX)
+      Form gap;         ///< n . (de - dX)
+      Form along;       ///< t . dX'
+      Form across;      ///< n . dX'
+      Form bend;        ///< n . dX''
+      double stiffness; ///< D = |X'|^2 - gap n . X'': from (e - X) . X' = 0, D dzeta = |X'| tau + gap across
+      Form place;       ///< dzeta
+      Form speed;       ///< d|X'|
+      Form stretch;
+    };
+
+    /// d(gap form) = -1/D (n.X'' tau^2 + 2 |X'| tau across + gap across^2).
+    Bilinear gap_curvature(const PairPoint &p, const Forms &f)
+    {
+      return (-1. / f.stiffness) * (p.bend_across * outer_product(f.tau, f.tau) + p.speed * both(f.tau, f.across) +
+                                    p.gap * outer_product(f.across, f.across));
+    }
+
+    /// D d(dzeta) = 2 (along tau + across gap) + 2 (t.X'' tau + n.X'' gap + gap bend - 2 |X'| along) dzeta - 3 |X'| t.X''
+    /// dzeta^2.
+    Bilinear place_curvature(const PairPoint &p, const Forms &f)
+    {
+      const Form with_place = p.bend_along * f.tau + p.bend_across * f.gap + p.gap * f.bend - 2. * p.speed * f.along;
+      return (1. / f.stiffness) * (both(f.along, f.tau) + both(f.across, f.gap) + both(with_place, f.place) -
+                                   3. * p.speed * p.bend_along * outer_product(f.place, f.place));
+    }
+
+    /// d(|X'| dzeta), the derivative by the second index.
+    Bilinear slip_gradient(const PairPoint &p, const Forms &f)
+    {
+      return p.speed * place_curvature(p, f) + outer_product(f.place, f.speed);
+    }
+
+    /// What a Gauss point sees of the coordinates of its patch.
+    class View
+    {
+    public:
+      View(const PairConfiguration &at, const PairCoordinates &coordinates_)
+          : coordinates(coordinates_)
+          , by_theta({ -at.at.centre.eta, at.at.centre.xi })
+          , by_x({ std::cos(at.at.theta), -std::sin(at.at.theta) })
+          , twice_theta({ at.at.centre.xi, at.at.centre.eta })
+          , theta_x({ -std::sin(at.at.theta), -std::cos(at.at.theta) })
+      {
+      }
+
+      void add(const PairPoint &p, const Form &form, const double factor, Vector<double> &row) const
+      {
+        for_all(p, [&](const unsigned int i, const Form &of_coordinate) { row[i] += factor * (form * of_coordinate); });
+      }
+
+      void add(const PairPoint &p, const Bilinear &form, FullMatrix<double> &matrix) const
+      {
+        for_all(p,
+                [&](const unsigned int j, const Form &of_j)
+                {
+                  const Form column = form * of_j;
+                  for_all(p, [&](const unsigned int i, const Form &of_i) { matrix(i, j) += column * of_i; });
+                });
+      }
+
+      /// Adds direction . d^2 e; theta and x move the centre.
+      void add_second(const Tensor<1, 2> &direction, FullMatrix<double> &matrix) const
+      {
+        const unsigned int theta = coordinates.theta();
+        matrix(theta, theta) += direction * twice_theta;
+        matrix(theta, coordinates.x()) += direction * theta_x;
+        matrix(coordinates.x(), theta) += direction * theta_x;
+      }
+
+    private:
+      template <class Visit>
+      void for_all(const PairPoint &p, const Visit &visit) const
+      {
+        for (unsigned int a = 0; a < coordinates.n_lever; ++a)
+          for (unsigned int d = 0; d < 2; ++d)
+          {
+            Form of;
+            of[d] = p.lever[a];
+            visit(2 * a + d, of);
+          }
+        const unsigned int first = coordinates.n_lever + p.edge * coordinates.degree - coordinates.first;
+        for (unsigned int m = 0; m <= coordinates.degree; ++m)
+          for (unsigned int d = 0; d < 2; ++d)
+          {
+            Form of;
+            of[d]     = -p.cylinder.values[m];
+            of[2 + d] = p.cylinder.slopes[m];
+            of[4]     = p.cylinder.bends[m] * p.normal[d];
+            visit(2 * (first + m) + d, of);
+          }
+        visit(coordinates.theta(), apart(by_theta));
+        visit(coordinates.x(), apart(by_x));
+      }
+
+      const PairCoordinates &coordinates;
+      const Tensor<1, 2> by_theta; ///< de/dtheta = -dc/dtheta
+      const Tensor<1, 2> by_x;
+      const Tensor<1, 2> twice_theta;
+      const Tensor<1, 2> theta_x;
+    };
+  } // namespace
+
+  void find_rows(const PatchFacets &of, const Facet &facet, const PairConfiguration &at, const PairCoordinates &coordinates,
+                 const double radius, FacetRows &rows)
+  {
+    for (auto *const row : { &rows.gap, &rows.arc, &rows.stretch, &rows.slip })
+      row->reinit(coordinates.size());
+    const View view(at, coordinates);
+    for (unsigned int q = facet.begin; q < facet.end; ++q)
+    {
+      const auto &p      = of.points[q];
+      const double share = p.weight / facet.weight;
+      const Forms forms(p);
+      view.add(p, forms.gap, share, rows.gap);
+      view.add(p, forms.place, share * p.arc_speed, rows.arc);
+      view.add(p, forms.stretch, share, rows.stretch);
+      view.add(p, forms.place, share * p.speed, rows.slip);
+      rows.slip[coordinates.theta()] -= share * p.stretch() * radius;
+    }
+  }
+
+  void add_curvature(const PatchFacets &of, const Facet &facet, const PairConfiguration &at, const PairCoordinates &coordinates,
+                     const double radius, const double normal, const double tangential, FullMatrix<double> &matrix)
+  {
+    const View view(at, coordinates);
+    Vector<double> by_stretch(coordinates.size());
+    for (unsigned int q = facet.begin; q < facet.end; ++q)
+    {
+      const auto &p      = of.points[q];
+      const double share = p.weight / facet.weight;
+      const Forms forms(p);
+      view.add(p, share * (normal * gap_curvature(p, forms) + tangential * slip_gradient(p, forms)), matrix);
+      view.add_second(share * (normal * p.normal + tangential * (p.speed * p.speed / forms.stiffness) * p.tangent), matrix);
+      view.add(p, forms.stretch, -share * tangential * radius, by_stretch);
+    }
+    for (unsigned int j = 0; j < by_stretch.size(); ++j)
+      matrix(coordinates.theta(), j) += by_stretch[j];
+  }
+} // namespace sprag
