@@ -211,7 +211,7 @@ namespace sprag
     const std::string key    = key_of(body, settings);
     if (auto stored = load_arrays(folder, key))
     {
-      const auto n_face = 2 * static_cast<unsigned int>(body.friction_face().nodes.size()) + 1;
+      const unsigned int n_face = number_of_surface_ports(body) + 1;
       if (auto basis = basis_of(std::move(*stored), n_face, TotalCoordinates<2>(body).size()))
         return *basis;
     }

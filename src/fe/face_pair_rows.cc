@@ -43,6 +43,7 @@ namespace sprag
           , across(slope(p.normal))
           , stiffness(p.speed * p.speed - p.gap * p.bend_across)
           , place((p.speed * tau + p.gap * across) / stiffness)
+          , slip(p.speed * place)
           , speed(along + p.bend_along * place)
           , stretch(speed / p.arc_speed - (p.speed * p.arc_bend / (p.arc_speed * p.arc_speed)) * place)
       {
@@ -56,6 +57,7 @@ namespace sprag
       Form bend;        ///< n . dX''
       double stiffness; ///< D = |X'|^2 - gap n . X'': from (e - X) . X' = 0, D dzeta = |X'| tau + gap across
       Form place;       ///< dzeta
+      Form slip;        ///< |X'| dzeta
       Form speed;       ///< d|X'|
       Form stretch;
     };
@@ -110,6 +112,28 @@ namespace sprag
                 });
       }
 
+      /// What a change of the coordinates is.
+      Form seen(const PairPoint &p, const Vector<double> &change) const
+      {
+        Form result;
+        for_all(p, [&](const unsigned int i, const Form &of_coordinate) { result += change[i] * of_coordinate; });
+        return result;
+      }
+
+      /// change . d^2 e . change
+      Tensor<1, 2> second(const Vector<double> &change) const
+      {
+        const double theta = change[coordinates.theta()];
+        return theta * (theta * twice_theta + 2. * change[coordinates.x()] * theta_x);
+      }
+
+      /// Adds the movement of a cut along the lever's edge: from (y - X) . T = 0 at the vertex X, T the mean tangent there.
+      void add_movement(const PairCut &cut, const double factor, Vector<double> &row) const
+      {
+        for (const auto *const side : { &cut.left, &cut.right })
+          add(*side, apart(side->tangent) + (side->gap / side->speed) * slope(side->normal), -0.5 * factor / cut.speed, row);
+      }
+
       /// Adds direction . d^2 e; theta and x move the centre.
       void add_second(const Tensor<1, 2> &direction, FullMatrix<double> &matrix) const
       {
@@ -150,6 +174,23 @@ namespace sprag
       const Tensor<1, 2> twice_theta;
       const Tensor<1, 2> theta_x;
     };
+
+    /// What the rows of both sides differ by goes over from one to the other as the cut moves.
+    void add_movement_of_cut(const View &view, const PairCut &cut, const PairCoordinates &coordinates, const double radius,
+                             const double normal, const double tangential, const double factor, FullMatrix<double> &matrix)
+    {
+      Vector<double> jump(coordinates.size()), movement(coordinates.size());
+      for (const auto &[side, sign] : { std::pair{ &cut.left, 1. }, { &cut.right, -1. } })
+      {
+        const Forms forms(*side);
+        view.add(*side, normal * forms.gap + tangential * forms.slip, sign, jump);
+        jump[coordinates.theta()] -= sign * tangential * side->stretch() * radius;
+      }
+      view.add_movement(cut, factor * cut.width, movement);
+      for (unsigned int i = 0; i < jump.size(); ++i)
+        for (unsigned int j = 0; j < movement.size(); ++j)
+          matrix(i, j) += jump[i] * movement[j];
+    }
   } // namespace
 
   void find_rows(const PatchFacets &of, const Facet &facet, const PairConfiguration &at, const PairCoordinates &coordinates,
@@ -166,9 +207,37 @@ namespace sprag
       view.add(p, forms.gap, share, rows.gap);
       view.add(p, forms.place, share * p.arc_speed, rows.arc);
       view.add(p, forms.stretch, share, rows.stretch);
-      view.add(p, forms.place, share * p.speed, rows.slip);
+      view.add(p, forms.slip, share, rows.slip);
       rows.slip[coordinates.theta()] -= share * p.stretch() * radius;
     }
+    for (unsigned int c = facet.first_cut; c < facet.last_cut; ++c)
+    {
+      const auto &cut = of.cuts[c];
+      Vector<double> movement(coordinates.size());
+      view.add_movement(cut, cut.width / facet.weight, movement);
+      rows.arc.add(cut.left.arc - cut.right.arc, movement);
+      rows.stretch.add(cut.left.stretch() - cut.right.stretch(), movement);
+    }
+  }
+
+  FacetBends bends(const PatchFacets &of, const Facet &facet, const PairConfiguration &at, const PairCoordinates &coordinates,
+                   const double radius, const Vector<double> &change)
+  {
+    const View view(at, coordinates);
+    const auto second = view.second(change);
+    FacetBends result;
+    for (unsigned int q = facet.begin; q < facet.end; ++q)
+    {
+      const auto &p      = of.points[q];
+      const double share = p.weight / facet.weight;
+      const Forms forms(p);
+      const Form seen = view.seen(p, change);
+      result.gap += share * (seen * (gap_curvature(p, forms) * seen) + p.normal * second);
+      result.slip +=
+          share * (seen * (slip_gradient(p, forms) * seen) + p.speed * p.speed / forms.stiffness * (p.tangent * second) -
+                   change[coordinates.theta()] * radius * (forms.stretch * seen));
+    }
+    return result;
   }
 
   void add_curvature(const PatchFacets &of, const Facet &facet, const PairConfiguration &at, const PairCoordinates &coordinates,
@@ -187,5 +256,7 @@ namespace sprag
     }
     for (unsigned int j = 0; j < by_stretch.size(); ++j)
       matrix(coordinates.theta(), j) += by_stretch[j];
+    for (unsigned int c = facet.first_cut; c < facet.last_cut; ++c)
+      add_movement_of_cut(view, of.cuts[c], coordinates, radius, normal, tangential, 1. / facet.weight, matrix);
   }
 } // namespace sprag
