@@ -319,9 +319,13 @@ namespace sprag
     for (const double s : { 0., 0.5, 1. })
     {
       const auto position = sum(edge.n_nodes, edge_shapes(edge.n_nodes, s).values, nodes);
-      const double aside  = outside(position, at);
+      if (const double aside = outside(position, at); aside > 0.)
+      {
+        smallest = std::min(smallest, length + aside);
+        continue;
+      }
       go_to(position, at, place);
-      smallest = std::min(smallest, aside > 0. ? length + aside : project(position, at, place).gap);
+      smallest = std::min(smallest, project(position, at, place).gap);
     }
     return smallest - 0.02 * (nodes[edge.n_nodes - 1] - nodes[0]).norm();
   }

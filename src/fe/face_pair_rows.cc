@@ -99,24 +99,52 @@ namespace sprag
 
       void add(const PairPoint &p, const Form &form, const double factor, Vector<double> &row) const
       {
-        for_all(p, [&](const unsigned int i, const Form &of_coordinate) { row[i] += factor * (form * of_coordinate); });
+        Local values;
+        spread(p, form, values);
+        const auto at = indices(p);
+        for (unsigned int i = 0; i < size(); ++i)
+          row[at[i]] += factor * values[i];
       }
 
+      /// By columns: those of a form's entries, of which a coordinate sees some.
       void add(const PairPoint &p, const Bilinear &form, FullMatrix<double> &matrix) const
       {
-        for_all(p,
-                [&](const unsigned int j, const Form &of_j)
-                {
-                  const Form column = form * of_j;
-                  for_all(p, [&](const unsigned int i, const Form &of_i) { matrix(i, j) += column * of_i; });
-                });
+        std::array<Local, n_forms> columns;
+        for (unsigned int k = 0; k < n_forms; ++k)
+        {
+          Form column;
+          for (unsigned int i = 0; i < n_forms; ++i)
+            column[i] = form[i][k];
+          spread(p, column, columns[k]);
+        }
+        const auto at = indices(p);
+        for (unsigned int i = 0; i < size(); ++i)
+        {
+          Form row;
+          for (unsigned int k = 0; k < n_forms; ++k)
+            row[k] = columns[k][i];
+          Local of_row;
+          spread(p, row, of_row);
+          double *const target = &matrix(at[i], 0);
+          for (unsigned int j = 0; j < size(); ++j)
+            target[at[j]] += of_row[j];
+        }
       }
 
       /// What a change of the coordinates is.
       Form seen(const PairPoint &p, const Vector<double> &change) const
       {
+        const auto at = indices(p);
         Form result;
-        for_all(p, [&](const unsigned int i, const Form &of_coordinate) { result += change[i] * of_coordinate; });
+        Local of_entry;
+        for (unsigned int k = 0; k < n_forms; ++k)
+        {
+          Form entry;
+          entry[k] = 1.;
+          spread(p, entry, of_entry);
+          for (unsigned int i = 0; i < size(); ++i)
+            result[k] += change[at[i]] * of_entry[i];
+        }
         return result;
       }
 
@@ -144,28 +172,42 @@ namespace sprag
       }
 
     private:
-      template <class Visit>
-      void for_all(const PairPoint &p, const Visit &visit) const
+      static constexpr unsigned int most = 14;
+      using Local                        = std::array<double, most>;
+
+      /// Coordinates that a point sees: nodes of its two edges, theta, x.
+      unsigned int size() const
       {
+        return 2 * (coordinates.n_lever + coordinates.degree + 1) + 2;
+      }
+
+      std::array<unsigned int, most> indices(const PairPoint &p) const
+      {
+        std::array<unsigned int, most> result{};
+        unsigned int n = 0;
+        for (unsigned int i = 0; i < 2 * coordinates.n_lever; ++i)
+          result[n++] = i;
+        const unsigned int first = 2 * (coordinates.n_lever + p.edge * coordinates.degree - coordinates.first);
+        for (unsigned int i = 0; i < 2 * (coordinates.degree + 1); ++i)
+          result[n++] = first + i;
+        result[n++] = coordinates.theta();
+        result[n]   = coordinates.x();
+        return result;
+      }
+
+      /// What a form is in those coordinates.
+      void spread(const PairPoint &p, const Form &form, Local &result) const
+      {
+        unsigned int n = 0;
         for (unsigned int a = 0; a < coordinates.n_lever; ++a)
           for (unsigned int d = 0; d < 2; ++d)
-          {
-            Form of;
-            of[d] = p.lever[a];
-            visit(2 * a + d, of);
-          }
-        const unsigned int first = coordinates.n_lever + p.edge * coordinates.degree - coordinates.first;
+            result[n++] = p.lever[a] * form[d];
         for (unsigned int m = 0; m <= coordinates.degree; ++m)
           for (unsigned int d = 0; d < 2; ++d)
-          {
-            Form of;
-            of[d]     = -p.cylinder.values[m];
-            of[2 + d] = p.cylinder.slopes[m];
-            of[4]     = p.cylinder.bends[m] * p.normal[d];
-            visit(2 * (first + m) + d, of);
-          }
-        visit(coordinates.theta(), apart(by_theta));
-        visit(coordinates.x(), apart(by_x));
+            result[n++] =
+                p.cylinder.slopes[m] * form[2 + d] - p.cylinder.values[m] * form[d] + p.cylinder.bends[m] * p.normal[d] * form[4];
+        result[n++] = by_theta[0] * form[0] + by_theta[1] * form[1];
+        result[n]   = by_x[0] * form[0] + by_x[1] * form[1];
       }
 
       const PairCoordinates &coordinates;
@@ -175,22 +217,33 @@ namespace sprag
       const Tensor<1, 2> theta_x;
     };
 
-    /// What the rows of both sides differ by goes over from one to the other as the cut moves.
-    void add_movement_of_cut(const View &view, const PairCut &cut, const PairCoordinates &coordinates, const double radius,
-                             const double normal, const double tangential, const double factor, FullMatrix<double> &matrix)
+    /// Slip over a cut by what its sides' places on the cylinder differ by.
+    double slip_of(const PairCut &cut)
     {
-      Vector<double> jump(coordinates.size()), movement(coordinates.size());
-      for (const auto &[side, sign] : { std::pair{ &cut.left, 1. }, { &cut.right, -1. } })
-      {
-        const Forms forms(*side);
-        view.add(*side, normal * forms.gap + tangential * forms.slip, sign, jump);
-        jump[coordinates.theta()] -= sign * tangential * side->stretch() * radius;
-      }
-      view.add_movement(cut, factor * cut.width, movement);
-      for (unsigned int i = 0; i < jump.size(); ++i)
-        for (unsigned int j = 0; j < movement.size(); ++j)
-          matrix(i, j) += jump[i] * movement[j];
+      return 0.5 * (cut.left.stretch() + cut.right.stretch()) * (cut.left.arc - cut.right.arc);
     }
+
+    /// Derivatives at a cut: what the rows of both sides differ by goes over from one to the other as the cut moves.
+    struct CutRows
+    {
+      CutRows(const View &view, const PairCut &cut, const unsigned int size, const double factor)
+          : movement(size)
+          , gap_jump(size)
+          , slip_jump(size)
+      {
+        view.add_movement(cut, factor * cut.width, movement);
+        for (const auto &[side, sign] : { std::pair{ &cut.left, 1. }, { &cut.right, -1. } })
+        {
+          const Forms forms(*side);
+          view.add(*side, forms.gap, sign, gap_jump);
+          view.add(*side, forms.slip, sign, slip_jump);
+        }
+      }
+
+      Vector<double> movement;
+      Vector<double> gap_jump;
+      Vector<double> slip_jump; ///< the axes' turn apart
+    };
   } // namespace
 
   void find_rows(const PatchFacets &of, const Facet &facet, const PairConfiguration &at, const PairCoordinates &coordinates,
@@ -217,6 +270,7 @@ namespace sprag
       view.add_movement(cut, cut.width / facet.weight, movement);
       rows.arc.add(cut.left.arc - cut.right.arc, movement);
       rows.stretch.add(cut.left.stretch() - cut.right.stretch(), movement);
+      rows.slip.add(slip_of(cut), movement);
     }
   }
 
@@ -236,6 +290,15 @@ namespace sprag
       result.slip +=
           share * (seen * (slip_gradient(p, forms) * seen) + p.speed * p.speed / forms.stiffness * (p.tangent * second) -
                    change[coordinates.theta()] * radius * (forms.stretch * seen));
+    }
+    for (unsigned int c = facet.first_cut; c < facet.last_cut; ++c)
+    {
+      const auto &cut = of.cuts[c];
+      const CutRows rows(view, cut, coordinates.size(), 1. / facet.weight);
+      const double moved = rows.movement * change;
+      const double turn  = radius * (cut.left.stretch() - cut.right.stretch()) * change[coordinates.theta()];
+      result.gap += moved * (rows.gap_jump * change);
+      result.slip += moved * (2. * (rows.slip_jump * change) - turn);
     }
     return result;
   }
@@ -257,6 +320,16 @@ namespace sprag
     for (unsigned int j = 0; j < by_stretch.size(); ++j)
       matrix(coordinates.theta(), j) += by_stretch[j];
     for (unsigned int c = facet.first_cut; c < facet.last_cut; ++c)
-      add_movement_of_cut(view, of.cuts[c], coordinates, radius, normal, tangential, 1. / facet.weight, matrix);
+    {
+      const auto &cut = of.cuts[c];
+      CutRows rows(view, cut, coordinates.size(), 1. / facet.weight);
+      for (unsigned int i = 0; i < coordinates.size(); ++i)
+        for (unsigned int j = 0; j < coordinates.size(); ++j)
+          matrix(i, j) += normal * rows.gap_jump[i] * rows.movement[j] +
+                          tangential * (rows.slip_jump[i] * rows.movement[j] + rows.movement[i] * rows.slip_jump[j]);
+      rows.movement *= tangential * radius * (cut.left.stretch() - cut.right.stretch());
+      for (unsigned int j = 0; j < coordinates.size(); ++j)
+        matrix(coordinates.theta(), j) -= rows.movement[j];
+    }
   }
 } // namespace sprag

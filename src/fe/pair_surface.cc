@@ -21,7 +21,7 @@ namespace sprag
 
   void PairSurface::enter(const FaceStepPlaces &places)
   {
-    moves  = places.begin.displacement != places.end.displacement;
+    moves  = places.begin.displacement != places.end.displacement || places.begin.x != places.end.x;
     end.at = pair.configuration(places.end);
     if (moves)
     {
@@ -121,11 +121,11 @@ namespace sprag
     slip_change_row[coordinates.theta()] -= R;
     slip_change_row *= stretch;
     slip_change_row.add(0.5 * run, end_rows.stretch);
-    const Vector<double> *const of_balance[] = { &balance_rows.gap, &balance_rows.slip };
-    const Vector<double> *const of_end[]     = { &end_rows.gap, &slip_change_row };
+    const Vector<double> *const rows_of_force[] = { &balance_rows.gap, &balance_rows.slip };
+    const Vector<double> *const rows_of_law[]   = { &end_rows.gap, &slip_change_row };
     for (unsigned int i = 0; i < 2; ++i)
       for (unsigned int j = 0; j < 2; ++j)
-        add_product(middle.weight * response.tangent[i][j], *of_balance[i], *of_end[j]);
+        add_product(middle.weight * response.tangent[i][j], *rows_of_force[i], *rows_of_law[j]);
     const double share = law.weights.stiffness() * middle.weight;
     add_curvature(balance.of, middle, balance.at, coordinates, R, share * response.force[0], share * response.force[1], tangent);
   }
