@@ -228,7 +228,7 @@ namespace sprag
     {
       const auto n_attached = static_cast<unsigned int>(settings.inertia.leaf.modes.size());
       const auto n_sensors  = static_cast<unsigned int>(body.sensors().size());
-      const auto n_face     = 2 * static_cast<unsigned int>(body.friction_face().nodes.size()) + n_sensors + 1;
+      const auto n_face     = number_of_surface_ports(body) + n_sensors + 1;
       if (auto basis = basis_of(std::move(*stored), n_face, TotalCoordinates<2>(body, n_attached).size()))
       {
         basis->sensors = n_sensors;

@@ -3,6 +3,7 @@
 #include "fe/lever_model.h"
 #include "model/dynamic_lever.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace sprag
@@ -11,16 +12,14 @@ namespace sprag
   {
     LeverInertia inertia_of(const Scene &scene)
     {
-      const Lever &lever = scene.lever;
-      return { { { material_id::lever, lever.density },
-                 { material_id::web, lever.density },
-                 { material_id::plate, scene.plate.density },
-                 { material_id::layer, scene.layer.density } },
-               lever.tip_mass,
-               lever.moment_of_inertia,
-               lever.inertia,
-               lever.hub_inertia,
-               scene.spring.behaviour };
+      const Lever &lever                                     = scene.lever;
+      std::map<dealii::types::material_id, double> densities = { { material_id::lever, lever.density },
+                                                                 { material_id::web, lever.density },
+                                                                 { material_id::plate, scene.plate.density },
+                                                                 { material_id::layer, scene.layer.density } };
+      if (scene.cylinder.type != CylinderType::rigid)
+        densities[material_id::cylinder] = scene.cylinder.density;
+      return { densities, lever.tip_mass, lever.moment_of_inertia, lever.inertia, lever.hub_inertia, scene.spring.behaviour };
     }
 
     BasisSettings basis_settings(const Scene &scene)
@@ -48,23 +47,42 @@ namespace sprag
       return { scene.geometry, ports, kinematics(scene.geometry, 0.).theta, penalties, scene.friction, scene.layer.thickness };
     }
 
+    /// The softer of both sides counts.
+    ContactPenalties penalties_of(const Scene &scene, const ElasticBody<2> &body)
+    {
+      const auto lever = contact_penalties(body.friction_face(), scene.contact, scene.layer.thickness);
+      if (body.cylinder_face().patches.empty())
+        return lever;
+      const auto cylinder = contact_penalties(body.cylinder_face(), scene.contact, 0.);
+      return { std::min(lever.normal, cylinder.normal), std::min(lever.tangential, cylinder.tangential) };
+    }
+
     MeshedDynamics facts(const Scene &scene, const ElasticBody<2> &body, const std::vector<double> &omega_squared)
     {
       MeshedDynamics result;
-      result.penalties = contact_penalties(body.friction_face(), scene.contact, scene.layer.thickness);
+      result.penalties = penalties_of(scene, body);
       for (const double stiffness : omega_squared)
         result.frequencies.push_back(0.5 * std::sqrt(stiffness) / M_PI);
       return result;
+    }
+
+    template <class Contact, class Structure>
+    std::unique_ptr<DynamicModel> assemble_with(const Scene &scene, const ElasticBody<2> &body,
+                                                std::unique_ptr<Structure> structure, const MeshedDynamics &facts)
+    {
+      const PortLayout ports = structure->ports();
+      return std::make_unique<DynamicLever<Structure, Contact>>(
+          std::move(structure), std::make_unique<Contact>(body, contact_of(scene, ports, facts.penalties)),
+          lever_frame(scene, ports, facts.lever_mass));
     }
 
     template <class Structure>
     std::unique_ptr<DynamicModel> assemble(const Scene &scene, const ElasticBody<2> &body, std::unique_ptr<Structure> structure,
                                            const MeshedDynamics &facts)
     {
-      const PortLayout ports = structure->ports();
-      return std::make_unique<DynamicLever<Structure, FaceStepContact>>(
-          std::move(structure), std::make_unique<FaceStepContact>(body, contact_of(scene, ports, facts.penalties)),
-          lever_frame(scene, ports, facts.lever_mass));
+      const bool rigid = body.cylinder_face().patches.empty();
+      return rigid ? assemble_with<FaceStepContact>(scene, body, std::move(structure), facts)
+                   : assemble_with<PairStepContact>(scene, body, std::move(structure), facts);
     }
   } // namespace
 

@@ -214,18 +214,39 @@ namespace sprag
     return s;
   }
 
+  /// Its weight is the area over the lever's parameter.
+  PairPoint FacePair::point_above(const LeverEdge &edge, const Nodes &nodes, const PairConfiguration &at,
+                                  const double place_on_lever, Place &place) const
+  {
+    const auto shapes = edge_shapes(edge.n_nodes, place_on_lever);
+    auto point        = project(sum(edge.n_nodes, shapes.values, nodes), at, place);
+    point.lever       = shapes.values;
+    point.weight      = edge.width * sum(edge.n_nodes, shapes.slopes, edge.positions).norm();
+    return point;
+  }
+
   void FacePair::add_segment(const LeverEdge &edge, const Nodes &nodes, const PairConfiguration &at, const Segment &segment,
                              Place &place, PatchFacets &result) const
   {
+    const double length_of_segment = segment.to - segment.from;
     for (const double gauss : gauss_points)
     {
-      const double s    = segment.from + gauss * (segment.to - segment.from);
-      const auto shapes = edge_shapes(edge.n_nodes, s);
-      auto point        = project(sum(edge.n_nodes, shapes.values, nodes), at, place);
-      point.lever       = shapes.values;
-      point.weight = 0.5 * (segment.to - segment.from) * edge.width * sum(edge.n_nodes, shapes.slopes, edge.positions).norm();
-      result.points.push_back(point);
+      result.points.push_back(point_above(edge, nodes, at, segment.from + gauss * length_of_segment, place));
+      result.points.back().weight *= 0.5 * length_of_segment;
     }
+  }
+
+  /// At the vertex beyond the edge in `place`, which is left for the next.
+  void FacePair::add_cut(const LeverEdge &edge, const Nodes &nodes, const PairConfiguration &at, const double place_on_lever,
+                         Place &place, PatchFacets &result) const
+  {
+    PairCut cut;
+    cut.left  = point_above(edge, nodes, at, place_on_lever, place);
+    place     = { place.edge + 1, 0. };
+    cut.right = point_above(edge, nodes, at, place_on_lever, place);
+    cut.width = cut.left.weight;
+    cut.speed = sum(edge.n_nodes, edge_shapes(edge.n_nodes, place_on_lever).slopes, nodes) * at.tangents[place.edge];
+    result.cuts.push_back(cut);
   }
 
   void FacePair::find_facets(const unsigned int patch, const PairConfiguration &at, PatchFacets &result) const
@@ -236,6 +257,7 @@ namespace sprag
     const double rounded = round_off * length;
     result.facets.clear();
     result.points.clear();
+    result.cuts.clear();
     Vector2 begin = position(0.);
     Place place;
     place.edge = static_cast<unsigned int>(chain.size() / 2);
@@ -244,6 +266,7 @@ namespace sprag
       const auto end = position((i + 1.) / edge.n_facets);
       Facet facet;
       facet.begin        = static_cast<unsigned int>(result.points.size());
+      facet.first_cut    = static_cast<unsigned int>(result.cuts.size());
       const double aside = std::max(outside(begin, at), outside(end, at));
       if (aside > rounded)
         facet.gap = aside;
@@ -256,12 +279,13 @@ namespace sprag
         {
           const double cut = vertex_above(place.edge + 1, edge, nodes, at, rest);
           add_segment(edge, nodes, at, { rest.from, cut }, place, result);
-          place     = { place.edge + 1, 0. };
+          add_cut(edge, nodes, at, cut, place, result);
           rest.from = cut;
         }
         add_segment(edge, nodes, at, rest, place, result);
       }
-      facet.end = static_cast<unsigned int>(result.points.size());
+      facet.end      = static_cast<unsigned int>(result.points.size());
+      facet.last_cut = static_cast<unsigned int>(result.cuts.size());
       average(result, facet);
       result.facets.push_back(facet);
       begin = end;
@@ -295,9 +319,13 @@ namespace sprag
     for (const double s : { 0., 0.5, 1. })
     {
       const auto position = sum(edge.n_nodes, edge_shapes(edge.n_nodes, s).values, nodes);
-      const double aside  = outside(position, at);
+      if (const double aside = outside(position, at); aside > 0.)
+      {
+        smallest = std::min(smallest, length + aside);
+        continue;
+      }
       go_to(position, at, place);
-      smallest = std::min(smallest, aside > 0. ? length + aside : project(position, at, place).gap);
+      smallest = std::min(smallest, project(position, at, place).gap);
     }
     return smallest - 0.02 * (nodes[edge.n_nodes - 1] - nodes[0]).norm();
   }

@@ -60,16 +60,26 @@ namespace sprag
     }
   };
 
+  /// Where a node between two edges of the cylinder lies below a facet. What its sides see differs by kinks.
+  struct PairCut
+  {
+    PairPoint left, right;
+    double width = 0.; ///< area of the lever over its edge's parameter [mm^2]
+    double speed = 0.; ///< of the lever's edge along the cylinder [mm]
+  };
+
   /// Means over the part of the lever's edge for which a point of its friction face stands.
   struct Facet
   {
-    bool opposed       = false; ///< whether all of it lies above the cylinder's face; if not, gap is its distance from that
-    double weight      = 0.;    ///< area [mm^2]
-    double gap         = 0.;    ///< [mm]
-    double arc         = 0.;    ///< where the cylinder's undeformed surface is met, in its axes [mm]
-    double stretch     = 1.;    ///< of that surface
-    unsigned int begin = 0;     ///< its Gauss points
-    unsigned int end   = 0;
+    bool opposed           = false; ///< whether all of it lies above the cylinder's face; if not, gap is its distance from that
+    double weight          = 0.;    ///< area [mm^2]
+    double gap             = 0.;    ///< [mm]
+    double arc             = 0.;    ///< where the cylinder's undeformed surface is met, in its axes [mm]
+    double stretch         = 1.;    ///< of that surface
+    unsigned int begin     = 0;     ///< its Gauss points
+    unsigned int end       = 0;
+    unsigned int first_cut = 0;
+    unsigned int last_cut  = 0; ///< beyond
   };
 
   /// Of a patch, in the order of the points of the friction face.
@@ -77,6 +87,7 @@ namespace sprag
   {
     std::vector<Facet> facets;
     std::vector<PairPoint> points;
+    std::vector<PairCut> cuts;
   };
 
   /// Coordinates of the facets of a patch: two a node, then theta, then x, the circle's position.
@@ -165,8 +176,13 @@ namespace sprag
     double vertex_above(unsigned int vertex, const LeverEdge &edge, const Nodes &nodes, const PairConfiguration &at,
                         const Segment &within) const;
     PairPoint project(const Vector2 &position, const PairConfiguration &at, Place &place) const;
+    PairPoint point_above(const LeverEdge &edge, const Nodes &nodes, const PairConfiguration &at, double place_on_lever,
+                          Place &place) const;
     void add_segment(const LeverEdge &edge, const Nodes &nodes, const PairConfiguration &at, const Segment &segment, Place &place,
                      PatchFacets &result) const;
+
+    void add_cut(const LeverEdge &edge, const Nodes &nodes, const PairConfiguration &at, double place_on_lever, Place &place,
+                 PatchFacets &result) const;
 
     std::vector<LeverEdge> lever;
     std::vector<CylinderEdge> chain;

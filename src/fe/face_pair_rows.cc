@@ -43,6 +43,7 @@ namespace sprag
           , across(slope(p.normal))
           , stiffness(p.speed * p.speed - p.gap * p.bend_across)
           , place((p.speed * tau + p.gap * across) / stiffness)
+          , slip(p.speed * place)
           , speed(along + p.bend_along * place)
           , stretch(speed / p.arc_speed - (p.speed * p.arc_bend / (p.arc_speed * p.arc_speed)) * place)
       {
@@ -56,6 +57,7 @@ namespace sprag
       Form bend;        ///< n . dX''
       double stiffness; ///< D = |X'|^2 - gap n . X'': from (e - X) . X' = 0, D dzeta = |X'| tau + gap across
       Form place;       ///< dzeta
+      Form slip;        ///< |X'| dzeta
       Form speed;       ///< d|X'|
       Form stretch;
     };
@@ -97,17 +99,67 @@ namespace sprag
 
       void add(const PairPoint &p, const Form &form, const double factor, Vector<double> &row) const
       {
-        for_all(p, [&](const unsigned int i, const Form &of_coordinate) { row[i] += factor * (form * of_coordinate); });
+        Local values;
+        spread(p, form, values);
+        const auto at = indices(p);
+        for (unsigned int i = 0; i < size(); ++i)
+          row[at[i]] += factor * values[i];
       }
 
+      /// By columns: those of a form's entries, of which a coordinate sees some.
       void add(const PairPoint &p, const Bilinear &form, FullMatrix<double> &matrix) const
       {
-        for_all(p,
-                [&](const unsigned int j, const Form &of_j)
-                {
-                  const Form column = form * of_j;
-                  for_all(p, [&](const unsigned int i, const Form &of_i) { matrix(i, j) += column * of_i; });
-                });
+        std::array<Local, n_forms> columns;
+        for (unsigned int k = 0; k < n_forms; ++k)
+        {
+          Form column;
+          for (unsigned int i = 0; i < n_forms; ++i)
+            column[i] = form[i][k];
+          spread(p, column, columns[k]);
+        }
+        const auto at = indices(p);
+        for (unsigned int i = 0; i < size(); ++i)
+        {
+          Form row;
+          for (unsigned int k = 0; k < n_forms; ++k)
+            row[k] = columns[k][i];
+          Local of_row;
+          spread(p, row, of_row);
+          double *const target = &matrix(at[i], 0);
+          for (unsigned int j = 0; j < size(); ++j)
+            target[at[j]] += of_row[j];
+        }
+      }
+
+      /// What a change of the coordinates is.
+      Form seen(const PairPoint &p, const Vector<double> &change) const
+      {
+        const auto at = indices(p);
+        Form result;
+        Local of_entry;
+        for (unsigned int k = 0; k < n_forms; ++k)
+        {
+          Form entry;
+          entry[k] = 1.;
+          spread(p, entry, of_entry);
+          for (unsigned int i = 0; i < size(); ++i)
+            result[k] += change[at[i]] * of_entry[i];
+        }
+        return result;
+      }
+
+      /// change . d^2 e . change
+      Tensor<1, 2> second(const Vector<double> &change) const
+      {
+        const double theta = change[coordinates.theta()];
+        return theta * (theta * twice_theta + 2. * change[coordinates.x()] * theta_x);
+      }
+
+      /// Adds the movement of a cut along the lever's edge: from (y - X) . T = 0 at the vertex X, T the mean tangent there.
+      void add_movement(const PairCut &cut, const double factor, Vector<double> &row) const
+      {
+        for (const auto *const side : { &cut.left, &cut.right })
+          add(*side, apart(side->tangent) + (side->gap / side->speed) * slope(side->normal), -0.5 * factor / cut.speed, row);
       }
 
       /// Adds direction . d^2 e; theta and x move the centre.
@@ -120,28 +172,42 @@ namespace sprag
       }
 
     private:
-      template <class Visit>
-      void for_all(const PairPoint &p, const Visit &visit) const
+      static constexpr unsigned int most = 14;
+      using Local                        = std::array<double, most>;
+
+      /// Coordinates that a point sees: nodes of its two edges, theta, x.
+      unsigned int size() const
       {
+        return 2 * (coordinates.n_lever + coordinates.degree + 1) + 2;
+      }
+
+      std::array<unsigned int, most> indices(const PairPoint &p) const
+      {
+        std::array<unsigned int, most> result{};
+        unsigned int n = 0;
+        for (unsigned int i = 0; i < 2 * coordinates.n_lever; ++i)
+          result[n++] = i;
+        const unsigned int first = 2 * (coordinates.n_lever + p.edge * coordinates.degree - coordinates.first);
+        for (unsigned int i = 0; i < 2 * (coordinates.degree + 1); ++i)
+          result[n++] = first + i;
+        result[n++] = coordinates.theta();
+        result[n]   = coordinates.x();
+        return result;
+      }
+
+      /// What a form is in those coordinates.
+      void spread(const PairPoint &p, const Form &form, Local &result) const
+      {
+        unsigned int n = 0;
         for (unsigned int a = 0; a < coordinates.n_lever; ++a)
           for (unsigned int d = 0; d < 2; ++d)
-          {
-            Form of;
-            of[d] = p.lever[a];
-            visit(2 * a + d, of);
-          }
-        const unsigned int first = coordinates.n_lever + p.edge * coordinates.degree - coordinates.first;
+            result[n++] = p.lever[a] * form[d];
         for (unsigned int m = 0; m <= coordinates.degree; ++m)
           for (unsigned int d = 0; d < 2; ++d)
-          {
-            Form of;
-            of[d]     = -p.cylinder.values[m];
-            of[2 + d] = p.cylinder.slopes[m];
-            of[4]     = p.cylinder.bends[m] * p.normal[d];
-            visit(2 * (first + m) + d, of);
-          }
-        visit(coordinates.theta(), apart(by_theta));
-        visit(coordinates.x(), apart(by_x));
+            result[n++] =
+                p.cylinder.slopes[m] * form[2 + d] - p.cylinder.values[m] * form[d] + p.cylinder.bends[m] * p.normal[d] * form[4];
+        result[n++] = by_theta[0] * form[0] + by_theta[1] * form[1];
+        result[n]   = by_x[0] * form[0] + by_x[1] * form[1];
       }
 
       const PairCoordinates &coordinates;
@@ -149,6 +215,34 @@ namespace sprag
       const Tensor<1, 2> by_x;
       const Tensor<1, 2> twice_theta;
       const Tensor<1, 2> theta_x;
+    };
+
+    /// Slip over a cut by what its sides' places on the cylinder differ by.
+    double slip_of(const PairCut &cut)
+    {
+      return 0.5 * (cut.left.stretch() + cut.right.stretch()) * (cut.left.arc - cut.right.arc);
+    }
+
+    /// Derivatives at a cut: what the rows of both sides differ by goes over from one to the other as the cut moves.
+    struct CutRows
+    {
+      CutRows(const View &view, const PairCut &cut, const unsigned int size, const double factor)
+          : movement(size)
+          , gap_jump(size)
+          , slip_jump(size)
+      {
+        view.add_movement(cut, factor * cut.width, movement);
+        for (const auto &[side, sign] : { std::pair{ &cut.left, 1. }, { &cut.right, -1. } })
+        {
+          const Forms forms(*side);
+          view.add(*side, forms.gap, sign, gap_jump);
+          view.add(*side, forms.slip, sign, slip_jump);
+        }
+      }
+
+      Vector<double> movement;
+      Vector<double> gap_jump;
+      Vector<double> slip_jump; ///< the axes' turn apart
     };
   } // namespace
 
@@ -166,9 +260,47 @@ namespace sprag
       view.add(p, forms.gap, share, rows.gap);
       view.add(p, forms.place, share * p.arc_speed, rows.arc);
       view.add(p, forms.stretch, share, rows.stretch);
-      view.add(p, forms.place, share * p.speed, rows.slip);
+      view.add(p, forms.slip, share, rows.slip);
       rows.slip[coordinates.theta()] -= share * p.stretch() * radius;
     }
+    for (unsigned int c = facet.first_cut; c < facet.last_cut; ++c)
+    {
+      const auto &cut = of.cuts[c];
+      Vector<double> movement(coordinates.size());
+      view.add_movement(cut, cut.width / facet.weight, movement);
+      rows.arc.add(cut.left.arc - cut.right.arc, movement);
+      rows.stretch.add(cut.left.stretch() - cut.right.stretch(), movement);
+      rows.slip.add(slip_of(cut), movement);
+    }
+  }
+
+  FacetBends bends(const PatchFacets &of, const Facet &facet, const PairConfiguration &at, const PairCoordinates &coordinates,
+                   const double radius, const Vector<double> &change)
+  {
+    const View view(at, coordinates);
+    const auto second = view.second(change);
+    FacetBends result;
+    for (unsigned int q = facet.begin; q < facet.end; ++q)
+    {
+      const auto &p      = of.points[q];
+      const double share = p.weight / facet.weight;
+      const Forms forms(p);
+      const Form seen = view.seen(p, change);
+      result.gap += share * (seen * (gap_curvature(p, forms) * seen) + p.normal * second);
+      result.slip +=
+          share * (seen * (slip_gradient(p, forms) * seen) + p.speed * p.speed / forms.stiffness * (p.tangent * second) -
+                   change[coordinates.theta()] * radius * (forms.stretch * seen));
+    }
+    for (unsigned int c = facet.first_cut; c < facet.last_cut; ++c)
+    {
+      const auto &cut = of.cuts[c];
+      const CutRows rows(view, cut, coordinates.size(), 1. / facet.weight);
+      const double moved = rows.movement * change;
+      const double turn  = radius * (cut.left.stretch() - cut.right.stretch()) * change[coordinates.theta()];
+      result.gap += moved * (rows.gap_jump * change);
+      result.slip += moved * (2. * (rows.slip_jump * change) - turn);
+    }
+    return result;
   }
 
   void add_curvature(const PatchFacets &of, const Facet &facet, const PairConfiguration &at, const PairCoordinates &coordinates,
@@ -187,5 +319,17 @@ namespace sprag
     }
     for (unsigned int j = 0; j < by_stretch.size(); ++j)
       matrix(coordinates.theta(), j) += by_stretch[j];
+    for (unsigned int c = facet.first_cut; c < facet.last_cut; ++c)
+    {
+      const auto &cut = of.cuts[c];
+      CutRows rows(view, cut, coordinates.size(), 1. / facet.weight);
+      for (unsigned int i = 0; i < coordinates.size(); ++i)
+        for (unsigned int j = 0; j < coordinates.size(); ++j)
+          matrix(i, j) += normal * rows.gap_jump[i] * rows.movement[j] +
+                          tangential * (rows.slip_jump[i] * rows.movement[j] + rows.movement[i] * rows.slip_jump[j]);
+      rows.movement *= tangential * radius * (cut.left.stretch() - cut.right.stretch());
+      for (unsigned int j = 0; j < coordinates.size(); ++j)
+        matrix(coordinates.theta(), j) -= rows.movement[j];
+    }
   }
 } // namespace sprag

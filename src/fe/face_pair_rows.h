@@ -20,6 +20,16 @@ namespace sprag
   void find_rows(const PatchFacets &of, const Facet &facet, const PairConfiguration &at, const PairCoordinates &coordinates,
                  double radius, FacetRows &rows);
 
+  /// change . d(rows.gap)/dq . change, and so for rows.slip.
+  struct FacetBends
+  {
+    double gap  = 0.;
+    double slip = 0.;
+  };
+
+  FacetBends bends(const PatchFacets &of, const Facet &facet, const PairConfiguration &at, const PairCoordinates &coordinates,
+                   double radius, const dealii::Vector<double> &change);
+
   /// Adds normal * d(rows.gap)/dq + tangential * d(rows.slip)/dq; the second is unsymmetric by the change of the stretch.
   void add_curvature(const PatchFacets &of, const Facet &facet, const PairConfiguration &at, const PairCoordinates &coordinates,
                      double radius, double normal, double tangential, dealii::FullMatrix<double> &matrix);

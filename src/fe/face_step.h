@@ -1,34 +1,23 @@
 #pragma once
 
+#include "fe/circle_surface.h"
 #include "fe/face_observation.h"
-#include "fe/face_patches.h"
-#include "model/contact_step.h"
-#include "model/linearisation.h"
-#include "model/port_layout.h"
+#include "fe/pair_surface.h"
 #include "model/port_step.h"
 
 namespace sprag
 {
-  /// Constants of the contact of a meshed lever in time.
-  struct FaceStepProperties
-  {
-    Geometry geometry;
-    PortLayout ports;
-    double rest_inclination = 0.; ///< theta without moment [rad]
-    ContactPenalties penalties{};
-    FrictionLaw friction;
-    double layer_thickness = 0.; ///< [mm]
-  };
-
   /// Contact along the friction face over a step of the time integration, by the penalty method: FaceContact's tractions, with
   /// forces consistent with the scheme. The circle's position counts from the pivot frame's origin, which a sprung support moves.
-  class FaceStepContact
+  /// Surface: what lies below the face, CircleSurface or PairSurface.
+  template <class Surface>
+  class FaceStep
   {
   public:
     static constexpr bool uses_rates = false;
 
     /// The body must outlive the contact.
-    FaceStepContact(const ElasticBody<2> &body, FaceStepProperties properties);
+    FaceStep(const ElasticBody<2> &body, FaceStepProperties properties);
 
     void evaluate(const PortStep &step);
 
@@ -46,7 +35,8 @@ namespace sprag
     bool within_reach() const;
     void widen_reach();
 
-    /// Of the points in contact, increasing.
+    /// Of the points in contact, increasing. Throws AnalysisError if they go beyond the part of an elastic cylinder that can
+    /// touch.
     std::vector<ContactMemory> memory() const;
 
     /// At rest without force.
@@ -73,75 +63,43 @@ namespace sprag
     FaceState face_state(const DrivePoint &drive) const;
 
   private:
-    /// What the last evaluation found at an integration point.
-    struct PointState
-    {
-      unsigned int index = 0;
-      unsigned int patch = 0;
-      LeverPoint position{}; ///< deformed
-      double gap         = 0.;
-      double slip_change = 0.;
-      double pressure    = 0.; ///< at the end
-      double traction    = 0.;
-      double mu          = 0.;
-      bool slipping      = false;
-      dealii::Tensor<1, 4> end_force; ///< per area, generalised
-      ContactMemory memory;
-    };
-
-    /// Force and tangent of a patch: two coordinates a node, rotation, position of the circle.
-    static constexpr unsigned int n_local = 2 * FacePatches::max_nodes + 2;
-    struct PatchForces
-    {
-      unsigned int patch = 0;
-      double values[n_local]{};
-      double tangent[n_local][n_local]{};
-    };
-
     FaceConfiguration configuration(const dealii::Vector<double> &ports, double x) const;
-    void clear(const dealii::Vector<double> &ports, double duration);
-    void step_patch(unsigned int patch, const FaceConfiguration &begin, const FaceConfiguration &end,
-                    const std::vector<ContactMemory> &accepted, const StepContactLaw &law);
-    void step_point(PointState &state, const LeverPoint &begin_position, double begin_gap, const ContactMemory &memory,
-                    const FaceConfiguration &begin, const FaceConfiguration &end, const StepContactLaw &law,
-                    PatchForces &of_patch);
-    void slide_patch(unsigned int patch, const FaceConfiguration &at, const SlidingState &sliding, const FrictionLaw &law);
-    dealii::Tensor<2, 4> sliding_tangent(TangentPart part, ContactFriction friction, const ContactKinematics<4> &contact,
-                                         const SlidingFriction &share, double pressure) const;
-    void add(const FacePatches::Point &point, unsigned int n_nodes, const dealii::Tensor<1, 4> &force,
-             const dealii::Tensor<2, 4> &tangent, PatchForces &of_patch) const;
+    FaceConfiguration balanced(const FaceStepPlaces &places, double share);
+    void clear(const dealii::Vector<double> &ports, double x, double duration);
+    void step_patch(unsigned int patch, const std::vector<ContactMemory> &accepted, const StepContactLaw &law);
+    void slide_patch(unsigned int patch, const SlidingState &sliding);
+    FacePointState &add_state(unsigned int patch, unsigned int point);
     void sum_forces();
-    dealii::Vector<double> spread(const dealii::Tensor<1, 4> &row, const PointState &state) const;
     FacePatches::Range clip(const FacePatches::Range &range);
     void reach(const FacePatches::Range &range);
     unsigned int middle_of_contact() const;
-    dealii::Tensor<1, 4> point_change(const FacePatches::Point &point, const FacePatches::Patch &patch,
-                                      const dealii::Vector<double> &change_of_ports) const;
     std::vector<FaceContact::PointState> observed_points() const;
     FaceView view(const std::vector<FaceContact::PointState> &points) const;
 
     const ElasticBody<2> &body;
     const FaceStepProperties properties;
     const FacePatches face;
+    mutable Surface surface; ///< looks at one patch after the other
 
     // Of the last evaluation.
     dealii::Vector<double> displacement; ///< of the ports
-    double theta         = 0.;
-    double relative_x    = 0.; ///< of the circle to the pivot frame [mm]
+    dealii::Vector<double> between;      ///< where forces are balanced
+    double last_x        = 0.;           ///< of the drive
     double step_duration = 0.;
     double surface_run   = 0.; ///< of the cylinder by turning, in the step [mm]
-    double compression   = 0.;
-    double stored        = 0.; ///< energy
-    StepWork work;
-    std::vector<PointState> states;
-    std::vector<PatchForces> loaded;
-    FrictionLaw sliding_law; ///< of evaluate_sliding(), none but then
+    FaceStepSums sums;
+    std::vector<FacePointState> states;
+    FrictionLaw sliding_law;      ///< of evaluate_sliding(), none but then
+    double speed_of_sliding = 0.; ///< of the cylinder
     PortForces summed;
-    std::vector<unsigned int> place; ///< of the face nodes' forces among those summed
-    unsigned int remembered = 0;     ///< entry of the accepted memory at which the search for a point goes on
+    std::vector<unsigned int> place_of_port; ///< among those summed
+    unsigned int remembered = 0;             ///< entry of the accepted memory at which the search for a point goes on
     PortSelection reachable;
     FacePatches::Range reached{ 0, 0 }; ///< patches of `reachable`
     bool reaches_everywhere = false;
     bool clipped            = false;
   };
+
+  using FaceStepContact = FaceStep<CircleSurface>;
+  using PairStepContact = FaceStep<PairSurface>;
 } // namespace sprag

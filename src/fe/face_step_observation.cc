@@ -5,7 +5,8 @@
 
 namespace sprag
 {
-  std::vector<FaceContact::PointState> FaceStepContact::observed_points() const
+  template <class Surface>
+  std::vector<FaceContact::PointState> FaceStep<Surface>::observed_points() const
   {
     std::vector<FaceContact::PointState> result(states.size());
     for (std::size_t i = 0; i < states.size(); ++i)
@@ -28,7 +29,8 @@ namespace sprag
     return result;
   }
 
-  FaceView FaceStepContact::view(const std::vector<FaceContact::PointState> &points) const
+  template <class Surface>
+  FaceView FaceStep<Surface>::view(const std::vector<FaceContact::PointState> &points) const
   {
     double penetration = 0.;
     for (const auto &point : points)
@@ -36,7 +38,8 @@ namespace sprag
     return { body, points, displacement, step_duration, penetration };
   }
 
-  void FaceStepContact::observe(Row &row) const
+  template <class Surface>
+  void FaceStep<Surface>::observe(Row &row) const
   {
     const auto points = observed_points();
     observe_face(view(points), properties.layer_thickness, row);
@@ -45,7 +48,8 @@ namespace sprag
       row[Column::Q] -= face.points()[state.index].weight * state.end_force[3];
   }
 
-  SurfaceShape FaceStepContact::surface_shape(const dealii::Vector<double> &displacements) const
+  template <class Surface>
+  SurfaceShape FaceStep<Surface>::surface_shape(const dealii::Vector<double> &displacements) const
   {
     SurfaceShape shape;
     const auto &nodes = body.friction_face().nodes;
@@ -58,14 +62,19 @@ namespace sprag
     return shape;
   }
 
-  FacePoints FaceStepContact::face_points() const
+  template <class Surface>
+  FacePoints FaceStep<Surface>::face_points() const
   {
     return sprag::face_points(body);
   }
 
-  FaceState FaceStepContact::face_state(const DrivePoint &drive) const
+  template <class Surface>
+  FaceState FaceStep<Surface>::face_state(const DrivePoint &drive) const
   {
     const auto points = observed_points();
     return sprag::face_state(view(points), drive);
   }
+
+  template class FaceStep<CircleSurface>;
+  template class FaceStep<PairSurface>;
 } // namespace sprag

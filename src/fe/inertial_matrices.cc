@@ -119,7 +119,7 @@ namespace sprag
                            update_quadrature_points | update_JxW_values);
       double sum = 0.;
       for (const auto &cell : body.dofs().active_cell_iterators())
-        if (cell->material_id() != material_id::hub)
+        if (cell->material_id() != material_id::hub && material_id::turns(cell->material_id()))
         {
           values.reinit(cell);
           for (const unsigned int q : values.quadrature_point_indices())
@@ -160,6 +160,8 @@ namespace sprag
     std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
     for (const auto &cell : body.dofs().active_cell_iterators())
     {
+      if (!material_id::turns(cell->material_id()))
+        continue;
       cell->get_dof_indices(dofs);
       for (unsigned int i = 0; i < dofs.size(); ++i)
       {
@@ -257,8 +259,8 @@ namespace sprag
     moment_of_inertia = density_factor * of_cells + added;
 
     auto densities = inertia.densities;
-    for (auto &density : densities)
-      density.second *= density_factor;
+    for (auto &[material, density] : densities)
+      density *= material_id::turns(material) ? density_factor : 1.;
     find_pattern(body);
     for (auto *const matrix : { &mass, &stiffness, &layer_stiffness })
       matrix->reinit(pattern);
@@ -324,7 +326,8 @@ namespace sprag
   {
     const auto &properties = body.body_properties();
     const auto &fe         = body.dofs().get_fe();
-    FEValues<dim> values(fe, QGauss<dim>(properties.degree + 1), update_values | update_gradients | update_JxW_values);
+    FEValues<dim> values(body.cell_mapping(), fe, QGauss<dim>(properties.degree + 1),
+                         update_values | update_gradients | update_JxW_values);
     Scatter<dim> scatter(coordinates, fe.n_dofs_per_cell());
     for (const auto &cell : body.dofs().active_cell_iterators())
     {
@@ -341,7 +344,8 @@ namespace sprag
       scatter.add(cell_mass, mass);
       if (material == material_id::layer)
         scatter.add(of_cell, layer_stiffness);
-      total_mass += scatter.add_momentum(cell_mass, fe, momentum);
+      if (material_id::turns(material))
+        total_mass += scatter.add_momentum(cell_mass, fe, momentum);
     }
   }
 

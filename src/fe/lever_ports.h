@@ -7,9 +7,12 @@
 
 namespace sprag
 {
-  /// Ports of a meshed lever in total coordinates: elastic displacements of the friction face's nodes (two entries a node),
-  /// compressions of the force sensors, the hub's rotation and, on a sprung support, the momentum. The support's displacement
-  /// follows the coordinates of the lever.
+  /// Two a node: of the friction face, then of an elastic cylinder's face.
+  unsigned int number_of_surface_ports(const ElasticBody<2> &body);
+
+  /// Ports of a meshed lever in total coordinates: elastic displacements of those nodes (two entries a node), compressions of
+  /// the force sensors, the hub's rotation and, on a sprung support, the momentum. The support's displacement follows the
+  /// coordinates of the lever.
   class LeverPorts
   {
   public:
