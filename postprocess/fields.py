@@ -142,7 +142,7 @@ def draw_stress(axes, body, points, coloured, norm):
 
 
 def draw_cylinder(axes, scenery):
-    where = (scenery.pose.x, scenery.pose.y)
+    where = (scenery.pose.x, 0.0)
     core = number(scenery.result, "Cylinder", "Inner radius", 0.0) if scenery.elastic_cylinder else scenery.radius
     axes.add_patch(plt.Circle(where, core, facecolor="0.94", zorder=1, **EDGE))
     axes.plot(*where, "+", color="0.3", markersize=6, zorder=3)
@@ -171,12 +171,12 @@ def nodes_at(frame, parts, height):
 def draw_surroundings(axes, scenery):
     """Pivot, the cylinder's path and its direction."""
     pivot, where = scenery.pose.pivot, scenery.pose
-    axes.axhline(where.y, color="0.4", linewidth=0.6, linestyle=(0, (8, 2, 1.5, 2)), zorder=0)
+    axes.axhline(0.0, color="0.4", linewidth=0.6, linestyle=(0, (8, 2, 1.5, 2)), zorder=0)
     axes.plot(*pivot, "o", color="white", markeredgecolor="black", markersize=5, zorder=6)
     box = {"facecolor": "white", "alpha": 0.7, "linewidth": 0, "pad": 0.8}
     axes.annotate("pivot", pivot, xytext=(0, -8), textcoords="offset points", ha="center", va="top", fontsize=7, zorder=6, bbox=box)
     length = 0.3 * scenery.radius * scenery.way
-    axes.annotate("", (where.x + length, where.y), (where.x, where.y), arrowprops={"arrowstyle": "-|>", "linewidth": 1}, zorder=5)
+    axes.annotate("", (where.x + length, 0.0), (where.x, 0.0), arrowprops={"arrowstyle": "-|>", "linewidth": 1}, zorder=5)
 
 
 def set_view(axes, scenery, bodies):
@@ -185,12 +185,12 @@ def set_view(axes, scenery, bodies):
     shown = [points[body.shown(list(names))] for body, points in bodies]
     corners = np.concatenate(shown)
     if scenery.part == "all":
-        corners = np.concatenate((corners, [scenery.pose.pivot, (scenery.pose.x - scenery.radius, scenery.pose.y)]))
+        corners = np.concatenate((corners, [scenery.pose.pivot, (scenery.pose.x - scenery.radius, 0.0)]))
     if len(corners):
         low, high = corners.min(axis=0), corners.max(axis=0)
         room = 0.04 * max(high - low)
         if scenery.part in ("all", "cylinder"):
-            low[1] = scenery.pose.y - 0.15 * scenery.radius
+            low[1] = 0.0 - 0.15 * scenery.radius
         axes.set_xlim(low[0] - room, high[0] + room)
         axes.set_ylim(low[1] - room, high[1] + room)
     axes.set_aspect("equal")

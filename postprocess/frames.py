@@ -88,14 +88,13 @@ def indexed(folder, name="fields"):
 class Pose:
     """Where the apparatus stands: x along the cylinder's path towards the pivot, y up."""
 
-    x: float  # of the cylinder's centre
-    y: float
+    x: float  # of the cylinder's centre, which has y = 0
     pivot: np.ndarray
     theta: float  # of the lever at its hub
 
     def centre(self):
         """Of the cylinder, in lever axes."""
-        away = np.array((self.x, self.y)) - self.pivot
+        away = np.array((self.x, 0.0)) - self.pivot
         return np.array((-np.cos(self.theta) * away[0] + np.sin(self.theta) * away[1],
                          np.sin(self.theta) * away[0] + np.cos(self.theta) * away[1]))  # fmt: skip
 
@@ -111,7 +110,7 @@ def pose(result, row):
     table = result.table
     moved = table["support_displacement"][row] if result.has("support_displacement") else 0.0
     pivot = np.array((number(result, "Geometry", "Pivot distance") + moved, number(result, "Geometry", "Pivot height")))
-    return Pose(table["x"][row], number(result, "Mirrored pair", "Cylinder offset", 0.0), pivot, table["theta"][row])
+    return Pose(table["x"][row], pivot, table["theta"][row])
 
 
 def rest_inclination(result):

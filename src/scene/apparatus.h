@@ -139,17 +139,4 @@ namespace sprag
     double density       = 2.7e-9;
     double face_size     = 0.25; ///< element length where it touches the lever [mm]
   };
-
-  enum class LeverPair
-  {
-    half, ///< one lever, the other its mirror image in the x-axis
-    full  ///< both, with their own motion, on one pivot frame and with joined leaf springs
-  };
-
-  struct MirroredPair
-  {
-    LeverPair levers       = LeverPair::half;
-    double cylinder_offset = 0.; ///< of the cylinder's path from the x-axis towards the first lever [mm]
-    double joint_mass      = 0.; ///< of the spring joint [t], >= 0
-  };
 } // namespace sprag

@@ -77,15 +77,6 @@ namespace sprag
       section.number("Face size", settings.face_size, above(0.), "mm", "Element length where it touches the lever");
     }
 
-    void pair(Section section, MirroredPair &settings)
-    {
-      section.choice<LeverPair>("Levers", settings.levers, { { "half", LeverPair::half }, { "full", LeverPair::full } },
-                                "One lever of a symmetric pair, or both on one pivot frame with joined springs");
-      section.number("Cylinder offset", settings.cylinder_offset, any_number(), "mm",
-                     "Of the cylinder's path from the x-axis towards the first lever");
-      section.number("Joint mass", settings.joint_mass, at_least(0.), "t", "Of the spring joint");
-    }
-
     void calibration(Section section, CalibrationSettings &settings)
     {
       section.number_or_auto("Stiffness", settings.stiffness, above(0.), "N mm/rad",
@@ -104,7 +95,6 @@ namespace sprag
     lever_frame({ all, "Lever frame" }, scene.frame);
     friction_plate({ all, "Friction plate" }, scene.plate);
     cylinder({ all, "Cylinder" }, scene.cylinder);
-    pair({ all, "Mirrored pair" }, scene.pair);
     calibration({ all, "Calibration" }, scene.calibration);
   }
 } // namespace sprag

@@ -295,7 +295,6 @@ namespace sprag
     FrictionPlate plate;
     Cylinder cylinder;
     RotationalSpring spring;
-    MirroredPair pair;
     Support support;
     TimeSettings time;
     CondensedSettings condensed;
