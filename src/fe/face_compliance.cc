@@ -32,6 +32,23 @@ namespace sprag
     compliance(ports.rotation(), ports.rotation()) = 1. / springs.rotation;
     if (ports.sprung)
       compliance(ports.support(), ports.support()) = 1. / springs.support;
+    find_sensor_rows();
+  }
+
+  void FaceCompliance::find_sensor_rows()
+  {
+    const auto sensors = body.sensors();
+    const auto dofs    = face_dofs(body);
+    sensor_rows.reinit(static_cast<unsigned int>(sensors.size()), sensors.empty() ? 0 : ports.surface);
+    for (unsigned int s = 0; s < sensors.size(); ++s)
+    {
+      Vector<double> row(body.n_dofs()), response;
+      for (const auto &[dof, weight] : sensors[s].row)
+        row[dof] = sensors[s].stiffness * weight;
+      factors.solve(row, response);
+      for (unsigned int i = 0; i < ports.surface; ++i)
+        sensor_rows(s, i) = response[dofs[i]];
+    }
   }
 
   unsigned int FaceCompliance::n_coordinates() const
@@ -65,6 +82,15 @@ namespace sprag
       loads[surface[forces.ports[i]]] = forces.values[i];
     Vector<double> result;
     factors.solve(loads, result);
+    return result;
+  }
+
+  std::vector<double> FaceCompliance::sensor_forces(const Vector<double> &, const PortForces &forces) const
+  {
+    std::vector<double> result(sensor_rows.m());
+    for (unsigned int s = 0; s < result.size(); ++s)
+      for (unsigned int i = 0; i < forces.ports.size() && forces.ports[i] < ports.surface; ++i)
+        result[s] += sensor_rows(s, forces.ports[i]) * forces.values[i];
     return result;
   }
 } // namespace sprag

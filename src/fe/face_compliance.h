@@ -30,7 +30,12 @@ namespace sprag
     /// Displacement of the whole body under the forces, by one back-substitution.
     dealii::Vector<double> body_displacement(const dealii::Vector<double> &coordinates, const PortForces &forces) const;
 
+    /// Forces of the body's sensors [N].
+    std::vector<double> sensor_forces(const dealii::Vector<double> &coordinates, const PortForces &forces) const;
+
   private:
+    void find_sensor_rows();
+
     const ElasticBody<2> &body;
     const StaticPorts ports;
     const std::vector<unsigned int> surface; ///< degrees of freedom of its ports
@@ -38,6 +43,7 @@ namespace sprag
     const PortSelection all;
     Mumps factors;
     dealii::FullMatrix<double> compliance;
-    dealii::Vector<double> mismatch; ///< G f - z
+    dealii::FullMatrix<double> sensor_rows; ///< force of a sensor by unit forces on the face's ports
+    dealii::Vector<double> mismatch;        ///< G f - z
   };
 } // namespace sprag

@@ -71,4 +71,9 @@ namespace sprag
   {
     return Vector<double>(coordinates.begin(), coordinates.begin() + body.n_dofs());
   }
+
+  std::vector<double> FullStiffness::sensor_forces(const Vector<double> &coordinates, const PortForces &) const
+  {
+    return sprag::sensor_forces(body, coordinates);
+  }
 } // namespace sprag

@@ -27,6 +27,9 @@ namespace sprag
 
     dealii::Vector<double> body_displacement(const dealii::Vector<double> &coordinates, const PortForces &forces) const;
 
+    /// Forces of the body's sensors [N].
+    std::vector<double> sensor_forces(const dealii::Vector<double> &coordinates, const PortForces &forces) const;
+
   private:
     const ElasticBody<2> &body;
     const StaticPorts ports;

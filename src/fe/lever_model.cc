@@ -266,7 +266,7 @@ namespace sprag
     if (properties.body.material != MaterialModel::linear)
       row[Column::elastic_energy] = body.energy(body_displacement(trial));
     if (!body.connectors().empty())
-      row.sensor_forces = sensor_forces(body, body_displacement(trial));
+      row.sensor_forces = std::visit([&](const auto &s) { return s.sensor_forces(trial.coordinates, contact.forces()); }, system);
   }
 
   /// Of a linear one: half the work of its forces [mJ].
