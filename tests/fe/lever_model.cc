@@ -126,19 +126,12 @@ namespace
     Vector result(state.coordinates.size());
     for (auto &value : result)
       value = uniform(generator);
-    const auto &dofs            = model.elastic_body().dofs();
+    const auto &body            = model.elastic_body();
     const unsigned int rotation = result.size() - (sprung ? 2 : 1);
-    if (rotation == dofs.n_dofs())
-    {
-      std::vector<dealii::types::global_dof_index> indices(dofs.get_fe().n_dofs_per_cell());
-      for (const auto &cell : dofs.active_cell_iterators())
-        if (cell->material_id() == material_id::hub)
-        {
-          cell->get_dof_indices(indices);
-          for (const auto index : indices)
-            result[index] = 0.;
-        }
-    }
+    if (rotation == body.n_dofs())
+      for (unsigned int dof = 0; dof < rotation; ++dof)
+        if (body.is_held(dof))
+          result[dof] = 0.;
     result[rotation] /= 100.;
     result /= model.movement(result);
     return result;
@@ -202,6 +195,18 @@ TEST(LeverModel, CorrectionIsNewtonsOnASprungSupportAndAHardeningSpring)
 {
   for (const auto solution : { Solution::automatic, Solution::general })
     expect_consistent_tangent(coarse_scene_with_springs(solution));
+}
+
+TEST(LeverModel, CorrectionIsNewtonsOnAnElasticCylinder)
+{
+  for (const auto solution : { Solution::automatic, Solution::general })
+  {
+    Scene scene                  = coarse_scene_with_springs(solution);
+    scene.cylinder.type          = CylinderType::solid;
+    scene.cylinder.young_modulus = 200.; // so that it shares in the deformation
+    scene.cylinder.face_size     = 0.5;
+    expect_consistent_tangent(scene);
+  }
 }
 
 TEST(LeverModel, ApartTheSpringReturnsTheLeverInOneCorrection)

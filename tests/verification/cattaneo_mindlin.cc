@@ -87,7 +87,7 @@ namespace
     {
       const auto move               = [](const double x) { return LeverPoint{ centre(x).xi, centre(x).eta + radius }; };
       auto properties               = two_block_properties(move, friction);
-      properties.body.point_spacing = 0.002;
+      properties.body.point_spacing = 0.004;
       properties.body.constants     = { { material_id::lever, soft }, { material_id::cylinder, soft } };
       properties.contact.penalty    = penalty;
       return properties;
@@ -156,7 +156,9 @@ TEST(CattaneoMindlin, SlipEntersFromTheEdgesAsTheTangentialLoadGrows)
 
 TEST(CattaneoMindlin, SlipEntersFromTheEdgesOfTwoEqualCylinders)
 {
-  expect_slip_from_the_edges(loaded_equal_cylinders(growing), 0.5 * plane_modulus(soft));
+  // Under half of P in all; from 2.5 on in smaller steps, which Newton's method asks for.
+  const std::vector<double> positions{ 1.1, 1.25, 1.5, 2., 2.5, 2.75, 3., 3.25, 3.4 };
+  expect_slip_from_the_edges(loaded_equal_cylinders(positions), 0.5 * plane_modulus(soft));
 }
 
 TEST(CattaneoMindlin, PushedFurtherAllOfItSlides)
