@@ -38,7 +38,6 @@ namespace sprag
   void FaceCompliance::find_sensor_rows()
   {
     const auto sensors = body.sensors();
-    const auto dofs    = face_dofs(body);
     sensor_rows.reinit(static_cast<unsigned int>(sensors.size()), sensors.empty() ? 0 : ports.surface);
     for (unsigned int s = 0; s < sensors.size(); ++s)
     {
@@ -47,7 +46,7 @@ namespace sprag
         row[dof] = sensors[s].stiffness * weight;
       factors.solve(row, response);
       for (unsigned int i = 0; i < ports.surface; ++i)
-        sensor_rows(s, i) = response[dofs[i]];
+        sensor_rows(s, i) = response[surface[i]];
     }
   }
 

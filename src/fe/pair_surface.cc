@@ -25,9 +25,33 @@ namespace sprag
     end.at = pair.configuration(places.end);
     if (moves)
     {
-      of_begin.at   = pair.configuration(places.begin);
+      enter_begin(places.begin);
       of_balance.at = pair.configuration(places.balance);
     }
+  }
+
+  /// Facets at the beginning of a step are the same in all its iterations.
+  void PairSurface::enter_begin(const FaceConfiguration &at)
+  {
+    const bool same = known_begin.size() == at.displacement->size() && known_begin == *at.displacement && of_begin.at.x == at.x &&
+                      of_begin.at.theta == at.theta;
+    if (!same)
+    {
+      of_begin                 = pair.configuration(at);
+      known_begin              = *at.displacement;
+      of_begin.at.displacement = &known_begin;
+      begin_facets.clear();
+    }
+  }
+
+  const PatchFacets &PairSurface::facets_at_begin()
+  {
+    if (!moves)
+      return end.of;
+    const auto found = begin_facets.try_emplace(patch);
+    if (found.second)
+      pair.find_facets(patch, of_begin, found.first->second);
+    return found.first->second;
   }
 
   void PairSurface::enter(const unsigned int of_face)
@@ -36,8 +60,7 @@ namespace sprag
     first   = face.patches()[patch].begin;
     touched = false;
     pair.find_facets(patch, end.at, end.of);
-    if (moves)
-      pair.find_facets(patch, of_begin.at, of_begin.of);
+    at_begin = &facets_at_begin();
   }
 
   double PairSurface::place(FacePointState &state) const
@@ -45,7 +68,7 @@ namespace sprag
     const auto nodal = FacePatches::nodal(face.patches()[patch], *end.at.at.displacement);
     state.position   = FacePatches::position(face.points()[state.index], nodal);
     state.gap        = end.of.facets[state.index - first].gap;
-    return (moves ? of_begin : end).of.facets[state.index - first].gap;
+    return at_begin->facets[state.index - first].gap;
   }
 
   /// Before the first forces of a patch.
@@ -56,16 +79,16 @@ namespace sprag
     touched               = true;
     const auto is_opposed = [](const Facet &facet) { return facet.opposed; };
     at_end_of_face        = !std::all_of(end.of.facets.begin(), end.of.facets.end(), is_opposed);
-    const auto &begin     = moves ? of_begin : end;
+    const auto &begin     = moves ? of_begin : end.at;
     const auto &balance   = moves ? of_balance : end;
     if (moves)
       pair.find_facets(patch, of_balance.at, of_balance.of);
-    coordinates = pair.coordinates(patch, { &begin.of, &end.of, &balance.of });
+    coordinates = pair.coordinates(patch, { at_begin, &end.of, &balance.of });
     values.reinit(coordinates.size());
     tangent.reinit(coordinates.size(), coordinates.size());
-    movement                      = change(*begin.at.at.displacement, *end.at.at.displacement);
-    movement[coordinates.theta()] = end.at.at.theta - begin.at.at.theta;
-    movement[coordinates.x()]     = end.at.at.x - begin.at.at.x;
+    movement                      = change(*begin.at.displacement, *end.at.at.displacement);
+    movement[coordinates.theta()] = end.at.at.theta - begin.at.theta;
+    movement[coordinates.x()]     = end.at.at.x - begin.at.x;
   }
 
   /// Of the nodes of the patch.
@@ -83,9 +106,8 @@ namespace sprag
   {
     touch();
     const double R      = properties.geometry.cylinder_radius;
-    const auto &begin   = moves ? of_begin : end;
     const auto &balance = moves ? of_balance : end;
-    const auto &at_0    = begin.of.facets[state.index - first];
+    const auto &at_0    = at_begin->facets[state.index - first];
     const auto &at_1    = end.of.facets[state.index - first];
     const auto &middle  = balance.of.facets[state.index - first];
     if (!at_0.opposed || !at_1.opposed || !middle.opposed)
@@ -224,10 +246,10 @@ namespace sprag
 
   double PairSurface::slip(const FacePointState &state) const
   {
-    const auto &begin = moves ? of_begin : end;
-    const auto &at_0  = begin.of.facets[state.index - first];
+    const auto &begin = moves ? of_begin : end.at;
+    const auto &at_0  = at_begin->facets[state.index - first];
     const auto &at_1  = end.of.facets[state.index - first];
-    const double run  = at_1.arc - at_0.arc - properties.geometry.cylinder_radius * (end.at.at.theta - begin.at.at.theta);
+    const double run  = at_1.arc - at_0.arc - properties.geometry.cylinder_radius * (end.at.at.theta - begin.at.theta);
     return 0.5 * (at_0.stretch + at_1.stretch) * run;
   }
 } // namespace sprag

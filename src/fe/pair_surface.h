@@ -3,6 +3,8 @@
 #include "fe/face_pair_rows.h"
 #include "fe/face_step_point.h"
 
+#include <map>
+
 namespace sprag
 {
   /// What FaceStep sees of an elastic cylinder below the lever's face, the interface of CircleSurface. Points of the friction
@@ -31,6 +33,8 @@ namespace sprag
       PatchFacets of;
     };
 
+    void enter_begin(const FaceConfiguration &at);
+    const PatchFacets &facets_at_begin();
     void touch();
     void add_force(double weight, double normal, double along_slip, const FacetRows &rows);
     void add_product(double factor, const dealii::Vector<double> &row, const dealii::Vector<double> &column);
@@ -42,14 +46,20 @@ namespace sprag
     const FaceStepProperties &properties;
     const FacePair pair;
     Side end;
-    Side of_begin, of_balance; ///< counts where the step moves
-    bool moves = false;
+    bool moves = false; ///< whether end is not beginning and balance as well
+
+    // Where it moves.
+    Side of_balance;
+    PairConfiguration of_begin;
+    dealii::Vector<double> known_begin;
+    std::map<unsigned int, PatchFacets> begin_facets; ///< by patches
 
     // Of the patch.
-    unsigned int patch  = 0;
-    unsigned int first  = 0; ///< of its points
-    bool touched        = false;
-    bool at_end_of_face = false;
+    unsigned int patch          = 0;
+    unsigned int first          = 0; ///< of its points
+    const PatchFacets *at_begin = nullptr;
+    bool touched                = false;
+    bool at_end_of_face         = false;
     PairCoordinates coordinates;
     FacetRows end_rows, balance_rows;
     dealii::Vector<double> movement; ///< in the step

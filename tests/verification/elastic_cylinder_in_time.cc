@@ -1,0 +1,82 @@
+#include "verification/meshed_in_time.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
+
+using namespace sprag;
+
+namespace
+{
+  /// Model A around its reversal, short and coarse.
+  Scene reversal(const ModelType model, const CylinderType type)
+  {
+    Scene scene              = with_fixed_step(in_time(model_a(), model), 5e-5);
+    scene.drive              = Drive(DriveProfile::triangle, 64.5, 65., 112., 1., 2e-3);
+    scene.mesh.face_size     = 1.;
+    scene.cylinder.type      = type;
+    scene.cylinder.face_size = 0.5;
+    return scene;
+  }
+
+  double largest(const TransientRun &run, const Column column)
+  {
+    double result = 0.;
+    for (const auto &row : run.rows)
+      result = std::max(result, std::abs(row[column]));
+    return result;
+  }
+
+  double largest_difference(const TransientRun &a, const TransientRun &b, const Column column)
+  {
+    EXPECT_EQ(a.rows.size(), b.rows.size());
+    double result = 0.;
+    for (std::size_t i = 0; i < std::min(a.rows.size(), b.rows.size()); ++i)
+      result = std::max(result, std::abs(a.rows[i][column] - b.rows[i][column]));
+    return result;
+  }
+} // namespace
+
+// Third-order terms of the rows, as with a rigid cylinder; the finite elements' own solver leaves 2e-7 there too.
+TEST(ElasticCylinder, LedgerClosesAndCondensedAgreesWithFiniteElements)
+{
+  const auto condensed = run_meshed_in_time(reversal(ModelType::condensed, CylinderType::solid));
+  const auto finite    = run_meshed_in_time(reversal(ModelType::finite_element, CylinderType::solid));
+  EXPECT_LT(largest(condensed, Column::energy_residual), 1e-7 * largest(condensed, Column::drive_work));
+  EXPECT_LT(largest(finite, Column::energy_residual), 1e-6 * largest(finite, Column::drive_work));
+  EXPECT_GT(finite.rows.back()[Column::friction_work], 5.);
+  // What modes beyond the 20 kept do in time, as with a rigid cylinder.
+  const double P = largest(finite, Column::P);
+  EXPECT_LT(largest_difference(condensed, finite, Column::P), 5e-3 * P);
+  EXPECT_LT(largest_difference(condensed, finite, Column::Q), 5e-3 * P);
+}
+
+// Aluminium under a cork sheet yields 1e-4 of what cork does; where all slides friction is mu times pressure on either cylinder,
+// to what facets and points see of the ends of the contact.
+TEST(ElasticCylinder, OfStiffMaterialIsTheRigidOne)
+{
+  const auto rigid = run_meshed_in_time(reversal(ModelType::condensed, CylinderType::rigid));
+  auto scene       = reversal(ModelType::condensed, CylinderType::ring);
+  scene.cylinder.young_modulus *= 1e6;
+  const auto stiff = run_meshed_in_time(scene);
+  const double P   = largest(rigid, Column::P);
+  EXPECT_LT(largest_difference(rigid, stiff, Column::P), 5e-3 * P);
+  EXPECT_LT(largest_difference(rigid, stiff, Column::Q), 5e-3 * P);
+  EXPECT_NEAR(stiff.rows.back()[Column::friction_work], rigid.rows.back()[Column::friction_work], 1e-3 * 12.);
+  // Before the cylinder slows down to turn. Half a point's spacing tilts the contact by 1/8000.
+  for (std::size_t i = 1; i < 40; ++i)
+    EXPECT_NEAR(stiff.rows[i][Column::F] / stiff.rows[i][Column::P], rigid.rows[i][Column::F] / rigid.rows[i][Column::P],
+                1. / 8000.)
+        << i;
+}
+
+// A soft cylinder lets the lever in by what its own yielding adds, and its own vibration of some 1 kHz goes on the ledger too.
+TEST(ElasticCylinder, OfSoftMaterialYields)
+{
+  auto scene                   = reversal(ModelType::condensed, CylinderType::solid);
+  scene.cylinder.young_modulus = 200.;
+  const auto soft              = run_meshed_in_time(scene);
+  const auto rigid             = run_meshed_in_time(reversal(ModelType::condensed, CylinderType::rigid));
+  EXPECT_LT(largest(soft, Column::energy_residual), 1e-6 * largest(soft, Column::drive_work));
+  // Less pressure on the cork, whose spring is that of both in series.
+  EXPECT_LT(soft.rows[1][Column::P], rigid.rows[1][Column::P] * (1. - 1e-4));
+}
