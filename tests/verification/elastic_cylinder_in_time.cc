@@ -37,7 +37,7 @@ namespace
 } // namespace
 
 // Third-order terms of the rows, as with a rigid cylinder; the finite elements' own solver leaves 2e-7 there too.
-TEST(ElasticCylinder, LedgerClosesAndCondensedAgreesWithFiniteElements)
+TEST(ElasticCylinderInTime, LedgerClosesAndCondensedAgreesWithFiniteElements)
 {
   const auto condensed = run_meshed_in_time(reversal(ModelType::condensed, CylinderType::solid));
   const auto finite    = run_meshed_in_time(reversal(ModelType::finite_element, CylinderType::solid));
@@ -52,7 +52,7 @@ TEST(ElasticCylinder, LedgerClosesAndCondensedAgreesWithFiniteElements)
 
 // Aluminium under a cork sheet yields 1e-4 of what cork does; where all slides friction is mu times pressure on either cylinder,
 // to what facets and points see of the ends of the contact.
-TEST(ElasticCylinder, OfStiffMaterialIsTheRigidOne)
+TEST(ElasticCylinderInTime, OfStiffMaterialIsTheRigidOne)
 {
   const auto rigid = run_meshed_in_time(reversal(ModelType::condensed, CylinderType::rigid));
   auto scene       = reversal(ModelType::condensed, CylinderType::ring);
@@ -70,7 +70,7 @@ TEST(ElasticCylinder, OfStiffMaterialIsTheRigidOne)
 }
 
 // A soft cylinder lets the lever in by what its own yielding adds, and its own vibration of some 1 kHz goes on the ledger too.
-TEST(ElasticCylinder, OfSoftMaterialYields)
+TEST(ElasticCylinderInTime, OfSoftMaterialYields)
 {
   auto scene                   = reversal(ModelType::condensed, CylinderType::solid);
   scene.cylinder.young_modulus = 200.;
