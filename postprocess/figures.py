@@ -134,6 +134,15 @@ FIGURES = {
     "fig-11": slopes_of_geometries,
     "contact": lambda run: plot.contact(run("model-a")),
     "fields-a": lambda run: fields(run("model-a")),
+    # The apparatus.
+    "apparatus-a": lambda run: fields(run("apparatus-a")),
+    "cylinder-a": lambda run: fields(run("cylinder-a")),
+    "plate-a": drawn("plate-a", "sensors"),
+    "plate-reversal-a": drawn("plate-reversal-a", "sensors"),
+    "leaf-a": lambda run: plot.forces_over_x([run("leaf-a")]),
+    "leaf-b": lambda run: plot.forces_over_x([run("leaf-b")]),
+    "calibration-a": drawn("calibration-a", "calibration"),
+    "calibration-b": drawn("calibration-b", "calibration"),
     # In time.
     "reversal-a": lambda run: plot.reversal(run("reversal-a")),
     "energy-a": lambda run: plot.energy(run("reversal-a")),
