@@ -143,7 +143,11 @@ FIGURES = {
     "leaf-b": lambda run: plot.forces_over_x([run("leaf-b")]),
     "calibration-a": drawn("calibration-a", "calibration"),
     "calibration-b": drawn("calibration-b", "calibration"),
+    # Other laws, methods and limits.
+    **{name: drawn(name, "forces-over-x") for name in ("coulomb-a", "neo-hookean-a", "augmented-lagrangian-a")},
+    **{name: drawn(name, "forces-over-x") for name in ("stiff-a", "stiff-b")},
     # In time.
+    "support-a": lambda run: plot.reversal(run("support-a")),
     "reversal-a": lambda run: plot.reversal(run("reversal-a")),
     "energy-a": lambda run: plot.energy(run("reversal-a")),
     "sprag-slip-a": lambda run: plot.reversal(run("sprag-slip-a")),
