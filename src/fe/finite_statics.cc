@@ -19,9 +19,6 @@ namespace sprag
     /// thickness.
     constexpr double tolerance = 1e-9;
 
-    /// Of stiffness times displacement: what rounding leaves unbalanced where the forces themselves vanish.
-    constexpr double round_off = 1e-15;
-
     constexpr unsigned int most_iterations = 20;
 
     /// Row beginnings and columns of a sequential matrix, in the order of its values.
@@ -203,8 +200,7 @@ namespace sprag
       const double size = internal.l2_norm() + loads.l2_norm();
       if (!std::isfinite(size))
         break;
-      const double rounded = round_off * tangent.linfty_norm() * displacement.l2_norm();
-      if (residual.l2_norm() <= tolerance * size + rounded)
+      if (residual.l2_norm() <= tolerance * size)
         return;
       band.solve(residual);
       displacement += expand(residual);
