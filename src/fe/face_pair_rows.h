@@ -30,7 +30,8 @@ namespace sprag
   FacetBends bends(const PatchFacets &of, const Facet &facet, const PairConfiguration &at, const PairCoordinates &coordinates,
                    double radius, const dealii::Vector<double> &change);
 
-  /// Adds normal * d(rows.gap)/dq + tangential * d(rows.slip)/dq; the second is unsymmetric by the change of the stretch.
+  /// Adds normal * d(rows.gap)/dq + tangential * d(rows.slip)/dq; the second is unsymmetric by the change of the stretch, and
+  /// leaves out what kinks between the cylinder's edges times the gap are.
   void add_curvature(const PatchFacets &of, const Facet &facet, const PairConfiguration &at, const PairCoordinates &coordinates,
                      double radius, double normal, double tangential, dealii::FullMatrix<double> &matrix);
 } // namespace sprag

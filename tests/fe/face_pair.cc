@@ -62,6 +62,8 @@ namespace
   }
 } // namespace
 
+// Below 2e-6 mm of movement. Where a facet lies above a vertex, kinks of a^3/2 of edges of an angle 2 a count: the derivative of
+// the slip row leaves out kink * gap (7e-7 mm) times what the vertex moves, some 20 * 4^2 / 0.29^2 mm^-2; entries are up to 20.
 TEST(FacePair, RowsAndCurvaturesAreDerivatives)
 {
   const Faces faces;
@@ -84,6 +86,8 @@ TEST(FacePair, RowsAndCurvaturesAreDerivatives)
           continue;
         const bool crosses = of.facets[f].end - of.facets[f].begin > 2;
         crossings += crosses ? 1 : 0;
+        const double of_gap  = crosses ? 3e-5 : 3e-6;
+        const double of_slip = crosses ? 3e-3 : 3e-6;
         FacetRows rows, moved;
         find_rows(of, of.facets[f], at, coordinates, R, rows);
         Full gap_curvature(coordinates.size(), coordinates.size()), slip_gradient(coordinates.size(), coordinates.size());
@@ -114,13 +118,13 @@ TEST(FacePair, RowsAndCurvaturesAreDerivatives)
             }
           }
           q[port] = from;
-          EXPECT_NEAR(rows.gap[j], difference.gap, 1e-8) << f << " " << j;
-          EXPECT_NEAR(rows.arc[j], difference.arc, 1e-8) << f << " " << j;
-          EXPECT_NEAR(rows.stretch[j], difference.weight, 1e-6) << f << " " << j;
+          EXPECT_NEAR(rows.gap[j], difference.gap, 3e-8) << f << " " << j;
+          EXPECT_NEAR(rows.arc[j], difference.arc, 3e-8) << f << " " << j;
+          EXPECT_NEAR(rows.stretch[j], difference.weight, of_gap) << f << " " << j;
           for (unsigned int i = 0; i < coordinates.size(); ++i)
           {
-            EXPECT_NEAR(gap_curvature(i, j), by_row[0][i] / (2. * h), 3e-6) << f << " " << i << " " << j;
-            EXPECT_NEAR(slip_gradient(i, j), by_row[1][i] / (2. * h), 3e-6) << f << " " << i << " " << j;
+            EXPECT_NEAR(gap_curvature(i, j), by_row[0][i] / (2. * h), of_gap) << f << " " << i << " " << j;
+            EXPECT_NEAR(slip_gradient(i, j), by_row[1][i] / (2. * h), of_slip) << f << " " << i << " " << j;
           }
         }
       }
