@@ -153,7 +153,11 @@ class ScenesTest(unittest.TestCase):
     def check_run(self, file):
         table = file["table"]
         text = file["parameters"].asstr()[()]
-        self.assertEqual(set(table), set(columns_of_the_program()))
+        sensors = {f"sensor_{name}" for name in ("1", "2", "3", "4", "sum")}
+        has_plate = parameter(text, "Friction plate", "Type") != "none"
+        self.assertEqual(set(table), set(columns_of_the_program()) | (sensors if has_plate else set()))
+        if has_plate:
+            self.assertTrue(np.isfinite(table["sensor_sum"][:]).all())
         meshed = parameter(text, "Analysis", "Model") == "finite element"
         for name in NEVER_NAN_MESHED if meshed else NEVER_NAN:
             self.assertTrue(np.isfinite(table[name][:]).all(), name)
@@ -169,6 +173,17 @@ class ScenesTest(unittest.TestCase):
         self.assertLess(table["Q"][:].min(), 0)
         self.assertEqual("face" in file, meshed)
 
+    def check_calibration(self, file):
+        summary = {name: data[()] for name, data in file["summary"].items()}
+        text = file["parameters"].asstr()[()]
+        for name in ("Stiffness", "Moment of inertia"):
+            target = float(parameter(text, "Calibration", name))
+            found = summary[name.lower().replace(" ", "_")]
+            self.assertLess(abs(found / target - 1), 1e-9, name)
+        self.assertLess(summary["P_deviation"], 5e-3)
+        for scene in ("calibrated", "beam"):
+            self.assertEqual(sprag(Path(file.filename).parent / f"{scene}.prm", "--validate").returncode, 0)
+
     def check(self, file):
         kind = parameter(file["parameters"].asstr()[()], "Analysis", "Type")
         checks = {
@@ -178,6 +193,7 @@ class ScenesTest(unittest.TestCase):
             "stability": self.check_stability,
             "map": self.check_map,
             "sprag slip": self.check_sprag_slip,
+            "calibration": self.check_calibration,
         }
         checks.get(kind, self.check_run)(file)
 
