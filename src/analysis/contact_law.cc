@@ -60,7 +60,7 @@ namespace sprag
       xy += weight * log_local * log_P;
     }
     ContactLawFit fit{};
-    fit.exponent   = (n * xy - x * y) / (n * xx - x * x);
+    fit.exponent   = std::clamp((n * xy - x * y) / (n * xx - x * x), 1., 3.);
     fit.stiffness  = std::exp((y - fit.exponent * x) / n);
     double squares = 0.;
     for (const auto &point : points)

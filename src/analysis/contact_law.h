@@ -24,7 +24,7 @@ namespace sprag
   struct ContactLawFit
   {
     double stiffness;     ///< [N/mm^n]
-    double exponent;      ///< n
+    double exponent;      ///< n, 1 ... 3 as scenes take it; elements wider than the contact tend to less than 1
     double largest_error; ///< of P, relative
     double rms_error;
   };
