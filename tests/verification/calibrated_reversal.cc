@@ -15,7 +15,7 @@ namespace
   Scene calibration(const std::string &model)
   {
     const auto file = std::filesystem::path(__FILE__).parent_path() / ("../../params/calibration-" + model + ".prm");
-    return read_scene(file.string(), { "Mesh/Face size=1" });
+    return read_scene(file.string());
   }
 
   double peak_P(const Scene &scene)

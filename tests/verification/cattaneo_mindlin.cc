@@ -87,7 +87,7 @@ namespace
     {
       const auto move               = [](const double x) { return LeverPoint{ centre(x).xi, centre(x).eta + radius }; };
       auto properties               = two_block_properties(move, friction);
-      properties.body.point_spacing = 0.004;
+      properties.body.point_spacing = 0.002;
       properties.body.constants     = { { material_id::lever, soft }, { material_id::cylinder, soft } };
       properties.contact.penalty    = penalty;
       return properties;
