@@ -47,20 +47,10 @@ namespace sprag
       return { scene.geometry, ports, kinematics(scene.geometry, 0.).theta, penalties, scene.friction, scene.layer.thickness };
     }
 
-    /// The softer of both sides counts.
-    ContactPenalties penalties_of(const Scene &scene, const ElasticBody<2> &body)
-    {
-      const auto lever = contact_penalties(body.friction_face(), scene.contact, scene.layer.thickness);
-      if (body.cylinder_face().patches.empty())
-        return lever;
-      const auto cylinder = contact_penalties(body.cylinder_face(), scene.contact, 0.);
-      return { std::min(lever.normal, cylinder.normal), std::min(lever.tangential, cylinder.tangential) };
-    }
-
     MeshedDynamics facts(const Scene &scene, const ElasticBody<2> &body, const std::vector<double> &omega_squared)
     {
       MeshedDynamics result;
-      result.penalties = penalties_of(scene, body);
+      result.penalties = contact_penalties(body, scene.contact, scene.layer.thickness);
       for (const double stiffness : omega_squared)
         result.frequencies.push_back(0.5 * std::sqrt(stiffness) / M_PI);
       return result;

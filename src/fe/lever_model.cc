@@ -34,16 +34,6 @@ namespace sprag
       return { static_cast<unsigned int>(surface_dofs(body).size()), properties.support_stiffness.has_value() };
     }
 
-    /// Of an elastic cylinder the softer of both sides counts.
-    ContactPenalties penalties_of(const ElasticBody<2> &body, const LeverProperties &properties)
-    {
-      const auto lever = contact_penalties(body.friction_face(), properties.contact, properties.layer_thickness);
-      if (!has_elastic_cylinder(body))
-        return lever;
-      const auto cylinder = contact_penalties(body.cylinder_face(), properties.contact, 0.);
-      return { std::min(lever.normal, cylinder.normal), std::min(lever.tangential, cylinder.tangential) };
-    }
-
     std::unique_ptr<StaticSurface> make_surface(const ElasticBody<2> &body, const LeverProperties &properties)
     {
       const auto ports = static_ports(body, properties);
@@ -56,7 +46,7 @@ namespace sprag
     {
       return { properties.friction,
                properties.contact.enforcement,
-               penalties_of(body, properties),
+               contact_penalties(body, properties.contact, properties.layer_thickness),
                static_ports(body, properties),
                properties.spring.rest,
                properties.centre };
@@ -91,6 +81,15 @@ namespace sprag
     const double factor = settings.enforcement == Enforcement::penalty ? penalty_factor : augmentation_factor;
     const double normal = settings.penalty.value_or(factor * face.young_modulus / depth);
     return { normal, settings.tangential_penalty.value_or(normal) };
+  }
+
+  ContactPenalties contact_penalties(const ElasticBody<2> &body, const ContactSettings &settings, const double layer_thickness)
+  {
+    const auto lever = contact_penalties(body.friction_face(), settings, layer_thickness);
+    if (!has_elastic_cylinder(body))
+      return lever;
+    const auto cylinder = contact_penalties(body.cylinder_face(), settings, 0.);
+    return { std::min(lever.normal, cylinder.normal), std::min(lever.tangential, cylinder.tangential) };
   }
 
   LeverProperties lever_properties(const Scene &scene)

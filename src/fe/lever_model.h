@@ -42,6 +42,9 @@ namespace sprag
   /// The settings' penalties, or what suits mesh and layer.
   ContactPenalties contact_penalties(const FrictionFace<2> &face, const ContactSettings &settings, double layer_thickness);
 
+  /// The same of a body; with an elastic cylinder the softer of both faces counts.
+  ContactPenalties contact_penalties(const ElasticBody<2> &body, const ContactSettings &settings, double layer_thickness);
+
   /// Meshed lever on its hub, rotational spring and support against a rigid obstacle or, where the body has a cylinder's face, an
   /// elastic one: Model in lever axes, which turn with the hub.
   class LeverModel : public Model
