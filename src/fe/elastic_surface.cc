@@ -17,16 +17,6 @@ namespace sprag
     {
     }
 
-    void add_product(const double factor, const Vector<double> &row, const Vector<double> &column)
-    {
-      if (factor == 0.)
-        return;
-      for (unsigned int i = 0; i < row.size(); ++i)
-        if (const double share = factor * row[i]; share != 0.)
-          for (unsigned int j = 0; j < column.size(); ++j)
-            tangent(i, j) += share * column[j];
-    }
-
     PairCoordinates coordinates;
     Vector<double> values;
     FullMatrix<double> tangent;
@@ -146,9 +136,9 @@ namespace sprag
     slip_change[sum.coordinates.theta()] -= radius;
     slip_change *= facet.stretch;
     slip_change.add(run, rows.stretch);
-    sum.add_product(weight * response.tangent[0][0], rows.gap, rows.gap);
-    sum.add_product(weight * response.tangent[1][0], rows.slip, rows.gap);
-    sum.add_product(weight * response.tangent[1][1], rows.slip, slip_change);
+    add_product(weight * response.tangent[0][0], rows.gap, rows.gap, sum.tangent);
+    add_product(weight * response.tangent[1][0], rows.slip, rows.gap, sum.tangent);
+    add_product(weight * response.tangent[1][1], rows.slip, slip_change, sum.tangent);
     add_curvature(of, facet, at, sum.coordinates, radius, weight * normal, weight * along_slip, sum.tangent);
   }
 

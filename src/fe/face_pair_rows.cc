@@ -332,4 +332,14 @@ namespace sprag
         matrix(coordinates.theta(), j) -= rows.movement[j];
     }
   }
+
+  void add_product(const double factor, const Vector<double> &row, const Vector<double> &column, FullMatrix<double> &matrix)
+  {
+    if (factor == 0.)
+      return;
+    for (unsigned int i = 0; i < row.size(); ++i)
+      if (const double share = factor * row[i]; share != 0.)
+        for (unsigned int j = 0; j < column.size(); ++j)
+          matrix(i, j) += share * column[j];
+  }
 } // namespace sprag

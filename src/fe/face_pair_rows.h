@@ -34,4 +34,8 @@ namespace sprag
   /// leaves out what kinks between the cylinder's edges times the gap are.
   void add_curvature(const PatchFacets &of, const Facet &facet, const PairConfiguration &at, const PairCoordinates &coordinates,
                      double radius, double normal, double tangential, dealii::FullMatrix<double> &matrix);
+
+  /// Adds factor * row column^T; rows have few entries.
+  void add_product(double factor, const dealii::Vector<double> &row, const dealii::Vector<double> &column,
+                   dealii::FullMatrix<double> &matrix);
 } // namespace sprag

@@ -147,7 +147,7 @@ namespace sprag
     const Vector<double> *const rows_of_law[]   = { &end_rows.gap, &slip_change_row };
     for (unsigned int i = 0; i < 2; ++i)
       for (unsigned int j = 0; j < 2; ++j)
-        add_product(middle.weight * response.tangent[i][j], *rows_of_force[i], *rows_of_law[j]);
+        add_product(middle.weight * response.tangent[i][j], *rows_of_force[i], *rows_of_law[j], tangent);
     const double share = law.weights.stiffness() * middle.weight;
     add_curvature(balance.of, middle, balance.at, coordinates, R, share * response.force[0], share * response.force[1], tangent);
   }
@@ -170,10 +170,10 @@ namespace sprag
     const auto of    = sprag::slide(properties, law, sliding, facet.weight, state, sums);
     state.end_force  = on_lever(state.pressure, -state.traction, end_rows);
     add_force(facet.weight, state.pressure, -state.traction, end_rows);
-    add_product(facet.weight * of.normal, end_rows.gap, end_rows.gap);
-    add_product(facet.weight * of.coupled, end_rows.slip, end_rows.gap);
-    add_product(facet.weight * of.tangential, end_rows.slip, end_rows.slip);
-    add_product(facet.weight * of.by_speed * sliding.speed, end_rows.slip, end_rows.stretch);
+    add_product(facet.weight * of.normal, end_rows.gap, end_rows.gap, tangent);
+    add_product(facet.weight * of.coupled, end_rows.slip, end_rows.gap, tangent);
+    add_product(facet.weight * of.tangential, end_rows.slip, end_rows.slip, tangent);
+    add_product(facet.weight * of.by_speed * sliding.speed, end_rows.slip, end_rows.stretch, tangent);
     add_curvature(end.of, facet, end.at, coordinates, R, facet.weight * of.gap_curvature, facet.weight * of.slip_gradient,
                   tangent);
   }
@@ -181,16 +181,6 @@ namespace sprag
   void PairSurface::add_force(const double weight, const double normal, const double along_slip, const FacetRows &rows)
   {
     values.add(weight * normal, rows.gap, weight * along_slip, rows.slip);
-  }
-
-  void PairSurface::add_product(const double factor, const Vector<double> &row, const Vector<double> &column)
-  {
-    if (factor == 0.)
-      return;
-    for (unsigned int i = 0; i < row.size(); ++i)
-      if (const double share = factor * row[i]; share != 0.)
-        for (unsigned int j = 0; j < column.size(); ++j)
-          tangent(i, j) += share * column[j];
   }
 
   Tensor<1, 4> PairSurface::on_lever(const double normal, const double along_slip, const FacetRows &rows) const

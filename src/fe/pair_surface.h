@@ -37,7 +37,6 @@ namespace sprag
     const PatchFacets &facets_at_begin();
     void touch();
     void add_force(double weight, double normal, double along_slip, const FacetRows &rows);
-    void add_product(double factor, const dealii::Vector<double> &row, const dealii::Vector<double> &column);
     dealii::Tensor<1, 4> on_lever(double normal, double along_slip, const FacetRows &rows) const;
     std::vector<FaceCoordinate> ports() const;
     dealii::Vector<double> change(const dealii::Vector<double> &from, const dealii::Vector<double> &to) const;
