@@ -110,7 +110,7 @@ namespace sprag
       const double dx             = row[Column::x] - before[Column::x];
       const double power_at_start = reversed ? row[Column::friction_power] : before[Column::friction_power];
       row[Column::friction_work]  = before[Column::friction_work] + 0.5 * dt * (power_at_start + row[Column::friction_power]);
-      row[Column::drive_work]     = before[Column::drive_work] + 0.5 * dx * (before[Column::Q] + row[Column::Q]);
+      row[Column::drive_work]     = before[Column::drive_work] + 0.5 * dx * (before.drive_force() + row.drive_force());
       row[Column::step]           = dx;
     }
 

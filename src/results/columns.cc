@@ -1,5 +1,8 @@
 #include "results/columns.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace sprag
 {
   const std::vector<ColumnInfo> &all_columns()
@@ -59,17 +62,90 @@ namespace sprag
     return columns;
   }
 
-  std::vector<ColumnInfo> table_columns(const FrictionPlate &plate)
+  namespace
+  {
+    void add_sensors(const FrictionPlate &plate, std::vector<ColumnInfo> &columns)
+    {
+      if (plate.type == PlateType::none)
+        return;
+      const std::string reason = ", positive in compression; finite elements only: other models have no friction plate";
+      for (std::size_t i = 1; i <= plate.sensors.size(); ++i)
+        columns.push_back({ "sensor_" + std::to_string(i), "N",
+                            "force of sensor " + std::to_string(i) + " of the friction plate, counted from the pivot" + reason });
+      columns.push_back({ "sensor_sum", "N", "sum of the forces of the friction plate's sensors" + reason });
+    }
+
+    void add_pair(const FrictionPlate &plate, std::vector<ColumnInfo> &columns)
+    {
+      std::vector<ColumnInfo> of_second;
+      for (const Column column : columns_of_a_lever())
+        of_second.push_back(column_info(column));
+      add_sensors(plate, of_second);
+      for (const auto &[name, unit, description] : of_second)
+        columns.push_back({ name + "_2", unit, "of the pair's second lever, in its mirrored axes: " + description });
+      columns.push_back(
+          { "swing", "rad", "(theta - theta_2)/2: what both levers turn together, the first away from the cylinder" });
+      columns.push_back({ "Q_pair", "N", "x-force of the cylinder on both levers, Q + Q_2" });
+      columns.push_back(
+          { "lateral_force", "N",
+            "y-force of both levers on the cylinder, towards the first lever where positive; 0 where they mirror" });
+    }
+  } // namespace
+
+  const std::vector<Column> &columns_of_a_lever()
+  {
+    static const std::vector<Column> columns = {
+      Column::theta,         Column::theta_rate,   Column::s, Column::P, Column::F, Column::Q, Column::v_rel, Column::mu,
+      Column::centre_offset, Column::contact_width
+    };
+    return columns;
+  }
+
+  std::vector<ColumnInfo> table_columns(const FrictionPlate &plate, const MirroredPair &pair)
   {
     std::vector<ColumnInfo> result = all_columns();
-    if (plate.type == PlateType::none)
-      return result;
-    const std::string reason = ", positive in compression; finite elements only: other models have no friction plate";
-    for (std::size_t i = 1; i <= plate.sensors.size(); ++i)
-      result.push_back({ "sensor_" + std::to_string(i), "N",
-                         "force of sensor " + std::to_string(i) + " of the friction plate, counted from the pivot" + reason });
-    result.push_back({ "sensor_sum", "N", "sum of the forces of the friction plate's sensors" + reason });
+    add_sensors(plate, result);
+    if (pair.type == PairType::full)
+      add_pair(plate, result);
     return result;
+  }
+
+  void Row::add_second_lever(const Row &second)
+  {
+    of_second.clear();
+    for (const Column column : columns_of_a_lever())
+      of_second.push_back(second[column]);
+    sensor_forces.insert(sensor_forces.end(), second.sensor_forces.begin(), second.sensor_forces.end());
+    for (const Column column : { Column::friction_power, Column::friction_work, Column::drive_work, Column::spring_energy,
+                                 Column::elastic_energy, Column::layer_energy, Column::contact_energy, Column::active_points })
+      (*this)[column] += second[column];
+    for (const Column column : { Column::penetration, Column::indentation, Column::cone_violation, Column::elastic_slip })
+      (*this)[column] = std::max((*this)[column], second[column]);
+  }
+
+  double Row::of_second_lever(const Column column) const
+  {
+    const auto &of_a_lever = columns_of_a_lever();
+    const auto place       = std::find(of_a_lever.begin(), of_a_lever.end(), column) - of_a_lever.begin();
+    return of_second.at(static_cast<std::size_t>(place));
+  }
+
+  double Row::drive_force() const
+  {
+    return (*this)[Column::Q] + (of_second.empty() ? 0. : of_second_lever(Column::Q));
+  }
+
+  double Row::swing() const
+  {
+    return 0.5 * ((*this)[Column::theta] - of_second_lever(Column::theta));
+  }
+
+  double Row::lateral_force() const
+  {
+    const auto upward = [](const double P, const double F, const double theta)
+    { return P * std::cos(theta) - F * std::sin(theta); };
+    return upward(of_second_lever(Column::P), of_second_lever(Column::F), of_second_lever(Column::theta)) -
+           upward((*this)[Column::P], (*this)[Column::F], (*this)[Column::theta]);
   }
 
   const ColumnInfo &column_info(const Column column)

@@ -76,8 +76,12 @@ namespace sprag
   /// Every Column in the order of the enumeration.
   const std::vector<ColumnInfo> &all_columns();
 
-  /// Columns of the table of a run: with a friction plate on sensors also sensor_1 ... sensor_n and sensor_sum.
-  std::vector<ColumnInfo> table_columns(const FrictionPlate &plate);
+  /// Columns of the table of a run: with a friction plate on sensors also sensor_1 ... sensor_n and sensor_sum; of a full pair
+  /// those of the second lever, named ..._2, and swing, Q_pair and lateral_force.
+  std::vector<ColumnInfo> table_columns(const FrictionPlate &plate, const MirroredPair &pair);
+
+  /// Columns that each lever of a pair has.
+  const std::vector<Column> &columns_of_a_lever();
 
   /// One accepted step.
   class Row
@@ -100,7 +104,28 @@ namespace sprag
 
     std::vector<double> sensor_forces; ///< [N], positive in compression; empty where the model has none
 
+    /// Makes this the row of a pair, whose first lever it was: energies, works and powers of both, what each lever has beside it.
+    void add_second_lever(const Row &second);
+
+    /// Of a pair's second lever, in the order of columns_of_a_lever(), with its sensors' forces; empty without.
+    const std::vector<double> &second_lever() const
+    {
+      return of_second;
+    }
+
+    /// Of both levers; Q of a single one [N].
+    double drive_force() const;
+
+    /// (theta - theta_2)/2: what both levers of a pair turn together, the same way in space [rad].
+    double swing() const;
+
+    /// y-force of both levers of a pair on the cylinder, towards the first where positive [N].
+    double lateral_force() const;
+
   private:
+    double of_second_lever(Column column) const;
+
     std::array<double, n_columns> values;
+    std::vector<double> of_second;
   };
 } // namespace sprag

@@ -237,19 +237,48 @@ namespace sprag
       }
   }
 
+  namespace
+  {
+    /// Columns after those that every table has: sensors and, of a pair, what its second lever has, sensors again, and the
+    /// pair's.
+    void fill_parts(const Row &row, std::vector<double> &values)
+    {
+      constexpr std::size_t of_pair_alone = 3;
+      const bool is_pair                  = !row.second_lever().empty();
+      const std::size_t levers            = is_pair ? 2 : 1;
+      const std::size_t sensors           = row.sensor_forces.size() / levers;
+      const auto add_sensors              = [&](const std::size_t lever, const std::size_t to)
+      {
+        const auto begin = row.sensor_forces.begin() + static_cast<std::ptrdiff_t>(lever * sensors);
+        const auto end   = begin + static_cast<std::ptrdiff_t>(sensors);
+        std::copy(begin, end, values.begin() + static_cast<std::ptrdiff_t>(to));
+        values[to + sensors] = std::accumulate(begin, end, 0.);
+      };
+      const std::size_t last = values.size() - (is_pair ? of_pair_alone : 0);
+      if (sensors > 0)
+        add_sensors(0, n_columns);
+      if (!is_pair)
+        return;
+      if (sensors > 0)
+        add_sensors(1, last - sensors - 1);
+      const std::size_t of_a_lever  = row.second_lever().size();
+      const std::size_t all_sensors = last - n_columns - of_a_lever;
+      std::copy(row.second_lever().begin(), row.second_lever().end(),
+                values.begin() + static_cast<std::ptrdiff_t>(n_columns + all_sensors / 2));
+      values[last]     = row.swing();
+      values[last + 1] = row.drive_force();
+      values[last + 2] = row.lateral_force();
+    }
+  } // namespace
+
   void ResultFile::append(const Row &row)
   {
     Assert(implementation->writer, dealii::ExcMessage("The result file is finished."));
     std::vector<double> values(implementation->writer->table.n_columns(), std::numeric_limits<double>::quiet_NaN());
     for (std::size_t i = 0; i < n_columns; ++i)
       values[i] = row[static_cast<Column>(i)];
-    const auto &sensors = row.sensor_forces;
-    if (!sensors.empty() && values.size() > n_columns)
-    {
-      Assert(values.size() == n_columns + sensors.size() + 1, dealii::ExcDimensionMismatch(values.size(), sensors.size()));
-      std::copy(sensors.begin(), sensors.end(), values.begin() + n_columns);
-      values.back() = std::accumulate(sensors.begin(), sensors.end(), 0.);
-    }
+    if (values.size() > n_columns)
+      fill_parts(row, values);
     append(values);
   }
 

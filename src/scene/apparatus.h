@@ -3,6 +3,7 @@
 #include "laws/moment_law.h"
 
 #include <array>
+#include <optional>
 #include <vector>
 
 namespace sprag
@@ -72,6 +73,9 @@ namespace sprag
     double stiffness = 7.40e4; ///< k [N mm/rad], > 0; of a leaf spring that of its behaviour
     LeafSpring leaf;
     LeafBehaviour behaviour; ///< filled in by with_leaf_spring(), empty for a torsional spring
+
+    /// The same where both levers of a pair swing together with a joint that is free; filled in there too.
+    std::optional<LeafBehaviour> swing;
   };
 
   /// Moment over turn of the spring, whatever its type.
@@ -121,6 +125,29 @@ namespace sprag
     double sensor_stiffness = 2e5;                         ///< of each [N/mm]
     double guide            = 150.;                        ///< xi of the guide's middle [mm]
     double guide_stiffness  = 1e6;                         ///< along the plate [N/mm]
+  };
+
+  enum class PairType
+  {
+    half, ///< one lever, which the mirror plane y = 0 makes two
+    full  ///< both
+  };
+
+  /// What carries the spring joint of a mirrored pair.
+  enum class SpringJoint
+  {
+    free, ///< the two springs alone: they take up what both levers open, and let them swing together
+    held  ///< the pivot frame: each lever has a spring of its own
+  };
+
+  /// Two levers that hold the cylinder between them, the second one the mirror image of the first across y = 0.
+  struct MirroredPair
+  {
+    PairType type          = PairType::half;
+    SpringJoint joint      = SpringJoint::free;
+    double joint_mass      = 0.; ///< of the spring joint between leaf springs [t], >= 0
+    double cylinder_offset = 0.; ///< of the cylinder's path from the mirror plane towards the first lever [mm]
+    double friction_ratio  = 1.; ///< mu of the second lever over that of the first, > 0
   };
 
   enum class CylinderType

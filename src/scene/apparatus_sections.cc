@@ -77,6 +77,19 @@ namespace sprag
       section.number("Face size", settings.face_size, above(0.), "mm", "Element length where it touches the lever");
     }
 
+    void mirrored_pair(Section section, MirroredPair &settings)
+    {
+      section.choice<PairType>("Type", settings.type, { { "half", PairType::half }, { "full", PairType::full } },
+                               "One lever stands for both, or both are there");
+      section.choice<SpringJoint>("Joint", settings.joint, { { "free", SpringJoint::free }, { "held", SpringJoint::held } },
+                                  "Spring joint of a full pair: carried by the two springs alone, which then let both levers "
+                                  "swing together, or held by the pivot frame");
+      section.number("Joint mass", settings.joint_mass, at_least(0.), "t", "Of the spring joint between leaf springs");
+      section.number("Cylinder offset", settings.cylinder_offset, any_number(), "mm",
+                     "Of the cylinder's path from the mirror plane towards the first lever");
+      section.number("Friction ratio", settings.friction_ratio, above(0.), "", "mu of the second lever over that of the first");
+    }
+
     void calibration(Section section, CalibrationSettings &settings)
     {
       section.number_or_auto("Stiffness", settings.stiffness, above(0.), "N mm/rad",
@@ -92,6 +105,7 @@ namespace sprag
   {
     spring({ all, "Rotational spring" }, scene.spring);
     leaf({ all, "Leaf spring" }, scene.spring.leaf);
+    mirrored_pair({ all, "Mirrored pair" }, scene.pair);
     lever_frame({ all, "Lever frame" }, scene.frame);
     friction_plate({ all, "Friction plate" }, scene.plate);
     cylinder({ all, "Cylinder" }, scene.cylinder);

@@ -5,6 +5,7 @@
 #include "scene/check_spring.h"
 #include "scene/closed_form.h"
 #include "scene/contact_reference.h"
+#include "scene/mirrored_pair.h"
 
 #include <cmath>
 #include <filesystem>
@@ -330,6 +331,7 @@ namespace sprag
         append(result, cache(scene.condensed));
       if (use.positions)
         append(result, spring_violations(scene));
+      append(result, pair_violations(scene));
       if (use.meshed)
         append(result, cylinder_violations(scene));
       if (use.calibrated)

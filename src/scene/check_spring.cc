@@ -10,8 +10,8 @@ namespace sprag
 
   Violations spring_violations(const Scene &scene)
   {
-    const auto &[type, stiffness, leaf, behaviour] = scene.spring;
-    if (type != SpringType::leaf)
+    const LeafSpring &leaf = scene.spring.leaf;
+    if (scene.spring.type != SpringType::leaf)
       return {};
     Violations result;
     const double end = leaf.clamp_distance + leaf.length;

@@ -295,6 +295,7 @@ namespace sprag
     FrictionPlate plate;
     Cylinder cylinder;
     RotationalSpring spring;
+    MirroredPair pair;
     Support support;
     TimeSettings time;
     CondensedSettings condensed;

@@ -1,0 +1,123 @@
+#include "scene/mirrored_pair.h"
+
+#include "base/text.h"
+#include "scene/closed_form.h"
+
+#include <cmath>
+
+namespace sprag
+{
+  namespace
+  {
+    using Violations = std::vector<Violation>;
+
+    bool runs_pairs(const AnalysisType type)
+    {
+      return type == AnalysisType::quasi_static || type == AnalysisType::transient || type == AnalysisType::modal ||
+             type == AnalysisType::stability || type == AnalysisType::map || type == AnalysisType::sprag_slip;
+    }
+
+    bool holds_slide(const AnalysisType type)
+    {
+      return runs_pairs(type) && type != AnalysisType::quasi_static && type != AnalysisType::transient;
+    }
+
+    void analysis(const Scene &scene, Violations &result)
+    {
+      const auto reject = [&](const std::string &rule) {
+        result.push_back({ "Mirrored pair/Type", { "Analysis/Type", "Analysis/Model", "Contact/Type", "Support/Type" }, rule });
+      };
+      const auto type  = scene.analysis.type;
+      const auto model = scene.analysis.model;
+      if (!runs_pairs(type))
+        reject("must be half but in a quasi-static, transient, modal, stability, map or sprag-slip analysis");
+      else if (holds_slide(type) && model == ModelType::finite_element)
+        reject("must be half where a slide is held with finite elements; a full pair takes Analysis/Model = condensed");
+      else if (type == AnalysisType::transient && (model == ModelType::closed_form || scene.contact.type == ContactType::ideal))
+        reject("must be half with an ideal contact in time");
+      else if (type == AnalysisType::quasi_static && scene.support.type == SupportType::sprung)
+        reject("must be half on a sprung support without inertia; in time it may be full");
+    }
+
+    void joint(const Scene &scene, Violations &result)
+    {
+      const auto &pair = scene.pair;
+      const auto &leaf = scene.spring.leaf;
+      const bool free  = pair.joint == SpringJoint::free;
+      const bool leafs = scene.spring.type == SpringType::leaf;
+      if (free && scene.geometry.pivot_height != 0.)
+        result.push_back({ "Geometry/Pivot height",
+                           { "Mirrored pair/Type", "Mirrored pair/Joint" },
+                           "must be 0 mm with Mirrored pair/Joint = free: the levers swing together about one axis" });
+      if (free && leafs && (leaf.axial == LeafAxial::held || leaf.end == LeafEnd::guided))
+        result.push_back({ leaf.axial == LeafAxial::held ? "Leaf spring/Axial" : "Leaf spring/Joint",
+                           { "Mirrored pair/Type", "Mirrored pair/Joint", "Rotational spring/Type" },
+                           std::string("must be ") + (leaf.axial == LeafAxial::held ? "free" : "clamped or pinned") +
+                               " with Mirrored pair/Joint = free, which nothing but the springs holds" });
+      if (pair.joint_mass > 0. && !leafs)
+        result.push_back({ "Mirrored pair/Joint mass",
+                           { "Rotational spring/Type" },
+                           "must be 0 t with a torsional spring, which has no joint" });
+    }
+
+    void offset(const Scene &scene, Violations &result)
+    {
+      const Geometry &g    = scene.geometry;
+      const double most    = g.cylinder_radius - g.interface_offset - g.pivot_height;
+      const double largest = 0.5 * most;
+      if (most > 0. && std::abs(scene.pair.cylinder_offset) > largest)
+        result.push_back(
+            { "Mirrored pair/Cylinder offset",
+              { "Mirrored pair/Type", "Geometry/Cylinder radius", "Geometry/Interface offset", "Geometry/Pivot height" },
+              "must be at most (R - e - h)/2 = " + rounded_text(largest) + " mm either way" });
+    }
+  } // namespace
+
+  unsigned int number_of_levers(const Scene &scene)
+  {
+    return scene.pair.type == PairType::full ? 2 : 1;
+  }
+
+  Scene scene_of_lever(const Scene &scene, const unsigned int lever)
+  {
+    Scene result = scene;
+    if (number_of_levers(scene) == 1)
+      return result;
+    const double side = lever == 0 ? 1. : -1.;
+    result.geometry.pivot_height -= side * scene.pair.cylinder_offset;
+    if (lever == 1)
+      result.friction.factor *= scene.pair.friction_ratio;
+    return result;
+  }
+
+  double rest_inclination(const Scene &scene)
+  {
+    return kinematics(scene.geometry, 0.).theta;
+  }
+
+  bool swings(const Scene &scene)
+  {
+    return scene.pair.type == PairType::full && scene.pair.joint == SpringJoint::free;
+  }
+
+  Scene swinging_scene(const Scene &scene)
+  {
+    Scene result = scene;
+    if (!scene.spring.swing)
+      return result;
+    result.lever.moment_of_inertia += scene.spring.swing->inertia - scene.spring.behaviour.inertia;
+    result.spring.behaviour = *scene.spring.swing;
+    return result;
+  }
+
+  std::vector<Violation> pair_violations(const Scene &scene)
+  {
+    if (number_of_levers(scene) == 1)
+      return {};
+    Violations result;
+    analysis(scene, result);
+    joint(scene, result);
+    offset(scene, result);
+    return result;
+  }
+} // namespace sprag
