@@ -14,8 +14,8 @@ namespace sprag
   {
     dealii::Triangulation<2> triangulation;
     std::unique_ptr<const ElasticBody<2>> body;
-    FiniteElementBasis elements;                     ///< of the finite element model
-    std::shared_ptr<const CondensedBasis> condensed; ///< of the condensed one
+    FiniteElementBasis elements; ///< of the finite element model
+    CondensedBases condensed;    ///< of the condensed one
   };
 
   /// A scene's model in time at its fidelity.

@@ -96,7 +96,8 @@ namespace sprag
   Recorder::Recorder(const Scene &scene_, const std::string &folder, const bool quiet_, const FacePoints &points)
       : scene(scene_)
       , quiet(quiet_)
-      , file((prepare_folder(folder), folder + "/result.h5"), scene.parameters_text, points, table_columns(scene.plate, scene.pair))
+      , file((prepare_folder(folder), folder + "/result.h5"), scene.parameters_text, points,
+             table_columns(scene.plate, scene.pair))
       , progress(std::cerr, progress_style(quiet), path_length(scene.drive))
   {
   }

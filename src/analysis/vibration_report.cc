@@ -31,6 +31,11 @@ namespace sprag
       return mode.mode.eigenvalue.imag() > 0. ? SlideKind::flutter : SlideKind::divergence;
     }
 
+    bool is_pair(const std::vector<Eigenmode> &modes)
+    {
+      return !modes.empty() && !std::isnan(modes.front().mirroring);
+    }
+
     using Value = std::function<double(const Eigenmode &)>;
 
     Dataset column(const std::vector<Eigenmode> &modes, const ColumnInfo &info, const Value &value)
@@ -51,6 +56,10 @@ namespace sprag
       add({ "kind", "1", "0 stable, 1 flutter, 2 divergence" },
           [](const auto &mode) { return static_cast<double>(kind_of(mode)); });
       add({ "residual", "1", "backward error of the eigenpair" }, [](const auto &mode) { return mode.mode.residual; });
+
+      if (is_pair(modes))
+        add({ "mirroring", "1", "1 where the levers of a pair mirror each other, -1 where both swing the same way" },
+            [](const auto &mode) { return mode.mirroring; });
 
       const auto energy = [&](const std::string &name, double EnergyShares::*share, const std::string &where)
       {
@@ -91,10 +100,15 @@ namespace sprag
         {
           const auto append = [&](const std::string &name, const std::vector<double> &more)
           { values[name + part[i]].insert(values[name + part[i]].end(), more.begin(), more.end()); };
-          append("along_", shape.along[i]);
-          append("across_", shape.across[i]);
-          append("rotation_", { i == 0 ? shape.rotation.real() : shape.rotation.imag() });
-          append("support_", { i == 0 ? shape.support.real() : shape.support.imag() });
+          const auto part_of = [i](const std::complex<double> &value) { return i == 0 ? value.real() : value.imag(); };
+          for (std::size_t lever = 0; lever < shape.levers.size(); ++lever)
+          {
+            const std::string of_lever = lever == 0 ? "_" : "_2_";
+            append("along" + of_lever, shape.levers[lever].along[i]);
+            append("across" + of_lever, shape.levers[lever].across[i]);
+            append("rotation" + of_lever, { part_of(shape.levers[lever].rotation) });
+          }
+          append("support_", { part_of(shape.support) });
         }
       }
       group.datasets.push_back({ { "xi", "mm", "lever coordinate of the shapes' points, from the pivot" }, xi, {} });
@@ -161,12 +175,12 @@ namespace sprag
     if (modes.empty())
       return;
     stream << "\n  frequency       energy [%] in\n"
-           << "       [Hz]  spring  lever  suppt contact\n";
+           << "       [Hz]  spring  lever  suppt contact" << (is_pair(modes) ? "  mirroring" : "") << '\n';
     for (const auto &mode : modes)
     {
       const auto &e = mode.energy;
       stream << padded(frequency(mode), 11) << ' ' << share(e.rotation) << share(e.bending) << share(e.support)
-             << share(e.contact) << '\n';
+             << share(e.contact) << (is_pair(modes) ? padded(mode.mirroring, 11) : "") << '\n';
     }
   }
 

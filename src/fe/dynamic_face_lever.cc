@@ -2,6 +2,10 @@
 
 #include "fe/lever_model.h"
 #include "model/dynamic_lever.h"
+#include "model/mirrored_contact.h"
+#include "model/mirrored_modes.h"
+#include "model/mirrored_structure.h"
+#include "scene/mirrored_pair.h"
 
 #include <algorithm>
 #include <cmath>
@@ -42,9 +46,12 @@ namespace sprag
       return result;
     }
 
-    FaceStepProperties contact_of(const Scene &scene, const PortLayout &ports, const ContactPenalties &penalties)
+    FaceStepProperties contact_of(const Scene &scene, PortLayout ports, const ContactPenalties &penalties,
+                                  const unsigned int lever)
     {
-      return { scene.geometry, ports, kinematics(scene.geometry, 0.).theta, penalties, scene.friction, scene.layer.thickness };
+      const Scene own = scene_of_lever(scene, lever);
+      ports.levers    = 1;
+      return { own.geometry, ports, rest_inclination(scene), penalties, own.friction, scene.layer.thickness };
     }
 
     MeshedDynamics facts(const Scene &scene, const ElasticBody<2> &body, const std::vector<double> &omega_squared)
@@ -61,9 +68,15 @@ namespace sprag
                                                 std::unique_ptr<Structure> structure, const MeshedDynamics &facts)
     {
       const PortLayout ports = structure->ports();
-      return std::make_unique<DynamicLever<Structure, Contact>>(
-          std::move(structure), std::make_unique<Contact>(body, contact_of(scene, ports, facts.penalties)),
-          lever_frame(scene, ports, facts.lever_mass));
+      const auto contact     = [&](const unsigned int lever)
+      { return std::make_unique<Contact>(body, contact_of(scene, ports, facts.penalties, lever)); };
+      auto frame = lever_frame(scene, ports, facts.lever_mass);
+      if (ports.levers == 1)
+        return std::make_unique<DynamicLever<Structure, Contact>>(std::move(structure), contact(0), std::move(frame));
+      using Pair    = MirroredContact<Contact>;
+      auto contacts = std::make_unique<Pair>(std::array<std::unique_ptr<Contact>, 2>{ { contact(0), contact(1) } }, ports,
+                                             static_cast<unsigned int>(body.friction_face().points.size()));
+      return std::make_unique<DynamicLever<Structure, Pair>>(std::move(structure), std::move(contacts), std::move(frame));
     }
 
     template <class Structure>
@@ -73,6 +86,11 @@ namespace sprag
       const bool rigid = body.cylinder_face().patches.empty();
       return rigid ? assemble_with<FaceStepContact>(scene, body, std::move(structure), facts)
                    : assemble_with<PairStepContact>(scene, body, std::move(structure), facts);
+    }
+    /// Whether a pair has a basis of its own for levers that swing together.
+    bool swings_otherwise(const Scene &scene)
+    {
+      return swings(scene) && scene.spring.swing;
     }
   } // namespace
 
@@ -86,13 +104,23 @@ namespace sprag
     const auto matrices = std::make_shared<InertialMatrices<2>>(body, inertia_of(scene));
     dealii::PETScWrappers::SparseMatrix stiffness;
     matrices->sum({ 0., 1., 0., scene.spring.stiffness }, stiffness);
-    return { matrices, free_modes(stiffness, matrices->mass, scene.condensed.modes) };
+    FiniteElementBasis basis{ matrices, free_modes(stiffness, matrices->mass, scene.condensed.modes), {} };
+    if (swings_otherwise(scene))
+      basis.swinging = std::make_shared<const FiniteElementBasis>(make_finite_element_basis(swinging_scene(scene), body));
+    return basis;
   }
 
-  std::shared_ptr<const CondensedBasis> make_condensed_basis(const Scene &scene, const ElasticBody<2> &body, const bool store)
+  CondensedBases make_condensed_basis(const Scene &scene, const ElasticBody<2> &body, const bool store)
   {
-    const auto settings = basis_settings(scene);
-    return std::make_shared<const CondensedBasis>(store ? condensed_basis(body, settings) : make_basis(body, settings));
+    const auto make = [&](const Scene &of)
+    {
+      const auto settings = basis_settings(of);
+      return std::make_shared<const CondensedBasis>(store ? condensed_basis(body, settings) : make_basis(body, settings));
+    };
+    CondensedBases bases{ make(scene), {} };
+    if (swings_otherwise(scene))
+      bases.swinging = make(swinging_scene(scene));
+    return bases;
   }
 
   MeshedDynamics make_finite_element_dynamics(const Scene &scene, const ElasticBody<2> &body, const FiniteElementBasis &basis,
@@ -100,39 +128,70 @@ namespace sprag
   {
     const auto &matrices = *basis.matrices;
     const auto constants = constants_of(scene, relaxation, matrices.total_mass);
-    auto structure       = std::make_unique<SparseStructure>(body, basis.matrices, basis.modes, constants);
+    const auto structure = [&](const FiniteElementBasis &of)
+    { return std::make_unique<SparseStructure>(body, of.matrices, of.modes, constants); };
 
-    MeshedDynamics result       = facts(scene, body, basis.modes.stiffness);
-    result.n_coordinates        = matrices.coordinates.size();
-    result.density_factor       = matrices.density_factor;
-    result.lever_mass           = matrices.total_mass;
-    result.moment_of_inertia    = matrices.moment_of_inertia;
-    result.elastic_displacement = [lever = structure.get()](const Motion &motion) { return lever->elastic_displacement(motion); };
-    result.model                = assemble(scene, body, std::move(structure), result);
+    MeshedDynamics result    = facts(scene, body, basis.modes.stiffness);
+    result.n_coordinates     = number_of_levers(scene) * matrices.coordinates.size();
+    result.density_factor    = matrices.density_factor;
+    result.lever_mass        = matrices.total_mass;
+    result.moment_of_inertia = matrices.moment_of_inertia;
+    const auto complete      = [&](auto lever)
+    {
+      result.elastic_displacement = [of = lever.get()](const Motion &motion) { return of->elastic_displacement(motion); };
+      result.model                = assemble(scene, body, std::move(lever), result);
+    };
+    if (number_of_levers(scene) == 1)
+      complete(structure(basis));
+    else
+      complete(std::make_unique<MirroredStructure<SparseStructure>>(structure(basis),
+                                                                    structure(basis.swinging ? *basis.swinging : basis)));
     return result;
   }
 
-  MeshedDynamics make_condensed_dynamics(const Scene &scene, const ElasticBody<2> &body,
-                                         const std::shared_ptr<const CondensedBasis> &basis, const double relaxation)
+  MeshedDynamics make_condensed_dynamics(const Scene &scene, const ElasticBody<2> &body, const CondensedBases &bases,
+                                         const double relaxation)
   {
-    auto structure = std::make_unique<ModalStructure>(modal_data(*basis, constants_of(scene, relaxation, basis->lever_mass)));
+    const auto &basis    = bases.lever;
+    const auto &swinging = bases.swinging ? bases.swinging : bases.lever;
+    const auto constants = constants_of(scene, relaxation, basis->lever_mass);
+    auto modes           = modal_data(*basis, constants);
+    if (number_of_levers(scene) == 2)
+      modes = mirrored_modes(modes, modal_data(*swinging, constants));
+    const auto ports = modes.ports;
+    auto structure   = std::make_unique<ModalStructure>(std::move(modes));
 
     MeshedDynamics result    = facts(scene, body, basis->stiffness);
     result.n_coordinates     = structure->n_modes();
     result.density_factor    = basis->density_factor;
     result.lever_mass        = basis->lever_mass;
     result.moment_of_inertia = basis->moment_of_inertia;
-    result.basis_from_cache  = basis->from_cache;
-    result.basis_cpu_seconds = basis->cpu_seconds;
+    result.basis_from_cache  = basis->from_cache && swinging->from_cache;
+    result.basis_cpu_seconds = basis->cpu_seconds + (bases.swinging ? swinging->cpu_seconds : 0.);
     result.message           = basis->message;
     // Made when the first field is wanted.
-    result.elastic_displacement = [&body, settings = basis_settings(scene), basis,
-                                   made = std::shared_ptr<CondensedDisplacement>()](const Motion &motion) mutable
+    const auto displacement = [&body](const Scene &of, const std::shared_ptr<const CondensedBasis> &own)
     {
-      if (!made)
-        made = std::make_shared<CondensedDisplacement>(body, settings, *basis);
-      return (*made)(motion);
+      return [&body, settings = basis_settings(of), own,
+              made = std::shared_ptr<CondensedDisplacement>()](const Motion &motion) mutable
+      {
+        if (!made)
+          made = std::make_shared<CondensedDisplacement>(body, settings, *own);
+        return (*made)(motion);
+      };
     };
+    if (ports.levers == 1)
+      result.elastic_displacement = displacement(scene, basis);
+    else
+      result.elastic_displacement = [ports, of_first = displacement(scene, basis),
+                                     of_second = displacement(swinging_scene(scene), swinging)](const Motion &motion) mutable
+      {
+        const auto parts  = mirrored_motions(ports, motion);
+        auto displacement = of_first(parts[0]);
+        displacement += of_second(parts[1]);
+        displacement *= std::sqrt(0.5);
+        return displacement;
+      };
     result.model = assemble(scene, body, std::move(structure), result);
     return result;
   }

@@ -14,7 +14,8 @@ namespace sprag
   {
     std::unique_ptr<DynamicModel> model;
 
-    /// Elastic displacement of all degrees of freedom of the body in lever axes [mm]; the model must live.
+    /// Elastic displacement of all degrees of freedom of the body in lever axes [mm], of a pair's first lever; the model must
+    /// live.
     std::function<dealii::Vector<double>(const Motion &)> elastic_displacement;
 
     unsigned int n_coordinates = 0;
@@ -35,6 +36,14 @@ namespace sprag
   {
     std::shared_ptr<const InertialMatrices<2>> matrices;
     FreeModes modes;
+    std::shared_ptr<const FiniteElementBasis> swinging; ///< of a pair's levers that swing together, where it is another
+  };
+
+  /// The same of the condensed model.
+  struct CondensedBases
+  {
+    std::shared_ptr<const CondensedBasis> lever;
+    std::shared_ptr<const CondensedBasis> swinging;
   };
 
   /// J about the pivot of all that turns with the hub, by the mesh [t mm^2].
@@ -43,13 +52,13 @@ namespace sprag
   FiniteElementBasis make_finite_element_basis(const Scene &scene, const ElasticBody<2> &body);
 
   /// From the scene's cache if it is there; made, and stored there if `store`, if not.
-  std::shared_ptr<const CondensedBasis> make_condensed_basis(const Scene &scene, const ElasticBody<2> &body, bool store);
+  CondensedBases make_condensed_basis(const Scene &scene, const ElasticBody<2> &body, bool store);
 
   /// All degrees of freedom. `relaxation`: damping over stiffness of the friction layer [s]. The body must outlive the model.
   MeshedDynamics make_finite_element_dynamics(const Scene &scene, const ElasticBody<2> &body, const FiniteElementBasis &basis,
                                               double relaxation);
 
   /// Modes and static face shapes, see CondensedBasis.
-  MeshedDynamics make_condensed_dynamics(const Scene &scene, const ElasticBody<2> &body,
-                                         const std::shared_ptr<const CondensedBasis> &basis, double relaxation);
+  MeshedDynamics make_condensed_dynamics(const Scene &scene, const ElasticBody<2> &body, const CondensedBases &bases,
+                                         double relaxation);
 } // namespace sprag

@@ -129,7 +129,7 @@ namespace sprag
     const auto &of_lever = response(port);
     std::copy(of_lever.begin(), of_lever.end(), with_support.begin());
     const auto displacements = ports.displacements(with_support);
-    for (unsigned int i = 0; i < std::min(layout.support(), layout.size()); ++i)
+    for (unsigned int i = 0; i < layout.support(); ++i)
       compliance(i, port) = compliance(port, i) = displacements[i];
   }
 } // namespace sprag

@@ -55,10 +55,10 @@ namespace sprag
   void FaceStep<Surface>::evaluate(const PortStep &step)
   {
     clear(step.end, step.to.x, step.weights.dt);
-    const auto begin   = configuration(step.begin.position, step.accepted.drive.x);
+    const auto begin   = configuration(step.begin.position, step.from.x);
     const auto end     = configuration(step.end, step.to.x);
-    const auto &memory = step.accepted.contact;
-    surface_run        = step.to.surface - step.accepted.drive.surface;
+    const auto &memory = step.memory;
+    surface_run        = step.to.surface - step.from.surface;
 
     StepContactLaw law;
     law.normal     = { properties.penalties.normal, 1. };
@@ -78,7 +78,7 @@ namespace sprag
     for (unsigned int patch = range.begin; patch < range.end; ++patch)
       step_patch(patch, memory, law);
     sum_forces();
-    sums.work.drive -= sums.force_on_circle * (step.to.x - step.accepted.drive.x);
+    sums.work.drive -= sums.force_on_circle * (step.to.x - step.from.x);
   }
 
   template <class Surface>

@@ -14,7 +14,8 @@ namespace sprag
   class FaceStep
   {
   public:
-    static constexpr bool uses_rates = false;
+    static constexpr bool uses_rates     = false;
+    static constexpr unsigned int levers = 1;
 
     /// The body must outlive the contact.
     FaceStep(const ElasticBody<2> &body, FaceStepProperties properties);

@@ -108,6 +108,8 @@ namespace sprag
         if (!slides)
           hold_mean(body, 0, constraints);
         return;
+      case LeafEnd::loose:
+        return;
       }
       if (slides)
         move_alike(along, constraints);

@@ -10,7 +10,8 @@ namespace sprag
 {
   /// A leaf spring of finite elements, degree 2, St. Venant-Kirchhoff, in axes of the lever at rest. Its clamp moves as a rigid
   /// body that the hub turns about the pivot, its joint as LeafSpring::end and axial allow: a clamped or guided end moves as one
-  /// without turning, of a pinned one the mean over the section is held.
+  /// without turning, of a pinned one the mean over the section is held, and a loose
+  /// one is free.
   class LeafBody
   {
   public:

@@ -3,6 +3,7 @@
 #include "base/errors.h"
 #include "fe/leaf_vibration.h"
 #include "scene/closed_form.h"
+#include "scene/mirrored_pair.h"
 
 #include <algorithm>
 #include <cmath>
@@ -108,13 +109,22 @@ namespace sprag
   } // namespace
 
   LeafBehaviour leaf_behaviour(const LeafSpring &leaf, const PlaneState plane, const double smallest_turn,
-                               const double largest_turn)
+                               const double largest_turn, const double joint_mass)
   {
     LeafBody body(leaf, plane);
     LeafBehaviour behaviour;
-    add_inertia(body, leaf.density, behaviour);
+    add_inertia(body, leaf.density, joint_mass, behaviour);
     const double stiffness = body.rest().stiffness;
     behaviour.law          = MomentLaw(stiffness, Sampler(body, smallest_turn, largest_turn).samples());
+    return behaviour;
+  }
+
+  LeafBehaviour swinging_leaf(LeafSpring leaf, const PlaneState plane, const double joint_mass)
+  {
+    leaf.end = LeafEnd::loose;
+    LeafBody body(leaf, plane);
+    LeafBehaviour behaviour;
+    add_inertia(body, leaf.density, joint_mass, behaviour);
     return behaviour;
   }
 
@@ -122,12 +132,16 @@ namespace sprag
   {
     if (scene.spring.type != SpringType::leaf)
       return scene;
-    const double rest      = kinematics(scene.geometry, 0.).theta;
-    const double smallest  = std::min(0., kinematics(scene.geometry, scene.drive.minimum()).theta - rest);
-    const double largest   = std::max(0., kinematics(scene.geometry, scene.drive.maximum()).theta - rest);
-    const double room      = std::max(0.02, 0.5 * std::max(-smallest, largest));
-    scene.spring.behaviour = leaf_behaviour(scene.spring.leaf, scene.analysis.plane, smallest - room, largest + room);
-    scene.spring.stiffness = scene.spring.behaviour.law.linear_stiffness();
+    const double rest       = kinematics(scene.geometry, 0.).theta;
+    const double smallest   = std::min(0., kinematics(scene.geometry, scene.drive.minimum()).theta - rest);
+    const double largest    = std::max(0., kinematics(scene.geometry, scene.drive.maximum()).theta - rest);
+    const double room       = std::max(0.02, 0.5 * std::max(-smallest, largest));
+    const double joint_mass = 0.5 * scene.pair.joint_mass; // the mirrored lever's leaf carries the other half
+    const auto plane        = scene.analysis.plane;
+    scene.spring.behaviour  = leaf_behaviour(scene.spring.leaf, plane, smallest - room, largest + room, joint_mass);
+    scene.spring.stiffness  = scene.spring.behaviour.law.linear_stiffness();
+    if (swings(scene))
+      scene.spring.swing = swinging_leaf(scene.spring.leaf, plane, joint_mass);
     return scene;
   }
 } // namespace sprag

@@ -6,6 +6,8 @@
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_values.h>
 
+#include <numeric>
+
 namespace sprag
 {
   using namespace dealii;
@@ -40,6 +42,42 @@ namespace sprag
       mass.compress(VectorOperation::add);
     }
 
+    /// A mass on the section at the joint, evenly over it.
+    void assemble_joint(const ElasticBody<2> &body, const double joint_mass, PETScWrappers::SparseMatrix &mass)
+    {
+      const auto &fe = body.dofs().get_fe();
+      FEFaceValues<2> values(body.cell_mapping(), fe, QGauss<1>(fe.degree + 1), update_values | update_JxW_values);
+      const unsigned int n = fe.n_dofs_per_cell();
+      FullMatrix<double> local(n, n);
+      std::vector<types::global_dof_index> indices(n);
+      const auto on_joint = [&](const auto &add)
+      {
+        for (const auto &cell : body.dofs().active_cell_iterators())
+          for (const unsigned int f : cell->face_indices())
+            if (cell->face(f)->at_boundary() && cell->face(f)->boundary_id() == boundary_id::joint)
+            {
+              values.reinit(cell, f);
+              add(cell);
+            }
+      };
+      double length = 0.;
+      on_joint([&](const auto &)
+               { length = std::accumulate(values.get_JxW_values().begin(), values.get_JxW_values().end(), length); });
+      on_joint(
+          [&](const auto &cell)
+          {
+            local = 0.;
+            for (const unsigned int q : values.quadrature_point_indices())
+              for (unsigned int i = 0; i < n; ++i)
+                for (unsigned int j = 0; j < n; ++j)
+                  if (fe.system_to_component_index(i).first == fe.system_to_component_index(j).first)
+                    local(i, j) += joint_mass / length * values.JxW(q) * values.shape_value(i, q) * values.shape_value(j, q);
+            cell->get_dof_indices(indices);
+            mass.add(indices, local);
+          });
+      mass.compress(VectorOperation::add);
+    }
+
     /// Unit displacements of all along xi and along eta.
     std::array<Vector<double>, 2> translations(const ElasticBody<2> &body)
     {
@@ -64,7 +102,7 @@ namespace sprag
     }
   } // namespace
 
-  void add_inertia(LeafBody &leaf, const double density, LeafBehaviour &behaviour)
+  void add_inertia(LeafBody &leaf, const double density, const double joint_mass, LeafBehaviour &behaviour)
   {
     const auto &body    = leaf.body();
     const auto &statics = leaf.statics();
@@ -72,11 +110,13 @@ namespace sprag
     const auto axes     = translations(body);
     PETScWrappers::SparseMatrix mass, reduced_mass, reduced_stiffness;
     assemble_mass(body, density, mass);
+    if (joint_mass > 0.)
+      assemble_joint(body, joint_mass, mass);
     statics.reduce(mass, reduced_mass);
     statics.reduce(statics.stiffness(), reduced_stiffness);
 
     const auto weighed = product(mass, shape);
-    behaviour.mass     = body.mass_and_inertia(density)[0];
+    behaviour.mass     = body.mass_and_inertia(density)[0] + joint_mass;
     behaviour.inertia  = weighed * shape;
     behaviour.momentum = { { weighed * axes[0], weighed * axes[1] } };
 

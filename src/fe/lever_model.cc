@@ -168,7 +168,7 @@ namespace sprag
         [&](auto &s)
         {
           contact.evaluate(s.port_displacements(trial.coordinates), trial, accepted, mode);
-          forces = &excess.add_forces(contact.forces(), turn(trial));
+          forces = &excess.add_forces(contact.forces(), { { turn(trial), 0. } });
           return Unbalance{ s.unbalance(trial.coordinates, *forces), contact.overlap() };
         },
         system);

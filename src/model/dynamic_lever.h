@@ -18,8 +18,9 @@
 
 namespace sprag
 {
-  /// A linear structure in unilateral frictional contact, in time.
-  /// Structure: see ModalStructure. Contact: see PointContact.
+  /// A linear structure, a lever or a mirrored pair of them, in unilateral frictional contact, in time. The forces, speed and
+  /// slip that a slide is described by are those of the first lever; sliding at one speed, both have the same. Structure: see
+  /// ModalStructure. Contact: see PointContact, MirroredContact.
   template <class Structure, class Contact>
   class DynamicLever : public DynamicModel
   {
@@ -29,7 +30,7 @@ namespace sprag
         , contact(std::move(contact_))
         , frame(std::move(frame_))
         , coupling(frame.ports, frame.rest_inclination)
-        , hub_spring(frame.ports, frame.spring)
+        , hub_spring(frame.ports, frame.spring, frame.joined)
     {
     }
 
@@ -38,7 +39,7 @@ namespace sprag
       if (drive.v == 0.)
         return start_at_rest(drive);
       // Velocity and acceleration from equilibria to both sides; far enough apart to average over single points of a face.
-      const double h     = 1e-3 * frame.geometry.cylinder_radius;
+      const double h     = 1e-3 * frame.geometries.front().cylinder_radius;
       const double ratio = speed_ratio(drive, h);
       const auto before  = sliding(moved(drive, -h), ratio);
       const auto after   = sliding(moved(drive, h), ratio);
@@ -60,13 +61,13 @@ namespace sprag
     StepOutcome step(const Motion &accepted, const DrivePoint &to, const StepWeights &weights) override
     {
       structure->use_step(weights);
-      const unsigned int hub = frame.ports.rotation();
-      const bool rates       = Contact::uses_rates || frame.ports.sprung;
-      const auto &near       = reachable_ports(accepted);
+      const bool rates = Contact::uses_rates || frame.ports.sprung;
+      const auto &near = reachable_ports(accepted);
       Kinematic begin =
           rates ? structure->port_kinematics(accepted) : Kinematic{ structure->port_positions(accepted, near), {}, {} };
       const Kinematic drifted = rates ? unaccelerated(begin, weights) : Kinematic{};
       const auto free         = structure->free_ports(accepted, near);
+      const OfLevers turned   = turns(begin.position);
 
       dealii::Vector<double> rate;
       const auto evaluate = [&](const dealii::Vector<double> &z) -> const PortForces &
@@ -76,9 +77,8 @@ namespace sprag
           rate = drifted.velocity;
           rate.add(weights.rate(), z, -weights.rate(), drifted.position);
         }
-        contact->evaluate(PortStep{ accepted, to, begin, z, rate, weights });
-        return hub_spring.add_forces(coupling.add_forces(contact->forces(), begin, z, weights), begin.position[hub], z[hub],
-                                     weights);
+        contact->evaluate(PortStep{ accepted.drive, accepted.contact, to, begin, z, rate, weights });
+        return hub_spring.add_forces(coupling.add_forces(contact->forces(), begin, z, weights), turned, turns(z), weights);
       };
 
       StepOutcome outcome;
@@ -100,8 +100,8 @@ namespace sprag
       structure->add_work(accepted, motion, outcome.work);
       contact->add_work(outcome.work);
       coupling.add_work(begin, z, weights, outcome.work);
-      hub_spring.add_work(begin.position[hub], z[hub], weights, outcome.work);
-      outcome.error  = weights.wants_error ? std::abs(contact->gap_change(structure->port_error(accepted, motion))) : 0.;
+      hub_spring.add_work(turned, turns(z), weights, outcome.work);
+      outcome.error  = weights.wants_error ? largest_gap_change(structure->port_error(accepted, motion)) : 0.;
       outcome.motion = std::move(motion);
       return outcome;
     }
@@ -121,7 +121,7 @@ namespace sprag
       const auto P_without_friction = [&]
       { return solve_sliding(drive, 1., ContactFriction::none) == nullptr ? 0. : observed_forces().P; };
       const double P_free     = slides ? P_without_friction() : 0.;
-      const double ratio      = slides ? speed_ratio(drive, 1e-3 * frame.geometry.cylinder_radius) : 1.;
+      const double ratio      = slides ? speed_ratio(drive, 1e-3 * frame.geometries.front().cylinder_radius) : 1.;
       const auto law          = slides ? friction : ContactFriction::none;
       const PortForces *force = solve_sliding(drive, ratio, law);
       // Where the structure answers otherwise than its compliance, by round-off, that is put right.
@@ -145,10 +145,10 @@ namespace sprag
       slide.motion      = completed(structure->deform(*force), { drive.time, drive.x, 0., 0. }, *force);
       slide.ports       = last_sliding;
       slide.friction    = friction;
-      slide.speed       = ratio * sliding_speed(frame.geometry, drive.x, drive.v);
+      slide.speed       = ratio * sliding_speed(frame.geometries.front(), drive.x, drive.v);
       slide.indentation = contact->overlap();
       Row row;
-      contact->observe(row);
+      observe_contact(row, 0);
       slide.mu         = slides ? row[Column::mu] : 0.;
       slide.forces     = { row[Column::P], row[Column::Q] };
       slide.margin     = slides ? P_free / slide.forces.P : 1.;
@@ -175,8 +175,7 @@ namespace sprag
     {
       const auto &mode = eigenmode.mode;
       contact->evaluate_sliding(sliding_state(slide, TangentPart::all));
-      const std::complex<double> gap(contact->gap_change(eigenmode.ports[0]), contact->gap_change(eigenmode.ports[1]));
-      const std::complex<double> size = amplitude / gap;
+      const std::complex<double> size = amplitude / largest_gap_change(eigenmode.ports);
       const auto add = [](const std::complex<double> factor, const ComplexVector &vector, dealii::Vector<double> &sum)
       { sum.add(factor.real(), vector[0], -factor.imag(), vector[1]); };
 
@@ -197,21 +196,25 @@ namespace sprag
 
     ModeShape mode_shape(const Eigenmode &mode) const override
     {
-      const auto real      = contact->surface_shape(mode.ports[0]);
-      const auto imaginary = contact->surface_shape(mode.ports[1]);
-      const auto port      = [&](const unsigned int i) { return std::complex<double>(mode.ports[0][i], mode.ports[1][i]); };
-      return { real.xi,
-               { { real.along, imaginary.along } },
-               { { real.across, imaginary.across } },
-               port(frame.ports.rotation()),
-               frame.ports.sprung ? port(frame.ports.support()) : 0. };
+      const auto port = [&](const unsigned int i) { return std::complex<double>(mode.ports[0][i], mode.ports[1][i]); };
+      ModeShape result;
+      for (unsigned int lever = 0; lever < frame.ports.levers; ++lever)
+      {
+        const auto real      = surface_shape(mode.ports[0], lever);
+        const auto imaginary = surface_shape(mode.ports[1], lever);
+        result.xi            = real.xi;
+        result.levers.push_back(
+            { { { real.along, imaginary.along } }, { { real.across, imaginary.across } }, port(frame.ports.rotation(lever)) });
+      }
+      result.support = frame.ports.sprung ? port(frame.ports.support()) : 0.;
+      return result;
     }
 
     StoredEnergy stored_energy(const Motion &motion) const override
     {
       StoredEnergy energy = structure->stored_energy(motion);
       energy.contact      = contact->energy();
-      energy.spring += hub_spring.energy(structure->port_state(motion, frame.ports.rotation()).position);
+      energy.spring += hub_spring.energy(turns(motion));
       if (frame.ports.sprung)
         energy.kinetic += coupling.kinetic_energy(structure->port_kinematics(motion));
       return energy;
@@ -219,21 +222,23 @@ namespace sprag
 
     void observe(const Motion &motion, Row &row) const override
     {
-      const auto hub          = structure->port_state(motion, frame.ports.rotation());
-      row[Column::theta]      = frame.rest_inclination + hub.position;
-      row[Column::theta_rate] = hub.velocity;
-      contact->observe(row);
-      row[Column::support_displacement] = 0.;
-      row[Column::Q_support]            = row[Column::Q];
+      double displacement = 0.;
+      double of_support   = 0.;
       if (frame.ports.sprung)
       {
-        const auto support                = structure->port_state(motion, frame.ports.support());
-        row[Column::support_displacement] = support.position;
-        row[Column::Q_support]            = frame.support_stiffness * support.position + frame.support_damping * support.velocity;
+        const auto support = structure->port_state(motion, frame.ports.support());
+        displacement       = support.position;
+        of_support         = frame.support_stiffness * support.position + frame.support_damping * support.velocity;
       }
-      observe_sensors(motion, row);
-      const double x             = motion.drive.x - row[Column::support_displacement];
-      row[Column::centre_offset] = row[Column::s] - cylinder_centre(frame.geometry, x, row[Column::theta]).xi;
+      observe_lever(motion, 0, motion.drive.x - displacement, row);
+      if (frame.ports.levers == 2)
+      {
+        Row second;
+        observe_lever(motion, 1, motion.drive.x - displacement, second);
+        row.add_second_lever(second);
+      }
+      row[Column::support_displacement] = displacement;
+      row[Column::Q_support]            = frame.ports.sprung ? of_support : row.drive_force();
     }
 
     FacePoints face_points() const override
@@ -254,15 +259,105 @@ namespace sprag
     HubSpringExcess hub_spring;
     dealii::Vector<double> last_sliding; ///< ports of the last equilibrium, from which the next one starts
     PortLoads last_forces;               ///< there
-    double last_sliding_theta = 0.;      ///< of the ideal contact there
+    OfLevers last_sliding_theta{};       ///< of the ideal contact there
 
-    void observe_sensors(const Motion &motion, Row &row) const
+    OfLevers turns(const dealii::Vector<double> &ports) const
     {
+      OfLevers result{};
+      for (unsigned int lever = 0; lever < frame.ports.levers; ++lever)
+        result[lever] = ports[frame.ports.rotation(lever)];
+      return result;
+    }
+
+    OfLevers turns(const Motion &motion) const
+    {
+      OfLevers result{};
+      for (unsigned int lever = 0; lever < frame.ports.levers; ++lever)
+        result[lever] = structure->port_state(motion, frame.ports.rotation(lever)).position;
+      return result;
+    }
+
+    OfLevers inclinations(const OfLevers &of_turns) const
+    {
+      return { { frame.rest_inclination + of_turns[0], frame.rest_inclination + of_turns[1] } };
+    }
+
+    /// In ideal contact.
+    OfLevers ideal_inclinations(const double x) const
+    {
+      OfLevers result{};
+      for (unsigned int lever = 0; lever < frame.ports.levers; ++lever)
+        result[lever] = kinematics(frame.geometries[lever], x).theta;
+      return result;
+    }
+
+    // What a contact of one lever and one of two are asked differently.
+
+    const PortSelection &reachable_ports(const double x, const OfLevers &theta) const
+    {
+      if constexpr (Contact::levers == 1)
+        return contact->reachable_ports(x, theta.front());
+      else
+        return contact->reachable_ports(x, theta);
+    }
+
+    double gap_change(const dealii::Vector<double> &change_of_ports, [[maybe_unused]] const unsigned int lever) const
+    {
+      if constexpr (Contact::levers == 1)
+        return contact->gap_change(change_of_ports);
+      else
+        return contact->gap_change(change_of_ports, lever);
+    }
+
+    void observe_contact(Row &row, [[maybe_unused]] const unsigned int lever) const
+    {
+      if constexpr (Contact::levers == 1)
+        contact->observe(row);
+      else
+        contact->observe(row, lever);
+    }
+
+    SurfaceShape surface_shape(const dealii::Vector<double> &ports, [[maybe_unused]] const unsigned int lever) const
+    {
+      if constexpr (Contact::levers == 1)
+        return contact->surface_shape(ports);
+      else
+        return contact->surface_shape(ports, lever);
+    }
+
+    double largest_gap_change(const dealii::Vector<double> &change_of_ports) const
+    {
+      double largest = 0.;
+      for (unsigned int lever = 0; lever < frame.ports.levers; ++lever)
+        largest = std::max(largest, std::abs(gap_change(change_of_ports, lever)));
+      return largest;
+    }
+
+    std::complex<double> largest_gap_change(const ComplexVector &change_of_ports) const
+    {
+      std::complex<double> largest;
+      for (unsigned int lever = 0; lever < frame.ports.levers; ++lever)
+      {
+        const std::complex<double> gap(gap_change(change_of_ports[0], lever), gap_change(change_of_ports[1], lever));
+        if (std::abs(gap) > std::abs(largest))
+          largest = gap;
+      }
+      return largest;
+    }
+
+    /// `x` from the pivot frame's origin.
+    void observe_lever(const Motion &motion, const unsigned int lever, const double x, Row &row) const
+    {
+      const auto hub          = structure->port_state(motion, frame.ports.rotation(lever));
+      row[Column::theta]      = frame.rest_inclination + hub.position;
+      row[Column::theta_rate] = hub.velocity;
+      observe_contact(row, lever);
+      row[Column::centre_offset] = row[Column::s] - cylinder_centre(frame.geometries[lever], x, row[Column::theta]).xi;
       if (frame.ports.sensors == 0)
         return;
       PortSelection sensors;
       for (unsigned int i = 0; i < frame.ports.sensors; ++i)
-        sensors.push_back(frame.ports.sensor(i));
+        sensors.push_back(frame.ports.sensor(i, lever));
       const auto compressions = structure->port_positions(motion, sensors);
       row.sensor_forces.clear();
       for (const unsigned int port : sensors)
@@ -271,9 +366,8 @@ namespace sprag
 
     const PortSelection &reachable_ports(const Motion &motion) const
     {
-      const double theta = frame.rest_inclination + structure->port_state(motion, frame.ports.rotation()).position;
-      const double u     = frame.ports.sprung ? structure->port_state(motion, frame.ports.support()).position : 0.;
-      return contact->reachable_ports(motion.drive.x - u, theta);
+      const double u = frame.ports.sprung ? structure->port_state(motion, frame.ports.support()).position : 0.;
+      return reachable_ports(motion.drive.x - u, inclinations(turns(motion)));
     }
 
     static DrivePoint moved(DrivePoint drive, const double dx)
@@ -299,14 +393,14 @@ namespace sprag
       if (!before || !after)
         return 1.;
       const double slip = contact->mean_slip(from, drive.x - h, last_sliding, drive.x + h);
-      return slip / (2. * h * sliding_speed(frame.geometry, drive.x, 1.));
+      return slip / (2. * h * sliding_speed(frame.geometries.front(), drive.x, 1.));
     }
 
     /// Of the contact's last evaluation.
     SlidingForces observed_forces() const
     {
       Row row;
-      contact->observe(row);
+      observe_contact(row, 0);
       return { row[Column::P], row[Column::Q] };
     }
 
@@ -318,8 +412,8 @@ namespace sprag
     /// The contact's forces about a held slide, and the coupling with a sprung support.
     PortPerturbation perturbation(const HeldSlide &slide, const bool in_contact)
     {
-      const double theta = frame.rest_inclination + slide.ports[frame.ports.rotation()];
-      contact->reachable_ports(slide.drive.x, theta);
+      const auto theta = inclinations(turns(slide.ports));
+      reachable_ports(slide.drive.x, theta);
       PortPerturbation result;
       const auto part = [&](const TangentPart wanted) -> const PortForces &
       {
@@ -349,7 +443,7 @@ namespace sprag
                                     spread(delay.rate_row, loaded, result.ports) });
       }
       coupling.add_inertia(result.ports, theta, result.inertia);
-      hub_spring.add_stiffness(result.ports, slide.ports[frame.ports.rotation()], result.pressure);
+      hub_spring.add_stiffness(result.ports, turns(slide.ports), result.pressure);
       return result;
     }
 
@@ -359,7 +453,7 @@ namespace sprag
     {
       dealii::Vector<double> result(static_cast<unsigned int>(ports.size()));
       for (unsigned int a = 0; a < values.size(); ++a)
-        result[static_cast<unsigned int>(std::lower_bound(ports.begin(), ports.end(), of[a]) - ports.begin())] = values[a];
+        result[place_of(of[a], ports)] = values[a];
       return result;
     }
 
@@ -367,7 +461,7 @@ namespace sprag
     {
       std::vector<unsigned int> place;
       for (const unsigned int port : forces.ports)
-        place.push_back(static_cast<unsigned int>(std::lower_bound(ports.begin(), ports.end(), port) - ports.begin()));
+        place.push_back(place_of(port, ports));
       for (unsigned int a = 0; a < place.size(); ++a)
         for (unsigned int b = 0; b < place.size(); ++b)
           matrix(place[a], place[b]) = forces.tangent(a, b);
@@ -389,22 +483,26 @@ namespace sprag
                                     const dealii::Vector<double> *round_off = nullptr)
     {
       structure->use_statics();
-      const unsigned int hub      = frame.ports.rotation();
-      const double ideal          = kinematics(frame.geometry, drive.x).theta;
-      const auto &near            = contact->reachable_ports(drive.x, ideal);
+      const auto ideal            = ideal_inclinations(drive.x);
+      const auto &near            = reachable_ports(drive.x, ideal);
       dealii::Vector<double> free = structure->port_positions(structure->rest(), near);
       if (round_off != nullptr)
         for (const unsigned int port : near)
           free[port] += (*round_off)[port];
       dealii::Vector<double> z = free;
       add_response(structure->compliance(), last_forces.ports, last_forces.values, near, z);
-      z[hub] = (last_sliding.size() > 0 ? last_sliding[hub] - last_sliding_theta : -frame.rest_inclination) + ideal;
+      for (unsigned int lever = 0; lever < frame.ports.levers; ++lever)
+      {
+        const unsigned int hub = frame.ports.rotation(lever);
+        z[hub] =
+            (last_sliding.size() > 0 ? last_sliding[hub] - last_sliding_theta[lever] : -frame.rest_inclination) + ideal[lever];
+      }
 
-      const double speed  = ratio * sliding_speed(frame.geometry, drive.x, drive.v);
+      const double speed  = ratio * sliding_speed(frame.geometries.front(), drive.x, drive.v);
       const auto evaluate = [&](const dealii::Vector<double> &ports) -> const PortForces &
       {
         contact->evaluate_sliding(SlidingState{ ports, drive, speed, nullptr, friction, TangentPart::all });
-        return hub_spring.add_forces(contact->forces(), ports[hub]);
+        return hub_spring.add_forces(contact->forces(), turns(ports));
       };
       const auto solved = solve_ports(
           structure->compliance(), free, frame.lengths, near, evaluate, [&] { return contact->overlap(); }, z);

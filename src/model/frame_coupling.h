@@ -5,8 +5,9 @@
 
 namespace sprag
 {
-  /// Inertia that couples a lever with the frame its pivot is on: kinetic energy u' h.p' of the support's speed u' along x and
-  /// the lever's momentum, h = (sin theta, -cos theta) on the momentum ports. Without a sprung support it does nothing.
+  /// Inertia that couples a lever, or both of a pair, with the frame its pivot is on: kinetic energy u' h.p' of the support's
+  /// speed u' along x and each lever's momentum, h = (sin theta, -cos theta) on the momentum ports. Without a sprung support it
+  /// does nothing.
   class FrameCoupling
   {
   public:
@@ -16,8 +17,8 @@ namespace sprag
     const PortForces &add_forces(const PortForces &contact, const Kinematic &begin, const dealii::Vector<double> &end,
                                  const StepWeights &weights);
 
-    /// Adds the coupling's mass at an inclination theta to the matrix of those ports, which must hold its own.
-    void add_inertia(const std::vector<unsigned int> &ports, double theta, dealii::FullMatrix<double> &inertia) const;
+    /// Adds the coupling's mass at inclinations theta to the matrix of those ports, which must hold its own.
+    void add_inertia(const std::vector<unsigned int> &ports, const OfLevers &theta, dealii::FullMatrix<double> &inertia) const;
 
     /// The ports it acts on, increasing; none without a sprung support.
     std::vector<unsigned int> coupled_ports() const;

@@ -52,6 +52,21 @@ namespace sprag
       for (auto *const vector : { &mode.coordinates, &mode.face_force, &ports })
         multiply(*vector, factor);
     }
+
+    /// See Eigenmode.
+    double mirroring_of(const ComplexVector &ports, const PortLayout &layout)
+    {
+      double of_both = 0.;
+      double sizes   = 0.;
+      for (unsigned int i = layout.first(0); i <= layout.rotation(0); ++i)
+      {
+        const unsigned int j = layout.first(1) + i;
+        const Complex first(ports[0][i], ports[1][i]), second(ports[0][j], ports[1][j]);
+        of_both += 2. * (std::conj(first) * second).real();
+        sizes += std::norm(first) + std::norm(second);
+      }
+      return of_both / sizes;
+    }
   } // namespace
 
   Eigenmode explained(StructureMode mode, ComplexVector ports, const ModeForms &forms, const PortPerturbation &perturbation,
@@ -82,9 +97,9 @@ namespace sprag
     {
       const unsigned int port = perturbation.ports[a];
       const double share      = (std::conj(lambda) * friction[a]).real() / energy;
-      if (port < layout.surface)
+      if (layout.is_surface(port))
         growth.friction_bending += share;
-      else if (port == layout.rotation())
+      else if (layout.is_rotation(port))
         growth.friction_rotation += share;
       else
         growth.friction_support += share;
@@ -95,6 +110,8 @@ namespace sprag
 
     result.energy = { forms.spring / potential, forms.elastic / potential, forms.support / potential, contact / potential };
     normalise(mass, layout.rotation(), mode, ports);
+    if (layout.levers == 2)
+      result.mirroring = mirroring_of(ports, layout);
     result.mode  = std::move(mode);
     result.ports = std::move(ports);
     return result;

@@ -1,16 +1,13 @@
 #include "model/hub_spring.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace sprag
 {
   namespace
   {
-    unsigned int place_of(const unsigned int port, const std::vector<unsigned int> &ports)
-    {
-      return static_cast<unsigned int>(std::lower_bound(ports.begin(), ports.end(), port) - ports.begin());
-    }
+    /// Share of k left against swinging with a free joint.
+    constexpr double swing_stiffness = 1e-6;
 
     /// Mean of the excess over a turn, and its derivative by the end.
     struct MeanExcess
@@ -32,76 +29,151 @@ namespace sprag
       const double mean = (law.excess_energy(end) - law.excess_energy(begin)) / turn;
       return { mean, (law.excess(end) - mean) / turn };
     }
+
+    /// The same with generalised-alpha's delay.
+    MeanExcess delayed_excess(const MomentLaw &law, const double begin, const double end, const double delay)
+    {
+      const auto mean = mean_excess(law, begin, end);
+      return { mean.value + delay * (law.excess(end) - law.excess(begin)), mean.derivative + delay * law.excess_stiffness(end) };
+    }
+
+    double opening(const OfLevers &turns)
+    {
+      return 0.5 * (turns[0] + turns[1]);
+    }
+
+    double swing(const OfLevers &turns)
+    {
+      return 0.5 * (turns[0] - turns[1]);
+    }
   } // namespace
 
-  HubSpringExcess::HubSpringExcess(const PortLayout &ports, MomentLaw moment_law)
+  HubSpringExcess::HubSpringExcess(const PortLayout &ports, MomentLaw moment_law, const bool joined_by_free_joint)
       : layout(ports)
       , law(std::move(moment_law))
+      , joined(joined_by_free_joint)
+      , given_back(joined ? (1. - swing_stiffness) * law.linear_stiffness() : 0.)
   {
   }
 
-  const PortForces &HubSpringExcess::with(const PortForces &others, const double force, const double tangent)
+  bool HubSpringExcess::is_active() const
   {
-    const unsigned int hub  = layout.rotation();
-    const unsigned int here = place_of(hub, others.ports);
-    const auto n_others     = static_cast<unsigned int>(others.ports.size());
-    const bool is_there     = here < n_others && others.ports[here] == hub;
-    const unsigned int gap  = is_there ? 0 : 1;
-    const auto moved        = [&](const unsigned int i) { return i < here ? i : i + gap; };
+    return joined || !law.is_linear();
+  }
 
-    sum.ports = others.ports;
-    if (!is_there)
-      sum.ports.insert(sum.ports.begin() + here, hub);
-    sum.values.reinit(n_others + gap);
-    sum.tangent.reinit(n_others + gap, n_others + gap);
-    for (unsigned int i = 0; i < n_others; ++i)
+  const PortForces &HubSpringExcess::with(const PortForces &others, const Moments &moments)
+  {
+    extend(others, loaded_ports(), sum);
+    for (unsigned int i = 0; i < layout.levers; ++i)
     {
-      sum.values[moved(i)] = others.values[i];
-      for (unsigned int j = 0; j < n_others; ++j)
-        sum.tangent(moved(i), moved(j)) = others.tangent(i, j);
+      const unsigned int row = place_of(layout.rotation(i), sum.ports);
+      sum.values[row] += moments.values[i];
+      for (unsigned int j = 0; j < layout.levers; ++j)
+        sum.tangent(row, place_of(layout.rotation(j), sum.ports)) += moments.tangent[i][j];
     }
-    sum.values[here] += force;
-    sum.tangent(here, here) += tangent;
     return sum;
   }
 
-  const PortForces &HubSpringExcess::add_forces(const PortForces &others, const double begin, const double end,
+  /// Of joined springs: an excess against opening, and a moment that swings.
+  HubSpringExcess::Moments HubSpringExcess::spread(const double excess, const double stiffness, const double moment,
+                                                   const double moment_stiffness) const
+  {
+    Moments result;
+    for (unsigned int i = 0; i < 2; ++i)
+    {
+      const double side = i == 0 ? 1. : -1.;
+      result.values[i]  = side * moment - excess;
+      for (unsigned int j = 0; j < 2; ++j)
+        result.tangent[i][j] = 0.5 * ((i == j ? moment_stiffness : -moment_stiffness) - stiffness);
+    }
+    return result;
+  }
+
+  HubSpringExcess::Moments HubSpringExcess::of_step(const OfLevers &begin, const OfLevers &end, const StepWeights &weights) const
+  {
+    const double delay = weights.delay();
+    if (joined)
+    {
+      const auto excess = delayed_excess(law, opening(begin), opening(end), delay);
+      return spread(excess.value, excess.derivative,
+                    given_back * (weights.stiffness() * swing(end) + weights.alpha_f * swing(begin)),
+                    given_back * weights.stiffness());
+    }
+    Moments result;
+    for (unsigned int i = 0; i < layout.levers; ++i)
+    {
+      const auto excess    = delayed_excess(law, begin[i], end[i], delay);
+      result.values[i]     = -excess.value;
+      result.tangent[i][i] = -excess.derivative;
+    }
+    return result;
+  }
+
+  HubSpringExcess::Moments HubSpringExcess::at(const OfLevers &turns) const
+  {
+    if (joined)
+      return spread(law.excess(opening(turns)), law.excess_stiffness(opening(turns)), given_back * swing(turns), given_back);
+    Moments result;
+    for (unsigned int i = 0; i < layout.levers; ++i)
+    {
+      result.values[i]     = -law.excess(turns[i]);
+      result.tangent[i][i] = -law.excess_stiffness(turns[i]);
+    }
+    return result;
+  }
+
+  const PortForces &HubSpringExcess::add_forces(const PortForces &others, const OfLevers &begin, const OfLevers &end,
                                                 const StepWeights &weights)
   {
-    if (law.is_linear())
-      return others;
-    const auto mean    = mean_excess(law, begin, end);
-    const double delay = weights.delay();
-    return with(others, -mean.value - delay * (law.excess(end) - law.excess(begin)),
-                -mean.derivative - delay * law.excess_stiffness(end));
+    return !is_active() ? others : with(others, of_step(begin, end, weights));
   }
 
-  const PortForces &HubSpringExcess::add_forces(const PortForces &others, const double turn)
+  const PortForces &HubSpringExcess::add_forces(const PortForces &others, const OfLevers &turns)
   {
-    return law.is_linear() ? others : with(others, -law.excess(turn), -law.excess_stiffness(turn));
+    return !is_active() ? others : with(others, at(turns));
   }
 
-  void HubSpringExcess::add_work(const double begin, const double end, const StepWeights &weights, StepWork &work) const
+  void HubSpringExcess::add_work(const OfLevers &begin, const OfLevers &end, const StepWeights &weights, StepWork &work) const
   {
-    work.algorithmic += weights.delay() * (law.excess(end) - law.excess(begin)) * (end - begin);
+    const auto of_excess = [&](const double from, const double to)
+    { return weights.delay() * (law.excess(to) - law.excess(from)) * (to - from); };
+    if (joined)
+    {
+      const double change = swing(end) - swing(begin);
+      work.algorithmic += 2. * (of_excess(opening(begin), opening(end)) - weights.delay() * given_back * change * change);
+      return;
+    }
+    for (unsigned int i = 0; i < layout.levers; ++i)
+      work.algorithmic += of_excess(begin[i], end[i]);
   }
 
-  double HubSpringExcess::energy(const double turn) const
+  double HubSpringExcess::energy(const OfLevers &turns) const
   {
-    return law.excess_energy(turn);
+    if (joined)
+      return 2. * law.excess_energy(opening(turns)) - given_back * swing(turns) * swing(turns);
+    double total = 0.;
+    for (unsigned int i = 0; i < layout.levers; ++i)
+      total += law.excess_energy(turns[i]);
+    return total;
   }
 
-  void HubSpringExcess::add_stiffness(const std::vector<unsigned int> &ports, const double turn,
+  void HubSpringExcess::add_stiffness(const std::vector<unsigned int> &ports, const OfLevers &turns,
                                       dealii::FullMatrix<double> &stiffness) const
   {
-    if (law.is_linear())
+    if (!is_active())
       return;
-    const unsigned int hub = place_of(layout.rotation(), ports);
-    stiffness(hub, hub) -= law.excess_stiffness(turn);
+    const auto moments = at(turns);
+    for (unsigned int i = 0; i < layout.levers; ++i)
+      for (unsigned int j = 0; j < layout.levers; ++j)
+        stiffness(place_of(layout.rotation(i), ports), place_of(layout.rotation(j), ports)) += moments.tangent[i][j];
   }
 
   std::vector<unsigned int> HubSpringExcess::loaded_ports() const
   {
-    return law.is_linear() ? std::vector<unsigned int>{} : std::vector<unsigned int>{ layout.rotation() };
+    std::vector<unsigned int> result;
+    if (is_active())
+      for (unsigned int lever = 0; lever < layout.levers; ++lever)
+        result.push_back(layout.rotation(lever));
+    return result;
   }
 } // namespace sprag

@@ -6,37 +6,57 @@
 
 namespace sprag
 {
-  /// What the moment of the rotational spring exceeds its linear part by, as a force on the port of the hub's rotation; the
-  /// linear part belongs to the structure. A linear spring does nothing and costs nothing.
+  /// What the moment of the rotational springs exceeds k phi of each hub by, k the law's linear stiffness, as forces on the ports
+  /// of the hubs' rotations; k phi belongs to the structure. A linear spring of each lever's own does nothing and costs nothing.
+  ///
+  /// The springs of a mirrored pair whose joint nothing else carries take up what both levers open, energy
+  /// 2 W((phi_1 + phi_2)/2) with W that of the law, and swing with them: of the stiffness against swinging,
+  /// (phi_1 - phi_2)/2, a millionth is left, so that levers which touch nothing have a place.
   class HubSpringExcess
   {
   public:
-    HubSpringExcess(const PortLayout &ports, MomentLaw law);
+    /// `joined`: by a free joint; needs two levers.
+    HubSpringExcess(const PortLayout &ports, MomentLaw law, bool joined = false);
 
-    /// `others` with the force of a step from one turn of the hub to another added: the mean over the turn (discrete gradient)
+    /// `others` with the forces of a step from some turns of the hubs to others added: the mean over the turn (discrete gradient)
     /// with generalised-alpha's delay, so that no energy is made. Valid until the next call, as below.
-    const PortForces &add_forces(const PortForces &others, double begin, double end, const StepWeights &weights);
+    const PortForces &add_forces(const PortForces &others, const OfLevers &begin, const OfLevers &end,
+                                 const StepWeights &weights);
 
-    /// `others` with the force at a turn added.
-    const PortForces &add_forces(const PortForces &others, double turn);
+    /// `others` with the forces at turns of the hubs added.
+    const PortForces &add_forces(const PortForces &others, const OfLevers &turns);
 
     /// Adds the algorithmic dissipation of the step.
-    void add_work(double begin, double end, const StepWeights &weights, StepWork &work) const;
+    void add_work(const OfLevers &begin, const OfLevers &end, const StepWeights &weights, StepWork &work) const;
 
     /// [N mm]
-    double energy(double turn) const;
+    double energy(const OfLevers &turns) const;
 
-    /// Adds the derivative of the force to the matrix of those ports, which hold the rotation if the spring is not linear.
-    void add_stiffness(const std::vector<unsigned int> &ports, double turn, dealii::FullMatrix<double> &stiffness) const;
+    /// Adds the derivative of the forces to the matrix of those ports, which hold loaded_ports().
+    void add_stiffness(const std::vector<unsigned int> &ports, const OfLevers &turns,
+                       dealii::FullMatrix<double> &stiffness) const;
 
-    /// The rotation, or none for a linear spring.
+    /// The rotations, or none where it does nothing.
     std::vector<unsigned int> loaded_ports() const;
 
   private:
-    const PortForces &with(const PortForces &others, double force, double tangent);
+    /// Moments on the hubs and their derivatives by the turns.
+    struct Moments
+    {
+      OfLevers values{};
+      std::array<OfLevers, 2> tangent{};
+    };
+
+    bool is_active() const;
+    Moments of_step(const OfLevers &begin, const OfLevers &end, const StepWeights &weights) const;
+    Moments at(const OfLevers &turns) const;
+    Moments spread(double excess, double stiffness, double moment, double moment_stiffness) const;
+    const PortForces &with(const PortForces &others, const Moments &moments);
 
     const PortLayout layout;
     const MomentLaw law;
+    const bool joined;
+    const double given_back; ///< stiffness against swinging that the joint takes from the structure's [N mm/rad]
     PortForces sum;
   };
 } // namespace sprag

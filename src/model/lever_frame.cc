@@ -1,6 +1,6 @@
 #include "model/lever_frame.h"
 
-#include "scene/closed_form.h"
+#include "scene/mirrored_pair.h"
 
 #include <cmath>
 
@@ -8,16 +8,21 @@ namespace sprag
 {
   LeverFrame lever_frame(const Scene &scene, const PortLayout &ports, const double lever_mass)
   {
-    LeverFrame frame{ scene.geometry,
+    LeverFrame frame{ {},
                       ports,
-                      kinematics(scene.geometry, 0.).theta,
+                      rest_inclination(scene),
                       moment_law(scene.spring),
-                      scene.support.stiffness,
-                      support_damping(scene.support, lever_mass),
+                      ports.levers * scene.support.stiffness,
+                      ports.levers * support_damping(scene.support, lever_mass),
                       dealii::Vector<double>(ports.size()),
-                      scene.plate.sensor_stiffness };
-    frame.lengths                   = 1.;
-    frame.lengths[ports.rotation()] = scene.geometry.pivot_distance;
+                      scene.plate.sensor_stiffness,
+                      swings(scene) };
+    frame.lengths = 1.;
+    for (unsigned int lever = 0; lever < ports.levers; ++lever)
+    {
+      frame.geometries.push_back(scene_of_lever(scene, lever).geometry);
+      frame.lengths[ports.rotation(lever)] = scene.geometry.pivot_distance;
+    }
     return frame;
   }
 

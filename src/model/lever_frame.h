@@ -7,20 +7,21 @@
 
 namespace sprag
 {
-  /// What a lever shares with the scene it stands in.
+  /// What a lever, or a mirrored pair, shares with the scene it stands in.
   struct LeverFrame
   {
-    Geometry geometry;
+    std::vector<Geometry> geometries; ///< of each lever, the cylinder's offset in them
     PortLayout ports;
-    double rest_inclination;        ///< theta without moment [rad]
-    MomentLaw spring;               ///< rotational, over the turn from there
-    double support_stiffness;       ///< k_f [N/mm]; counts on a sprung support
-    double support_damping;         ///< c_f [N s/mm]
-    dealii::Vector<double> lengths; ///< what a unit of each port moves [mm]: 1, and an arm for rotations
-    double sensor_stiffness = 0.;   ///< of each force sensor of a friction plate [N/mm]
+    double rest_inclination;         ///< theta without moment [rad]
+    MomentLaw spring;                ///< rotational, over the turn from there
+    double support_stiffness;        ///< k_f of all levers [N/mm]; counts on a sprung support
+    double support_damping;          ///< c_f of all levers [N s/mm]
+    dealii::Vector<double> lengths;  ///< what a unit of each port moves [mm]: 1, and an arm for rotations
+    double sensor_stiffness = 0.;    ///< of each force sensor of a friction plate [N/mm]
+    bool joined             = false; ///< the springs of a pair by a joint that nothing else carries
   };
 
-  /// With lengths 1 but for the hub's rotation. `lever_mass` [t] moves with a sprung support.
+  /// With lengths 1 but for the hubs' rotations. `lever_mass` [t], of one lever, moves with a sprung support.
   LeverFrame lever_frame(const Scene &scene, const PortLayout &ports, double lever_mass);
 
   /// c_f [N s/mm]: Support/Damping of critical of the frame with the lever on k_f.

@@ -274,8 +274,11 @@ namespace sprag
     for (unsigned int i = 0; i < n_modes(); ++i)
       (i == data.support ? energy.support : energy.elastic) += 0.5 * data.stiffness[i] * q.position[i] * q.position[i];
     energy.elastic += 0.5 * quadratic_form(data.face_compliance, motion.face_force);
-    const double rotation = port_state(motion, data.ports.rotation()).position;
-    energy.spring         = 0.5 * data.spring_stiffness * rotation * rotation;
+    for (unsigned int lever = 0; lever < data.ports.levers; ++lever)
+    {
+      const double rotation = port_state(motion, data.ports.rotation(lever)).position;
+      energy.spring += 0.5 * data.spring_stiffness * rotation * rotation;
+    }
     energy.elastic -= energy.spring;
     return energy;
   }

@@ -10,8 +10,8 @@
 
 namespace sprag
 {
-  /// A linear lever in the coordinates of its free vibration (mass 1 each): all modes of a beam, or some of a mesh together with
-  /// the static shapes of what the others would do. A sprung support is one more mode.
+  /// A linear lever, or a pair of them, in the coordinates of its free vibration (mass 1 each): all modes of a beam, or some of a
+  /// mesh together with the static shapes of what the others would do. A sprung support is one more mode.
   struct ModalData
   {
     PortLayout ports;
@@ -19,7 +19,7 @@ namespace sprag
     dealii::FullMatrix<double> damping; ///< symmetric [1/s]
     dealii::FullMatrix<double> shapes;  ///< a row a port, a column a mode
     dealii::FullMatrix<double>
-        face_compliance;           ///< static shapes: of the ports to the rotation's [mm/N], symmetric; empty without
+        face_compliance;           ///< static shapes: of the ports to the last rotation's [mm/N], symmetric; empty without
     double relaxation       = 0.;  ///< damping of the static shapes, over their stiffness [s]
     double spring_stiffness = 0.;  ///< of the rotation [N mm/rad], part of `stiffness` already
     unsigned int support    = -1u; ///< mode that is the support's; -1u without

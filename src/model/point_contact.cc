@@ -200,7 +200,7 @@ namespace sprag
 
   StepKinematics<PointContact::n> PointContact::step_kinematics(const PortStep &step, const Local &end_rates)
   {
-    const Local q_0    = coordinates(step.begin.position, step.accepted.drive.x);
+    const Local q_0    = coordinates(step.begin.position, step.from.x);
     const Local q_1    = coordinates(step.end, step.to.x);
     const Local change = q_1 - q_0;
     const double share = step.weights.stiffness();
@@ -227,9 +227,9 @@ namespace sprag
 
   void PointContact::evaluate(const PortStep &step)
   {
-    choose_window(step.begin.position, step.accepted.drive.x);
+    choose_window(step.begin.position, step.from.x);
     const Local end_rates = rates(step.end_rate, step.to.v);
-    const double surface  = step.to.surface - step.accepted.drive.surface;
+    const double surface  = step.to.surface - step.from.surface;
     auto kinematics       = step_kinematics(step, end_rates);
     kinematics.slip_change += surface;
     StepContactLaw law;
@@ -238,9 +238,9 @@ namespace sprag
     law.tangential        = properties.tangential;
     law.friction          = friction_of_step(properties.friction, step.to.v);
     law.weights           = step.weights;
-    response              = step_response(kinematics, step.accepted.contact.front(), law);
+    response              = step_response(kinematics, step.memory.front(), law);
     slip_rate             = end.slip_row * end_rates + surface / step.weights.dt;
-    const double of_drive = -response.force[x_index] * (step.to.x - step.accepted.drive.x) + response.mean_traction * surface;
+    const double of_drive = -response.force[x_index] * (step.to.x - step.from.x) + response.mean_traction * surface;
     work                  = { of_drive, response.friction, response.damping, response.algorithmic, response.creep };
     sum_forces(response.force, response.tangent);
   }

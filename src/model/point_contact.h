@@ -28,7 +28,8 @@ namespace sprag
   class PointContact
   {
   public:
-    static constexpr bool uses_rates = true;
+    static constexpr bool uses_rates     = true;
+    static constexpr unsigned int levers = 1;
 
     explicit PointContact(PointContactProperties properties);
 

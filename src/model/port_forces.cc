@@ -4,6 +4,7 @@
 
 #include <deal.II/lac/lapack_full_matrix.h>
 
+#include <algorithm>
 #include <numeric>
 
 namespace sprag
@@ -30,6 +31,29 @@ namespace sprag
       return matrix;
     }
   } // namespace
+
+  unsigned int place_of(const unsigned int port, const std::vector<unsigned int> &ports)
+  {
+    return static_cast<unsigned int>(std::lower_bound(ports.begin(), ports.end(), port) - ports.begin());
+  }
+
+  void extend(const PortForces &forces, const std::vector<unsigned int> &others, PortForces &result)
+  {
+    result.ports.clear();
+    std::set_union(forces.ports.begin(), forces.ports.end(), others.begin(), others.end(), std::back_inserter(result.ports));
+    const auto n = static_cast<unsigned int>(result.ports.size());
+    result.values.reinit(n);
+    result.tangent.reinit(n, n);
+    std::vector<unsigned int> places;
+    for (const unsigned int port : forces.ports)
+      places.push_back(place_of(port, result.ports));
+    for (unsigned int i = 0; i < places.size(); ++i)
+    {
+      result.values[places[i]] = forces.values[i];
+      for (unsigned int j = 0; j < places.size(); ++j)
+        result.tangent(places[i], places[j]) = forces.tangent(i, j);
+    }
+  }
 
   double port_determinant(const FullMatrix<double> &compliance, const std::vector<unsigned int> &ports,
                           const FullMatrix<double> &tangent)

@@ -18,6 +18,12 @@ namespace sprag
     dealii::FullMatrix<double> tangent;
   };
 
+  /// Where a port stands, or would stand, among increasing ones.
+  unsigned int place_of(unsigned int port, const std::vector<unsigned int> &ports);
+
+  /// Forces as they are on their own ports and others, increasing, where they are 0.
+  void extend(const PortForces &forces, const std::vector<unsigned int> &others, PortForces &result);
+
   /// Forces on some of the ports.
   struct PortLoads
   {

@@ -1,41 +1,65 @@
 #pragma once
 
+#include <array>
+
 namespace sprag
 {
+  /// Of each lever; the second counts in a mirrored pair alone.
+  using OfLevers = std::array<double, 2>;
+
   /// Ports of a lever: first those of its friction face or axis in lever axes, then the compressions of its force sensors, which
-  /// are only read, then the hub's rotation from the spring's rest; on a sprung support also the lever's momentum coordinates and
-  /// the support's displacement.
+  /// are only read, then the hub's rotation from the spring's rest and on a sprung support the lever's momentum coordinates.
+  /// Those of a mirrored pair's second lever follow, each in its own axes, and last the displacement of a sprung support.
   struct PortLayout
   {
-    unsigned int surface = 0; ///< number of ports of the face
+    unsigned int surface = 0; ///< number of ports of a lever's face
     bool sprung          = false;
-    unsigned int sensors = 0;
+    unsigned int sensors = 0; ///< of a lever
+    unsigned int levers  = 1; ///< 2: a mirrored pair
 
-    unsigned int sensor(const unsigned int number) const
+    unsigned int of_a_lever() const
     {
-      return surface + number;
+      return surface + sensors + (sprung ? 3 : 1);
     }
-    unsigned int rotation() const
+    unsigned int first(const unsigned int lever) const
     {
-      return surface + sensors;
+      return lever * of_a_lever();
+    }
+    unsigned int sensor(const unsigned int number, const unsigned int lever = 0) const
+    {
+      return first(lever) + surface + number;
+    }
+    unsigned int rotation(const unsigned int lever = 0) const
+    {
+      return first(lever) + surface + sensors;
     }
     // With p = integral of rho u over the lever, u its displacement: the momentum along x is sin(theta) p'_eta - cos(theta)
     // p'_xi.
-    unsigned int momentum_eta() const
+    unsigned int momentum_eta(const unsigned int lever = 0) const
     {
-      return rotation() + 1;
+      return rotation(lever) + 1;
     }
-    unsigned int momentum_xi() const
+    unsigned int momentum_xi(const unsigned int lever = 0) const
     {
-      return rotation() + 2;
+      return rotation(lever) + 2;
     }
     unsigned int support() const
     {
-      return rotation() + 3;
+      return levers * of_a_lever();
     }
     unsigned int size() const
     {
-      return rotation() + (sprung ? 4 : 1);
+      return support() + (sprung ? 1 : 0);
+    }
+
+    /// Of the face of either lever.
+    bool is_surface(const unsigned int port) const
+    {
+      return port < support() && port % of_a_lever() < surface;
+    }
+    bool is_rotation(const unsigned int port) const
+    {
+      return port < support() && port % of_a_lever() == surface + sensors;
     }
   };
 } // namespace sprag

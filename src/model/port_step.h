@@ -7,9 +7,10 @@ namespace sprag
   /// Port displacements over a step.
   struct PortStep
   {
-    const Motion &accepted; ///< at the beginning
-    const DrivePoint &to;   ///< drive at the end
-    const Kinematic &begin; ///< rates are set where the contact or a sprung support uses them
+    const DrivePoint &from;                   ///< drive at the beginning
+    const std::vector<ContactMemory> &memory; ///< of the contact there
+    const DrivePoint &to;                     ///< drive at the end
+    const Kinematic &begin;                   ///< rates are set where the contact or a sprung support uses them
     const dealii::Vector<double> &end;
     const dealii::Vector<double> &end_rate;
     StepWeights weights;

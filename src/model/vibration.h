@@ -4,6 +4,7 @@
 
 #include <array>
 #include <complex>
+#include <limits>
 #include <vector>
 
 namespace sprag
@@ -55,15 +56,23 @@ namespace sprag
     ComplexVector ports; ///< displacements, in lever axes; the rotation's real and positive where there is one
     GrowthShares growth;
     EnergyShares energy;
+
+    /// Of a pair: 1 where the levers mirror each other, -1 where the second does the opposite and both swing the same way.
+    double mirroring = std::numeric_limits<double>::quiet_NaN();
   };
 
   /// Points along the lever and how a mode moves them in lever axes [mm per unit of the mode].
   struct ModeShape
   {
-    std::vector<double> xi; ///< undeformed [mm]
-    std::array<std::vector<double>, 2> along;
-    std::array<std::vector<double>, 2> across; ///< away from the cylinder, without the rotation of the axes
-    std::complex<double> rotation;             ///< [rad]
-    std::complex<double> support;              ///< [mm]
+    struct OfLever
+    {
+      std::array<std::vector<double>, 2> along;
+      std::array<std::vector<double>, 2> across; ///< away from the cylinder, without the rotation of the axes
+      std::complex<double> rotation;             ///< [rad]
+    };
+
+    std::vector<double> xi;       ///< undeformed [mm]
+    std::vector<OfLever> levers;  ///< one, or both of a mirrored pair, each in its own axes
+    std::complex<double> support; ///< [mm]
   };
 } // namespace sprag

@@ -22,7 +22,8 @@ namespace sprag
   {
     clamped, ///< neither turns nor moves across the spring
     pinned,  ///< turns, does not move across
-    guided   ///< does not turn, moves across
+    guided,  ///< does not turn, moves across
+    loose    ///< nothing does: of a pair's leaf springs where both swing together; no choice of a scene
   };
 
   enum class LeafAxial

@@ -31,12 +31,28 @@ namespace sprag
       const auto model = scene.analysis.model;
       if (!runs_pairs(type))
         reject("must be half but in a quasi-static, transient, modal, stability, map or sprag-slip analysis");
-      else if (holds_slide(type) && model == ModelType::finite_element)
-        reject("must be half where a slide is held with finite elements; a full pair takes Analysis/Model = condensed");
       else if (type == AnalysisType::transient && (model == ModelType::closed_form || scene.contact.type == ContactType::ideal))
         reject("must be half with an ideal contact in time");
       else if (type == AnalysisType::quasi_static && scene.support.type == SupportType::sprung)
         reject("must be half on a sprung support without inertia; in time it may be full");
+    }
+
+    /// Of held slides.
+    void vibration(const Scene &scene, Violations &result)
+    {
+      const auto &pair   = scene.pair;
+      const auto type    = scene.analysis.type;
+      const bool mirrors = pair.cylinder_offset == 0. && pair.friction_ratio == 1.;
+      if (scene.analysis.model == ModelType::finite_element && !mirrors)
+        result.push_back(
+            { pair.cylinder_offset != 0. ? "Mirrored pair/Cylinder offset" : "Mirrored pair/Friction ratio",
+              { "Mirrored pair/Type", "Analysis/Type", "Analysis/Model" },
+              "must leave the levers alike where a slide is held with finite elements; Analysis/Model = condensed takes "
+              "levers that differ" });
+      if (type == AnalysisType::modal && scene.stability.contact == HeldContact::open && pair.joint == SpringJoint::free)
+        result.push_back({ "Stability/Contact",
+                           { "Mirrored pair/Type", "Mirrored pair/Joint", "Analysis/Type" },
+                           "must not be open with Mirrored pair/Joint = free: nothing holds levers that swing together" });
     }
 
     void joint(const Scene &scene, Violations &result)
@@ -116,6 +132,8 @@ namespace sprag
       return {};
     Violations result;
     analysis(scene, result);
+    if (holds_slide(scene.analysis.type))
+      vibration(scene, result);
     joint(scene, result);
     offset(scene, result);
     return result;

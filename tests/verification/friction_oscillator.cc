@@ -25,7 +25,8 @@ namespace
   class Floor : public PointAtPort
   {
   public:
-    static constexpr bool uses_rates = false;
+    static constexpr bool uses_rates     = false;
+    static constexpr unsigned int levers = 1;
 
     explicit Floor(const FrictionLaw &friction_law)
         : law(friction_law)
@@ -93,7 +94,7 @@ namespace
     data.damping.reinit(1, 1);
     data.shapes.reinit(1, 1);
     data.shapes(0, 0) = 1. / std::sqrt(mass);
-    LeverFrame frame{ {}, data.ports, 0., {}, 0., 0., dealii::Vector<double>(1) };
+    LeverFrame frame{ { Geometry{} }, data.ports, 0., {}, 0., 0., dealii::Vector<double>(1) };
     frame.lengths = 1.;
     return std::make_unique<DynamicLever<ModalStructure, Floor>>(std::make_unique<ModalStructure>(data),
                                                                  std::make_unique<Floor>(law), frame);

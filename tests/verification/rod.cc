@@ -62,7 +62,8 @@ namespace
   class Wall : public PointAtPort
   {
   public:
-    static constexpr bool uses_rates = false;
+    static constexpr bool uses_rates     = false;
+    static constexpr unsigned int levers = 1;
 
     void evaluate(const PortStep &step)
     {
@@ -135,7 +136,7 @@ namespace
     data.shapes.reinit(1, elements);
     for (unsigned int i = 0; i < elements; ++i)
       data.shapes(0, i) = rod.shapes(0, i);
-    LeverFrame frame{ {}, data.ports, 0., {}, 0., 0., dealii::Vector<double>(1) };
+    LeverFrame frame{ { Geometry{} }, data.ports, 0., {}, 0., 0., dealii::Vector<double>(1) };
     frame.lengths = 1.;
     DynamicLever<ModalStructure, Wall> model(std::make_unique<ModalStructure>(data), std::make_unique<Wall>(), frame);
 
