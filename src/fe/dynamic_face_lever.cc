@@ -186,11 +186,11 @@ namespace sprag
       result.elastic_displacement = [ports, of_first = displacement(scene, basis),
                                      of_second = displacement(swinging_scene(scene), swinging)](const Motion &motion) mutable
       {
-        const auto parts  = mirrored_motions(ports, motion);
-        auto displacement = of_first(parts[0]);
-        displacement += of_second(parts[1]);
-        displacement *= std::sqrt(0.5);
-        return displacement;
+        const auto parts = mirrored_motions(ports, motion);
+        auto total       = of_first(parts[0]);
+        total += of_second(parts[1]);
+        total *= std::sqrt(0.5);
+        return total;
       };
     result.model = assemble(scene, body, std::move(structure), result);
     return result;

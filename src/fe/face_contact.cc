@@ -13,11 +13,6 @@ namespace sprag
 
   namespace
   {
-    unsigned int place_of(const unsigned int number, const std::vector<unsigned int> &numbers)
-    {
-      return static_cast<unsigned int>(std::lower_bound(numbers.begin(), numbers.end(), number) - numbers.begin());
-    }
-
     void make_set(std::vector<unsigned int> &numbers)
     {
       std::sort(numbers.begin(), numbers.end());
