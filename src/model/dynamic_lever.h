@@ -2,6 +2,7 @@
 
 #include "base/errors.h"
 #include "model/circle.h"
+#include "model/contact_of_levers.h"
 #include "model/dynamic_model.h"
 #include "model/frame_coupling.h"
 #include "model/growth.h"
@@ -101,7 +102,7 @@ namespace sprag
       contact->add_work(outcome.work);
       coupling.add_work(begin, z, weights, outcome.work);
       hub_spring.add_work(turned, turns(z), weights, outcome.work);
-      outcome.error  = weights.wants_error ? largest_gap_change(structure->port_error(accepted, motion)) : 0.;
+      outcome.error  = weights.wants_error ? largest_gap_change(*contact, structure->port_error(accepted, motion)) : 0.;
       outcome.motion = std::move(motion);
       return outcome;
     }
@@ -148,7 +149,7 @@ namespace sprag
       slide.speed       = ratio * sliding_speed(frame.geometries.front(), drive.x, drive.v);
       slide.indentation = contact->overlap();
       Row row;
-      observe_contact(row, 0);
+      observe_contact(*contact, 0, row);
       slide.mu         = slides ? row[Column::mu] : 0.;
       slide.forces     = { row[Column::P], row[Column::Q] };
       slide.margin     = slides ? P_free / slide.forces.P : 1.;
@@ -175,7 +176,7 @@ namespace sprag
     {
       const auto &mode = eigenmode.mode;
       contact->evaluate_sliding(sliding_state(slide, TangentPart::all));
-      const std::complex<double> size = amplitude / largest_gap_change(eigenmode.ports);
+      const std::complex<double> size = amplitude / largest_gap_change(*contact, eigenmode.ports);
       const auto add = [](const std::complex<double> factor, const ComplexVector &vector, dealii::Vector<double> &sum)
       { sum.add(factor.real(), vector[0], -factor.imag(), vector[1]); };
 
@@ -200,8 +201,8 @@ namespace sprag
       ModeShape result;
       for (unsigned int lever = 0; lever < frame.ports.levers; ++lever)
       {
-        const auto real      = surface_shape(mode.ports[0], lever);
-        const auto imaginary = surface_shape(mode.ports[1], lever);
+        const auto real      = surface_shape(*contact, lever, mode.ports[0]);
+        const auto imaginary = surface_shape(*contact, lever, mode.ports[1]);
         result.xi            = real.xi;
         result.levers.push_back(
             { { { real.along, imaginary.along } }, { { real.across, imaginary.across } }, port(frame.ports.rotation(lever)) });
@@ -291,67 +292,13 @@ namespace sprag
       return result;
     }
 
-    // What a contact of one lever and one of two are asked differently.
-
-    const PortSelection &reachable_ports(const double x, const OfLevers &theta) const
-    {
-      if constexpr (Contact::levers == 1)
-        return contact->reachable_ports(x, theta.front());
-      else
-        return contact->reachable_ports(x, theta);
-    }
-
-    double gap_change(const dealii::Vector<double> &change_of_ports, [[maybe_unused]] const unsigned int lever) const
-    {
-      if constexpr (Contact::levers == 1)
-        return contact->gap_change(change_of_ports);
-      else
-        return contact->gap_change(change_of_ports, lever);
-    }
-
-    void observe_contact(Row &row, [[maybe_unused]] const unsigned int lever) const
-    {
-      if constexpr (Contact::levers == 1)
-        contact->observe(row);
-      else
-        contact->observe(row, lever);
-    }
-
-    SurfaceShape surface_shape(const dealii::Vector<double> &ports, [[maybe_unused]] const unsigned int lever) const
-    {
-      if constexpr (Contact::levers == 1)
-        return contact->surface_shape(ports);
-      else
-        return contact->surface_shape(ports, lever);
-    }
-
-    double largest_gap_change(const dealii::Vector<double> &change_of_ports) const
-    {
-      double largest = 0.;
-      for (unsigned int lever = 0; lever < frame.ports.levers; ++lever)
-        largest = std::max(largest, std::abs(gap_change(change_of_ports, lever)));
-      return largest;
-    }
-
-    std::complex<double> largest_gap_change(const ComplexVector &change_of_ports) const
-    {
-      std::complex<double> largest;
-      for (unsigned int lever = 0; lever < frame.ports.levers; ++lever)
-      {
-        const std::complex<double> gap(gap_change(change_of_ports[0], lever), gap_change(change_of_ports[1], lever));
-        if (std::abs(gap) > std::abs(largest))
-          largest = gap;
-      }
-      return largest;
-    }
-
     /// `x` from the pivot frame's origin.
     void observe_lever(const Motion &motion, const unsigned int lever, const double x, Row &row) const
     {
       const auto hub          = structure->port_state(motion, frame.ports.rotation(lever));
       row[Column::theta]      = frame.rest_inclination + hub.position;
       row[Column::theta_rate] = hub.velocity;
-      observe_contact(row, lever);
+      observe_contact(*contact, lever, row);
       row[Column::centre_offset] = row[Column::s] - cylinder_centre(frame.geometries[lever], x, row[Column::theta]).xi;
       if (frame.ports.sensors == 0)
         return;
@@ -367,7 +314,7 @@ namespace sprag
     const PortSelection &reachable_ports(const Motion &motion) const
     {
       const double u = frame.ports.sprung ? structure->port_state(motion, frame.ports.support()).position : 0.;
-      return reachable_ports(motion.drive.x - u, inclinations(turns(motion)));
+      return sprag::reachable_ports(*contact, motion.drive.x - u, inclinations(turns(motion)));
     }
 
     static DrivePoint moved(DrivePoint drive, const double dx)
@@ -378,10 +325,31 @@ namespace sprag
 
     Motion start_at_rest(const DrivePoint &drive)
     {
-      Motion motion  = structure->rest();
-      motion.drive   = drive;
+      Motion motion = structure->rest();
+      motion.drive  = drive;
+      // A cylinder out of the mirror plane presses on one lever from the beginning.
+      if (frame.ports.levers == 2 && overlaps(structure->port_positions(motion), drive))
+        return pressed_at_rest(drive);
       motion.contact = contact->touch(structure->port_positions(motion), drive);
       return motion;
+    }
+
+    bool overlaps(const dealii::Vector<double> &ports, const DrivePoint &drive)
+    {
+      contact->evaluate_sliding(SlidingState{ ports, drive, 1., nullptr, ContactFriction::none, TangentPart::all });
+      return contact->overlap() > 1e-9 * frame.geometries.front().cylinder_radius;
+    }
+
+    /// In equilibrium without friction.
+    Motion pressed_at_rest(const DrivePoint &drive)
+    {
+      DrivePoint passing             = drive;
+      passing.v                      = 1.;
+      const PortForces *const forces = solve_sliding(passing, 1., ContactFriction::none);
+      if (forces == nullptr)
+        throw AnalysisError("no equilibrium at rest with the cylinder out of the mirror plane. Try a Drive/Start at which both "
+                            "levers are pressed, or a smaller Mirrored pair/Cylinder offset.");
+      return completed(structure->deform(*forces), drive, *forces);
     }
 
     /// Slip speed of the deformable lever over that of the rigid one.
@@ -400,7 +368,7 @@ namespace sprag
     SlidingForces observed_forces() const
     {
       Row row;
-      observe_contact(row, 0);
+      observe_contact(*contact, 0, row);
       return { row[Column::P], row[Column::Q] };
     }
 
@@ -413,7 +381,7 @@ namespace sprag
     PortPerturbation perturbation(const HeldSlide &slide, const bool in_contact)
     {
       const auto theta = inclinations(turns(slide.ports));
-      reachable_ports(slide.drive.x, theta);
+      sprag::reachable_ports(*contact, slide.drive.x, theta);
       PortPerturbation result;
       const auto part = [&](const TangentPart wanted) -> const PortForces &
       {
@@ -433,10 +401,16 @@ namespace sprag
         matrix->reinit(n, n);
       if (in_contact)
       {
-        spread(part(TangentPart::pressure), result.ports, result.pressure);
-        spread(part(TangentPart::friction), result.ports, result.friction);
-        spread(part(TangentPart::pressure_rate), result.ports, result.pressure_rate);
-        spread(part(TangentPart::friction_rate), result.ports, result.friction_rate);
+        const auto tangent = [&](const TangentPart wanted)
+        {
+          PortForces on_all;
+          extend(part(wanted), result.ports, on_all);
+          return on_all.tangent;
+        };
+        result.pressure      = tangent(TangentPart::pressure);
+        result.friction      = tangent(TangentPart::friction);
+        result.pressure_rate = tangent(TangentPart::pressure_rate);
+        result.friction_rate = tangent(TangentPart::friction_rate);
         for (const auto &delay : contact->friction_delays())
           result.delays.push_back({ delay.time, spread(delay.force, loaded, result.ports),
                                     spread(delay.stiffness_row, loaded, result.ports),
@@ -457,16 +431,6 @@ namespace sprag
       return result;
     }
 
-    static void spread(const PortForces &forces, const std::vector<unsigned int> &ports, dealii::FullMatrix<double> &matrix)
-    {
-      std::vector<unsigned int> place;
-      for (const unsigned int port : forces.ports)
-        place.push_back(place_of(port, ports));
-      for (unsigned int a = 0; a < place.size(); ++a)
-        for (unsigned int b = 0; b < place.size(); ++b)
-          matrix(place[a], place[b]) = forces.tangent(a, b);
-    }
-
     /// See HeldSlide.
     double uniqueness(const HeldSlide &slide)
     {
@@ -484,7 +448,7 @@ namespace sprag
     {
       structure->use_statics();
       const auto ideal            = ideal_inclinations(drive.x);
-      const auto &near            = reachable_ports(drive.x, ideal);
+      const auto &near            = sprag::reachable_ports(*contact, drive.x, ideal);
       dealii::Vector<double> free = structure->port_positions(structure->rest(), near);
       if (round_off != nullptr)
         for (const unsigned int port : near)
