@@ -157,6 +157,8 @@ FIGURES = {
     "ladder-a": ladder,
     # Slides held at one x.
     "modes-a": drawn("modal-a", "modes"),
+    "pair-modal-a": drawn("pair-modal-a", "modes"),
+    "pair-stability-a": drawn("pair-stability-a", "modes"),
     "stability-a": drawn("stability-a", "stability"),
     "stability-b": drawn("stability-b", "stability"),
     **{f"onset-a-{picture}": drawn("onset-a", picture) for picture in ("growth", "cycle", "continuation")},

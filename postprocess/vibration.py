@@ -30,7 +30,10 @@ def vibration_pictures(result):
 
 
 def mode_shapes(modes, most=6):
-    """Deflection of the lever's face over a cycle: eight phases, the first one drawn strongly."""
+    """Deflection of the lever's face over a cycle: eight phases, the first one drawn strongly.
+
+    Of a mirrored pair both, the second one mirrored, below the first.
+    """
     chosen = shown_modes(modes, most)
     columns = min(len(chosen), 2)
     rows = (len(chosen) + 1) // 2
@@ -56,35 +59,49 @@ def shown_modes(modes, most):
 
 
 def draw_shape(axes, modes, mode):
-    xi, shape = deflection(modes, mode)
+    xi, shapes = deflections(modes, mode)
     colour = COLOURS[1] if modes["kind"][mode] > 0 else COLOURS[0]
-    axes.axhline(0, color="black", linewidth=0.5)
-    for phase in np.arange(8) * np.pi / 4:
-        strong = phase == 0
-        axes.plot(xi, (shape * np.exp(1j * phase)).real, color=colour, linewidth=1.4 if strong else 0.5)
-    axes.set_ylim(-1.1, 1.1)
+    height = 0 if len(shapes) == 1 else 1.3
+    for side, shape in zip((1, -1), shapes):
+        axes.axhline(side * height, color="black", linewidth=0.5)
+        for phase in np.arange(8) * np.pi / 4:
+            strong = phase == 0
+            place = side * (height + (shape * np.exp(1j * phase)).real)
+            axes.plot(xi, place, color=colour, linewidth=1.4 if strong else 0.5)
+    axes.set_ylim(-1.1 - height, 1.1 + height)
+    if height:
+        axes.set_yticks((-height, height), ("second", "first"))
     axes.set_xlim(0, xi[-1])
     axes.set_title(mode_name(modes, mode), fontsize=8, loc="left")
 
 
-def deflection(modes, mode):
-    """Lever coordinates in their order, and the complex deflection there over the largest one."""
-    complex_part = lambda name: modes[f"{name}_real"][mode] + 1j * modes[f"{name}_imaginary"][mode]
+def deflections(modes, mode):
+    """Lever coordinates in their order, and each lever's complex deflection there over the largest one."""
     xi = modes["xi"]
-    if len(xi) == 1:  # a rigid lever has no shape but its rotation
-        xi = np.array((0.0, 200.0))
-        shape = xi * complex_part("rotation")
-    else:
-        shape = complex_part("across") + xi * complex_part("rotation")
     order = np.argsort(xi)
-    return xi[order], (shape / (shape[np.abs(shape).argmax()] or 1))[order]
+    if len(xi) == 1:  # a rigid lever has no shape but its rotation
+        xi, order = np.array((0.0, 200.0)), [0, 1]
+    levers = ("_", "_2_") if "rotation_2_real" in modes else ("_",)
+    shapes = []
+    for lever in levers:
+        complex_part = lambda name: modes[f"{name}{lever}real"][mode] + 1j * modes[f"{name}{lever}imaginary"][mode]
+        bent = complex_part("across") if len(modes["xi"]) > 1 else 0
+        shapes.append((bent + xi * complex_part("rotation"))[order])
+    largest = max((shape[np.abs(shape).argmax()] for shape in shapes), key=abs)
+    return xi[order], [shape / (largest or 1) for shape in shapes]
 
 
 def mode_name(modes, mode):
     kind = KINDS[int(modes["kind"][mode])]
     growth = modes["growth_rate"][mode]
     rate = f", {rate_text(growth)} 1/s" if abs(growth) > 1e-9 * (1 + modes["frequency"][mode]) else ""
-    return frequency_text(modes["frequency"][mode]) + rate + (f", {kind}" if kind != "stable" else "")
+    motion = f", {motion_name(modes['mirroring'][mode])}" if "mirroring" in modes else ""
+    return frequency_text(modes["frequency"][mode]) + rate + (f", {kind}" if kind != "stable" else "") + motion
+
+
+def motion_name(mirroring):
+    """Of a pair."""
+    return "mirroring" if mirroring > 0.9 else "swinging" if mirroring < -0.9 else "uneven"
 
 
 def frequency_text(frequency):

@@ -223,23 +223,20 @@ namespace sprag
 
     void observe(const Motion &motion, Row &row) const override
     {
-      double displacement = 0.;
-      double of_support   = 0.;
+      PortState support{};
       if (frame.ports.sprung)
-      {
-        const auto support = structure->port_state(motion, frame.ports.support());
-        displacement       = support.position;
-        of_support         = frame.support_stiffness * support.position + frame.support_damping * support.velocity;
-      }
-      observe_lever(motion, 0, motion.drive.x - displacement, row);
+        support = structure->port_state(motion, frame.ports.support());
+      const double x = motion.drive.x - support.position;
+      observe_lever(motion, 0, x, row);
       if (frame.ports.levers == 2)
       {
         Row second;
-        observe_lever(motion, 1, motion.drive.x - displacement, second);
+        observe_lever(motion, 1, x, second);
         row.add_second_lever(second);
       }
-      row[Column::support_displacement] = displacement;
-      row[Column::Q_support]            = frame.ports.sprung ? of_support : row.drive_force();
+      const double of_support           = frame.support_stiffness * support.position + frame.support_damping * support.velocity;
+      row[Column::support_displacement] = support.position;
+      row[Column::Q_support]            = (frame.ports.sprung ? of_support : row.drive_force()) / frame.ports.levers;
     }
 
     FacePoints face_points() const override

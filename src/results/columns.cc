@@ -45,7 +45,9 @@ namespace sprag
         "work of the drive less the change of the energies stored and the works dissipated: what the ledger leaves open" },
       { "theta_rate", "rad/s", "rate of theta" },
       { "support_displacement", "mm", "displacement of the pivot frame along x" },
-      { "Q_support", "N", "force of the pivot frame on its support, k_f u + c_f du/dt; Q where the support is rigid" },
+      { "Q_support", "N",
+        "force of the pivot frame on its support, k_f u + c_f du/dt; Q where the support is rigid; of a pair half of "
+        "both levers' force" },
       { "P_quasi_static", "N", "P of the same model without inertia, in steady sliding at this x and v; NaN where v = 0" },
       { "Q_quasi_static", "N", "Q of the same model without inertia, in steady sliding at this x and v; NaN where v = 0" },
       { "creep", "mm", "slip since the start at speeds below that of the regularised friction law; 0 where stick is resolved" },

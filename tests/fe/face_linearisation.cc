@@ -110,7 +110,7 @@ TEST(FaceLinearisation, FrictionThatGrowsWithSpeedIsDelayedAsInSteps)
           Vector end = at, rate(at.size());
           end[port] += by;
           rate[port] = by / dt;
-          contact.evaluate(PortStep{ accepted, to, begin, end, rate, { dt, 0., 0., 0.25, 0.5 } });
+          contact.evaluate(PortStep{ accepted.drive, accepted.contact, to, begin, end, rate, { dt, 0., 0., 0.25, 0.5 } });
           return contact.forces();
         };
         const double largest = exact.linfty_norm();
@@ -141,7 +141,7 @@ TEST(FaceLinearisation, StuckIsTheTangentOfAStepInStick)
     const StepWeights weights{ 1e-5, 0., 0., 0.25, 0.5 };
     Motion accepted;
     accepted.drive = drive;
-    contact.evaluate(PortStep{ accepted, drive, { ports, rest, rest }, ports, rest, weights });
+    contact.evaluate(PortStep{ accepted.drive, accepted.contact, drive, { ports, rest, rest }, ports, rest, weights });
     ASSERT_EQ(contact.forces().ports, linear.ports);
     Full difference = contact.forces().tangent;
     difference.add(-1., linear.tangent);

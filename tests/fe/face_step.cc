@@ -43,7 +43,7 @@ namespace
 
     PortStep operator*() const
     {
-      return { accepted, to, begin, end, rate, weights };
+      return { accepted.drive, accepted.contact, to, begin, end, rate, weights };
     }
 
   private:

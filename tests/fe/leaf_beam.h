@@ -40,6 +40,8 @@ namespace sprag
       return EI / (L * (1. + phi)) * (12. * c * c / (L * L) + 12. * c / L + 4. + phi);
     case LeafEnd::pinned:
       return 3. * EI / (L * (1. + 0.25 * phi)) * (1. + c / L) * (1. + c / L);
+    case LeafEnd::loose:
+      return 0.;
     case LeafEnd::guided:
       break;
     }
@@ -58,6 +60,8 @@ namespace sprag
       return c * (1. - s) * (1. - s) * (1. + 2. * s) + x * (1. - s) * (1. - s);
     case LeafEnd::pinned: // no curvature at the end
       return c + x - 1.5 * (c + L) * s * s + 0.5 * (c + L) * s * s * s;
+    case LeafEnd::loose: // straight
+      return c + x;
     case LeafEnd::guided: // no shear
       break;
     }

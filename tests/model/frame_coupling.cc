@@ -8,6 +8,7 @@ using namespace sprag;
 namespace
 {
   using Vector = dealii::Vector<double>;
+  using Full   = dealii::FullMatrix<double>;
 
   const PortLayout layout      = { 2, true };
   constexpr double rest        = 0.056;
@@ -185,4 +186,62 @@ TEST(FrameCoupling, WorkOfItsForcesIsTheKineticEnergyButForTheSchemesDissipation
     EXPECT_LT(open(1e-2), 1e-4);
     EXPECT_LT(open(2.5e-3), open(1e-2) / (radius == 1. ? 50. : 12.)) << radius;
   }
+}
+
+TEST(FrameCoupling, EachLeverOfAPairCouplesAsASingleOne)
+{
+  PortLayout pair = layout;
+  pair.levers     = 2;
+  const auto part = [&](const Vector &of_pair, const unsigned int lever)
+  {
+    return ports(of_pair[pair.rotation(lever)], of_pair[pair.momentum_eta(lever)], of_pair[pair.momentum_xi(lever)],
+                 of_pair[pair.support()]);
+  };
+  const auto joined = [&](const Vector &first, const Vector &second)
+  {
+    Vector result(pair.size());
+    for (unsigned int i = 0; i < pair.of_a_lever(); ++i)
+    {
+      result[pair.first(0) + i] = first[i];
+      result[pair.first(1) + i] = second[i];
+    }
+    result[pair.support()] = first[layout.support()];
+    return result;
+  };
+  const Kinematic at{ joined(begin().position, ports(-0.2, 0.3, 0.5, 0.)), joined(begin().velocity, ports(0.4, -1.2, 0.3, 0.)),
+                      joined(begin().acceleration, ports(1., 2., -0.7, 0.)) };
+  Vector z = at.position;
+  z.add(step, at.velocity, 0.3 * step * step, at.acceleration);
+
+  FrameCoupling coupling(pair, rest), single(layout, rest);
+  const PortForces both = coupling.add_forces(PortForces(), at, z, implicit());
+  StepWork work, of_singles;
+  coupling.add_work(at, z, implicit(), work);
+  double energy = 0.;
+  Vector values(pair.size());
+  Full tangent(pair.size(), pair.size());
+  for (unsigned int lever = 0; lever < 2; ++lever)
+  {
+    const Kinematic own{ part(at.position, lever), part(at.velocity, lever), part(at.acceleration, lever) };
+    const auto &forces = single.add_forces(PortForces(), own, part(z, lever), implicit());
+    const auto place   = [&](const unsigned int port)
+    { return port == layout.support() ? pair.support() : pair.first(lever) + port; };
+    for (unsigned int i = 0; i < 4; ++i)
+    {
+      values[place(forces.ports[i])] += forces.values[i];
+      for (unsigned int j = 0; j < 4; ++j)
+        tangent(place(forces.ports[i]), place(forces.ports[j])) += forces.tangent(i, j);
+    }
+    single.add_work(own, part(z, lever), implicit(), of_singles);
+    energy += single.kinetic_energy(own);
+  }
+  ASSERT_EQ(both.ports, coupling.coupled_ports());
+  for (unsigned int i = 0; i < both.ports.size(); ++i)
+  {
+    EXPECT_NEAR(both.values[i], values[both.ports[i]], 1e-14 * values.linfty_norm());
+    for (unsigned int j = 0; j < both.ports.size(); ++j)
+      EXPECT_NEAR(both.tangent(i, j), tangent(both.ports[i], both.ports[j]), 1e-14 * tangent.linfty_norm());
+  }
+  EXPECT_NEAR(work.algorithmic, of_singles.algorithmic, 1e-14);
+  EXPECT_NEAR(coupling.kinetic_energy(at), energy, 1e-14);
 }

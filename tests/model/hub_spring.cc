@@ -50,8 +50,8 @@ TEST(HubSpring, ALinearOneAddsNothing)
 {
   HubSpringExcess spring(layout, MomentLaw(k));
   const auto forces = contact_forces({ 1, 2 });
-  EXPECT_EQ(&spring.add_forces(forces, 0.03), &forces);
-  EXPECT_EQ(&spring.add_forces(forces, 0.01, 0.03, generalised_alpha(1., 1e-4)), &forces);
+  EXPECT_EQ(&spring.add_forces(forces, OfLevers{ { 0.03 } }), &forces);
+  EXPECT_EQ(&spring.add_forces(forces, OfLevers{ { 0.01 } }, OfLevers{ { 0.03 } }, generalised_alpha(1., 1e-4)), &forces);
   EXPECT_TRUE(spring.loaded_ports().empty());
 }
 
@@ -60,7 +60,7 @@ TEST(HubSpring, ActsOnTheRotationBesidesTheContact)
   HubSpringExcess spring(layout, hardening());
   const double turn  = 0.023;
   const double force = -c * std::pow(turn, 3);
-  const auto apart   = spring.add_forces(contact_forces({ 1, 2 }), turn);
+  const auto apart   = spring.add_forces(contact_forces({ 1, 2 }), OfLevers{ { turn } });
   EXPECT_EQ(apart.ports, (std::vector<unsigned int>{ 1, 2, 4 }));
   EXPECT_EQ(apart.values[1], 2.);
   EXPECT_EQ(apart.tangent(1, 0), 10.);
@@ -68,7 +68,7 @@ TEST(HubSpring, ActsOnTheRotationBesidesTheContact)
   EXPECT_NEAR(apart.values[2], force, 1e-12 * k);
   EXPECT_NEAR(apart.tangent(2, 2), -3. * c * turn * turn, 1e-12 * k);
 
-  const auto together = spring.add_forces(contact_forces({ 1, 4 }), turn);
+  const auto together = spring.add_forces(contact_forces({ 1, 4 }), OfLevers{ { turn } });
   EXPECT_EQ(together.ports, (std::vector<unsigned int>{ 1, 4 }));
   EXPECT_NEAR(together.values[1], 2. + force, 1e-12 * k);
   EXPECT_NEAR(together.tangent(1, 1), 11. - 3. * c * turn * turn, 1e-12 * k);
@@ -82,9 +82,9 @@ TEST(HubSpring, ItsForceOfAStepMakesNoEnergy)
     for (const auto &[begin, end] : { std::pair<double, double>{ 0.01, 0.04 }, { 0.03, -0.02 }, { 0.02, 0.02 + 1e-9 } })
     {
       const auto weights = generalised_alpha(radius, 1e-4);
-      const auto forces  = spring.add_forces(contact_forces({}), begin, end, weights);
+      const auto forces  = spring.add_forces(contact_forces({}), OfLevers{ { begin } }, OfLevers{ { end } }, weights);
       StepWork work;
-      spring.add_work(begin, end, weights, work);
+      spring.add_work({ { begin } }, { { end } }, weights, work);
       const double done = -forces.values[0] * (end - begin);
       EXPECT_NEAR(done, excess_energy(end) - excess_energy(begin) + work.algorithmic, 1e-12 * k * 1e-4);
       EXPECT_GE(work.algorithmic, 0.);
@@ -98,8 +98,10 @@ TEST(HubSpring, ItsTangentOfAStepMatchesDifferences)
   const double h     = 1e-5;
   for (const double end : { 0.04, -0.013 })
   {
-    const auto force     = [&](const double at) { return spring.add_forces(contact_forces({}), 0.01, at, weights).values[0]; };
-    const double tangent = spring.add_forces(contact_forces({}), 0.01, end, weights).tangent(0, 0);
+    const auto force = [&](const double at)
+    { return spring.add_forces(contact_forces({}), OfLevers{ { 0.01 } }, OfLevers{ { at } }, weights).values[0]; };
+    const double tangent =
+        spring.add_forces(contact_forces({}), OfLevers{ { 0.01 } }, OfLevers{ { end } }, weights).tangent(0, 0);
     // Third derivatives of the excess, 6 c, by h^2 / 6; round-off of the moments over h.
     EXPECT_NEAR(tangent, (force(end + h) - force(end - h)) / (2. * h), c * h * h + 1e-13 * k / h);
   }
@@ -125,4 +127,82 @@ TEST(HubSpring, ALeafsVibrationCouplesWithTheRotation)
   ASSERT_EQ(found.size(), 2u);
   EXPECT_NEAR(found[0], std::sqrt((-b - d) / (2. * a)), 1e-10 * found[0]);
   EXPECT_NEAR(found[1], std::sqrt((-b + d) / (2. * a)), 1e-10 * found[1]);
+}
+
+namespace
+{
+  const PortLayout of_pair{ 4, false, 0, 2 };
+
+  /// What is stored beyond k phi^2 / 2 of each hub: 2 W of the mean opening, less swinging's share but for a millionth.
+  double joined_energy(const OfLevers &turns)
+  {
+    const double opening = 0.5 * (turns[0] + turns[1]);
+    const double swing   = 0.5 * (turns[0] - turns[1]);
+    return 2. * excess_energy(opening) - (1. - 1e-6) * k * swing * swing;
+  }
+} // namespace
+
+TEST(HubSpring, JoinedOnesOpenAgainstTheirMeanTurnAndSwingFreely)
+{
+  HubSpringExcess spring(of_pair, hardening(), true);
+  const OfLevers turns{ { 0.05, 0.01 } };
+  const auto forces = spring.add_forces(contact_forces({}), turns);
+  ASSERT_EQ(forces.ports, (std::vector<unsigned int>{ 4, 9 }));
+  // Both hubs feel the same moment, that of the mean turn: k phi_i of the structure and this together.
+  const double moment = k * 0.03 + c * std::pow(0.03, 3);
+  for (unsigned int i = 0; i < 2; ++i)
+    EXPECT_NEAR(k * turns[i] - forces.values[i], moment, 1.1e-6 * k * 0.02);
+  EXPECT_NEAR(spring.energy(turns), joined_energy(turns), 1e-12 * k);
+  const double h = 1e-6;
+  for (unsigned int j = 0; j < 2; ++j)
+  {
+    OfLevers more = turns, less = turns;
+    more[j] += h;
+    less[j] -= h;
+    EXPECT_NEAR(forces.values[j], -(joined_energy(more) - joined_energy(less)) / (2. * h), 1e-8 * k);
+    const auto right = spring.add_forces(contact_forces({}), more).values;
+    const auto left  = spring.add_forces(contact_forces({}), less).values;
+    for (unsigned int i = 0; i < 2; ++i)
+      EXPECT_NEAR(forces.tangent(i, j), (right[i] - left[i]) / (2. * h), 1e-8 * k);
+  }
+}
+
+TEST(HubSpring, AStepOfJoinedOnesMakesNoEnergyAndItsTangentMatchesDifferences)
+{
+  HubSpringExcess spring(of_pair, hardening(), true);
+  const OfLevers begin{ { 0.01, 0.03 } };
+  const OfLevers end{ { 0.04, 0.02 } };
+  for (const double radius : { 1., 0.8, 0. })
+  {
+    const auto weights = generalised_alpha(radius, 1e-4);
+    const auto forces  = spring.add_forces(contact_forces({}), begin, end, weights);
+    StepWork work;
+    spring.add_work(begin, end, weights, work);
+    double done = 0.;
+    for (unsigned int i = 0; i < 2; ++i)
+      done -= forces.values[i] * (end[i] - begin[i]);
+    EXPECT_NEAR(done, joined_energy(end) - joined_energy(begin) + work.algorithmic, 1e-12 * k * 1e-2);
+    const double h = 1e-6;
+    for (unsigned int j = 0; j < 2; ++j)
+    {
+      OfLevers more = end, less = end;
+      more[j] += h;
+      less[j] -= h;
+      const auto right = spring.add_forces(contact_forces({}), begin, more, weights).values;
+      const auto left  = spring.add_forces(contact_forces({}), begin, less, weights).values;
+      for (unsigned int i = 0; i < 2; ++i)
+        EXPECT_NEAR(forces.tangent(i, j), (right[i] - left[i]) / (2. * h), 1e-8 * k);
+    }
+  }
+}
+
+TEST(HubSpring, EachLeverOfAPairHasItsOwnWhereTheJointIsHeld)
+{
+  HubSpringExcess spring(of_pair, hardening());
+  const OfLevers turns{ { 0.05, 0.01 } };
+  const auto forces = spring.add_forces(contact_forces({}), turns);
+  for (unsigned int i = 0; i < 2; ++i)
+    EXPECT_NEAR(forces.values[i], -c * std::pow(turns[i], 3), 1e-12 * k);
+  EXPECT_EQ(forces.tangent(0, 1), 0.);
+  EXPECT_NEAR(spring.energy(turns), excess_energy(0.05) + excess_energy(0.01), 1e-12 * k);
 }

@@ -224,7 +224,7 @@ TEST(Linearisation, FrictionThatGrowsWithSpeedIsDelayedAsInSteps)
             Vector end = at, rate = change;
             end += change;
             rate /= dt;
-            contact.evaluate(PortStep{ accepted, to, begin, end, rate, { dt, 0., 0., 0.25, 0.5 } });
+            contact.evaluate(PortStep{ accepted.drive, accepted.contact, to, begin, end, rate, { dt, 0., 0., 0.25, 0.5 } });
             return contact.forces();
           },
           2e-7, 2e-3);
@@ -270,7 +270,7 @@ TEST(Linearisation, StuckIsTheTangentOfAStepInStick)
     accepted.drive   = { 0., place, 0., 0. };
     accepted.contact = { ContactMemory{} };
     PointContact contact(slide.contact);
-    contact.evaluate(PortStep{ accepted, accepted.drive, { at, rest, rest }, at, rest, weights });
+    contact.evaluate(PortStep{ accepted.drive, accepted.contact, accepted.drive, { at, rest, rest }, at, rest, weights });
     Full difference = contact.forces().tangent;
     difference.add(-1., linear);
     EXPECT_LT(difference.frobenius_norm(), 1e-12 * linear.frobenius_norm()) << slide.name;
@@ -304,7 +304,7 @@ TEST(Linearisation, InertiaOfTheCouplingIsTheDerivativeOfItsForcesByAcceleration
   begin.position[layout.support()]  = 0.3;
   const auto ports                  = coupling.coupled_ports();
   Full inertia(4, 4);
-  coupling.add_inertia(ports, rest + 0.07, inertia);
+  coupling.add_inertia(ports, { { rest + 0.07 } }, inertia);
   for (unsigned int j = 0; j < 4; ++j)
   {
     // Over an acceleration of 10 the ports move by 2.5e-6, of which 5e-17 is round-off; what is not linear is even.

@@ -121,7 +121,7 @@ namespace
       const auto drifted = unaccelerated(begin, weights);
       Vector rate        = drifted.velocity;
       rate.add(weights.rate(), at, -weights.rate(), drifted.position);
-      contact.evaluate(PortStep{ accepted, of.drive(step_length), begin, at, rate, weights });
+      contact.evaluate(PortStep{ accepted.drive, accepted.contact, of.drive(step_length), begin, at, rate, weights });
       return contact.forces();
     }
 
@@ -360,7 +360,8 @@ TEST(PointContact, DriveGivesWhatLeverTakesAndContactStoresOrDissipates)
     Vector end = from;
     end += moved;
     const DrivePoint drive = lever.drive(share * T);
-    contact.evaluate(PortStep{ accepted, drive, begin, end, begin.velocity, generalised_alpha(0.8, share * T) });
+    contact.evaluate(
+        PortStep{ accepted.drive, accepted.contact, drive, begin, end, begin.velocity, generalised_alpha(0.8, share * T) });
     StepWork work;
     contact.add_work(work);
     EXPECT_GT(std::abs(work.drive), 1. * share);

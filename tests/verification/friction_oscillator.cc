@@ -35,7 +35,7 @@ namespace
 
     void evaluate(const PortStep &step)
     {
-      memory_before         = step.accepted.contact.front();
+      memory_before         = step.memory.front();
       const double slip     = step.end[0] - step.begin.position[0];
       friction              = end_friction(memory_before.history(), holding, slip, normal, law, step.weights.dt);
       const double delay    = step.weights.delay();

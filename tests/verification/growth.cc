@@ -87,6 +87,27 @@ TEST(HeldSlide, OfAMeshedLeverStaysWhereItIs)
   EXPECT_LT(drift(JudgedSlide(backward_a(ModelType::condensed, 20.)), 2000), 1e-7);
 }
 
+// Levers that swing together move neither the frame nor the joint of their springs: on a sprung frame they sprag-slip where half
+// of the pair, which can but mirror, is stable.
+TEST(Growth, OfAPairThatSwingsWhereHalfOfItIsStable)
+{
+  Scene scene        = with_lever(in_time(model_a(), ModelType::beam), 7.13, 12133.9, 1.50555);
+  scene.support.type = SupportType::sprung;
+  scene              = held_at(scene, 65.);
+  EXPECT_EQ(JudgedSlide(scene).stability.kind, SlideKind::stable);
+  scene.pair.type = PairType::full;
+  const JudgedSlide judged(scene);
+  EXPECT_EQ(judged.stability.kind, SlideKind::flutter);
+  EXPECT_NEAR(judged.mode().mirroring, -1., 1e-6);
+  EXPECT_NEAR(judged.mode().growth.friction_support, 0., 1e-6 * judged.mode().mode.eigenvalue.real());
+  const auto growth = growth_of(judged);
+  EXPECT_NEAR(growth.growth_difference(), 0., 0.003);
+  EXPECT_NEAR(growth.frequency_difference(), 0., 0.0005);
+  // A held joint gives each lever its spring, but the frame still stays where it is.
+  scene.pair.joint = SpringJoint::held;
+  EXPECT_EQ(JudgedSlide(scene).stability.kind, SlideKind::flutter);
+}
+
 TEST(Growth, OfModelAIsThatOfItsEigenvalue)
 {
   const JudgedSlide judged(backward_a(ModelType::beam, 6.));

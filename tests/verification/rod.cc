@@ -77,7 +77,7 @@ namespace
       law.tangential        = 1.;
       law.friction          = { CoulombFriction{ 0. }, FrictionSpeed::sliding };
       law.weights           = step.weights;
-      response              = step_response(point, step.accepted.contact.front(), law);
+      response              = step_response(point, step.memory.front(), law);
       at_port.values[0]     = response.force[0];
       at_port.tangent(0, 0) = response.tangent[0][0];
     }

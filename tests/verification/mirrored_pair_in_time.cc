@@ -1,0 +1,189 @@
+#include "fe/leaf_spring.h"
+#include "scene/mirrored_pair.h"
+#include "verification/meshed_in_time.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
+
+using namespace sprag;
+
+namespace
+{
+  Scene paired(Scene scene, const SpringJoint joint)
+  {
+    scene.pair.type  = PairType::full;
+    scene.pair.joint = joint;
+    return scene;
+  }
+
+  Scene around_a_reversal(Scene scene)
+  {
+    scene.mesh.face_size = 2.;
+    scene.drive          = Drive(DriveProfile::triangle, 45., 46., 112., 1., 5e-3);
+    return scene;
+  }
+
+  double largest(const std::vector<Row> &rows, const std::function<double(const Row &)> &value)
+  {
+    double result = 0.;
+    for (const auto &row : rows)
+      result = std::max(result, std::abs(value(row)));
+    return result;
+  }
+
+  /// Frequencies of undamped modes in contact without friction at x = 30 of a pair [1/s].
+  struct Omegas
+  {
+    double mirroring;
+    double swinging;
+  };
+
+  /// The mode that has most of its energy in the contact, of either motion.
+  Omegas contact_modes(const Scene &scene)
+  {
+    const auto model = make_reduced_lever(undamped(scene));
+    const auto slide = model->hold({ 0., 30., 112., 0. }, ContactFriction::none);
+    EXPECT_TRUE(slide);
+    Omegas result{};
+    double in_contact[2] = { 0., 0. };
+    for (const auto &mode : model->vibrations(*slide, true, 4))
+    {
+      const bool swings = mode.mirroring < 0.;
+      EXPECT_NEAR(std::abs(mode.mirroring), 1., 1e-6);
+      if (mode.energy.contact < in_contact[swings])
+        continue;
+      in_contact[swings]                            = mode.energy.contact;
+      (swings ? result.swinging : result.mirroring) = mode.mode.eigenvalue.imag();
+    }
+    return result;
+  }
+} // namespace
+
+// Both levers do the same to round-off, which swinging without a spring lets grow with the square of the time.
+TEST(MirroredPairInTime, WithoutOffsetBothLeversDoWhatOneAloneDoes)
+{
+  for (const auto model : { ModelType::rigid, ModelType::beam, ModelType::condensed, ModelType::finite_element })
+    for (const auto joint : { SpringJoint::free, SpringJoint::held })
+    {
+      const auto scene = around_a_reversal(in_time(model_a(), model));
+      const auto half  = run_any_in_time(scene).rows;
+      const auto full  = run_any_in_time(paired(scene, joint)).rows;
+      ASSERT_EQ(half.size(), full.size());
+      double error = 0., energy = 0.;
+      for (std::size_t i = 0; i < half.size(); ++i)
+      {
+        error  = std::max(error, std::abs(half[i][Column::P] - full[i][Column::P]));
+        energy = std::max(energy, std::abs(2. * half[i][Column::kinetic_energy] - full[i][Column::kinetic_energy]));
+        EXPECT_NEAR(2. * half[i][Column::Q], full[i].drive_force(), 2e-7 * 30.);
+      }
+      EXPECT_LT(error, 1e-7 * 30.);
+      EXPECT_LT(energy, 1e-7 * largest(full, [](const Row &row) { return row[Column::kinetic_energy]; }));
+      EXPECT_LT(largest(full, [](const Row &row) { return row.lateral_force(); }), 2e-7 * 30.);
+    }
+}
+
+// The ledger of levers that differ, on a frame that both share: fixed steps without numerical dissipation leave open what
+// Newton's tolerance of 1e-7 of an overlap squares to.
+TEST(MirroredPairInTime, LedgerClosesForLeversThatDiffer)
+{
+  for (const auto model : { ModelType::beam, ModelType::condensed })
+    for (const auto joint : { SpringJoint::free, SpringJoint::held })
+    {
+      auto scene                 = paired(with_sprung_support(around_a_reversal(in_time(model_a(), model))), joint);
+      scene.pair.cylinder_offset = 0.3;
+      scene.pair.friction_ratio  = 0.7;
+      const auto run             = run_any_in_time(with_fixed_step(with_spectral_radius(scene, 1.), 5e-5));
+      const double work          = largest(run.rows, [](const Row &row) { return row[Column::drive_work]; });
+      EXPECT_LT(run.report.ledger.largest_residual, 1e-6 * work);
+      EXPECT_GT(largest(run.rows, [](const Row &row) { return row.lateral_force(); }), 0.3);
+    }
+}
+
+// A rigid lever on a contact of stiffness k_c: (k + K_c)/J mirroring, K_c/J swinging, K_c with the change of direction in it.
+TEST(MirroredPairInTime, SwingingLacksTheSpringOfAFreeJointAlone)
+{
+  auto scene           = in_time(model_a(), ModelType::rigid);
+  const double J       = scene.lever.moment_of_inertia;
+  const double k       = scene.spring.stiffness;
+  const auto free      = contact_modes(paired(scene, SpringJoint::free));
+  const auto held      = contact_modes(paired(scene, SpringJoint::held));
+  const double squared = free.mirroring * free.mirroring;
+  // Of the spring's share a millionth is left; frequencies come to 1e-12.
+  EXPECT_NEAR(squared - free.swinging * free.swinging, k / J, 2e-6 * k / J + 1e-11 * squared);
+  EXPECT_NEAR(held.mirroring, free.mirroring, 1e-10 * free.mirroring);
+}
+
+// Cantilever with a tip mass, Euler-Bernoulli: 1 + cos b cosh b + (M/m) b (cos b sinh b - sin b cosh b) = 0. Shear and rotary
+// inertia take (h/L)^2, 2e-4; the clamp's hindered contraction adds a quarter of 6e-4, see the stiffness of leaf springs.
+TEST(MirroredPairInTime, SwingingLeafIsACantileverWithHalfTheJoint)
+{
+  LeafSpring leaf;
+  leaf.clamp_distance  = 12.;
+  const double M       = 7e-5;
+  const auto behaviour = swinging_leaf(leaf, PlaneState::stress, M);
+  const double area    = leaf.width * leaf.thickness;
+  const double m       = leaf.density * area * leaf.length;
+  const auto condition = [&](const double b)
+  { return 1. + std::cos(b) * std::cosh(b) + M / m * b * (std::cos(b) * std::sinh(b) - std::sin(b) * std::cosh(b)); };
+  double low = 0.5, high = 1.8751;
+  while (high - low > 1e-12)
+    (condition(0.5 * (low + high)) > 0. ? low : high) = 0.5 * (low + high);
+  const double bending  = leaf.young_modulus * area * leaf.thickness * leaf.thickness / 12.;
+  const double expected = std::pow(low / leaf.length, 4) * bending / (leaf.density * area);
+  EXPECT_NEAR(behaviour.modes.front().stiffness, expected, 1e-3 * expected);
+
+  // Turning with the hub it stays straight: that of a rod from c to c + L and of the mass at its end, and its momentum across.
+  const double c = leaf.clamp_distance, end = leaf.clamp_distance + leaf.length;
+  const double straight = m / leaf.length * (std::pow(end, 3) - std::pow(c, 3)) / 3. + M * end * end;
+  EXPECT_NEAR(behaviour.inertia, straight, 1e-4 * straight); // thickness: (h/L)^2/4
+  EXPECT_NEAR(behaviour.mass, m + M, 1e-12);
+  EXPECT_NEAR(std::abs(behaviour.momentum[1]), m * 0.5 * (c + end) + M * end, 1e-9 * M * end);
+}
+
+// Table 1's J holds for levers that mirror each other; swinging has what leaf and joint weigh then besides, and the metal is the
+// same.
+TEST(MirroredPairInTime, SwingingChangesTheInertiaOfLeafAndJointAlone)
+{
+  auto scene            = paired(in_time(model_a(), ModelType::beam), SpringJoint::free);
+  scene.spring.type     = SpringType::leaf;
+  scene.pair.joint_mass = 1e-4;
+  const auto prepared   = with_leaf_spring(scene);
+  const auto swinging   = swinging_scene(prepared);
+  EXPECT_NEAR(mass_per_length(swinging), mass_per_length(prepared), 1e-12 * mass_per_length(prepared));
+  EXPECT_GT(moment_of_inertia(swinging) - moment_of_inertia(prepared), 0.5 * 1e-4 * 1e4);
+  EXPECT_EQ(moment_of_inertia(prepared), 6.45);
+}
+
+// Beam against condensed lever: a lever's joint that swings on its leaf, out of step with the mirror motion.
+TEST(MirroredPairInTime, ModesOfAllFidelitiesAgree)
+{
+  auto scene            = paired(around_a_reversal(in_time(model_a(), ModelType::condensed)), SpringJoint::free);
+  scene.spring.type     = SpringType::leaf;
+  scene.pair.joint_mass = 1e-4;
+  scene.condensed.modes = 40;
+  scene                 = undamped(with_leaf_spring(scene));
+  const auto modes      = [](const Scene &of)
+  {
+    DynamicsMaker maker(false);
+    const auto dynamics = maker.make(of);
+    const auto slide    = dynamics.model().hold({ 0., 45.5, 112., 0. }, ContactFriction::sliding);
+    EXPECT_TRUE(slide);
+    auto found = dynamics.model().vibrations(*slide, true, 6);
+    found.erase(std::remove_if(found.begin(), found.end(), [](const auto &mode) { return mode.mode.eigenvalue.imag() == 0.; }),
+                found.end());
+    return found;
+  };
+  const auto condensed = modes(scene);
+  scene.analysis.model = ModelType::finite_element;
+  const auto meshed    = modes(scene);
+  for (unsigned int i = 0; i < 6; ++i)
+  {
+    // As one lever's: what truncated modes leave to statics.
+    EXPECT_NEAR(condensed.at(i).mode.eigenvalue.imag(), meshed.at(i).mode.eigenvalue.imag(),
+                1e-4 * meshed[i].mode.eigenvalue.imag());
+    EXPECT_NEAR(condensed[i].mode.eigenvalue.real(), meshed[i].mode.eigenvalue.real(),
+                1e-4 * std::abs(meshed[i].mode.eigenvalue.imag()));
+    EXPECT_NEAR(condensed[i].mirroring, meshed[i].mirroring, 1e-3);
+  }
+  EXPECT_LT(condensed.front().mirroring, -0.99);
+}
