@@ -126,6 +126,7 @@ namespace sprag
   {
     progress.finish();
     auto summary = scene.analysis.type == AnalysisType::transient ? transient_summary(scene, rows) : summary_of(scene, rows);
+    add_pair(rows, summary);
     summary.push_back({ "status", status, "", "how the run ended" });
     file.finish(summary, meta);
     if (!quiet)

@@ -170,6 +170,26 @@ namespace sprag
     return entries;
   }
 
+  void add_pair(const std::vector<Row> &rows, std::vector<Entry> &entries)
+  {
+    if (rows.empty() || rows.front().second_lever().empty())
+      return;
+    const auto peak = [&](const auto &value)
+    {
+      double result = 0.;
+      for (const auto &row : rows)
+        if (const double found = value(row); std::abs(found) > std::abs(result))
+          result = found;
+      return result;
+    };
+    entries.push_back({ "peak_lateral_force", peak([](const Row &row) { return row.lateral_force(); }), "N",
+                        "largest y-force of both levers on the cylinder" });
+    entries.push_back({ "peak_swing", peak([](const Row &row) { return row.swing(); }), "rad",
+                        "largest turn of both levers the same way" });
+    entries.push_back({ "peak_difference_P", peak([](const Row &row) { return row[Column::P] - row.of_second_lever(Column::P); }),
+                        "N", "largest difference of both levers' normal forces" });
+  }
+
   double value_of(const std::vector<Entry> &entries, const std::string &name)
   {
     const auto entry = std::find_if(entries.begin(), entries.end(), [&](const Entry &e) { return e.name == name; });

@@ -16,6 +16,9 @@ namespace sprag
   /// penetration and cone violation, cost in iterations.
   std::vector<Entry> summary_of(const Scene &scene, const std::vector<Row> &rows);
 
+  /// Of a full pair: what its levers do differently, and what is left across the path.
+  void add_pair(const std::vector<Row> &rows, std::vector<Entry> &entries);
+
   /// Value of an entry of a summary; throws std::out_of_range if there is none.
   double value_of(const std::vector<Entry> &entries, const std::string &name);
 

@@ -138,6 +138,7 @@ namespace sprag
          "structural damping");
     part(!ideal && scene.contact.damping > 0., "contact damping");
     part(scene.support.type == SupportType::sprung, "sprung support");
+    part(scene.pair.type == PairType::full, "second lever");
     part(scene.lever.tip_mass > 0. && !massless, "tip mass");
     part(!ideal && scene.friction.regularisation_speed == 0., "stick");
 

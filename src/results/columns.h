@@ -113,6 +113,9 @@ namespace sprag
       return of_second;
     }
 
+    /// One of columns_of_a_lever() of a pair's second lever.
+    double of_second_lever(Column column) const;
+
     /// Of both levers; Q of a single one [N].
     double drive_force() const;
 
@@ -123,8 +126,6 @@ namespace sprag
     double lateral_force() const;
 
   private:
-    double of_second_lever(Column column) const;
-
     std::array<double, n_columns> values;
     std::vector<double> of_second;
   };

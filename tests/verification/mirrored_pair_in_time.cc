@@ -1,5 +1,6 @@
 #include "fe/leaf_spring.h"
 #include "scene/mirrored_pair.h"
+#include "verification/held_slides.h"
 #include "verification/meshed_in_time.h"
 
 #include <cmath>
@@ -93,8 +94,7 @@ TEST(MirroredPairInTime, LedgerClosesForLeversThatDiffer)
       scene.pair.cylinder_offset = 0.3;
       scene.pair.friction_ratio  = 0.7;
       const auto run             = run_any_in_time(with_fixed_step(with_spectral_radius(scene, 1.), 5e-5));
-      const double work          = largest(run.rows, [](const Row &row) { return row[Column::drive_work]; });
-      EXPECT_LT(run.report.ledger.largest_residual, 1e-6 * work);
+      EXPECT_LT(run.report.ledger.share(), 1e-6);
       EXPECT_GT(largest(run.rows, [](const Row &row) { return row.lateral_force(); }), 0.3);
     }
 }
@@ -137,7 +137,7 @@ TEST(MirroredPairInTime, SwingingLeafIsACantileverWithHalfTheJoint)
   const double straight = m / leaf.length * (std::pow(end, 3) - std::pow(c, 3)) / 3. + M * end * end;
   EXPECT_NEAR(behaviour.inertia, straight, 1e-4 * straight); // thickness: (h/L)^2/4
   EXPECT_NEAR(behaviour.mass, m + M, 1e-12);
-  EXPECT_NEAR(std::abs(behaviour.momentum[1]), m * 0.5 * (c + end) + M * end, 1e-9 * M * end);
+  EXPECT_NEAR(std::abs(behaviour.momentum[1]), m * 0.5 * (c + end) + M * end, 1e-7 * M * end); // statics of a thin leaf
 }
 
 // Table 1's J holds for levers that mirror each other; swinging has what leaf and joint weigh then besides, and the metal is the
