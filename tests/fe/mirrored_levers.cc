@@ -128,7 +128,7 @@ namespace
 
   // As for a single lever: from h away a consistent correction returns but for a share proportional to h, as long as no point
   // changes between stick, slip and separation. A tangent of the springs wrong in one term leaves a share that does not depend on
-  // h: without the swing's part the levers would come back half of the way.
+  // h: without the swing's part about 1e-3, the stiffness of the springs over that of the contact.
   void expect_quadratic_return(MirroredLevers &model, const State &equilibrium, const State &accepted)
   {
     const auto direction = random_direction(model, equilibrium);
