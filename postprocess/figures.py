@@ -139,6 +139,7 @@ FIGURES = {
     "cylinder-a": lambda run: fields(run("cylinder-a")),
     "plate-a": drawn("plate-a", "sensors"),
     "plate-reversal-a": drawn("plate-reversal-a", "sensors"),
+    "pair-a": drawn("pair-a", "pair"),
     "leaf-a": lambda run: plot.forces_over_x([run("leaf-a")]),
     "leaf-b": lambda run: plot.forces_over_x([run("leaf-b")]),
     "calibration-a": drawn("calibration-a", "calibration"),

@@ -12,6 +12,7 @@ from comparison import comparison
 from fields import fields
 from frames import written_frames
 from map import is_map, stability_map
+from pair import has_pair, pair_of_levers
 from results import NotAResult, read_result
 from sensors import has_sensors, sensor_forces
 from sprag_slip import is_sprag_slip, sprag_slip_pictures
@@ -286,6 +287,8 @@ def pictures_of_one(result):
         pictures["energy"] = energy(result)
     if has_sensors(result):
         pictures["sensors"] = sensor_forces(result)
+    if has_pair(result):
+        pictures["pair"] = pair_of_levers(result)
     return {**pictures, **picture_of_fields(result)}
 
 

@@ -1,5 +1,7 @@
 #include "analysis/closed_form.h"
 
+#include "scene/mirrored_pair.h"
+#include "scene/pair_closed_form.h"
 #include "scene/sprung_closed_form.h"
 
 #include <algorithm>
@@ -16,10 +18,8 @@ namespace sprag
       return point.v != 0. ? point.v : std::copysign(std::numeric_limits<double>::min(), dx != 0. ? dx : direction);
     }
 
-    Row row_at(const Scene &scene, const DrivePoint &point, const SprungClosedForm::State &at)
+    Row row_at(const DrivePoint &point, const ClosedFormState &state, const double spring_energy, const Work &work)
     {
-      const auto &state = at.lever;
-      const double turn = state.contact.theta - kinematics(scene.geometry, 0.).theta;
       Row row;
       row[Column::time]                 = point.time;
       row[Column::x]                    = point.x;
@@ -37,16 +37,84 @@ namespace sprag
       row[Column::P_closed_form]        = state.P;
       row[Column::Q_closed_form]        = state.Q;
       row[Column::theta_closed_form]    = state.contact.theta;
-      row[Column::spring_energy]        = moment_law(scene.spring).energy(turn);
-      row[Column::support_displacement] = at.displacement;
+      row[Column::spring_energy]        = spring_energy;
+      row[Column::support_displacement] = 0.;
       row[Column::Q_support]            = state.Q;
-      row[Column::support_energy]       = at.support_energy;
-      row[Column::drive_work]           = at.work.drive;
-      row[Column::friction_work]        = at.work.friction;
+      row[Column::support_energy]       = 0.;
+      row[Column::drive_work]           = work.drive;
+      row[Column::friction_work]        = work.friction;
       for (const auto column : { Column::centre_offset, Column::contact_width, Column::penetration, Column::indentation,
                                  Column::cone_violation, Column::elastic_slip, Column::elastic_energy })
         row[column] = 0.;
       return row;
+    }
+
+    Row row_at(const DrivePoint &point, const PairedLever &lever, const Work &work)
+    {
+      Row row = row_at(point, lever.state, lever.spring_energy, work);
+      if (!lever.touches)
+        for (const auto column : { Column::s, Column::v_rel, Column::mu })
+          row[column] = std::numeric_limits<double>::quiet_NaN();
+      return row;
+    }
+
+    double spring_energy(const Scene &scene, const ClosedFormState &state)
+    {
+      return moment_law(scene.spring).energy(state.contact.theta - kinematics(scene.geometry, 0.).theta);
+    }
+
+    void add(const Work &more, Work &work)
+    {
+      work.drive += more.drive;
+      work.friction += more.friction;
+    }
+
+    /// Goes on from one point of the drive to another, where it moves at v: the row there.
+    using Advance = std::function<Row(const DrivePoint &from, const DrivePoint &to, double v)>;
+
+    Advance on_rigid_support(const Scene &scene)
+    {
+      return [&scene, work = Work()](const DrivePoint &from, const DrivePoint &to, const double v) mutable
+      {
+        add(work_between(scene, from.time, to.time), work);
+        const auto state = closed_form(scene, to.x, v);
+        return row_at(to, state, spring_energy(scene, state), work);
+      };
+    }
+
+    Advance on_sprung_support(const Scene &scene)
+    {
+      return [&scene, lever = SprungClosedForm(scene), begins = true](const DrivePoint &, const DrivePoint &to,
+                                                                      const double v) mutable
+      {
+        const auto at                     = begins ? lever.start(to.x, v) : lever.advance(to.x, v);
+        begins                            = false;
+        Row row                           = row_at(to, at.lever, spring_energy(scene, at.lever), at.work);
+        row[Column::support_displacement] = at.displacement;
+        row[Column::support_energy]       = at.support_energy;
+        return row;
+      };
+    }
+
+    Advance of_pair(const Scene &scene)
+    {
+      return [&scene, works = std::array<Work, 2>()](const DrivePoint &from, const DrivePoint &to, const double v) mutable
+      {
+        const auto more   = pair_work_between(scene, from.time, to.time);
+        const auto levers = pair_closed_form(scene, to.x, v);
+        for (unsigned int lever = 0; lever < 2; ++lever)
+          add(more[lever], works[lever]);
+        Row row = row_at(to, levers[0], works[0]);
+        row.add_second_lever(row_at(to, levers[1], works[1]));
+        return row;
+      };
+    }
+
+    Advance make_advance(const Scene &scene)
+    {
+      if (number_of_levers(scene) == 2)
+        return of_pair(scene);
+      return scene.support.type == SupportType::sprung ? on_sprung_support(scene) : on_rigid_support(scene);
     }
   } // namespace
 
@@ -54,47 +122,28 @@ namespace sprag
   {
     const auto &drive     = scene.drive;
     const auto &reversals = drive.reversals();
-    const bool sprung     = scene.support.type == SupportType::sprung;
-    SprungClosedForm lever(scene);
-    SprungClosedForm::State state;
-    const auto advance = [&](const DrivePoint &from, const DrivePoint &to, const double v)
+    const auto advance    = make_advance(scene);
+    const auto hand_on    = [&](const DrivePoint &from, const DrivePoint &to, const double v, const double step)
     {
-      if (sprung)
-        state = lever.advance(to.x, v);
-      else
-      {
-        const auto work = work_between(scene, from.time, to.time);
-        state.lever     = closed_form(scene, to.x, v);
-        state.work.drive += work.drive;
-        state.work.friction += work.friction;
-      }
-      return state;
-    };
-    const auto hand_on = [&](const DrivePoint &point, const SprungClosedForm::State &at, const double step)
-    {
-      Row row           = row_at(scene, point, at);
+      Row row           = advance(from, to, v);
       row[Column::step] = step;
       sink(row);
     };
 
     DrivePoint point = drive.at(0., Drive::Side::after);
     double velocity  = velocity_of(point, drive.step(0., scene.analysis.step).x - point.x, 1.);
-    if (sprung)
-      state = lever.start(point.x, velocity);
-    else
-      state.lever = closed_form(scene, point.x, velocity);
-    hand_on(point, state, 0.);
+    hand_on(point, point, velocity, 0.);
     while (point.time < drive.duration())
     {
       const auto next = drive.step(point.time, scene.analysis.step);
       velocity        = velocity_of(next, next.x - point.x, velocity);
-      hand_on(next, advance(point, next, velocity), next.x - point.x);
+      hand_on(point, next, velocity, next.x - point.x);
       point = next;
       if (std::binary_search(reversals.begin(), reversals.end(), point.time))
       {
         point    = drive.at(point.time, Drive::Side::after);
         velocity = velocity_of(point, -velocity, velocity);
-        hand_on(point, advance(point, point, velocity), 0.);
+        hand_on(point, point, velocity, 0.);
       }
     }
   }

@@ -62,4 +62,10 @@ namespace sprag
     }
     return { false, maximum_iterations };
   }
+
+  bool is_balanced(Model &model, const State &state)
+  {
+    model.evaluate(state, state, FrictionMode::cone);
+    return model.movement(model.correction()) <= round_off * model.length_scale();
+  }
 } // namespace sprag

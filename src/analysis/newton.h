@@ -15,4 +15,7 @@ namespace sprag
   /// everywhere, which finds the direction of slip after a reversal. Converged when the last full correction moves no point by
   /// more than 1e-7 of the overlap of the contact: as convergence is quadratic, what is left is round-off.
   NewtonResult solve_equilibrium(Model &model, State &trial, const State &accepted, bool stick_first);
+
+  /// Whether a state that no step led to is an equilibrium, up to round-off. Evaluates the model.
+  bool is_balanced(Model &model, const State &state);
 } // namespace sprag

@@ -141,7 +141,7 @@ namespace sprag
     {
       if (!(stick_stiffness > 0.))
         return {};
-      return { row[Column::x], 2. * std::abs(row[Column::F]) / stick_stiffness };
+      return { row[Column::x], 2. * std::abs(row.friction_force()) / stick_stiffness };
     }
 
     struct Progression
@@ -185,11 +185,34 @@ namespace sprag
       return { std::move(*next), row };
     }
 
+    /// A lever that the cylinder opens at x = 0 already, off the middle of a pair, is put on it without friction. Whether there
+    /// is one.
+    bool settle(Model &model, State &state, const QuasiStaticSettings &settings)
+    {
+      if (is_balanced(model, state))
+        return false;
+      StepCost cost;
+      auto settled = solve_step(model, state, state.drive, settings, false, cost);
+      if (!settled)
+        throw AnalysisError("no equilibrium at x = 0, where the drive begins: " + cost.failure +
+                            ". Try a smaller Mirrored pair/Cylinder offset or Contact/Penalty.");
+      settled->contact = model.memory();
+      state            = std::move(*settled);
+      return true;
+    }
+
+    struct Start
+    {
+      Progression progression;
+      double step; ///< [mm]
+    };
+
     /// The state in which the drive begins: just touching at x = 0, further on as reached by sliding there from x = 0.
-    Progression begin(Model &model, const Drive &drive, const QuasiStaticSettings &settings)
+    Start begin(Model &model, const Drive &drive, const QuasiStaticSettings &settings)
     {
       const DrivePoint start = drive.at(0.);
       Progression now{ model.initial_state({ 0., 0., drive.peak_speed() }), {} };
+      const bool pressed = settle(model, now.state, settings);
       if (start.x > 0.)
       {
         const Drive approach(DriveProfile::triangle, 0., start.x, drive.peak_speed(), 0.5);
@@ -198,11 +221,12 @@ namespace sprag
              dx              = std::min(settings.step, growth * dx))
           now = advance(model, approach, settings, now, false, false, dx);
       }
-      else
+      else if (!pressed)
         model.evaluate(now.state, now.state, FrictionMode::stick);
       now.state.drive = start;
       now.row         = observe(model, now.state);
-      return now;
+      const bool rubs = pressed && start.x == 0.; // friction then builds up within the first step
+      return { std::move(now), rubs ? std::max(first_share * settings.step, settings.minimum_step) : settings.step };
     }
 
     /// The overlap once every point in contact sticks to where it was in the accepted state [mm].
@@ -231,15 +255,14 @@ namespace sprag
     trial.drive.x += probe;
     balance_in_stick(model, trial, accepted);
     model.observe(trial, after);
-    return (after[Column::F] - before[Column::F]) / probe;
+    return (after.friction_force() - before.friction_force()) / probe;
   }
 
   double run_quasi_static(Model &model, const Drive &drive, const QuasiStaticSettings &settings, const StepSink &sink)
   {
-    Progression now = begin(model, drive, settings);
+    auto [now, dx] = begin(model, drive, settings);
     sink(now.state, now.row);
 
-    double dx                 = settings.step;
     double reported_stiffness = 0.;
     Passage passage;
     while (now.state.drive.time < drive.duration())

@@ -18,7 +18,7 @@ namespace sprag
   using StepSink = std::function<void(const State &state, const Row &row)>;
 
   /// Stiffness dF/dx of the lever in stick, with all points under pressure stuck: of layer, tangential penalty and body in series
-  /// [N/mm]. 0 where the contact is open. Evaluates the model.
+  /// [N/mm]; of a full pair that of both levers. 0 where the contact is open. Evaluates the model.
   double stick_stiffness(Model &model, const State &accepted);
 
   /// Moves the model along the drive through equilibria, inertia left out. Steps are cut back where the equilibrium is not found

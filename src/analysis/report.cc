@@ -1,6 +1,7 @@
 #include "analysis/report.h"
 
-#include "scene/closed_form.h"
+#include "scene/mirrored_pair.h"
+#include "scene/pair_closed_form.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,11 +18,17 @@ namespace sprag
 
     using Rows = std::vector<const Row *>;
 
+    /// A pair that presses on a cylinder off its middle from the start begins in stick.
+    bool begins_in_stick(const Row &first)
+    {
+      return first[Column::P] > 0. && first[Column::friction_resultant] == 0.;
+    }
+
     /// Rows of one direction of motion, without those within `apart` of the last reversal [mm].
     Rows stroke(const std::vector<Row> &rows, const int direction, const double apart)
     {
       Rows result;
-      double turned_at = std::numeric_limits<double>::quiet_NaN();
+      double turned_at = begins_in_stick(rows.front()) ? rows.front()[Column::x] : std::numeric_limits<double>::quiet_NaN();
       for (std::size_t i = 0; i < rows.size(); ++i)
       {
         const double v = rows[i][Column::v];
@@ -94,12 +101,20 @@ namespace sprag
       return total;
     }
 
-    void add_stroke(const Rows &rows, const Rows &settled, const std::string &way, std::vector<Entry> &entries)
+    /// Without a slope at x = 0 where a pair is opened there.
+    bool begins_closed(const Scene &scene)
+    {
+      return number_of_levers(scene) == 1 || scene.pair.cylinder_offset == 0.;
+    }
+
+    void add_stroke(const Scene &scene, const Rows &rows, const Rows &settled, const std::string &way,
+                    std::vector<Entry> &entries)
     {
       const std::string on = " on the " + way + " stroke";
       entries.push_back({ "peak_P_" + way, signed_peak(rows, Column::P), "N", "largest normal force" + on });
       entries.push_back({ "peak_Q_" + way, signed_peak(rows, Column::Q), "N", "largest quasi-friction force" + on });
-      entries.push_back({ "slope_" + way, slope_at_zero(rows), "N/mm", "C_Q, slope of Q at x = 0 fitted over 10 mm" + on });
+      if (begins_closed(scene))
+        entries.push_back({ "slope_" + way, slope_at_zero(rows), "N/mm", "C_Q, slope of Q at x = 0 fitted over 10 mm" + on });
       const std::string apart = on + ", relative to the stroke's peak, the first 2 mm after a reversal apart";
       entries.push_back({ "deviation_P_" + way, deviation(settled, Column::P, Column::P_closed_form), "1",
                           "largest deviation of P from the closed form" + apart });
@@ -114,8 +129,10 @@ namespace sprag
   {
     if (row[Column::v] == 0.)
       return;
-    const double moved             = row[Column::support_displacement];
-    const auto state               = closed_form(scene, row[Column::x] - (std::isnan(moved) ? 0. : moved), row[Column::v]);
+    const double moved = row[Column::support_displacement];
+    const double x     = row[Column::x] - (std::isnan(moved) ? 0. : moved);
+    const double v     = row[Column::v];
+    const auto state   = number_of_levers(scene) == 2 ? pair_closed_form(scene, x, v)[0].state : closed_form(scene, x, v);
     row[Column::theta_closed_form] = state.contact.theta;
     if (state.P < 0. || !std::isfinite(state.P))
       return;
@@ -131,7 +148,9 @@ namespace sprag
     for (const auto &[direction, way] : { std::pair<int, std::string>{ 1, "forward" }, { -1, "backward" } })
       if (const auto all = stroke(rows, direction, 0.); !all.empty())
       {
-        add_stroke(all, stroke(rows, direction, settling), way, entries);
+        add_stroke(scene, all, stroke(rows, direction, settling), way, entries);
+        if (!begins_closed(scene))
+          continue;
         const double mu = sliding_friction(scene, 0., direction * scene.drive.peak_speed()).coefficient;
         entries.push_back({ "representative_slope_" + way,
                             representative_slope(scene.geometry, scene.spring.stiffness, mu, direction), "N/mm",

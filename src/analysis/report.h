@@ -8,7 +8,8 @@
 
 namespace sprag
 {
-  /// Fills the closed form's columns at the row's x and v, where the scene has a closed form there.
+  /// Fills the closed form's columns at the row's x and v, where the scene has a closed form there; of a full pair those of
+  /// the first lever.
   void add_closed_form(const Scene &scene, Row &row);
 
   /// What the run says of itself at its end: peaks of P and Q each way, slopes C_Q of the rows near x = 0, loop area and friction

@@ -15,8 +15,9 @@
 #include "base/errors.h"
 #include "fe/field_frames.h"
 #include "fe/leaf_frames.h"
-#include "fe/lever_model.h"
+#include "fe/mirrored_levers.h"
 #include "scene/closed_form.h"
+#include "scene/mirrored_pair.h"
 
 #include <deal.II/base/mpi.h>
 
@@ -154,6 +155,22 @@ namespace sprag
                 << std::flush;
     }
 
+    /// Of the lever of a pair that is closer to jamming.
+    JammingMargin least_margin(const Scene &scene, const bool flexible)
+    {
+      if (number_of_levers(scene) == 1)
+        return jamming_margin(scene, flexible);
+      const auto of_lever = [&](const unsigned int lever)
+      {
+        Scene alone = scene_of_lever(scene, lever);
+        alone.pair  = {};
+        return jamming_margin(alone, flexible);
+      };
+      const auto first  = of_lever(0);
+      const auto second = of_lever(1);
+      return first.s - first.mu_e <= second.s - second.mu_e ? first : second;
+    }
+
     /// Before every run in which a cylinder is put somewhere, once nothing is left for which it could be refused.
     void announce_margin(const Scene &scene, const RunOptions &options)
     {
@@ -166,7 +183,76 @@ namespace sprag
         return;
       const ModelType model = scene.analysis.model;
       const bool rigid      = model == ModelType::closed_form || model == ModelType::rigid;
-      std::cout << jamming_text(jamming_margin(scene, !rigid)) << '\n' << std::flush;
+      std::cout << jamming_text(least_margin(scene, !rigid)) << '\n' << std::flush;
+    }
+
+    const LeverModel &first_lever(const LeverModel &model)
+    {
+      return model;
+    }
+
+    const LeverModel &first_lever(const MirroredLevers &model)
+    {
+      return model.lever(0);
+    }
+
+    State state_of_first(const LeverModel &, const State &state)
+    {
+      return state;
+    }
+
+    State state_of_first(const MirroredLevers &model, const State &state)
+    {
+      return model.state_of(0, state);
+    }
+
+    /// Pictures of the fields show the first lever of a pair.
+    template <typename Levers>
+    void drive_levers(const Scene &scene, const RunOptions &options, Timer &timer, Levers &levers)
+    {
+      const LeverModel &shown = first_lever(levers);
+      Recorder recorder(scene, options.folder, options.quiet, levers.face_points());
+      if (!options.quiet)
+        print_model(scene, shown);
+      auto meta = model_entries(scene, shown);
+      std::optional<FieldFrames> frames;
+      if (scene.output.fields != FieldOutput::none)
+        frames.emplace(shown.elastic_body(), options.folder);
+      std::optional<LeafFrames> leaf_frames;
+      if (frames && scene.spring.type == SpringType::leaf)
+        leaf_frames.emplace(scene, options.folder);
+
+      double travelled = 0., last_frame = 0., x = scene.drive.at(0.).x, stick = 0.;
+      const auto write = [&](const State &state, const Row &row)
+      {
+        const Timer::Scope scope(timer, "output");
+        recorder.record(row);
+        recorder.record(levers.face_state(state));
+        travelled += std::abs(state.drive.x - x);
+        x = state.drive.x;
+        if (!wants_fields(scene, state.drive, travelled, last_frame))
+          return;
+        frames->write(shown.body_displacement(state_of_first(levers, state)), state.drive.time);
+        if (leaf_frames)
+          leaf_frames->write(row[Column::theta], state.drive.time);
+      };
+      QuasiStaticSettings settings{ scene.analysis.step, scene.analysis.minimum_step, scene.contact };
+      record_run(
+          scene, recorder,
+          [&]
+          {
+            const Timer::Scope scope(timer, "steps_and_output");
+            stick = run_quasi_static(levers, scene.drive, settings, write);
+          },
+          [&]
+          {
+            meta.push_back(
+                { "stick_stiffness", stick, "N/mm",
+                  "tangential stiffness of layer and penalty in stick at the first reversal, of both levers of a pair" });
+            const auto process = process_entries(timer);
+            meta.insert(meta.end(), process.begin(), process.end());
+            return meta;
+          });
     }
 
     void run_finite_element(const Scene &scene, const RunOptions &options)
@@ -178,52 +264,19 @@ namespace sprag
         const Timer::Scope scope(timer, "mesh");
         make_mesh(scene, triangulation);
       }
-      std::optional<LeverModel> model;
+      std::optional<LeverModel> lever;
+      std::optional<MirroredLevers> pair;
       {
         const Timer::Scope scope(timer, "model");
-        model.emplace(triangulation, lever_properties(scene));
+        if (number_of_levers(scene) == 2)
+          pair.emplace(triangulation, scene);
+        else
+          lever.emplace(triangulation, lever_properties(scene));
       }
-      Recorder recorder(scene, options.folder, options.quiet, model->face_points());
-      if (!options.quiet)
-        print_model(scene, *model);
-      auto meta = model_entries(scene, *model);
-      std::optional<FieldFrames> frames;
-      if (scene.output.fields != FieldOutput::none)
-        frames.emplace(model->elastic_body(), options.folder);
-      std::optional<LeafFrames> leaf_frames;
-      if (frames && scene.spring.type == SpringType::leaf)
-        leaf_frames.emplace(scene, options.folder);
-
-      double travelled = 0., last_frame = 0., x = scene.drive.at(0.).x, stick = 0.;
-      const auto write = [&](const State &state, const Row &row)
-      {
-        const Timer::Scope scope(timer, "output");
-        recorder.record(row);
-        recorder.record(model->face_state(state));
-        travelled += std::abs(state.drive.x - x);
-        x = state.drive.x;
-        if (!wants_fields(scene, state.drive, travelled, last_frame))
-          return;
-        frames->write(model->body_displacement(state), state.drive.time);
-        if (leaf_frames)
-          leaf_frames->write(row[Column::theta], state.drive.time);
-      };
-      QuasiStaticSettings settings{ scene.analysis.step, scene.analysis.minimum_step, scene.contact };
-      record_run(
-          scene, recorder,
-          [&]
-          {
-            const Timer::Scope scope(timer, "steps_and_output");
-            stick = run_quasi_static(*model, scene.drive, settings, write);
-          },
-          [&]
-          {
-            meta.push_back(
-                { "stick_stiffness", stick, "N/mm", "tangential stiffness of layer and penalty in stick at the first reversal" });
-            const auto process = process_entries(timer);
-            meta.insert(meta.end(), process.begin(), process.end());
-            return meta;
-          });
+      if (pair)
+        drive_levers(scene, options, timer, *pair);
+      else
+        drive_levers(scene, options, timer, *lever);
     }
   } // namespace
 

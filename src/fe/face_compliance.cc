@@ -74,6 +74,14 @@ namespace sprag
     return port_correction(compliance, forces, all, mismatch);
   }
 
+  Vector<double> FaceCompliance::moment_response(const PortForces &forces) const
+  {
+    Vector<double> alone(ports.size());
+    for (unsigned int port = 0; port < ports.size(); ++port)
+      alone[port] = compliance(port, ports.rotation());
+    return port_correction(compliance, forces, all, alone);
+  }
+
   Vector<double> FaceCompliance::body_displacement(const Vector<double> &, const PortForces &forces) const
   {
     Vector<double> loads(body.n_dofs());

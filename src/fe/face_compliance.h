@@ -27,6 +27,9 @@ namespace sprag
     /// Correction at the last unbalance(). Throws AnalysisError if the tangent is singular.
     dealii::Vector<double> correction(const PortForces &forces) const;
 
+    /// What a unit moment on the hub adds to the last correction [1/(N mm)]. Throws as it does.
+    dealii::Vector<double> moment_response(const PortForces &forces) const;
+
     /// Displacement of the whole body under the forces, by one back-substitution.
     dealii::Vector<double> body_displacement(const dealii::Vector<double> &coordinates, const PortForces &forces) const;
 

@@ -36,6 +36,15 @@ namespace sprag
     return { &displacements, theta, x, properties.centre(x, theta) };
   }
 
+  /// Nothing has been rubbed yet where no step led to the state.
+  ContactLaw FaceContact::law_of_step(const double v, const FrictionMode mode) const
+  {
+    const auto &[normal, tangential] = properties.penalties;
+    if (mode == FrictionMode::cone && step_duration == 0.)
+      return { normal, tangential, { CoulombFriction{ 0. } }, 1. };
+    return { normal, tangential, friction_of_step(properties.friction, v), step_duration };
+  }
+
   void FaceContact::evaluate(const Vector<double> &displacements, const State &trial, const State &accepted,
                              const FrictionMode mode)
   {
@@ -43,11 +52,7 @@ namespace sprag
     drive_x       = trial.drive.x;
     start         = trial.contact;
     step_duration = trial.drive.time - accepted.drive.time;
-    // A state with no step behind it can have no slip.
-    const StaticStep step{ start,
-                           { properties.penalties.normal, properties.penalties.tangential,
-                             friction_of_step(properties.friction, trial.drive.v), step_duration },
-                           step_duration > 0. ? mode : FrictionMode::stick,
+    const StaticStep step{ start, law_of_step(trial.drive.v, mode), mode,
                            properties.enforcement == Enforcement::augmented_lagrangian };
     surface->enter(configuration(ports, drive_x));
     states.clear();

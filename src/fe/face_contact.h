@@ -30,7 +30,8 @@ namespace sprag
     /// The body must outlive the contact.
     FaceContact(const ElasticBody<2> &body, std::unique_ptr<StaticSurface> surface, FaceContactProperties properties);
 
-    /// Tractions at the displacements of the ports, in a step that began at `accepted`.
+    /// Tractions at the displacements of the ports, in a step that began at `accepted`; frictionless in the cone mode where no
+    /// time has passed since.
     void evaluate(const dealii::Vector<double> &ports, const State &trial, const State &accepted, FrictionMode mode);
 
     /// On the nodes that points under pressure move, hub and support.
@@ -71,6 +72,7 @@ namespace sprag
 
   private:
     FaceConfiguration configuration(const dealii::Vector<double> &displacements, double x) const;
+    ContactLaw law_of_step(double v, FrictionMode mode) const;
     void set_slips(const FaceConfiguration &at, std::vector<ContactMemory> &memory) const;
     void find_loaded();
     void sum_forces();

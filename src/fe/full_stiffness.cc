@@ -67,6 +67,15 @@ namespace sprag
     return result;
   }
 
+  Vector<double> FullStiffness::moment_response(const PortForces &) const
+  {
+    Vector<double> moment(n_coordinates());
+    moment[coordinate_of[ports.rotation()]] = 1.;
+    Vector<double> result;
+    factors.solve(moment, result);
+    return result;
+  }
+
   Vector<double> FullStiffness::body_displacement(const Vector<double> &coordinates, const PortForces &) const
   {
     return Vector<double>(coordinates.begin(), coordinates.begin() + body.n_dofs());

@@ -25,6 +25,9 @@ namespace sprag
     /// Correction at the last unbalance(). Throws AnalysisError if the factorisation fails.
     dealii::Vector<double> correction(const PortForces &forces);
 
+    /// What a unit moment on the hub adds to the last correction() [1/(N mm)].
+    dealii::Vector<double> moment_response(const PortForces &forces) const;
+
     dealii::Vector<double> body_displacement(const dealii::Vector<double> &coordinates, const PortForces &forces) const;
 
     /// Forces of the body's sensors [N].

@@ -164,14 +164,35 @@ namespace sprag
 
   Unbalance LeverModel::evaluate(const State &trial, const State &accepted, const FrictionMode mode)
   {
-    return std::visit(
-        [&](auto &s)
-        {
-          contact.evaluate(s.port_displacements(trial.coordinates), trial, accepted, mode);
-          forces = &excess.add_forces(contact.forces(), { { turn(trial), 0. } });
-          return Unbalance{ s.unbalance(trial.coordinates, *forces), contact.overlap() };
-        },
-        system);
+    evaluate_contact(trial, accepted, mode);
+    return unbalance(trial, excess.add_forces(contact.forces(), { { turn(trial), 0. } }));
+  }
+
+  Unbalance LeverModel::evaluate(const State &trial, const State &accepted, const FrictionMode mode, const MomentExcess &spring)
+  {
+    evaluate_contact(trial, accepted, mode);
+    return unbalance(trial, forces_with(spring));
+  }
+
+  void LeverModel::evaluate_contact(const State &trial, const State &accepted, const FrictionMode mode)
+  {
+    std::visit([&](auto &s) { contact.evaluate(s.port_displacements(trial.coordinates), trial, accepted, mode); }, system);
+  }
+
+  Unbalance LeverModel::unbalance(const State &trial, const PortForces &loads)
+  {
+    forces = &loads;
+    return { std::visit([&](auto &s) { return s.unbalance(trial.coordinates, loads); }, system), contact.overlap() };
+  }
+
+  /// The contact's forces always hold the hub's.
+  const PortForces &LeverModel::forces_with(const MomentExcess &spring)
+  {
+    with_moment            = contact.forces();
+    const unsigned int hub = place_of(ports.rotation(), with_moment.ports);
+    with_moment.values[hub] -= spring.moment;
+    with_moment.tangent(hub, hub) -= spring.stiffness;
+    return with_moment;
   }
 
   Vector<double> LeverModel::correction()
@@ -179,7 +200,12 @@ namespace sprag
     return std::visit([&](auto &s) { return s.correction(*forces); }, system);
   }
 
-  /// Index of the hub's turn among the coordinates, which end with hub and support.
+  Vector<double> LeverModel::moment_response()
+  {
+    return std::visit([&](auto &s) { return s.moment_response(*forces); }, system);
+  }
+
+  /// The coordinates end with hub and support.
   unsigned int LeverModel::rotation() const
   {
     const unsigned int n = std::visit([](const auto &s) { return s.n_coordinates(); }, system);

@@ -20,6 +20,14 @@ namespace sprag
     double arm  = 1.; ///< length that turns a rotation into a movement [mm], > 0
   };
 
+  /// What the moment of a rotational spring that feels more than one lever exceeds k phi by, k its linear stiffness and phi the
+  /// turn of the lever it acts on.
+  struct MomentExcess
+  {
+    double moment    = 0.; ///< against the turn [N mm]
+    double stiffness = 0.; ///< what its stiffness exceeds k by [N mm/rad]
+  };
+
   /// Everything that makes a meshed lever but its mesh.
   struct LeverProperties
   {
@@ -57,6 +65,12 @@ namespace sprag
     void predict(State &trial, const State &accepted) const override;
     Unbalance evaluate(const State &trial, const State &accepted, FrictionMode mode) override;
     dealii::Vector<double> correction() override;
+
+    /// evaluate() with another moment of the spring than that of the lever's own turn.
+    Unbalance evaluate(const State &trial, const State &accepted, FrictionMode mode, const MomentExcess &spring);
+
+    /// What a unit moment on the hub adds to the last correction() [1/(N mm)].
+    dealii::Vector<double> moment_response();
     double movement(const dealii::Vector<double> &correction) const override;
     double length_scale() const override;
     double penetration() const override;
@@ -74,9 +88,16 @@ namespace sprag
     /// Displacement of all degrees of freedom at the last evaluation, in lever axes [mm].
     dealii::Vector<double> body_displacement(const State &state) const;
 
-  private:
+    /// Index of the hub's turn among the coordinates.
     unsigned int rotation() const;
+
+    /// Of the hub from the spring's rest [rad].
     double turn(const State &state) const;
+
+  private:
+    void evaluate_contact(const State &trial, const State &accepted, FrictionMode mode);
+    Unbalance unbalance(const State &trial, const PortForces &loads);
+    const PortForces &forces_with(const MomentExcess &spring);
     double support_displacement(const State &state) const;
     double cylinder_energy() const;
 
@@ -86,6 +107,7 @@ namespace sprag
     FaceContact contact;
     std::variant<FaceCompliance, FullStiffness> system;
     HubSpringExcess excess;
-    const PortForces *forces = nullptr; ///< of contact and excess, at the last evaluation
+    PortForces with_moment;             ///< of contact and a moment given
+    const PortForces *forces = nullptr; ///< of contact and spring beyond its linear part, at the last evaluation
   };
 } // namespace sprag

@@ -137,6 +137,11 @@ namespace sprag
     return (*this)[Column::Q] + (of_second.empty() ? 0. : of_second_lever(Column::Q));
   }
 
+  double Row::friction_force() const
+  {
+    return (*this)[Column::F] + (of_second.empty() ? 0. : of_second_lever(Column::F));
+  }
+
   double Row::swing() const
   {
     return 0.5 * ((*this)[Column::theta] - of_second_lever(Column::theta));

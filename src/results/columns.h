@@ -119,6 +119,9 @@ namespace sprag
     /// Of both levers; Q of a single one [N].
     double drive_force() const;
 
+    /// F of both levers; that of a single one [N].
+    double friction_force() const;
+
     /// (theta - theta_2)/2: what both levers of a pair turn together, the same way in space [rad].
     double swing() const;
 

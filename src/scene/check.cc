@@ -7,6 +7,7 @@
 #include "scene/contact_reference.h"
 #include "scene/mirrored_pair.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -363,13 +364,24 @@ namespace sprag
         append(result, locked(scene));
       return result;
     }
+    /// Of both levers of a full pair what is not said of the first already.
+    Violations positions_of_levers(const Scene &scene, const Use &use)
+    {
+      if (number_of_levers(scene) == 1)
+        return positions(scene, use);
+      Violations result = positions(scene_of_lever(scene, 0), use);
+      for (const auto &violation : positions(scene_of_lever(scene, 1), use))
+        if (std::none_of(result.begin(), result.end(), [&](const Violation &v) { return v.parameter == violation.parameter; }))
+          result.push_back(violation);
+      return result;
+    }
   } // namespace
 
   std::vector<Violation> violations(const Scene &scene)
   {
     const Use use(scene);
     Violations result = settings(scene, use);
-    append(result, positions(scene, use));
+    append(result, positions_of_levers(scene, use));
     return result;
   }
 } // namespace sprag

@@ -29,6 +29,12 @@ namespace sprag
       return (sign * coefficient * std::cos(theta) + sine) * dP * sine * sine / s;
     }
 
+    /// mu while the drive moves at v and the cylinder slides along the lever at v_rel.
+    FrictionValue sliding_friction(const FrictionLaw &friction, const double v, const double v_rel)
+    {
+      return friction_coefficient(friction, std::abs(friction.speed == FrictionSpeed::drive ? v : v_rel));
+    }
+
     /// Integral over time of a power without a jump in v. Over the unit interval, because the library compares its error there
     /// with the tolerance times the interval's length.
     double integral(const std::function<double(double)> &power, const double begin, const double end)
@@ -64,24 +70,27 @@ namespace sprag
 
   FrictionValue sliding_friction(const Scene &scene, const double x, const double v)
   {
-    const bool of_drive = scene.friction.speed == FrictionSpeed::drive;
-    return friction_coefficient(scene.friction, std::abs(of_drive ? v : sliding_speed(scene.geometry, x, v)));
+    return sliding_friction(scene.friction, v, sliding_speed(scene.geometry, x, v));
+  }
+
+  ClosedFormState closed_form(const Geometry &geometry, const FrictionLaw &friction, const double moment, const double x,
+                              const double v)
+  {
+    ClosedFormState state;
+    const double sign = std::copysign(1., v);
+    state.contact     = kinematics(geometry, x);
+    state.v_rel       = sliding_speed(geometry, x, v);
+    state.mu          = sliding_friction(friction, v, state.v_rel).coefficient;
+    state.P           = moment / (state.contact.s + sign * state.mu * geometry.interface_offset);
+    state.F           = sign * state.mu * state.P;
+    state.Q           = state.P * std::sin(state.contact.theta) + state.F * std::cos(state.contact.theta);
+    return state;
   }
 
   ClosedFormState closed_form(const Scene &scene, const double x, const double v)
   {
-    ClosedFormState state;
-    const auto &geometry = scene.geometry;
-    const double sign    = std::copysign(1., v);
-    const double theta_0 = kinematics(geometry, 0.).theta;
-    state.contact        = kinematics(geometry, x);
-    state.v_rel          = sliding_speed(geometry, x, v);
-    state.mu             = sliding_friction(scene, x, v).coefficient;
-    state.P              = moment_law(scene.spring).moment(state.contact.theta - theta_0) /
-              (state.contact.s + sign * state.mu * geometry.interface_offset);
-    state.F = sign * state.mu * state.P;
-    state.Q = state.P * std::sin(state.contact.theta) + state.F * std::cos(state.contact.theta);
-    return state;
+    const double turn = kinematics(scene.geometry, x).theta - kinematics(scene.geometry, 0.).theta;
+    return closed_form(scene.geometry, scene.friction, moment_law(scene.spring).moment(turn), x, v);
   }
 
   double representative_slope(const Geometry &geometry, const double spring_stiffness, const double coefficient, const int sign)
@@ -128,15 +137,21 @@ namespace sprag
 
   Work work_between(const Scene &scene, const double begin, const double end)
   {
-    const auto state_at    = [&](const DrivePoint &point) { return closed_form(scene, point.x, point.v); };
+    return work_between(
+        scene.drive, [&](const DrivePoint &point) { return closed_form(scene, point.x, point.v); }, begin, end);
+  }
+
+  Work work_between(const Drive &drive, const std::function<ClosedFormState(const DrivePoint &)> &state_at, const double begin,
+                    const double end)
+  {
     const auto drive_power = [&](const double time)
     {
-      const auto point = scene.drive.at(time);
+      const auto point = drive.at(time);
       return state_at(point).Q * point.v;
     };
     const auto friction_power = [&](const double time)
     {
-      const auto state = state_at(scene.drive.at(time));
+      const auto state = state_at(drive.at(time));
       return state.F * state.v_rel;
     };
 
@@ -147,7 +162,7 @@ namespace sprag
       work.friction += integral(friction_power, from, to);
     };
     double from = begin;
-    for (const double reversal : scene.drive.reversals())
+    for (const double reversal : drive.reversals())
       if (from < reversal && reversal < end)
       {
         add(from, reversal);

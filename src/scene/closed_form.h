@@ -2,6 +2,7 @@
 
 #include "scene/scene.h"
 
+#include <functional>
 #include <optional>
 
 namespace sprag
@@ -38,6 +39,9 @@ namespace sprag
   /// State at x while moving at v [mm/s], v != 0 for a direction. Infinite or negative forces where s + sgn(v) mu e <= 0.
   ClosedFormState closed_form(const Scene &scene, double x, double v);
 
+  /// The same of any lever, which a moment presses on the cylinder [N mm].
+  ClosedFormState closed_form(const Geometry &geometry, const FrictionLaw &friction, double moment, double x, double v);
+
   /// Representative slope C_Q = dQ/dx at x = 0 [N/mm], eqs. 10-12 (with the sign of dth/dx mended), sign = +1 or -1. NaN where
   /// the lever locks at x = 0.
   double representative_slope(const Geometry &geometry, double spring_stiffness, double coefficient, int sign);
@@ -70,6 +74,10 @@ namespace sprag
 
   /// Work done from one instant of the drive to another, to 1e-11 where mu(v) is smooth and 1e-8 across its joints.
   Work work_between(const Scene &scene, double begin, double end);
+
+  /// The same of any lever, by its state over time.
+  Work work_between(const Drive &drive, const std::function<ClosedFormState(const DrivePoint &)> &state_at, double begin,
+                    double end);
 
   /// Integral of Q dx over the drive [N mm]; over whole cycles it equals the friction work.
   double loop_area(const Scene &scene);

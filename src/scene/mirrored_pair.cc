@@ -96,13 +96,25 @@ namespace sprag
 
   Scene scene_of_lever(const Scene &scene, const unsigned int lever)
   {
-    Scene result = scene;
-    if (number_of_levers(scene) == 1)
-      return result;
-    const double side = lever == 0 ? 1. : -1.;
-    result.geometry.pivot_height -= side * scene.pair.cylinder_offset;
+    Scene result    = scene;
+    result.geometry = geometry_of_lever(scene, lever);
+    result.friction = friction_of_lever(scene, lever);
+    return result;
+  }
+
+  Geometry geometry_of_lever(const Scene &scene, const unsigned int lever)
+  {
+    Geometry result = scene.geometry;
+    if (number_of_levers(scene) == 2)
+      result.pivot_height -= (lever == 0 ? 1. : -1.) * scene.pair.cylinder_offset;
+    return result;
+  }
+
+  FrictionLaw friction_of_lever(const Scene &scene, const unsigned int lever)
+  {
+    FrictionLaw result = scene.friction;
     if (lever == 1)
-      result.friction.factor *= scene.pair.friction_ratio;
+      result.factor *= scene.pair.friction_ratio;
     return result;
   }
 

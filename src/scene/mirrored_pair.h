@@ -11,6 +11,10 @@ namespace sprag
   /// an offset of the pivot the other way, and friction its own. That of a single lever is the scene itself.
   Scene scene_of_lever(const Scene &scene, unsigned int lever);
 
+  // What differs in it.
+  Geometry geometry_of_lever(const Scene &scene, unsigned int lever);
+  FrictionLaw friction_of_lever(const Scene &scene, unsigned int lever);
+
   /// Inclination of a lever without moment, that of ideal contact at x = 0 with the cylinder in the mirror plane [rad].
   double rest_inclination(const Scene &scene);
 

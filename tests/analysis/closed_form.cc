@@ -32,6 +32,14 @@ namespace
     return { model_a(), model_b(), driven(model_a(), twice), driven(model_a(), smooth), driven(model_b(), table) };
   }
 
+  Scene pair_of(Scene scene, const SpringJoint joint, const double offset)
+  {
+    scene.pair.type            = PairType::full;
+    scene.pair.joint           = joint;
+    scene.pair.cylinder_offset = offset;
+    return scene;
+  }
+
   /// Indices of the rows that repeat the instant of the row before them.
   std::vector<std::size_t> second_rows(const std::vector<Row> &rows)
   {
@@ -189,4 +197,49 @@ TEST(ClosedFormRows, WorksDoNotDependOnTheStep)
   const double coarse = rows_of(scene).back()[Column::friction_work];
   scene.analysis.step = 0.1;
   EXPECT_NEAR(rows_of(scene).back()[Column::friction_work], coarse, 1e-11 * coarse);
+}
+
+TEST(ClosedFormRows, APairWithoutOffsetIsASingleLeverTwice)
+{
+  const auto single = rows_of(model_a());
+  for (const auto joint : { SpringJoint::held, SpringJoint::free })
+  {
+    const auto rows = rows_of(pair_of(model_a(), joint, 0.));
+    ASSERT_EQ(rows.size(), single.size());
+    for (std::size_t i = 0; i < rows.size(); ++i)
+    {
+      for (const auto column : { Column::theta, Column::s, Column::P, Column::F, Column::Q, Column::v_rel, Column::mu })
+        EXPECT_EQ(rows[i][column], single[i][column]);
+      for (const auto column : { Column::drive_work, Column::friction_work, Column::spring_energy, Column::friction_power })
+        EXPECT_EQ(rows[i][column], 2. * single[i][column]);
+      EXPECT_EQ(rows[i].drive_force(), 2. * single[i][Column::Q]);
+      EXPECT_EQ(rows[i].friction_force(), 2. * single[i][Column::F]);
+      EXPECT_EQ(rows[i].lateral_force(), 0.);
+      EXPECT_EQ(rows[i].swing(), 0.);
+    }
+  }
+}
+
+TEST(ClosedFormRows, BothLeversOfAPairShareTheDrivesWorkAndItsEnergy)
+{
+  for (const auto joint : { SpringJoint::held, SpringJoint::free })
+    for (const double offset : { 0.5, -0.5 })
+    {
+      Scene scene          = pair_of(model_a(), joint, offset);
+      scene.analysis.step  = 0.01;
+      const auto rows      = rows_of(scene);
+      const double started = rows.front()[Column::spring_energy];
+      const double total   = rows.back()[Column::friction_work];
+      double area          = 0.;
+      for (std::size_t i = 0; i < rows.size(); ++i)
+      {
+        const double stored = rows[i][Column::spring_energy] - started;
+        EXPECT_NEAR(rows[i][Column::drive_work], rows[i][Column::friction_work] + stored, 1e-8 * total);
+        EXPECT_FALSE(std::isnan(rows[i][Column::friction_power]));
+        if (i > 0)
+          area += 0.5 * (rows[i - 1].drive_force() + rows[i].drive_force()) * (rows[i][Column::x] - rows[i - 1][Column::x]);
+      }
+      // The trapezoidal rule as above; where a lever begins to be reached dQ/dx jumps by 0.1 N/mm.
+      EXPECT_NEAR(area, total, 2e-4);
+    }
 }

@@ -2,11 +2,13 @@
 
 #include "analysis/quasi_static.h"
 #include "analysis/report.h"
-#include "fe/lever_model.h"
+#include "fe/mirrored_levers.h"
 #include "mpi_environment.h"
+#include "scene/mirrored_pair.h"
 #include "scenes.h"
 
 #include <cmath>
+#include <memory>
 #include <vector>
 
 namespace sprag
@@ -17,8 +19,12 @@ namespace sprag
   {
     dealii::Triangulation<2> triangulation;
     make_mesh(scene, triangulation);
-    LeverModel model(triangulation, lever_properties(scene));
-    return run_quasi_static(model, scene.drive, { scene.analysis.step, scene.analysis.minimum_step, scene.contact },
+    std::unique_ptr<Model> model;
+    if (number_of_levers(scene) == 2)
+      model = std::make_unique<MirroredLevers>(triangulation, scene);
+    else
+      model = std::make_unique<LeverModel>(triangulation, lever_properties(scene));
+    return run_quasi_static(*model, scene.drive, { scene.analysis.step, scene.analysis.minimum_step, scene.contact },
                             [&](const State &, const Row &row)
                             {
                               rows.push_back(row);

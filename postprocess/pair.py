@@ -1,0 +1,62 @@
+"""What the two levers of a full mirrored pair do beside each other."""
+
+import numpy as np
+
+from style import COLOURS, LINES, MILLIMETRE, TWO_COLUMNS, label, legend_on_top, panel_letter, plt
+from transient import is_transient
+
+LEVERS = (("", "first lever"), ("_2", "second lever"))
+CLOSED_FORM = {"color": "black", "linestyle": (0, (1, 2)), "linewidth": 0.8, "zorder": 3, "label": "closed form of the first"}
+FORCES = (("P", "$P$"), ("F", "$F$"))
+BOTH = (("swing", "swing"), ("lateral_force", "lateral force"))
+
+
+def has_pair(result):
+    return all(result.has(column) for column in ("P", "P_2", "swing", "lateral_force"))
+
+
+def pair_of_levers(result, over=None):
+    """P and F of both levers, their swing and their force on the cylinder across its path.
+
+    Over "x", forward and backward, or "time"; by default over time where there is inertia.
+    """
+    over = over or ("time" if is_transient(result) else "x")
+    columns = strokes(result) if over == "x" else [("", np.ones(len(result.table["time"]), dtype=bool))]
+    size = (TWO_COLUMNS, 150 * MILLIMETRE)
+    figure, panels = plt.subplots(
+        4, len(columns), sharex="col", sharey="row", squeeze=False, figsize=size, height_ratios=(3, 3, 2, 2)
+    )
+    for index, (way, rows) in enumerate(columns):
+        draw_column(panels[:, index], result, over, rows)
+        panels[-1, index].set_xlabel(label(result.units, over) + way)
+        panels[-1, index].set_xlim(np.nanmin(result.table[over][rows]), np.nanmax(result.table[over][rows]))
+    for axes, letter in zip(panels.flat, "abcdefgh"):
+        panel_letter(axes, letter)
+    for axes, (column, symbol) in zip(panels[:, 0], FORCES + BOTH):
+        axes.set_ylabel(f"{symbol} [{result.units[column]}]")
+    legend_on_top(figure, *panels[0, 0].get_legend_handles_labels())
+    figure.align_ylabels()
+    return figure
+
+
+def strokes(result):
+    """[(way, rows)] of both directions of motion."""
+    x = result.table["x"]
+    steps = np.diff(x, prepend=x[0] - 1)
+    ways = ((", forward", steps > 0), (", backward", steps < 0))
+    return [(way, rows) for way, rows in ways if rows.any()]
+
+
+def draw_column(panels, result, over, rows):
+    table = result.table
+    across = table[over][rows]
+    for axes, (column, _) in zip(panels, FORCES):
+        for index, (suffix, name) in enumerate(LEVERS):
+            line = {"color": COLOURS[index], "linestyle": LINES[index], "linewidth": 0.9}
+            axes.plot(across, table[column + suffix][rows], label=name, **line)
+    if result.has("P_closed_form"):
+        panels[0].plot(across, table["P_closed_form"][rows], **CLOSED_FORM)
+    for axes, (column, _) in zip(panels[len(FORCES) :], BOTH):
+        axes.plot(across, table[column][rows], color="black", linewidth=0.9)
+    for axes in panels:
+        axes.axhline(0, color="black", linewidth=0.5, zorder=1)

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "scene/closed_form.h"
+
+#include <array>
+
+namespace sprag
+{
+  // The closed form of a full mirrored pair: both levers massless and rigid, each with eqs. 4-9 of Yamaguchi & Yoshida in its own
+  // (for the second: mirrored) axes, geometry_of_lever() and friction_of_lever(). Both turn from rest_inclination(). With a joint
+  // that is held each has a spring of its own, M_i = M(phi_i). With a free one nothing holds them but each other: the springs'
+  // energy 2 W((phi_1 + phi_2)/2) gives M_1 = M_2 = M((phi_1 + phi_2)/2). A lever that would have to be pulled to the cylinder
+  // does not reach it: held it rests; free neither reaches, and both stay as far from it as they share what is missing.
+
+  /// Inclinations at x, without and with contact [rad].
+  std::array<double, 2> pair_inclinations(const Scene &scene, double x);
+
+  struct PairedLever
+  {
+    ClosedFormState state;       ///< without contact of its theta alone, the rest 0
+    bool touches         = true; ///< whether it reaches the cylinder, if without force
+    double spring_energy = 0.;   ///< its share [N mm]
+  };
+
+  /// Both levers at x while the cylinder moves at v, v != 0 for a direction. Forces are infinite or negative as in closed_form().
+  std::array<PairedLever, 2> pair_closed_form(const Scene &scene, double x, double v);
+
+  /// Work on each lever from one instant of the drive to another, as accurate as that of a single one.
+  std::array<Work, 2> pair_work_between(const Scene &scene, double begin, double end);
+} // namespace sprag

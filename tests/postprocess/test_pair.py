@@ -1,0 +1,90 @@
+"""Pictures of full mirrored pairs; run with /usr/bin/python3."""
+
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "postprocess"))
+
+import pair  # noqa: E402
+from results import read_result  # noqa: E402
+from test_plot import FOLDER, fill_run, finish, make_transient, new_file, put  # noqa: E402
+
+
+def add_second_lever(file):
+    table = file["table"]
+    for column, share in (("P", 0.75), ("F", 0.5)):
+        if column not in table:
+            put(table, column, 0.7 * table["P"][:], "N")
+        put(table, f"{column}_2", share * table[column][:], "N")
+    put(table, "swing", 1e-3 * np.ones(len(table["P"])), "rad")
+    put(table, "lateral_force", -0.25 * table["P"][:], "N")
+
+
+def make_static(folder):
+    file = new_file(folder)
+    fill_run(file, np.concatenate((np.arange(0.0, 11), np.arange(10.0, -1, -1))))
+    add_second_lever(file)
+    finish(file)
+    return read_result(folder)
+
+
+def make_dynamic(folder):
+    file = make_transient(folder)
+    add_second_lever(file)
+    finish(file)
+    return read_result(folder)
+
+
+def curve(axes, name):
+    return next(line for line in axes.lines if line.get_label() == name)
+
+
+class PairTest(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = Path(temporary.name)
+
+    def expect_picture(self):
+        command = ["/usr/bin/python3", FOLDER / "plot.py", self.folder / "a"]
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertGreater((self.folder / "a" / "pair.png").stat().st_size, 20000)
+
+    def test_over_x_each_way(self):
+        result = make_static(self.folder / "a")
+        panels = pair.pair_of_levers(result).axes
+        self.assertEqual(len(panels), 8)
+        for column, rows in enumerate((slice(0, 11), slice(12, 22))):
+            P, F, swing, lateral = panels[column::2]
+            x = result.table["x"][rows]
+            np.testing.assert_array_equal(curve(P, "first lever").get_xydata(), np.column_stack((x, result.table["P"][rows])))
+            np.testing.assert_array_equal(curve(P, "second lever").get_xydata(), np.column_stack((x, result.table["P_2"][rows])))
+            np.testing.assert_array_equal(curve(F, "second lever").get_ydata(), result.table["F_2"][rows])
+            np.testing.assert_array_equal(swing.lines[0].get_ydata(), result.table["swing"][rows])
+            np.testing.assert_array_equal(lateral.lines[0].get_ydata(), result.table["lateral_force"][rows])
+        self.expect_picture()
+
+    def test_over_time_with_inertia_or_where_asked_for(self):
+        dynamic = make_dynamic(self.folder / "a")
+        for result, over in ((dynamic, None), (make_static(self.folder / "b"), "time")):
+            panels = pair.pair_of_levers(result, over).axes
+            self.assertEqual(len(panels), 4)
+            np.testing.assert_array_equal(curve(panels[0], "second lever").get_xdata(), result.table["time"])
+        self.assertEqual(len(pair.pair_of_levers(dynamic, "x").axes), 8)
+        self.expect_picture()
+
+    def test_no_second_lever_no_picture(self):
+        file = new_file(self.folder / "a")
+        fill_run(file, np.arange(0.0, 11))
+        finish(file)
+        self.assertFalse(pair.has_pair(read_result(self.folder / "a")))
+
+
+if __name__ == "__main__":
+    unittest.main()
