@@ -332,22 +332,12 @@ namespace sprag
 
   FacePatches::Range FacePair::near(const PairConfiguration &at) const
   {
-    FacePatches::Range range{ 0, 0 };
     Place place;
-    unsigned int closest = 0;
-    double smallest      = std::numeric_limits<double>::max();
-    for (unsigned int patch = 0; patch < lever.size(); ++patch)
-    {
-      const double distance = reach(patch, at, place);
-      if (distance < smallest)
-      {
-        smallest = distance;
-        closest  = patch;
-      }
-      if (distance < 0.)
-        range = { range.end == 0 ? patch : range.begin, patch + 1 };
-    }
-    return range.end == 0 ? FacePatches::Range{ closest, closest + 1 } : range;
+    const auto is_before = [](const LeverEdge &edge, const double xi) { return edge.positions[edge.n_nodes - 1][0] < xi; };
+    const auto under     = std::lower_bound(lever.begin(), lever.end() - 1, at.at.centre.xi, is_before);
+    return FacePatches::find_near(
+        static_cast<unsigned int>(under - lever.begin()), static_cast<unsigned int>(lever.size()),
+        [&](const unsigned int patch) { return reach(patch, at, place); }, [](const unsigned int) { return 0.; });
   }
 
   PairCoordinates FacePair::coordinates(const unsigned int patch, const std::initializer_list<const PatchFacets *> facets) const

@@ -14,23 +14,24 @@ namespace sprag
   {
   }
 
-  FacePatches::Range PairSurface::near(const FaceConfiguration &at) const
-  {
-    return pair.near(pair.configuration(at));
-  }
-
   void PairSurface::enter(const FaceStepPlaces &places)
   {
-    moves  = places.begin.displacement != places.end.displacement || places.begin.x != places.end.x;
+    moves  = places.moves();
     end.at = pair.configuration(places.end);
     if (moves)
     {
       enter_begin(places.begin);
-      of_balance.at = pair.configuration(places.balance);
+      enter_balance(places);
     }
   }
 
-  /// Facets at the beginning of a step are the same in all its iterations.
+  FacePatches::Range PairSurface::near() const
+  {
+    const auto at_last = pair.near(end.at);
+    return moves ? FacePatches::united(at_last, near_begin) : at_last;
+  }
+
+  /// The beginning of a step is the same in all its iterations.
   void PairSurface::enter_begin(const FaceConfiguration &at)
   {
     const bool same = known_begin.size() == at.displacement->size() && known_begin == *at.displacement && of_begin.at.x == at.x &&
@@ -40,8 +41,18 @@ namespace sprag
       of_begin                 = pair.configuration(at);
       known_begin              = *at.displacement;
       of_begin.at.displacement = &known_begin;
+      near_begin               = pair.near(of_begin);
       begin_facets.clear();
     }
+  }
+
+  void PairSurface::enter_balance(const FaceStepPlaces &places)
+  {
+    between = *places.begin.displacement;
+    between.sadd(1. - places.balance, places.balance, *places.end.displacement);
+    const double theta = places.balanced(places.begin.theta, places.end.theta);
+    const double x     = places.balanced(places.begin.x, places.end.x);
+    of_balance.at      = pair.configuration({ &between, theta, x, cylinder_centre(properties.geometry, x, theta) });
   }
 
   const PatchFacets &PairSurface::facets_at_begin()
@@ -58,6 +69,7 @@ namespace sprag
   {
     patch   = of_face;
     first   = face.patches()[patch].begin;
+    nodal   = FacePatches::nodal(face.patches()[patch], *end.at.at.displacement);
     touched = false;
     pair.find_facets(patch, end.at, end.of);
     at_begin = &facets_at_begin();
@@ -65,9 +77,8 @@ namespace sprag
 
   double PairSurface::place(FacePointState &state) const
   {
-    const auto nodal = FacePatches::nodal(face.patches()[patch], *end.at.at.displacement);
-    state.position   = FacePatches::position(face.points()[state.index], nodal);
-    state.gap        = end.of.facets[state.index - first].gap;
+    state.position = FacePatches::position(face.points()[state.index], nodal);
+    state.gap      = end.of.facets[state.index - first].gap;
     return at_begin->facets[state.index - first].gap;
   }
 
