@@ -107,7 +107,7 @@ namespace sprag
 
   PairConfiguration FacePair::configuration(const FaceConfiguration &at) const
   {
-    PairConfiguration result{ at, {}, {} };
+    PairConfiguration result{ at, Vector2({ std::cos(at.theta), -std::sin(at.theta) }), {}, {} };
     const Tensor<1, 2> centre({ at.centre.xi, at.centre.eta });
     result.nodes.reserve(chain.size() * degree + 1);
     result.tangents.resize(chain.size() + 1);

@@ -51,6 +51,7 @@ namespace sprag
   struct PairConfiguration
   {
     FaceConfiguration at;                       ///< displacements of the lever's nodes, then of the cylinder's
+    dealii::Tensor<1, 2> drive;                 ///< direction of x in lever axes
     std::vector<dealii::Tensor<1, 2>> nodes;    ///< of the cylinder's face, deformed, in lever axes
     std::vector<dealii::Tensor<1, 2>> tangents; ///< between its edges, unit, mean of both sides
   };

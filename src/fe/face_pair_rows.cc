@@ -1,6 +1,6 @@
 #include "fe/face_pair_rows.h"
 
-#include <cmath>
+#include <algorithm>
 
 namespace sprag
 {
@@ -91,9 +91,9 @@ namespace sprag
       View(const PairConfiguration &at, const PairCoordinates &coordinates_)
           : coordinates(coordinates_)
           , by_theta({ -at.at.centre.eta, at.at.centre.xi })
-          , by_x({ std::cos(at.at.theta), -std::sin(at.at.theta) })
+          , by_x(at.drive)
           , twice_theta({ at.at.centre.xi, at.at.centre.eta })
-          , theta_x({ -std::sin(at.at.theta), -std::cos(at.at.theta) })
+          , theta_x({ at.drive[1], -at.drive[0] })
       {
       }
 
@@ -248,7 +248,10 @@ namespace sprag
                  const double radius, FacetRows &rows)
   {
     for (auto *const row : { &rows.gap, &rows.arc, &rows.stretch, &rows.slip })
-      row->reinit(coordinates.size());
+    {
+      row->grow_or_shrink(coordinates.size());
+      std::fill(row->begin(), row->end(), 0.);
+    }
     const View view(at, coordinates);
     for (unsigned int q = facet.begin; q < facet.end; ++q)
     {

@@ -97,6 +97,7 @@ namespace sprag
     coordinates = pair.coordinates(patch, { at_begin, &end.of, &balance.of });
     values.reinit(coordinates.size());
     tangent.reinit(coordinates.size(), coordinates.size());
+    force_row.reinit(coordinates.size());
     movement                      = change(*begin.at.displacement, *end.at.at.displacement);
     movement[coordinates.theta()] = end.at.at.theta - begin.at.theta;
     movement[coordinates.x()]     = end.at.at.x - begin.at.x;
@@ -154,11 +155,12 @@ namespace sprag
     slip_change_row[coordinates.theta()] -= R;
     slip_change_row *= stretch;
     slip_change_row.add(0.5 * run, end_rows.stretch);
-    const Vector<double> *const rows_of_force[] = { &balance_rows.gap, &balance_rows.slip };
-    const Vector<double> *const rows_of_law[]   = { &end_rows.gap, &slip_change_row };
-    for (unsigned int i = 0; i < 2; ++i)
-      for (unsigned int j = 0; j < 2; ++j)
-        add_product(middle.weight * response.tangent[i][j], *rows_of_force[i], *rows_of_law[j], tangent);
+    for (const auto &[i, row] : { std::pair{ 0u, &balance_rows.gap }, { 1u, &balance_rows.slip } })
+    {
+      force_row.equ(response.tangent[i][0], end_rows.gap);
+      force_row.add(response.tangent[i][1], slip_change_row);
+      add_product(middle.weight, *row, force_row, tangent);
+    }
     const double share = law.weights.stiffness() * middle.weight;
     add_curvature(balance.of, middle, balance.at, coordinates, R, share * response.force[0], share * response.force[1], tangent);
   }

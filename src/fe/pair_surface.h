@@ -65,7 +65,8 @@ namespace sprag
     bool at_end_of_face         = false;
     PairCoordinates coordinates;
     FacetRows end_rows, balance_rows;
-    dealii::Vector<double> movement; ///< in the step
+    dealii::Vector<double> force_row; ///< derivative of a force
+    dealii::Vector<double> movement;  ///< in the step
     dealii::Vector<double> values;
     dealii::FullMatrix<double> tangent;
   };
