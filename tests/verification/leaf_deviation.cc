@@ -153,7 +153,7 @@ TEST(LeafDeviation, CalibratedPartsHaveTheMomentOfInertiaOfTable1)
     const double of_leaf = leaf.density * leaf.width * leaf.thickness * std::pow(leaf.length, 3) / 105.;
     const double sum = rectangle(layer.density, e, layer.thickness) + rectangle(lever.density, e + layer.thickness, lever.depth) +
                        lever.hub_inertia + of_leaf;
-    std::printf("| %s | %.4f | %.6f |\n", model.c_str(), lever.hub_inertia, sum / J - 1.);
+    std::printf("model %s: %.4f t mm2 at the hub, J by hand off by %.1e\n", model.c_str(), lever.hub_inertia, sum / J - 1.);
     EXPECT_NEAR(sum, J, 1e-4 * J);
   }
 }
