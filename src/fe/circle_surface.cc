@@ -13,14 +13,18 @@ namespace sprag
   {
   }
 
-  FacePatches::Range CircleSurface::near(const FaceConfiguration &at) const
-  {
-    return face.near(at, properties.geometry.cylinder_radius);
-  }
-
   void CircleSurface::enter(const FaceStepPlaces &of_step)
   {
-    places = of_step;
+    places        = of_step;
+    balance_theta = places.balanced(places.begin.theta, places.end.theta);
+    balance_x     = places.balanced(places.begin.x, places.end.x);
+  }
+
+  FacePatches::Range CircleSurface::near() const
+  {
+    const double R     = properties.geometry.cylinder_radius;
+    const auto at_last = face.near(places.end, R);
+    return places.moves() ? FacePatches::united(at_last, face.near(places.begin, R)) : at_last;
   }
 
   void CircleSurface::enter(const unsigned int of_face)
@@ -49,16 +53,15 @@ namespace sprag
     const auto &circle  = properties.geometry;
     const auto &begin   = places.begin;
     const auto &end     = places.end;
-    const auto &middle  = places.balance;
     const auto position = FacePatches::position(point, at_begin);
     const auto first    = moving_circle_contact(circle, position, begin.x, begin.theta);
     const auto last     = moving_circle_contact(circle, state.position, end.x, end.theta);
-    const double share  = law.weights.stiffness();
-    const auto weighted = [&](const double at_0, const double at_1) { return (1. - share) * at_0 + share * at_1; };
+    const double share  = places.balance;
     const Tensor<1, 4> change(
         { state.position.xi - position.xi, state.position.eta - position.eta, end.theta - begin.theta, end.x - begin.x });
-    const LeverPoint between = { weighted(position.xi, state.position.xi), weighted(position.eta, state.position.eta) };
-    const auto balance       = moving_circle_contact(circle, between, middle.x, middle.theta);
+    const LeverPoint between = { places.balanced(position.xi, state.position.xi),
+                                 places.balanced(position.eta, state.position.eta) };
+    const auto balance       = moving_circle_contact(circle, between, balance_x, balance_theta);
 
     StepKinematics<4> kinematics;
     kinematics.gap_begin       = begin_gap;

@@ -12,11 +12,11 @@ namespace sprag
     /// `face` must outlive the surface.
     CircleSurface(const ElasticBody<2> &body, const FacePatches &face, const FaceStepProperties &properties);
 
-    /// Patches within reach.
-    FacePatches::Range near(const FaceConfiguration &at) const;
-
-    /// Sets the configurations of all that follows; for steady sliding all are one.
+    /// Sets the configurations of all that follows; for steady sliding beginning and end are one.
     void enter(const FaceStepPlaces &places);
+
+    /// Patches within reach in one of the configurations.
+    FacePatches::Range near() const;
 
     /// Sets the patch of all that follows.
     void enter(unsigned int patch);
@@ -51,7 +51,9 @@ namespace sprag
     const FacePatches &face;
     const FaceStepProperties &properties;
     FaceStepPlaces places{};
-    unsigned int patch = 0;
+    double balance_theta = 0.;
+    double balance_x     = 0.;
+    unsigned int patch   = 0;
     FacePatches::Nodal at_begin{};
     FacePatches::Nodal at_end{};
 

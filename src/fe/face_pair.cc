@@ -17,21 +17,13 @@ namespace sprag
     /// What round-off leaves of a point at the end of a face, over the face's length.
     constexpr double round_off = 1e-10;
 
-    Tensor<1, 2> sum(const unsigned int n, const std::array<double, 3> &shapes, const std::array<Tensor<1, 2>, 3> &nodes)
-    {
-      Tensor<1, 2> result;
-      for (unsigned int a = 0; a < n; ++a)
-        result += shapes[a] * nodes[a];
-      return result;
-    }
-
     /// From the beginning of an edge to a place on it, by 3 Gauss points: exact to the fourth power of its angle.
-    double arc_to(const double place, const unsigned int n, const std::array<Tensor<1, 2>, 3> &nodes)
+    double arc_to(const double place, const EdgeCurve &edge)
     {
       constexpr double off = 0.774596669241483377036;
       double result        = 0.;
       for (const auto &[point, weight] : { std::pair{ -off, 5. / 18. }, { 0., 8. / 18. }, { off, 5. / 18. } })
-        result += weight * sum(n, edge_shapes(n, 0.5 * place * (1. + point)).slopes, nodes).norm();
+        result += weight * edge.slope(0.5 * place * (1. + point)).norm();
       return place * result;
     }
   } // namespace
@@ -52,14 +44,13 @@ namespace sprag
       const auto &patch = lever_face.patches[i];
       LeverEdge edge{ copy(lever_face.edges[i], 0), patch.end - patch.begin, 0. };
       const double first = gauss_points[0] * 2. / edge.n_facets;
-      const auto slope   = sum(edge.n_nodes, edge_shapes(edge.n_nodes, first).slopes, edge.positions);
-      edge.width         = lever_face.points[patch.begin].weight * edge.n_facets / slope.norm();
+      edge.width         = lever_face.points[patch.begin].weight * edge.n_facets / edge.undeformed.slope(first).norm();
       lever.push_back(edge);
     }
     for (const auto &edge : cylinder_face.edges)
     {
       chain.push_back({ copy(edge, static_cast<unsigned int>(lever_face.nodes.size())), length });
-      length += arc_to(1., chain.back().n_nodes, chain.back().positions);
+      length += arc_to(1., chain.back().undeformed);
     }
     check_chain();
   }
@@ -86,6 +77,7 @@ namespace sprag
       result.positions[a]      = edge.nodes[a].position;
       result.nodes[a]          = index == FaceEdge<2>::held ? index : first_node + index;
     }
+    result.undeformed = curve_of(result.n_nodes, result.positions.data());
     return result;
   }
 
@@ -99,19 +91,24 @@ namespace sprag
     return result;
   }
 
-  FacePair::Nodes FacePair::cylinder_nodes(const unsigned int edge, const PairConfiguration &at) const
+  EdgeCurve FacePair::curve_of(const unsigned int n_nodes, const Vector2 *const nodes)
   {
-    Nodes result;
-    std::copy_n(at.nodes.begin() + edge * degree, degree + 1, result.begin());
-    return result;
+    const Vector2 to_next = nodes[1] - nodes[0];
+    if (n_nodes == 2)
+      return { nodes[0], to_next, {} };
+    const Vector2 to_last = nodes[2] - nodes[0];
+    return { nodes[0], 4. * to_next - to_last, 4. * to_last - 8. * to_next };
+  }
+
+  EdgeCurve FacePair::deformed_curve(const Edge &edge, const Vector<double> &displacements)
+  {
+    return curve_of(edge.n_nodes, deformed(edge, displacements).data());
   }
 
   PairConfiguration FacePair::configuration(const FaceConfiguration &at) const
   {
-    PairConfiguration result{ at, {}, {} };
+    PairConfiguration result{ at, Vector2({ std::cos(at.theta), -std::sin(at.theta) }), {}, {} };
     const Tensor<1, 2> centre({ at.centre.xi, at.centre.eta });
-    const auto begin = edge_shapes(degree + 1, 0.).slopes;
-    const auto end   = edge_shapes(degree + 1, 1.).slopes;
     result.nodes.reserve(chain.size() * degree + 1);
     result.tangents.resize(chain.size() + 1);
     for (std::size_t i = 0; i < chain.size(); ++i)
@@ -119,10 +116,11 @@ namespace sprag
       const auto nodes = deformed(chain[i], *at.displacement);
       for (unsigned int a = i == 0 ? 0 : 1; a <= degree; ++a)
         result.nodes.push_back(centre + nodes[a]);
-      for (const auto &[vertex, slopes] : { std::pair{ i, &begin }, { i + 1, &end } })
+      const auto curve = curve_of(degree + 1, nodes.data());
+      for (const unsigned int end : { 0, 1 })
       {
-        const auto slope = sum(degree + 1, *slopes, nodes);
-        result.tangents[vertex] += slope / slope.norm();
+        const auto slope = curve.slope(end);
+        result.tangents[i + end] += slope / slope.norm();
       }
     }
     for (auto &tangent : result.tangents)
@@ -157,15 +155,14 @@ namespace sprag
   PairPoint FacePair::project(const Vector2 &position, const PairConfiguration &at, Place &place) const
   {
     constexpr unsigned int most_iterations = 30;
-    const auto nodes                       = cylinder_nodes(place.edge, at);
     const unsigned int n                   = degree + 1;
-    Vector2 apart, slope, bend;
+    const auto curve                       = curve_of(n, &at.nodes[place.edge * degree]);
+    const auto &bend                       = curve.second;
+    Vector2 apart, slope;
     const auto set = [&]
     {
-      const auto shapes = edge_shapes(n, place.along);
-      apart             = position - sum(n, shapes.values, nodes);
-      slope             = sum(n, shapes.slopes, nodes);
-      bend              = sum(n, shapes.bends, nodes);
+      apart = position - curve.position(place.along);
+      slope = curve.slope(place.along);
     };
     for (unsigned int i = 0; i < most_iterations; ++i)
     {
@@ -173,7 +170,7 @@ namespace sprag
       const double change = apart * slope / (slope * slope - apart * bend);
       place.along         = std::clamp(place.along + change, -1., 2.);
       // As convergence is quadratic, what is left is round-off.
-      if (std::abs(change) < 1e-8)
+      if (std::abs(change) < 1e-6)
         break;
     }
     set();
@@ -188,22 +185,20 @@ namespace sprag
     point.bend_along  = bend * point.tangent;
     point.bend_across = bend * point.normal;
     const auto &edge  = chain[place.edge];
-    const auto before = sum(n, point.cylinder.slopes, edge.positions);
-    point.arc         = edge.arc + arc_to(place.along, n, edge.positions);
+    const auto before = edge.undeformed.slope(place.along);
+    point.arc         = edge.arc + arc_to(place.along, edge.undeformed);
     point.arc_speed   = before.norm();
-    point.arc_bend    = before * sum(n, point.cylinder.bends, edge.positions) / point.arc_speed;
+    point.arc_bend    = before * edge.undeformed.second / point.arc_speed;
     return point;
   }
 
   /// Where along the lever's edge a vertex of the cylinder lies below it.
-  double FacePair::vertex_above(const unsigned int vertex, const LeverEdge &edge, const Nodes &nodes, const PairConfiguration &at,
+  double FacePair::vertex_above(const unsigned int vertex, const EdgeCurve &curve, const PairConfiguration &at,
                                 const Segment &within) const
   {
-    const auto value = [&](const double s)
-    { return beyond(sum(edge.n_nodes, edge_shapes(edge.n_nodes, s).values, nodes), vertex, at); };
-    const auto slope = [&](const double s)
-    { return sum(edge.n_nodes, edge_shapes(edge.n_nodes, s).slopes, nodes) * at.tangents[vertex]; };
-    double s = 0.5 * (within.from + within.to);
+    const auto value = [&](const double s) { return beyond(curve.position(s), vertex, at); };
+    const auto slope = [&](const double s) { return curve.slope(s) * at.tangents[vertex]; };
+    double s         = 0.5 * (within.from + within.to);
     for (unsigned int i = 0; i < 30; ++i)
     {
       const double change = -value(s) / slope(s);
@@ -215,55 +210,53 @@ namespace sprag
   }
 
   /// Its weight is the area over the lever's parameter.
-  PairPoint FacePair::point_above(const LeverEdge &edge, const Nodes &nodes, const PairConfiguration &at,
+  PairPoint FacePair::point_above(const LeverEdge &edge, const EdgeCurve &curve, const PairConfiguration &at,
                                   const double place_on_lever, Place &place) const
   {
-    const auto shapes = edge_shapes(edge.n_nodes, place_on_lever);
-    auto point        = project(sum(edge.n_nodes, shapes.values, nodes), at, place);
-    point.lever       = shapes.values;
-    point.weight      = edge.width * sum(edge.n_nodes, shapes.slopes, edge.positions).norm();
+    auto point   = project(curve.position(place_on_lever), at, place);
+    point.lever  = edge_shapes(edge.n_nodes, place_on_lever).values;
+    point.weight = edge.width * edge.undeformed.slope(place_on_lever).norm();
     return point;
   }
 
-  void FacePair::add_segment(const LeverEdge &edge, const Nodes &nodes, const PairConfiguration &at, const Segment &segment,
+  void FacePair::add_segment(const LeverEdge &edge, const EdgeCurve &curve, const PairConfiguration &at, const Segment &segment,
                              Place &place, PatchFacets &result) const
   {
     const double length_of_segment = segment.to - segment.from;
     for (const double gauss : gauss_points)
     {
-      result.points.push_back(point_above(edge, nodes, at, segment.from + gauss * length_of_segment, place));
+      result.points.push_back(point_above(edge, curve, at, segment.from + gauss * length_of_segment, place));
       result.points.back().weight *= 0.5 * length_of_segment;
     }
   }
 
   /// At the vertex beyond the edge in `place`, which is left for the next.
-  void FacePair::add_cut(const LeverEdge &edge, const Nodes &nodes, const PairConfiguration &at, const double place_on_lever,
+  void FacePair::add_cut(const LeverEdge &edge, const EdgeCurve &curve, const PairConfiguration &at, const double place_on_lever,
                          Place &place, PatchFacets &result) const
   {
     PairCut cut;
-    cut.left  = point_above(edge, nodes, at, place_on_lever, place);
+    cut.left  = point_above(edge, curve, at, place_on_lever, place);
     place     = { place.edge + 1, 0. };
-    cut.right = point_above(edge, nodes, at, place_on_lever, place);
+    cut.right = point_above(edge, curve, at, place_on_lever, place);
     cut.width = cut.left.weight;
-    cut.speed = sum(edge.n_nodes, edge_shapes(edge.n_nodes, place_on_lever).slopes, nodes) * at.tangents[place.edge];
+    cut.speed = curve.slope(place_on_lever) * at.tangents[place.edge];
     result.cuts.push_back(cut);
   }
 
   void FacePair::find_facets(const unsigned int patch, const PairConfiguration &at, PatchFacets &result) const
   {
     const auto &edge     = lever[patch];
-    const auto nodes     = deformed(edge, *at.at.displacement);
-    const auto position  = [&](const double s) { return sum(edge.n_nodes, edge_shapes(edge.n_nodes, s).values, nodes); };
+    const auto curve     = deformed_curve(edge, *at.at.displacement);
     const double rounded = round_off * length;
     result.facets.clear();
     result.points.clear();
     result.cuts.clear();
-    Vector2 begin = position(0.);
+    Vector2 begin = curve.position(0.);
     Place place;
     place.edge = static_cast<unsigned int>(chain.size() / 2);
     for (unsigned int i = 0; i < edge.n_facets; ++i)
     {
-      const auto end = position((i + 1.) / edge.n_facets);
+      const auto end = curve.position((i + 1.) / edge.n_facets);
       Facet facet;
       facet.begin        = static_cast<unsigned int>(result.points.size());
       facet.first_cut    = static_cast<unsigned int>(result.cuts.size());
@@ -277,12 +270,12 @@ namespace sprag
         Segment rest{ static_cast<double>(i) / edge.n_facets, (i + 1.) / edge.n_facets };
         while (place.edge + 1 < chain.size() && beyond(end, place.edge + 1, at) > rounded)
         {
-          const double cut = vertex_above(place.edge + 1, edge, nodes, at, rest);
-          add_segment(edge, nodes, at, { rest.from, cut }, place, result);
-          add_cut(edge, nodes, at, cut, place, result);
+          const double cut = vertex_above(place.edge + 1, curve, at, rest);
+          add_segment(edge, curve, at, { rest.from, cut }, place, result);
+          add_cut(edge, curve, at, cut, place, result);
           rest.from = cut;
         }
-        add_segment(edge, nodes, at, rest, place, result);
+        add_segment(edge, curve, at, rest, place, result);
       }
       facet.end      = static_cast<unsigned int>(result.points.size());
       facet.last_cut = static_cast<unsigned int>(result.cuts.size());
@@ -313,12 +306,11 @@ namespace sprag
   /// Smallest gap at the ends and in the middle of a patch, less a margin for its bending.
   double FacePair::reach(const unsigned int patch, const PairConfiguration &at, Place &place) const
   {
-    const auto &edge = lever[patch];
-    const auto nodes = deformed(edge, *at.at.displacement);
+    const auto curve = deformed_curve(lever[patch], *at.at.displacement);
     double smallest  = std::numeric_limits<double>::max();
     for (const double s : { 0., 0.5, 1. })
     {
-      const auto position = sum(edge.n_nodes, edge_shapes(edge.n_nodes, s).values, nodes);
+      const auto position = curve.position(s);
       if (const double aside = outside(position, at); aside > 0.)
       {
         smallest = std::min(smallest, length + aside);
@@ -327,27 +319,17 @@ namespace sprag
       go_to(position, at, place);
       smallest = std::min(smallest, project(position, at, place).gap);
     }
-    return smallest - 0.02 * (nodes[edge.n_nodes - 1] - nodes[0]).norm();
+    return smallest - 0.02 * (curve.position(1.) - curve.origin).norm();
   }
 
   FacePatches::Range FacePair::near(const PairConfiguration &at) const
   {
-    FacePatches::Range range{ 0, 0 };
     Place place;
-    unsigned int closest = 0;
-    double smallest      = std::numeric_limits<double>::max();
-    for (unsigned int patch = 0; patch < lever.size(); ++patch)
-    {
-      const double distance = reach(patch, at, place);
-      if (distance < smallest)
-      {
-        smallest = distance;
-        closest  = patch;
-      }
-      if (distance < 0.)
-        range = { range.end == 0 ? patch : range.begin, patch + 1 };
-    }
-    return range.end == 0 ? FacePatches::Range{ closest, closest + 1 } : range;
+    const auto is_before = [](const LeverEdge &edge, const double xi) { return edge.positions[edge.n_nodes - 1][0] < xi; };
+    const auto under     = std::lower_bound(lever.begin(), lever.end() - 1, at.at.centre.xi, is_before);
+    return FacePatches::find_near(
+        static_cast<unsigned int>(under - lever.begin()), static_cast<unsigned int>(lever.size()),
+        [&](const unsigned int patch) { return reach(patch, at, place); }, [](const unsigned int) { return 0.; });
   }
 
   PairCoordinates FacePair::coordinates(const unsigned int patch, const std::initializer_list<const PatchFacets *> facets) const

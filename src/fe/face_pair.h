@@ -30,10 +30,28 @@ namespace sprag
   /// Of 2 or 3 nodes in order.
   EdgeShapes edge_shapes(unsigned int n_nodes, double place);
 
+  /// An edge of 2 or 3 nodes in order as a parabola over 0 ... 1.
+  struct EdgeCurve
+  {
+    dealii::Tensor<1, 2> origin;
+    dealii::Tensor<1, 2> first;  ///< derivative there
+    dealii::Tensor<1, 2> second; ///< derivative everywhere
+
+    dealii::Tensor<1, 2> position(const double place) const
+    {
+      return origin + place * (first + 0.5 * place * second);
+    }
+    dealii::Tensor<1, 2> slope(const double place) const
+    {
+      return first + place * second;
+    }
+  };
+
   /// Where both faces are.
   struct PairConfiguration
   {
     FaceConfiguration at;                       ///< displacements of the lever's nodes, then of the cylinder's
+    dealii::Tensor<1, 2> drive;                 ///< direction of x in lever axes
     std::vector<dealii::Tensor<1, 2>> nodes;    ///< of the cylinder's face, deformed, in lever axes
     std::vector<dealii::Tensor<1, 2>> tangents; ///< between its edges, unit, mean of both sides
   };
@@ -139,6 +157,7 @@ namespace sprag
       unsigned int n_nodes = 0;
       std::array<unsigned int, 3> nodes{}; ///< as in PairCoordinates
       Nodes positions;                     ///< undeformed
+      EdgeCurve undeformed;
     };
     struct LeverEdge : Edge
     {
@@ -164,7 +183,8 @@ namespace sprag
 
     static Edge copy(const FaceEdge<2> &edge, unsigned int first_node);
     static Nodes deformed(const Edge &edge, const dealii::Vector<double> &displacements);
-    Nodes cylinder_nodes(unsigned int edge, const PairConfiguration &at) const;
+    static EdgeCurve curve_of(unsigned int n_nodes, const Vector2 *nodes);
+    static EdgeCurve deformed_curve(const Edge &edge, const dealii::Vector<double> &displacements);
     void check_chain();
     static void average(const PatchFacets &of, Facet &facet);
 
@@ -173,15 +193,14 @@ namespace sprag
     double outside(const Vector2 &position, const PairConfiguration &at) const;
     void go_to(const Vector2 &position, const PairConfiguration &at, Place &place) const;
     double reach(unsigned int patch, const PairConfiguration &at, Place &place) const;
-    double vertex_above(unsigned int vertex, const LeverEdge &edge, const Nodes &nodes, const PairConfiguration &at,
-                        const Segment &within) const;
+    double vertex_above(unsigned int vertex, const EdgeCurve &curve, const PairConfiguration &at, const Segment &within) const;
     PairPoint project(const Vector2 &position, const PairConfiguration &at, Place &place) const;
-    PairPoint point_above(const LeverEdge &edge, const Nodes &nodes, const PairConfiguration &at, double place_on_lever,
+    PairPoint point_above(const LeverEdge &edge, const EdgeCurve &curve, const PairConfiguration &at, double place_on_lever,
                           Place &place) const;
-    void add_segment(const LeverEdge &edge, const Nodes &nodes, const PairConfiguration &at, const Segment &segment, Place &place,
-                     PatchFacets &result) const;
+    void add_segment(const LeverEdge &edge, const EdgeCurve &curve, const PairConfiguration &at, const Segment &segment,
+                     Place &place, PatchFacets &result) const;
 
-    void add_cut(const LeverEdge &edge, const Nodes &nodes, const PairConfiguration &at, double place_on_lever, Place &place,
+    void add_cut(const LeverEdge &edge, const EdgeCurve &curve, const PairConfiguration &at, double place_on_lever, Place &place,
                  PatchFacets &result) const;
 
     std::vector<LeverEdge> lever;

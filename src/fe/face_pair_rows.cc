@@ -1,6 +1,6 @@
 #include "fe/face_pair_rows.h"
 
-#include <cmath>
+#include <algorithm>
 
 namespace sprag
 {
@@ -91,9 +91,9 @@ namespace sprag
       View(const PairConfiguration &at, const PairCoordinates &coordinates_)
           : coordinates(coordinates_)
           , by_theta({ -at.at.centre.eta, at.at.centre.xi })
-          , by_x({ std::cos(at.at.theta), -std::sin(at.at.theta) })
+          , by_x(at.drive)
           , twice_theta({ at.at.centre.xi, at.at.centre.eta })
-          , theta_x({ -std::sin(at.at.theta), -std::cos(at.at.theta) })
+          , theta_x({ at.drive[1], -at.drive[0] })
       {
       }
 
@@ -102,7 +102,7 @@ namespace sprag
         Local values;
         spread(p, form, values);
         const auto at = indices(p);
-        for (unsigned int i = 0; i < size(); ++i)
+        for (unsigned int i = 0; i < n_local; ++i)
           row[at[i]] += factor * values[i];
       }
 
@@ -118,7 +118,7 @@ namespace sprag
           spread(p, column, columns[k]);
         }
         const auto at = indices(p);
-        for (unsigned int i = 0; i < size(); ++i)
+        for (unsigned int i = 0; i < n_local; ++i)
         {
           Form row;
           for (unsigned int k = 0; k < n_forms; ++k)
@@ -126,7 +126,7 @@ namespace sprag
           Local of_row;
           spread(p, row, of_row);
           double *const target = &matrix(at[i], 0);
-          for (unsigned int j = 0; j < size(); ++j)
+          for (unsigned int j = 0; j < n_local; ++j)
             target[at[j]] += of_row[j];
         }
       }
@@ -135,17 +135,19 @@ namespace sprag
       Form seen(const PairPoint &p, const Vector<double> &change) const
       {
         const auto at = indices(p);
-        Form result;
-        Local of_entry;
-        for (unsigned int k = 0; k < n_forms; ++k)
+        Tensor<1, 2> moved, slope_change, bend_change;
+        for (unsigned int d = 0; d < 2; ++d)
         {
-          Form entry;
-          entry[k] = 1.;
-          spread(p, entry, of_entry);
-          for (unsigned int i = 0; i < size(); ++i)
-            result[k] += change[at[i]] * of_entry[i];
+          moved[d] = by_theta[d] * change[at[theta_place]] + by_x[d] * change[at[theta_place + 1]];
+          for (unsigned int a = 0; a < n_nodes; ++a)
+          {
+            const double of_cylinder = change[at[2 * (n_nodes + a) + d]];
+            moved[d] += p.lever[a] * change[at[2 * a + d]] - p.cylinder.values[a] * of_cylinder;
+            slope_change[d] += p.cylinder.slopes[a] * of_cylinder;
+            bend_change[d] += p.cylinder.bends[a] * of_cylinder;
+          }
         }
-        return result;
+        return Form({ moved[0], moved[1], slope_change[0], slope_change[1], p.normal * bend_change });
       }
 
       /// change . d^2 e . change
@@ -172,42 +174,38 @@ namespace sprag
       }
 
     private:
-      static constexpr unsigned int most = 14;
-      using Local                        = std::array<double, most>;
+      // Coordinates that a point sees: nodes of its two edges, theta, x. Edges of two nodes have a third one without any share;
+      // numbers known in advance make loops fast.
+      static constexpr unsigned int n_nodes     = 3;
+      static constexpr unsigned int theta_place = 4 * n_nodes;
+      static constexpr unsigned int n_local     = theta_place + 2;
+      using Local                               = std::array<double, n_local>;
 
-      /// Coordinates that a point sees: nodes of its two edges, theta, x.
-      unsigned int size() const
+      std::array<unsigned int, n_local> indices(const PairPoint &p) const
       {
-        return 2 * (coordinates.n_lever + coordinates.degree + 1) + 2;
-      }
-
-      std::array<unsigned int, most> indices(const PairPoint &p) const
-      {
-        std::array<unsigned int, most> result{};
-        unsigned int n = 0;
+        std::array<unsigned int, n_local> result;
+        result.fill(coordinates.theta());
         for (unsigned int i = 0; i < 2 * coordinates.n_lever; ++i)
-          result[n++] = i;
+          result[i] = i;
         const unsigned int first = 2 * (coordinates.n_lever + p.edge * coordinates.degree - coordinates.first);
         for (unsigned int i = 0; i < 2 * (coordinates.degree + 1); ++i)
-          result[n++] = first + i;
-        result[n++] = coordinates.theta();
-        result[n]   = coordinates.x();
+          result[2 * n_nodes + i] = first + i;
+        result[theta_place + 1] = coordinates.x();
         return result;
       }
 
       /// What a form is in those coordinates.
       void spread(const PairPoint &p, const Form &form, Local &result) const
       {
-        unsigned int n = 0;
-        for (unsigned int a = 0; a < coordinates.n_lever; ++a)
+        for (unsigned int a = 0; a < n_nodes; ++a)
           for (unsigned int d = 0; d < 2; ++d)
-            result[n++] = p.lever[a] * form[d];
-        for (unsigned int m = 0; m <= coordinates.degree; ++m)
-          for (unsigned int d = 0; d < 2; ++d)
-            result[n++] =
-                p.cylinder.slopes[m] * form[2 + d] - p.cylinder.values[m] * form[d] + p.cylinder.bends[m] * p.normal[d] * form[4];
-        result[n++] = by_theta[0] * form[0] + by_theta[1] * form[1];
-        result[n]   = by_x[0] * form[0] + by_x[1] * form[1];
+          {
+            result[2 * a + d] = p.lever[a] * form[d];
+            result[2 * (n_nodes + a) + d] =
+                p.cylinder.slopes[a] * form[2 + d] - p.cylinder.values[a] * form[d] + p.cylinder.bends[a] * p.normal[d] * form[4];
+          }
+        result[theta_place]     = by_theta * Tensor<1, 2>({ form[0], form[1] });
+        result[theta_place + 1] = by_x * Tensor<1, 2>({ form[0], form[1] });
       }
 
       const PairCoordinates &coordinates;
@@ -250,7 +248,10 @@ namespace sprag
                  const double radius, FacetRows &rows)
   {
     for (auto *const row : { &rows.gap, &rows.arc, &rows.stretch, &rows.slip })
-      row->reinit(coordinates.size());
+    {
+      row->grow_or_shrink(coordinates.size());
+      std::fill(row->begin(), row->end(), 0.);
+    }
     const View view(at, coordinates);
     for (unsigned int q = facet.begin; q < facet.end; ++q)
     {

@@ -78,42 +78,15 @@ namespace sprag
     return smallest;
   }
 
-  /// From the patch under the cylinder's centre downhill.
-  unsigned int FacePatches::closest(const FaceConfiguration &at, const double radius) const
-  {
-    const auto is_before  = [this](const Patch &patch, const double xi) { return all_points[patch.end - 1].position.xi < xi; };
-    const auto under      = std::lower_bound(all_patches.begin(), all_patches.end() - 1, at.centre.xi, is_before);
-    const auto n          = static_cast<unsigned int>(all_patches.size());
-    unsigned int best     = static_cast<unsigned int>(under - all_patches.begin());
-    double gap            = smallest_gap(best, at, radius);
-    const auto try_better = [&](const unsigned int patch)
-    {
-      const double there = smallest_gap(patch, at, radius);
-      if (there >= gap)
-        return false;
-      best = patch;
-      gap  = there;
-      return true;
-    };
-    while (best + 1 < n && try_better(best + 1))
-      continue;
-    while (best > 0 && try_better(best - 1))
-      continue;
-    return best;
-  }
-
-  /// Beyond the first patch that is out of reach the gap of a convex body only grows; the margin covers bending.
+  /// The margin covers bending.
   FacePatches::Range FacePatches::near(const FaceConfiguration &at, const double radius) const
   {
-    const auto is_near = [&](const unsigned int patch)
-    { return smallest_gap(patch, at, radius) < 0.02 * all_patches[patch].length; };
-    const unsigned int middle = closest(at, radius);
-    Range range{ middle, middle + 1 };
-    while (range.begin > 0 && is_near(range.begin - 1))
-      --range.begin;
-    while (range.end < all_patches.size() && is_near(range.end))
-      ++range.end;
-    return range;
+    const auto is_before = [this](const Patch &patch, const double xi) { return all_points[patch.end - 1].position.xi < xi; };
+    const auto under     = std::lower_bound(all_patches.begin(), all_patches.end() - 1, at.centre.xi, is_before);
+    return find_near(
+        static_cast<unsigned int>(under - all_patches.begin()), static_cast<unsigned int>(all_patches.size()),
+        [&](const unsigned int patch) { return smallest_gap(patch, at, radius); },
+        [&](const unsigned int patch) { return 0.02 * all_patches[patch].length; });
   }
 
   unsigned int FacePatches::patch_of_point(const unsigned int point) const

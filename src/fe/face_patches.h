@@ -5,6 +5,7 @@
 
 #include <deal.II/lac/vector.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace sprag
@@ -66,6 +67,16 @@ namespace sprag
       unsigned int end; ///< beyond the last
     };
 
+    static Range united(const Range &a, const Range &b)
+    {
+      return { std::min(a.begin, b.begin), std::max(a.end, b.end) };
+    }
+
+    /// Of n patches those whose distance is below a margin, at least the closest one. From `start` downhill, then to both sides:
+    /// beyond the first patch that is out of reach the distance from a convex body only grows.
+    template <class Distance, class Margin>
+    static Range find_near(unsigned int start, unsigned int n, const Distance &distance, const Margin &margin);
+
     /// Patches within reach of a cylinder, at least the closest one.
     Range near(const FaceConfiguration &at, double radius) const;
 
@@ -79,10 +90,38 @@ namespace sprag
 
   private:
     double smallest_gap(unsigned int patch, const FaceConfiguration &at, double radius) const;
-    unsigned int closest(const FaceConfiguration &at, double radius) const;
     unsigned int patch_of_point(unsigned int point) const;
 
     std::vector<Patch> all_patches;
     std::vector<Point> all_points;
   };
+
+  template <class Distance, class Margin>
+  FacePatches::Range FacePatches::find_near(const unsigned int start, const unsigned int n, const Distance &distance,
+                                            const Margin &margin)
+  {
+    unsigned int closest  = start;
+    double smallest       = distance(start);
+    const auto try_better = [&](const unsigned int patch)
+    {
+      const double there = distance(patch);
+      if (there >= smallest)
+        return false;
+      closest  = patch;
+      smallest = there;
+      return true;
+    };
+    while (closest + 1 < n && try_better(closest + 1))
+      continue;
+    while (closest > 0 && try_better(closest - 1))
+      continue;
+
+    const auto is_near = [&](const unsigned int patch) { return distance(patch) < margin(patch); };
+    Range range{ closest, closest + 1 };
+    while (range.begin > 0 && is_near(range.begin - 1))
+      --range.begin;
+    while (range.end < n && is_near(range.end))
+      ++range.end;
+    return range;
+  }
 } // namespace sprag

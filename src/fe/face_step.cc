@@ -29,17 +29,6 @@ namespace sprag
     return { &ports, inclination, relative, cylinder_centre(properties.geometry, relative, inclination) };
   }
 
-  /// Between the ends, at `share` of the step.
-  template <class Surface>
-  FaceConfiguration FaceStep<Surface>::balanced(const FaceStepPlaces &places, const double share)
-  {
-    between = *places.begin.displacement;
-    between.sadd(1. - share, share, *places.end.displacement);
-    const double theta = (1. - share) * places.begin.theta + share * places.end.theta;
-    const double x     = (1. - share) * places.begin.x + share * places.end.x;
-    return { &between, theta, x, cylinder_centre(properties.geometry, x, theta) };
-  }
-
   template <class Surface>
   void FaceStep<Surface>::clear(const Vector<double> &ports, const double x, const double duration)
   {
@@ -66,15 +55,11 @@ namespace sprag
     law.friction   = friction_of_step(properties.friction, step.to.v);
     law.weights    = step.weights;
 
-    auto range       = surface.near(end);
-    const auto widen = [&](const FacePatches::Range &other) {
-      range = { std::min(range.begin, other.begin), std::max(range.end, other.end) };
-    };
-    widen(surface.near(begin));
+    surface.enter({ begin, end, step.weights.stiffness() });
+    auto range = surface.near();
     if (!memory.empty())
-      widen(face.patches_of_points(memory.front().point, memory.back().point));
+      range = FacePatches::united(range, face.patches_of_points(memory.front().point, memory.back().point));
     range = clip(range);
-    surface.enter({ begin, end, balanced({ begin, end, end }, step.weights.stiffness()) });
     for (unsigned int patch = range.begin; patch < range.end; ++patch)
       step_patch(patch, memory, law);
     sum_forces();
@@ -201,9 +186,9 @@ namespace sprag
   std::vector<ContactMemory> FaceStep<Surface>::touch(const Vector<double> &ports, const DrivePoint &drive)
   {
     clear(ports, drive.x, 0.);
-    const auto at    = configuration(displacement, drive.x);
-    const auto range = surface.near(at);
-    surface.enter({ at, at, at });
+    const auto at = configuration(displacement, drive.x);
+    surface.enter({ at, at });
+    const auto range = surface.near();
     for (unsigned int patch = range.begin; patch < range.end; ++patch)
     {
       surface.enter(patch);
@@ -253,7 +238,7 @@ namespace sprag
   double FaceStep<Surface>::gap_change(const Vector<double> &change_of_ports) const
   {
     const auto at = configuration(displacement, last_x);
-    surface.enter({ at, at, at });
+    surface.enter({ at, at });
     const auto &state = states[middle_of_contact()];
     surface.enter(state.patch);
     const auto rows = surface.rows(state);
@@ -269,7 +254,7 @@ namespace sprag
   {
     const auto begin = configuration(from, from_x);
     const auto end   = configuration(to, to_x);
-    surface.enter({ begin, end, end });
+    surface.enter({ begin, end });
     double weighted    = 0.;
     double weights     = 0.;
     unsigned int patch = dealii::numbers::invalid_unsigned_int;

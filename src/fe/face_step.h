@@ -65,7 +65,6 @@ namespace sprag
 
   private:
     FaceConfiguration configuration(const dealii::Vector<double> &ports, double x) const;
-    FaceConfiguration balanced(const FaceStepPlaces &places, double share);
     void clear(const dealii::Vector<double> &ports, double x, double duration);
     void step_patch(unsigned int patch, const std::vector<ContactMemory> &accepted, const StepContactLaw &law);
     void slide_patch(unsigned int patch, const SlidingState &sliding);
@@ -84,7 +83,6 @@ namespace sprag
 
     // Of the last evaluation.
     dealii::Vector<double> displacement; ///< of the ports
-    dealii::Vector<double> between;      ///< where forces are balanced
     double last_x        = 0.;           ///< of the drive
     double step_duration = 0.;
     double surface_run   = 0.; ///< of the cylinder by turning, in the step [mm]

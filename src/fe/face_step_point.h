@@ -89,12 +89,23 @@ namespace sprag
     std::vector<FacePatchForces> loaded;
   };
 
-  /// Where a step begins and ends, and where forces are balanced in it.
+  /// Where a step begins and ends, and at which share of it forces are balanced.
   struct FaceStepPlaces
   {
     FaceConfiguration begin;
     FaceConfiguration end;
-    FaceConfiguration balance;
+    double balance = 1.;
+
+    /// Whether beginning and end differ.
+    bool moves() const
+    {
+      return begin.displacement != end.displacement || begin.x != end.x;
+    }
+
+    double balanced(const double at_begin, const double at_end) const
+    {
+      return (1. - balance) * at_begin + balance * at_end;
+    }
   };
 
   /// What a point's response to a step is in state and sums, its forces apart.

@@ -11,11 +11,11 @@ namespace sprag
   {
     // Slip in a second.
     clear(sliding.ports, sliding.drive.x, 1.);
-    const auto at    = configuration(displacement, sliding.drive.x);
-    const auto range = clip(surface.near(at));
+    const auto at = configuration(displacement, sliding.drive.x);
+    surface.enter({ at, at });
+    const auto range = clip(surface.near());
     sliding_law      = friction_of_step(properties.friction, sliding.drive.v);
     speed_of_sliding = sliding.speed;
-    surface.enter({ at, at, at });
     for (unsigned int patch = range.begin; patch < range.end; ++patch)
       slide_patch(patch, sliding);
     sum_forces();
@@ -42,7 +42,7 @@ namespace sprag
     std::vector<FrictionDelay> result;
     const auto &penalty = properties.penalties;
     const auto at       = configuration(displacement, last_x);
-    surface.enter({ at, at, at });
+    surface.enter({ at, at });
     unsigned int patch = dealii::numbers::invalid_unsigned_int;
     for (const auto &state : states)
     {

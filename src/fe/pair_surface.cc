@@ -14,23 +14,24 @@ namespace sprag
   {
   }
 
-  FacePatches::Range PairSurface::near(const FaceConfiguration &at) const
-  {
-    return pair.near(pair.configuration(at));
-  }
-
   void PairSurface::enter(const FaceStepPlaces &places)
   {
-    moves  = places.begin.displacement != places.end.displacement || places.begin.x != places.end.x;
+    moves  = places.moves();
     end.at = pair.configuration(places.end);
     if (moves)
     {
       enter_begin(places.begin);
-      of_balance.at = pair.configuration(places.balance);
+      enter_balance(places);
     }
   }
 
-  /// Facets at the beginning of a step are the same in all its iterations.
+  FacePatches::Range PairSurface::near() const
+  {
+    const auto at_last = pair.near(end.at);
+    return moves ? FacePatches::united(at_last, near_begin) : at_last;
+  }
+
+  /// The beginning of a step is the same in all its iterations.
   void PairSurface::enter_begin(const FaceConfiguration &at)
   {
     const bool same = known_begin.size() == at.displacement->size() && known_begin == *at.displacement && of_begin.at.x == at.x &&
@@ -40,8 +41,18 @@ namespace sprag
       of_begin                 = pair.configuration(at);
       known_begin              = *at.displacement;
       of_begin.at.displacement = &known_begin;
+      near_begin               = pair.near(of_begin);
       begin_facets.clear();
     }
+  }
+
+  void PairSurface::enter_balance(const FaceStepPlaces &places)
+  {
+    between = *places.begin.displacement;
+    between.sadd(1. - places.balance, places.balance, *places.end.displacement);
+    const double theta = places.balanced(places.begin.theta, places.end.theta);
+    const double x     = places.balanced(places.begin.x, places.end.x);
+    of_balance.at      = pair.configuration({ &between, theta, x, cylinder_centre(properties.geometry, x, theta) });
   }
 
   const PatchFacets &PairSurface::facets_at_begin()
@@ -58,6 +69,7 @@ namespace sprag
   {
     patch   = of_face;
     first   = face.patches()[patch].begin;
+    nodal   = FacePatches::nodal(face.patches()[patch], *end.at.at.displacement);
     touched = false;
     pair.find_facets(patch, end.at, end.of);
     at_begin = &facets_at_begin();
@@ -65,9 +77,8 @@ namespace sprag
 
   double PairSurface::place(FacePointState &state) const
   {
-    const auto nodal = FacePatches::nodal(face.patches()[patch], *end.at.at.displacement);
-    state.position   = FacePatches::position(face.points()[state.index], nodal);
-    state.gap        = end.of.facets[state.index - first].gap;
+    state.position = FacePatches::position(face.points()[state.index], nodal);
+    state.gap      = end.of.facets[state.index - first].gap;
     return at_begin->facets[state.index - first].gap;
   }
 
@@ -86,6 +97,7 @@ namespace sprag
     coordinates = pair.coordinates(patch, { at_begin, &end.of, &balance.of });
     values.reinit(coordinates.size());
     tangent.reinit(coordinates.size(), coordinates.size());
+    force_row.reinit(coordinates.size());
     movement                      = change(*begin.at.displacement, *end.at.at.displacement);
     movement[coordinates.theta()] = end.at.at.theta - begin.at.theta;
     movement[coordinates.x()]     = end.at.at.x - begin.at.x;
@@ -143,11 +155,12 @@ namespace sprag
     slip_change_row[coordinates.theta()] -= R;
     slip_change_row *= stretch;
     slip_change_row.add(0.5 * run, end_rows.stretch);
-    const Vector<double> *const rows_of_force[] = { &balance_rows.gap, &balance_rows.slip };
-    const Vector<double> *const rows_of_law[]   = { &end_rows.gap, &slip_change_row };
-    for (unsigned int i = 0; i < 2; ++i)
-      for (unsigned int j = 0; j < 2; ++j)
-        add_product(middle.weight * response.tangent[i][j], *rows_of_force[i], *rows_of_law[j], tangent);
+    for (const auto &[i, row] : { std::pair{ 0u, &balance_rows.gap }, { 1u, &balance_rows.slip } })
+    {
+      force_row.equ(response.tangent[i][0], end_rows.gap);
+      force_row.add(response.tangent[i][1], slip_change_row);
+      add_product(middle.weight, *row, force_row, tangent);
+    }
     const double share = law.weights.stiffness() * middle.weight;
     add_curvature(balance.of, middle, balance.at, coordinates, R, share * response.force[0], share * response.force[1], tangent);
   }

@@ -15,8 +15,8 @@ namespace sprag
     /// `face` must outlive the surface.
     PairSurface(const ElasticBody<2> &body, const FacePatches &face, const FaceStepProperties &properties);
 
-    FacePatches::Range near(const FaceConfiguration &at) const;
     void enter(const FaceStepPlaces &places);
+    FacePatches::Range near() const;
     void enter(unsigned int patch);
     double place(FacePointState &state) const;
     void step(FacePointState &state, double begin_gap, const ContactMemory &memory, const StepContactLaw &law, double surface_run,
@@ -34,6 +34,7 @@ namespace sprag
     };
 
     void enter_begin(const FaceConfiguration &at);
+    void enter_balance(const FaceStepPlaces &places);
     const PatchFacets &facets_at_begin();
     void touch();
     void add_force(double weight, double normal, double along_slip, const FacetRows &rows);
@@ -49,19 +50,23 @@ namespace sprag
 
     // Where it moves.
     Side of_balance;
+    dealii::Vector<double> between; ///< displacements at the balance
     PairConfiguration of_begin;
     dealii::Vector<double> known_begin;
+    FacePatches::Range near_begin{ 0, 0 };
     std::map<unsigned int, PatchFacets> begin_facets; ///< by patches
 
     // Of the patch.
-    unsigned int patch          = 0;
-    unsigned int first          = 0; ///< of its points
+    unsigned int patch = 0;
+    unsigned int first = 0;     ///< of its points
+    FacePatches::Nodal nodal{}; ///< its displacements at the end
     const PatchFacets *at_begin = nullptr;
     bool touched                = false;
     bool at_end_of_face         = false;
     PairCoordinates coordinates;
     FacetRows end_rows, balance_rows;
-    dealii::Vector<double> movement; ///< in the step
+    dealii::Vector<double> force_row; ///< derivative of a force
+    dealii::Vector<double> movement;  ///< in the step
     dealii::Vector<double> values;
     dealii::FullMatrix<double> tangent;
   };
