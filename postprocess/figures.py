@@ -158,6 +158,7 @@ FIGURES = {
     "ladder-a": ladder,
     # Slides held at one x.
     "modes-a": drawn("modal-a", "modes"),
+    "pair-reversal-a": drawn("pair-reversal-a", "pair"),
     "pair-modal-a": drawn("pair-modal-a", "modes"),
     "pair-stability-a": drawn("pair-stability-a", "modes"),
     "stability-a": drawn("stability-a", "stability"),

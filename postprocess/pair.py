@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from style import COLOURS, LINES, MILLIMETRE, TWO_COLUMNS, label, legend_on_top, panel_letter, plt
-from transient import is_transient
+from sensors import views
+from style import COLOURS, LINES, MILLIMETRE, TWO_COLUMNS, legend_on_top, panel_letter, plt
 
 LEVERS = (("", "first lever"), ("_2", "second lever"))
 CLOSED_FORM = {"color": "black", "linestyle": (0, (1, 2)), "linewidth": 0.8, "zorder": 3, "label": "closed form of the first"}
@@ -15,21 +15,20 @@ def has_pair(result):
     return all(result.has(column) for column in ("P", "P_2", "swing", "lateral_force"))
 
 
-def pair_of_levers(result, over=None):
+def pair_of_levers(result):
     """P and F of both levers, their swing and their force on the cylinder across its path.
 
-    Over "x", forward and backward, or "time"; by default over time where there is inertia.
+    Over x, forward and backward; with inertia over time, with a look at the first reversal.
     """
-    over = over or ("time" if is_transient(result) else "x")
-    columns = strokes(result) if over == "x" else [("", np.ones(len(result.table["time"]), dtype=bool))]
+    columns = views(result)
     size = (TWO_COLUMNS, 150 * MILLIMETRE)
     figure, panels = plt.subplots(
         4, len(columns), sharex="col", sharey="row", squeeze=False, figsize=size, height_ratios=(3, 3, 2, 2)
     )
-    for index, (way, rows) in enumerate(columns):
-        draw_column(panels[:, index], result, over, rows)
-        panels[-1, index].set_xlabel(label(result.units, over) + way)
-        panels[-1, index].set_xlim(np.nanmin(result.table[over][rows]), np.nanmax(result.table[over][rows]))
+    for index, (over, values, rows) in enumerate(columns):
+        draw_column(panels[:, index], result, values, rows)
+        panels[-1, index].set_xlabel(over)
+        panels[-1, index].set_xlim(np.nanmin(values[rows]), np.nanmax(values[rows]))
     for axes, letter in zip(panels.flat, "abcdefgh"):
         panel_letter(axes, letter)
     for axes, (column, symbol) in zip(panels[:, 0], FORCES + BOTH):
@@ -39,17 +38,9 @@ def pair_of_levers(result, over=None):
     return figure
 
 
-def strokes(result):
-    """[(way, rows)] of both directions of motion."""
-    x = result.table["x"]
-    steps = np.diff(x, prepend=x[0] - 1)
-    ways = ((", forward", steps > 0), (", backward", steps < 0))
-    return [(way, rows) for way, rows in ways if rows.any()]
-
-
-def draw_column(panels, result, over, rows):
+def draw_column(panels, result, values, rows):
     table = result.table
-    across = table[over][rows]
+    across = values[rows]
     for axes, (column, _) in zip(panels, FORCES):
         for index, (suffix, name) in enumerate(LEVERS):
             line = {"color": COLOURS[index], "linestyle": LINES[index], "linewidth": 0.9}

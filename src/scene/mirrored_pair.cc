@@ -135,6 +135,7 @@ namespace sprag
       return result;
     result.lever.moment_of_inertia += scene.spring.swing->inertia - scene.spring.behaviour.inertia;
     result.spring.behaviour = *scene.spring.swing;
+    result.spring.swing.reset();
     return result;
   }
 
