@@ -22,6 +22,11 @@ namespace sprag
       return runs_pairs(type) && type != AnalysisType::quasi_static && type != AnalysisType::transient;
     }
 
+    bool are_alike(const MirroredPair &pair)
+    {
+      return pair.cylinder_offset == 0. && pair.friction_ratio == 1.;
+    }
+
     void analysis(const Scene &scene, Violations &result)
     {
       const auto reject = [&](const std::string &rule) {
@@ -33,17 +38,18 @@ namespace sprag
         reject("must be half but in a quasi-static, transient, modal, stability, map or sprag-slip analysis");
       else if (type == AnalysisType::transient && (model == ModelType::closed_form || scene.contact.type == ContactType::ideal))
         reject("must be half with an ideal contact in time");
-      else if (type == AnalysisType::quasi_static && scene.support.type == SupportType::sprung)
-        reject("must be half on a sprung support without inertia; in time it may be full");
+      else if (type == AnalysisType::quasi_static && scene.support.type == SupportType::sprung &&
+               (model == ModelType::closed_form || !are_alike(scene.pair)))
+        reject("must be half on a sprung support without inertia, but with finite elements and levers that are alike; in time it "
+               "may be full");
     }
 
     /// Of held slides.
     void vibration(const Scene &scene, Violations &result)
     {
-      const auto &pair   = scene.pair;
-      const auto type    = scene.analysis.type;
-      const bool mirrors = pair.cylinder_offset == 0. && pair.friction_ratio == 1.;
-      if (scene.analysis.model == ModelType::finite_element && !mirrors)
+      const auto &pair = scene.pair;
+      const auto type  = scene.analysis.type;
+      if (scene.analysis.model == ModelType::finite_element && !are_alike(pair))
         result.push_back(
             { pair.cylinder_offset != 0. ? "Mirrored pair/Cylinder offset" : "Mirrored pair/Friction ratio",
               { "Mirrored pair/Type", "Analysis/Type", "Analysis/Model" },
