@@ -1,5 +1,6 @@
 #include "results/columns.h"
 
+#include <cmath>
 #include <gtest/gtest.h>
 #include <set>
 
@@ -27,4 +28,47 @@ TEST(Columns, EachHasItsOwnNameAUnitAndAMeaning)
     EXPECT_FALSE(column.unit.empty()) << column.name;
     EXPECT_FALSE(column.description.empty()) << column.name;
   }
+}
+
+TEST(Columns, OfAPairTellWhatTheSecondLeverHasAndWhatIsLeftBetweenThem)
+{
+  Row first, second;
+  first[Column::theta]         = 0.10;
+  first[Column::P]             = 10.;
+  first[Column::F]             = 4.;
+  first[Column::Q]             = 5.;
+  first[Column::spring_energy] = 2.;
+  first[Column::penetration]   = 1e-3;
+  second                       = first;
+  second[Column::theta]        = 0.06;
+  second[Column::P]            = 8.;
+  second[Column::Q]            = 3.;
+  second[Column::penetration]  = 3e-3;
+  EXPECT_EQ(first.drive_force(), 5.);
+  first.add_second_lever(second);
+  EXPECT_EQ(first.drive_force(), 8.);
+  EXPECT_EQ(first.of_second_lever(Column::P), 8.);
+  EXPECT_NEAR(first.swing(), 0.02, 1e-15);
+  // The first lever presses the cylinder down, the second one up; friction at an inclination takes from either.
+  EXPECT_NEAR(first.lateral_force(), 8. * std::cos(0.06) - 4. * std::sin(0.06) - 10. * std::cos(0.1) + 4. * std::sin(0.1), 1e-14);
+  EXPECT_EQ(first[Column::P], 10.);
+  EXPECT_EQ(first[Column::spring_energy], 4.);
+  EXPECT_EQ(first[Column::penetration], 3e-3);
+}
+
+TEST(Columns, OfAPairOnSensorsComeInOrder)
+{
+  FrictionPlate plate;
+  plate.type = PlateType::on_sensors;
+  MirroredPair pair;
+  pair.type          = PairType::full;
+  const auto columns = table_columns(plate, pair);
+  std::set<std::string> names;
+  for (const auto &column : columns)
+    EXPECT_TRUE(names.insert(column.name).second) << column.name;
+  EXPECT_EQ(columns.size(), n_columns + 2 * 5 + columns_of_a_lever().size() + 3);
+  EXPECT_EQ(columns[n_columns + 4].name, "sensor_sum");
+  EXPECT_EQ(columns[n_columns + 5].name, "theta_2");
+  EXPECT_EQ(columns[columns.size() - 4].name, "sensor_sum_2");
+  EXPECT_EQ(columns.back().name, "lateral_force");
 }

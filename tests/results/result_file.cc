@@ -105,6 +105,33 @@ TEST_F(ResultFileTest, RoundTrip)
   EXPECT_EQ(h5py("print(f.attrs[\"format\"], f.attrs[\"format_version\"])"), "sprag result 1.0\n");
 }
 
+TEST_F(ResultFileTest, ColumnsOfAPairOnSensorsHoldWhatTheirNamesSay)
+{
+  FrictionPlate plate;
+  plate.type    = PlateType::on_sensors;
+  plate.sensors = { 105., 195. };
+  MirroredPair pair;
+  pair.type = PairType::full;
+  Row first = row(1.), second = row(1.);
+  first[Column::theta]  = 0.10;
+  second[Column::theta] = 0.06;
+  first[Column::P]      = 10.;
+  second[Column::P]     = 8.;
+  first[Column::F] = second[Column::F] = 0.;
+  first.sensor_forces                  = { 4., 5. };
+  second.sensor_forces                 = { 2., 1. };
+  first.add_second_lever(second);
+  ResultFile file(path(), "", {}, table_columns(plate, pair));
+  file.append(first);
+  file.finish({}, {});
+  const std::string names = "[\"P\", \"P_2\", \"theta_2\", \"Q_pair\", \"sensor_1\", \"sensor_sum\", \"sensor_1_2\", "
+                            "\"sensor_sum_2\"]";
+  EXPECT_EQ(h5py("print([float(f[\"table/\" + name][0]) for name in " + names + "])"),
+            "[10.0, 8.0, 0.06, -4.0, 4.0, 9.0, 2.0, 3.0]\n");
+  EXPECT_EQ(h5py("print(round(float(f[\"table/swing\"][0]), 12), round(float(f[\"table/lateral_force\"][0]), 6))"),
+            "0.02 -1.964437\n"); // 8 cos 0.06 - 10 cos 0.1
+}
+
 TEST_F(ResultFileTest, EveryDatasetHasUnitAndDescription)
 {
   ResultFile file(path(), "", three_points);

@@ -1,0 +1,83 @@
+#include "scene/mirrored_pair.h"
+
+#include "scene/messages.h"
+#include "scenes.h"
+
+using namespace sprag;
+
+namespace
+{
+  const Messages full     = { "Mirrored pair/Type=full" };
+  const Messages held     = { "Mirrored pair/Type=full", "Mirrored pair/Joint=held" };
+  const Messages in_time  = { "Mirrored pair/Type=full", "Analysis/Type=transient", "Analysis/Model=beam" };
+  const Messages leaf     = { "Mirrored pair/Type=full", "Rotational spring/Type=leaf" };
+  const std::string scene = "scene.prm: Mirrored pair/Type = full: ";
+
+  void expect_refused(const Messages &with, const Messages &wrong, const std::string &message)
+  {
+    EXPECT_EQ(mistakes_of(with, wrong), (Messages{ "--set: " + message }));
+  }
+} // namespace
+
+TEST(MirroredPair, ModelsAAndBMayBeFull)
+{
+  const Messages model_b = { "Geometry/Cylinder radius=21.1", "Geometry/Interface offset=0", "Geometry/Pivot distance=193.9" };
+  for (const Messages &model : { Messages{}, model_b })
+    for (const Messages &pair : { full, held, in_time, leaf })
+      EXPECT_EQ(mistakes_of(pair, model), Messages{});
+  EXPECT_EQ(mistakes_of({ "Mirrored pair/Cylinder offset=40" }), Messages{}) << "counts in a full pair alone";
+}
+
+TEST(MirroredPair, AFreeJointNeedsOneAxisAndSpringsThatItCanFollow)
+{
+  expect_refused(
+      full, { "Geometry/Pivot height=2" },
+      "Geometry/Pivot height = 2: must be 0 mm with Mirrored pair/Joint = free: the levers swing together about one axis");
+  EXPECT_EQ(mistakes_of(held, { "Geometry/Pivot height=2" }), Messages{});
+  expect_refused(leaf, { "Leaf spring/Axial=held" },
+                 "Leaf spring/Axial = held: must be free with Mirrored pair/Joint = free, which nothing but the springs holds");
+  expect_refused(leaf, { "Leaf spring/Joint=guided" },
+                 "Leaf spring/Joint = guided: must be clamped or pinned with Mirrored pair/Joint = free, which nothing but the "
+                 "springs holds");
+  EXPECT_EQ(mistakes_of(leaf, { "Mirrored pair/Joint=held", "Leaf spring/Axial=held" }), Messages{});
+}
+
+TEST(MirroredPair, OnlyLeafSpringsHaveAJointWithMass)
+{
+  expect_refused(full, { "Mirrored pair/Joint mass=1e-4" },
+                 "Mirrored pair/Joint mass = 1e-4: must be 0 t with a torsional spring, which has no joint");
+  EXPECT_EQ(mistakes_of(leaf, { "Mirrored pair/Joint mass=1e-4" }), Messages{});
+}
+
+TEST(MirroredPair, TheCylinderStaysBetweenTheLevers)
+{
+  // (R - e)/2 = 5.2 mm.
+  expect_refused(in_time, { "Mirrored pair/Cylinder offset=5.3" },
+                 "Mirrored pair/Cylinder offset = 5.3: must be at most (R - e - h)/2 = 5.2 mm either way");
+  EXPECT_EQ(mistakes_of(in_time, { "Mirrored pair/Cylinder offset=-1" }), Messages{});
+}
+
+TEST(MirroredPair, AnalysesThatTakeHalfOfItSaySo)
+{
+  expect_refused(
+      full, { "Analysis/Type=contact law" },
+      "Analysis/Type = contact law: leaves Mirrored pair/Type = full, which must be half but in a quasi-static, transient, "
+      "modal, stability, map or sprag-slip analysis");
+}
+
+TEST(MirroredPair, EachLeverStandsInItsOwnMirroredAxes)
+{
+  Scene pair                = model_a();
+  pair.pair.type            = PairType::full;
+  pair.pair.cylinder_offset = 0.3;
+  pair.pair.friction_ratio  = 0.8;
+  EXPECT_EQ(number_of_levers(pair), 2u);
+  EXPECT_EQ(scene_of_lever(pair, 0).geometry.pivot_height, -0.3);
+  EXPECT_EQ(scene_of_lever(pair, 1).geometry.pivot_height, 0.3);
+  EXPECT_EQ(scene_of_lever(pair, 0).friction.factor, 1.);
+  EXPECT_EQ(scene_of_lever(pair, 1).friction.factor, 0.8);
+  EXPECT_EQ(rest_inclination(pair), rest_inclination(model_a()));
+  pair.pair.type = PairType::half;
+  EXPECT_EQ(scene_of_lever(pair, 1).geometry.pivot_height, 0.);
+  EXPECT_FALSE(swings(pair));
+}
