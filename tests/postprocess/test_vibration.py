@@ -157,15 +157,28 @@ class Vibration(PictureTest):
         return results.read_result(make_stability(self.folder / "a", *arguments, **options)).groups["modes"]
 
     def test_deflection_turns_with_the_hub(self):
-        xi, shape = vibration.deflection(self.modes(), 0)
+        xi, (shape,) = vibration.deflections(self.modes(), 0)
         np.testing.assert_array_equal(xi, (0, 50, 100, 150, 200))
         expected = np.sin(np.pi * xi / 200) + 0.01 * xi
         np.testing.assert_allclose(shape, expected / expected.max(), rtol=0, atol=1e-12)
 
     def test_rigid_lever_is_straight(self):
         modes = self.modes((-10 + 600j,), np.array((0.0,)))
-        xi, shape = vibration.deflection(modes, 0)
+        xi, (shape,) = vibration.deflections(modes, 0)
         np.testing.assert_allclose(shape, xi / xi[-1], rtol=0, atol=1e-15)
+
+    def test_both_levers_of_a_pair_share_a_scale_and_are_named_by_their_motion(self):
+        modes = dict(self.modes())
+        for name in ("across", "rotation"):
+            for part in ("real", "imaginary"):
+                modes[f"{name}_2_{part}"] = -0.5 * modes[f"{name}_{part}"]
+        modes["mirroring"] = np.full(len(modes["frequency"]), -0.95)
+        _, (first, second) = vibration.deflections(modes, 0)
+        np.testing.assert_allclose(second, -0.5 * first, rtol=0, atol=1e-15)
+        self.assertEqual(np.abs(first).max(), 1)
+        self.assertTrue(vibration.mode_name(modes, 0).endswith(", swinging"))
+        modes["mirroring"][:] = 0.95
+        self.assertTrue(vibration.mode_name(modes, 0).endswith(", mirroring"))
 
     def test_growing_modes_are_always_shown(self):
         modes = self.modes((*GROWING[2:], 5 + 90000j))
