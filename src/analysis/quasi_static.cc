@@ -194,8 +194,7 @@ namespace sprag
       StepCost cost;
       auto settled = solve_step(model, state, state.drive, settings, false, cost);
       if (!settled)
-        throw AnalysisError("no equilibrium at x = 0, where the drive begins: " + cost.failure +
-                            ". Try a smaller Mirrored pair/Cylinder offset or Contact/Penalty.");
+        return false; // the first step tells why
       settled->contact = model.memory();
       state            = std::move(*settled);
       return true;

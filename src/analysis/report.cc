@@ -203,8 +203,8 @@ namespace sprag
     };
     entries.push_back({ "peak_lateral_force", peak([](const Row &row) { return row.lateral_force(); }), "N",
                         "largest y-force of both levers on the cylinder" });
-    entries.push_back({ "peak_swing", peak([](const Row &row) { return row.swing(); }), "rad",
-                        "largest turn of both levers the same way" });
+    entries.push_back(
+        { "peak_swing", peak([](const Row &row) { return row.swing(); }), "rad", "largest turn of both levers the same way" });
     entries.push_back({ "peak_difference_P", peak([](const Row &row) { return row[Column::P] - row.of_second_lever(Column::P); }),
                         "N", "largest difference of both levers' normal forces" });
   }

@@ -118,8 +118,9 @@ namespace sprag
     for (const Column column : columns_of_a_lever())
       of_second.push_back(second[column]);
     sensor_forces.insert(sensor_forces.end(), second.sensor_forces.begin(), second.sensor_forces.end());
-    for (const Column column : { Column::friction_power, Column::friction_work, Column::drive_work, Column::spring_energy,
-                                 Column::elastic_energy, Column::layer_energy, Column::support_energy, Column::contact_energy, Column::active_points })
+    for (const Column column :
+         { Column::friction_power, Column::friction_work, Column::drive_work, Column::spring_energy, Column::elastic_energy,
+           Column::layer_energy, Column::support_energy, Column::contact_energy, Column::active_points })
       (*this)[column] += second[column];
     for (const Column column : { Column::penetration, Column::indentation, Column::cone_violation, Column::elastic_slip })
       (*this)[column] = std::max((*this)[column], second[column]);
