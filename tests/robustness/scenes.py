@@ -56,8 +56,8 @@ def sprag(*arguments):
 
 
 def columns_of_the_program():
-    """Names of the columns in the order of src/results/columns.cc."""
-    text = (SOURCE / "src/results/columns.cc").read_text(encoding="utf-8")
+    """Names of the columns that every table has, in the order of src/results/columns.cc."""
+    text = (SOURCE / "src/results/columns.cc").read_text(encoding="utf-8").partition("add_sensors")[0]
     return re.findall(r'^\s*\{ "(\w+)", "[^"]*",', text, re.MULTILINE)
 
 
@@ -150,12 +150,25 @@ class ScenesTest(unittest.TestCase):
         # It grows until the contact opens.
         self.assertTrue(0.1 < summary["cycle_open_share"] < 0.9)
 
+    def check_pair(self, table):
+        Q, P, F, theta, P_2, F_2, theta_2 = (table[name][:] for name in ("Q", "P", "F", "theta", "P_2", "F_2", "theta_2"))
+        np.testing.assert_allclose(table["Q_pair"][:], Q + table["Q_2"][:], rtol=0, atol=1e-12 * np.abs(Q).max())
+        np.testing.assert_allclose(table["swing"][:], (theta - theta_2) / 2, rtol=0, atol=1e-15)
+        # The spring moves the pair together: unequal forces are what differs, not one lever alone.
+        up = P_2 * np.cos(theta_2) - F_2 * np.sin(theta_2) - P * np.cos(theta) + F * np.sin(theta)
+        np.testing.assert_allclose(table["lateral_force"][:], up, rtol=0, atol=1e-11 * P.max())
+        self.assertGreater(P_2.max(), 0.8 * P.max())
+
     def check_run(self, file):
         table = file["table"]
         text = file["parameters"].asstr()[()]
         sensors = {f"sensor_{name}" for name in ("1", "2", "3", "4", "sum")}
         has_plate = parameter(text, "Friction plate", "Type") != "none"
-        self.assertEqual(set(table), set(columns_of_the_program()) | (sensors if has_plate else set()))
+        expected = set(columns_of_the_program()) | (sensors if has_plate else set())
+        if parameter(text, "Mirrored pair", "Type") == "full":
+            self.check_pair(table)
+            expected |= {name for name in table if name.endswith("_2")} | {"swing", "Q_pair", "lateral_force"}
+        self.assertEqual(set(table), expected)
         if has_plate:
             self.assertTrue(np.isfinite(table["sensor_sum"][:]).all())
         meshed = parameter(text, "Analysis", "Model") == "finite element"
