@@ -21,12 +21,14 @@ PARTS = {
     "lever frame": {"Lever/Outline": "frame"},
     "plate on sensors": {"Friction plate/Type": "on sensors"},
     "elastic cylinder": {"Cylinder/Type": "solid"},
+    "second lever": {"Mirrored pair/Type": "full"},
     "all": {
         "Support/Type": "sprung",
         "Rotational spring/Type": "leaf",
         "Lever/Outline": "frame",
         "Friction plate/Type": "on sensors",
         "Cylinder/Type": "solid",
+        "Mirrored pair/Type": "full",
     },
 }
 COLUMNS = ("parts", "DOF", "steps", "iterations", "CPU s", "ratio", "steps in time", "steps/CPU s", "peak P N")
