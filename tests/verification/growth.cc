@@ -87,8 +87,8 @@ TEST(HeldSlide, OfAMeshedLeverStaysWhereItIs)
   EXPECT_LT(drift(JudgedSlide(backward_a(ModelType::condensed, 20.)), 2000), 1e-7);
 }
 
-// Levers that swing together move neither the frame nor the joint of their springs: on a sprung frame they sprag-slip where half
-// of the pair, which can but mirror, is stable.
+// Levers that swing together neither move the frame nor bend the springs between them: on a sprung frame they sprag-slip where
+// half of the pair, which can but mirror, is stable.
 TEST(Growth, OfAPairThatSwingsWhereHalfOfItIsStable)
 {
   Scene scene        = with_lever(in_time(model_a(), ModelType::beam), 7.13, 12133.9, 1.50555);
