@@ -364,6 +364,7 @@ namespace sprag
         append(result, locked(scene));
       return result;
     }
+
     /// Of both levers of a full pair what is not said of the first already.
     Violations positions_of_levers(const Scene &scene, const Use &use)
     {
