@@ -1,9 +1,7 @@
 """What the two levers of a full mirrored pair do beside each other."""
 
-import numpy as np
-
-from sensors import views
-from style import COLOURS, LINES, MILLIMETRE, TWO_COLUMNS, legend_on_top, panel_letter, plt
+from sensors import draw_views
+from style import COLOURS, LINES, legend_on_top
 
 LEVERS = (("", "first lever"), ("_2", "second lever"))
 CLOSED_FORM = {"color": "black", "linestyle": (0, (1, 2)), "linewidth": 0.8, "zorder": 3, "label": "closed form of the first"}
@@ -20,17 +18,7 @@ def pair_of_levers(result):
 
     Over x, forward and backward; with inertia over time, with a look at the first reversal.
     """
-    columns = views(result)
-    size = (TWO_COLUMNS, 150 * MILLIMETRE)
-    figure, panels = plt.subplots(
-        4, len(columns), sharex="col", sharey="row", squeeze=False, figsize=size, height_ratios=(3, 3, 2, 2)
-    )
-    for index, (over, values, rows) in enumerate(columns):
-        draw_column(panels[:, index], result, values, rows)
-        panels[-1, index].set_xlabel(over)
-        panels[-1, index].set_xlim(np.nanmin(values[rows]), np.nanmax(values[rows]))
-    for axes, letter in zip(panels.flat, "abcdefgh"):
-        panel_letter(axes, letter)
+    figure, panels = draw_views(result, draw_column, 150, (3, 3, 2, 2))
     for axes, (column, symbol) in zip(panels[:, 0], FORCES + BOTH):
         axes.set_ylabel(f"{symbol} [{result.units[column]}]")
     legend_on_top(figure, *panels[0, 0].get_legend_handles_labels())

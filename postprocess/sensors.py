@@ -24,17 +24,7 @@ def sensor_forces(result):
 
     Over x, forward and backward; with inertia over time, with a look at the first reversal.
     """
-    columns = views(result)
-    size = (TWO_COLUMNS, 135 * MILLIMETRE)
-    figure, panels = plt.subplots(
-        3, len(columns), sharex="col", sharey="row", squeeze=False, figsize=size, height_ratios=(3, 3, 2)
-    )
-    for index, (over, values, rows) in enumerate(columns):
-        draw_column(panels[:, index], result, values, rows)
-        panels[-1, index].set_xlabel(over)
-        panels[-1, index].set_xlim(np.nanmin(values[rows]), np.nanmax(values[rows]))
-    for axes, letter in zip(panels.flat, "abcdef"):
-        panel_letter(axes, letter)
+    figure, panels = draw_views(result, draw_column, 135, (3, 3, 2))
     unit = result.units["P"]
     for axes, text in zip(panels[:, 0], (f"force [{unit}]", f"each sensor [{unit}]", f"sum less $P$ [{unit}]")):
         axes.set_ylabel(text)
@@ -43,6 +33,22 @@ def sensor_forces(result):
     legend_on_top(figure, handles + more[0], names + more[1])
     figure.align_ylabels()
     return figure
+
+
+def draw_views(result, draw_column, height, ratios):
+    """A figure of that height [mm] with rows of panels, a column of them for each view of the result, and its panels."""
+    columns = views(result)
+    size = (TWO_COLUMNS, height * MILLIMETRE)
+    figure, panels = plt.subplots(
+        len(ratios), len(columns), sharex="col", sharey="row", squeeze=False, figsize=size, height_ratios=ratios
+    )
+    for index, (over, values, rows) in enumerate(columns):
+        draw_column(panels[:, index], result, values, rows)
+        panels[-1, index].set_xlabel(over)
+        panels[-1, index].set_xlim(np.nanmin(values[rows]), np.nanmax(values[rows]))
+    for axes, letter in zip(panels.flat, "abcdefgh"):
+        panel_letter(axes, letter)
+    return figure, panels
 
 
 def views(result):

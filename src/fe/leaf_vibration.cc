@@ -16,28 +16,49 @@ namespace sprag
   {
     constexpr unsigned int n_modes = 8;
 
+    /// A mass per area of the cells or length of the faces that `values` visits, once for every call of `add`.
+    class MassOf
+    {
+    public:
+      MassOf(const FEValuesBase<2> &of, PETScWrappers::SparseMatrix &sum)
+          : values(of)
+          , mass(sum)
+          , local(of.get_fe().n_dofs_per_cell(), of.get_fe().n_dofs_per_cell())
+          , indices(of.get_fe().n_dofs_per_cell())
+      {
+      }
+
+      template <class Cell>
+      void add(const Cell &cell, const double density)
+      {
+        const auto &fe = values.get_fe();
+        local          = 0.;
+        for (const unsigned int q : values.quadrature_point_indices())
+          for (unsigned int i = 0; i < local.m(); ++i)
+            for (unsigned int j = 0; j < local.n(); ++j)
+              if (fe.system_to_component_index(i).first == fe.system_to_component_index(j).first)
+                local(i, j) += density * values.JxW(q) * values.shape_value(i, q) * values.shape_value(j, q);
+        cell->get_dof_indices(indices);
+        mass.add(indices, local);
+      }
+
+    private:
+      const FEValuesBase<2> &values;
+      PETScWrappers::SparseMatrix &mass;
+      FullMatrix<double> local;
+      std::vector<types::global_dof_index> indices;
+    };
+
     void assemble_mass(const ElasticBody<2> &body, const double density, PETScWrappers::SparseMatrix &mass)
     {
       const auto &fe = body.dofs().get_fe();
       FEValues<2> values(body.cell_mapping(), fe, QGauss<2>(fe.degree + 1), update_values | update_JxW_values);
-      const unsigned int n = fe.n_dofs_per_cell();
-      FullMatrix<double> local(n, n);
-      std::vector<types::global_dof_index> indices(n);
       body.reinit(mass, 0);
+      MassOf of_cells(values, mass);
       for (const auto &cell : body.dofs().active_cell_iterators())
       {
         values.reinit(cell);
-        local = 0.;
-        for (const unsigned int q : values.quadrature_point_indices())
-        {
-          const double weight = density * body.body_properties().width_of(cell->material_id()) * values.JxW(q);
-          for (unsigned int i = 0; i < n; ++i)
-            for (unsigned int j = 0; j < n; ++j)
-              if (fe.system_to_component_index(i).first == fe.system_to_component_index(j).first)
-                local(i, j) += weight * values.shape_value(i, q) * values.shape_value(j, q);
-        }
-        cell->get_dof_indices(indices);
-        mass.add(indices, local);
+        of_cells.add(cell, density * body.body_properties().width_of(cell->material_id()));
       }
       mass.compress(VectorOperation::add);
     }
@@ -47,34 +68,21 @@ namespace sprag
     {
       const auto &fe = body.dofs().get_fe();
       FEFaceValues<2> values(body.cell_mapping(), fe, QGauss<1>(fe.degree + 1), update_values | update_JxW_values);
-      const unsigned int n = fe.n_dofs_per_cell();
-      FullMatrix<double> local(n, n);
-      std::vector<types::global_dof_index> indices(n);
-      const auto on_joint = [&](const auto &add)
+      const auto on_joint = [&](const auto &visit)
       {
         for (const auto &cell : body.dofs().active_cell_iterators())
           for (const unsigned int f : cell->face_indices())
             if (cell->face(f)->at_boundary() && cell->face(f)->boundary_id() == boundary_id::joint)
             {
               values.reinit(cell, f);
-              add(cell);
+              visit(cell);
             }
       };
       double length = 0.;
       on_joint([&](const auto &)
                { length = std::accumulate(values.get_JxW_values().begin(), values.get_JxW_values().end(), length); });
-      on_joint(
-          [&](const auto &cell)
-          {
-            local = 0.;
-            for (const unsigned int q : values.quadrature_point_indices())
-              for (unsigned int i = 0; i < n; ++i)
-                for (unsigned int j = 0; j < n; ++j)
-                  if (fe.system_to_component_index(i).first == fe.system_to_component_index(j).first)
-                    local(i, j) += joint_mass / length * values.JxW(q) * values.shape_value(i, q) * values.shape_value(j, q);
-            cell->get_dof_indices(indices);
-            mass.add(indices, local);
-          });
+      MassOf of_section(values, mass);
+      on_joint([&](const auto &cell) { of_section.add(cell, joint_mass / length); });
       mass.compress(VectorOperation::add);
     }
 

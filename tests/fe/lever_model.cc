@@ -1,5 +1,6 @@
 #include "fe/lever_model.h"
 
+#include "fe/meshed.h"
 #include "mpi_environment.h"
 #include "scene/closed_form.h"
 #include "scenes.h"
@@ -33,25 +34,13 @@ namespace
   }
 
   /// A scene's model with its mesh.
-  class Meshed
+  class MeshedLever : public Meshed<LeverModel>
   {
   public:
-    explicit Meshed(const Scene &scene)
-        : model(mesh(scene), lever_properties(scene))
+    explicit MeshedLever(const Scene &scene)
+        : Meshed(scene, lever_properties(scene))
     {
     }
-
-  private:
-    const dealii::Triangulation<2> &mesh(const Scene &scene)
-    {
-      make_mesh(scene, triangulation);
-      return triangulation;
-    }
-
-    dealii::Triangulation<2> triangulation;
-
-  public:
-    LeverModel model;
   };
 
   DrivePoint forward_to(const double x)
@@ -158,7 +147,7 @@ namespace
   void expect_consistent_tangent(const Scene &scene)
   {
     const bool sprung = scene.support.type == SupportType::sprung;
-    Meshed meshed(scene);
+    MeshedLever meshed(scene);
     auto &model         = meshed.model;
     const auto accepted = slid(model);
     {
@@ -214,7 +203,7 @@ TEST(LeverModel, ApartTheSpringReturnsTheLeverInOneCorrection)
   for (const auto solution : { Solution::automatic, Solution::general })
   {
     const auto scene = coarse_scene(solution);
-    Meshed meshed(scene);
+    MeshedLever meshed(scene);
     const auto accepted = meshed.model.initial_state(forward_to(0.));
     State trial         = accepted;
     trial.drive         = forward_to(1e-3);
@@ -232,7 +221,7 @@ TEST(LeverModel, ApartTheSpringReturnsTheLeverInOneCorrection)
 
 TEST(LeverModel, ATriedStepLeavesTheAcceptedStateAndTheNextStepAsTheyWere)
 {
-  Meshed meshed(coarse_scene(Solution::automatic));
+  MeshedLever meshed(coarse_scene(Solution::automatic));
   auto &model         = meshed.model;
   const auto accepted = slid(model);
   const State before  = accepted;
@@ -270,7 +259,7 @@ TEST(LeverModel, ATriedStepLeavesTheAcceptedStateAndTheNextStepAsTheyWere)
 TEST(LeverModel, MomentOfTheContactIsTheSprings)
 {
   const auto scene = coarse_scene(Solution::automatic);
-  Meshed meshed(scene);
+  MeshedLever meshed(scene);
   auto &model         = meshed.model;
   const auto accepted = slid(model);
   const auto state    = solved(model, accepted, forward_to(30.));
@@ -290,7 +279,7 @@ TEST(LeverModel, HardeningSpringIsItsSecantAtEachTurn)
   for (const auto solution : { Solution::automatic, Solution::general })
   {
     Scene scene = coarse_scene_with_springs(solution);
-    Meshed hardening(scene);
+    MeshedLever hardening(scene);
     const auto accepted = slid(hardening.model);
     Row row, of_secant;
     hardening.model.observe(solved(hardening.model, accepted, forward_to(30.)), row);
@@ -300,7 +289,7 @@ TEST(LeverModel, HardeningSpringIsItsSecantAtEachTurn)
 
     scene.spring           = {};
     scene.spring.stiffness = moment / turn;
-    Meshed secant(scene);
+    MeshedLever secant(scene);
     secant.model.observe(solved(secant.model, accepted, forward_to(30.)), of_secant);
     EXPECT_NEAR(row[Column::theta], of_secant[Column::theta], 1e-13);
     EXPECT_NEAR(row[Column::P], of_secant[Column::P], 1e-9 * row[Column::P]);
@@ -318,7 +307,7 @@ TEST(LeverModel, SupportsSpringCarriesTheForceAlongX)
   for (const auto solution : { Solution::automatic, Solution::general })
   {
     const Scene scene = coarse_scene_with_springs(solution);
-    Meshed meshed(scene);
+    MeshedLever meshed(scene);
     const auto accepted = slid(meshed.model);
     for (const auto &drive : { forward_to(30.), back_by(5e-3), back_by(5.) })
     {

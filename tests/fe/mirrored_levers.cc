@@ -1,5 +1,6 @@
 #include "fe/mirrored_levers.h"
 
+#include "fe/meshed.h"
 #include "mpi_environment.h"
 #include "scenes.h"
 
@@ -36,25 +37,13 @@ namespace
     return scene;
   }
 
-  class Meshed
+  class MeshedPair : public Meshed<MirroredLevers>
   {
   public:
-    explicit Meshed(const Scene &scene)
-        : model(mesh(scene), scene)
+    explicit MeshedPair(const Scene &scene)
+        : Meshed(scene, scene)
     {
     }
-
-  private:
-    const dealii::Triangulation<2> &mesh(const Scene &scene)
-    {
-      make_mesh(scene, triangulation);
-      return triangulation;
-    }
-
-    dealii::Triangulation<2> triangulation;
-
-  public:
-    MirroredLevers model;
   };
 
   DrivePoint forward_to(const double x)
@@ -145,7 +134,7 @@ namespace
 
   void expect_consistent_tangent(const Scene &scene)
   {
-    Meshed meshed(scene);
+    MeshedPair meshed(scene);
     const auto accepted = slid(meshed.model);
     expect_quadratic_return(meshed.model, solved(meshed.model, accepted, forward_to(21.), FrictionMode::cone), accepted);
     const DrivePoint back{ (20. + 5e-3) / 112., 20. - 5e-3, -112. }; // some points stick, some slip
@@ -178,7 +167,7 @@ TEST(MirroredLevers, ApartTheSpringsCloseThemAndLeaveTheirSwing)
   {
     Scene scene             = pair(coarse_scene(), SpringJoint::free);
     scene.analysis.solution = solution;
-    Meshed meshed(scene);
+    MeshedPair meshed(scene);
     auto &model         = meshed.model;
     const auto accepted = model.initial_state(forward_to(0.));
     State trial         = accepted;
