@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace sprag
+{
+  /// Something that a run met and its user should know before relying on a result. Printed, stored in /warnings, counted in the
+  /// last line of a run; with Analysis/Warnings = error the run exits 1.
+  struct Warning
+  {
+    std::string name;   ///< identifier, unique within a run, words joined by underscores: narrow_contact
+    std::string found;  ///< a sentence: what was found and where, with its numbers, units and limit
+    std::string effect; ///< a sentence: what it does to which result
+    std::string remedy; ///< a sentence: what to do about it
+  };
+
+  using Warnings = std::vector<Warning>;
+} // namespace sprag
