@@ -5,6 +5,8 @@
 
 #include <deal.II/base/timer.h>
 
+#include <optional>
+
 namespace sprag
 {
   /// Takes the rows of a run as they come: completes them, writes them, shows the progress and sums up at the end.
@@ -18,9 +20,9 @@ namespace sprag
 
     void record(const FaceState &face);
 
-    /// Writes summary and meta and prints the table at the end of a run. `status` is "completed" or what went wrong.
-    /// Returns the summary.
-    std::vector<Entry> finish(const std::string &status, std::vector<Entry> meta);
+    /// Writes summary, meta and warnings, to which it adds those that follow from the rows, and prints the table at the end of a
+    /// run. `status` is "completed" or what went wrong. Returns the summary.
+    std::vector<Entry> finish(const std::string &status, std::vector<Entry> meta, Warnings &warnings);
 
   private:
     const Scene &scene;
@@ -29,6 +31,7 @@ namespace sprag
     Progress progress;
     std::vector<Row> rows;
     double travel = 0.;
+    std::optional<double> largest_pressure; ///< of the states of the face [MPa]
   };
 
   /// Whether the fields at a point of the drive are asked for; `last` is the path at the last frame [mm].

@@ -75,6 +75,8 @@ namespace sprag
         throw InputError(settings.mistakes);
       input.scene.name            = std::filesystem::path(settings.file).stem().string();
       input.scene.parameters_text = parameters_text(parameters, settings.given);
+      for (const auto &[name, setting] : settings.given)
+        input.scene.given.insert(name);
       return input.scene;
     }
 
