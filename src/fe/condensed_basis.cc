@@ -13,7 +13,7 @@ namespace sprag
   namespace
   {
     /// Of the content of stored files and of the numbers in them.
-    constexpr double format_version = 2.;
+    constexpr double format_version = 3.;
 
     void add_mesh(const Triangulation<2> &triangulation, Fingerprint &key)
     {
