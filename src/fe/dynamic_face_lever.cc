@@ -56,8 +56,10 @@ namespace sprag
 
     MeshedDynamics facts(const Scene &scene, const ElasticBody<2> &body, const std::vector<double> &omega_squared)
     {
+      using namespace penalty_over_layer;
       MeshedDynamics result;
-      result.penalties = contact_penalties(body, scene.contact, scene.layer.thickness);
+      const double factor = scene.mesh.degree == 1 ? in_time_linear : in_time;
+      result.penalties    = contact_penalties(body, scene.contact, scene.layer.thickness, factor);
       for (const double stiffness : omega_squared)
         result.frequencies.push_back(0.5 * std::sqrt(stiffness) / M_PI);
       return result;
