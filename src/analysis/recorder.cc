@@ -3,6 +3,7 @@
 #include "analysis/transient_report.h"
 #include "base/errors.h"
 #include "base/interrupt.h"
+#include "scene/read.h"
 
 #include <deal.II/base/utilities.h>
 
@@ -96,7 +97,7 @@ namespace sprag
   Recorder::Recorder(const Scene &scene_, const std::string &folder, const bool quiet_, const FacePoints &points)
       : scene(scene_)
       , quiet(quiet_)
-      , file((prepare_folder(folder), folder + "/result.h5"), scene.parameters_text, points,
+      , file((prepare_folder(folder), folder + "/result.h5"), parameters_text(scene), points,
              table_columns(scene.plate, scene.pair))
       , progress(std::cerr, progress_style(quiet), path_length(scene.drive))
   {

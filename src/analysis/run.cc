@@ -18,6 +18,7 @@
 #include "fe/mirrored_levers.h"
 #include "scene/closed_form.h"
 #include "scene/mirrored_pair.h"
+#include "scene/read.h"
 
 #include <deal.II/base/mpi.h>
 
@@ -38,7 +39,7 @@ namespace sprag
       Timer timer(std::cout, Timer::never, Timer::cpu_and_wall_times);
       const auto sweep = slope_sweep(scene);
       prepare_folder(options.folder);
-      ResultFile file(options.folder + "/result.h5", scene.parameters_text, {}, sweep.columns);
+      ResultFile file(options.folder + "/result.h5", parameters_text(scene), {}, sweep.columns);
       for (const auto &row : sweep.rows)
         file.append(row);
       const double mu                  = friction_coefficient(scene.friction, scene.drive.peak_speed()).coefficient;
@@ -74,7 +75,7 @@ namespace sprag
       require_writable(options.folder);
       const auto law = indent(scene);
       prepare_folder(options.folder);
-      ResultFile file(options.folder + "/result.h5", scene.parameters_text, {},
+      ResultFile file(options.folder + "/result.h5", parameters_text(scene), {},
                       { { "P", "N", "normal force" },
                         { "approach", "mm", "overlap of the cylinder with the undeformed lever" },
                         { "bending", "mm", "deflection of the Euler-Bernoulli lever at the contact" },

@@ -9,6 +9,7 @@
 #include "fe/field_frames.h"
 #include "model/growth.h"
 #include "scene/held_slide.h"
+#include "scene/read.h"
 
 #include <algorithm>
 #include <iostream>
@@ -42,7 +43,7 @@ namespace sprag
     {
     public:
       Output(const Scene &scene, const RunOptions &options)
-          : file((prepare_folder(options.folder), options.folder + "/result.h5"), scene.parameters_text, {}, {})
+          : file((prepare_folder(options.folder), options.folder + "/result.h5"), parameters_text(scene), {}, {})
       {
       }
 

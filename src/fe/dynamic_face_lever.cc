@@ -6,6 +6,7 @@
 #include "model/mirrored_modes.h"
 #include "model/mirrored_structure.h"
 #include "scene/mirrored_pair.h"
+#include "scene/scene_key.h"
 
 #include <algorithm>
 #include <cmath>
@@ -28,7 +29,7 @@ namespace sprag
 
     BasisSettings basis_settings(const Scene &scene)
     {
-      return { scene.condensed.modes, scene.spring.stiffness, inertia_of(scene), scene.condensed.cache };
+      return { scene.condensed.modes, scene.spring.stiffness, inertia_of(scene), scene.condensed.cache, body_key(scene) };
     }
 
     LeverDynamics constants_of(const Scene &scene, const double relaxation, const double lever_mass)

@@ -4,6 +4,8 @@
 #include "scene/apparatus.h"
 #include "scene/drive.h"
 
+#include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -307,7 +309,9 @@ namespace sprag
     MapSettings map;
     SpragSlipSettings sprag_slip;
     CalibrationSettings calibration;
-    std::string name;            ///< file name without folder and ending
-    std::string parameters_text; ///< every parameter as used, in .prm form
+    std::string name; ///< file name without folder and ending
+
+    /// Every parameter as it was read, by "Section/Name", files with absolute paths; null for a scene that was not read.
+    std::shared_ptr<const std::map<std::string, std::string>> parameters;
   };
 } // namespace sprag
