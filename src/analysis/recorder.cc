@@ -3,6 +3,7 @@
 #include "analysis/transient_report.h"
 #include "base/errors.h"
 #include "base/interrupt.h"
+#include "fe/stress_peaks.h"
 #include "scene/read.h"
 
 #include <deal.II/base/utilities.h>
@@ -19,19 +20,6 @@
 
 namespace sprag
 {
-  bool wants_fields(const Scene &scene, const DrivePoint &drive, const double travelled, double &last)
-  {
-    if (scene.output.fields == FieldOutput::none)
-      return false;
-    const auto &reversals = scene.drive.reversals();
-    const bool turning =
-        std::binary_search(reversals.begin(), reversals.end(), drive.time) || drive.time >= scene.drive.duration();
-    const bool due = scene.output.fields == FieldOutput::interval && travelled >= last + scene.output.field_interval - 1e-9;
-    if (turning || due)
-      last = travelled;
-    return turning || due;
-  }
-
   double path_length(const Drive &drive)
   {
     double length = 0.;
@@ -100,6 +88,7 @@ namespace sprag
       , file((prepare_folder(folder), folder + "/result.h5"), parameters_text(scene), points,
              table_columns(scene.plate, scene.pair))
       , progress(std::cerr, progress_style(quiet), path_length(scene.drive))
+      , stress(no_stress_peaks("the model has no mesh"))
   {
   }
 
@@ -123,11 +112,17 @@ namespace sprag
     file.append(face);
   }
 
+  void Recorder::set_stress(std::vector<Entry> peaks)
+  {
+    stress = std::move(peaks);
+  }
+
   std::vector<Entry> Recorder::finish(const std::string &status, std::vector<Entry> meta)
   {
     progress.finish();
     auto summary = scene.analysis.type == AnalysisType::transient ? transient_summary(scene, rows) : summary_of(scene, rows);
     add_pair(rows, summary);
+    summary.insert(summary.end(), stress.begin(), stress.end());
     summary.push_back({ "status", status, "", "how the run ended" });
     file.finish(summary, meta);
     if (!quiet)

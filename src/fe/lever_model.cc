@@ -328,4 +328,11 @@ namespace sprag
   {
     return std::visit([&](const auto &s) { return s.body_displacement(state.coordinates, contact.forces()); }, system);
   }
+
+  std::function<Vector<double>()> LeverModel::recovery(const State &state) const
+  {
+    const PortForces loads{ contact.forces().ports, contact.forces().values, dealii::FullMatrix<double>() };
+    return [this, loads, coordinates = state.coordinates]
+    { return std::visit([&](const auto &s) { return s.body_displacement(coordinates, loads); }, system); };
+  }
 } // namespace sprag

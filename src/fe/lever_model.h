@@ -7,6 +7,7 @@
 #include "fe/rigid_surface.h"
 #include "model/hub_spring.h"
 
+#include <functional>
 #include <optional>
 #include <variant>
 
@@ -106,6 +107,9 @@ namespace sprag
 
     /// Displacement of all degrees of freedom at the last evaluation, in lever axes [mm].
     dealii::Vector<double> body_displacement(const State &state) const;
+
+    /// Finds body_displacement() of the last evaluation when it is asked, also after the model has moved on.
+    std::function<dealii::Vector<double>()> recovery(const State &state) const;
 
     /// Index of the hub's turn among the coordinates.
     unsigned int rotation() const;

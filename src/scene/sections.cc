@@ -200,7 +200,7 @@ namespace sprag
                                   { { "none", FieldOutput::none },
                                     { "turning points", FieldOutput::turning_points },
                                     { "interval", FieldOutput::interval } },
-                                  "When displacement and stress are written: never, at reversals and the end, or in between too");
+                                  "When fields are written: never, where P is largest and at and behind reversals, or in between too");
       section.number("Field interval", settings.field_interval, above(0.), "mm", "Travel of x between written fields");
     }
 
