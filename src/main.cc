@@ -63,7 +63,7 @@ namespace
     const auto scene = sprag::read_scene(arguments.file, arguments.overrides);
     if (arguments.print_parameters)
     {
-      std::cout << scene.parameters_text;
+      std::cout << parameters_text(scene);
       return;
     }
     if (arguments.validate)

@@ -192,26 +192,25 @@ namespace sprag
                              "strain without inertia." });
     }
 
-    void add_pressure(const Scene &scene, const Row &peak, const std::optional<double> largest_pressure, Warnings &warnings)
+    void add_pressure(const Scene &scene, const std::vector<Row> &rows, const Row &peak, Warnings &warnings)
     {
       const auto strength = layer_strength(scene.layer);
       if (!strength)
         return;
-      const double pressure = largest_pressure.value_or(layer_pressure(scene, peak[Column::P]));
+      const Row *pressed    = largest(rows, [](const Row &row) { return row[Column::largest_pressure]; });
+      const Row &place_of   = pressed != nullptr ? *pressed : peak;
+      const double pressure = pressed != nullptr ? (*pressed)[Column::largest_pressure] : layer_pressure(scene, peak[Column::P]);
       if (pressure <= *strength)
         return;
       const std::string source = scene.layer.strength ? "Friction layer/Strength" : "0.04 E, at which the cells of cork buckle";
       warnings.push_back({ "pressure_beyond_strength",
                            "The largest pressure on the friction layer is " + rounded_text(pressure) + " MPa" +
-                               (largest_pressure ? "" : " (by an elastic foundation)") + ", P being largest with " +
-                               rounded_text(peak[Column::P]) + " N " + place(peak) + "; the layer gives way from " +
-                               rounded_text(*strength) + " MPa (" + source + ").",
-                           "The layer is modelled as elastic: a real one is crushed, its pressure "
-                           "stays near that value and its "
-                           "contact is wider; P and Q change by the lever's turn alone, stiffness "
-                           "in contact and ringing more.",
-                           "Lower the force or widen the lever, give the Friction layer/Strength "
-                           "of the sheet in use, or take "
+                               (pressed != nullptr ? "" : " (by an elastic foundation)") +
+                               ", under P = " + rounded_text(place_of[Column::P]) + " N " + place(place_of) +
+                               "; the layer gives way from " + rounded_text(*strength) + " MPa (" + source + ").",
+                           "The layer is modelled as elastic: a real one is crushed, its pressure stays near that value and its "
+                           "contact is wider; P and Q change by the lever's turn alone, stiffness in contact and ringing more.",
+                           "Lower the force or widen the lever, give the Friction layer/Strength of the sheet in use, or take "
                            "pressure and frequencies in contact for upper bounds." });
     }
 
@@ -269,7 +268,7 @@ namespace sprag
     return std::pow(0.75 * P / (scene.lever.width * half_width_at_unit_pressure), 2. / 3.);
   }
 
-  Warnings row_warnings(const Scene &scene, const std::vector<Row> &rows, const std::optional<double> largest_pressure)
+  Warnings row_warnings(const Scene &scene, const std::vector<Row> &rows)
   {
     Warnings warnings;
     const Row *peak = largest(rows, [](const Row &row) { return row[Column::P]; });
@@ -283,7 +282,7 @@ namespace sprag
     }
     add_deflection(scene, rows, warnings);
     add_strain(scene, rows, warnings);
-    add_pressure(scene, *peak, largest_pressure, warnings);
+    add_pressure(scene, rows, *peak, warnings);
     add_energy(scene, rows, warnings);
     return warnings;
   }
@@ -295,6 +294,6 @@ namespace sprag
     row[Column::v]           = drive.v;
     row[Column::P]           = P;
     row[Column::indentation] = indentation;
-    return row_warnings(scene, { row }, {});
+    return row_warnings(scene, { row });
   }
 } // namespace sprag

@@ -2,6 +2,7 @@
 
 #include "analysis/closed_form.h"
 #include "analysis/contact_law.h"
+#include "analysis/field_recorder.h"
 #include "analysis/jamming.h"
 #include "analysis/prepared_scene.h"
 #include "analysis/quasi_static.h"
@@ -14,11 +15,10 @@
 #include "analysis/scene_warnings.h"
 #include "analysis/slope.h"
 #include "base/errors.h"
-#include "fe/field_frames.h"
-#include "fe/leaf_frames.h"
 #include "fe/mirrored_levers.h"
 #include "scene/closed_form.h"
 #include "scene/mirrored_pair.h"
+#include "scene/read.h"
 
 #include <deal.II/base/mpi.h>
 
@@ -39,7 +39,7 @@ namespace sprag
       Timer timer(std::cout, Timer::never, Timer::cpu_and_wall_times);
       const auto sweep = slope_sweep(scene);
       prepare_folder(options.folder);
-      ResultFile file(options.folder + "/result.h5", scene.parameters_text, {}, sweep.columns);
+      ResultFile file(options.folder + "/result.h5", parameters_text(scene), {}, sweep.columns);
       for (const auto &row : sweep.rows)
         file.append(row);
       const double mu                  = friction_coefficient(scene.friction, scene.drive.peak_speed()).coefficient;
@@ -57,6 +57,8 @@ namespace sprag
                { "exponent", law.fit.exponent, "1", "Contact/Exponent" },
                { "largest_error", law.fit.largest_error, "1", "of P of the fitted law, relative" },
                { "rms_error", law.fit.rms_error, "1", "of P of the fitted law, relative" },
+               { "penalty_error", law.penalty_error(), "1",
+                 "of P by the overlap that the indentation's penalty leaves, relative" },
                { "largest_P", law.points.back().P, "N", "up to which the law was fitted" },
                { "status", std::string("completed"), "", "how the run ended" } };
     }
@@ -74,7 +76,7 @@ namespace sprag
       require_writable(options.folder);
       const auto law = indent(scene);
       prepare_folder(options.folder);
-      ResultFile file(options.folder + "/result.h5", scene.parameters_text, {},
+      ResultFile file(options.folder + "/result.h5", parameters_text(scene), {},
                       { { "P", "N", "normal force" },
                         { "approach", "mm", "overlap of the cylinder with the undeformed lever" },
                         { "bending", "mm", "deflection of the Euler-Bernoulli lever at the contact" },
@@ -208,17 +210,19 @@ namespace sprag
       return model.lever(0);
     }
 
-    State state_of_first(const LeverModel &, const State &state)
+    FieldRecorder::Displacements recovery(const LeverModel &model, const State &state)
     {
-      return state;
+      return [find = model.recovery(state)] { return std::vector<dealii::Vector<double>>{ find() }; };
     }
 
-    State state_of_first(const MirroredLevers &model, const State &state)
+    FieldRecorder::Displacements recovery(const MirroredLevers &model, const State &state)
     {
-      return model.state_of(0, state);
+      return [first  = model.lever(0).recovery(model.state_of(0, state)),
+              second = model.lever(1).recovery(model.state_of(1, state))] {
+        return std::vector<dealii::Vector<double>>{ first(), second() };
+      };
     }
 
-    /// Pictures of the fields show the first lever of a pair.
     template <typename Levers>
     void drive_levers(const Scene &scene, const RunOptions &options, Timer &timer, Levers &levers, Warnings &warnings)
     {
@@ -226,27 +230,18 @@ namespace sprag
       Recorder recorder(scene, options.folder, options.quiet, levers.face_points());
       if (!options.quiet)
         print_model(scene, shown);
-      auto meta = model_entries(scene, shown);
-      std::optional<FieldFrames> frames;
-      if (scene.output.fields != FieldOutput::none)
-        frames.emplace(shown.elastic_body(), options.folder);
-      std::optional<LeafFrames> leaf_frames;
-      if (frames && scene.spring.type == SpringType::leaf)
-        leaf_frames.emplace(scene, options.folder);
+      auto meta             = model_entries(scene, shown);
+      const bool has_frames = scene.output.fields != FieldOutput::none;
+      FieldRecorder fields(scene, shown.elastic_body(), has_frames ? std::optional(options.folder) : std::nullopt, timer);
 
-      double travelled = 0., last_frame = 0., x = scene.drive.at(0.).x, stick = 0.;
+      double stick     = 0.;
       const auto write = [&](const State &state, const Row &row)
       {
         const Timer::Scope scope(timer, "output");
+        const auto face = levers.face_state(state);
         recorder.record(row);
-        recorder.record(levers.face_state(state));
-        travelled += std::abs(state.drive.x - x);
-        x = state.drive.x;
-        if (!wants_fields(scene, state.drive, travelled, last_frame))
-          return;
-        frames->write(shown.body_displacement(state_of_first(levers, state)), state.drive.time);
-        if (leaf_frames)
-          leaf_frames->write(row[Column::theta], state.drive.time);
+        recorder.record(face);
+        fields.record(row, face, [&] { return recovery(levers, state); });
       };
       QuasiStaticSettings settings{ scene.analysis.step, scene.analysis.minimum_step, scene.contact };
       record_run(
@@ -258,6 +253,7 @@ namespace sprag
           },
           [&]
           {
+            recorder.set_stress(fields.finish());
             meta.push_back(
                 { "stick_stiffness", stick, "N/mm",
                   "tangential stiffness of layer and penalty in stick at the first reversal, of both levers of a pair" });

@@ -25,7 +25,7 @@ namespace sprag
     void write_scene(const std::string &file, const std::string &purpose, const Scene &scene)
     {
       std::ofstream stream(file);
-      stream << "# " << purpose << '\n' << scene.parameters_text;
+      stream << "# " << purpose << '\n' << parameters_text(scene);
       stream.close();
       if (!stream)
         throw AnalysisError(file + " cannot be written");
@@ -104,7 +104,7 @@ namespace sprag
     prepare_folder(options.folder);
     write_scene(options.folder + "/calibrated.prm", "Calibrated parts, in time, condensed", calibrated);
     write_scene(options.folder + "/beam.prm", "The beam calibrated by their mesh, in time", beam);
-    ResultFile file(options.folder + "/result.h5", scene.parameters_text, {}, columns());
+    ResultFile file(options.folder + "/result.h5", parameters_text(scene), {}, columns());
     for (const auto &point : found.sliding)
       file.append(std::vector<double>{ point.x, point.direction, point.forces[0].P, point.forces[1].P, point.forces[0].Q,
                                        point.forces[1].Q });

@@ -4,6 +4,8 @@
 #include "analysis/recorder.h"
 #include "base/errors.h"
 #include "base/progress.h"
+#include "scene/read.h"
+#include "scene/scene_key.h"
 #include "scene/sections.h"
 
 #include <deal.II/base/mpi.h>
@@ -210,7 +212,7 @@ namespace sprag
       const Group group = map_group(scene, map.grid, cells);
       auto summary      = summary_of_map(map, group, cells.size());
       summary.push_back({ "status", status, "", "how the run ended" });
-      ResultFile file(options.folder + "/result.h5", scene.parameters_text, {}, boundary_columns(scene.map));
+      ResultFile file(options.folder + "/result.h5", parameters_text(scene), {}, boundary_columns(scene.map));
       for (const auto &point : map.boundary)
         file.append(boundary_row(scene.map, point));
       file.finish(summary, meta, warnings, { group });
@@ -222,6 +224,8 @@ namespace sprag
     {
       if (journal.dropped())
         progress.say("map.journal is of another scene or version: begun anew");
+      if (const auto damaged = journal.damaged_lines(); damaged > 0)
+        std::cerr << "map.journal: damaged lines dropped, their cells are judged again: " << damaged << std::endl;
       if (!journal.cells().empty())
         progress.say("map.journal: " + std::to_string(journal.cells().size()) + " cells taken over");
     }
@@ -236,7 +240,7 @@ namespace sprag
         [&]
         {
           prepare_folder(options.folder);
-          journal.emplace(options.folder + "/map.journal", scene.parameters_text);
+          journal.emplace(options.folder + "/map.journal", scene_key(scene));
           announce(*journal, progress);
         });
     MapTeam team(scene, journal ? &*journal : nullptr,

@@ -7,6 +7,7 @@
 #include "base/errors.h"
 #include "base/text.h"
 #include "scene/held_slide.h"
+#include "scene/read.h"
 
 #include <cmath>
 #include <deque>
@@ -202,7 +203,7 @@ namespace sprag
       {
         found.ledger = run.ledger();
         found.steps  = run.steps();
-        for (const Warning &warning : row_warnings(scene, { rows.largest() }, {}))
+        for (const Warning &warning : row_warnings(scene, { rows.largest() }))
           warnings.push_back(warning);
       }
     };
@@ -232,7 +233,7 @@ namespace sprag
     const Scene held    = held_scene(scene);
     const auto dynamics = maker.make(held);
     prepare_folder(options.folder);
-    ResultFile file(options.folder + "/result.h5", scene.parameters_text, {}, table_columns(scene.plate, scene.pair));
+    ResultFile file(options.folder + "/result.h5", parameters_text(scene), {}, table_columns(scene.plate, scene.pair));
     Progress progress(std::cerr, progress_style(options.quiet), parts_of(scene.sprag_slip));
     SpragSlip found;
     try

@@ -1,15 +1,15 @@
 #include "analysis/run_transient.h"
 
 #include "analysis/dynamics.h"
+#include "analysis/field_recorder.h"
 #include "analysis/ideal_contact.h"
 #include "analysis/recorder.h"
 #include "analysis/transient.h"
 #include "analysis/transient_report.h"
 #include "base/errors.h"
-#include "fe/field_frames.h"
-#include "fe/leaf_frames.h"
 #include "model/reduced_lever.h"
 #include "scene/contact_reference.h"
+#include "scene/mirrored_pair.h"
 
 #include <algorithm>
 #include <functional>
@@ -27,14 +27,16 @@ namespace sprag
       return { { "steps_per_cpu_second", seconds > 0. ? report.steps / seconds : 0., "1/s", "accepted steps, output included" } };
     }
 
-    /// Runs `steps`, which returns its report, and finishes the record whatever happens.
-    void record_steps(const Scene &scene, Recorder &recorder, Timer &timer, Warnings &warnings, const std::vector<Entry> &facts,
-                      const std::function<TransientReport()> &steps)
+    /// Runs `steps`, which returns its report, completes and finishes the record whatever happens.
+    void record_steps(
+        const Scene &scene, Recorder &recorder, Timer &timer, Warnings &warnings, const std::vector<Entry> &facts,
+        const std::function<TransientReport()> &steps, const std::function<void()> &complete = [] {})
     {
       TransientReport report;
       double seconds  = 0.;
       const auto meta = [&]
       {
+        complete();
         auto entries       = facts;
         const auto cost    = cost_entries(report, seconds);
         const auto process = process_entries(timer);
@@ -135,6 +137,20 @@ namespace sprag
       std::cout << std::flush;
     }
 
+    FieldRecorder::Displacements recovery(const MeshedDynamics &lever, const Motion &motion, const unsigned int levers)
+    {
+      Motion kept;
+      kept.coordinates.position = motion.coordinates.position;
+      kept.face_force           = motion.face_force;
+      return [&lever, kept, levers]
+      {
+        std::vector<dealii::Vector<double>> result;
+        for (unsigned int i = 0; i < levers; ++i)
+          result.push_back(lever.elastic_displacement(kept, i));
+        return result;
+      };
+    }
+
     void run_meshed(const Scene &scene, const RunOptions &options, Warnings &warnings)
     {
       require_writable(options.folder);
@@ -145,29 +161,29 @@ namespace sprag
       const auto &body    = *dynamics.lever->body;
       Recorder recorder(scene, options.folder, options.quiet, lever.model->face_points());
       announce(scene, lever, body, options);
-      std::optional<FieldFrames> frames;
+      std::optional<FieldRecorder> fields;
       if (scene.output.fields != FieldOutput::none)
-        frames.emplace(body, options.folder);
-      std::optional<LeafFrames> leaf_frames;
-      if (frames && scene.spring.type == SpringType::leaf)
-        leaf_frames.emplace(scene, options.folder);
+        fields.emplace(scene, body, options.folder, timer);
+      else
+        recorder.set_stress(no_stress_peaks("Output/Fields = none"));
 
-      double travelled = 0., last_frame = 0., x = scene.drive.at(0.).x;
       const auto write = [&](const Motion &motion, const Row &row)
       {
         recorder.record(row);
-        travelled += std::abs(motion.drive.x - x);
-        x = motion.drive.x;
-        if (!wants_fields(scene, motion.drive, travelled, last_frame))
+        if (!fields)
           return;
-        const Timer::Scope scope(timer, "fields");
-        recorder.record(lever.model->face_state(motion));
-        frames->write(lever.elastic_displacement(motion), motion.drive.time);
-        if (leaf_frames)
-          leaf_frames->write(row[Column::theta], motion.drive.time);
+        const auto face = lever.model->face_state(motion);
+        if (fields->record(row, face, [&] { return recovery(lever, motion, number_of_levers(scene)); }))
+          recorder.record(face);
       };
-      record_steps(scene, recorder, timer, warnings, meshed_entries(lever, body),
-                   [&] { return run_transient(*lever.model, scene.drive, settings_of(scene), write); });
+      record_steps(
+          scene, recorder, timer, warnings, meshed_entries(lever, body),
+          [&] { return run_transient(*lever.model, scene.drive, settings_of(scene), write); },
+          [&]
+          {
+            if (fields)
+              recorder.set_stress(fields->finish());
+          });
     }
   } // namespace
 

@@ -1,6 +1,7 @@
 #include "analysis/transient_report.h"
 
 #include "analysis/oscillation.h"
+#include "analysis/peak_report.h"
 #include "base/errors.h"
 #include "base/text.h"
 #include "scene/contact_reference.h"
@@ -108,6 +109,7 @@ namespace sprag
       return entries;
     add_peaks(rows, entries);
     add_energies(rows, entries);
+    add_largest_pressure(rows, entries);
     entries.push_back({ "penetration", largest(rows, Column::penetration), "mm", "largest numerical overlap" });
     entries.push_back(
         { "cone_violation", largest(rows, Column::cone_violation), "1", "largest excess of friction over the cone" });

@@ -160,16 +160,7 @@ namespace sprag
     std::vector<Eigenmode> vibrations(const HeldSlide &slide, const bool in_contact, const unsigned int number) override
     {
       const auto forces = perturbation(slide, in_contact);
-      std::vector<Eigenmode> result;
-      for (auto &mode : structure->vibrations(forces, number))
-      {
-        ComplexVector ports;
-        for (unsigned int part = 0; part < 2; ++part)
-          ports[part] = structure->port_positions(as_motion(mode, part));
-        const auto forms = mode_forms(*structure, mode);
-        result.push_back(explained(std::move(mode), std::move(ports), forms, forces, frame.ports));
-      }
-      return result;
+      return explained(*structure, structure->vibrations(forces, number), forces, frame.ports);
     }
 
     Motion perturbed(const HeldSlide &slide, const Eigenmode &eigenmode, const double amplitude) override

@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -48,7 +49,19 @@ namespace sprag
     double x    = 0.;             ///< [mm]
     std::vector<double> pressure; ///< [MPa]
     std::vector<double> traction; ///< friction on the lever along -d [MPa]
+
+    // Of a pair's second lever; empty without. Fields have them, /face does not.
+    std::vector<double> pressure_2;
+    std::vector<double> traction_2;
   };
+
+  /// The first lever's with the second's.
+  inline FaceState joined_faces(FaceState first, FaceState second)
+  {
+    first.pressure_2 = std::move(second.pressure);
+    first.traction_2 = std::move(second.traction);
+    return first;
+  }
 
   /// `result.h5`: /table/<column>, /face, /summary, /parameters, /meta, /warnings. The file can be read while the run goes on
   /// (HDF5 single-writer-multiple-reader) and after it is killed: what is appended is flushed at once; of rows that come within 5

@@ -4,6 +4,8 @@
 #include "scene/apparatus.h"
 #include "scene/drive.h"
 
+#include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -317,8 +319,12 @@ namespace sprag
     MapSettings map;
     SpragSlipSettings sprag_slip;
     CalibrationSettings calibration;
-    std::string name;            ///< file name without folder and ending
-    std::string parameters_text; ///< every parameter as used, in .prm form
-    std::set<std::string> given; ///< "Section/Name" of the parameters that were given rather than left at their defaults
+    std::string name; ///< file name without folder and ending
+
+    /// Every parameter as it was read, by "Section/Name", files with absolute paths; null for a scene that was not read.
+    std::shared_ptr<const std::map<std::string, std::string>> parameters;
+
+    /// "Section/Name" of the parameters that were given rather than left at their defaults.
+    std::set<std::string> given;
   };
 } // namespace sprag

@@ -74,7 +74,7 @@ namespace sprag
                      "How often from Start to Stroke and back; 0.5 is there only");
       section.number("Reversal duration", settings.reversal, at_least(0.), "s",
                      "T, transient triangle only: from Speed to the opposite Speed, and from rest to Speed where Start = 0");
-      section.text("Table", settings.table, "File with the columns time [s] and x [mm], relative to the folder of this one");
+      section.file("Table", settings.table, "File with the columns time [s] and x [mm], relative to the folder of this one");
     }
 
     void friction(Section section, FrictionSettings &settings)
@@ -85,7 +85,7 @@ namespace sprag
                                        { "table", FrictionChoice::table } },
                                      "Friction coefficient: constant, eqs. 13-15, or from a file");
       section.number("Coefficient", settings.coefficient, at_least(0.), "", "mu of the Coulomb law");
-      section.text("Table", settings.table, "File with the columns speed [mm/s] and mu [-], relative to the folder of this one");
+      section.file("Table", settings.table, "File with the columns speed [mm/s] and mu [-], relative to the folder of this one");
       section.choice<FrictionSpeed>("Speed", settings.speed,
                                     { { "sliding", FrictionSpeed::sliding }, { "drive", FrictionSpeed::drive } },
                                     "Speed that mu depends on: of sliding, or the drive's (the paper's choice)");
@@ -196,7 +196,7 @@ namespace sprag
     {
       section.number("Face size", settings.face_size, above(0.), "mm", "Element length along the friction face");
       section.integer("Degree", settings.degree, { 1., 2. }, "Of the polynomials");
-      section.text("File", settings.file,
+      section.file("File", settings.file,
                    "A .geo or .msh file instead of the built-in lever, relative to the folder of this one");
     }
 
@@ -206,7 +206,7 @@ namespace sprag
                                   { { "none", FieldOutput::none },
                                     { "turning points", FieldOutput::turning_points },
                                     { "interval", FieldOutput::interval } },
-                                  "When displacement and stress are written: never, at reversals and the end, or in between too");
+                                  "When fields are written: never, where P is largest and at and behind reversals, or in between too");
       section.number("Field interval", settings.field_interval, above(0.), "mm", "Travel of x between written fields");
     }
 
