@@ -56,7 +56,8 @@ namespace sprag
                { "exponent", law.fit.exponent, "1", "Contact/Exponent" },
                { "largest_error", law.fit.largest_error, "1", "of P of the fitted law, relative" },
                { "rms_error", law.fit.rms_error, "1", "of P of the fitted law, relative" },
-               { "penalty_error", law.penalty_error(), "1", "of P by the overlap that the indentation's penalty leaves, relative" },
+               { "penalty_error", law.penalty_error(), "1",
+                 "of P by the overlap that the indentation's penalty leaves, relative" },
                { "largest_P", law.points.back().P, "N", "up to which the law was fitted" },
                { "status", std::string("completed"), "", "how the run ended" } };
     }

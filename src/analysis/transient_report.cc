@@ -118,7 +118,8 @@ namespace sprag
     entries.push_back({ "steps", static_cast<double>(rows.size()) - 1., "1", "accepted steps" });
     entries.push_back({ "rejected_steps", sum(rows, Column::rejected_steps), "1", "attempts discarded" });
     entries.push_back({ "iterations", sum(rows, Column::iterations), "1", "Newton iterations" });
-    const auto measured = oscillation_entries(oscillations(rows, scene.drive));
+    const bool passes   = is_meshed(scene.analysis.model) && scene.mesh.file.empty();
+    const auto measured = oscillation_entries(oscillations(rows, scene.drive, passes ? scene.mesh.face_size : 0.));
     entries.insert(entries.end(), measured.begin(), measured.end());
     return entries;
   }

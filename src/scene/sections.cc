@@ -150,7 +150,8 @@ namespace sprag
           "Enforcement", settings.enforcement,
           { { "penalty", Enforcement::penalty }, { "augmented Lagrangian", Enforcement::augmented_lagrangian } },
           "How overlap of cylinder and lever is prevented");
-      section.number_or_auto("Penalty", settings.penalty, above(0.), "N/mm3", "Pressure over overlap; auto: from mesh and layer");
+      section.number_or_auto("Penalty", settings.penalty, above(0.), "N/mm3",
+                             "Pressure over overlap; auto: from mesh and layer, in time ten times as much at degree 2");
       section.number_or_auto("Tangential penalty", settings.tangential_penalty, above(0.), "N/mm3",
                              "Friction traction over elastic slip; auto: equal to the normal one");
       section.number("Penetration tolerance", settings.penetration_tolerance, above(0.), "mm",
@@ -256,7 +257,8 @@ namespace sprag
     void sprag_slip(Section section, SpragSlipSettings &settings)
     {
       const Interval share = { 0., 1., false, false };
-      section.number("Initial amplitude", settings.initial, share, "", "Of the perturbation of the indentation, over its mean");
+      section.number("Initial amplitude", settings.initial, share, "",
+                     "Of the perturbation of the contact's overlap, over its mean");
       section.number("Final amplitude", settings.final, share, "",
                      "Up to which the growth is fitted, more than Initial; a stable slide decays from it");
       section.integer("Steps per period", settings.steps_per_period, { 16., 1e5 }, "Of the perturbing mode");
