@@ -1,5 +1,6 @@
 #include "analysis/recorder.h"
 
+#include "analysis/row_warnings.h"
 #include "analysis/transient_report.h"
 #include "base/errors.h"
 #include "base/interrupt.h"
@@ -109,6 +110,8 @@ namespace sprag
 
   void Recorder::record(const FaceState &face)
   {
+    for (const double pressure : face.pressure)
+      largest_pressure = std::max(largest_pressure.value_or(0.), pressure);
     file.append(face);
   }
 
@@ -117,14 +120,16 @@ namespace sprag
     stress = std::move(peaks);
   }
 
-  std::vector<Entry> Recorder::finish(const std::string &status, std::vector<Entry> meta)
+  std::vector<Entry> Recorder::finish(const std::string &status, std::vector<Entry> meta, Warnings &warnings)
   {
     progress.finish();
     auto summary = scene.analysis.type == AnalysisType::transient ? transient_summary(scene, rows) : summary_of(scene, rows);
     add_pair(rows, summary);
     summary.insert(summary.end(), stress.begin(), stress.end());
     summary.push_back({ "status", status, "", "how the run ended" });
-    file.finish(summary, meta);
+    for (const Warning &warning : row_warnings(scene, rows, largest_pressure))
+      warnings.push_back(warning);
+    file.finish(summary, meta, warnings);
     if (!quiet)
     {
       const auto cpu = std::find_if(meta.begin(), meta.end(), [](const Entry &e) { return e.name == "cpu_time"; });

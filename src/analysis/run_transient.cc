@@ -31,7 +31,7 @@ namespace sprag
 
     /// Runs `steps`, which returns its report, completes and finishes the record whatever happens.
     void record_steps(
-        const Scene &scene, Recorder &recorder, Timer &timer, const std::vector<Entry> &facts,
+        const Scene &scene, Recorder &recorder, Timer &timer, Warnings &warnings, const std::vector<Entry> &facts,
         const std::function<TransientReport()> &steps, const std::function<void()> &complete = [] {})
     {
       TransientReport report;
@@ -56,10 +56,10 @@ namespace sprag
       }
       catch (const AnalysisError &error)
       {
-        recorder.finish(error.what(), meta());
+        recorder.finish(error.what(), meta(), warnings);
         throw;
       }
-      recorder.finish("completed", meta());
+      recorder.finish("completed", meta(), warnings);
     }
 
     void announce(const Scene &scene, const RunOptions &options)
@@ -99,17 +99,17 @@ namespace sprag
                 << std::flush;
     }
 
-    void run_ideal(const Scene &scene, const RunOptions &options)
+    void run_ideal(const Scene &scene, const RunOptions &options, Warnings &warnings)
     {
       Timer timer(std::cout, Timer::never, Timer::cpu_and_wall_times);
       const double inertia = scene.analysis.model == ModelType::rigid ? moment_of_inertia(scene) : 0.;
       Recorder recorder(scene, options.folder, options.quiet, {});
       announce(scene, options);
-      record_steps(scene, recorder, timer, {},
+      record_steps(scene, recorder, timer, warnings, {},
                    [&] { return run_ideal_contact(scene, inertia, [&](const Row &row) { recorder.record(row); }); });
     }
 
-    void run_reduced(const Scene &scene, const RunOptions &options)
+    void run_reduced(const Scene &scene, const RunOptions &options, Warnings &warnings)
     {
       Timer timer(std::cout, Timer::never, Timer::cpu_and_wall_times);
       const auto model = make_reduced_lever(scene);
@@ -118,7 +118,7 @@ namespace sprag
       Recorder recorder(scene, options.folder, options.quiet, model->face_points());
       announce(scene, options);
       announce(growing, scene, options);
-      record_steps(scene, recorder, timer, {},
+      record_steps(scene, recorder, timer, warnings, {},
                    [&]
                    {
                      return run_transient(*model, scene.drive, settings_of(scene, growing),
@@ -178,7 +178,7 @@ namespace sprag
       };
     }
 
-    void run_meshed(const Scene &scene, const RunOptions &options)
+    void run_meshed(const Scene &scene, const RunOptions &options, Warnings &warnings)
     {
       require_writable(options.folder);
       DynamicsMaker maker;
@@ -206,7 +206,7 @@ namespace sprag
           recorder.record(face);
       };
       record_steps(
-          scene, recorder, timer, meshed_entries(lever, body),
+          scene, recorder, timer, warnings, meshed_entries(lever, body),
           [&] { return run_transient(*lever.model, scene.drive, settings_of(scene, growing), write); },
           [&]
           {
@@ -216,19 +216,20 @@ namespace sprag
     }
   } // namespace
 
-  void run_transient_scene(const Scene &scene, const RunOptions &options)
+  void run_transient_scene(const Scene &scene, const RunOptions &options, Warnings &warnings)
   {
     switch (scene.analysis.model)
     {
     case ModelType::closed_form:
-      return run_ideal(scene, options);
+      return run_ideal(scene, options, warnings);
     case ModelType::rigid:
-      return scene.contact.type == ContactType::ideal ? run_ideal(scene, options) : run_reduced(scene, options);
+      return scene.contact.type == ContactType::ideal ? run_ideal(scene, options, warnings)
+                                                      : run_reduced(scene, options, warnings);
     case ModelType::beam:
-      return run_reduced(scene, options);
+      return run_reduced(scene, options, warnings);
     case ModelType::condensed:
     case ModelType::finite_element:
-      return run_meshed(scene, options);
+      return run_meshed(scene, options, warnings);
     }
   }
 } // namespace sprag

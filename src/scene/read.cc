@@ -78,6 +78,8 @@ namespace sprag
         throw InputError(settings.mistakes);
       input.scene.name       = std::filesystem::path(settings.file).stem().string();
       input.scene.parameters = std::make_shared<const ParameterValues>(values());
+      for (const auto &[name, setting] : settings.given)
+        input.scene.given.insert(name);
       return input.scene;
     }
 

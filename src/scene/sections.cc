@@ -45,6 +45,9 @@ namespace sprag
                      "Largest admissible deviation of P, Q and theta from the closed form; 0 admits any");
       section.number("Maximum energy residual", settings.maximum_residual, at_least(0.), "",
                      "Transient: largest admissible gap in the energy balance, over the largest work done; 0 admits any");
+      section.choice<WarningTreatment>("Warnings", settings.warnings,
+                                       { { "report", WarningTreatment::report }, { "error", WarningTreatment::error } },
+                                       "Whether a run that has warnings prints and stores them, or fails as well");
     }
 
     void geometry(Section section, Geometry &settings)
@@ -131,6 +134,9 @@ namespace sprag
       section.number("Young's modulus", settings.young_modulus, above(0.), "MPa", "E of the layer");
       section.number("Poisson's ratio", settings.poisson_ratio, between(-1., 0.5), "", "nu of the layer");
       section.number("Density", settings.density, above(0.), "t/mm3", "rho of the layer");
+      section.number_or_auto("Strength", settings.strength, above(0.), "MPa",
+                             "Pressure from which the layer's cells give way, for a warning; auto: 0.04 E of a cork, none for "
+                             "nu > 0.2");
     }
 
     void support(Section section, Support &settings)
