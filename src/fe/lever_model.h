@@ -41,8 +41,9 @@ namespace sprag
     FrictionLaw friction;
     ContactSettings contact;
     Solution solution       = Solution::automatic;
-    double layer_thickness  = 0.; ///< [mm]
-    double interface_offset = 0.; ///< e [mm]
+    double layer_thickness  = 0.;     ///< [mm]
+    double interface_offset = 0.;     ///< e [mm]
+    std::optional<Geometry> geometry; ///< of the damper, see FaceContactProperties; none: another body on another path
   };
 
   LeverProperties lever_properties(const Scene &scene);
