@@ -31,11 +31,11 @@ namespace sprag
     }
 
     /// Value of largest size while moving one way.
-    double peak(const std::vector<Row> &rows, const Column column, const double direction)
+    double peak(const std::vector<Row> &rows, const Column column, const int direction)
     {
       double result = 0.;
       for (const Row &row : rows)
-        if (row[Column::v] * direction > 0. && std::abs(row[column]) > std::abs(result))
+        if (direction_of(row[Column::v]) == direction && std::abs(row[column]) > std::abs(result))
           result = row[column];
       return result;
     }
@@ -50,7 +50,7 @@ namespace sprag
 
     void add_peaks(const std::vector<Row> &rows, std::vector<Entry> &entries)
     {
-      for (const auto &[direction, way] : { std::pair<double, std::string>{ 1., "forward" }, { -1., "backward" } })
+      for (const auto &[direction, way] : { std::pair<int, std::string>{ 1, "forward" }, { -1, "backward" } })
       {
         const std::string on = " while moving " + way;
         entries.push_back({ "peak_P_" + way, peak(rows, Column::P, direction), "N", "largest normal force" + on });

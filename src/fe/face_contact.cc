@@ -1,6 +1,7 @@
 #include "fe/face_contact.h"
 
 #include "laws/friction_of_step.h"
+#include "scene/closed_form.h"
 
 #include <deal.II/lac/lapack_full_matrix.h>
 
@@ -45,15 +46,31 @@ namespace sprag
     return { normal, tangential, friction_of_step(properties.friction, v), step_duration };
   }
 
+  /// Travel and ratio as of a rigid lever on a rigid support.
+  StaticStep FaceContact::step_to(const DrivePoint &end, const DrivePoint &begin, const FrictionMode mode) const
+  {
+    constexpr double least_ratio = 1e-6;
+    StaticStep step{ start, law_of_step(end.v, mode), mode, properties.enforcement == Enforcement::augmented_lagrangian };
+    if (!properties.geometry || end.x == begin.x || step_duration == 0.)
+      return step;
+    const auto &geometry = *properties.geometry;
+    const auto from      = kinematics(geometry, begin.x);
+    const auto to        = kinematics(geometry, end.x);
+    step.travel          = to.s - from.s;
+    const double slid    = -step.travel - geometry.cylinder_radius * (to.theta - from.theta);
+    step.speed_ratio     = std::max(least_ratio, sliding_speed(geometry, end.x, end.v) * step_duration / slid);
+    step.law.dt /= step.speed_ratio;
+    return step;
+  }
+
   void FaceContact::evaluate(const Vector<double> &displacements, const State &trial, const State &accepted,
                              const FrictionMode mode)
   {
-    ports         = displacements;
-    drive_x       = trial.drive.x;
-    start         = trial.contact;
-    step_duration = trial.drive.time - accepted.drive.time;
-    const StaticStep step{ start, law_of_step(trial.drive.v, mode), mode,
-                           properties.enforcement == Enforcement::augmented_lagrangian };
+    ports           = displacements;
+    drive_x         = trial.drive.x;
+    start           = trial.contact;
+    step_duration   = trial.drive.time - accepted.drive.time;
+    const auto step = step_to(trial.drive, accepted.drive, mode);
     surface->enter(configuration(ports, drive_x));
     states.clear();
     patches.clear();

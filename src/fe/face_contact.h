@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 
 namespace sprag
 {
@@ -19,6 +20,9 @@ namespace sprag
 
     /// Centre of what the lever rubs against over its position x from the pivot frame's origin and theta.
     std::function<LeverPoint(double x, double theta)> centre;
+
+    /// Of the damper: speeds of sliding are then those at the end of a step, see StaticStep. None: its means.
+    std::optional<Geometry> geometry;
   };
 
   /// Contact along the friction face, integrated over points denser than the nodes. In the augmented Lagrangian method the
@@ -73,6 +77,7 @@ namespace sprag
   private:
     FaceConfiguration configuration(const dealii::Vector<double> &displacements, double x) const;
     ContactLaw law_of_step(double v, FrictionMode mode) const;
+    StaticStep step_to(const DrivePoint &end, const DrivePoint &begin, FrictionMode mode) const;
     void set_slips(const FaceConfiguration &at, std::vector<ContactMemory> &memory) const;
     void find_loaded();
     void sum_forces();

@@ -45,7 +45,8 @@ namespace sprag
                contact_penalties(body, properties.contact, properties.layer_thickness, properties.penalty_factor),
                static_ports(body, properties),
                properties.spring.rest,
-               properties.centre };
+               properties.centre,
+               properties.geometry };
     }
 
     std::variant<FaceCompliance, FullStiffness> make_system(const ElasticBody<2> &body, const LeverProperties &properties)
@@ -128,6 +129,7 @@ namespace sprag
     result.solution         = scene.analysis.solution;
     result.layer_thickness  = scene.layer.thickness;
     result.interface_offset = geometry.interface_offset;
+    result.geometry         = geometry;
     return result;
   }
 
@@ -244,7 +246,7 @@ namespace sprag
     observe_face(view(contact), properties.layer_thickness, row);
     const double s    = row[Column::s];
     const double mu_e = row[Column::mu] * properties.interface_offset;
-    if (trial.drive.v < 0. && row[Column::F] < 0. && s <= mu_e)
+    if (direction_of(trial.drive.v) < 0 && row[Column::F] < 0. && s <= mu_e)
       return "the lever locks: moving back, s = " + rounded_text(s) + " mm <= mu e = " + rounded_text(mu_e) + " mm";
 
     if (const auto beyond = contact.objection(); !beyond.empty())

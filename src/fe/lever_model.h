@@ -59,8 +59,9 @@ namespace sprag
     ContactSettings contact;
     double penalty_factor   = penalty_over_layer::quasi_static; ///< counts where the penalty is automatic
     Solution solution       = Solution::automatic;
-    double layer_thickness  = 0.; ///< [mm]
-    double interface_offset = 0.; ///< e [mm]
+    double layer_thickness  = 0.;     ///< [mm]
+    double interface_offset = 0.;     ///< e [mm]
+    std::optional<Geometry> geometry; ///< of the damper, see FaceContactProperties; none: another body on another path
   };
 
   LeverProperties lever_properties(const Scene &scene);

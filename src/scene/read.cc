@@ -11,6 +11,7 @@
 #include <cmath>
 #include <filesystem>
 #include <functional>
+#include <map>
 
 namespace sprag
 {
@@ -20,6 +21,16 @@ namespace sprag
     std::string rounded_down_text(const double value)
     {
       return rounded_text(value * (1. - 5e-6));
+    }
+
+    /// How the header of a table may call a column.
+    std::vector<std::string> words_for(const std::string &column)
+    {
+      const std::map<std::string, std::vector<std::string>> words = { { "time", { "time", "t" } },
+                                                                      { "x", { "x", "position", "displacement" } },
+                                                                      { "speed", { "speed", "velocity", "v" } },
+                                                                      { "mu", { "mu", "coefficient", "friction" } } };
+      return words.at(column);
     }
 
     const char *const time_tolerance = "Time/Tolerance";
@@ -182,7 +193,11 @@ namespace sprag
         return report(parameter, "must name a file");
       try
       {
-        use(read_table(file, names));
+        const auto table = read_table(file, names);
+        if (exchanged_columns(table.header, words_for(names.first), words_for(names.second)))
+          return report(parameter, "the header '" + table.header + "' has the columns exchanged: " + names.first +
+                                       " must be the first, " + names.second + " the second");
+        use(table);
       }
       catch (const InputError &error)
       {
