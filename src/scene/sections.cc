@@ -161,7 +161,7 @@ namespace sprag
       section.number_or_auto("Tangential penalty", settings.tangential_penalty, above(0.), "N/mm3",
                              "Friction traction over elastic slip; auto: equal to the normal one");
       section.number("Penetration tolerance", settings.penetration_tolerance, above(0.), "mm",
-                     "Largest overlap left by the augmented Lagrangian");
+                     "Augmented Lagrangian: change of a multiplier over the penalty at which augmentation ends");
       section.integer("Maximum augmentations", settings.maximum_augmentations, { 1., 1000. },
                       "Of the augmented Lagrangian in a step");
       section.choice<ContactType>(
@@ -193,9 +193,10 @@ namespace sprag
                    "Folder of stored bases, relative to the folder of this file; empty: the user's cache folder");
     }
 
-    void mesh(Section section, MeshSettings &settings)
+    void mesh(Section section, MeshSettings &settings, std::optional<double> &face_size)
     {
-      section.number("Face size", settings.face_size, above(0.), "mm", "Element length along the friction face");
+      section.number_or_auto("Face size", face_size, above(0.), "mm",
+                             "Element length along the friction face; auto: 0.25 where Analysis/Type is quasi-static, else 0.5");
       section.integer("Degree", settings.degree, { 1., 2. }, "Of the polynomials");
       section.file("File", settings.file,
                    "A .geo or .msh file instead of the built-in lever, relative to the folder of this one");
@@ -291,7 +292,7 @@ namespace sprag
     support({ all, "Support" }, scene.support);
     contact({ all, "Contact" }, scene.contact);
     time({ all, "Time" }, scene.time, settings.time_tolerance);
-    mesh({ all, "Mesh" }, scene.mesh);
+    mesh({ all, "Mesh" }, scene.mesh, settings.face_size);
     condensed({ all, "Condensed" }, scene.condensed);
     output({ all, "Output" }, scene.output);
     slope({ all, "Slope" }, scene.slope, settings.maximum_inclination);
