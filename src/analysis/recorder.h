@@ -5,6 +5,8 @@
 
 #include <deal.II/base/timer.h>
 
+#include <optional>
+
 namespace sprag
 {
   /// Takes the rows of a run as they come: completes them, writes them, shows the progress and sums up at the end.
@@ -21,9 +23,9 @@ namespace sprag
     /// Peaks of stress for the summary, see StressPeaks; without, they are told as NaN of a model without a mesh.
     void set_stress(std::vector<Entry> peaks);
 
-    /// Writes summary and meta and prints the table at the end of a run. `status` is "completed" or what went wrong.
-    /// Returns the summary.
-    std::vector<Entry> finish(const std::string &status, std::vector<Entry> meta);
+    /// Writes summary, meta and warnings, to which it adds those that follow from the rows, and prints the table at the end of a
+    /// run. `status` is "completed" or what went wrong. Returns the summary.
+    std::vector<Entry> finish(const std::string &status, std::vector<Entry> meta, Warnings &warnings);
 
   private:
     const Scene &scene;
@@ -33,6 +35,7 @@ namespace sprag
     std::vector<Row> rows;
     std::vector<Entry> stress;
     double travel = 0.;
+    std::optional<double> largest_pressure; ///< of the states of the face [MPa]
   };
 
   /// Length of the drive's path [mm].

@@ -1,5 +1,6 @@
 #include "analysis/report.h"
 
+#include "analysis/peak_report.h"
 #include "scene/mirrored_pair.h"
 #include "scene/pair_closed_form.h"
 
@@ -172,6 +173,7 @@ namespace sprag
         result.push_back(&row);
       return result;
     }();
+    add_largest_pressure(rows, entries);
     const double penetration = largest(all_rows, [](const Row &row) { return row[Column::penetration]; });
     entries.push_back({ "penetration", penetration, "mm", "largest numerical overlap of cylinder and friction face" });
     if (scene.layer.thickness > 0.)

@@ -2,6 +2,7 @@
 
 #include "analysis/recorder.h"
 #include "analysis/report.h"
+#include "analysis/row_warnings.h"
 #include "analysis/vibration_report.h"
 #include "base/errors.h"
 #include "base/progress.h"
@@ -9,6 +10,7 @@
 #include "fe/mode_frames.h"
 #include "model/growth.h"
 #include "scene/held_slide.h"
+#include "scene/read.h"
 
 #include <algorithm>
 #include <iostream>
@@ -42,17 +44,17 @@ namespace sprag
     {
     public:
       Output(const Scene &scene, const RunOptions &options)
-          : file((prepare_folder(options.folder), options.folder + "/result.h5"), scene.parameters_text, {}, {})
+          : file((prepare_folder(options.folder), options.folder + "/result.h5"), parameters_text(scene), {}, {})
       {
       }
 
-      void finish(std::vector<Entry> summary, const std::vector<Entry> &facts, DynamicsMaker &maker,
+      void finish(std::vector<Entry> summary, const std::vector<Entry> &facts, DynamicsMaker &maker, const Warnings &warnings,
                   const std::vector<Group> &groups)
       {
         summary.push_back({ "status", "completed", "", "how the run ended" });
         auto meta = process_entries(maker.timer());
         meta.insert(meta.end(), facts.begin(), facts.end());
-        file.finish(summary, meta, groups);
+        file.finish(summary, meta, warnings, groups);
       }
 
     private:
@@ -64,6 +66,7 @@ namespace sprag
       std::vector<Entry> summary;
       std::vector<Entry> meta; ///< of the mesh, if there is one
       std::vector<Group> groups;
+      Warnings warnings;
     };
 
     std::vector<Entry> meshed_entries(const Dynamics &dynamics)
@@ -167,6 +170,8 @@ namespace sprag
         if (found.slide)
           write_fields(scene, dynamics, pose_of_slide(scene, dynamics.model(), *found.slide), modes, options.folder);
         result.summary = slide_entries(found);
+        if (found.slide)
+          result.warnings = slide_warnings(scene, found.slide->drive, found.slide->forces.P, found.slide->indentation);
         if (!options.quiet)
         {
           print_summary(std::cout, result.summary);
@@ -192,12 +197,13 @@ namespace sprag
     }
   } // namespace
 
-  void run_vibrations(const Scene &scene, const RunOptions &options)
+  void run_vibrations(const Scene &scene, const RunOptions &options, Warnings &warnings)
   {
     require_writable(options.folder);
     DynamicsMaker maker;
     const bool undamped = scene.analysis.type == AnalysisType::modal;
     const auto found    = undamped ? modal(scene, maker, options) : stability(scene, maker, options);
-    Output(scene, options).finish(found.summary, found.meta, maker, found.groups);
+    warnings.insert(warnings.end(), found.warnings.begin(), found.warnings.end());
+    Output(scene, options).finish(found.summary, found.meta, maker, warnings, found.groups);
   }
 } // namespace sprag

@@ -2,11 +2,13 @@
 
 #include "analysis/dynamics.h"
 #include "analysis/field_recorder.h"
+#include "analysis/growing_modes.h"
 #include "analysis/ideal_contact.h"
 #include "analysis/recorder.h"
 #include "analysis/transient.h"
 #include "analysis/transient_report.h"
 #include "base/errors.h"
+#include "base/text.h"
 #include "model/reduced_lever.h"
 #include "scene/contact_reference.h"
 #include "scene/mirrored_pair.h"
@@ -29,7 +31,7 @@ namespace sprag
 
     /// Runs `steps`, which returns its report, completes and finishes the record whatever happens.
     void record_steps(
-        const Scene &scene, Recorder &recorder, Timer &timer, const std::vector<Entry> &facts,
+        const Scene &scene, Recorder &recorder, Timer &timer, Warnings &warnings, const std::vector<Entry> &facts,
         const std::function<TransientReport()> &steps, const std::function<void()> &complete = [] {})
     {
       TransientReport report;
@@ -54,10 +56,10 @@ namespace sprag
       }
       catch (const AnalysisError &error)
       {
-        recorder.finish(error.what(), meta());
+        recorder.finish(error.what(), meta(), warnings);
         throw;
       }
-      recorder.finish("completed", meta());
+      recorder.finish("completed", meta(), warnings);
     }
 
     void announce(const Scene &scene, const RunOptions &options)
@@ -69,32 +71,57 @@ namespace sprag
       std::cout << std::flush;
     }
 
-    TransientSettings settings_of(const Scene &scene)
+    TransientSettings settings_of(const Scene &scene, const std::vector<GrowingMode> &modes)
     {
       const auto reference = contact_reference(scene);
-      return { scene.time, reference.P, reference.stiffness, scene.geometry.cylinder_radius / 200. };
+      return { scene.time, reference.P, reference.stiffness, scene.geometry.cylinder_radius / 200.,
+               longest_step(modes, scene.time.spectral_radius) };
     }
 
-    void run_ideal(const Scene &scene, const RunOptions &options)
+    /// What grows about the slides of the run. A model of its own is asked, condensed for finite elements, which find the lowest
+    /// vibrations alone.
+    std::vector<GrowingMode> growing_modes_of(Scene scene, DynamicsMaker &maker)
+    {
+      if (scene.analysis.model == ModelType::finite_element)
+        scene.analysis.model = ModelType::condensed;
+      return growing_modes(maker.make(scene).model(), scene.drive);
+    }
+
+    void announce(const std::vector<GrowingMode> &modes, const Scene &scene, const RunOptions &options)
+    {
+      if (options.quiet || modes.empty())
+        return;
+      const auto fastest = std::max_element(modes.begin(), modes.end(),
+                                            [](const GrowingMode &a, const GrowingMode &b) { return a.frequency < b.frequency; });
+      std::cout << "Grows:        a vibration of the slide, by " << rounded_text(fastest->growth_rate) << " 1/s at "
+                << rounded_text(fastest->frequency) << " Hz at x = " << rounded_text(fastest->x) << " mm; steps of up to "
+                << rounded_text(longest_step(modes, scene.time.spectral_radius)) << " s follow it\n"
+                << std::flush;
+    }
+
+    void run_ideal(const Scene &scene, const RunOptions &options, Warnings &warnings)
     {
       Timer timer(std::cout, Timer::never, Timer::cpu_and_wall_times);
       const double inertia = scene.analysis.model == ModelType::rigid ? moment_of_inertia(scene) : 0.;
       Recorder recorder(scene, options.folder, options.quiet, {});
       announce(scene, options);
-      record_steps(scene, recorder, timer, {},
+      record_steps(scene, recorder, timer, warnings, {},
                    [&] { return run_ideal_contact(scene, inertia, [&](const Row &row) { recorder.record(row); }); });
     }
 
-    void run_reduced(const Scene &scene, const RunOptions &options)
+    void run_reduced(const Scene &scene, const RunOptions &options, Warnings &warnings)
     {
       Timer timer(std::cout, Timer::never, Timer::cpu_and_wall_times);
       const auto model = make_reduced_lever(scene);
+      DynamicsMaker maker;
+      const auto growing = growing_modes_of(scene, maker);
       Recorder recorder(scene, options.folder, options.quiet, model->face_points());
       announce(scene, options);
-      record_steps(scene, recorder, timer, {},
+      announce(growing, scene, options);
+      record_steps(scene, recorder, timer, warnings, {},
                    [&]
                    {
-                     return run_transient(*model, scene.drive, settings_of(scene),
+                     return run_transient(*model, scene.drive, settings_of(scene, growing),
                                           [&](const Motion &, const Row &row) { recorder.record(row); });
                    });
     }
@@ -151,7 +178,7 @@ namespace sprag
       };
     }
 
-    void run_meshed(const Scene &scene, const RunOptions &options)
+    void run_meshed(const Scene &scene, const RunOptions &options, Warnings &warnings)
     {
       require_writable(options.folder);
       DynamicsMaker maker;
@@ -159,8 +186,10 @@ namespace sprag
       const auto dynamics = maker.make(scene);
       const auto &lever   = dynamics.meshed;
       const auto &body    = *dynamics.lever->body;
+      const auto growing  = growing_modes_of(scene, maker);
       Recorder recorder(scene, options.folder, options.quiet, lever.model->face_points());
       announce(scene, lever, body, options);
+      announce(growing, scene, options);
       std::optional<FieldRecorder> fields;
       if (scene.output.fields != FieldOutput::none)
         fields.emplace(scene, body, options.folder, timer);
@@ -177,8 +206,8 @@ namespace sprag
           recorder.record(face);
       };
       record_steps(
-          scene, recorder, timer, meshed_entries(lever, body),
-          [&] { return run_transient(*lever.model, scene.drive, settings_of(scene), write); },
+          scene, recorder, timer, warnings, meshed_entries(lever, body),
+          [&] { return run_transient(*lever.model, scene.drive, settings_of(scene, growing), write); },
           [&]
           {
             if (fields)
@@ -187,19 +216,20 @@ namespace sprag
     }
   } // namespace
 
-  void run_transient_scene(const Scene &scene, const RunOptions &options)
+  void run_transient_scene(const Scene &scene, const RunOptions &options, Warnings &warnings)
   {
     switch (scene.analysis.model)
     {
     case ModelType::closed_form:
-      return run_ideal(scene, options);
+      return run_ideal(scene, options, warnings);
     case ModelType::rigid:
-      return scene.contact.type == ContactType::ideal ? run_ideal(scene, options) : run_reduced(scene, options);
+      return scene.contact.type == ContactType::ideal ? run_ideal(scene, options, warnings)
+                                                      : run_reduced(scene, options, warnings);
     case ModelType::beam:
-      return run_reduced(scene, options);
+      return run_reduced(scene, options, warnings);
     case ModelType::condensed:
     case ModelType::finite_element:
-      return run_meshed(scene, options);
+      return run_meshed(scene, options, warnings);
     }
   }
 } // namespace sprag

@@ -140,6 +140,17 @@ namespace sprag
       unsigned int small = 0;
     };
 
+    StepClock make_clock(const Drive &drive, const TransientSettings &settings)
+    {
+      if (settings.time.tolerance == 0.)
+        return StepClock(drive, settings.time.step, 0);
+      const double first     = std::min(settings.time.step, settings.longest_step);
+      unsigned int doublings = 0;
+      while (doublings < largest_doublings && std::ldexp(first, static_cast<int>(doublings) + 1) <= settings.longest_step)
+        ++doublings;
+      return StepClock(drive, first, doublings);
+    }
+
     struct Attempt
     {
       StepOutcome outcome;
@@ -192,7 +203,7 @@ namespace sprag
 
     TransientReport report;
     StepControl control(settings);
-    StepClock clock(drive, settings.time.step, settings.time.tolerance > 0. ? largest_doublings : 0);
+    StepClock clock = make_clock(drive, settings);
     while (!clock.finished())
     {
       quasi_static.extend(clock.end_of_step());

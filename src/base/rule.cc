@@ -105,6 +105,8 @@ namespace sprag
         text += (&choice == &rule.choices.front() ? "" : " | ") + choice;
       return text;
     }
+    case Rule::Kind::file:
+      return "a file";
     case Rule::Kind::text:
       break;
     }
@@ -125,6 +127,7 @@ namespace sprag
     case Rule::Kind::choice:
       return choice_violation(rule, value);
     case Rule::Kind::text:
+    case Rule::Kind::file:
       break;
     }
     return std::nullopt;

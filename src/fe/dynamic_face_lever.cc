@@ -6,6 +6,7 @@
 #include "model/mirrored_modes.h"
 #include "model/mirrored_structure.h"
 #include "scene/mirrored_pair.h"
+#include "scene/scene_key.h"
 
 #include <algorithm>
 #include <cmath>
@@ -28,7 +29,7 @@ namespace sprag
 
     BasisSettings basis_settings(const Scene &scene)
     {
-      return { scene.condensed.modes, scene.spring.stiffness, inertia_of(scene), scene.condensed.cache };
+      return { scene.condensed.modes, scene.spring.stiffness, inertia_of(scene), scene.condensed.cache, body_key(scene) };
     }
 
     LeverDynamics constants_of(const Scene &scene, const double relaxation, const double lever_mass)
@@ -56,8 +57,10 @@ namespace sprag
 
     MeshedDynamics facts(const Scene &scene, const ElasticBody<2> &body, const std::vector<double> &omega_squared)
     {
+      using namespace penalty_over_layer;
       MeshedDynamics result;
-      result.penalties = contact_penalties(body, scene.contact, scene.layer.thickness);
+      const double factor = scene.mesh.degree == 1 ? in_time_linear : in_time;
+      result.penalties    = contact_penalties(body, scene.contact, scene.layer.thickness, factor);
       for (const double stiffness : omega_squared)
         result.frequencies.push_back(0.5 * std::sqrt(stiffness) / M_PI);
       return result;

@@ -69,6 +69,17 @@ namespace sprag
       return peak > 0. ? excess / peak : 0.;
     }
 
+    void observe_largest_pressure(const std::vector<PointState> &points, Row &row)
+    {
+      row[Column::largest_pressure] = 0.;
+      for (const auto &point : points)
+        if (point.response.pressure > row[Column::largest_pressure])
+        {
+          row[Column::largest_pressure]    = point.response.pressure;
+          row[Column::largest_pressure_xi] = point.position.xi;
+        }
+    }
+
     /// What a force on a point leaves on nodes that the hub does not hold.
     double share_of_free_nodes(const FaceView &contact, const unsigned int point)
     {
@@ -131,6 +142,7 @@ namespace sprag
     row[Column::active_points]      = sums.active;
     row[Column::elastic_slip]       = sums.elastic_slip;
     row[Column::contact_width]      = contact_width(points);
+    observe_largest_pressure(points, row);
     row[Column::penetration]        = contact.penetration;
     row[Column::cone_violation]     = cone_violation(points);
     row[Column::P]                  = sums.P;

@@ -14,10 +14,6 @@ namespace sprag
 
   namespace
   {
-    /// A penalty this much stiffer than the layer leaves an overlap of a tenth of the layer's compression, which moves P by 0.03
-    /// %. Much stiffer ones make a contact narrower than the elements, which then tilts with each of them.
-    constexpr double penalty_factor = 12.;
-
     /// Augmentation removes the overlap, the faster the stiffer the penalty.
     constexpr double augmentation_factor = 100.;
 
@@ -46,7 +42,7 @@ namespace sprag
     {
       return { properties.friction,
                properties.contact.enforcement,
-               contact_penalties(body, properties.contact, properties.layer_thickness),
+               contact_penalties(body, properties.contact, properties.layer_thickness, properties.penalty_factor),
                static_ports(body, properties),
                properties.spring.rest,
                properties.centre };
@@ -75,7 +71,8 @@ namespace sprag
     }
   } // namespace
 
-  ContactPenalties contact_penalties(const FrictionFace<2> &face, const ContactSettings &settings, const double layer_thickness)
+  ContactPenalties contact_penalties(const FrictionFace<2> &face, const ContactSettings &settings, const double layer_thickness,
+                                     const double penalty_factor)
   {
     const double depth  = std::max(face.depth, layer_thickness);
     const double factor = settings.enforcement == Enforcement::penalty ? penalty_factor : augmentation_factor;
@@ -83,12 +80,13 @@ namespace sprag
     return { normal, settings.tangential_penalty.value_or(normal) };
   }
 
-  ContactPenalties contact_penalties(const ElasticBody<2> &body, const ContactSettings &settings, const double layer_thickness)
+  ContactPenalties contact_penalties(const ElasticBody<2> &body, const ContactSettings &settings, const double layer_thickness,
+                                     const double penalty_factor)
   {
-    const auto lever = contact_penalties(body.friction_face(), settings, layer_thickness);
+    const auto lever = contact_penalties(body.friction_face(), settings, layer_thickness, penalty_factor);
     if (!has_elastic_cylinder(body))
       return lever;
-    const auto cylinder = contact_penalties(body.cylinder_face(), settings, 0.);
+    const auto cylinder = contact_penalties(body.cylinder_face(), settings, 0., penalty_factor);
     return { std::min(lever.normal, cylinder.normal), std::min(lever.tangential, cylinder.tangential) };
   }
 

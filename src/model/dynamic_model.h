@@ -34,10 +34,10 @@ namespace sprag
   {
     double kinetic = 0.;
     double spring  = 0.; ///< rotational spring
-    double elastic = 0.; ///< lever and friction layer
+    double elastic = 0.; ///< lever and friction layer, or the contact law that stands for the layer
     double layer   = 0.; ///< the friction layer's part of it; NaN where it cannot be told
     double support = 0.;
-    double contact = 0.; ///< contact springs, normal and tangential
+    double contact = 0.; ///< springs of the penalties, normal and tangential: numerical
   };
 
   /// Works done in a step [N mm], each from forces times displacements or the scheme's own formula, none as a remainder.
@@ -75,7 +75,8 @@ namespace sprag
     ContactFriction friction = ContactFriction::sliding;
     double speed             = 0.; ///< of the surface along the lever, signed [mm/s]
     double mu                = 0.;
-    double indentation       = 0.; ///< of the contact's spring: its largest overlap [mm]
+    double overlap           = 0.; ///< of the contact's spring, the largest: P follows from it [mm]
+    double indentation       = 0.; ///< physical, that of the column of this name [mm]
     SlidingForces forces{};
     double margin     = 0.; ///< to jamming: P without friction over P, (s + mu e)/s of a rigid lever with mu signed as the motion
     double uniqueness = 0.; ///< det(1 - G df/dz) over that without friction's part; <= 0 beyond where equilibria are unique

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "results/columns.h"
+#include "results/warning.h"
 
 #include <memory>
 #include <string>
@@ -62,9 +63,10 @@ namespace sprag
     return first;
   }
 
-  /// `result.h5`: /table/<column>, /face, /summary, /parameters, /meta. The file can be read while the run goes on (HDF5
-  /// single-writer-multiple-reader) and after it is killed: what is appended is flushed at once; of rows that come within 5 ms of
-  /// the last flush several are flushed together. Throws AnalysisError when HDF5 fails. To be destroyed before MPI is finalised.
+  /// `result.h5`: /table/<column>, /face, /summary, /parameters, /meta, /warnings. The file can be read while the run goes on
+  /// (HDF5 single-writer-multiple-reader) and after it is killed: what is appended is flushed at once; of rows that come within 5
+  /// ms of the last flush several are flushed together. Throws AnalysisError when HDF5 fails. To be destroyed before MPI is
+  /// finalised.
   class ResultFile
   {
   public:
@@ -83,8 +85,10 @@ namespace sprag
 
     void append(const FaceState &state);
 
-    /// Writes /summary, /meta and other groups and closes the file. To be called once, also after a failed analysis.
-    void finish(const std::vector<Entry> &summary, const std::vector<Entry> &meta, const std::vector<Group> &groups = {});
+    /// Writes /summary, /meta, /warnings and other groups and closes the file. To be called once, also after a failed analysis.
+    /// Of each warning a dataset of its name: what was found, with the attributes effect and remedy.
+    void finish(const std::vector<Entry> &summary, const std::vector<Entry> &meta, const Warnings &warnings = {},
+                const std::vector<Group> &groups = {});
 
   private:
     struct Implementation;

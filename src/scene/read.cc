@@ -22,9 +22,11 @@ namespace sprag
       return rounded_text(value * (1. - 5e-6));
     }
 
-    void set_time_tolerance(std::map<std::string, Setting> &given, const double tolerance)
+    const char *const time_tolerance = "Time/Tolerance";
+
+    ParameterValues values_of(const Scene &scene)
     {
-      given["Time/Tolerance"].value = number_text(tolerance);
+      return scene.parameters ? *scene.parameters : ParameterValues();
     }
 
     /// Reports the mistakes met on the way to a scene against the parameters they come from.
@@ -40,6 +42,7 @@ namespace sprag
       std::vector<Parameter> parameters;
       Settings settings;
 
+      ParameterValues values() const;
       void store();
       void make_time_tolerance();
       void make_drive();
@@ -73,9 +76,21 @@ namespace sprag
       check_ranges();
       if (!settings.mistakes.empty())
         throw InputError(settings.mistakes);
-      input.scene.name            = std::filesystem::path(settings.file).stem().string();
-      input.scene.parameters_text = parameters_text(parameters, settings.given);
+      input.scene.name       = std::filesystem::path(settings.file).stem().string();
+      input.scene.parameters = std::make_shared<const ParameterValues>(values());
+      for (const auto &[name, setting] : settings.given)
+        input.scene.given.insert(name);
       return input.scene;
+    }
+
+    ParameterValues SceneReader::values() const
+    {
+      ParameterValues result;
+      for (const auto &parameter : parameters)
+        result.emplace(full_name(parameter), parameter.default_value);
+      for (const auto &[name, setting] : settings.given)
+        result[name] = setting.value;
+      return result;
     }
 
     void SceneReader::store()
@@ -94,9 +109,9 @@ namespace sprag
     /// The printed parameters give a step, so that they must give the tolerance too.
     void SceneReader::make_time_tolerance()
     {
-      const double by_step       = settings.given.count("Time/Step") > 0 ? 0. : input.scene.time.tolerance;
-      input.scene.time.tolerance = input.time_tolerance.value_or(by_step);
-      set_time_tolerance(settings.given, input.scene.time.tolerance);
+      const double by_step                 = settings.given.count("Time/Step") > 0 ? 0. : input.scene.time.tolerance;
+      input.scene.time.tolerance           = input.time_tolerance.value_or(by_step);
+      settings.given[time_tolerance].value = number_text(input.scene.time.tolerance);
     }
 
     /// The printed parameters hold absolute paths, so that they can be read back from anywhere.
@@ -278,8 +293,14 @@ namespace sprag
   Scene variant(const Scene &scene, const std::vector<std::string> &overrides)
   {
     return SceneReader([&](const auto &declared)
-                       { return read_settings_text(scene.name + ".prm", scene.parameters_text, overrides, declared); })
+                       { return override_settings(scene.name + ".prm", values_of(scene), overrides, declared); })
         .scene();
+  }
+
+  std::string parameters_text(const Scene &scene)
+  {
+    SceneSettings defaults;
+    return scene.parameters ? parameters_text(scene_parameters(defaults), *scene.parameters) : std::string();
   }
 
   std::string override_text(const std::string &parameter, const double value)
@@ -291,8 +312,6 @@ namespace sprag
   {
     SceneSettings defaults;
     const auto parameters = scene_parameters(defaults);
-    std::map<std::string, Setting> given;
-    set_time_tolerance(given, defaults.scene.time.tolerance);
-    return parameters_text(parameters, given);
+    return parameters_text(parameters, { { time_tolerance, number_text(defaults.scene.time.tolerance) } });
   }
 } // namespace sprag

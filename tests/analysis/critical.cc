@@ -104,6 +104,41 @@ TEST(CriticalValues, ThinLeverFluttersThickOneDoesNot)
   EXPECT_EQ(kind_at(found.changes.front().value + 1e-3), SlideKind::stable);
 }
 
+// Model B flutters from 11.822 to 14.514 mm: between the values tried, of which none does.
+TEST(CriticalValues, IslandBetweenTheValuesTriedIsFoundWhereGrowthPeaks)
+{
+  const Scene scene = from_params("stability-b.prm", {});
+  DynamicsMaker maker;
+  const auto found = critical_values(scene, { "Lever/Depth", 5., 25., 5 }, 1e-6, maker);
+  EXPECT_EQ(found.spacing, 5.);
+  EXPECT_GT(found.more_values, 0u);
+  ASSERT_EQ(found.changes.size(), 2u);
+  EXPECT_NEAR(found.changes[0].value, 11.822, 1e-3);
+  EXPECT_NEAR(found.changes[1].value, 14.5137, 1e-3);
+  EXPECT_EQ(found.changes[0].above, SlideKind::flutter);
+  EXPECT_EQ(found.changes[1].above, SlideKind::stable);
+}
+
+TEST(CriticalValues, TellTheMotionOfAPair)
+{
+  // A held joint leaves the levers nothing in common.
+  const Scene scene = from_params("pair-stability-a.prm", { "Mirrored pair/Joint=held", "Support/Type=rigid" });
+  DynamicsMaker maker;
+  const auto present = judge(scene, maker);
+  EXPECT_EQ(present.motion(), "either");
+  EXPECT_NEAR(present.worst_mode().mirroring, 1., 1e-9);
+  const auto found = critical_values(scene, { "Lever/Depth", 5., 21., 5 }, 1e-6, maker);
+  ASSERT_EQ(found.changes.size(), 1u);
+  EXPECT_EQ(found.changes.front().motion, "either");
+  for (const auto &role : roles(scene, present, maker))
+    if (role.name == "without_damping")
+    {
+      EXPECT_EQ(role.motion, "either");
+    }
+  const auto free = judge(variant(scene, { "Mirrored pair/Joint=free" }), maker);
+  EXPECT_TRUE(free.motion() == "swinging" || free.motion() == "mirroring") << free.motion();
+}
+
 TEST(CriticalValues, ScenesThatAreNotAdmittedArePassedOver)
 {
   const Scene scene = from_params("stability-a.prm", {});

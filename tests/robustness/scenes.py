@@ -40,6 +40,7 @@ NEVER_NAN_MESHED = NEVER_NAN + (
     "normal_resultant",
     "friction_resultant",
     "contact_width",
+    "largest_pressure",
     "penetration",
     "indentation",
     "cone_violation",
