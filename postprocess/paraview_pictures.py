@@ -72,12 +72,14 @@ def picture(index, path, magnify):
     shown = simple.Show(warp, view)
     simple.ColorBy(shown, ("POINTS", SHOWN[name], "Magnitude") if name == "mode" else ("POINTS", SHOWN[name]))
     colours = simple.GetColorTransferFunction(SHOWN[name])
+    colours.AutomaticRescaleRangeMode = "Never"
+    colours.UseLogScale = 0
     colours.ApplyPreset("Viridis (matplotlib)", True)
     if name == "fields":
         # Leaf springs are stressed a hundred times as much as the rest.
         stress = found[SHOWN[name]]
         top = float(sorted(stress[stress == stress])[int(0.999 * (len(stress) - 1))])
-        colours.RescaleTransferFunction(1e-3 * top, top)
+        colours.RescaleTransferFunction(2e-5 * top, top)
         colours.MapControlPointsToLogSpace()
         colours.UseLogScale = 1
     else:

@@ -182,7 +182,7 @@ namespace sprag
       };
       const auto first  = of_lever(0);
       const auto second = of_lever(1);
-      return first.s - first.mu_e <= second.s - second.mu_e ? first : second;
+      return first.margin() <= second.margin() ? first : second;
     }
 
     /// Before every run in which a cylinder is put somewhere, once nothing is left for which it could be refused.

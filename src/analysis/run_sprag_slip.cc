@@ -162,7 +162,7 @@ namespace sprag
         const auto &slide = *found.slide.slide;
         run.use_spectral_radius(scene.time.spectral_radius);
         if (found.slide.kind == SlideKind::stable)
-          run.begin(model.perturbed(slide, watched_mode(found.slide), Continuation::large_kick * slide.indentation));
+          run.begin(model.perturbed(slide, watched_mode(found.slide), Continuation::large_kick * slide.overlap));
         rows.begin(std::max(1u, settings.steps_per_period / approach_rows),
                    static_cast<std::size_t>(shown_periods * settings.steps_per_period));
         found.settled       = settle(run, slide, { period(), settings.settling, longest() }, std::ref(rows));

@@ -2,11 +2,13 @@
 
 #include "analysis/dynamics.h"
 #include "analysis/field_recorder.h"
+#include "analysis/growing_modes.h"
 #include "analysis/ideal_contact.h"
 #include "analysis/recorder.h"
 #include "analysis/transient.h"
 #include "analysis/transient_report.h"
 #include "base/errors.h"
+#include "base/text.h"
 #include "model/reduced_lever.h"
 #include "scene/contact_reference.h"
 #include "scene/mirrored_pair.h"
@@ -69,10 +71,32 @@ namespace sprag
       std::cout << std::flush;
     }
 
-    TransientSettings settings_of(const Scene &scene)
+    TransientSettings settings_of(const Scene &scene, const std::vector<GrowingMode> &modes)
     {
       const auto reference = contact_reference(scene);
-      return { scene.time, reference.P, reference.stiffness, scene.geometry.cylinder_radius / 200. };
+      return { scene.time, reference.P, reference.stiffness, scene.geometry.cylinder_radius / 200.,
+               longest_step(modes, scene.time.spectral_radius) };
+    }
+
+    /// What grows about the slides of the run. A model of its own is asked, condensed for finite elements, which find the lowest
+    /// vibrations alone.
+    std::vector<GrowingMode> growing_modes_of(Scene scene, DynamicsMaker &maker)
+    {
+      if (scene.analysis.model == ModelType::finite_element)
+        scene.analysis.model = ModelType::condensed;
+      return growing_modes(maker.make(scene).model(), scene.drive);
+    }
+
+    void announce(const std::vector<GrowingMode> &modes, const Scene &scene, const RunOptions &options)
+    {
+      if (options.quiet || modes.empty())
+        return;
+      const auto fastest = std::max_element(modes.begin(), modes.end(),
+                                            [](const GrowingMode &a, const GrowingMode &b) { return a.frequency < b.frequency; });
+      std::cout << "Grows:        a vibration of the slide, by " << rounded_text(fastest->growth_rate) << " 1/s at "
+                << rounded_text(fastest->frequency) << " Hz at x = " << rounded_text(fastest->x) << " mm; steps of up to "
+                << rounded_text(longest_step(modes, scene.time.spectral_radius)) << " s follow it\n"
+                << std::flush;
     }
 
     void run_ideal(const Scene &scene, const RunOptions &options, Warnings &warnings)
@@ -89,12 +113,15 @@ namespace sprag
     {
       Timer timer(std::cout, Timer::never, Timer::cpu_and_wall_times);
       const auto model = make_reduced_lever(scene);
+      DynamicsMaker maker;
+      const auto growing = growing_modes_of(scene, maker);
       Recorder recorder(scene, options.folder, options.quiet, model->face_points());
       announce(scene, options);
+      announce(growing, scene, options);
       record_steps(scene, recorder, timer, warnings, {},
                    [&]
                    {
-                     return run_transient(*model, scene.drive, settings_of(scene),
+                     return run_transient(*model, scene.drive, settings_of(scene, growing),
                                           [&](const Motion &, const Row &row) { recorder.record(row); });
                    });
     }
@@ -159,8 +186,10 @@ namespace sprag
       const auto dynamics = maker.make(scene);
       const auto &lever   = dynamics.meshed;
       const auto &body    = *dynamics.lever->body;
+      const auto growing  = growing_modes_of(scene, maker);
       Recorder recorder(scene, options.folder, options.quiet, lever.model->face_points());
       announce(scene, lever, body, options);
+      announce(growing, scene, options);
       std::optional<FieldRecorder> fields;
       if (scene.output.fields != FieldOutput::none)
         fields.emplace(scene, body, options.folder, timer);
@@ -178,7 +207,7 @@ namespace sprag
       };
       record_steps(
           scene, recorder, timer, warnings, meshed_entries(lever, body),
-          [&] { return run_transient(*lever.model, scene.drive, settings_of(scene), write); },
+          [&] { return run_transient(*lever.model, scene.drive, settings_of(scene, growing), write); },
           [&]
           {
             if (fields)

@@ -1,5 +1,8 @@
 #include "fe/body_fields.h"
 
+#include "fe/cell_elasticity.h"
+#include "fe/dilatation.h"
+
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_values.h>
 
@@ -47,6 +50,18 @@ namespace sprag
       }
       node.stress       = turned(neo_hookean<2>(lame, F).piola * transpose(F) / J);
       node.out_of_plane = lame.lambda * std::log(J) / J;
+    }
+
+    /// Where the dilatation is projected, so is the pressure: at each point by itself it would swing within the cell.
+    void set_stress_at_pressure(const BodyProperties &properties, const double mu, const Tensor<2, 2> &gradient,
+                                const double pressure, NodalField &node)
+    {
+      const auto piola  = stress_at_pressure<2>(properties.material, mu, gradient, pressure).piola;
+      const auto F      = Tensor<2, 2>(unit_symmetric_tensor<2>()) + gradient;
+      const bool finite = properties.material != MaterialModel::linear;
+      const double J    = finite ? determinant(F) : 1.;
+      node.stress       = symmetrize(finite ? piola * transpose(F) / J : piola);
+      node.out_of_plane = pressure / J;
     }
   } // namespace
 
@@ -97,7 +112,11 @@ namespace sprag
 
   std::vector<NodalField> BodyFields::at(const Vector<double> &displacement) const
   {
-    FEValues<2> values(body.cell_mapping(), body.dofs().get_fe(), places, update_values | update_gradients);
+    const auto &properties = body.body_properties();
+    const auto &fe         = body.dofs().get_fe();
+    FEValues<2> values(body.cell_mapping(), fe, places, update_values | update_gradients);
+    CellElasticity<2> elasticity(body.cell_mapping(), fe, properties);
+    Vector<double> of_cell(fe.n_dofs_per_cell());
     const FEValuesExtractors::Vector vector(0);
     std::vector<Tensor<1, 2>> displacements(places.size());
     std::vector<Tensor<2, 2>> gradients(places.size());
@@ -108,11 +127,25 @@ namespace sprag
       values.reinit(cell);
       values[vector].get_function_values(displacement, displacements);
       values[vector].get_function_gradients(displacement, gradients);
+      const auto material     = cell->material_id();
+      const bool is_elastic   = material != material_id::hub;
+      const bool is_projected = is_elastic && is_nearly_incompressible(properties, material);
+      if (is_projected)
+      {
+        cell->get_dof_values(displacement, of_cell);
+        elasticity.reinit(cell, of_cell);
+      }
       for (unsigned int q = 0; q < places.size(); ++q)
       {
         NodalField node{ displacements[q], {}, 0. };
-        if (cell->material_id() != material_id::hub)
-          set_stress(body.body_properties(), body.body_properties().constants.at(cell->material_id()), gradients[q], node);
+        if (is_projected)
+        {
+          const Lame lame = plane_constants(properties.constants.at(material), properties.plane);
+          set_stress_at_pressure(properties, lame.mu, gradients[q],
+                                 lame.lambda * elasticity.dilatation()(all_nodes[result.size()].position), node);
+        }
+        else if (is_elastic)
+          set_stress(properties, properties.constants.at(material), gradients[q], node);
         result.push_back(node);
       }
     }

@@ -165,12 +165,6 @@ namespace sprag
   }
 
   template <int dim>
-  bool CellElasticity<dim>::is_projected() const
-  {
-    return projects;
-  }
-
-  template <int dim>
   LinearPolynomial<dim> CellElasticity<dim>::dilatation() const
   {
     return space.combined(projected);

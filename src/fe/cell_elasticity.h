@@ -41,10 +41,7 @@ namespace sprag
     /// [mJ]
     double energy() const;
 
-    /// Whether the dilatation is projected.
-    bool is_projected() const;
-
-    /// The projected dilatation. Only where is_projected().
+    /// The projected dilatation, in nearly incompressible cells alone.
     LinearPolynomial<dim> dilatation() const;
 
   private:

@@ -87,15 +87,16 @@ namespace sprag
       mesh.fixed.push_back(
           field(std::string("elastic_") + text, which + ", without rotation and support", parts[part].elastic, scale));
     }
-    FieldFiles files(folder, name, { std::move(mesh) });
+    FieldFiles files(folder, name, { std::move(mesh) }, FrameStorage::one_file);
     const bool swings = mode.frequency > 0.;
-    for (unsigned int k = 0; k < (swings ? n_phases : 1); ++k)
+    // One of ParaView's readers (Xdmf3, 5.11) shows nothing at a time of 0.
+    for (unsigned int k = swings ? 1 : n_phases; k <= n_phases; ++k)
     {
       const double phase = 2. * M_PI * k / n_phases;
       auto now           = parts[0].whole;
       for (std::size_t i = 0; i < now.size(); ++i)
         now[i] = std::cos(phase) * now[i] - std::sin(phase) * parts[1].whole[i];
-      files.write(swings ? k / (n_phases * mode.frequency) : 0.,
+      files.write(swings ? k / (n_phases * mode.frequency) : 1.,
                   { { field("displacement", "from the held slide at this phase, the hub's rotation included", now, scale) } },
                   { { "frequency", "Hz", mode.frequency },
                     { "growth_rate", "1/s", mode.growth_rate },

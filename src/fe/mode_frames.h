@@ -24,10 +24,10 @@ namespace sprag
   };
 
   /// Writes a mode for ParaView: `folder`/mode-01.xdmf shows one period of it in 24 frames, Re(phi exp(i omega t)) about the held
-  /// slide without growth, over the time; of a mode without frequency one frame. `displacement` includes the hub's rotation. Its
-  /// largest value is a twentieth of the lever's length; `displacement_real` and `displacement_imaginary` are phi in that scale,
-  /// `elastic_real` and `elastic_imaginary` its elastic part, frequency and growth rate are data of each frame. Leaf springs are
-  /// left out.
+  /// slide without growth, over the time; of a mode without frequency one frame, at a time of 1 s. `displacement` includes the
+  /// hub's rotation. Its largest value is a twentieth of the lever's length; `displacement_real` and `displacement_imaginary` are
+  /// phi in that scale, `elastic_real` and `elastic_imaginary` its elastic part, frequency and growth rate are data of each
+  /// frame. Leaf springs are left out.
   void write_mode(const Scene &scene, const BodyFields &body, const DevicePose &held, const DeviceMode &mode, unsigned int number,
                   const std::string &folder);
 } // namespace sprag

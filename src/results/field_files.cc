@@ -8,6 +8,7 @@
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <optional>
 #include <regex>
 #include <sstream>
 
@@ -100,9 +101,10 @@ namespace sprag
     }
   } // namespace
 
-  FieldFiles::FieldFiles(std::string folder_, std::string name_, std::vector<FieldMesh> meshes)
+  FieldFiles::FieldFiles(std::string folder_, std::string name_, std::vector<FieldMesh> meshes, const FrameStorage kept)
       : folder(std::move(folder_))
       , name(std::move(name_))
+      , storage(kept)
   {
     write_mesh_file(meshes);
     for (auto &mesh : meshes)
@@ -122,9 +124,14 @@ namespace sprag
     }
   }
 
+  std::string FieldFiles::mesh_file() const
+  {
+    return name + (storage == FrameStorage::files ? "-mesh.h5" : ".h5");
+  }
+
   void FieldFiles::write_mesh_file(const std::vector<FieldMesh> &meshes) const
   {
-    auto file = hdf5::create_file(folder + "/" + name + "-mesh.h5");
+    auto file = hdf5::create_file(folder + "/" + mesh_file());
     for (const auto &mesh : meshes)
     {
       const auto group = hdf5::create_group(file, mesh.name);
@@ -141,25 +148,32 @@ namespace sprag
   void FieldFiles::write(const double time, const std::vector<std::vector<Field>> &fields, const std::vector<FrameFact> &facts)
   {
     char number_text[16];
-    std::snprintf(number_text, sizeof(number_text), "-%04u.h5", n_frames++);
-    const std::string file_name = name + number_text;
+    std::snprintf(number_text, sizeof(number_text), "%04u", n_frames++);
+    const bool own_file         = storage == FrameStorage::files;
+    const std::string file_name = own_file ? name + "-" + number_text + ".h5" : mesh_file();
+    const std::string of_frame  = own_file ? "" : std::string("frame-") + number_text;
+    auto file = own_file ? hdf5::create_file(folder + "/" + file_name) : hdf5::open_file(folder + "/" + file_name);
     {
-      auto file = hdf5::create_file(folder + "/" + file_name);
-      hdf5::write_attribute(file, "time", time);
+      std::optional<hdf5::Handle> frame;
+      if (!own_file)
+        frame.emplace(hdf5::create_group(file, of_frame));
+      const auto &place = frame ? *frame : file;
+      hdf5::write_attribute(place, "time", time);
       for (const auto &fact : facts)
-        hdf5::write_attribute(file, shown_name(fact.name, fact.unit), fact.value);
+        hdf5::write_attribute(place, shown_name(fact.name, fact.unit), fact.value);
       for (std::size_t i = 0; i < indices.size(); ++i)
       {
-        const auto group = hdf5::create_group(file, indices[i].mesh.name);
+        const auto group = hdf5::create_group(place, indices[i].mesh.name);
         for (const auto &field : fields.at(i))
           write_field(group, field);
       }
-      file.close();
     }
+    file.close();
     for (std::size_t i = 0; i < indices.size(); ++i)
     {
-      auto &index     = indices[i];
-      const auto text = grid(index, time, file_name, fields[i], facts);
+      auto &index = indices[i];
+      const auto text =
+          grid(index, time, file_name + ":/" + (own_file ? "" : of_frame + "/") + index.mesh.name, fields[i], facts);
       if (time > index.last_time)
         append(index.path, text);
       else
@@ -168,12 +182,11 @@ namespace sprag
     }
   }
 
-  std::string FieldFiles::grid(const Index &index, const double time, const std::string &file, const std::vector<Field> &fields,
+  std::string FieldFiles::grid(const Index &index, const double time, const std::string &place, const std::vector<Field> &fields,
                                const std::vector<FrameFact> &facts) const
   {
     const auto &mesh              = index.mesh;
-    const std::string of_mesh     = name + "-mesh.h5:/" + mesh.name;
-    const std::string of_frame    = file + ":/" + mesh.name;
+    const std::string of_mesh     = mesh_file() + ":/" + mesh.name;
     const std::string element_set = mesh.nodes_per_cell == 2 ? "Polyline\" NodesPerElement=\"2" : "Quadrilateral";
     std::string text = "      <Grid Name=\"" + mesh.name + "\" GridType=\"Uniform\">\n        <Time Value=\"" + number(time) +
                        "\"/>\n        <Topology TopologyType=\"" + element_set + "\" NumberOfElements=\"" +
@@ -182,7 +195,7 @@ namespace sprag
                        "        </Topology>\n        <Geometry GeometryType=\"XYZ\">" +
                        item(of_mesh + "/nodes", index.n_nodes, 3, "Float", 8) + "        </Geometry>\n";
     for (const auto &field : fields)
-      text += attribute(field, of_frame, index.n_nodes);
+      text += attribute(field, place, index.n_nodes);
     for (const auto &field : mesh.fixed)
       text += attribute(field, of_mesh, index.n_nodes);
     for (const auto &fact : facts)
@@ -195,7 +208,7 @@ namespace sprag
 
   void remove_field_files(const std::string &folder)
   {
-    const std::regex earlier(R"((fields|face|leaf|mode-\d+)(-\d+\.h5|-mesh\.h5|\.xdmf))");
+    const std::regex earlier(R"((fields|face|leaf|mode-\d+)(-\d+\.h5|-mesh\.h5|\.h5|\.xdmf))");
     std::vector<std::filesystem::path> found;
     for (const auto &entry : std::filesystem::directory_iterator(folder))
       if (std::regex_match(entry.path().filename().string(), earlier))

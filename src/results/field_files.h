@@ -38,14 +38,20 @@ namespace sprag
     double value;
   };
 
-  /// Fields on meshes that do not change, frame by frame, for ParaView: `folder`/`name`-mesh.h5 has the meshes, each a group,
-  /// `name`-0000.h5, `name`-0001.h5, ... in the order of writing the fields of a frame on each of them, and an XDMF index a mesh
-  /// lists the frames in the order of time. Every index holds one grid a time, which all of ParaView's readers show alike. Throws
-  /// AnalysisError when a file cannot be written.
+  /// How frames are kept: long runs a file each, so that what is written is never touched again.
+  enum class FrameStorage
+  {
+    files,   ///< `name`-mesh.h5, and `name`-0000.h5, ... in the order of writing
+    one_file ///< `name`.h5, a group each
+  };
+
+  /// Fields on meshes that do not change, frame by frame, for ParaView: meshes and the fields of each frame on each of them, and
+  /// an XDMF index a mesh which lists the frames in the order of time. Every index holds one grid a time, which all of ParaView's
+  /// readers show alike. Throws AnalysisError when a file cannot be written.
   class FieldFiles
   {
   public:
-    FieldFiles(std::string folder, std::string name, std::vector<FieldMesh> meshes);
+    FieldFiles(std::string folder, std::string name, std::vector<FieldMesh> meshes, FrameStorage storage = FrameStorage::files);
 
     /// Adds a frame: fields of each mesh, in the order of the meshes. `time` [s] differs from those of the frames before.
     void write(double time, const std::vector<std::vector<Field>> &fields, const std::vector<FrameFact> &facts = {});
@@ -61,11 +67,13 @@ namespace sprag
     };
 
     void write_mesh_file(const std::vector<FieldMesh> &meshes) const;
-    std::string grid(const Index &index, double time, const std::string &file, const std::vector<Field> &fields,
+    std::string mesh_file() const;
+    std::string grid(const Index &index, double time, const std::string &place, const std::vector<Field> &fields,
                      const std::vector<FrameFact> &facts) const;
 
     const std::string folder;
     const std::string name;
+    const FrameStorage storage;
     std::vector<Index> indices;
     unsigned int n_frames = 0;
   };

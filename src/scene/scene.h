@@ -272,7 +272,7 @@ namespace sprag
   /// Perturbation of a held slide in time, and its limit cycles up and down the stroke.
   struct SpragSlipSettings
   {
-    double initial                = 1e-6; ///< amplitude over the mean indentation, > 0
+    double initial                = 1e-6; ///< amplitude over the mean overlap, > 0
     double final                  = 1e-3; ///< up to which growth is fitted; a stable slide begins there
     unsigned int steps_per_period = 128;
     double longest_growth         = 2.;  ///< [s]
@@ -324,7 +324,6 @@ namespace sprag
     /// Every parameter as it was read, by "Section/Name", files with absolute paths; null for a scene that was not read.
     std::shared_ptr<const std::map<std::string, std::string>> parameters;
 
-    /// "Section/Name" of the parameters that were given rather than left at their defaults.
-    std::set<std::string> given;
+    std::set<std::string> given; ///< "Section/Name" of the parameters that were given rather than left at their defaults
   };
 } // namespace sprag

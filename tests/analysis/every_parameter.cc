@@ -2,6 +2,7 @@
 #include "analysis/prepared_scene.h"
 #include "analysis/stability.h"
 #include "base/errors.h"
+#include "base/text.h"
 #include "mpi_environment.h"
 #include "scene/held_slide.h"
 #include "scene/read.h"
@@ -213,14 +214,22 @@ namespace
     return result;
   }
 
-  std::vector<double> answer_of(const Scene &scene, const Dynamics &dynamics)
+  /// P and eigenvalues, or why there are none.
+  std::string answer_of(const Scene &scene, const Dynamics &dynamics)
   {
-    std::vector<double> result;
-    const auto found = judge(dynamics.model(), held_drive(scene), scene.stability.modes);
-    if (found.slide)
-      result.push_back(found.slide->forces.P);
-    for (const auto &mode : found.modes)
-      result.insert(result.end(), { mode.mode.eigenvalue.real(), mode.mode.eigenvalue.imag() });
+    std::string result;
+    try
+    {
+      const auto found = judge(dynamics.model(), held_drive(scene), scene.stability.modes);
+      if (found.slide)
+        result = number_text(found.slide->forces.P);
+      for (const auto &mode : found.modes)
+        result += ' ' + number_text(mode.mode.eigenvalue.real()) + ' ' + number_text(mode.mode.eigenvalue.imag());
+    }
+    catch (const AnalysisError &error)
+    {
+      result = error.what();
+    }
     return result;
   }
 
@@ -285,7 +294,7 @@ namespace
         if (compare && shares)
           expect_shared_is_fresh(scene, changed, what);
       }
-    EXPECT_GT(shared, 50u);
+    EXPECT_TRUE(shared > 50 || !is_meshed(scene.analysis.model)) << shared;
   }
 } // namespace
 
@@ -308,7 +317,10 @@ TEST(EveryParameter, BelongsToTheKeysOfSomeScene)
 {
   const Folder folder;
   std::set<std::string> admitted;
-  for (const Scene &scene : { bar(folder), frame_with_plate(folder), pair_on_leaves(folder) })
+  const Changes statics = { "Analysis/Type=quasi-static", "Analysis/Model=finite element", "Analysis/Plane=strain" };
+  const Changes in_time = { "Analysis/Type=transient", "Analysis/Model=rigid" };
+  for (const Scene &scene :
+       { bar(folder), frame_with_plate(folder), pair_on_leaves(folder), scene_of(folder, statics), scene_of(folder, in_time) })
     change_each(scene, folder, false, admitted);
   std::set<std::string> missing;
   for (const auto &parameter : declared())

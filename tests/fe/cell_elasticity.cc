@@ -1,5 +1,6 @@
 #include "fe/cell_elasticity.h"
 
+#include "fe/body_fields.h"
 #include "fe/dilatation.h"
 #include "fe/elastic_body.h"
 #include "mpi_environment.h"
@@ -236,8 +237,33 @@ TEST(CellElasticity, LinearDilatationIsItsOwnProjectionAtDegree2)
     for (unsigned int i = 0; i < u.size(); ++i)
       u[i] = fe.system_to_component_index(i).first == 0 ? 0.5 * positions[dofs[i]].square() : 0.;
     elasticity.reinit(cell, u);
-    ASSERT_TRUE(elasticity.is_projected());
     for (const unsigned int v : cell->vertex_indices())
       EXPECT_NEAR(elasticity.dilatation()(cell->vertex(v)), cell->vertex(v)[0], 1e-13);
+  }
+}
+
+// The pressure of degree 1 is one in a cell, whatever its displacements; so is the stress out of plane, lambda theta.
+TEST(CellElasticity, StressOfFieldsHasTheProjectedPressure)
+{
+  dealii::Triangulation<2> triangulation;
+  make_free_block(triangulation);
+  for (const auto material : { MaterialModel::linear, MaterialModel::neo_hookean })
+  {
+    const ElasticBody<2> body(triangulation, properties_of(1, material, nearly_half));
+    const BodyFields fields(body);
+    const auto nodes = fields.at(random(body.n_dofs(), 0.01, 1));
+    for (std::size_t first = 0; first < nodes.size(); first += 4)
+      for (std::size_t i = first + 1; i < first + 4; ++i)
+      {
+        const auto &node      = nodes[i];
+        const double pressure = nodes[first].out_of_plane;
+        if (material == MaterialModel::linear)
+          EXPECT_NEAR(node.out_of_plane, pressure, 1e-12 * std::abs(pressure));
+        // J of up to 1.2 stands between the pressure and Cauchy's stress.
+        else
+          EXPECT_NEAR(node.out_of_plane, pressure, 0.4 * std::abs(pressure));
+        // The rest of the stress is mu times strains of some tenths.
+        EXPECT_NEAR(node.stress[0][0], node.out_of_plane, 10.);
+      }
   }
 }

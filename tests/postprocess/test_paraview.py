@@ -23,7 +23,7 @@ RUNS = {
     "lever": ("Output/Fields=interval", "Output/Field interval=20"),
     "cylinder": ("Cylinder/Type=solid", "Cylinder/Face size=1"),
     "pair": ("Mirrored pair/Type=full", "Rotational spring/Type=leaf", "Leaf spring/Thickness=1.3914"),
-    "mode": ("Analysis/Type=stability", "Analysis/Model=condensed", "Condensed/Modes=8", "Condensed/Cache=none", "Lever/Depth=6",
+    "mode": ("Analysis/Type=stability", "Analysis/Model=condensed", "Condensed/Modes=8", "Condensed/Cache=cache", "Lever/Depth=6",
              "Stability/Position=40", "Stability/Direction=backward", "Stability/Modes=2", "Stability/Roles=off"),
 }  # fmt: skip
 LEVER, LAYER, HUB, CYLINDER, LEAF = 1, 2, 3, 6, 7
@@ -40,15 +40,15 @@ def look(folder):
             reader = simple.XDMFReader(FileNames=[str(path)]) if name == FIRST_READER else simple.Xdmf3ReaderS(FileName=[str(path)])
             arrays = {"times": np.array(reader.TimestepValues)}
             for number, time in enumerate(arrays["times"]):
-                simple.UpdatePipeline(time, reader)
+                simple.UpdatePipeline(float(time), reader)
                 data = servermanager.Fetch(reader)
                 while data.IsA("vtkCompositeDataSet"):
                     data = data.GetBlock(0)
-                arrays[f"{number} points"] = vtk_to_numpy(data.GetPoints().GetData())
+                arrays[f"{number} points"] = np.array(vtk_to_numpy(data.GetPoints().GetData()))
                 arrays[f"{number} cells"] = np.array(data.GetNumberOfCells())
                 for values in (data.GetPointData(), data.GetFieldData()):
                     for index in range(values.GetNumberOfArrays()):
-                        arrays[f"{number} {values.GetArrayName(index)}"] = vtk_to_numpy(values.GetArray(index))
+                        arrays[f"{number} {values.GetArrayName(index)}"] = np.array(vtk_to_numpy(values.GetArray(index)))
             np.savez(path.with_name(f"{path.stem}-{name}.npz"), **arrays)
             simple.Delete(reader)
 
@@ -131,7 +131,7 @@ class ParaViewTest(unittest.TestCase):
             body = lever == 1
             rigid = turned(seen.rest()[body], (DISTANCE, 0), row["theta"])
             np.testing.assert_allclose(now[body] - elastic[body], rigid, atol=1e-4)
-            self.assertEqual(set(part[body]), {LEVER, LAYER})
+            self.assertEqual(set(part[body]), {LEVER, LAYER, HUB})
             self.assertLess(np.abs(elastic).max(), 0.5)
 
     def test_bodies_touch_where_they_press(self):
@@ -171,7 +171,7 @@ class ParaViewTest(unittest.TestCase):
             disc = seen.of(number, "part") == CYLINDER
             now = seen.now(number)[disc]
             core = now[np.hypot(*seen.rest()[disc].T) < 28.001]
-            np.testing.assert_allclose(0.5 * (core.min(axis=0) + core.max(axis=0)), (row["x"], 0), atol=1e-2)
+            np.testing.assert_allclose(0.5 * (core.min(axis=0) + core.max(axis=0)), (row["x"], 0), atol=0.05)
             distance = np.hypot(*(now - (row["x"], 0)).T)
             self.assertAlmostEqual(distance.max(), RADIUS, delta=1e-3)
             self.assertAlmostEqual(distance.min(), 28, delta=1e-3)
@@ -206,12 +206,12 @@ class ParaViewTest(unittest.TestCase):
         for number in range(len(modes["frequency"])):
             seen = Seen(self.folder / "mode", f"mode-{number + 1:02}")
             frequency = modes["frequency"][number]
-            np.testing.assert_allclose(seen.times, np.arange(24) / (24 * frequency), rtol=1e-9)
+            np.testing.assert_allclose(seen.times, np.arange(1, 25) / (24 * frequency), rtol=1e-9)
             real, imaginary = (seen.of(0, f"displacement_{name} [mm]") for name in ("real", "imaginary"))
             largest = np.hypot(np.linalg.norm(real, axis=1), np.linalg.norm(imaginary, axis=1)).max()
             self.assertAlmostEqual(largest, 0.05 * 210, delta=1e-4)
             for k in range(24):
-                expected = np.cos(np.pi * k / 12) * real - np.sin(np.pi * k / 12) * imaginary
+                expected = np.cos(np.pi * (k + 1) / 12) * real - np.sin(np.pi * (k + 1) / 12) * imaginary
                 np.testing.assert_allclose(seen.of(k, "displacement [mm]"), expected, atol=1e-5)
                 self.assertAlmostEqual(seen.of(k, "frequency [Hz]")[0], frequency, delta=1e-6 * frequency)
                 self.assertAlmostEqual(seen.of(k, "growth_rate [1/s]")[0], modes["growth_rate"][number], delta=1e-6 * frequency)

@@ -21,7 +21,7 @@ SCENE = SOURCE / "params" / "map-friction-depth-a.prm"
 # Every point of the grid: long enough, some 1700 cells, to be killed on the way.
 LONG = ("--set", "Map/Coarsest=1", "--set", "Map/First points=41", "--set", "Map/Second points=41", "--set", "Map/Bisections=2")
 # The same grid without bisections, as long as it takes to be stopped after the first half second.
-MEDIUM = ("--set", "Map/Coarsest=1", "--set", "Map/First points=36", "--set", "Map/Second points=36", "--set", "Map/Bisections=0")
+MEDIUM = ("--set", "Map/Coarsest=1", "--set", "Map/First points=26", "--set", "Map/Second points=26", "--set", "Map/Bisections=0")
 SHORT = ("--set", "Map/Coarsest=4", "--set", "Map/First points=9", "--set", "Map/Second points=9", "--set", "Map/Bisections=1")
 MESHED = (*SHORT, "--set", "Analysis/Model=condensed", "--set", "Mesh/Face size=4", "--set", "Map/Second points=5")
 

@@ -207,7 +207,7 @@ namespace
   {
     auto &model      = judged.dynamics.model();
     const auto held  = judged.slide().motion;
-    const auto mode  = model.perturbed(judged.slide(), judged.mode(), amplitude * judged.slide().indentation);
+    const auto mode  = model.perturbed(judged.slide(), judged.mode(), amplitude * judged.slide().overlap);
     Motion motion    = model.initial_motion(start);
     const auto added = [](dealii::Vector<double> &to, const dealii::Vector<double> &with, const dealii::Vector<double> &less)
     {

@@ -52,8 +52,7 @@ namespace
 // indentation is prescribed here. Cells of 0.05 mm under the contact: of the one at the edge p may end half a cell, and a point,
 // too early or late. The face moves aside by some delta a / t, so that it meets the circle higher up: a^2 / (R t) = 1 % of delta,
 // less of P. The overlap is 0.1 % of the indentation at degree 2 and 0.3 % at degree 1, P grows with its square. Between nodes
-// the circle stands out of chords by h^2 / 8R, see hertz.cc. Strains of 0.01 change P at finite strain by as much. Without the
-// projection P is 1.6 times at nu = 0.49 and degree 1, and 60 times at 0.4999.
+// the circle stands out of chords by h^2 / 8R, see hertz.cc. Strains of 0.01 change P at finite strain by as much.
 TEST(IncompressibleLayer, MeetsTheExactLayerOnARigidBase)
 {
   const double radius = 56.;
