@@ -125,8 +125,9 @@ namespace sprag
     add_pair(rows, summary);
     summary.insert(summary.end(), stress.begin(), stress.end());
     summary.push_back({ "status", status, "", "how the run ended" });
-    for (const Warning &warning : row_warnings(scene, rows))
-      warnings.push_back(warning);
+    append(warnings, row_warnings(scene, rows));
+    if (scene.analysis.type == AnalysisType::transient)
+      append(warnings, transient_warnings(scene, rows));
     file.finish(summary, meta, warnings);
     if (!quiet)
     {

@@ -1,5 +1,6 @@
 #include "analysis/row_warnings.h"
 
+#include "analysis/peak_report.h"
 #include "base/text.h"
 #include "scene/closed_form.h"
 
@@ -23,9 +24,6 @@ namespace sprag
 
     // The stress of a layer compressed by a tenth is about a tenth off in linear theory.
     constexpr double largest_strain = 0.1;
-
-    // Pressures of contacts two elements wide are 10 to 20 % off, narrower ones up to 60 %.
-    constexpr double fewest_elements = 2.;
 
     // Points enter the contact without friction and have it whole after the elastic slip: Q lacks half its share of the width.
     constexpr double largest_elastic_slip = 0.02;
@@ -99,20 +97,6 @@ namespace sprag
                              "largest pressure too small, in time "
                              "the frequency of ringing too low.",
                              remedy });
-    }
-
-    void add_width(const Scene &scene, const Row &peak, Warnings &warnings)
-    {
-      const double width = peak[Column::contact_width];
-      const double size  = scene.mesh.face_size;
-      if (scene.mesh.file.empty() && width > 0. && width < fewest_elements * size)
-        warnings.push_back({ "narrow_contact",
-                             "The contact is " + mm(width) + " wide " + place(peak) + ", where P is largest: less than " +
-                                 rounded_text(fewest_elements) + " elements of Mesh/Face size = " + mm(size) + '.',
-                             "Pressure and contact width there are coarse, the "
-                             "largest pressure off by a tenth or more; where P is "
-                             "smaller they are worse. P, Q and theta hardly change.",
-                             "Set Mesh/Face size = " + rounded_text(width / 5.) + " or less for five elements over the width." });
     }
 
     void add_tangential(const Row &peak, Warnings &warnings)
@@ -277,7 +261,7 @@ namespace sprag
     if (is_meshed(scene.analysis.model))
     {
       add_overlap(scene, rows, *peak, warnings);
-      add_width(scene, *peak, warnings);
+      append(warnings, coarse_contact_warnings(scene, rows));
       add_tangential(*peak, warnings);
     }
     add_deflection(scene, rows, warnings);

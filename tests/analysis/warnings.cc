@@ -91,13 +91,11 @@ TEST(RowWarnings, OverlapAgainstApproachAndLayer)
   EXPECT_EQ(names_with(Column::penetration, 0.11, thick), Names{ "soft_penalty" });
 }
 
-TEST(RowWarnings, NarrowContact)
+TEST(RowWarnings, CoarseContact)
 {
-  EXPECT_EQ(names_with(Column::contact_width, 1.01), Names{});
-  EXPECT_EQ(names_with(Column::contact_width, 0.99), Names{ "narrow_contact" });
-  Scene coarse          = model_a();
-  coarse.mesh.face_size = 1.26;
-  EXPECT_EQ(names_with(Column::contact_width, 2.5, coarse), Names{ "narrow_contact" });
+  Scene scene          = model_a();
+  scene.mesh.face_size = 2.;
+  EXPECT_EQ(names(row_warnings(scene, { first_row(), usual_row() })), Names{ "coarse_contact" });
 }
 
 TEST(RowWarnings, ElasticSlipAgainstContactWidth)
