@@ -244,7 +244,7 @@ TEST_F(ResultFileTest, ReplacesAnOlderFile)
 {
   std::ofstream(path()) << "not HDF5";
   ResultFile(path(), "", {}).finish({}, {});
-  EXPECT_EQ(h5py("print(sorted(f))"), "['meta', 'parameters', 'summary', 'table']\n");
+  EXPECT_EQ(h5py("print(sorted(f))"), "['meta', 'parameters', 'summary', 'table', 'warnings']\n");
 }
 
 TEST_F(ResultFileTest, UnwritablePathIsTheUsersMistake)
