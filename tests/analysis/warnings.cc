@@ -32,6 +32,7 @@ namespace
     row[Column::v]                 = -112.;
     row[Column::s]                 = 120.;
     row[Column::P]                 = 25.4;
+    row[Column::F]                 = -18.5;
     row[Column::theta]             = 0.0993;
     row[Column::theta_closed_form] = 0.0995;
     row[Column::contact_width]     = 2.5;
