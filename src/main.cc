@@ -68,10 +68,10 @@ namespace
     }
     if (arguments.validate)
     {
-      sprag::validate(scene);
+      const auto warnings = sprag::validate(scene);
       if (!arguments.quiet)
-        std::cout << arguments.file << ": valid\n";
-      return;
+        std::cout << sprag::text_of(warnings) << arguments.file << ": valid, " << sprag::count_text(warnings) << '\n';
+      return sprag::check_warnings(scene, warnings);
     }
     const bool alone = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) == 1;
     if (!alone && scene.analysis.type != sprag::AnalysisType::map)

@@ -91,7 +91,7 @@ namespace sprag
     }
   } // namespace
 
-  void run_calibration(const Scene &scene, const RunOptions &options)
+  void run_calibration(const Scene &scene, const RunOptions &options, Warnings &warnings)
   {
     dealii::TimerOutput timer(std::cout, dealii::TimerOutput::never, dealii::TimerOutput::cpu_and_wall_times);
     require_writable(options.folder);
@@ -112,7 +112,7 @@ namespace sprag
     for (const auto &entry : disagreement_entries(found))
       summary.push_back(entry);
     summary.push_back({ "status", std::string("completed"), "", "how the run ended" });
-    file.finish(summary, process_entries(timer));
+    file.finish(summary, process_entries(timer), warnings);
     if (options.quiet)
       return;
     print_summary(std::cout, summary);

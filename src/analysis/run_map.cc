@@ -207,7 +207,7 @@ namespace sprag
     }
 
     void write_map(const Scene &scene, const RunOptions &options, const StabilityMap &map, const MapCells &cells,
-                   const std::string &status, const std::vector<Entry> &meta)
+                   const std::string &status, const std::vector<Entry> &meta, const Warnings &warnings)
     {
       const Group group = map_group(scene, map.grid, cells);
       auto summary      = summary_of_map(map, group, cells.size());
@@ -215,7 +215,7 @@ namespace sprag
       ResultFile file(options.folder + "/result.h5", parameters_text(scene), {}, boundary_columns(scene.map));
       for (const auto &point : map.boundary)
         file.append(boundary_row(scene.map, point));
-      file.finish(summary, meta, { group });
+      file.finish(summary, meta, warnings, { group });
       if (!options.quiet)
         print_summary(std::cout, summary);
     }
@@ -231,7 +231,7 @@ namespace sprag
     }
   } // namespace
 
-  void run_map(const Scene &scene, const RunOptions &options)
+  void run_map(const Scene &scene, const RunOptions &options, Warnings &warnings)
   {
     const auto begin = std::chrono::steady_clock::now();
     MapProgress progress(options.quiet || !is_first_rank());
@@ -258,7 +258,7 @@ namespace sprag
     progress.finish();
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
     const auto meta                             = cost_of_map(team, seconds.count());
-    on_first_rank([&] { write_map(scene, options, map, team.cells(), status, meta); });
+    on_first_rank([&] { write_map(scene, options, map, team.cells(), status, meta, warnings); });
     if (status != "completed")
       throw AnalysisError(status);
     on_first_rank([&] { journal->remove(); });

@@ -224,7 +224,7 @@ namespace sprag
       { "mu", slide.mu, "1", "friction coefficient" },
       { "P", slide.forces.P, "N", "normal force" },
       { "Q", slide.forces.Q, "N", "force along x" },
-      { "indentation", slide.indentation, "mm", "of the contact's spring or layer surface" },
+      { "indentation", slide.indentation, "mm", "physical compression of the friction layer, at its largest" },
       { "margin", slide.margin, "1", "to jamming: P without friction over P" },
       { "uniqueness", slide.uniqueness, "1", "determinant of the tangent over that without friction; <= 0: not unique" },
     };

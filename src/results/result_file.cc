@@ -88,6 +88,26 @@ namespace sprag
                  info.unit, info.description);
     }
 
+    void write_warnings(const hdf5::Handle &file, const Warnings &warnings)
+    {
+      const hdf5::Handle group = hdf5::create_group(file, "warnings");
+      for (const Warning &warning : warnings)
+      {
+        const hdf5::Handle dataset = hdf5::write_dataset(group, warning.name, warning.found);
+        describe(dataset, "", "what was found; its effect and remedy are attributes");
+        hdf5::write_attribute(dataset, "effect", warning.effect);
+        hdf5::write_attribute(dataset, "remedy", warning.remedy);
+      }
+    }
+
+    std::size_t size_of(const Warnings &warnings)
+    {
+      std::size_t size = 0;
+      for (const Warning &warning : warnings)
+        size += overhead / 16 + warning.found.size() + warning.effect.size() + warning.remedy.size();
+      return size;
+    }
+
     std::size_t size_of(const std::vector<Group> &groups)
     {
       std::size_t size = 0;
@@ -300,17 +320,19 @@ namespace sprag
     writer.flush();
   }
 
-  void ResultFile::finish(const std::vector<Entry> &summary, const std::vector<Entry> &meta, const std::vector<Group> &groups)
+  void ResultFile::finish(const std::vector<Entry> &summary, const std::vector<Entry> &meta, const Warnings &warnings,
+                          const std::vector<Group> &groups)
   {
     Assert(implementation->writer, dealii::ExcMessage("The result file is finished already."));
     // Nothing can be created in a file that others may be reading along: close it and open it anew.
     implementation->writer->flush();
     implementation->writer.reset();
     DiskReserve reserve(implementation->path);
-    reserve.cover(overhead + size_of(groups));
+    reserve.cover(overhead + size_of(groups) + size_of(warnings));
     hdf5::Handle file = hdf5::open_file(implementation->path);
     write_entries(file, "summary", summary);
     write_entries(file, "meta", meta);
+    write_warnings(file, warnings);
     for (const Group &group : groups)
       write_group(file, group);
     file.close();

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <filesystem>
 #include <functional>
+#include <map>
 
 namespace sprag
 {
@@ -20,6 +21,19 @@ namespace sprag
     std::string rounded_down_text(const double value)
     {
       return rounded_text(value * (1. - 5e-6));
+    }
+
+    /// The largest pressure of model A is then within 2 % over the whole stroke. In time every step would cost more.
+    constexpr double quasi_static_face_size = 0.25; ///< [mm]
+
+    /// How the header of a table may call a column.
+    std::vector<std::string> words_for(const std::string &column)
+    {
+      const std::map<std::string, std::vector<std::string>> words = { { "time", { "time", "t" } },
+                                                                      { "x", { "x", "position", "displacement" } },
+                                                                      { "speed", { "speed", "velocity", "v" } },
+                                                                      { "mu", { "mu", "coefficient", "friction" } } };
+      return words.at(column);
     }
 
     const char *const time_tolerance = "Time/Tolerance";
@@ -78,6 +92,8 @@ namespace sprag
         throw InputError(settings.mistakes);
       input.scene.name       = std::filesystem::path(settings.file).stem().string();
       input.scene.parameters = std::make_shared<const ParameterValues>(values());
+      for (const auto &[name, setting] : settings.given)
+        input.scene.given.insert(name);
       return input.scene;
     }
 
@@ -102,6 +118,8 @@ namespace sprag
       resolve("Mesh/File", input.scene.mesh.file);
       resolve("Condensed/Cache", input.scene.condensed.cache);
       make_time_tolerance();
+      const bool inertia         = input.scene.analysis.type != AnalysisType::quasi_static;
+      input.scene.mesh.face_size = input.face_size.value_or(inertia ? input.scene.mesh.face_size : quasi_static_face_size);
     }
 
     /// The printed parameters give a step, so that they must give the tolerance too.
@@ -180,7 +198,11 @@ namespace sprag
         return report(parameter, "must name a file");
       try
       {
-        use(read_table(file, names));
+        const auto table = read_table(file, names);
+        if (exchanged_columns(table.header, words_for(names.first), words_for(names.second)))
+          return report(parameter, "the header '" + table.header + "' has the columns exchanged: " + names.first +
+                                       " must be the first, " + names.second + " the second");
+        use(table);
       }
       catch (const InputError &error)
       {

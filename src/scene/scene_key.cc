@@ -40,7 +40,8 @@ namespace sprag
     std::string key_without(const Scene &scene, const std::set<std::string> &spared)
     {
       SceneSettings settings;
-      settings.scene = scene;
+      settings.scene     = scene;
+      settings.face_size = scene.mesh.face_size;
       std::string key;
       for (const auto &parameter : scene_parameters(settings))
         if (const auto name = full_name(parameter); spared.count(name) == 0)

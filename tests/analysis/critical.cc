@@ -54,6 +54,39 @@ TEST(Jamming, StiffBeamJamsWhereTheRigidLeverLocks)
   EXPECT_NEAR(*margin.flexible_critical_mu, margin.critical_mu, 0.02 * margin.critical_mu);
 }
 
+// mu falls with speed, and a harmonic motion is slowest where s is shortest.
+TEST(Jamming, MarginIsTheLeastOnTheWayWithMuAtTheSpeedThere)
+{
+  Scene scene        = rigid_lever(0.);
+  scene.friction.law = TabulatedFriction({ 0., 20., 60., 120. }, { 0.9, 0.85, 0.3, 0.2 });
+  const auto least   = [&]
+  {
+    double result = 2.;
+    for (double time = 0.; time < scene.drive.duration(); time += 1e-4)
+    {
+      const auto at    = scene.drive.at(time);
+      const auto slide = closed_form(scene, at.x, at.v);
+      result           = std::min(result, 1. + direction_of(at.v) * slide.mu * 45.6 / slide.contact.s);
+    }
+    return result;
+  };
+  const Drive harmonic(DriveProfile::harmonic, 20., 65., 112., 2.);
+  const Drive table({ 0., 0.2, 0.5, 0.9, 1.1, 1.5, 2. }, { 0., 30., 60., 60., 20., 50., 0. });
+  const Drive cut_short(DriveProfile::harmonic, 20., 65., 112., 4.75);
+  for (const auto &drive : { harmonic, table, cut_short })
+  {
+    scene.drive       = drive;
+    const auto margin = jamming_margin(scene, false);
+    EXPECT_NEAR(margin.margin(), least(), 2e-3);
+    EXPECT_EQ(direction_of(margin.v), -1);
+  }
+  scene.drive = harmonic;
+  EXPECT_NEAR(jamming_margin(scene, false).margin(), 1. - 0.9 * 45.6 / kinematics(scene.geometry, 65.).s, 1e-12);
+  // A slide held anywhere has the peak speed.
+  scene.analysis.type = AnalysisType::stability;
+  EXPECT_GT(jamming_margin(scene, false).margin(), 0.9);
+}
+
 TEST(Jamming, NoOffsetNoRigidLocking)
 {
   const auto margin = jamming_margin(with_coulomb(model_b(), 0.73), false);

@@ -268,8 +268,11 @@ TEST(ReadScene, TablesMustBeReadable)
   EXPECT_EQ(mistakes_of({ "Drive/Profile=table", "Drive/Table=x.csv" }),
             (Messages{ "--set: Drive/Table = x.csv: row 3: 1 follows 1: the first column must increase from row to row" }));
   written("0, 0\n1, 10\n2, -5\n3, 140\n", "x.csv");
-  EXPECT_EQ(mistakes_of({ "Drive/Profile=table", "Drive/Table=x.csv" }),
-            (Messages{ "--set: Drive/Table = x.csv: x must be >= 0 mm throughout, it falls to -5" }));
+  EXPECT_EQ(
+      mistakes_of({ "Drive/Profile=table", "Drive/Table=x.csv" }),
+      (Messages{ "--set: Drive/Table = x.csv: x must be >= 0 mm throughout, it falls to -5: levers stand on one side of x = 0 "
+                 "alone. Of a record about rest, max(x, 0) moves those of one side, max(-x, 0) those opposite, |x| both in turn "
+                 "(Q then acts against the sign of x); a record that counts from elsewhere needs an offset" }));
 }
 
 TEST(ReadScene, GuessesBringNoFurtherMistakes)
