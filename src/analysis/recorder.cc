@@ -110,8 +110,6 @@ namespace sprag
 
   void Recorder::record(const FaceState &face)
   {
-    for (const double pressure : face.pressure)
-      largest_pressure = std::max(largest_pressure.value_or(0.), pressure);
     file.append(face);
   }
 
@@ -127,8 +125,9 @@ namespace sprag
     add_pair(rows, summary);
     summary.insert(summary.end(), stress.begin(), stress.end());
     summary.push_back({ "status", status, "", "how the run ended" });
-    for (const Warning &warning : row_warnings(scene, rows, largest_pressure))
-      warnings.push_back(warning);
+    append(warnings, row_warnings(scene, rows));
+    if (scene.analysis.type == AnalysisType::transient)
+      append(warnings, transient_warnings(scene, rows));
     file.finish(summary, meta, warnings);
     if (!quiet)
     {

@@ -5,8 +5,6 @@
 
 #include <deal.II/base/timer.h>
 
-#include <optional>
-
 namespace sprag
 {
   /// Takes the rows of a run as they come: completes them, writes them, shows the progress and sums up at the end.
@@ -35,7 +33,6 @@ namespace sprag
     std::vector<Row> rows;
     std::vector<Entry> stress;
     double travel = 0.;
-    std::optional<double> largest_pressure; ///< of the states of the face [MPa]
   };
 
   /// Length of the drive's path [mm].

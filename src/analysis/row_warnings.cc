@@ -1,5 +1,6 @@
 #include "analysis/row_warnings.h"
 
+#include "analysis/peak_report.h"
 #include "base/text.h"
 #include "scene/closed_form.h"
 
@@ -23,9 +24,6 @@ namespace sprag
 
     // The stress of a layer compressed by a tenth is about a tenth off in linear theory.
     constexpr double largest_strain = 0.1;
-
-    // Pressures of contacts two elements wide are 10 to 20 % off, narrower ones up to 60 %.
-    constexpr double fewest_elements = 2.;
 
     // Points enter the contact without friction and have it whole after the elastic slip: Q lacks half its share of the width.
     constexpr double largest_elastic_slip = 0.02;
@@ -99,20 +97,6 @@ namespace sprag
                              "largest pressure too small, in time "
                              "the frequency of ringing too low.",
                              remedy });
-    }
-
-    void add_width(const Scene &scene, const Row &peak, Warnings &warnings)
-    {
-      const double width = peak[Column::contact_width];
-      const double size  = scene.mesh.face_size;
-      if (scene.mesh.file.empty() && width > 0. && width < fewest_elements * size)
-        warnings.push_back({ "narrow_contact",
-                             "The contact is " + mm(width) + " wide " + place(peak) + ", where P is largest: less than " +
-                                 rounded_text(fewest_elements) + " elements of Mesh/Face size = " + mm(size) + '.',
-                             "Pressure and contact width there are coarse, the "
-                             "largest pressure off by a tenth or more; where P is "
-                             "smaller they are worse. P, Q and theta hardly change.",
-                             "Set Mesh/Face size = " + rounded_text(width / 5.) + " or less for five elements over the width." });
     }
 
     void add_tangential(const Row &peak, Warnings &warnings)
@@ -192,26 +176,25 @@ namespace sprag
                              "strain without inertia." });
     }
 
-    void add_pressure(const Scene &scene, const Row &peak, const std::optional<double> largest_pressure, Warnings &warnings)
+    void add_pressure(const Scene &scene, const std::vector<Row> &rows, const Row &peak, Warnings &warnings)
     {
       const auto strength = layer_strength(scene.layer);
       if (!strength)
         return;
-      const double pressure = largest_pressure.value_or(layer_pressure(scene, peak[Column::P]));
+      const Row *pressed    = largest(rows, [](const Row &row) { return row[Column::largest_pressure]; });
+      const Row &place_of   = pressed != nullptr ? *pressed : peak;
+      const double pressure = pressed != nullptr ? (*pressed)[Column::largest_pressure] : layer_pressure(scene, peak[Column::P]);
       if (pressure <= *strength)
         return;
       const std::string source = scene.layer.strength ? "Friction layer/Strength" : "0.04 E, at which the cells of cork buckle";
       warnings.push_back({ "pressure_beyond_strength",
                            "The largest pressure on the friction layer is " + rounded_text(pressure) + " MPa" +
-                               (largest_pressure ? "" : " (by an elastic foundation)") + ", P being largest with " +
-                               rounded_text(peak[Column::P]) + " N " + place(peak) + "; the layer gives way from " +
-                               rounded_text(*strength) + " MPa (" + source + ").",
-                           "The layer is modelled as elastic: a real one is crushed, its pressure "
-                           "stays near that value and its "
-                           "contact is wider; P and Q change by the lever's turn alone, stiffness "
-                           "in contact and ringing more.",
-                           "Lower the force or widen the lever, give the Friction layer/Strength "
-                           "of the sheet in use, or take "
+                               (pressed != nullptr ? "" : " (by an elastic foundation)") +
+                               ", under P = " + rounded_text(place_of[Column::P]) + " N " + place(place_of) +
+                               "; the layer gives way from " + rounded_text(*strength) + " MPa (" + source + ").",
+                           "The layer is modelled as elastic: a real one is crushed, its pressure stays near that value and its "
+                           "contact is wider; P and Q change by the lever's turn alone, stiffness in contact and ringing more.",
+                           "Lower the force or widen the lever, give the Friction layer/Strength of the sheet in use, or take "
                            "pressure and frequencies in contact for upper bounds." });
     }
 
@@ -269,7 +252,7 @@ namespace sprag
     return std::pow(0.75 * P / (scene.lever.width * half_width_at_unit_pressure), 2. / 3.);
   }
 
-  Warnings row_warnings(const Scene &scene, const std::vector<Row> &rows, const std::optional<double> largest_pressure)
+  Warnings row_warnings(const Scene &scene, const std::vector<Row> &rows)
   {
     Warnings warnings;
     const Row *peak = largest(rows, [](const Row &row) { return row[Column::P]; });
@@ -278,12 +261,12 @@ namespace sprag
     if (is_meshed(scene.analysis.model))
     {
       add_overlap(scene, rows, *peak, warnings);
-      add_width(scene, *peak, warnings);
+      append(warnings, coarse_contact_warnings(scene, rows));
       add_tangential(*peak, warnings);
     }
     add_deflection(scene, rows, warnings);
     add_strain(scene, rows, warnings);
-    add_pressure(scene, *peak, largest_pressure, warnings);
+    add_pressure(scene, rows, *peak, warnings);
     add_energy(scene, rows, warnings);
     return warnings;
   }
@@ -295,6 +278,6 @@ namespace sprag
     row[Column::v]           = drive.v;
     row[Column::P]           = P;
     row[Column::indentation] = indentation;
-    return row_warnings(scene, { row }, {});
+    return row_warnings(scene, { row });
   }
 } // namespace sprag

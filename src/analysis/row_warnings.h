@@ -9,9 +9,9 @@
 
 namespace sprag
 {
-  /// What follows from the rows of a run, completed by add_closed_form(). `largest_pressure` [MPa] is that of the friction face;
-  /// none: the model has no face, layer_pressure() of the largest P stands for it. Of a full pair the first lever is looked at.
-  Warnings row_warnings(const Scene &scene, const std::vector<Row> &rows, std::optional<double> largest_pressure);
+  /// What follows from the rows of a run, completed by add_closed_form(). A model without a friction face has no largest
+  /// pressure, for which layer_pressure() of the largest P stands. Of a full pair the first lever is looked at.
+  Warnings row_warnings(const Scene &scene, const std::vector<Row> &rows);
 
   /// The same for a steady slide under P [N] with this compression of the layer [mm].
   Warnings slide_warnings(const Scene &scene, const DrivePoint &drive, double P, double indentation);

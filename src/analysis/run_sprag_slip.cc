@@ -203,7 +203,7 @@ namespace sprag
       {
         found.ledger = run.ledger();
         found.steps  = run.steps();
-        for (const Warning &warning : row_warnings(scene, { rows.largest() }, {}))
+        for (const Warning &warning : row_warnings(scene, { rows.largest() }))
           warnings.push_back(warning);
       }
     };

@@ -118,6 +118,7 @@ namespace sprag
       Recorder recorder(scene, options.folder, options.quiet, model->face_points());
       announce(scene, options);
       announce(growing, scene, options);
+      append(warnings, hidden_vibration_warnings(growing, scene.time));
       record_steps(scene, recorder, timer, warnings, {},
                    [&]
                    {
@@ -190,6 +191,7 @@ namespace sprag
       Recorder recorder(scene, options.folder, options.quiet, lever.model->face_points());
       announce(scene, lever, body, options);
       announce(growing, scene, options);
+      append(warnings, hidden_vibration_warnings(growing, scene.time));
       std::optional<FieldRecorder> fields;
       if (scene.output.fields != FieldOutput::none)
         fields.emplace(scene, body, options.folder, timer);

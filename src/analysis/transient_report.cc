@@ -100,7 +100,21 @@ namespace sprag
       }
       return {};
     }
+
+    /// Of the built-in lever along its friction face; 0: none, or unknown.
+    double size_of_elements(const Scene &scene)
+    {
+      return is_meshed(scene.analysis.model) && scene.mesh.file.empty() ? scene.mesh.face_size : 0.;
+    }
   } // namespace
+
+  Warnings transient_warnings(const Scene &scene, const std::vector<Row> &rows)
+  {
+    const double size = size_of_elements(scene);
+    if (rows.empty() || size == 0.)
+      return {};
+    return element_passing_warnings(oscillations(rows, scene.drive, size), size);
+  }
 
   std::vector<Entry> transient_summary(const Scene &scene, const std::vector<Row> &rows)
   {
@@ -118,8 +132,7 @@ namespace sprag
     entries.push_back({ "steps", static_cast<double>(rows.size()) - 1., "1", "accepted steps" });
     entries.push_back({ "rejected_steps", sum(rows, Column::rejected_steps), "1", "attempts discarded" });
     entries.push_back({ "iterations", sum(rows, Column::iterations), "1", "Newton iterations" });
-    const bool passes   = is_meshed(scene.analysis.model) && scene.mesh.file.empty();
-    const auto measured = oscillation_entries(oscillations(rows, scene.drive, passes ? scene.mesh.face_size : 0.));
+    const auto measured = oscillation_entries(oscillations(rows, scene.drive, size_of_elements(scene)));
     entries.insert(entries.end(), measured.begin(), measured.end());
     return entries;
   }

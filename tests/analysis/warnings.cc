@@ -38,6 +38,7 @@ namespace
     row[Column::penetration]       = 0.0014;
     row[Column::indentation]       = 0.0164;
     row[Column::elastic_slip]      = 0.001;
+    row[Column::largest_pressure]  = 0.34;
     row[Column::step]              = 1.;
     row[Column::drive_work]        = 100.;
     row[Column::friction_work]     = 60.;
@@ -58,11 +59,11 @@ namespace
     return row;
   }
 
-  Names names_with(const Column column, const double value, const Scene &scene = model_a(), const double pressure = 0.34)
+  Names names_with(const Column column, const double value, const Scene &scene = model_a())
   {
     Row row     = usual_row();
     row[column] = value;
-    return names(row_warnings(scene, { first_row(), row }, pressure));
+    return names(row_warnings(scene, { first_row(), row }));
   }
 
   Scene near_locking(const double gap)
@@ -76,8 +77,8 @@ namespace
 
 TEST(RowWarnings, ModelAHasNone)
 {
-  EXPECT_EQ(names(row_warnings(model_a(), { first_row(), usual_row() }, 0.34)), Names{});
-  EXPECT_EQ(names(row_warnings(model_a(), {}, {})), Names{});
+  EXPECT_EQ(names(row_warnings(model_a(), { first_row(), usual_row() })), Names{});
+  EXPECT_EQ(names(row_warnings(model_a(), {})), Names{});
 }
 
 TEST(RowWarnings, OverlapAgainstApproachAndLayer)
@@ -90,13 +91,11 @@ TEST(RowWarnings, OverlapAgainstApproachAndLayer)
   EXPECT_EQ(names_with(Column::penetration, 0.11, thick), Names{ "soft_penalty" });
 }
 
-TEST(RowWarnings, NarrowContact)
+TEST(RowWarnings, CoarseContact)
 {
-  EXPECT_EQ(names_with(Column::contact_width, 1.01), Names{});
-  EXPECT_EQ(names_with(Column::contact_width, 0.99), Names{ "narrow_contact" });
-  Scene coarse          = model_a();
-  coarse.mesh.face_size = 1.26;
-  EXPECT_EQ(names_with(Column::contact_width, 2.5, coarse), Names{ "narrow_contact" });
+  Scene scene          = model_a();
+  scene.mesh.face_size = 2.;
+  EXPECT_EQ(names(row_warnings(scene, { first_row(), usual_row() })), Names{ "coarse_contact" });
 }
 
 TEST(RowWarnings, ElasticSlipAgainstContactWidth)
@@ -118,7 +117,7 @@ TEST(RowWarnings, DeflectionInLinearTheory)
   Row free            = usual_row();
   free[Column::theta] = exact + 0.05;
   free[Column::P]     = 0.;
-  EXPECT_EQ(names(row_warnings(model_a(), { first_row(), free, usual_row() }, 0.34)), Names{});
+  EXPECT_EQ(names(row_warnings(model_a(), { first_row(), free, usual_row() })), Names{});
 }
 
 TEST(RowWarnings, CompressionInLinearTheory)
@@ -133,15 +132,17 @@ TEST(RowWarnings, CompressionInLinearTheory)
 TEST(RowWarnings, PressureBeyondStrength)
 {
   Scene scene = model_a();
-  EXPECT_EQ(names_with(Column::x, 65., scene, 0.79), Names{});
-  EXPECT_EQ(names_with(Column::x, 65., scene, 0.81), Names{ "pressure_beyond_strength" });
+  EXPECT_EQ(names_with(Column::largest_pressure, 0.79, scene), Names{});
+  EXPECT_EQ(names_with(Column::largest_pressure, 0.81, scene), Names{ "pressure_beyond_strength" });
   scene.layer.strength = 0.3;
-  EXPECT_EQ(names_with(Column::x, 65., scene, 0.31), Names{ "pressure_beyond_strength" });
+  EXPECT_EQ(names_with(Column::largest_pressure, 0.31, scene), Names{ "pressure_beyond_strength" });
   // Without a face the pressure is estimated, 0.34 MPa.
-  scene.analysis.model = ModelType::beam;
-  EXPECT_EQ(names(row_warnings(scene, { first_row(), usual_row() }, {})), Names{ "pressure_beyond_strength" });
+  scene.analysis.model              = ModelType::beam;
+  Row no_face                       = usual_row();
+  no_face[Column::largest_pressure] = std::nan("");
+  EXPECT_EQ(names(row_warnings(scene, { no_face })), Names{ "pressure_beyond_strength" });
   scene.layer.strength = 0.36;
-  EXPECT_EQ(names(row_warnings(scene, { first_row(), usual_row() }, {})), Names{});
+  EXPECT_EQ(names(row_warnings(scene, { no_face })), Names{});
 }
 
 TEST(RowWarnings, StrengthOfCorkAlone)
@@ -174,7 +175,7 @@ TEST(RowWarnings, LongStepsLeaveEnergyOpen)
   Row soft                  = usual_row();
   soft[Column::penetration] = 0.5;
   soft[Column::spring_energy] -= 10.;
-  EXPECT_EQ(names(row_warnings(model_a(), { first_row(), soft }, 0.34)), (Names{ "overlap_of_layer", "soft_penalty" }));
+  EXPECT_EQ(names(row_warnings(model_a(), { first_row(), soft })), (Names{ "overlap_of_layer", "soft_penalty" }));
 }
 
 TEST(SceneWarnings, ModelAHasNone)
