@@ -1,5 +1,6 @@
 #pragma once
 
+#include "analysis/output_folder.h"
 #include "analysis/report.h"
 #include "base/progress.h"
 
@@ -36,12 +37,6 @@ namespace sprag
 
   /// Length of the drive's path [mm].
   double path_length(const Drive &drive);
-
-  /// Throws InputError if the folder could not be made or written to; makes nothing.
-  void require_writable(const std::string &folder);
-
-  /// Makes the folder if needed; throws InputError if nothing can be written there.
-  void prepare_folder(const std::string &folder);
 
   /// Program, libraries and what the process has used so far, phases by wall and CPU time [s].
   std::vector<Entry> process_entries(dealii::TimerOutput &timer);

@@ -1,5 +1,7 @@
 #include "fe/field_frames.h"
 
+#include "results/disk_reserve.h"
+
 #include <deal.II/numerics/data_out.h>
 #include <deal.II/numerics/data_postprocessor.h>
 
@@ -71,6 +73,16 @@ namespace sprag
 
       const BodyProperties &properties;
     };
+    // HDF5's own entries, and the index, which is rewritten.
+    constexpr std::size_t bytes_of_index = 512 * 1024;
+
+    std::size_t bytes_of(const DataOutBase::DataOutFilter &filter)
+    {
+      std::size_t bytes = 24u * filter.n_nodes() + 16u * filter.n_cells();
+      for (unsigned int i = 0; i < filter.n_data_sets(); ++i)
+        bytes += 8u * filter.get_data_set_dim(i) * filter.n_nodes();
+      return bytes;
+    }
   } // namespace
 
   FieldFrames::FieldFrames(const ElasticBody<2> &body_, std::string folder_, std::string name_)
@@ -108,6 +120,7 @@ namespace sprag
     const std::string file = name + number;
     DataOutBase::DataOutFilter filter(DataOutBase::DataOutFilterFlags(false, true));
     data.write_filtered_data(filter);
+    require_space(folder + "/" + file, bytes_of(filter) + bytes_of_index);
     data.write_hdf5_parallel(filter, folder + "/" + file, MPI_COMM_SELF);
     frames.push_back(data.create_xdmf_entry(filter, file, time, MPI_COMM_SELF));
     data.write_xdmf_file(frames, folder + "/" + name + ".xdmf", MPI_COMM_SELF);

@@ -49,6 +49,14 @@ namespace sprag
     std::vector<double> traction; ///< friction on the lever along -d [MPa]
   };
 
+  namespace hdf5
+  {
+    class Handle;
+  }
+
+  /// Adds a group of entries to an open file.
+  void add_entries(const hdf5::Handle &file, const std::string &group, const std::vector<Entry> &entries);
+
   /// `result.h5`: /table/<column>, /face, /summary, /parameters, /meta. The file can be read while the run goes on (HDF5
   /// single-writer-multiple-reader) and after it is killed: what is appended is flushed at once; of rows that come within 5 ms of
   /// the last flush several are flushed together. Throws AnalysisError when HDF5 fails. To be destroyed before MPI is finalised.
