@@ -57,7 +57,7 @@ def draw_envelope(axes, result, measured):
     axes.semilogy(time[::step], measured["amplitude"][::step], "o", color=COLOURS[0], markersize=3.5, label=in_time(result))
     axes.semilogy(time, measured["predicted"], label=by_eigenvalue(result), **PREDICTED)
     axes.set_xlabel("$t$ [ms]")
-    axes.set_ylabel("amplitude of indentation over its mean")
+    axes.set_ylabel("amplitude of overlap over its mean")
     axes.legend(loc="upper left" if number(result, "linear_growth_rate") > 0 else "upper right")
     low, high = axes.get_ylim()
     axes.set_ylim(low, high * (high / low) ** 0.25)  # room for the legend

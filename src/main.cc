@@ -7,6 +7,7 @@
 #include "base/guard.h"
 #include "base/interrupt.h"
 #include "results/earlier_result.h"
+#include "results/warning.h"
 #include "scene/read.h"
 
 #include <deal.II/base/mpi.h>
@@ -80,22 +81,22 @@ namespace
   {
     if (arguments.print_parameters)
     {
-      std::cout << scene.parameters_text;
+      std::cout << sprag::parameters_text(scene);
       return;
     }
     if (arguments.validate)
     {
       sprag::require_memory(scene);
-      sprag::validate(scene);
+      const auto warnings = sprag::validate(scene);
       if (!arguments.quiet)
-        std::cout << arguments.file << ": valid\n";
-      return;
+        std::cout << sprag::text_of(warnings) << arguments.file << ": valid, " << sprag::count_text(warnings) << '\n';
+      return sprag::check_warnings(scene, warnings);
     }
     const bool alone = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) == 1;
     if (!alone && scene.analysis.type != sprag::AnalysisType::map)
       throw sprag::InputError("only Analysis/Type = map runs in several processes: leave out mpirun");
     const std::string folder = folder_of(arguments, scene);
-    sprag::on_first_rank([&] { sprag::claim_folder(folder, scene.parameters_text, arguments.overwrite); });
+    sprag::on_first_rank([&] { sprag::claim_folder(folder, sprag::parameters_text(scene), arguments.overwrite); });
     const unsigned int processes = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
     sprag::on_first_rank([&] { sprag::require_memory(scene, processes); });
     sprag::run(scene, { folder, arguments.quiet });
@@ -105,7 +106,7 @@ namespace
   bool finish(const Arguments &arguments, const sprag::Scene &scene, const std::string &status, const std::timespec &since)
   {
     return is_run(arguments) &&
-           sprag::finish_abandoned(folder_of(arguments, scene) + "/result.h5", scene.parameters_text, status, since);
+           sprag::finish_abandoned(folder_of(arguments, scene) + "/result.h5", sprag::parameters_text(scene), status, since);
   }
 
   int tell(const sprag::InputError &error)

@@ -15,6 +15,7 @@ namespace sprag
     constexpr double beyond       = 1.2;  ///< largest P of the indentation over the run's
     constexpr double smallest     = 0.05; ///< P counted, over the run's largest
     constexpr double points_drawn = 40.;
+    constexpr double refinement   = 2.; ///< of the face, which a contact as narrow as hard contact is needs
 
     /// The scene without friction and with a linear spring that leads to the largest P.
     Scene indentation_scene(const Scene &scene, const ContactReference &reference)
@@ -26,6 +27,7 @@ namespace sprag
       result.spring.behaviour = {};
       const double P          = closed_form(result, scene.drive.maximum(), 1.).P;
       result.spring.stiffness *= beyond * reference.P / P;
+      result.mesh.face_size /= refinement;
       return result;
     }
 
@@ -41,7 +43,7 @@ namespace sprag
     {
       const auto centre = cylinder_centre(scene.geometry, row[Column::x], row[Column::theta]);
       return { row[Column::P], scene.geometry.cylinder_radius - scene.geometry.interface_offset + centre.eta,
-               row[Column::P] * std::pow(centre.xi, 3) / (3. * bending_stiffness) };
+               row[Column::P] * std::pow(centre.xi, 3) / (3. * bending_stiffness), row[Column::penetration] };
     }
   } // namespace
 
@@ -73,6 +75,14 @@ namespace sprag
     return fit;
   }
 
+  double FittedContact::penalty_error() const
+  {
+    double largest = 0.;
+    for (const auto &point : points)
+      largest = std::max(largest, fit.exponent * point.overlap / point.local());
+    return largest;
+  }
+
   FittedContact indent(const Scene &scene)
   {
     return indent(scene, bar_stiffness(scene));
@@ -84,7 +94,9 @@ namespace sprag
     const Scene pressed  = indentation_scene(scene, reference);
     dealii::Triangulation<2> triangulation;
     make_mesh(pressed, triangulation);
-    LeverModel model(triangulation, lever_properties(pressed));
+    auto properties           = lever_properties(pressed);
+    properties.penalty_factor = penalty_over_layer::indentation;
+    LeverModel model(triangulation, properties);
 
     FittedContact result{};
     const double from = std::max(smallest * reference.P, reference.smallest_P);

@@ -57,7 +57,7 @@ namespace sprag
   Settled Continuation::kicked(const ContinuationPoint &point, const double amplitude)
   {
     const auto &slide = *point.slide.slide;
-    run.begin(model.perturbed(slide, watched_mode(point.slide), amplitude * slide.indentation));
+    run.begin(model.perturbed(slide, watched_mode(point.slide), amplitude * slide.overlap));
     return settled(point);
   }
 

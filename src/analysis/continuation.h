@@ -30,7 +30,7 @@ namespace sprag
   class Continuation
   {
   public:
-    /// Perturbations of a slide over its indentation.
+    /// Perturbations of a slide over its overlap.
     static constexpr double small_kick = 1e-3;
     static constexpr double large_kick = 3.;
 

@@ -1,6 +1,7 @@
 #include "analysis/oscillation.h"
 
 #include "analysis/ringing.h"
+#include "base/text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,9 +12,11 @@ namespace sprag
   {
     constexpr double window_length     = 0.1;     ///< [s]
     constexpr double noise             = 1e-3;    ///< relative to the largest force
-    constexpr double vibration_rms     = 2.;      ///< [N]
+    constexpr double vibration_rms     = 0.08;    ///< over the largest P without inertia
     constexpr double vibration_open    = 0.01;    ///< of the time
-    constexpr double decayed_rms       = 0.3;     ///< [N]
+    constexpr double decayed_rms       = 0.012;   ///< over the largest P without inertia
+    constexpr double passing_share     = 0.04;    ///< of the frequency
+    constexpr double lasting_share     = 0.1;     ///< of the rms, left at the end
     constexpr double envelope_end      = 0.05;    ///< of its peak
     constexpr double coarsest_sampling = 1e-5;    ///< [s]
     constexpr double most_samples      = 1 << 17; ///< of a resampled signal
@@ -190,31 +193,54 @@ namespace sprag
       return last == from_reversal.rend() ? 0. : std::abs(last->x - x);
     }
 
-    Verdict verdict_of(const Oscillation &oscillation)
+    /// `least`: P that never counts [N].
+    Verdict verdict_of(const Oscillation &oscillation, const double least)
     {
       if (std::isnan(oscillation.rms))
         return Verdict::unknown;
-      if (oscillation.rms > vibration_rms && oscillation.open_share > vibration_open)
+      if (oscillation.rms > vibration_rms * oscillation.scale && oscillation.open_share > vibration_open)
         return Verdict::vibrates;
-      return oscillation.rms_end < decayed_rms && oscillation.open_share == 0. ? Verdict::decays : Verdict::rings;
+      if (std::isfinite(oscillation.passing_frequency))
+        return Verdict::passing;
+      const bool little = oscillation.rms_end <= std::max(decayed_rms * oscillation.scale, least);
+      if (little && oscillation.open_share == 0.)
+        return Verdict::decays;
+      return !little && oscillation.growth_rate > 0. ? Verdict::grows : Verdict::rings;
     }
 
-    std::string text_of(const Verdict verdict)
+    /// Mean sliding speed over the rows that have one, between two times; NaN if none has.
+    double sliding_speed(const std::vector<Row> &rows, const double begin, const double end)
     {
-      switch (verdict)
-      {
-      case Verdict::vibrates:
-        return "vibrates";
-      case Verdict::rings:
-        return "rings";
-      case Verdict::decays:
-        return "decays";
-      default:
-        return "unknown";
-      }
+      double sum = 0., n = 0.;
+      for (const auto &row : rows)
+        if (row[Column::time] >= begin && row[Column::time] <= end && std::isfinite(row[Column::v_rel]))
+        {
+          sum += std::abs(row[Column::v_rel]);
+          n += 1.;
+        }
+      return sum / n;
     }
 
-    void add_normal_force(Oscillation &oscillation, const Samples &after_turn)
+    double passing_frequency(const Oscillation &oscillation, const double speed, const double face_size)
+    {
+      if (!(oscillation.rms_end > lasting_share * oscillation.rms))
+        return unknown;
+      for (const double elements : { 1., 2. })
+        if (const double passing = elements * speed / face_size;
+            std::abs(oscillation.frequency - passing) < passing_share * passing)
+          return passing;
+      return unknown;
+    }
+
+    /// What a verdict needs beside the window's P.
+    struct Surroundings
+    {
+      double face_size; ///< [mm], 0: no mesh
+      double speed;     ///< of sliding in the window [mm/s]
+      double least;     ///< P that never counts [N]
+    };
+
+    void add_normal_force(Oscillation &oscillation, const Samples &after_turn, const Surroundings &around)
     {
       const Samples after_reversal = later_than(after_turn, oscillation.window_begin);
       const Samples window         = up_to(after_reversal, oscillation.window_end);
@@ -229,7 +255,10 @@ namespace sprag
       const double last_tenth = oscillation.window_end - 0.1 * (oscillation.window_end - oscillation.window_begin);
       oscillation.rms_end     = rms(later_than(window, last_tenth));
       oscillation.extent      = extent(after_reversal, oscillation.x);
-      oscillation.verdict     = verdict_of(oscillation);
+      oscillation.scale       = largest_reference(window);
+      if (around.face_size > 0.)
+        oscillation.passing_frequency = passing_frequency(oscillation, around.speed, around.face_size);
+      oscillation.verdict = verdict_of(oscillation, around.least);
     }
 
     void add_force_along_x(const Samples &after_turn, const double begin, const double end, double &excess, double &frequency,
@@ -243,8 +272,17 @@ namespace sprag
       distance  = rms(window);
     }
 
+    double negligible(const std::vector<Row> &rows)
+    {
+      double peak = 0.;
+      for (const auto &row : rows)
+        if (std::isfinite(row[Column::P_quasi_static]))
+          peak = std::max(peak, std::abs(row[Column::P_quasi_static]));
+      return noise * peak;
+    }
+
     Oscillation oscillation_at(const std::vector<Row> &rows, const DrivePoint &turn, const double reversal_duration,
-                               const double next_reversal)
+                               const double next_reversal, const double face_size)
     {
       Oscillation result;
       result.time         = turn.time;
@@ -252,7 +290,8 @@ namespace sprag
       result.window_begin = turn.time + reversal_duration / 2.;
       const double end    = std::min(next_reversal, rows.empty() ? turn.time : rows.back()[Column::time]);
       result.window_end   = std::max(std::min(result.window_begin + window_length, end), result.window_begin);
-      add_normal_force(result, samples_of(rows, Column::P, Column::P_quasi_static, turn.time, end));
+      add_normal_force(result, samples_of(rows, Column::P, Column::P_quasi_static, turn.time, end),
+                       { face_size, sliding_speed(rows, result.window_begin, result.window_end), negligible(rows) });
       add_force_along_x(samples_of(rows, Column::Q, Column::Q_quasi_static, turn.time, end), result.window_begin,
                         result.window_end, result.overshoot_Q, result.frequency_Q, result.rms_Q);
       add_force_along_x(samples_of(rows, Column::Q_support, Column::Q_quasi_static, turn.time, end), result.window_begin,
@@ -261,7 +300,41 @@ namespace sprag
     }
   } // namespace
 
-  std::vector<Oscillation> oscillations(const std::vector<Row> &rows, const Drive &drive)
+  std::string verdict_name(const Verdict verdict)
+  {
+    switch (verdict)
+    {
+    case Verdict::vibrates:
+      return "vibrates";
+    case Verdict::passing:
+      return "elements pass";
+    case Verdict::grows:
+      return "grows";
+    case Verdict::decays:
+      return "decays";
+    case Verdict::rings:
+      return "rings";
+    case Verdict::unknown:
+      break;
+    }
+    return "unknown";
+  }
+
+  Warnings element_passing_warnings(const std::vector<Oscillation> &oscillations, const double face_size)
+  {
+    const auto found = std::find_if(oscillations.begin(), oscillations.end(),
+                                    [](const Oscillation &each) { return std::isfinite(each.passing_frequency); });
+    if (found == oscillations.end())
+      return {};
+    return { { "element_passing",
+               "After the reversal at x = " + rounded_text(found->x) + " mm P rings at " + rounded_text(found->frequency) +
+                   " Hz, and elements of Mesh/Face size = " + rounded_text(face_size) + " mm, or halves of them, pass at " +
+                   rounded_text(found->passing_frequency) + " Hz.",
+               "That frequency, its growth rate and what is left of P at the end belong to the mesh, not to the lever.",
+               "Use Mesh/Degree = 2, a smaller Mesh/Face size or Contact/Penalty = auto." } };
+  }
+
+  std::vector<Oscillation> oscillations(const std::vector<Row> &rows, const Drive &drive, const double face_size)
   {
     const auto &turns     = drive.reversals();
     const double duration = drive.reversal_duration();
@@ -269,7 +342,7 @@ namespace sprag
     for (std::size_t i = 0; i < turns.size(); ++i)
     {
       const double next = i + 1 < turns.size() ? turns[i + 1] - duration / 2. : drive.duration();
-      result.push_back(oscillation_at(rows, drive.at(turns[i], Drive::Side::after), duration, next));
+      result.push_back(oscillation_at(rows, drive.at(turns[i], Drive::Side::after), duration, next, face_size));
     }
     return result;
   }
@@ -291,9 +364,11 @@ namespace sprag
           " over Q_quasi_static in its direction up to the end of the window, relative to its largest size there";
 
       entries.push_back(
-          { of + "verdict", text_of(found.verdict), "",
-            "vibrates (rms over 2 N, contact open for over 1 % of the time), decays (rms_end below 0.3 N, contact never "
-            "open) or rings (neither)" });
+          { of + "verdict", verdict_name(found.verdict), "",
+            "vibrates (rms over 8 % of the largest P_quasi_static in the window, contact open for over 1 % of the time), "
+            "elements pass (what lasts is the mesh's), decays (rms_end up to 1.2 % of that P, or 0.1 % of the run's, contact "
+            "never open), grows "
+            "(growth_rate > 0, rms_end over that), rings (none of these) or unknown (no rows in the window)" });
       add_number("time", found.time, "s", "time of the turning point");
       add_number("x", found.x, "mm", "position of the turning point");
       add_number("frequency", found.frequency, "Hz", "dominant in P" + window + "; NaN without oscillation");
@@ -308,6 +383,9 @@ namespace sprag
       add_number("overshoot_Q_support", found.overshoot_Q_support, "1", "largest excess of the force on the support" + excess);
       add_number("rms", found.rms, "N", "root mean square of P - P_quasi_static" + window);
       add_number("rms_end", found.rms_end, "N", "the same over the last tenth of the window");
+      add_number("P_scale", found.scale, "N", "largest P_quasi_static in the window, to which the verdict refers");
+      add_number("passing_frequency", found.passing_frequency, "Hz",
+                 "at which elements of the mesh pass under the contact, where that is what rings; else NaN");
       add_number("rms_Q", found.rms_Q, "N", "root mean square of Q - Q_quasi_static" + window);
       add_number("rms_Q_support", found.rms_Q_support, "N", "root mean square of Q_support - Q_quasi_static" + window);
       add_number("extent", found.extent, "mm",

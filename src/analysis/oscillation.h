@@ -1,9 +1,11 @@
 #pragma once
 
 #include "results/result_file.h"
+#include "results/warning.h"
 #include "scene/drive.h"
 
 #include <limits>
+#include <string>
 #include <vector>
 
 namespace sprag
@@ -11,10 +13,15 @@ namespace sprag
   enum class Verdict
   {
     unknown,  ///< fewer than two rows in the window
-    vibrates, ///< P is off its quasi-static value by more than 2 N rms, and the contact is open for more than 1 % of the time
-    rings,    ///< neither of the others
-    decays    ///< less than 0.3 N rms are left in the last tenth of the window, and the contact never opens
+    vibrates, ///< rms over 8 % of P without inertia, and the contact is open for more than 1 % of the time
+    passing,  ///< what lasts is the ripple of elements that pass under the contact, see Oscillation::passing_frequency
+    grows,    ///< none of these, the envelope grows and what is left at the end is over 1.2 % of P without inertia
+    decays,   ///< none of these, at most 1.2 % of P without inertia is left at the end, or 0.1 % of the run's; never open
+    rings     ///< none of these: it decays, but not within the window
   };
+
+  /// "vibrates", "decays" ...
+  std::string verdict_name(Verdict verdict);
 
   /// What a reversal of the drive excites, told by how far P and Q (contact) and Q_support are off the values without inertia.
   ///
@@ -46,16 +53,24 @@ namespace sprag
     double open_share          = unknown; ///< of the window with P = 0
     double rms                 = unknown; ///< of P less its quasi-static value over the window [N]
     double rms_end             = unknown; ///< the same over the last tenth of the window [N]
+    double scale               = unknown; ///< largest |P| without inertia in the window, to which verdicts refer [N]
     double rms_Q               = unknown; ///< of Q less its quasi-static value over the window [N]
     double rms_Q_support       = unknown; ///< of Q_support less the quasi-static Q over the window [N]
+
+    /// Where `frequency` is that at which elements of the friction face pass under the contact, or twice that, within 4 %, and
+    /// more than a tenth of the rms over the window is left at its end: that frequency [Hz]; else NaN.
+    double passing_frequency = unknown;
 
     /// Travel from the turning point until P stays within 5 % of its largest distance from the quasi-static value after the
     /// reversal, or within 0.1 % of the largest P; at most to the beginning of the next reversal or the end of the rows [mm].
     double extent = unknown;
   };
 
-  /// One a reversal of the drive, in its order.
-  std::vector<Oscillation> oscillations(const std::vector<Row> &rows, const Drive &drive);
+  /// One a reversal of the drive, in its order. `face_size`: of the elements along the friction face [mm]; 0: none, or unknown.
+  std::vector<Oscillation> oscillations(const std::vector<Row> &rows, const Drive &drive, double face_size = 0.);
+
+  /// Of ringing that the mesh makes.
+  Warnings element_passing_warnings(const std::vector<Oscillation> &oscillations, double face_size);
 
   /// For /summary: reversal_1_verdict, reversal_1_frequency, ... for every reversal.
   std::vector<Entry> oscillation_entries(const std::vector<Oscillation> &oscillations);

@@ -1,5 +1,6 @@
 #include "analysis/output_folder.h"
 
+#include "analysis/recorder.h"
 #include "base/errors.h"
 #include "results/earlier_result.h"
 

@@ -1,8 +1,11 @@
 #include "analysis/recorder.h"
 
+#include "analysis/row_warnings.h"
 #include "analysis/transient_report.h"
 #include "base/errors.h"
 #include "base/interrupt.h"
+#include "fe/stress_peaks.h"
+#include "scene/read.h"
 
 #include <deal.II/base/utilities.h>
 
@@ -16,19 +19,6 @@
 
 namespace sprag
 {
-  bool wants_fields(const Scene &scene, const DrivePoint &drive, const double travelled, double &last)
-  {
-    if (scene.output.fields == FieldOutput::none)
-      return false;
-    const auto &reversals = scene.drive.reversals();
-    const bool turning =
-        std::binary_search(reversals.begin(), reversals.end(), drive.time) || drive.time >= scene.drive.duration();
-    const bool due = scene.output.fields == FieldOutput::interval && travelled >= last + scene.output.field_interval - 1e-9;
-    if (turning || due)
-      last = travelled;
-    return turning || due;
-  }
-
   double path_length(const Drive &drive)
   {
     double length = 0.;
@@ -65,9 +55,10 @@ namespace sprag
   Recorder::Recorder(const Scene &scene_, const std::string &folder, const bool quiet_, const FacePoints &points)
       : scene(scene_)
       , quiet(quiet_)
-      , file((prepare_folder(folder), folder + "/result.h5"), scene.parameters_text, points,
+      , file((prepare_folder(folder), folder + "/result.h5"), parameters_text(scene), points,
              table_columns(scene.plate, scene.pair))
       , progress(std::cerr, progress_style(quiet), path_length(scene.drive))
+      , stress(no_stress_peaks("the model has no mesh"))
   {
   }
 
@@ -88,16 +79,26 @@ namespace sprag
 
   void Recorder::record(const FaceState &face)
   {
+    for (const double pressure : face.pressure)
+      largest_pressure = std::max(largest_pressure.value_or(0.), pressure);
     file.append(face);
   }
 
-  std::vector<Entry> Recorder::finish(const std::string &status, std::vector<Entry> meta)
+  void Recorder::set_stress(std::vector<Entry> peaks)
+  {
+    stress = std::move(peaks);
+  }
+
+  std::vector<Entry> Recorder::finish(const std::string &status, std::vector<Entry> meta, Warnings &warnings)
   {
     progress.finish();
     auto summary = scene.analysis.type == AnalysisType::transient ? transient_summary(scene, rows) : summary_of(scene, rows);
     add_pair(rows, summary);
+    summary.insert(summary.end(), stress.begin(), stress.end());
     summary.push_back({ "status", status, "", "how the run ended" });
-    file.finish(summary, meta);
+    for (const Warning &warning : row_warnings(scene, rows, largest_pressure))
+      warnings.push_back(warning);
+    file.finish(summary, meta, warnings);
     if (!quiet)
     {
       const auto cpu = std::find_if(meta.begin(), meta.end(), [](const Entry &e) { return e.name == "cpu_time"; });

@@ -1,10 +1,11 @@
 #pragma once
 
-#include "analysis/output_folder.h"
 #include "analysis/report.h"
 #include "base/progress.h"
 
 #include <deal.II/base/timer.h>
+
+#include <optional>
 
 namespace sprag
 {
@@ -19,9 +20,12 @@ namespace sprag
 
     void record(const FaceState &face);
 
-    /// Writes summary and meta and prints the table at the end of a run. `status` is "completed" or what went wrong.
-    /// Returns the summary.
-    std::vector<Entry> finish(const std::string &status, std::vector<Entry> meta);
+    /// Peaks of stress for the summary, see StressPeaks; without, they are told as NaN of a model without a mesh.
+    void set_stress(std::vector<Entry> peaks);
+
+    /// Writes summary, meta and warnings, to which it adds those that follow from the rows, and prints the table at the end of a
+    /// run. `status` is "completed" or what went wrong. Returns the summary.
+    std::vector<Entry> finish(const std::string &status, std::vector<Entry> meta, Warnings &warnings);
 
   private:
     const Scene &scene;
@@ -29,14 +33,19 @@ namespace sprag
     ResultFile file;
     Progress progress;
     std::vector<Row> rows;
+    std::vector<Entry> stress;
     double travel = 0.;
+    std::optional<double> largest_pressure; ///< of the states of the face [MPa]
   };
-
-  /// Whether the fields at a point of the drive are asked for; `last` is the path at the last frame [mm].
-  bool wants_fields(const Scene &scene, const DrivePoint &drive, double travelled, double &last);
 
   /// Length of the drive's path [mm].
   double path_length(const Drive &drive);
+
+  /// Throws InputError if the folder could not be made or written to; makes nothing.
+  void require_writable(const std::string &folder);
+
+  /// Makes the folder if needed; throws InputError if nothing can be written there.
+  void prepare_folder(const std::string &folder);
 
   /// Program, libraries and what the process has used so far, phases by wall and CPU time [s].
   std::vector<Entry> process_entries(dealii::TimerOutput &timer);

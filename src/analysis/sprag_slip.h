@@ -19,7 +19,7 @@ namespace sprag
     std::complex<double> eigenvalue;    ///< predicted [1/s]
     ExponentialFit envelope{};          ///< measured, of P - P of the slide [N]
     double frequency = 0.;              ///< measured [Hz]; NaN where the mode does not oscillate
-    std::vector<Sample> sizes;          ///< the envelope fitted, over the mean indentation
+    std::vector<Sample> sizes;          ///< the envelope fitted, over the mean overlap
     bool slid    = true;                ///< neither stick nor loss of contact in the window
     bool reached = false;               ///< the amplitude aimed at, within Sprag slip/Longest growth
     double predicted_frequency() const; ///< [Hz]

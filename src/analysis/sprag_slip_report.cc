@@ -98,7 +98,7 @@ namespace sprag
     Group growth_group(const Growth &growth, const double at_start)
     {
       Dataset time{ { "time", "s", "from the perturbation on" }, {}, {} };
-      Dataset size{ { "amplitude", "1", "of the indentation over its mean, from the envelope of P" }, {}, {} };
+      Dataset size{ { "amplitude", "1", "of the overlap over its mean, from the envelope of P" }, {}, {} };
       Dataset line{ { "predicted", "1", "the same by the eigenvalue" }, {}, {} };
       for (const auto &sample : growth.sizes)
       {

@@ -37,7 +37,8 @@ namespace sprag
       return row;
     }
 
-    /// Steady sliding without inertia along the drive, computed where x or v has changed enough and joined by lines.
+    /// Steady sliding without inertia along the drive, computed where x or v has changed enough and joined by lines; a jump where
+    /// it turns.
     class QuasiStaticCurve
     {
     public:
@@ -46,14 +47,21 @@ namespace sprag
           , drive(prescribed)
           , spacing(largest_spacing)
       {
-        add(0.);
+        add(drive.at(0., Drive::Side::after));
       }
 
       /// Evaluates the model: to be called before the step to that time.
       void extend(const double time)
       {
         while (samples.back().time < time)
-          add(next(samples.back().time));
+        {
+          const double end  = next(samples.back().time);
+          const auto before = drive.at(end, Drive::Side::before);
+          const auto after  = drive.at(end, Drive::Side::after);
+          add(before);
+          if (direction_of(after.v) != direction_of(before.v))
+            add(after);
+        }
       }
 
       void fill(Row &row) const
@@ -74,10 +82,10 @@ namespace sprag
         double time, P, Q;
       };
 
-      void add(const double time)
+      void add(const DrivePoint &point)
       {
-        const auto forces = model.sliding_forces(drive.at(time, Drive::Side::after));
-        samples.push_back(forces ? Sample{ time, forces->P, forces->Q } : Sample{ time, std::nan(""), std::nan("") });
+        const auto forces = model.sliding_forces(point);
+        samples.push_back(forces ? Sample{ point.time, forces->P, forces->Q } : Sample{ point.time, std::nan(""), std::nan("") });
       }
 
       double next(const double time) const
@@ -140,6 +148,17 @@ namespace sprag
       unsigned int small = 0;
     };
 
+    StepClock make_clock(const Drive &drive, const TransientSettings &settings)
+    {
+      if (settings.time.tolerance == 0.)
+        return StepClock(drive, settings.time.step, 0);
+      const double first     = std::min(settings.time.step, settings.longest_step);
+      unsigned int doublings = 0;
+      while (doublings < largest_doublings && std::ldexp(first, static_cast<int>(doublings) + 1) <= settings.longest_step)
+        ++doublings;
+      return StepClock(drive, first, doublings);
+    }
+
     struct Attempt
     {
       StepOutcome outcome;
@@ -192,7 +211,7 @@ namespace sprag
 
     TransientReport report;
     StepControl control(settings);
-    StepClock clock(drive, settings.time.step, settings.time.tolerance > 0. ? largest_doublings : 0);
+    StepClock clock = make_clock(drive, settings);
     while (!clock.finished())
     {
       quasi_static.extend(clock.end_of_step());

@@ -5,6 +5,7 @@
 #include "scene/scene.h"
 
 #include <functional>
+#include <limits>
 #include <string>
 
 namespace sprag
@@ -15,6 +16,7 @@ namespace sprag
     double force_scale          = 1.;   ///< P to which the tolerance refers [N], > 0
     double contact_stiffness    = 1.;   ///< dP/d(gap) that turns errors of the gap into such of P [N/mm], > 0
     double quasi_static_spacing = 0.25; ///< change of x from one equilibrium to the next, lines between [mm], > 0
+    double longest_step         = std::numeric_limits<double>::infinity(); ///< of adaptive ones [s], > 0
   };
 
   /// Called with every accepted motion, the first included, right after the model made it.
@@ -29,9 +31,9 @@ namespace sprag
 
   /// Integrates the model along the drive by the generalised-alpha method. Every kink of the drive ends a step. With a tolerance
   /// the step adapts: it is halved and tried again where the local error of P, over force_scale, exceeds the tolerance, and
-  /// doubled after steps with far smaller ones; else it is Time/Step, or less by what makes a whole number of steps up to the
-  /// next kink. A step without a solution is halved too. Throws AnalysisError, after the last accepted step was handed on, where
-  /// halving does not help.
+  /// doubled after steps with far smaller ones, up to 16 times Time/Step or the longest step; else it is Time/Step, or less by
+  /// what makes a whole number of steps up to the next kink. A step without a solution is halved too. Throws AnalysisError, after
+  /// the last accepted step was handed on, where halving does not help.
   TransientReport run_transient(DynamicModel &model, const Drive &drive, const TransientSettings &settings,
                                 const MotionSink &sink);
 } // namespace sprag

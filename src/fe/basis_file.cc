@@ -2,12 +2,15 @@
 
 #include "base/child_process.h"
 #include "base/errors.h"
+#include "base/fingerprint.h"
 #include "results/hdf5.h"
 
-#include <cstdio>
+#include <chrono>
 #include <cstdlib>
 #include <cstring>
+#include <fcntl.h>
 #include <filesystem>
+#include <sys/file.h>
 #include <unistd.h>
 
 namespace sprag
@@ -31,6 +34,44 @@ namespace sprag
       // Below 2^53 whole numbers are exact.
       return static_cast<double>(sum.value() >> 11);
     }
+
+    /// Written here first, each process to its own.
+    std::string temporary_path(const std::string &folder, const std::string &key)
+    {
+      return path_of(folder, key) + "." + std::to_string(::getpid());
+    }
+
+    bool is_temporary(const std::string &name)
+    {
+      return name.rfind("basis-", 0) == 0 && name.find(".h5.") != std::string::npos;
+    }
+
+    /// A file kept locked as long as this lives, for other machines of a shared folder too.
+    class Lock
+    {
+    public:
+      explicit Lock(const std::string &path, const int flags = 0)
+          : file(::open(path.c_str(), O_RDWR | O_CLOEXEC | flags, 0666))
+          , is_held(file >= 0 && ::flock(file, LOCK_EX | LOCK_NB) == 0)
+      {
+      }
+      Lock(const Lock &)            = delete;
+      Lock &operator=(const Lock &) = delete;
+      ~Lock()
+      {
+        if (file >= 0)
+          ::close(file);
+      }
+
+      bool held() const
+      {
+        return is_held;
+      }
+
+    private:
+      const int file;
+      const bool is_held;
+    };
 
     std::optional<std::vector<double>> read_array(const hid_t file, const std::string &name)
     {
@@ -120,39 +161,6 @@ namespace sprag
     }
   } // namespace
 
-  void Fingerprint::add(const double value)
-  {
-    add(&value, sizeof(value));
-  }
-
-  void Fingerprint::add(const void *bytes, const std::size_t count)
-  {
-    // Eight bytes at a time where there are so many: fast enough for a hundred megabytes.
-    const auto *data = static_cast<const unsigned char *>(bytes);
-    std::size_t i    = 0;
-    for (; i + 8 <= count; i += 8)
-    {
-      std::uint64_t word = 0;
-      std::memcpy(&word, data + i, 8);
-      hash = (hash ^ word) * 1099511628211u;
-      hash ^= hash >> 29;
-    }
-    for (; i < count; ++i)
-      hash = (hash ^ data[i]) * 1099511628211u;
-  }
-
-  std::uint64_t Fingerprint::value() const
-  {
-    return hash;
-  }
-
-  std::string Fingerprint::text() const
-  {
-    char digits[24];
-    std::snprintf(digits, sizeof(digits), "%016llx", static_cast<unsigned long long>(hash));
-    return digits;
-  }
-
   std::string cache_folder(const std::string &given)
   {
     if (!given.empty())
@@ -181,13 +189,28 @@ namespace sprag
     return answer.failure.empty() ? unpacked(answer.text) : std::nullopt;
   }
 
+  void remove_abandoned(const std::string &folder)
+  {
+    // A writer's lock follows the file's creation at once.
+    constexpr std::chrono::seconds young(10);
+    std::error_code ignored;
+    for (std::filesystem::directory_iterator entry(folder, ignored), end; entry != end; entry.increment(ignored))
+    {
+      const auto written = entry->last_write_time(ignored);
+      const bool old     = !ignored && std::filesystem::file_time_type::clock::now() - written > young;
+      if (old && is_temporary(entry->path().filename().string()) && Lock(entry->path().string()).held())
+        std::filesystem::remove(entry->path(), ignored);
+    }
+  }
+
   std::string store_arrays(const std::string &folder, const std::string &key, const StoredArrays &arrays)
   {
     if (folder.empty())
       return "there is no cache folder";
-    const std::string temporary = path_of(folder, key) + "." + std::to_string(::getpid());
+    const std::string temporary = temporary_path(folder, key);
     std::error_code error;
     std::filesystem::create_directories(folder, error);
+    const Lock lock(temporary, O_CREAT);
     try
     {
       auto file = hdf5::create_file(temporary);

@@ -84,7 +84,8 @@ namespace sprag
   {
     const auto &of_face = face.patches()[patch];
     const auto nodal    = FacePatches::nodal(of_face, *at.at.displacement);
-    pair.find_facets(patch, at, of);
+    const auto slip_of  = slips(patch);
+    const auto slope    = slopes(of_face, slip_of);
     Sum sum(pair.coordinates(patch, { &of }));
     bool touches = false, ends = false;
     for (unsigned int q = of_face.begin; q < of_face.end; ++q)
@@ -94,24 +95,40 @@ namespace sprag
       auto &point        = points.emplace_back();
       point.index        = q;
       point.position     = FacePatches::position(face.points()[q], nodal);
-      const double run   = slip(facet, point.position) - memory.slip;
+      const double run   = slip_of[q - of_face.begin] - memory.slip;
       ends               = ends || !facet.opposed;
       if (!set_trial(facet.opposed ? memory : ContactMemory{}, facet.gap, facet.stretch * run, step.law, point))
         continue;
-      touches = true;
-      add(facet, memory, run, step, point, sum);
-      set_elastic_slip(memory, step, point);
+      touches          = true;
+      const auto shift = slip_shift(face, q, slope[q - of_face.begin], step);
+      add(facet, memory, run, facet.stretch * shift.slip + shift.elastic, step, point, sum);
+      set_slips(memory, step, facet.stretch * shift.slip, point);
     }
     beyond_face = beyond_face || (touches && ends);
     if (touches)
       loaded.push_back(on_ports(sum));
   }
 
-  void ElasticSurface::add(const Facet &facet, const ContactMemory &memory, const double run, const StaticStep &step,
-                           StaticPoint &point, Sum &sum)
+  /// By differences of neighbours.
+  std::vector<double> ElasticSurface::slopes(const FacePatches::Patch &patch, const std::vector<double> &slips) const
+  {
+    const std::size_t n = slips.size();
+    std::vector<double> result(n, 1.);
+    for (std::size_t i = 0; n > 1 && i < n; ++i)
+    {
+      const std::size_t before = i == 0 ? 0 : i - 1;
+      const std::size_t after  = std::min(i + 1, n - 1);
+      const auto xi            = [&](const std::size_t point) { return face.points()[patch.begin + point].position.xi; };
+      result[i]                = (slips[after] - slips[before]) / (xi(after) - xi(before));
+    }
+    return result;
+  }
+
+  void ElasticSurface::add(const Facet &facet, const ContactMemory &memory, const double run, const double shift,
+                           const StaticStep &step, StaticPoint &point, Sum &sum)
   {
     // Gap and slip as the only coordinates.
-    ContactKinematics<2> kinematics{ facet.gap, {}, {}, point.slip_change, {}, {} };
+    ContactKinematics<2> kinematics{ facet.gap, {}, {}, point.slip_change, {}, {}, shift };
     kinematics.gap_row[0] = kinematics.slip_row[1] = 1.;
     ContactMemory from                             = memory;
     from.slip                                      = 0.;

@@ -27,7 +27,9 @@ namespace sprag
     struct Sum;
 
     double slip(const Facet &facet, const LeverPoint &position) const;
-    void add(const Facet &facet, const ContactMemory &memory, double run, const StaticStep &step, StaticPoint &point, Sum &sum);
+    std::vector<double> slopes(const FacePatches::Patch &patch, const std::vector<double> &slips) const;
+    void add(const Facet &facet, const ContactMemory &memory, double run, double shift, const StaticStep &step,
+             StaticPoint &point, Sum &sum);
     StaticPatch on_ports(const Sum &sum) const;
 
     const FacePatches face;

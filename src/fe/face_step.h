@@ -14,8 +14,9 @@ namespace sprag
   class FaceStep
   {
   public:
-    static constexpr bool uses_rates     = false;
-    static constexpr unsigned int levers = 1;
+    static constexpr bool uses_rates       = false;
+    static constexpr bool stands_for_layer = false; ///< its springs are penalties
+    static constexpr unsigned int levers   = 1;
 
     /// The body must outlive the contact.
     FaceStep(const ElasticBody<2> &body, FaceStepProperties properties);

@@ -8,6 +8,8 @@
 
 #include <gmsh.h>
 
+#include <algorithm>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
@@ -104,6 +106,32 @@ namespace sprag
         throw InputError(file + ": the mesh has no elements in a physical surface");
     }
 
+    /// A plane lever's mesh lies in z = 0: another would be read as its shadow.
+    void refuse_third_dimension(const std::string &file)
+    {
+      std::vector<int> types;
+      std::vector<std::vector<std::size_t>> tags, corners;
+      gmsh::model::mesh::getElements(types, tags, corners, 3);
+      gmsh::vectorpair volumes;
+      gmsh::model::getEntities(volumes, 3);
+      if (!types.empty() || !volumes.empty())
+        throw InputError(file + ": has volumes: the lever is modelled in its plane; give its surfaces in z = 0 alone, "
+                                "Lever/Width is the third dimension");
+      std::vector<std::size_t> nodes;
+      std::vector<double> positions, parametric;
+      gmsh::model::mesh::getNodes(nodes, positions, parametric);
+      double size = 0., farthest = 0.;
+      for (std::size_t i = 0; i < positions.size(); ++i)
+      {
+        size = std::max(size, std::abs(positions[i]));
+        if (i % 3 == 2 && std::abs(positions[i]) > std::abs(farthest))
+          farthest = positions[i];
+      }
+      if (std::abs(farthest) > 1e-9 * size)
+        throw InputError(file + ": has a node at z = " + rounded_text(farthest) +
+                         " mm: the lever is modelled in its plane, x along it and y away from the cylinder; z must be 0");
+    }
+
     std::vector<std::string> arguments_of(const std::vector<std::pair<std::string, double>> &constants)
     {
       std::vector<std::string> arguments = { "sprag" };
@@ -148,6 +176,7 @@ namespace sprag
         if (nodes.empty())
           gmsh::model::mesh::generate(2);
         const GroupIds ids = read_groups(file, groups);
+        refuse_third_dimension(file);
         refuse_other_elements(file);
         return { ids, written_mesh() };
       }

@@ -11,6 +11,7 @@
 #include "model/linearisation.h"
 #include "model/port_newton.h"
 #include "model/port_step.h"
+#include "model/port_vectors.h"
 #include "scene/closed_form.h"
 
 #include <algorithm>
@@ -109,8 +110,9 @@ namespace sprag
 
     std::optional<SlidingForces> sliding_forces(const DrivePoint &drive) override
     {
-      if (drive.v == 0.)
-        return {};
+      // There a lever touches without force.
+      if (drive.v == 0. && drive.x == 0. && frame.ports.levers == 1)
+        return SlidingForces{ 0., 0. };
       if (solve_sliding(drive, 1.) == nullptr)
         return {};
       return observed_forces();
@@ -142,34 +144,26 @@ namespace sprag
       if (force == nullptr)
         return {};
       HeldSlide slide;
-      slide.drive       = drive;
-      slide.motion      = completed(structure->deform(*force), { drive.time, drive.x, 0., 0. }, *force);
-      slide.ports       = last_sliding;
-      slide.friction    = friction;
-      slide.speed       = ratio * sliding_speed(frame.geometries.front(), drive.x, drive.v);
-      slide.indentation = contact->overlap();
+      slide.drive    = drive;
+      slide.motion   = completed(structure->deform(*force), { drive.time, drive.x, 0., 0. }, *force);
+      slide.ports    = last_sliding;
+      slide.friction = friction;
+      slide.speed    = ratio * sliding_speed(frame.geometries.front(), drive.x, drive.v);
+      slide.overlap  = contact->overlap();
       Row row;
       observe_contact(*contact, 0, row);
-      slide.mu         = slides ? row[Column::mu] : 0.;
-      slide.forces     = { row[Column::P], row[Column::Q] };
-      slide.margin     = slides ? P_free / slide.forces.P : 1.;
-      slide.uniqueness = uniqueness(slide);
+      slide.indentation = row[Column::indentation];
+      slide.mu          = slides ? row[Column::mu] : 0.;
+      slide.forces      = { row[Column::P], row[Column::Q] };
+      slide.margin      = slides ? P_free / slide.forces.P : 1.;
+      slide.uniqueness  = uniqueness(slide);
       return slide;
     }
 
     std::vector<Eigenmode> vibrations(const HeldSlide &slide, const bool in_contact, const unsigned int number) override
     {
       const auto forces = perturbation(slide, in_contact);
-      std::vector<Eigenmode> result;
-      for (auto &mode : structure->vibrations(forces, number))
-      {
-        ComplexVector ports;
-        for (unsigned int part = 0; part < 2; ++part)
-          ports[part] = structure->port_positions(as_motion(mode, part));
-        const auto forms = mode_forms(*structure, mode);
-        result.push_back(explained(std::move(mode), std::move(ports), forms, forces, frame.ports));
-      }
-      return result;
+      return explained(*structure, structure->vibrations(forces, number), forces, frame.ports);
     }
 
     Motion perturbed(const HeldSlide &slide, const Eigenmode &eigenmode, const double amplitude) override
@@ -214,7 +208,9 @@ namespace sprag
     StoredEnergy stored_energy(const Motion &motion) const override
     {
       StoredEnergy energy = structure->stored_energy(motion);
-      energy.contact      = contact->energy();
+      (Contact::stands_for_layer ? energy.elastic : energy.contact) += contact->energy();
+      if (Contact::stands_for_layer)
+        energy.layer = contact->energy();
       energy.spring += hub_spring.energy(turns(motion));
       if (frame.ports.sprung)
         energy.kinetic += coupling.kinetic_energy(structure->port_kinematics(motion));
@@ -320,13 +316,16 @@ namespace sprag
       return drive;
     }
 
+    /// Touching at x = 0. Further on as slowly slid there from x = 0, with friction as in a motion forward and mu at rest.
     Motion start_at_rest(const DrivePoint &drive)
     {
+      if (drive.x > 0.)
+        return pressed_at_rest(drive, ContactFriction::sliding);
       Motion motion = structure->rest();
       motion.drive  = drive;
       // A cylinder out of the mirror plane presses on one lever from the beginning.
       if (frame.ports.levers == 2 && overlaps(structure->port_positions(motion), drive))
-        return pressed_at_rest(drive);
+        return pressed_at_rest(drive, ContactFriction::none);
       motion.contact = contact->touch(structure->port_positions(motion), drive);
       return motion;
     }
@@ -337,15 +336,11 @@ namespace sprag
       return contact->overlap() > 1e-9 * frame.geometries.front().cylinder_radius;
     }
 
-    /// In equilibrium without friction.
-    Motion pressed_at_rest(const DrivePoint &drive)
+    Motion pressed_at_rest(const DrivePoint &drive, const ContactFriction friction)
     {
-      DrivePoint passing             = drive;
-      passing.v                      = 1.;
-      const PortForces *const forces = solve_sliding(passing, 1., ContactFriction::none);
+      const PortForces *const forces = solve_sliding({ drive.time, drive.x, 0., 0. }, 1., friction);
       if (forces == nullptr)
-        throw AnalysisError("no equilibrium at rest with the cylinder out of the mirror plane. Try a Drive/Start at which both "
-                            "levers are pressed, or a smaller Mirrored pair/Cylinder offset.");
+        throw AnalysisError("no equilibrium at rest. Try another Drive/Start or a smaller Mirrored pair/Cylinder offset.");
       return completed(structure->deform(*forces), drive, *forces);
     }
 
@@ -415,16 +410,6 @@ namespace sprag
       }
       coupling.add_inertia(result.ports, theta, result.inertia);
       hub_spring.add_stiffness(result.ports, turns(slide.ports), result.pressure);
-      return result;
-    }
-
-    /// From entries of some ports to entries of more.
-    static dealii::Vector<double> spread(const dealii::Vector<double> &values, const std::vector<unsigned int> &of,
-                                         const std::vector<unsigned int> &ports)
-    {
-      dealii::Vector<double> result(static_cast<unsigned int>(ports.size()));
-      for (unsigned int a = 0; a < values.size(); ++a)
-        result[place_of(of[a], ports)] = values[a];
       return result;
     }
 

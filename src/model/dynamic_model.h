@@ -34,10 +34,10 @@ namespace sprag
   {
     double kinetic = 0.;
     double spring  = 0.; ///< rotational spring
-    double elastic = 0.; ///< lever and friction layer
+    double elastic = 0.; ///< lever and friction layer, or the contact law that stands for the layer
     double layer   = 0.; ///< the friction layer's part of it; NaN where it cannot be told
     double support = 0.;
-    double contact = 0.; ///< contact springs, normal and tangential
+    double contact = 0.; ///< springs of the penalties, normal and tangential: numerical
   };
 
   /// Works done in a step [N mm], each from forces times displacements or the scheme's own formula, none as a remainder.
@@ -75,7 +75,8 @@ namespace sprag
     ContactFriction friction = ContactFriction::sliding;
     double speed             = 0.; ///< of the surface along the lever, signed [mm/s]
     double mu                = 0.;
-    double indentation       = 0.; ///< of the contact's spring: its largest overlap [mm]
+    double overlap           = 0.; ///< of the contact's spring, the largest: P follows from it [mm]
+    double indentation       = 0.; ///< physical, that of the column of this name [mm]
     SlidingForces forces{};
     double margin     = 0.; ///< to jamming: P without friction over P, (s + mu e)/s of a rigid lever with mu signed as the motion
     double uniqueness = 0.; ///< det(1 - G df/dz) over that without friction's part; <= 0 beyond where equilibria are unique
@@ -87,14 +88,15 @@ namespace sprag
   public:
     virtual ~DynamicModel() = default;
 
-    /// At rest without contact force where the drive rests, else in steady sliding at its x and v, with velocities and
-    /// accelerations. Throws AnalysisError if there is no such equilibrium.
+    /// Where the drive moves in steady sliding at its x and v, with velocities and accelerations; where it rests, touching at
+    /// x = 0, further on in equilibrium with friction as left by sliding there forward, slowly. Throws AnalysisError if there is
+    /// no such equilibrium.
     virtual Motion initial_motion(const DrivePoint &drive) = 0;
 
     /// One step of the time integration from an accepted motion. Throws AnalysisError if a factorisation fails.
     virtual StepOutcome step(const Motion &accepted, const DrivePoint &to, const StepWeights &weights) = 0;
 
-    /// Equilibrium of steady sliding with the drive at x, v != 0; none where there is none.
+    /// Equilibrium of steady sliding with the drive at x and v, of a zero its sign; none where there is none.
     virtual std::optional<SlidingForces> sliding_forces(const DrivePoint &drive) = 0;
 
     /// The slide held at the drive's x, sliding as it does at its v; none where there is no equilibrium.

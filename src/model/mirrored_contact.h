@@ -15,8 +15,9 @@ namespace sprag
   class MirroredContact
   {
   public:
-    static constexpr bool uses_rates     = Contact::uses_rates;
-    static constexpr unsigned int levers = 2;
+    static constexpr bool uses_rates       = Contact::uses_rates;
+    static constexpr bool stands_for_layer = Contact::stands_for_layer;
+    static constexpr unsigned int levers   = 2;
 
     /// `layout` is the pair's; memories of a contact number fewer than `points`.
     MirroredContact(std::array<std::unique_ptr<Contact>, 2> contacts, const PortLayout &layout_, const unsigned int points_)
@@ -139,14 +140,14 @@ namespace sprag
       return contact[lever]->surface_shape(ports_of(lever, displacements));
     }
 
-    // Of the first lever.
+    /// Of either lever.
     FacePoints face_points() const
     {
       return contact[0]->face_points();
     }
     FaceState face_state(const DrivePoint &drive) const
     {
-      return contact[0]->face_state(drive);
+      return joined_faces(contact[0]->face_state(drive), contact[1]->face_state(drive));
     }
 
   private:

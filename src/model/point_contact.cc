@@ -446,7 +446,7 @@ namespace sprag
     row[Column::indentation]        = overlap();
     row[Column::penetration]        = 0.;
     row[Column::active_points]      = end.gap < 0. ? 1. : 0.;
-    row[Column::elastic_slip]       = std::abs(response.traction) / properties.tangential;
+    row[Column::elastic_slip]       = 0.;
     if (response.pressure > 0.)
     {
       row[Column::s]              = end.along;

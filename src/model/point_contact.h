@@ -28,8 +28,9 @@ namespace sprag
   class PointContact
   {
   public:
-    static constexpr bool uses_rates     = true;
-    static constexpr unsigned int levers = 1;
+    static constexpr bool uses_rates       = true;
+    static constexpr bool stands_for_layer = true; ///< its springs are physical, not penalties
+    static constexpr unsigned int levers   = 1;
 
     explicit PointContact(PointContactProperties properties);
 

@@ -25,20 +25,25 @@ namespace sprag
       { "mu", "1", "friction coefficient at v_rel" },
       { "centre_offset", "mm", "s minus the lever coordinate of the cylinder's centre; by it F/P in lever axes differs from mu" },
       { "contact_width", "mm", "length of the friction face with pressure > 0, its edges interpolated; 0 where open" },
+      { "largest_pressure", "MPa",
+        "largest pressure on the friction face, of finite elements; 0 where open; NaN of models without a face" },
+      { "largest_pressure_xi", "mm",
+        "its place: distance from the pivot along the deformed lever's axis; NaN where the contact is open" },
       { "penetration", "mm", "largest numerical overlap of cylinder and friction face" },
-      { "indentation", "mm", "largest physical compression of the friction layer" },
+      { "indentation", "mm",
+        "largest physical compression of the friction layer; of rigid and beam that of the contact law that stands for it" },
       { "cone_violation", "1",
         "largest |t| - mu p over the points of the friction face, relative to mu times the largest pressure" },
-      { "elastic_slip", "mm", "largest elastic slip of the tangential penalty" },
+      { "elastic_slip", "mm", "largest elastic slip of the tangential penalty; 0 without one" },
       { "friction_power", "N mm/s", "work per time dissipated by friction at the end of the step" },
       { "friction_work", "N mm", "work dissipated by friction since the start" },
       { "drive_work", "N mm", "work of the drive since the start, integral of Q dx" },
       { "spring_energy", "N mm", "energy of the rotational spring: k (theta - theta0)^2 / 2, or that of the leaf spring" },
-      { "elastic_energy", "N mm", "elastic energy of lever and friction layer" },
-      { "layer_energy", "N mm", "the friction layer's part of elastic_energy; finite elements only" },
+      { "elastic_energy", "N mm", "elastic energy of lever and friction layer, or of the contact law that stands for the layer" },
+      { "layer_energy", "N mm", "the friction layer's part of elastic_energy; NaN where it cannot be told" },
       { "kinetic_energy", "N mm", "kinetic energy of lever and pivot frame" },
       { "support_energy", "N mm", "energy of the spring that holds the pivot frame" },
-      { "contact_energy", "N mm", "energy of the contact springs, normal and tangential" },
+      { "contact_energy", "N mm", "energy of the contact's penalties, normal and tangential: numerical" },
       { "damping_work", "N mm", "work dissipated by structural, support and contact damping since the start" },
       { "algorithmic_work", "N mm", "work dissipated by the time integration since the start, from the scheme's own formula" },
       { "energy_residual", "N mm",
@@ -96,10 +101,18 @@ namespace sprag
 
   const std::vector<Column> &columns_of_a_lever()
   {
-    static const std::vector<Column> columns = {
-      Column::theta,         Column::theta_rate,   Column::s, Column::P, Column::F, Column::Q, Column::v_rel, Column::mu,
-      Column::centre_offset, Column::contact_width
-    };
+    static const std::vector<Column> columns = { Column::theta,
+                                                 Column::theta_rate,
+                                                 Column::s,
+                                                 Column::P,
+                                                 Column::F,
+                                                 Column::Q,
+                                                 Column::v_rel,
+                                                 Column::mu,
+                                                 Column::centre_offset,
+                                                 Column::contact_width,
+                                                 Column::largest_pressure,
+                                                 Column::largest_pressure_xi };
     return columns;
   }
 

@@ -1,8 +1,7 @@
 #include "results/earlier_result.h"
 
 #include "base/child_process.h"
-#include "results/hdf5.h"
-#include "results/result_file.h"
+#include "results/entries.h"
 
 #include <filesystem>
 #include <sys/stat.h>

@@ -77,6 +77,12 @@ namespace sprag
     Handle write_dataset(const Handle &location, const std::string &name, const std::vector<double> &values,
                          const std::vector<std::size_t> &shape);
 
+    // Rows of `width` numbers each, compressed; in single precision, or as they are.
+    Handle write_rows(const Handle &location, const std::string &name, const std::vector<float> &values, std::size_t width);
+    Handle write_rows(const Handle &location, const std::string &name, const std::vector<double> &values, std::size_t width);
+    Handle write_rows(const Handle &location, const std::string &name, const std::vector<unsigned int> &values,
+                      std::size_t width);
+
     /// A dataset of doubles to which rows are appended: [rows] or [rows x width].
     class Series
     {

@@ -2,6 +2,7 @@
 
 #include "base/errors.h"
 #include "results/disk_reserve.h"
+#include "results/entries.h"
 #include "results/hdf5.h"
 
 #include <deal.II/base/exceptions.h>
@@ -77,6 +78,26 @@ namespace sprag
         describe(shape.empty() ? hdf5::write_dataset(handle, info.name, values)
                                : hdf5::write_dataset(handle, info.name, values, shape),
                  info.unit, info.description);
+    }
+
+    void write_warnings(const hdf5::Handle &file, const Warnings &warnings)
+    {
+      const hdf5::Handle group = hdf5::create_group(file, "warnings");
+      for (const Warning &warning : warnings)
+      {
+        const hdf5::Handle dataset = hdf5::write_dataset(group, warning.name, warning.found);
+        describe(dataset, "", "what was found; its effect and remedy are attributes");
+        hdf5::write_attribute(dataset, "effect", warning.effect);
+        hdf5::write_attribute(dataset, "remedy", warning.remedy);
+      }
+    }
+
+    std::size_t size_of(const Warnings &warnings)
+    {
+      std::size_t size = 0;
+      for (const Warning &warning : warnings)
+        size += overhead / 16 + warning.found.size() + warning.effect.size() + warning.remedy.size();
+      return size;
     }
 
     std::size_t size_of(const std::vector<Group> &groups)
@@ -316,7 +337,8 @@ namespace sprag
                  entry.value);
   }
 
-  void ResultFile::finish(const std::vector<Entry> &summary, const std::vector<Entry> &meta, const std::vector<Group> &groups)
+  void ResultFile::finish(const std::vector<Entry> &summary, const std::vector<Entry> &meta, const Warnings &warnings,
+                          const std::vector<Group> &groups)
   {
     Assert(implementation->writer, dealii::ExcMessage("The result file is finished already."));
     // Nothing can be created in a file that others may be reading along: close it and open it anew.
@@ -324,10 +346,12 @@ namespace sprag
     implementation->writer.reset();
     DiskReserve reserve(implementation->path);
     if (has_space)
-      reserve.cover(overhead + size_of(groups));
+      reserve.cover(overhead + size_of(groups) + size_of(warnings));
     hdf5::Handle file = hdf5::open_file(implementation->path);
     add_entries(file, "summary", summary);
     add_entries(file, "meta", meta);
+    if (has_space)
+      write_warnings(file, warnings);
     for (const Group &group : has_space ? groups : std::vector<Group>())
       write_group(file, group);
     file.close();

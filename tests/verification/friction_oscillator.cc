@@ -25,8 +25,9 @@ namespace
   class Floor : public PointAtPort
   {
   public:
-    static constexpr bool uses_rates     = false;
-    static constexpr unsigned int levers = 1;
+    static constexpr bool uses_rates       = false;
+    static constexpr bool stands_for_layer = false;
+    static constexpr unsigned int levers   = 1;
 
     explicit Floor(const FrictionLaw &friction_law)
         : law(friction_law)

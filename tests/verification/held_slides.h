@@ -54,7 +54,7 @@ namespace sprag
   /// Model A moving back at x = 65: flutter with the lever of 6 mm, stable with that of 20 mm.
   inline Scene backward_a(const ModelType model, const double depth)
   {
-    Scene scene          = with_lever(with_coulomb(in_time(model_a(), model), 0.73), depth, 12133.9, 1.50555);
+    Scene scene          = with_lever(with_coulomb(in_time(model_a(), model), 0.73), depth, 13068.5, 1.50185);
     scene.mesh.face_size = 2.;
     return held_at(scene, 65.);
   }

@@ -11,15 +11,15 @@ namespace
   // Contact laws as fitted to these levers: ./run params/reversal-a.prm --set "Analysis/Type=contact law" and so on.
   Scene thick_a(const ModelType model)
   {
-    return with_lever(in_time(model_a(), model), 20., 8984.37, 1.45976);
+    return with_lever(in_time(model_a(), model), 20., 9541.32, 1.45485);
   }
   Scene thick_b(const ModelType model)
   {
-    return with_lever(in_time(model_b(), model), 20., 5331.18, 1.43732);
+    return with_lever(in_time(model_b(), model), 20., 5659.81, 1.43114);
   }
   Scene thin_a(const ModelType model)
   {
-    return with_lever(in_time(model_a(), model), 6., 12133.9, 1.50555);
+    return with_lever(in_time(model_a(), model), 6., 13068.5, 1.50185);
   }
 
   /// From x to the reversal at 65 mm and back.

@@ -17,7 +17,7 @@ namespace
   Settled after_kick(const JudgedSlide &judged, const double kick, HeldRun &run)
   {
     run.use_spectral_radius(judged.scene.time.spectral_radius);
-    run.begin(judged.dynamics.model().perturbed(judged.slide(), judged.mode(), kick * judged.slide().indentation));
+    run.begin(judged.dynamics.model().perturbed(judged.slide(), judged.mode(), kick * judged.slide().overlap));
     const double period = judged.step() * judged.scene.sprag_slip.steps_per_period;
     return settle(run, judged.slide(), { period, judged.scene.sprag_slip.settling, 2. }, ignore);
   }

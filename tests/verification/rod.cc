@@ -62,8 +62,9 @@ namespace
   class Wall : public PointAtPort
   {
   public:
-    static constexpr bool uses_rates     = false;
-    static constexpr unsigned int levers = 1;
+    static constexpr bool uses_rates       = false;
+    static constexpr bool stands_for_layer = false;
+    static constexpr unsigned int levers   = 1;
 
     void evaluate(const PortStep &step)
     {

@@ -1,0 +1,202 @@
+#include "analysis/closed_form.h"
+#include "analysis/transient_report.h"
+#include "analysis/vibration_report.h"
+#include "verification/meshed_in_time.h"
+#include "verification/run_scene.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <set>
+#include <string>
+
+using namespace sprag;
+
+namespace
+{
+  using Values = std::map<std::string, double>;
+
+  /// How far models may be apart that say one thing by one word.
+  struct Tolerance
+  {
+    double relative;
+    double absolute = 0.;
+  };
+
+  // The reduced models lump layer and shear into a contact law, the closed form has neither: up to 2 % of P, which Q and the
+  // works take over, twice of it in energies. The centre of pressure lies within the contact, 2 mm wide.
+  const std::map<std::string, Tolerance> same = {
+    { "time", { 1e-9 } },
+    { "x", { 1e-9 } },
+    { "v", { 1e-9 } },
+    { "theta", { 2e-3 } },
+    { "theta_rate", { 0.03 } },
+    { "s", { 0., 0.5 } },
+    { "P", { 0.02 } },
+    { "F", { 0.02 } },
+    { "Q", { 0.02 } },
+    { "Q_support", { 0.02 } },
+    { "normal_resultant", { 0.02 } },
+    { "friction_resultant", { 0.02 } },
+    { "v_rel", { 0.01 } },
+    { "speed", { 0.01 } },
+    { "mu", { 0.01 } },
+    { "centre_offset", { 0., 0.5 } },
+    { "contact_width", { 0.03 } },
+    { "indentation", { 0.06 } },
+    { "friction_power", { 0.02 } },
+    { "friction_work", { 0.03 } },
+    { "drive_work", { 0.03 } },
+    { "loop_area", { 0.03 } },
+    { "spring_energy", { 0.04 } },
+    { "elastic_energy", { 0.08 } },
+    { "layer_energy", { 0.12 } },
+    { "kinetic_energy", { 0.1 } },
+    { "support_energy", { 0. } },
+    { "support_displacement", { 0. } },
+    { "P_quasi_static", { 0.02 } },
+    { "Q_quasi_static", { 0.02 } },
+    { "P_closed_form", { 1e-9 } },
+    { "Q_closed_form", { 1e-9 } },
+    { "theta_closed_form", { 1e-9 } },
+    { "peak_P_forward", { 0.02 } },
+    { "peak_Q_forward", { 0.02 } },
+    { "peak_Q_support_forward", { 0.02 } },
+    { "margin", { 0.02 } },
+    { "uniqueness", { 0.02 } },
+    // Numerical ones are what is left of an error: small everywhere.
+    { "penetration", { 0., 5e-3 } },
+    { "elastic_slip", { 0., 5e-3 } },
+    { "cone_violation", { 0., 1e-6 } },
+    { "contact_energy", { 0., 0.02 } },
+    { "energy_residual", { 0., 1e-3 } },
+    { "energy_residual_share", { 0., 1e-5 } },
+    { "algorithmic_work", { 0., 0.02 } },
+    { "damping_work", { 0., 0.05 } },
+    { "creep", { 0. } },
+  };
+
+  // What a run costs, and what a stroke without a reversal does not have.
+  const std::set<std::string> not_compared = { "step",       "time_step",     "rejected_steps", "active_points",
+                                               "iterations", "augmentations", "steps" };
+
+  Scene stroke(const ModelType model)
+  {
+    Scene scene = with_lever(with_coulomb(in_time(model_a(), model), 0.73), 20., 9541.32, 1.45485);
+    scene.drive = Drive(DriveProfile::triangle, 40., 46., 112., 0.5, 5e-3);
+    return scene;
+  }
+
+  void add(const std::vector<Entry> &entries, Values &values)
+  {
+    for (const auto &entry : entries)
+      if (const double *const value = std::get_if<double>(&entry.value); value != nullptr && std::isfinite(*value))
+        values[entry.name] = *value;
+  }
+
+  Values values_of(const Row &row)
+  {
+    Values values;
+    for (std::size_t i = 0; i < all_columns().size(); ++i)
+      if (const double value = row[static_cast<Column>(i)]; std::isfinite(value))
+        values[all_columns()[i].name] = value;
+    return values;
+  }
+
+  Values of_stroke(std::vector<Row> rows, const std::vector<Entry> &summary)
+  {
+    Values values = values_of(rows.back());
+    add(summary, values);
+    return values;
+  }
+
+  Values in_time_of(const ModelType model)
+  {
+    const Scene scene = stroke(model);
+    auto rows         = run_any_in_time(scene).rows;
+    for (auto &row : rows)
+      add_closed_form(scene, row);
+    return of_stroke(rows, transient_summary(scene, rows));
+  }
+
+  Values without_inertia()
+  {
+    Scene scene         = stroke(ModelType::finite_element);
+    scene.analysis.type = AnalysisType::quasi_static;
+    scene.drive         = Drive(DriveProfile::triangle, 40., 46., 112., 0.5);
+    const auto rows     = run_scene(scene);
+    return of_stroke(rows, summary_of(scene, rows));
+  }
+
+  Values by_closed_form()
+  {
+    Scene scene         = stroke(ModelType::closed_form);
+    scene.analysis.type = AnalysisType::quasi_static;
+    scene.drive         = Drive(DriveProfile::triangle, 40., 46., 112., 0.5);
+    std::vector<Row> rows;
+    run_closed_form(scene, [&](const Row &row) { rows.push_back(row); });
+    // Contact and lever are ideal: there is nothing that these could be.
+    Values values = of_stroke(rows, summary_of(scene, rows));
+    for (const auto name : { "contact_width", "indentation", "elastic_energy" })
+    {
+      EXPECT_EQ(values.at(name), 0.) << name;
+      values.erase(name);
+    }
+    return values;
+  }
+
+  Values held(const ModelType model)
+  {
+    const Scene scene = stroke(model);
+    const auto made   = DynamicsMaker().make(scene);
+    SlideStability found;
+    found.slide = made.model().hold({ 0., 46., 112., 0. }, ContactFriction::sliding);
+    Values values;
+    add(slide_entries(found), values);
+    return values;
+  }
+
+  void compare(const std::string &name, const Values &values, const Values &reference)
+  {
+    unsigned int compared = 0;
+    for (const auto &[word, value] : values)
+    {
+      const auto other = reference.find(word);
+      if (other == reference.end() || not_compared.count(word) > 0)
+        continue;
+      const auto tolerance = same.find(word);
+      if (tolerance == same.end())
+      {
+        ADD_FAILURE() << word << " has no tolerance: " << name;
+        continue;
+      }
+      const double most = tolerance->second.absolute + tolerance->second.relative * std::abs(other->second);
+      EXPECT_NEAR(value, other->second, most) << word << " of " << name;
+      ++compared;
+    }
+    EXPECT_GE(compared, 5u) << name;
+  }
+} // namespace
+
+// One word is one quantity: every column and every entry of a summary that two models or analyses share says the same thing of
+// the same slide, moving on at x = 46 mm, held there, in time and without inertia.
+TEST(SharedNames, MeanOneQuantityAtEveryFidelity)
+{
+  const std::map<std::string, Values> models = { { "closed form", by_closed_form() },
+                                                 { "rigid", in_time_of(ModelType::rigid) },
+                                                 { "beam", in_time_of(ModelType::beam) },
+                                                 { "condensed", in_time_of(ModelType::condensed) },
+                                                 { "finite elements", in_time_of(ModelType::finite_element) },
+                                                 { "rigid, held", held(ModelType::rigid) },
+                                                 { "beam, held", held(ModelType::beam) },
+                                                 { "condensed, held", held(ModelType::condensed) },
+                                                 { "finite elements, held", held(ModelType::finite_element) } };
+  const auto reference                       = without_inertia();
+  for (const auto &[name, values] : models)
+  {
+    compare(name, values, reference);
+    compare(name + " against finite elements in time", values, models.at("finite elements"));
+    compare(name + " against the held condensed lever", values, models.at("condensed, held"));
+  }
+}
