@@ -117,14 +117,11 @@ namespace sprag
   double algorithmic_damping(const double spectral_radius, const double angle)
   {
     // Of the three roots the two that turn are the vibration's.
-    double size = 0., turn = angle;
+    double size = 0.;
     for (const auto &root : eigenpairs(amplification(generalised_alpha(spectral_radius, 1.), angle)))
-      if (root.value.imag() > 0. && std::abs(root.value) > size)
-      {
-        size = std::abs(root.value);
-        turn = std::arg(root.value);
-      }
-    return std::max(0., -std::log(size) / turn);
+      if (root.value.imag() > 0.)
+        size = std::max(size, std::abs(root.value));
+    return std::max(0., -std::log(size) / angle);
   }
 
   double longest_step(const std::vector<GrowingMode> &modes, const double spectral_radius)

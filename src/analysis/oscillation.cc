@@ -208,17 +208,16 @@ namespace sprag
       return !little && oscillation.growth_rate > 0. ? Verdict::grows : Verdict::rings;
     }
 
-    /// Mean sliding speed over the rows that have one, between two times; NaN if none has.
-    double sliding_speed(const std::vector<Row> &rows, const double begin, const double end)
+    /// Mean speed of the centre of pressure along the lever between two times, which is not that of sliding; NaN without contact.
+    double speed_along(const std::vector<Row> &rows, const double begin, const double end)
     {
-      double sum = 0., n = 0.;
-      for (const auto &row : rows)
-        if (row[Column::time] >= begin && row[Column::time] <= end && std::isfinite(row[Column::v_rel]))
-        {
-          sum += std::abs(row[Column::v_rel]);
-          n += 1.;
-        }
-      return sum / n;
+      const auto counts = [=](const Row &row)
+      { return row[Column::time] >= begin && row[Column::time] <= end && std::isfinite(row[Column::s]); };
+      const auto first = std::find_if(rows.begin(), rows.end(), counts);
+      const auto last  = std::find_if(rows.rbegin(), rows.rend(), counts);
+      if (first == rows.end())
+        return unknown;
+      return std::abs(((*last)[Column::s] - (*first)[Column::s]) / ((*last)[Column::time] - (*first)[Column::time]));
     }
 
     double passing_frequency(const Oscillation &oscillation, const double speed, const double face_size)
@@ -236,7 +235,7 @@ namespace sprag
     struct Surroundings
     {
       double face_size; ///< [mm], 0: no mesh
-      double speed;     ///< of sliding in the window [mm/s]
+      double speed;     ///< of the contact along the face in the window [mm/s]
       double least;     ///< P that never counts [N]
     };
 
@@ -291,7 +290,7 @@ namespace sprag
       const double end    = std::min(next_reversal, rows.empty() ? turn.time : rows.back()[Column::time]);
       result.window_end   = std::max(std::min(result.window_begin + window_length, end), result.window_begin);
       add_normal_force(result, samples_of(rows, Column::P, Column::P_quasi_static, turn.time, end),
-                       { face_size, sliding_speed(rows, result.window_begin, result.window_end), negligible(rows) });
+                       { face_size, speed_along(rows, result.window_begin, result.window_end), negligible(rows) });
       add_force_along_x(samples_of(rows, Column::Q, Column::Q_quasi_static, turn.time, end), result.window_begin,
                         result.window_end, result.overshoot_Q, result.frequency_Q, result.rms_Q);
       add_force_along_x(samples_of(rows, Column::Q_support, Column::Q_quasi_static, turn.time, end), result.window_begin,

@@ -14,10 +14,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <filesystem>
 #include <gmsh.h>
 #include <iostream>
-#include <unistd.h>
 
 namespace sprag
 {
@@ -31,35 +29,6 @@ namespace sprag
       x = drive.at(time).x;
     }
     return length + std::abs(drive.at(drive.duration()).x - x);
-  }
-
-  void require_writable(const std::string &folder)
-  {
-    namespace fs = std::filesystem;
-    std::error_code ignored;
-    fs::path existing = fs::absolute(folder);
-    while (!fs::exists(existing, ignored) && existing.has_relative_path())
-      existing = existing.parent_path();
-    if (!fs::is_directory(existing, ignored))
-      throw InputError("--output = " + folder + ": " + existing.string() + " is not a folder");
-    // Permissions say little where root asks: only a file that is made tells.
-    std::string trial = (existing / ".sprag-XXXXXX").string();
-    const int file    = ::mkstemp(trial.data());
-    if (file < 0)
-      throw InputError("--output = " + folder + ": " + existing.string() + " cannot be written to");
-    ::close(file);
-    ::unlink(trial.c_str());
-    if (fs::is_directory(fs::path(folder) / "result.h5", ignored))
-      throw InputError("--output = " + folder + ": result.h5 is a folder there");
-  }
-
-  void prepare_folder(const std::string &folder)
-  {
-    require_writable(folder);
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (error)
-      throw InputError("--output = " + folder + ": the folder cannot be made: " + error.message());
   }
 
   std::vector<Entry> process_entries(dealii::TimerOutput &timer)
@@ -102,7 +71,7 @@ namespace sprag
       travel += std::abs(row[Column::x] - rows.back()[Column::x]);
     rows.push_back(row);
     if (interrupted())
-      throw AnalysisError("interrupted; every finished step is kept");
+      throw AnalysisError(interruption);
     const double iterations = row[Column::iterations];
     progress.update(travel, { row[Column::x], row[Column::P], row[Column::Q],
                               std::isnan(iterations) ? 0u : static_cast<unsigned int>(iterations) });

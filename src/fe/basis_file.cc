@@ -1,11 +1,13 @@
 #include "fe/basis_file.h"
 
+#include "base/child_process.h"
 #include "base/errors.h"
 #include "base/fingerprint.h"
 #include "results/hdf5.h"
 
 #include <chrono>
 #include <cstdlib>
+#include <cstring>
 #include <fcntl.h>
 #include <filesystem>
 #include <sys/file.h>
@@ -71,27 +73,6 @@ namespace sprag
       const bool is_held;
     };
 
-    /// Keeps HDF5 from printing while a file that may be anything is read.
-    class Silence
-    {
-    public:
-      Silence()
-      {
-        H5Eget_auto2(H5E_DEFAULT, &function, &data);
-        H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-      }
-      Silence(const Silence &)            = delete;
-      Silence &operator=(const Silence &) = delete;
-      ~Silence()
-      {
-        H5Eset_auto2(H5E_DEFAULT, function, data);
-      }
-
-    private:
-      H5E_auto2_t function = nullptr;
-      void *data           = nullptr;
-    };
-
     std::optional<std::vector<double>> read_array(const hid_t file, const std::string &name)
     {
       const hid_t opened = H5Dopen2(file, name.c_str(), H5P_DEFAULT);
@@ -108,10 +89,75 @@ namespace sprag
       return values;
     }
 
+    /// A damaged file may keep HDF5 busy for ever [s], or ask for all the memory there is [bytes].
+    constexpr double file_patience  = 10.;
+    constexpr std::size_t file_room = std::size_t(1) << 28;
+
     herr_t collect_name(const hid_t, const char *name, const H5L_info_t *, void *names)
     {
       static_cast<std::vector<std::string> *>(names)->emplace_back(name);
       return 0;
+    }
+
+    /// None if the file is damaged as far as HDF5 or the checksum can tell.
+    std::optional<StoredArrays> read_file(const std::string &path, const std::string &key)
+    {
+      const hid_t opened = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+      if (opened < 0)
+        return {};
+      const hdf5::Handle file(opened, H5Fclose);
+      std::vector<std::string> names;
+      hsize_t position = 0;
+      if (H5Literate(file.id(), H5_INDEX_NAME, H5_ITER_INC, &position, collect_name, &names) < 0)
+        return {};
+      StoredArrays arrays;
+      for (const auto &name : names)
+      {
+        auto values = read_array(file.id(), name);
+        if (!values)
+          return {};
+        arrays[name] = std::move(*values);
+      }
+      const auto found = arrays.find("checksum");
+      if (found == arrays.end() || found->second.size() != 1)
+        return {};
+      const double stored = found->second.front();
+      arrays.erase(found);
+      if (stored != checksum(key, arrays))
+        return {};
+      return arrays;
+    }
+
+    /// Of each array its name, a zero, the number of values and these.
+    std::string packed(const std::optional<StoredArrays> &arrays)
+    {
+      std::string bytes;
+      if (arrays)
+        for (const auto &[name, values] : *arrays)
+        {
+          const std::size_t count = values.size();
+          bytes.append(name.c_str(), name.size() + 1);
+          bytes.append(reinterpret_cast<const char *>(&count), sizeof count);
+          bytes.append(reinterpret_cast<const char *>(values.data()), count * sizeof(double));
+        }
+      return bytes;
+    }
+
+    std::optional<StoredArrays> unpacked(const std::string &bytes)
+    {
+      StoredArrays arrays;
+      for (std::size_t at = 0; at < bytes.size();)
+      {
+        auto &values = arrays[bytes.data() + at];
+        at           = bytes.find('\0', at) + 1;
+        std::size_t count;
+        std::memcpy(&count, bytes.data() + at, sizeof count);
+        at += sizeof count;
+        values.resize(count);
+        std::memcpy(values.data(), bytes.data() + at, count * sizeof(double));
+        at += count * sizeof(double);
+      }
+      return arrays.empty() ? std::nullopt : std::optional(std::move(arrays));
     }
   } // namespace
 
@@ -128,35 +174,19 @@ namespace sprag
 
   std::optional<StoredArrays> load_arrays(const std::string &folder, const std::string &key)
   {
-    const Silence silence;
     const std::string path = path_of(folder, key);
     std::error_code ignored;
     if (folder.empty() || !std::filesystem::is_regular_file(path, ignored))
       return {};
-    const hid_t opened = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
-    if (opened < 0)
-      return {};
-    const hdf5::Handle file(opened, H5Fclose);
-    std::vector<std::string> names;
-    hsize_t position = 0;
-    if (H5Literate(file.id(), H5_INDEX_NAME, H5_ITER_INC, &position, collect_name, &names) < 0)
-      return {};
-    StoredArrays arrays;
-    for (const auto &name : names)
-    {
-      auto values = read_array(file.id(), name);
-      if (!values)
-        return {};
-      arrays[name] = std::move(*values);
-    }
-    const auto found = arrays.find("checksum");
-    if (found == arrays.end() || found->second.size() != 1)
-      return {};
-    const double stored = found->second.front();
-    arrays.erase(found);
-    if (stored != checksum(key, arrays))
-      return {};
-    return arrays;
+    const auto bytes  = std::filesystem::file_size(path, ignored);
+    const auto answer = in_child_process(
+        [&]
+        {
+          limit_growth(file_room + 20 * bytes);
+          return packed(read_file(path, key));
+        },
+        file_patience + 1e-7 * static_cast<double>(bytes));
+    return answer.failure.empty() ? unpacked(answer.text) : std::nullopt;
   }
 
   void remove_abandoned(const std::string &folder)

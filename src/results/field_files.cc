@@ -1,6 +1,7 @@
 #include "results/field_files.h"
 
 #include "base/errors.h"
+#include "results/disk_reserve.h"
 #include "results/hdf5.h"
 
 #include <cstdio>
@@ -16,6 +17,17 @@ namespace sprag
 {
   namespace
   {
+    // HDF5's own entries, and the index, which is rewritten.
+    constexpr std::size_t overhead = 512 * 1024;
+
+    std::size_t bytes_of(const std::vector<Field> &fields)
+    {
+      std::size_t bytes = 0;
+      for (const auto &field : fields)
+        bytes += 8 * field.values.size();
+      return bytes;
+    }
+
     const std::string opening =
         "<?xml version=\"1.0\" ?>\n<!DOCTYPE Xdmf SYSTEM \"Xdmf.dtd\" []>\n<Xdmf Version=\"2.0\">\n  <Domain>\n"
         "    <Grid Name=\"frames\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
@@ -131,6 +143,10 @@ namespace sprag
 
   void FieldFiles::write_mesh_file(const std::vector<FieldMesh> &meshes) const
   {
+    std::size_t bytes = overhead;
+    for (const auto &mesh : meshes)
+      bytes += 3 * 8 * mesh.nodes.size() + 8 * mesh.cells.size() + bytes_of(mesh.fixed);
+    require_space(folder + "/" + mesh_file(), bytes);
     auto file = hdf5::create_file(folder + "/" + mesh_file());
     for (const auto &mesh : meshes)
     {
@@ -152,6 +168,13 @@ namespace sprag
     const bool own_file         = storage == FrameStorage::files;
     const std::string file_name = own_file ? name + "-" + number_text + ".h5" : mesh_file();
     const std::string of_frame  = own_file ? "" : std::string("frame-") + number_text;
+    std::size_t bytes           = overhead;
+    for (const auto &of_mesh : fields)
+      bytes += bytes_of(of_mesh);
+    if (own_file)
+      require_space(folder + "/" + file_name, bytes);
+    else
+      DiskReserve(folder + "/" + file_name).cover(bytes);
     auto file = own_file ? hdf5::create_file(folder + "/" + file_name) : hdf5::open_file(folder + "/" + file_name);
     {
       std::optional<hdf5::Handle> frame;

@@ -173,6 +173,25 @@ namespace sprag::hdf5
     return Handle(checked("opening " + path, [&] { return H5Fopen(path.c_str(), H5F_ACC_RDWR, access.id()); }), H5Fclose);
   }
 
+  Handle open_abandoned_file(const std::string &path)
+  {
+    const Handle access = file_access();
+    const hbool_t clear = true; // as h5clear does
+    checked("file access", [&] { return H5Pset(access.id(), "clear_status_flags", &clear); });
+    return Handle(checked("opening " + path, [&] { return H5Fopen(path.c_str(), H5F_ACC_RDWR, access.id()); }), H5Fclose);
+  }
+
+  std::string read_text(const Handle &location, const std::string &name)
+  {
+    const Handle dataset(checked("dataset " + name, [&] { return H5Dopen2(location.id(), name.c_str(), H5P_DEFAULT); }),
+                         H5Dclose);
+    char *text = nullptr;
+    checked("dataset " + name, [&] { return H5Dread(dataset.id(), text_type().id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, &text); });
+    const std::string result = text != nullptr ? text : "";
+    H5free_memory(text);
+    return result;
+  }
+
   void start_swmr_write(const Handle &file)
   {
     checked("letting others read", [&] { return H5Fstart_swmr_write(file.id()); });

@@ -53,6 +53,12 @@ namespace sprag
     /// Opens an existing file for reading and writing.
     Handle open_file(const std::string &path);
 
+    /// The same of a file that is still marked as being written, as its writer was killed.
+    Handle open_abandoned_file(const std::string &path);
+
+    /// A scalar text.
+    std::string read_text(const Handle &location, const std::string &name);
+
     /// From here on others can read along; no object and no attribute can be created any more.
     void start_swmr_write(const Handle &file);
 

@@ -124,7 +124,7 @@ namespace sprag
       std::error_code ignored;
       if (ending != ".geo" && ending != ".msh")
         result.push_back({ "Mesh/File", {}, "must end in .geo or .msh" });
-      else if (!std::ifstream(settings.file) || std::filesystem::is_directory(settings.file, ignored))
+      else if (!std::filesystem::is_regular_file(settings.file, ignored) || !std::ifstream(settings.file))
         result.push_back({ "Mesh/File", {}, "cannot be read" });
       return result;
     }

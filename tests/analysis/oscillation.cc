@@ -202,7 +202,7 @@ TEST(Oscillation, ElementsThatPassAreNoRinging)
   const auto with_speed = [](std::vector<Row> rows)
   {
     for (auto &row : rows)
-      row[Column::v_rel] = -113.;
+      row[Column::s] = 120. + 113. * row[Column::time];
     return rows;
   };
   const auto found = [&](const double frequency, const double growth, const double face_size)

@@ -217,7 +217,7 @@ TEST(Parameters, LaterMistakesNamePlaceAndValueInUse)
 TEST(Parameters, OverridesComeOnTopOfValuesReadBefore)
 {
   const ParameterValues before = { { "Geometry/Cylinder radius", "21.1" }, { "Mesh/Degree", "1" } };
-  const auto settings = override_settings("scene.prm", before, { "Mesh/Degree=2", "Geomtry/Cylinder radius=7" }, declared());
+  const auto settings = override_settings("scene.prm", before, { "Mesh/Degree=2", "Geomtry/Pivot height=7" }, declared());
   EXPECT_EQ(settings.given.at("Mesh/Degree").value, "2");
   EXPECT_EQ(settings.given.at("Mesh/Degree").place, "--set");
   EXPECT_EQ(settings.given.at("Geometry/Cylinder radius").place, "scene.prm");

@@ -179,7 +179,7 @@ class MapTest(unittest.TestCase):
     def test_an_older_result_stays_until_the_map_is_written(self):
         output, _ = self.completed("output", *SHORT)
         before = (output / "result.h5").read_bytes()
-        process = self.started(output, 100, *LONG, "--jobs", 1)
+        process = self.started(output, 100, *LONG, "--jobs", 1, "--overwrite")
         process.kill()
         process.wait(TIMEOUT)
         self.assertEqual((output / "result.h5").read_bytes(), before)

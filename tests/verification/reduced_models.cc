@@ -209,7 +209,7 @@ TEST(StiffModes, AreFollowedWhereTheyGrow)
 {
   Scene scene                   = with_lever(in_time(model_a(), ModelType::rigid), 20., 9541.32, 1.45485);
   scene.lever.moment_of_inertia = 6.45e-3;
-  scene.drive                   = Drive(DriveProfile::triangle, 61., 65., 112., 0.5, 5e-3);
+  scene.drive                   = Drive(DriveProfile::triangle, 50., 65., 112., 0.5, 5e-3);
   const auto reference          = contact_reference(scene);
   const auto peak_of            = [&](const TimeSettings &time, const double longest)
   {

@@ -1,3 +1,4 @@
+#include "scene/closed_form.h"
 #include "verification/meshed_in_time.h"
 #include "verification/run_scene.h"
 
