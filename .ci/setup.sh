@@ -36,10 +36,17 @@ missing_packages()
   done
 }
 
-install_packages()
+# Only to test are those of the last section needed.
+needed_packages() # TARGET of the build
+{
+  if [ "$1" = all ]; then cat "$project/packages.txt"; else sed '/^# Test$/,$d' "$project/packages.txt"; fi |
+    sed 's/#.*//; s/[[:space:]]*$//; /^$/d'
+}
+
+install_packages() # TARGET of the build
 {
   local needed missing
-  mapfile -t needed < <(sed 's/#.*//; s/[[:space:]]*$//; /^$/d' "$project/packages.txt")
+  mapfile -t needed < <(needed_packages "$1")
   if ! command -v dpkg-query >/dev/null; then
     say "This is no Debian system: nothing is installed. Needed is what packages.txt lists."
     return
@@ -88,7 +95,7 @@ set_up() # TARGET of the build, all for everything
   local lock status=0
   exec {lock}>"$build_dir/set-up.lock"
   flock "$lock"
-  { install_packages && build "$1"; } || status=$?
+  { install_packages "$1" && build "$1"; } || status=$?
   exec {lock}>&-
   return "$status"
 }

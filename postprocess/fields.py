@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.colors import LogNorm, Normalize
 
-from frames import PARTS, WAYS, chosen_frame, has_leaf, indexed, number, pose, read_frame, rest_inclination
+from frames import PARTS, WAYS, chosen_frame, number, pose, read_frame, rest_inclination
 from results import NotAResult, read_result
 from style import COLOURS, MILLIMETRE, TWO_COLUMNS, plt, use_print_style
 
@@ -35,21 +35,13 @@ class Scenery:
         self.result = result
         self.row = written.row
         self.way = written.way
-        self.frame = read_frame(written.file)
+        self.frame, self.leaf = read_frame(result, written.file, written.row)
         self.pose = pose(result, written.row)
         self.radius = number(result, "Geometry", "Cylinder radius")
         self.offset = number(result, "Geometry", "Interface offset")
         self.part = part
         self.coloured = CHOICES[part]
         self.elastic_cylinder = bool(self.frame.shown(["cylinder"]).any())
-        self.leaf = self.leaf_frame(written.time)
-
-    def leaf_frame(self, time):
-        """That of the leaf spring written with the frame."""
-        if not has_leaf(self.result):
-            return None
-        there = [file for written, file in indexed(self.result.folder, "leaf") if written == time and file.is_file()]
-        return read_frame(there[0]) if there else None
 
     def layer_thickness(self):
         """0 without one."""

@@ -12,6 +12,7 @@ from results import NotAResult
 
 # As FieldFrames writes them.
 PARTS = {1: "lever", 2: "layer", 3: "hub", 4: "web", 5: "plate", 6: "cylinder", 7: "leaf"}
+NUMBERS = {name: number for number, name in PARTS.items()}
 WAYS = {"forward": 1, "backward": -1}
 
 
@@ -55,24 +56,49 @@ class Frame:
         return edges[index[counts == 1]]
 
 
-def read_frame(path):
+def read_frame(result, path=None, row=None):
+    """The first lever and its leaf spring (None without) as they are in a frame, in lever axes; without a path undeformed.
+
+    A leaf spring is in the axes of the lever at rest, its displacement includes the hub's rotation. Nodes of an elastic cylinder
+    are about its centre.
+    """
+    path_of_mesh = result.folder / "fields-mesh.h5"
     try:
-        with h5py.File(path, "r") as file:
-            numbers = file["part"][:].ravel().round().astype(int)
-            quads = file["cells"][:].astype(int)
-            frame = Frame(
-                nodes=file["nodes"][:, :2],
-                quads=quads,
-                displacement=file["displacement"][:, :2],
-                stress=file["von_mises_stress"][:].ravel(),
-                part=np.array([PARTS.get(number, "") for number in range(numbers.max() + 1)])[numbers],
-                degree=0,
-            )
-    except (OSError, KeyError) as error:
-        raise NotAResult(f"{path}: cannot be read as a frame of this version of sprag ({error})") from error
-    # m = p^2 cells and n = (p + 1)^2 cells.
-    frame.degree = round(1 / (np.sqrt(len(frame.nodes) / len(quads)) - 1))
-    return frame
+        with h5py.File(path_of_mesh, "r") as file:
+            mesh = {name: dataset[:] for name, dataset in file["fields"].items()}
+        moved = {"displacement": 0, "elastic_displacement": 0, "von_mises_stress": 0}
+        if path is not None:
+            with h5py.File(path, "r") as file:
+                moved = {name: file["fields"][name][:] for name in moved}
+        in_plane = {name: np.broadcast_to(values, (len(mesh["nodes"]), 3))[:, :2] for name, values in moved.items() if "disp" in name}
+        stress = np.broadcast_to(moved["von_mises_stress"], len(mesh["nodes"]))
+        part = mesh["part"].round().astype(int)
+        of_first = mesh["lever"] == 1
+        quads_of_all = mesh["cells"].astype(int)
+    except (OSError, KeyError, ValueError) as error:
+        raise NotAResult(f"{path or path_of_mesh}: cannot be read as fields of this version of sprag ({error})") from error
+
+    rest = pose(result)
+    stands = rest if row is None else pose(result, row)
+    up = np.array((0.0, cylinder_height(result)))
+    nodes = mesh["nodes"][:, :2] - up
+    cylinder = (part == NUMBERS["cylinder"])[:, None]
+    in_lever = np.round(np.where(cylinder, rest.along_axes(nodes), rest.in_axes(nodes)), 9) + 0.0
+    names = np.array([PARTS.get(number, "") for number in range(max(PARTS) + 1)])[part]
+
+    def only(which, displacement):
+        kept = np.flatnonzero(which)
+        if len(kept) == 0:
+            return None
+        quads = quads_of_all[which[quads_of_all[:, 0]]]
+        frame = Frame(in_lever[kept], np.searchsorted(kept, quads), displacement[kept], stress[kept], names[kept], 0)
+        # m = p^2 cells and n = (p + 1)^2 cells.
+        frame.degree = round(1 / (np.sqrt(len(frame.nodes) / len(frame.quads)) - 1))
+        return frame
+
+    leaf = part == NUMBERS["leaf"]
+    bent = rest.along_axes(nodes + in_plane["displacement"] - stands.pivot) - in_lever
+    return only(of_first & ~leaf, stands.along_axes(in_plane["elastic_displacement"])), only(of_first & leaf, bent)
 
 
 def indexed(folder, name="fields"):
@@ -80,13 +106,13 @@ def indexed(folder, name="fields"):
     index = Path(folder) / f"{name}.xdmf"
     if not index.is_file():
         return []
-    found = re.findall(r'<Time Value="([^"]+)".*?(\S+\.h5):/nodes', index.read_text(encoding="utf-8"), re.DOTALL)
+    found = re.findall(r'<Time Value="([^"]+)".*?>([^<>\s]+-\d+\.h5):/', index.read_text(encoding="utf-8"), re.DOTALL)
     return [(float(time), index.parent / file) for time, file in found]
 
 
 @dataclass
 class Pose:
-    """Where the apparatus stands: x along the cylinder's path towards the pivot, y up."""
+    """Where the apparatus stands: x along the cylinder's path towards the pivot, y up from that path."""
 
     x: float  # of the cylinder's centre, which has y = 0
     pivot: np.ndarray
@@ -94,9 +120,16 @@ class Pose:
 
     def centre(self):
         """Of the cylinder, in lever axes."""
-        away = np.array((self.x, 0.0)) - self.pivot
-        return np.array((-np.cos(self.theta) * away[0] + np.sin(self.theta) * away[1],
-                         np.sin(self.theta) * away[0] + np.cos(self.theta) * away[1]))  # fmt: skip
+        return self.in_axes(np.array((self.x, 0.0)))
+
+    def in_axes(self, points):
+        """Lever coordinates of places."""
+        return self.along_axes(points - self.pivot)
+
+    def along_axes(self, vectors):
+        """Components along and across the lever."""
+        along, across = np.array((-np.cos(self.theta), np.sin(self.theta))), np.array((np.sin(self.theta), np.cos(self.theta)))
+        return np.stack((vectors @ along, vectors @ across), axis=-1)
 
     def place(self, points, theta=None):
         """From axes at the pivot, inclined by theta (the lever's unless given), [n x 2]."""
@@ -105,12 +138,22 @@ class Pose:
         return self.pivot + points[..., :1] * along + points[..., 1:] * across
 
 
-def pose(result, row):
-    """Of one row of the table."""
+def pose(result, row=None):
+    """Of one row of the table, at rest without."""
     table = result.table
-    moved = table["support_displacement"][row] if result.has("support_displacement") else 0.0
-    pivot = np.array((number(result, "Geometry", "Pivot distance") + moved, number(result, "Geometry", "Pivot height")))
-    return Pose(table["x"][row], pivot, table["theta"][row])
+    moved = table["support_displacement"][row] if row is not None and result.has("support_displacement") else 0.0
+    height = number(result, "Geometry", "Pivot height") - cylinder_height(result)
+    pivot = np.array((number(result, "Geometry", "Pivot distance") + moved, height))
+    return Pose(0.0, pivot, rest_inclination(result)) if row is None else Pose(table["x"][row], pivot, table["theta"][row])
+
+
+def cylinder_height(result):
+    """Of its path above the mirror plane of a full pair, where y = 0."""
+    try:
+        full = result.parameter("Mirrored pair", "Type") == "full"
+    except KeyError:
+        return 0.0
+    return number(result, "Mirrored pair", "Cylinder offset", 0.0) if full else 0.0
 
 
 def rest_inclination(result):
@@ -131,14 +174,6 @@ def number(result, section, name, otherwise=None):
         return otherwise
 
 
-def has_leaf(result):
-    """Whether frames of a leaf spring in the folder are of this run, not of one before it."""
-    try:
-        return result.parameter("Rotational spring", "Type") == "leaf"
-    except KeyError:
-        return False
-
-
 @dataclass
 class Written:
     """A frame that is there to be chosen."""
@@ -153,7 +188,7 @@ class Written:
 def written_frames(result):
     """Of a run in which the cylinder moves."""
     if "modes" in result.groups:
-        raise NotAResult(f"{result.folder}: its frames are modes, which plot.py draws along the face and ParaView as fields.xdmf")
+        raise NotAResult(f"{result.folder}: its frames are modes, which plot.py draws along the face and ParaView shows (mode-01.xdmf, ...)")
     if result.is_sweep or len(result.table["time"]) == 0:
         return []
     x, times = result.table["x"], result.table["time"]

@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
 
 import plot
-from frames import has_leaf, number, pose, read_frame
+from frames import number, pose, read_frame
 from results import NotAResult, read_result
 
 import matplotlib.pyplot as plt  # isort: skip (plot chooses what draws)
@@ -54,17 +54,15 @@ class Mesh:
 def of_folder(folder):
     """The mesh of a run, undeformed, with the cylinder at its turning point and the leaf spring as it was made."""
     result = read_result(folder)
-    frame_file = folder / "fields-0000.h5"
-    if not frame_file.is_file():
-        raise NotAResult(f"{folder}: no fields-0000.h5 there; Output/Fields must not be none")
+    if not (folder / "fields-mesh.h5").is_file():
+        raise NotAResult(f"{folder}: no fields-mesh.h5 there; Output/Fields must not be none")
     mesh = Mesh(folder.resolve().name)
-    frame = read_frame(frame_file)
+    frame, leaf = read_frame(result)
     stands = pose(result, int(np.nanargmax(result.table["x"])) if "x" in result.table else 0)
     centre = stands.centre()
     nodes = np.where(frame.shown(["cylinder"])[:, None], frame.nodes + centre, frame.nodes)
     add_parts(mesh, frame, nodes)
-    if has_leaf(result) and (folder / "leaf-0000.h5").is_file():
-        leaf = read_frame(folder / "leaf-0000.h5")
+    if leaf is not None:
         add_parts(mesh, leaf, leaf.nodes)
     outermost = next(name for name in ("layer", "plate", "lever") if name in mesh.parts)
     edges = nodes[frame.borders([outermost])]

@@ -72,7 +72,8 @@ def forces_over_x(results):
 
 def draw_slopes(axes, results):
     """The dotted line Q = C_Q x of eq. 16; one for all results that share it."""
-    slopes = {round(r.summary["slope_forward"], 9): r for r in results if "slope_forward" in r.summary}
+    known = [r for r in results if np.isfinite(r.summary.get("slope_forward", np.nan))]
+    slopes = {round(r.summary["slope_forward"], 9): r for r in known}
     for slope, result in slopes.items():
         end = np.nanmax(result.table["x"])
         name = f"$C_Q x$, $C_Q$ = {slope:.4f} {result.entry_units['slope_forward']}"

@@ -12,12 +12,6 @@ namespace sprag
 {
   namespace
   {
-    /// v, or where that is 0 the smallest speed in the direction of dx. A rest keeps the direction it was reached in.
-    double velocity_of(const DrivePoint &point, const double dx, const double direction)
-    {
-      return point.v != 0. ? point.v : std::copysign(std::numeric_limits<double>::min(), dx != 0. ? dx : direction);
-    }
-
     Row row_at(const DrivePoint &point, const ClosedFormState &state, const double spring_energy, const Work &work)
     {
       Row row;
@@ -69,25 +63,24 @@ namespace sprag
       work.friction += more.friction;
     }
 
-    /// Goes on from one point of the drive to another, where it moves at v: the row there.
-    using Advance = std::function<Row(const DrivePoint &from, const DrivePoint &to, double v)>;
+    /// Goes on from one point of the drive to another: the row there.
+    using Advance = std::function<Row(const DrivePoint &from, const DrivePoint &to)>;
 
     Advance on_rigid_support(const Scene &scene)
     {
-      return [&scene, work = Work()](const DrivePoint &from, const DrivePoint &to, const double v) mutable
+      return [&scene, work = Work()](const DrivePoint &from, const DrivePoint &to) mutable
       {
         add(work_between(scene, from.time, to.time), work);
-        const auto state = closed_form(scene, to.x, v);
+        const auto state = closed_form(scene, to.x, to.v);
         return row_at(to, state, spring_energy(scene, state), work);
       };
     }
 
     Advance on_sprung_support(const Scene &scene)
     {
-      return [&scene, lever = SprungClosedForm(scene), begins = true](const DrivePoint &, const DrivePoint &to,
-                                                                      const double v) mutable
+      return [&scene, lever = SprungClosedForm(scene), begins = true](const DrivePoint &, const DrivePoint &to) mutable
       {
-        const auto at                     = begins ? lever.start(to.x, v) : lever.advance(to.x, v);
+        const auto at                     = begins ? lever.start(to.x, to.v) : lever.advance(to.x, to.v);
         begins                            = false;
         Row row                           = row_at(to, at.lever, spring_energy(scene, at.lever), at.work);
         row[Column::support_displacement] = at.displacement;
@@ -98,10 +91,10 @@ namespace sprag
 
     Advance of_pair(const Scene &scene)
     {
-      return [&scene, works = std::array<Work, 2>()](const DrivePoint &from, const DrivePoint &to, const double v) mutable
+      return [&scene, works = std::array<Work, 2>()](const DrivePoint &from, const DrivePoint &to) mutable
       {
         const auto more   = pair_work_between(scene, from.time, to.time);
-        const auto levers = pair_closed_form(scene, to.x, v);
+        const auto levers = pair_closed_form(scene, to.x, to.v);
         for (unsigned int lever = 0; lever < 2; ++lever)
           add(more[lever], works[lever]);
         Row row = row_at(to, levers[0], works[0]);
@@ -123,27 +116,24 @@ namespace sprag
     const auto &drive     = scene.drive;
     const auto &reversals = drive.reversals();
     const auto advance    = make_advance(scene);
-    const auto hand_on    = [&](const DrivePoint &from, const DrivePoint &to, const double v, const double step)
+    const auto hand_on    = [&](const DrivePoint &from, const DrivePoint &to)
     {
-      Row row           = advance(from, to, v);
-      row[Column::step] = step;
+      Row row           = advance(from, to);
+      row[Column::step] = to.x - from.x;
       sink(row);
     };
 
     DrivePoint point = drive.at(0., Drive::Side::after);
-    double velocity  = velocity_of(point, drive.step(0., scene.analysis.step).x - point.x, 1.);
-    hand_on(point, point, velocity, 0.);
+    hand_on(point, point);
     while (point.time < drive.duration())
     {
       const auto next = drive.step(point.time, scene.analysis.step);
-      velocity        = velocity_of(next, next.x - point.x, velocity);
-      hand_on(point, next, velocity, next.x - point.x);
+      hand_on(point, next);
       point = next;
       if (std::binary_search(reversals.begin(), reversals.end(), point.time))
       {
-        point    = drive.at(point.time, Drive::Side::after);
-        velocity = velocity_of(point, -velocity, velocity);
-        hand_on(point, point, velocity, 0.);
+        point = drive.at(point.time, Drive::Side::after);
+        hand_on(point, point);
       }
     }
   }

@@ -1,9 +1,9 @@
 #include "analysis/dynamics.h"
 
-#include "base/text.h"
 #include "fe/lever_model.h"
 #include "model/reduced_lever.h"
 #include "scene/contact_reference.h"
+#include "scene/scene_key.h"
 
 #include <iostream>
 
@@ -20,50 +20,11 @@ namespace sprag
       properties.point_spacing = scene.geometry.cylinder_radius / 1000.;
       return properties;
     }
-
-    /// Everything that mesh, matrices and bases are made from.
-    std::string key_of(const Scene &scene)
-    {
-      const auto &lever = scene.lever;
-      const auto &layer = scene.layer;
-      const auto &leaf  = scene.spring.behaviour;
-      std::string key   = scene.mesh.file;
-      for (const auto &mode : leaf.modes)
-        key += ' ' + number_text(mode.stiffness) + ' ' + number_text(mode.participation);
-      for (const double value : { static_cast<double>(scene.analysis.model),
-                                  static_cast<double>(scene.analysis.plane),
-                                  static_cast<double>(scene.mesh.degree),
-                                  static_cast<double>(scene.condensed.modes),
-                                  scene.mesh.face_size,
-                                  static_cast<double>(scene.pair.type),
-                                  static_cast<double>(scene.pair.joint),
-                                  scene.pair.joint_mass,
-                                  scene.geometry.cylinder_radius,
-                                  scene.geometry.interface_offset,
-                                  scene.spring.stiffness,
-                                  lever.length,
-                                  lever.depth,
-                                  lever.width,
-                                  lever.young_modulus,
-                                  lever.poisson_ratio,
-                                  lever.density,
-                                  lever.moment_of_inertia,
-                                  lever.tip_mass,
-                                  lever.hub_inertia,
-                                  static_cast<double>(lever.inertia),
-                                  leaf.inertia,
-                                  layer.thickness,
-                                  layer.young_modulus,
-                                  layer.poisson_ratio,
-                                  layer.density })
-        key += ' ' + number_text(value);
-      return key;
-    }
   } // namespace
 
   bool share_mesh(const Scene &a, const Scene &b)
   {
-    return key_of(a) == key_of(b);
+    return body_key(a) == body_key(b);
   }
 
   DynamicsMaker::DynamicsMaker(const bool store_bases)
@@ -86,7 +47,7 @@ namespace sprag
       result.reduced = make_reduced_lever(scene);
       return result;
     }
-    if (const auto key = key_of(scene); key != last_key)
+    if (const auto key = body_key(scene); key != last_key)
     {
       auto lever = std::make_shared<MeshedLever>();
       {

@@ -83,7 +83,7 @@ namespace sprag
   const Row &HeldRun::step(const DrivePath &path)
   {
     if (interrupted())
-      throw AnalysisError("interrupted; every finished step is kept");
+      throw AnalysisError(interruption);
     const auto &at          = now.motion.drive;
     const double x          = at.x;
     const auto iterations   = advance(path, dt, 0);

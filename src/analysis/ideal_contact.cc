@@ -23,14 +23,13 @@ namespace sprag
       {
       }
 
-      /// Columns at a point of the drive; `direction` is that of the motion where v = 0.
-      Row row(const DrivePoint &point, const double direction) const
+      /// Columns at a point of the drive.
+      Row row(const DrivePoint &point) const
       {
         const auto &g          = scene.geometry;
         const auto contact     = kinematics(g, point.x);
-        const double v         = point.v != 0. ? point.v : std::copysign(std::numeric_limits<double>::min(), direction);
-        const double mu        = sliding_friction(scene, point.x, v).coefficient;
-        const double signed_mu = std::copysign(mu, v);
+        const double mu        = sliding_friction(scene, point.x, point.v).coefficient;
+        const double signed_mu = direction_of(point.v) * mu;
         const double s_x       = -std::cos(contact.theta) - (g.cylinder_radius - g.interface_offset) * contact.theta_x;
         const double theta_xx =
             (std::cos(contact.theta) * contact.theta_x * contact.s - std::sin(contact.theta) * s_x) / (contact.s * contact.s);
@@ -59,7 +58,7 @@ namespace sprag
         result[Column::friction_power]     = F * speed;
         result[Column::kinetic_energy]     = 0.5 * inertia * rate * rate;
         result[Column::spring_energy]      = spring.energy(contact.theta - rest);
-        const auto quasi_static            = closed_form(scene, point.x, v);
+        const auto quasi_static            = closed_form(scene, point.x, point.v);
         result[Column::P_quasi_static]     = quasi_static.P;
         result[Column::Q_quasi_static]     = quasi_static.Q;
         for (const auto column :
@@ -85,15 +84,14 @@ namespace sprag
       return energy;
     }
 
-    StepWork work_between(const IdealContact &lever, const Drive &drive, const double begin, const double end,
-                          const double direction)
+    StepWork work_between(const IdealContact &lever, const Drive &drive, const double begin, const double end)
     {
       const double points[]  = { 0.5 - std::sqrt(0.15), 0.5, 0.5 + std::sqrt(0.15) };
       const double weights[] = { 5. / 18., 8. / 18., 5. / 18. };
       StepWork work;
       for (unsigned int i = 0; i < 3; ++i)
       {
-        const Row row = lever.row(drive.at(begin + points[i] * (end - begin)), direction);
+        const Row row = lever.row(drive.at(begin + points[i] * (end - begin)));
         work.drive += weights[i] * (end - begin) * row[Column::Q] * row[Column::v];
         work.friction += weights[i] * (end - begin) * row[Column::friction_power];
       }
@@ -117,9 +115,8 @@ namespace sprag
     const IdealContact lever(scene, inertia);
     StepClock clock(drive, scene.time.step, 0);
 
-    double time      = 0.;
-    double direction = 1.;
-    Row row          = lever.row(drive.at(0., Drive::Side::after), direction);
+    double time = 0.;
+    Row row     = lever.row(drive.at(0., Drive::Side::after));
     EnergyLedger ledger(stored(row));
     TransientReport report;
     const auto hand_on = [&](const double step)
@@ -133,19 +130,15 @@ namespace sprag
     for (; !clock.finished(); clock.advance())
     {
       const double end = clock.end_of_step();
-      const auto to    = drive.at(end);
-      if (to.x != row[Column::x])
-        direction = to.x - row[Column::x];
-      const auto work = work_between(lever, drive, time, end, direction);
-      row             = lever.row(to, direction);
+      const auto work  = work_between(lever, drive, time, end);
+      row              = lever.row(drive.at(end));
       ledger.add(end, stored(row), work);
       ++report.steps;
       hand_on(end - time);
       time = end;
       if (std::binary_search(reversals.begin(), reversals.end(), end))
       {
-        direction = -direction;
-        row       = lever.row(drive.at(end, Drive::Side::after), direction);
+        row = lever.row(drive.at(end, Drive::Side::after));
         hand_on(0.);
       }
     }

@@ -1,10 +1,10 @@
 #include "analysis/map_journal.h"
 
 #include "base/errors.h"
+#include "base/fingerprint.h"
 
 #include <cerrno>
 #include <chrono>
-#include <cinttypes>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -22,20 +22,11 @@ namespace sprag
     constexpr unsigned int lock_attempts = 50;
     constexpr std::chrono::milliseconds lock_pause(100);
 
-    /// FNV-1a.
-    std::uint64_t hash(const std::string &text)
-    {
-      std::uint64_t result = 0xcbf29ce484222325u;
-      for (const char c : text)
-        result = (result ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
-      return result;
-    }
-
     std::string header_of(const std::string &scene)
     {
-      char number[17];
-      std::snprintf(number, sizeof number, "%016" PRIx64, hash(scene));
-      return "sprag " SPRAG_VERSION " map, scene " + std::string(number) + '\n';
+      Fingerprint key;
+      key.add(scene);
+      return "sprag " SPRAG_VERSION " map, scene " + key.text() + '\n';
     }
 
     std::string exact(const double number)
@@ -45,15 +36,21 @@ namespace sprag
       return text;
     }
 
-    // A line ends with this, so that a torn one is told from a whole one.
-    constexpr char end_mark[] = ".\n";
-
-    std::string line_of(const MapSite &site, const MapCell &cell)
+    /// Of a line's numbers, in the journal of a scene.
+    std::string checksum(const std::string &header, const std::string &numbers)
     {
-      std::string line = exact(site.first) + exact(site.second);
+      Fingerprint sum;
+      sum.add(header);
+      sum.add(numbers);
+      return sum.text() + '\n';
+    }
+
+    std::string line_of(const std::string &header, const MapSite &site, const MapCell &cell)
+    {
+      std::string numbers = exact(site.first) + exact(site.second);
       for (const double value : cell.values)
-        line += exact(value);
-      return line + end_mark;
+        numbers += exact(value);
+      return numbers + checksum(header, numbers);
     }
 
     /// With their ends; the last one may lack it.
@@ -66,42 +63,39 @@ namespace sprag
       return lines;
     }
 
-    /// None where the line is not whole.
-    std::optional<std::pair<MapSite, MapCell>> cell_of(const std::string &line)
+    /// None where the line is not as line_of() made it.
+    std::optional<std::pair<MapSite, MapCell>> cell_of(const std::string &header, const std::string &line)
     {
+      const std::size_t behind = line.rfind(' ') + 1; // 0 without a blank
+      if (line.substr(behind) != checksum(header, line.substr(0, behind)))
+        return {};
       const char *at  = line.c_str();
-      const auto next = [&]() -> std::optional<double>
+      const auto next = [&at]
       {
-        char *behind       = nullptr;
-        const double value = std::strtod(at, &behind);
-        if (behind == at || *behind != ' ')
-          return {};
-        at = behind + 1;
+        char *end          = nullptr;
+        const double value = std::strtod(at, &end);
+        at                 = end;
         return value;
       };
-      const auto first = next(), second = next();
+      const double first = next(), second = next();
       MapCell cell{};
       for (double &value : cell.values)
-        if (const auto number = next())
-          value = *number;
-        else
-          return {};
-      if (!first || !second || std::strcmp(at, end_mark) != 0)
-        return {};
-      return std::make_pair(MapSite{ *first, *second }, cell);
+        value = next();
+      return std::make_pair(MapSite{ first, second }, cell);
     }
   } // namespace
 
   MapJournal::MapJournal(const std::string &file_path, const std::string &scene)
       : path(file_path)
       , file(::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666))
+      , header(header_of(scene))
   {
     if (file < 0)
       throw InputError(path + " cannot be written: " + std::strerror(errno));
     try
     {
       lock();
-      read(header_of(scene));
+      read();
     }
     catch (...)
     {
@@ -125,24 +119,24 @@ namespace sprag
     }
   }
 
-  void MapJournal::read(const std::string &header)
+  void MapJournal::read()
   {
     const auto lines  = lines_of(path);
     const bool usable = !lines.empty() && lines.front() == header;
-    std::size_t whole = usable ? header.size() : 0;
-    for (std::size_t i = 1; usable && i < lines.size(); ++i)
-    {
-      const auto cell = cell_of(lines[i]);
-      if (!cell)
-        break;
-      found.insert(*cell);
-      whole += lines[i].size();
-    }
-    other_scene = !lines.empty() && !usable;
-    if (::ftruncate(file, static_cast<off_t>(whole)) != 0)
-      throw InputError(path + " cannot be written: " + std::strerror(errno));
+    other_scene       = !lines.empty() && !usable;
     if (!usable)
-      write(header);
+    {
+      if (::ftruncate(file, 0) != 0)
+        throw InputError(path + " cannot be written: " + std::strerror(errno));
+      return write(header);
+    }
+    for (std::size_t i = 1; i < lines.size(); ++i)
+      if (const auto cell = cell_of(header, lines[i]))
+        found.insert(*cell);
+      else
+        ++damaged;
+    if (lines.back().back() != '\n')
+      write("\n");
   }
 
   const MapCells &MapJournal::cells() const
@@ -155,11 +149,16 @@ namespace sprag
     return other_scene;
   }
 
+  std::size_t MapJournal::damaged_lines() const
+  {
+    return damaged;
+  }
+
   void MapJournal::append(const MapCells &more)
   {
     std::string text;
     for (const auto &[site, cell] : more)
-      text += line_of(site, cell);
+      text += line_of(header, site, cell);
     write(text);
   }
 

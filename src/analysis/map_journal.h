@@ -9,12 +9,12 @@ namespace sprag
   using MapCells = std::map<MapSite, MapCell>;
 
   /// A file of a map's judged cells, so that a map that was killed goes on where it was. A line a cell, every number to the last
-  /// bit. While it is open, no other run can have it.
+  /// bit, with a checksum over the line and the scene. While it is open, no other run can have it.
   class MapJournal
   {
   public:
-    /// Opens the journal and reads the cells in it, or begins one. `scene` is the text of all parameters: cells of another scene,
-    /// or of another version of the program, are dropped. A last line without end is dropped as well. Throws InputError if the
+    /// Opens the journal and reads the cells in it, or begins one. `scene` is the scene_key(): cells of another scene, or of
+    /// another version of the program, are dropped, and so is any line that is not as it was written. Throws InputError if the
     /// file cannot be written or another run keeps it open for more than 5 s.
     MapJournal(const std::string &path, const std::string &scene);
     ~MapJournal();
@@ -28,6 +28,9 @@ namespace sprag
     /// Whether the file held cells of another scene.
     bool dropped() const;
 
+    /// Lines that were not as they had been written.
+    std::size_t damaged_lines() const;
+
     /// Hands the lines to the operating system. Throws AnalysisError if they cannot be written.
     void append(const MapCells &more);
 
@@ -37,11 +40,13 @@ namespace sprag
   private:
     const std::string path;
     int file;
+    std::string header;
     MapCells found;
-    bool other_scene = false;
+    bool other_scene    = false;
+    std::size_t damaged = 0;
 
     void lock();
-    void read(const std::string &header);
+    void read();
     void write(const std::string &text);
   };
 } // namespace sprag

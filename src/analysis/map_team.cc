@@ -2,6 +2,7 @@
 
 #include "base/errors.h"
 #include "base/interrupt.h"
+#include "scene/scene_key.h"
 
 #include <deal.II/base/mpi.h>
 
@@ -71,8 +72,11 @@ namespace sprag
       throw AnalysisError(analysis.front());
   }
 
-  MapTeam::MapTeam(const Scene &scene, MapJournal *first_ranks_journal, std::function<void(std::size_t, std::size_t)> reporter)
-      : own_judge(scene)
+  MapTeam::MapTeam(const Scene &map_scene, MapJournal *first_ranks_journal,
+                   std::function<void(std::size_t, std::size_t)> reporter)
+      : scene(map_scene)
+      , key(scene_key(scene))
+      , own_judge(scene)
       , journal(first_ranks_journal)
       , report(std::move(reporter))
       , kept(own_judge.mesh_parameter())
@@ -131,9 +135,18 @@ namespace sprag
     MapCells all;
     for (const auto &numbers : MPI::all_gather(MPI_COMM_WORLD, packed(batch)))
       all.merge(unpacked(numbers));
-    on_first_rank([&] { journal->append(all); });
+    on_first_rank([&] { keep(all); });
     learn(all);
     return all.size();
+  }
+
+  /// Cells read their input files anew.
+  void MapTeam::keep(const MapCells &cells)
+  {
+    if (scene_key(scene) != key)
+      throw AnalysisError("an input file has changed during the map; the cells judged before are kept for the file as it was: "
+                          "start the map again, with that file or the new one");
+    journal->append(cells);
   }
 
   void MapTeam::learn(const MapCells &cells)

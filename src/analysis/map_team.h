@@ -15,8 +15,8 @@ namespace sprag
     /// cells judged and those asked for.
     MapTeam(const Scene &scene, MapJournal *journal, std::function<void(std::size_t, std::size_t)> report);
 
-    /// Judges what is not known yet. Throws AnalysisError on all ranks when one was asked to end or the journal cannot be
-    /// written; cells finished until then are kept.
+    /// Judges what is not known yet. Throws AnalysisError on all ranks when one was asked to end, an input file has changed since
+    /// the map began or the journal cannot be written; cells finished until then are kept.
     void judge(const std::vector<MapSite> &sites);
 
     const MapCells &cells() const;
@@ -28,6 +28,8 @@ namespace sprag
     CellJudge &cell_judge();
 
   private:
+    const Scene scene;
+    const std::string key; ///< of the scene when the map began
     CellJudge own_judge;
     MapJournal *const journal;
     const std::function<void(std::size_t, std::size_t)> report;
@@ -39,6 +41,7 @@ namespace sprag
     std::vector<MapSite> own_share(const std::vector<MapSite> &sites) const;
     void learn(const MapCells &cells);
     std::size_t share(const MapCells &batch);
+    void keep(const MapCells &cells);
   };
 
   /// Does `work` on rank 0 and throws its InputError or AnalysisError on all ranks.

@@ -17,6 +17,7 @@ namespace sprag
     constexpr double cut                  = 0.25;
     constexpr double stalled_overlap      = 100.; ///< admitted after all augmentations, over the tolerance
     constexpr double largest_speed_change = 0.02; ///< in a step, over the drive's peak speed
+    constexpr double slow                 = 1e-6; ///< as rest, over the drive's peak speed
 
     // The passage through stick after a reversal is about (|F+| + |F-|) / k_t long; its steps are these shares of it.
     constexpr double first_share   = 0.02;
@@ -129,6 +130,12 @@ namespace sprag
       return std::binary_search(drive.reversals().begin(), drive.reversals().end(), time);
     }
 
+    /// A drive that goes back at once from where the cylinder was slid forward.
+    bool begins_backward(const DrivePoint &point)
+    {
+      return point.time == 0. && point.x > 0. && direction_of(point.v) < 0;
+    }
+
     /// Where the contact goes from sliding one way to sliding the other [mm].
     struct Passage
     {
@@ -206,15 +213,17 @@ namespace sprag
       double step; ///< [mm]
     };
 
-    /// The state in which the drive begins: just touching at x = 0, further on as reached by sliding there from x = 0.
+    /// The state in which the drive begins: just touching at x = 0, further on as reached by sliding there from x = 0 at the
+    /// drive's own speed.
     Start begin(Model &model, const Drive &drive, const QuasiStaticSettings &settings)
     {
-      const DrivePoint start = drive.at(0.);
+      const DrivePoint start = drive.at(0., Drive::Side::after);
       Progression now{ model.initial_state({ 0., 0., drive.peak_speed() }), {} };
       const bool pressed = settle(model, now.state, settings);
       if (start.x > 0.)
       {
-        const Drive approach(DriveProfile::triangle, 0., start.x, drive.peak_speed(), 0.5);
+        const double speed = std::max(std::abs(start.v), slow * drive.peak_speed());
+        const Drive approach(DriveProfile::triangle, 0., start.x, speed, 0.5);
         double dx = settings.step;
         for (now.state.drive = approach.at(0.); now.state.drive.time < approach.duration();
              dx              = std::min(settings.step, growth * dx))
@@ -266,7 +275,7 @@ namespace sprag
     Passage passage;
     while (now.state.drive.time < drive.duration())
     {
-      const bool reversed = is_reversal(drive, now.state.drive.time);
+      const bool reversed = is_reversal(drive, now.state.drive.time) || begins_backward(now.state.drive);
       if (reversed)
       {
         const double stiffness = stick_stiffness(model, now.state);

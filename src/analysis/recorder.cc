@@ -1,8 +1,11 @@
 #include "analysis/recorder.h"
 
+#include "analysis/row_warnings.h"
 #include "analysis/transient_report.h"
 #include "base/errors.h"
 #include "base/interrupt.h"
+#include "fe/stress_peaks.h"
+#include "scene/read.h"
 
 #include <deal.II/base/utilities.h>
 
@@ -11,26 +14,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <filesystem>
 #include <gmsh.h>
 #include <iostream>
-#include <unistd.h>
 
 namespace sprag
 {
-  bool wants_fields(const Scene &scene, const DrivePoint &drive, const double travelled, double &last)
-  {
-    if (scene.output.fields == FieldOutput::none)
-      return false;
-    const auto &reversals = scene.drive.reversals();
-    const bool turning =
-        std::binary_search(reversals.begin(), reversals.end(), drive.time) || drive.time >= scene.drive.duration();
-    const bool due = scene.output.fields == FieldOutput::interval && travelled >= last + scene.output.field_interval - 1e-9;
-    if (turning || due)
-      last = travelled;
-    return turning || due;
-  }
-
   double path_length(const Drive &drive)
   {
     double length = 0.;
@@ -41,35 +29,6 @@ namespace sprag
       x = drive.at(time).x;
     }
     return length + std::abs(drive.at(drive.duration()).x - x);
-  }
-
-  void require_writable(const std::string &folder)
-  {
-    namespace fs = std::filesystem;
-    std::error_code ignored;
-    fs::path existing = fs::absolute(folder);
-    while (!fs::exists(existing, ignored) && existing.has_relative_path())
-      existing = existing.parent_path();
-    if (!fs::is_directory(existing, ignored))
-      throw InputError("--output = " + folder + ": " + existing.string() + " is not a folder");
-    // Permissions say little where root asks: only a file that is made tells.
-    std::string trial = (existing / ".sprag-XXXXXX").string();
-    const int file    = ::mkstemp(trial.data());
-    if (file < 0)
-      throw InputError("--output = " + folder + ": " + existing.string() + " cannot be written to");
-    ::close(file);
-    ::unlink(trial.c_str());
-    if (fs::is_directory(fs::path(folder) / "result.h5", ignored))
-      throw InputError("--output = " + folder + ": result.h5 is a folder there");
-  }
-
-  void prepare_folder(const std::string &folder)
-  {
-    require_writable(folder);
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (error)
-      throw InputError("--output = " + folder + ": the folder cannot be made: " + error.message());
   }
 
   std::vector<Entry> process_entries(dealii::TimerOutput &timer)
@@ -96,9 +55,10 @@ namespace sprag
   Recorder::Recorder(const Scene &scene_, const std::string &folder, const bool quiet_, const FacePoints &points)
       : scene(scene_)
       , quiet(quiet_)
-      , file((prepare_folder(folder), folder + "/result.h5"), scene.parameters_text, points,
+      , file((prepare_folder(folder), folder + "/result.h5"), parameters_text(scene), points,
              table_columns(scene.plate, scene.pair))
       , progress(std::cerr, progress_style(quiet), path_length(scene.drive))
+      , stress(no_stress_peaks("the model has no mesh"))
   {
   }
 
@@ -111,7 +71,7 @@ namespace sprag
       travel += std::abs(row[Column::x] - rows.back()[Column::x]);
     rows.push_back(row);
     if (interrupted())
-      throw AnalysisError("interrupted; every finished step is kept");
+      throw AnalysisError(interruption);
     const double iterations = row[Column::iterations];
     progress.update(travel, { row[Column::x], row[Column::P], row[Column::Q],
                               std::isnan(iterations) ? 0u : static_cast<unsigned int>(iterations) });
@@ -122,13 +82,22 @@ namespace sprag
     file.append(face);
   }
 
-  std::vector<Entry> Recorder::finish(const std::string &status, std::vector<Entry> meta)
+  void Recorder::set_stress(std::vector<Entry> peaks)
+  {
+    stress = std::move(peaks);
+  }
+
+  std::vector<Entry> Recorder::finish(const std::string &status, std::vector<Entry> meta, Warnings &warnings)
   {
     progress.finish();
     auto summary = scene.analysis.type == AnalysisType::transient ? transient_summary(scene, rows) : summary_of(scene, rows);
     add_pair(rows, summary);
+    summary.insert(summary.end(), stress.begin(), stress.end());
     summary.push_back({ "status", status, "", "how the run ended" });
-    file.finish(summary, meta);
+    append(warnings, row_warnings(scene, rows));
+    if (scene.analysis.type == AnalysisType::transient)
+      append(warnings, transient_warnings(scene, rows));
+    file.finish(summary, meta, warnings);
     if (!quiet)
     {
       const auto cpu = std::find_if(meta.begin(), meta.end(), [](const Entry &e) { return e.name == "cpu_time"; });

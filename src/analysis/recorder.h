@@ -18,9 +18,12 @@ namespace sprag
 
     void record(const FaceState &face);
 
-    /// Writes summary and meta and prints the table at the end of a run. `status` is "completed" or what went wrong.
-    /// Returns the summary.
-    std::vector<Entry> finish(const std::string &status, std::vector<Entry> meta);
+    /// Peaks of stress for the summary, see StressPeaks; without, they are told as NaN of a model without a mesh.
+    void set_stress(std::vector<Entry> peaks);
+
+    /// Writes summary, meta and warnings, to which it adds those that follow from the rows, and prints the table at the end of a
+    /// run. `status` is "completed" or what went wrong. Returns the summary.
+    std::vector<Entry> finish(const std::string &status, std::vector<Entry> meta, Warnings &warnings);
 
   private:
     const Scene &scene;
@@ -28,11 +31,9 @@ namespace sprag
     ResultFile file;
     Progress progress;
     std::vector<Row> rows;
+    std::vector<Entry> stress;
     double travel = 0.;
   };
-
-  /// Whether the fields at a point of the drive are asked for; `last` is the path at the last frame [mm].
-  bool wants_fields(const Scene &scene, const DrivePoint &drive, double travelled, double &last);
 
   /// Length of the drive's path [mm].
   double path_length(const Drive &drive);

@@ -1,5 +1,6 @@
 #include "analysis/report.h"
 
+#include "analysis/peak_report.h"
 #include "scene/mirrored_pair.h"
 #include "scene/pair_closed_form.h"
 
@@ -7,6 +8,7 @@
 #include <cmath>
 #include <functional>
 #include <iomanip>
+#include <limits>
 #include <ostream>
 #include <stdexcept>
 
@@ -18,23 +20,35 @@ namespace sprag
 
     using Rows = std::vector<const Row *>;
 
-    /// A pair that presses on a cylinder off its middle from the start begins in stick.
-    bool begins_in_stick(const Row &first)
+    int direction_of(const Row &row)
     {
-      return first[Column::P] > 0. && first[Column::friction_resultant] == 0.;
+      return sprag::direction_of(row[Column::v]);
     }
 
-    /// Rows of one direction of motion, without those within `apart` of the last reversal [mm].
+    /// A pair that presses on a cylinder off its middle begins in stick, and so does what goes back at once from where the
+    /// cylinder was slid forward.
+    bool begins_in_stick(const Row &first)
+    {
+      return first[Column::P] > 0. && first[Column::friction_resultant] * direction_of(first) <= 0.;
+    }
+
+    /// Of a table that stands still: what friction is then depends on the motion before.
+    bool rests(const std::vector<Row> &rows, const std::size_t i)
+    {
+      return i > 0 && rows[i][Column::x] == rows[i - 1][Column::x] && rows[i][Column::time] > rows[i - 1][Column::time];
+    }
+
+    /// Rows of one direction of motion, without those within `apart` of the last reversal [mm]; the row of a turning point
+    /// belongs to the stroke that ends there.
     Rows stroke(const std::vector<Row> &rows, const int direction, const double apart)
     {
       Rows result;
       double turned_at = begins_in_stick(rows.front()) ? rows.front()[Column::x] : std::numeric_limits<double>::quiet_NaN();
       for (std::size_t i = 0; i < rows.size(); ++i)
       {
-        const double v = rows[i][Column::v];
-        if (i > 0 && v * rows[i - 1][Column::v] < 0.)
+        if (i > 0 && direction_of(rows[i]) != direction_of(rows[i - 1]))
           turned_at = rows[i - 1][Column::x];
-        if (v * direction > 0. && !(std::abs(rows[i][Column::x] - turned_at) < apart))
+        if (direction_of(rows[i]) == direction && !rests(rows, i) && !(std::abs(rows[i][Column::x] - turned_at) < apart))
           result.push_back(&rows[i]);
       }
       return result;
@@ -54,7 +68,7 @@ namespace sprag
     {
       double result = 0.;
       for (const Row *row : rows)
-        if ((*row)[Column::F] * (*row)[Column::v] >= 0. && std::abs((*row)[column]) > std::abs(result))
+        if ((*row)[Column::F] * direction_of(*row) >= 0. && std::abs((*row)[column]) > std::abs(result))
           result = (*row)[column];
       return result;
     }
@@ -66,14 +80,20 @@ namespace sprag
       return peak > 0. ? off / peak : std::numeric_limits<double>::quiet_NaN();
     }
 
-    /// C of the least-squares fit Q = C x + D x^2 over 0 < x <= 10 mm; NaN with fewer than three rows there.
+    constexpr double largest_change_of_mu = 0.05; ///< over which C_Q has a meaning, over the largest mu
+
+    /// C of the least-squares fit Q = C x + D x^2 over 0 < x <= 10 mm; NaN with fewer than three rows there, or where mu changes
+    /// on the way.
     double slope_at_zero(const Rows &rows)
     {
       double a = 0., b = 0., c = 0., p = 0., q = 0.;
+      double least_mu = std::numeric_limits<double>::infinity(), largest_mu = 0.;
       unsigned int n = 0;
       for (const Row *row : rows)
         if (const double x = (*row)[Column::x]; x > 0. && x <= 10.)
         {
+          least_mu       = std::min(least_mu, (*row)[Column::mu]);
+          largest_mu     = std::max(largest_mu, (*row)[Column::mu]);
           const double Q = (*row)[Column::Q];
           a += x * x;
           b += x * x * x;
@@ -82,7 +102,8 @@ namespace sprag
           q += x * x * Q;
           ++n;
         }
-      return n < 3 ? std::numeric_limits<double>::quiet_NaN() : (p * c - q * b) / (a * c - b * b);
+      const bool changes = largest_mu - least_mu > largest_change_of_mu * largest_mu;
+      return n < 3 || changes ? std::numeric_limits<double>::quiet_NaN() : (p * c - q * b) / (a * c - b * b);
     }
 
     /// Without inertia; a model without a support has none in it.
@@ -114,7 +135,8 @@ namespace sprag
       entries.push_back({ "peak_P_" + way, signed_peak(rows, Column::P), "N", "largest normal force" + on });
       entries.push_back({ "peak_Q_" + way, signed_peak(rows, Column::Q), "N", "largest quasi-friction force" + on });
       if (begins_closed(scene))
-        entries.push_back({ "slope_" + way, slope_at_zero(rows), "N/mm", "C_Q, slope of Q at x = 0 fitted over 10 mm" + on });
+        entries.push_back({ "slope_" + way, slope_at_zero(settled), "N/mm",
+                            "C_Q, slope of Q at x = 0 fitted over 10 mm" + on + "; NaN where mu changes there" });
       const std::string apart = on + ", relative to the stroke's peak, the first 2 mm after a reversal apart";
       entries.push_back({ "deviation_P_" + way, deviation(settled, Column::P, Column::P_closed_form), "1",
                           "largest deviation of P from the closed form" + apart });
@@ -127,8 +149,6 @@ namespace sprag
 
   void add_closed_form(const Scene &scene, Row &row)
   {
-    if (row[Column::v] == 0.)
-      return;
     const double moved = row[Column::support_displacement];
     const double x     = row[Column::x] - (std::isnan(moved) ? 0. : moved);
     const double v     = row[Column::v];
@@ -172,6 +192,7 @@ namespace sprag
         result.push_back(&row);
       return result;
     }();
+    add_largest_pressure(rows, entries);
     const double penetration = largest(all_rows, [](const Row &row) { return row[Column::penetration]; });
     entries.push_back({ "penetration", penetration, "mm", "largest numerical overlap of cylinder and friction face" });
     if (scene.layer.thickness > 0.)

@@ -18,11 +18,11 @@ namespace sprag
       try
       {
         const auto found = judge(scene, maker);
-        return { name, meaning, found.kind, found.growth_rate(), found.frequency() };
+        return { name, meaning, found.kind, found.growth_rate(), found.frequency(), found.motion() };
       }
       catch (const AnalysisError &error)
       {
-        return { name, meaning + "; " + error.what(), SlideKind::jammed, unknown, unknown };
+        return { name, meaning + "; " + error.what(), SlideKind::jammed, unknown, unknown, {} };
       }
     }
 
@@ -31,8 +31,12 @@ namespace sprag
     {
       constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
       const bool unique        = present.slide && present.uniqueness() > 0.;
-      return { "without_inertia", "massless: stable where the equilibrium is unique",
-               unique ? SlideKind::stable : SlideKind::jammed, unknown, unknown };
+      return { "without_inertia",
+               "massless: stable where the equilibrium is unique",
+               unique ? SlideKind::stable : SlideKind::jammed,
+               unknown,
+               unknown,
+               {} };
     }
   } // namespace
 

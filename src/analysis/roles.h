@@ -13,6 +13,7 @@ namespace sprag
     SlideKind kind     = SlideKind::jammed;
     double growth_rate = 0.; ///< [1/s]; NaN where there is none to tell
     double frequency   = 0.; ///< [Hz]
+    std::string motion;      ///< of a pair's most unstable mode, see SlideStability::motion()
   };
 
   /// What flexure, inertia, mu'(v), damping and a sprung support do to the slide: each left out alone.

@@ -2,6 +2,7 @@
 
 #include "analysis/closed_form.h"
 #include "analysis/contact_law.h"
+#include "analysis/field_recorder.h"
 #include "analysis/jamming.h"
 #include "analysis/prepared_scene.h"
 #include "analysis/quasi_static.h"
@@ -11,13 +12,13 @@
 #include "analysis/run_sprag_slip.h"
 #include "analysis/run_stability.h"
 #include "analysis/run_transient.h"
+#include "analysis/scene_warnings.h"
 #include "analysis/slope.h"
 #include "base/errors.h"
-#include "fe/field_frames.h"
-#include "fe/leaf_frames.h"
 #include "fe/mirrored_levers.h"
 #include "scene/closed_form.h"
 #include "scene/mirrored_pair.h"
+#include "scene/read.h"
 
 #include <deal.II/base/mpi.h>
 
@@ -33,19 +34,19 @@ namespace sprag
   {
     using Timer = dealii::TimerOutput;
 
-    void run_slope(const Scene &scene, const RunOptions &options)
+    void run_slope(const Scene &scene, const RunOptions &options, const Warnings &warnings)
     {
       Timer timer(std::cout, Timer::never, Timer::cpu_and_wall_times);
       const auto sweep = slope_sweep(scene);
       prepare_folder(options.folder);
-      ResultFile file(options.folder + "/result.h5", scene.parameters_text, {}, sweep.columns);
+      ResultFile file(options.folder + "/result.h5", parameters_text(scene), {}, sweep.columns);
       for (const auto &row : sweep.rows)
         file.append(row);
       const double mu                  = friction_coefficient(scene.friction, scene.drive.peak_speed()).coefficient;
       const std::vector<Entry> summary = { { "critical_inclination", critical_inclination(mu), "rad",
                                              "th0B = atan mu: steeper, the backward stroke no longer damps" },
                                            { "status", std::string("completed"), "", "how the run ended" } };
-      file.finish(summary, process_entries(timer));
+      file.finish(summary, process_entries(timer), warnings);
       if (!options.quiet)
         print_summary(std::cout, summary);
     }
@@ -69,13 +70,13 @@ namespace sprag
                 << "\n  set Exponent  = " << law.fit.exponent << "\nend\n";
     }
 
-    void run_contact_law(const Scene &scene, const RunOptions &options)
+    void run_contact_law(const Scene &scene, const RunOptions &options, const Warnings &warnings)
     {
       Timer timer(std::cout, Timer::never, Timer::cpu_and_wall_times);
       require_writable(options.folder);
       const auto law = indent(scene);
       prepare_folder(options.folder);
-      ResultFile file(options.folder + "/result.h5", scene.parameters_text, {},
+      ResultFile file(options.folder + "/result.h5", parameters_text(scene), {},
                       { { "P", "N", "normal force" },
                         { "approach", "mm", "overlap of the cylinder with the undeformed lever" },
                         { "bending", "mm", "deflection of the Euler-Bernoulli lever at the contact" },
@@ -85,7 +86,7 @@ namespace sprag
         file.append(std::vector<double>{ point.P, point.approach, point.bending, point.local(),
                                          law.fit.stiffness * std::pow(point.local(), law.fit.exponent) });
       const auto summary = contact_law_entries(law);
-      file.finish(summary, process_entries(timer));
+      file.finish(summary, process_entries(timer), warnings);
       if (!options.quiet)
       {
         print_summary(std::cout, summary);
@@ -109,7 +110,7 @@ namespace sprag
 
     /// Runs `steps`, finishes the record whatever happens and hands a failure on.
     template <typename Steps, typename Meta>
-    void record_run(const Scene &scene, Recorder &recorder, const Steps &steps, const Meta &meta)
+    void record_run(const Scene &scene, Recorder &recorder, Warnings &warnings, const Steps &steps, const Meta &meta)
     {
       try
       {
@@ -117,18 +118,18 @@ namespace sprag
       }
       catch (const AnalysisError &error)
       {
-        recorder.finish(error.what(), meta());
+        recorder.finish(error.what(), meta(), warnings);
         throw;
       }
-      check_deviation(scene, recorder.finish("completed", meta()));
+      check_deviation(scene, recorder.finish("completed", meta(), warnings));
     }
 
-    void run_closed_form_model(const Scene &scene, const RunOptions &options)
+    void run_closed_form_model(const Scene &scene, const RunOptions &options, Warnings &warnings)
     {
       Timer timer(std::cout, Timer::never, Timer::cpu_and_wall_times);
       Recorder recorder(scene, options.folder, options.quiet, {});
       record_run(
-          scene, recorder, [&] { run_closed_form(scene, [&](const Row &row) { recorder.record(row); }); },
+          scene, recorder, warnings, [&] { run_closed_form(scene, [&](const Row &row) { recorder.record(row); }); },
           [&] { return process_entries(timer); });
     }
 
@@ -157,6 +158,17 @@ namespace sprag
                 << std::flush;
     }
 
+    void try_mesh(const Scene &scene)
+    {
+      const bool inertia = scene.analysis.type != AnalysisType::quasi_static;
+      const bool meshed =
+          scene.analysis.model == ModelType::finite_element || (inertia && scene.analysis.model == ModelType::condensed);
+      if (scene.analysis.type == AnalysisType::slope || (!meshed && scene.analysis.type != AnalysisType::contact_law))
+        return;
+      dealii::Triangulation<2> triangulation;
+      make_mesh(scene, triangulation);
+    }
+
     /// Of the lever of a pair that is closer to jamming.
     JammingMargin least_margin(const Scene &scene, const bool flexible)
     {
@@ -170,7 +182,7 @@ namespace sprag
       };
       const auto first  = of_lever(0);
       const auto second = of_lever(1);
-      return first.s - first.mu_e <= second.s - second.mu_e ? first : second;
+      return first.margin() <= second.margin() ? first : second;
     }
 
     /// Before every run in which a cylinder is put somewhere, once nothing is left for which it could be refused.
@@ -180,7 +192,7 @@ namespace sprag
         return;
       require_writable(options.folder);
       if (!scene.mesh.file.empty())
-        validate(scene);
+        try_mesh(scene);
       if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) != 0)
         return;
       const ModelType model = scene.analysis.model;
@@ -198,49 +210,42 @@ namespace sprag
       return model.lever(0);
     }
 
-    State state_of_first(const LeverModel &, const State &state)
+    FieldRecorder::Displacements recovery(const LeverModel &model, const State &state)
     {
-      return state;
+      return [find = model.recovery(state)] { return std::vector<dealii::Vector<double>>{ find() }; };
     }
 
-    State state_of_first(const MirroredLevers &model, const State &state)
+    FieldRecorder::Displacements recovery(const MirroredLevers &model, const State &state)
     {
-      return model.state_of(0, state);
+      return [first  = model.lever(0).recovery(model.state_of(0, state)),
+              second = model.lever(1).recovery(model.state_of(1, state))] {
+        return std::vector<dealii::Vector<double>>{ first(), second() };
+      };
     }
 
-    /// Pictures of the fields show the first lever of a pair.
     template <typename Levers>
-    void drive_levers(const Scene &scene, const RunOptions &options, Timer &timer, Levers &levers)
+    void drive_levers(const Scene &scene, const RunOptions &options, Timer &timer, Levers &levers, Warnings &warnings)
     {
       const LeverModel &shown = first_lever(levers);
       Recorder recorder(scene, options.folder, options.quiet, levers.face_points());
       if (!options.quiet)
         print_model(scene, shown);
-      auto meta = model_entries(scene, shown);
-      std::optional<FieldFrames> frames;
-      if (scene.output.fields != FieldOutput::none)
-        frames.emplace(shown.elastic_body(), options.folder);
-      std::optional<LeafFrames> leaf_frames;
-      if (frames && scene.spring.type == SpringType::leaf)
-        leaf_frames.emplace(scene, options.folder);
+      auto meta             = model_entries(scene, shown);
+      const bool has_frames = scene.output.fields != FieldOutput::none;
+      FieldRecorder fields(scene, shown.elastic_body(), has_frames ? std::optional(options.folder) : std::nullopt, timer);
 
-      double travelled = 0., last_frame = 0., x = scene.drive.at(0.).x, stick = 0.;
+      double stick     = 0.;
       const auto write = [&](const State &state, const Row &row)
       {
         const Timer::Scope scope(timer, "output");
+        const auto face = levers.face_state(state);
         recorder.record(row);
-        recorder.record(levers.face_state(state));
-        travelled += std::abs(state.drive.x - x);
-        x = state.drive.x;
-        if (!wants_fields(scene, state.drive, travelled, last_frame))
-          return;
-        frames->write(shown.body_displacement(state_of_first(levers, state)), state.drive.time);
-        if (leaf_frames)
-          leaf_frames->write(row[Column::theta], state.drive.time);
+        recorder.record(face);
+        fields.record(row, face, [&] { return recovery(levers, state); });
       };
       QuasiStaticSettings settings{ scene.analysis.step, scene.analysis.minimum_step, scene.contact };
       record_run(
-          scene, recorder,
+          scene, recorder, warnings,
           [&]
           {
             const Timer::Scope scope(timer, "steps_and_output");
@@ -248,6 +253,7 @@ namespace sprag
           },
           [&]
           {
+            recorder.set_stress(fields.finish());
             meta.push_back(
                 { "stick_stiffness", stick, "N/mm",
                   "tangential stiffness of layer and penalty in stick at the first reversal, of both levers of a pair" });
@@ -257,7 +263,7 @@ namespace sprag
           });
     }
 
-    void run_finite_element(const Scene &scene, const RunOptions &options)
+    void run_finite_element(const Scene &scene, const RunOptions &options, Warnings &warnings)
     {
       Timer timer(std::cout, Timer::never, Timer::cpu_and_wall_times);
       require_writable(options.folder);
@@ -276,48 +282,73 @@ namespace sprag
           lever.emplace(triangulation, lever_properties(scene));
       }
       if (pair)
-        drive_levers(scene, options, timer, *pair);
+        drive_levers(scene, options, timer, *pair, warnings);
       else
-        drive_levers(scene, options, timer, *lever);
+        drive_levers(scene, options, timer, *lever, warnings);
+    }
+
+    void carry_out(const Scene &scene, const RunOptions &options, Warnings &warnings)
+    {
+      switch (scene.analysis.type)
+      {
+      case AnalysisType::quasi_static:
+        return scene.analysis.model == ModelType::closed_form ? run_closed_form_model(scene, options, warnings)
+                                                              : run_finite_element(scene, options, warnings);
+      case AnalysisType::slope:
+        return run_slope(scene, options, warnings);
+      case AnalysisType::transient:
+        return run_transient_scene(scene, options, warnings);
+      case AnalysisType::contact_law:
+        return run_contact_law(scene, options, warnings);
+      case AnalysisType::modal:
+      case AnalysisType::stability:
+        return run_vibrations(scene, options, warnings);
+      case AnalysisType::map:
+        return run_map(scene, options, warnings);
+      case AnalysisType::sprag_slip:
+        return run_sprag_slip(scene, options, warnings);
+      case AnalysisType::calibration:
+        return run_calibration(scene, options, warnings);
+      }
+    }
+
+    /// Warnings and, in the last line, their number; by the first process alone.
+    void print_end(const std::string &end, const Warnings &warnings, const bool quiet)
+    {
+      if (!quiet && dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+        std::cout << text_of(warnings) << end << count_text(warnings) << std::endl;
     }
   } // namespace
 
-  void validate(const Scene &given)
+  Warnings validate(const Scene &given)
   {
-    const Scene scene  = prepared(given);
-    const bool inertia = scene.analysis.type != AnalysisType::quasi_static;
-    const bool meshed =
-        scene.analysis.model == ModelType::finite_element || (inertia && scene.analysis.model == ModelType::condensed);
-    if (scene.analysis.type == AnalysisType::slope || (!meshed && scene.analysis.type != AnalysisType::contact_law))
-      return;
-    dealii::Triangulation<2> triangulation;
-    make_mesh(scene, triangulation);
+    const Scene scene = prepared(given);
+    try_mesh(scene);
+    return scene_warnings(scene);
+  }
+
+  void check_warnings(const Scene &scene, const Warnings &warnings)
+  {
+    if (scene.analysis.warnings == WarningTreatment::error && !warnings.empty())
+      throw AnalysisError("Analysis/Warnings = error: " + count_text(warnings) + ". The first says: " + warnings.front().found +
+                          ' ' + warnings.front().remedy);
   }
 
   void run(const Scene &given, const RunOptions &options)
   {
     const Scene scene = prepared(given);
     announce_margin(scene, options);
-    switch (scene.analysis.type)
+    Warnings warnings = scene_warnings(scene);
+    try
     {
-    case AnalysisType::quasi_static:
-      return scene.analysis.model == ModelType::closed_form ? run_closed_form_model(scene, options)
-                                                            : run_finite_element(scene, options);
-    case AnalysisType::slope:
-      return run_slope(scene, options);
-    case AnalysisType::transient:
-      return run_transient_scene(scene, options);
-    case AnalysisType::contact_law:
-      return run_contact_law(scene, options);
-    case AnalysisType::modal:
-    case AnalysisType::stability:
-      return run_vibrations(scene, options);
-    case AnalysisType::map:
-      return run_map(scene, options);
-    case AnalysisType::sprag_slip:
-      return run_sprag_slip(scene, options);
-    case AnalysisType::calibration:
-      return run_calibration(scene, options);
+      carry_out(scene, options, warnings);
     }
+    catch (const AnalysisError &)
+    {
+      print_end("failed, ", warnings, options.quiet);
+      throw;
+    }
+    print_end("completed, ", warnings, options.quiet);
+    check_warnings(scene, warnings);
   }
 } // namespace sprag

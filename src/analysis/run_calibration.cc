@@ -25,7 +25,7 @@ namespace sprag
     void write_scene(const std::string &file, const std::string &purpose, const Scene &scene)
     {
       std::ofstream stream(file);
-      stream << "# " << purpose << '\n' << scene.parameters_text;
+      stream << "# " << purpose << '\n' << parameters_text(scene);
       stream.close();
       if (!stream)
         throw AnalysisError(file + " cannot be written");
@@ -91,7 +91,7 @@ namespace sprag
     }
   } // namespace
 
-  void run_calibration(const Scene &scene, const RunOptions &options)
+  void run_calibration(const Scene &scene, const RunOptions &options, Warnings &warnings)
   {
     dealii::TimerOutput timer(std::cout, dealii::TimerOutput::never, dealii::TimerOutput::cpu_and_wall_times);
     require_writable(options.folder);
@@ -104,7 +104,7 @@ namespace sprag
     prepare_folder(options.folder);
     write_scene(options.folder + "/calibrated.prm", "Calibrated parts, in time, condensed", calibrated);
     write_scene(options.folder + "/beam.prm", "The beam calibrated by their mesh, in time", beam);
-    ResultFile file(options.folder + "/result.h5", scene.parameters_text, {}, columns());
+    ResultFile file(options.folder + "/result.h5", parameters_text(scene), {}, columns());
     for (const auto &point : found.sliding)
       file.append(std::vector<double>{ point.x, point.direction, point.forces[0].P, point.forces[1].P, point.forces[0].Q,
                                        point.forces[1].Q });
@@ -112,7 +112,7 @@ namespace sprag
     for (const auto &entry : disagreement_entries(found))
       summary.push_back(entry);
     summary.push_back({ "status", std::string("completed"), "", "how the run ended" });
-    file.finish(summary, process_entries(timer));
+    file.finish(summary, process_entries(timer), warnings);
     if (options.quiet)
       return;
     print_summary(std::cout, summary);

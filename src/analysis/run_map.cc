@@ -4,6 +4,8 @@
 #include "analysis/recorder.h"
 #include "base/errors.h"
 #include "base/progress.h"
+#include "scene/read.h"
+#include "scene/scene_key.h"
 #include "scene/sections.h"
 
 #include <deal.II/base/mpi.h>
@@ -205,15 +207,15 @@ namespace sprag
     }
 
     void write_map(const Scene &scene, const RunOptions &options, const StabilityMap &map, const MapCells &cells,
-                   const std::string &status, const std::vector<Entry> &meta)
+                   const std::string &status, const std::vector<Entry> &meta, const Warnings &warnings)
     {
       const Group group = map_group(scene, map.grid, cells);
       auto summary      = summary_of_map(map, group, cells.size());
       summary.push_back({ "status", status, "", "how the run ended" });
-      ResultFile file(options.folder + "/result.h5", scene.parameters_text, {}, boundary_columns(scene.map));
+      ResultFile file(options.folder + "/result.h5", parameters_text(scene), {}, boundary_columns(scene.map));
       for (const auto &point : map.boundary)
         file.append(boundary_row(scene.map, point));
-      file.finish(summary, meta, { group });
+      file.finish(summary, meta, warnings, { group });
       if (!options.quiet)
         print_summary(std::cout, summary);
     }
@@ -222,12 +224,14 @@ namespace sprag
     {
       if (journal.dropped())
         progress.say("map.journal is of another scene or version: begun anew");
+      if (const auto damaged = journal.damaged_lines(); damaged > 0)
+        std::cerr << "map.journal: damaged lines dropped, their cells are judged again: " << damaged << std::endl;
       if (!journal.cells().empty())
         progress.say("map.journal: " + std::to_string(journal.cells().size()) + " cells taken over");
     }
   } // namespace
 
-  void run_map(const Scene &scene, const RunOptions &options)
+  void run_map(const Scene &scene, const RunOptions &options, Warnings &warnings)
   {
     const auto begin = std::chrono::steady_clock::now();
     MapProgress progress(options.quiet || !is_first_rank());
@@ -236,7 +240,7 @@ namespace sprag
         [&]
         {
           prepare_folder(options.folder);
-          journal.emplace(options.folder + "/map.journal", scene.parameters_text);
+          journal.emplace(options.folder + "/map.journal", scene_key(scene));
           announce(*journal, progress);
         });
     MapTeam team(scene, journal ? &*journal : nullptr,
@@ -254,7 +258,7 @@ namespace sprag
     progress.finish();
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
     const auto meta                             = cost_of_map(team, seconds.count());
-    on_first_rank([&] { write_map(scene, options, map, team.cells(), status, meta); });
+    on_first_rank([&] { write_map(scene, options, map, team.cells(), status, meta, warnings); });
     if (status != "completed")
       throw AnalysisError(status);
     on_first_rank([&] { journal->remove(); });

@@ -1,11 +1,13 @@
 #include "analysis/run_sprag_slip.h"
 
 #include "analysis/recorder.h"
+#include "analysis/row_warnings.h"
 #include "analysis/sprag_slip_report.h"
 #include "analysis/transient_report.h"
 #include "base/errors.h"
 #include "base/text.h"
 #include "scene/held_slide.h"
+#include "scene/read.h"
 
 #include <cmath>
 #include <deque>
@@ -45,6 +47,8 @@ namespace sprag
       {
         row[Column::P_quasi_static] = slide.forces.P;
         row[Column::Q_quasi_static] = slide.forces.Q;
+        if (!(row[Column::P] <= highest[Column::P]))
+          highest = row;
         if (kept > 0)
           last.push_back(row);
         if (last.size() > kept)
@@ -55,6 +59,12 @@ namespace sprag
         }
         else if (kept == 0 && count++ % every == 0)
           file.append(row);
+      }
+
+      /// The one with the largest P.
+      const Row &largest() const
+      {
+        return highest;
       }
 
       /// Writes the rows kept and returns the first one's time, NaN if there are none [s].
@@ -73,6 +83,7 @@ namespace sprag
       unsigned long every = 1, count = 0;
       std::size_t kept = 0;
       std::deque<Row> last;
+      Row highest;
     };
 
     void require_slide(const SpragSlip &found, const double x)
@@ -92,12 +103,14 @@ namespace sprag
     class Study
     {
     public:
-      Study(const Scene &scene_, DynamicModel &model_, ResultFile &file, Progress &progress_, SpragSlip &found_)
+      Study(const Scene &scene_, DynamicModel &model_, ResultFile &file, Progress &progress_, SpragSlip &found_,
+            Warnings &warnings_)
           : scene(scene_)
           , settings(scene_.sprag_slip)
           , model(model_)
           , progress(progress_)
           , found(found_)
+          , warnings(warnings_)
           , rows(file, *found_.slide.slide)
           , dt(step_of(watched_mode(found_.slide), settings))
           , run(model, dt)
@@ -127,6 +140,7 @@ namespace sprag
       DynamicModel &model;
       Progress &progress;
       SpragSlip &found;
+      Warnings &warnings;
       Rows rows;
       const double dt;
       HeldRun run;
@@ -189,6 +203,8 @@ namespace sprag
       {
         found.ledger = run.ledger();
         found.steps  = run.steps();
+        for (const Warning &warning : row_warnings(scene, { rows.largest() }))
+          warnings.push_back(warning);
       }
     };
 
@@ -200,24 +216,24 @@ namespace sprag
     }
 
     void finish(const Scene &scene, const SpragSlip &found, const std::string &status, ResultFile &file, Timer &timer,
-                const bool quiet)
+                const Warnings &warnings, const bool quiet)
     {
       auto summary = sprag_slip_summary(found);
       summary.push_back({ "status", status, "", "how the run ended" });
-      file.finish(summary, process_entries(timer), sprag_slip_groups(found, scene.sprag_slip));
+      file.finish(summary, process_entries(timer), warnings, sprag_slip_groups(found, scene.sprag_slip));
       if (!quiet)
         print_summary(std::cout, summary);
     }
   } // namespace
 
-  void run_sprag_slip(const Scene &scene, const RunOptions &options)
+  void run_sprag_slip(const Scene &scene, const RunOptions &options, Warnings &warnings)
   {
     require_writable(options.folder);
     DynamicsMaker maker;
     const Scene held    = held_scene(scene);
     const auto dynamics = maker.make(held);
     prepare_folder(options.folder);
-    ResultFile file(options.folder + "/result.h5", scene.parameters_text, {}, table_columns(scene.plate, scene.pair));
+    ResultFile file(options.folder + "/result.h5", parameters_text(scene), {}, table_columns(scene.plate, scene.pair));
     Progress progress(std::cerr, progress_style(options.quiet), parts_of(scene.sprag_slip));
     SpragSlip found;
     try
@@ -227,16 +243,16 @@ namespace sprag
       found.slide      = judge(dynamics.model(), drive, scene.stability.modes);
       require_slide(found, drive.x);
       found.exact = linearised_exactly(held.friction, found.slide.slide->speed);
-      Study(scene, dynamics.model(), file, progress, found).carry_out();
+      Study(scene, dynamics.model(), file, progress, found, warnings).carry_out();
       check_ledger(scene, found.ledger);
     }
     catch (const AnalysisError &error)
     {
       progress.finish();
-      finish(scene, found, error.what(), file, maker.timer(), options.quiet);
+      finish(scene, found, error.what(), file, maker.timer(), warnings, options.quiet);
       throw;
     }
     progress.finish();
-    finish(scene, found, "completed", file, maker.timer(), options.quiet);
+    finish(scene, found, "completed", file, maker.timer(), warnings, options.quiet);
   }
 } // namespace sprag

@@ -2,13 +2,15 @@
 
 #include "analysis/recorder.h"
 #include "analysis/report.h"
+#include "analysis/row_warnings.h"
 #include "analysis/vibration_report.h"
 #include "base/errors.h"
 #include "base/progress.h"
 #include "base/text.h"
-#include "fe/field_frames.h"
+#include "fe/mode_frames.h"
 #include "model/growth.h"
 #include "scene/held_slide.h"
+#include "scene/read.h"
 
 #include <algorithm>
 #include <iostream>
@@ -42,17 +44,17 @@ namespace sprag
     {
     public:
       Output(const Scene &scene, const RunOptions &options)
-          : file((prepare_folder(options.folder), options.folder + "/result.h5"), scene.parameters_text, {}, {})
+          : file((prepare_folder(options.folder), options.folder + "/result.h5"), parameters_text(scene), {}, {})
       {
       }
 
-      void finish(std::vector<Entry> summary, const std::vector<Entry> &facts, DynamicsMaker &maker,
+      void finish(std::vector<Entry> summary, const std::vector<Entry> &facts, DynamicsMaker &maker, const Warnings &warnings,
                   const std::vector<Group> &groups)
       {
         summary.push_back({ "status", "completed", "", "how the run ended" });
         auto meta = process_entries(maker.timer());
         meta.insert(meta.end(), facts.begin(), facts.end());
-        file.finish(summary, meta, groups);
+        file.finish(summary, meta, warnings, groups);
       }
 
     private:
@@ -64,6 +66,7 @@ namespace sprag
       std::vector<Entry> summary;
       std::vector<Entry> meta; ///< of the mesh, if there is one
       std::vector<Group> groups;
+      Warnings warnings;
     };
 
     std::vector<Entry> meshed_entries(const Dynamics &dynamics)
@@ -84,20 +87,40 @@ namespace sprag
       return find();
     }
 
-    /// Real parts of the modes as fields for ParaView, number i at time i, the largest displacement a tenth of the lever's depth.
-    void write_fields(const Scene &scene, const Dynamics &dynamics, const std::vector<Eigenmode> &modes,
+    DevicePose pose_of_slide(const Scene &scene, const DynamicModel &model, const HeldSlide &slide)
+    {
+      Row row;
+      row[Column::x] = slide.drive.x;
+      model.observe(slide.motion, row);
+      auto pose = pose_of(row);
+      // A slide is held in the axes of the pivot frame.
+      pose.support = 0.;
+      pose.x       = held_drive(scene).x;
+      return pose;
+    }
+
+    /// The modes as fields for ParaView, mode-01.xdmf, ...
+    void write_fields(const Scene &scene, const Dynamics &dynamics, const DevicePose &held, const std::vector<Eigenmode> &modes,
                       const std::string &folder)
     {
       if (!dynamics.lever || scene.output.fields == FieldOutput::none)
         return;
       prepare_folder(folder);
-      FieldFrames frames(*dynamics.lever->body, folder);
-      double number = 0.;
+      remove_field_files(folder);
+      const BodyFields fields(*dynamics.lever->body);
+      unsigned int number = 0;
       for (const auto &mode : modes)
       {
-        auto displacement = dynamics.meshed.elastic_displacement(as_motion(mode.mode, 0));
-        displacement *= 0.1 * scene.lever.depth / displacement.linfty_norm();
-        frames.write(displacement, ++number);
+        const auto lambda = mode.mode.eigenvalue;
+        const auto shape  = dynamics.model().mode_shape(mode);
+        DeviceMode told{ lambda.imag() / (2. * M_PI), lambda.real(), {}, shape.support };
+        for (unsigned int lever = 0; lever < shape.levers.size(); ++lever)
+        {
+          const auto part = [&](const unsigned int i)
+          { return dynamics.meshed.elastic_displacement(as_motion(mode.mode, i), lever); };
+          told.levers.push_back({ { { part(0), part(1) } }, shape.levers[lever].rotation });
+        }
+        write_mode(scene, fields, held, told, ++number, folder);
       }
     }
 
@@ -124,7 +147,7 @@ namespace sprag
         result.summary.push_back({ "frequency_" + std::to_string(i + 1), modes[i].mode.eigenvalue.imag() / (2. * M_PI), "Hz",
                                    "of the undamped mode" });
       result.groups = { mode_group(modes, model) };
-      write_fields(scene, dynamics, modes, options.folder);
+      write_fields(scene, dynamics, pose_of_slide(scene, model, *slide), modes, options.folder);
       return result;
     }
 
@@ -144,8 +167,11 @@ namespace sprag
         result.meta         = meshed_entries(dynamics);
         const auto modes    = reported(found.modes, scene.stability.modes);
         result.groups       = { mode_group(modes, dynamics.model()) };
-        write_fields(scene, dynamics, modes, options.folder);
+        if (found.slide)
+          write_fields(scene, dynamics, pose_of_slide(scene, dynamics.model(), *found.slide), modes, options.folder);
         result.summary = slide_entries(found);
+        if (found.slide)
+          result.warnings = slide_warnings(scene, found.slide->drive, found.slide->forces.P, found.slide->indentation);
         if (!options.quiet)
         {
           print_summary(std::cout, result.summary);
@@ -171,12 +197,13 @@ namespace sprag
     }
   } // namespace
 
-  void run_vibrations(const Scene &scene, const RunOptions &options)
+  void run_vibrations(const Scene &scene, const RunOptions &options, Warnings &warnings)
   {
     require_writable(options.folder);
     DynamicsMaker maker;
     const bool undamped = scene.analysis.type == AnalysisType::modal;
     const auto found    = undamped ? modal(scene, maker, options) : stability(scene, maker, options);
-    Output(scene, options).finish(found.summary, found.meta, maker, found.groups);
+    warnings.insert(warnings.end(), found.warnings.begin(), found.warnings.end());
+    Output(scene, options).finish(found.summary, found.meta, maker, warnings, found.groups);
   }
 } // namespace sprag

@@ -1,5 +1,6 @@
 #include "analysis/stability.h"
 
+#include "model/mirroring.h"
 #include "scene/held_slide.h"
 
 #include <algorithm>
@@ -56,6 +57,20 @@ namespace sprag
     return slide ? slide->uniqueness : std::numeric_limits<double>::quiet_NaN();
   }
 
+  std::string SlideStability::motion() const
+  {
+    constexpr double pure = 0.99;
+    if (modes.empty() || std::isnan(worst_mode().mirroring))
+      return "";
+    const auto is_other = [this](const Eigenmode &mode)
+    { return are_tied(mode.mode, worst_mode().mode) && mode.mirroring * worst_mode().mirroring < 0.; };
+    if (std::any_of(modes.begin(), modes.end(), is_other))
+      return "either";
+    if (std::abs(worst_mode().mirroring) < pure)
+      return "mixed";
+    return worst_mode().mirroring > 0. ? "mirroring" : "swinging";
+  }
+
   SlideStability judge(DynamicModel &model, const DrivePoint &drive, const unsigned int modes)
   {
     SlideStability result;
@@ -70,9 +85,11 @@ namespace sprag
       const bool b_grows = growth(b) > smallest_growth;
       return a_grows == b_grows ? a.mode.eigenvalue.real() < b.mode.eigenvalue.real() : b_grows;
     };
-    result.worst =
-        static_cast<std::size_t>(std::max_element(result.modes.begin(), result.modes.end(), is_worse) - result.modes.begin());
-    result.kind = kind_of(*result.slide, result.worst_mode().mode.eigenvalue);
+    const auto worst = std::max_element(result.modes.begin(), result.modes.end(), is_worse);
+    const auto first =
+        std::find_if(result.modes.begin(), worst, [&](const Eigenmode &mode) { return are_tied(mode.mode, worst->mode); });
+    result.worst = static_cast<std::size_t>(first - result.modes.begin());
+    result.kind  = kind_of(*result.slide, result.worst_mode().mode.eigenvalue);
     return result;
   }
 

@@ -24,12 +24,16 @@ namespace sprag
     SlideKind kind = SlideKind::jammed;
     std::optional<HeldSlide> slide; ///< none where there is no equilibrium
     std::vector<Eigenmode> modes;   ///< by increasing |lambda|; empty without equilibrium
-    std::size_t worst = 0;          ///< of the modes, the one with the largest growth rate
+    std::size_t worst = 0;          ///< of the modes, the one with the largest growth rate, the first of those that tie
 
     const Eigenmode &worst_mode() const;
     double growth_rate() const; ///< largest Re lambda [1/s]; NaN without equilibrium
     double frequency() const;   ///< of that mode [Hz]; NaN without equilibrium
     double uniqueness() const;  ///< see HeldSlide; NaN without equilibrium
+
+    /// How a pair's levers move in that mode: "mirroring", "swinging", "either" where a mode of each kind has its eigenvalue,
+    /// "mixed" of levers that differ. Empty for one lever and without equilibrium.
+    std::string motion() const;
   };
 
   /// Growth above this share of |lambda| counts as such; below is round-off.

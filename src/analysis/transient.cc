@@ -37,7 +37,8 @@ namespace sprag
       return row;
     }
 
-    /// Steady sliding without inertia along the drive, computed where x or v has changed enough and joined by lines.
+    /// Steady sliding without inertia along the drive, computed where x or v has changed enough and joined by lines; a jump where
+    /// it turns.
     class QuasiStaticCurve
     {
     public:
@@ -46,14 +47,21 @@ namespace sprag
           , drive(prescribed)
           , spacing(largest_spacing)
       {
-        add(0.);
+        add(drive.at(0., Drive::Side::after));
       }
 
       /// Evaluates the model: to be called before the step to that time.
       void extend(const double time)
       {
         while (samples.back().time < time)
-          add(next(samples.back().time));
+        {
+          const double end  = next(samples.back().time);
+          const auto before = drive.at(end, Drive::Side::before);
+          const auto after  = drive.at(end, Drive::Side::after);
+          add(before);
+          if (direction_of(after.v) != direction_of(before.v))
+            add(after);
+        }
       }
 
       void fill(Row &row) const
@@ -74,10 +82,10 @@ namespace sprag
         double time, P, Q;
       };
 
-      void add(const double time)
+      void add(const DrivePoint &point)
       {
-        const auto forces = model.sliding_forces(drive.at(time, Drive::Side::after));
-        samples.push_back(forces ? Sample{ time, forces->P, forces->Q } : Sample{ time, std::nan(""), std::nan("") });
+        const auto forces = model.sliding_forces(point);
+        samples.push_back(forces ? Sample{ point.time, forces->P, forces->Q } : Sample{ point.time, std::nan(""), std::nan("") });
       }
 
       double next(const double time) const

@@ -1,6 +1,7 @@
 #include "analysis/transient_report.h"
 
 #include "analysis/oscillation.h"
+#include "analysis/peak_report.h"
 #include "base/errors.h"
 #include "base/text.h"
 #include "scene/contact_reference.h"
@@ -30,11 +31,11 @@ namespace sprag
     }
 
     /// Value of largest size while moving one way.
-    double peak(const std::vector<Row> &rows, const Column column, const double direction)
+    double peak(const std::vector<Row> &rows, const Column column, const int direction)
     {
       double result = 0.;
       for (const Row &row : rows)
-        if (row[Column::v] * direction > 0. && std::abs(row[column]) > std::abs(result))
+        if (direction_of(row[Column::v]) == direction && std::abs(row[column]) > std::abs(result))
           result = row[column];
       return result;
     }
@@ -49,7 +50,7 @@ namespace sprag
 
     void add_peaks(const std::vector<Row> &rows, std::vector<Entry> &entries)
     {
-      for (const auto &[direction, way] : { std::pair<double, std::string>{ 1., "forward" }, { -1., "backward" } })
+      for (const auto &[direction, way] : { std::pair<int, std::string>{ 1, "forward" }, { -1, "backward" } })
       {
         const std::string on = " while moving " + way;
         entries.push_back({ "peak_P_" + way, peak(rows, Column::P, direction), "N", "largest normal force" + on });
@@ -99,7 +100,21 @@ namespace sprag
       }
       return {};
     }
+
+    /// Of the built-in lever along its friction face; 0: none, or unknown.
+    double size_of_elements(const Scene &scene)
+    {
+      return is_meshed(scene.analysis.model) && scene.mesh.file.empty() ? scene.mesh.face_size : 0.;
+    }
   } // namespace
+
+  Warnings transient_warnings(const Scene &scene, const std::vector<Row> &rows)
+  {
+    const double size = size_of_elements(scene);
+    if (rows.empty() || size == 0.)
+      return {};
+    return element_passing_warnings(oscillations(rows, scene.drive, size), size);
+  }
 
   std::vector<Entry> transient_summary(const Scene &scene, const std::vector<Row> &rows)
   {
@@ -108,6 +123,7 @@ namespace sprag
       return entries;
     add_peaks(rows, entries);
     add_energies(rows, entries);
+    add_largest_pressure(rows, entries);
     entries.push_back({ "penetration", largest(rows, Column::penetration), "mm", "largest numerical overlap" });
     entries.push_back(
         { "cone_violation", largest(rows, Column::cone_violation), "1", "largest excess of friction over the cone" });
@@ -116,8 +132,7 @@ namespace sprag
     entries.push_back({ "steps", static_cast<double>(rows.size()) - 1., "1", "accepted steps" });
     entries.push_back({ "rejected_steps", sum(rows, Column::rejected_steps), "1", "attempts discarded" });
     entries.push_back({ "iterations", sum(rows, Column::iterations), "1", "Newton iterations" });
-    const bool passes   = is_meshed(scene.analysis.model) && scene.mesh.file.empty();
-    const auto measured = oscillation_entries(oscillations(rows, scene.drive, passes ? scene.mesh.face_size : 0.));
+    const auto measured = oscillation_entries(oscillations(rows, scene.drive, size_of_elements(scene)));
     entries.insert(entries.end(), measured.begin(), measured.end());
     return entries;
   }

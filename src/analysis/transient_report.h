@@ -12,6 +12,9 @@ namespace sprag
   /// What a run in time says of itself at its end: peaks, works and ledger, oscillations after each reversal, cost.
   std::vector<Entry> transient_summary(const Scene &scene, const std::vector<Row> &rows);
 
+  /// What its oscillations warn of.
+  Warnings transient_warnings(const Scene &scene, const std::vector<Row> &rows);
+
   /// One line each: what the run models and what it leaves out.
   std::vector<std::string> modelled(const Scene &scene);
 

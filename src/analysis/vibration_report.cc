@@ -133,6 +133,14 @@ namespace sprag
       return result;
     }
 
+    const std::string motions = "mirroring, swinging, either where both tie, mixed where the levers differ";
+
+    /// Of a pair: which motion is unstable on one side.
+    std::string of_motion(const CriticalValue &critical)
+    {
+      return critical.motion.empty() ? "" : ", the levers " + critical.motion;
+    }
+
     std::string padded(const double value, const int width)
     {
       std::ostringstream number;
@@ -221,6 +229,8 @@ namespace sprag
       { "uniqueness", slide.uniqueness, "1", "determinant of the tangent over that without friction; <= 0: not unique" },
     };
     result.insert(result.end(), more.begin(), more.end());
+    if (is_pair(found.modes))
+      result.push_back({ "motion", found.motion(), "", "of the levers in that mode: " + motions });
     return result;
   }
 
@@ -232,6 +242,8 @@ namespace sprag
       result.push_back({ role.name + "_verdict", kind_name(role.kind), "", role.meaning });
       result.push_back({ role.name + "_growth_rate", role.growth_rate, "1/s", role.meaning });
       result.push_back({ role.name + "_frequency", role.frequency, "Hz", role.meaning });
+      if (!role.motion.empty())
+        result.push_back({ role.name + "_motion", role.motion, "", "of the levers in the most unstable mode: " + motions });
     }
     return result;
   }
@@ -240,34 +252,43 @@ namespace sprag
   {
     std::vector<Entry> result;
     for (const auto &search : searches)
+    {
+      const std::string name = "critical_" + slug(search.range.name);
       for (std::size_t i = 0; i < search.changes.size(); ++i)
       {
         const auto &critical = search.changes[i];
-        result.push_back({ "critical_" + slug(search.range.name) + "_" + std::to_string(i + 1), critical.value, "",
-                           search.range.name + ": from " + kind_name(critical.below) + " to " + kind_name(critical.above) });
+        result.push_back({ name + "_" + std::to_string(i + 1), critical.value, "",
+                           search.range.name + ": from " + kind_name(critical.below) + " to " + kind_name(critical.above) +
+                               of_motion(critical) });
       }
+      result.push_back({ name + "_spacing", search.spacing, "",
+                         "of the values of " + search.range.name + " tried: narrower islands may be missed" });
+      result.push_back({ name + "_values", static_cast<double>(search.range.points + search.more_values), "1",
+                         "tried, those between where a growth rate peaks included" });
+    }
     return result;
   }
 
   void print_roles(std::ostream &stream, const SlideStability &present, const std::vector<Role> &roles)
   {
-    stream << "\n                               verdict     growth [1/s]  frequency [Hz]\n";
-    const auto line = [&](std::string name, std::string kind, const double growth, const double hertz)
+    const bool pair = is_pair(present.modes);
+    stream << "\n                               verdict     growth [1/s]  frequency [Hz]" << (pair ? "  motion" : "") << '\n';
+    const auto line = [&](std::string name, std::string kind, const double growth, const double hertz, const std::string &motion)
     {
       std::replace(name.begin(), name.end(), '_', ' ');
       name.resize(29, ' ');
       kind.resize(10, ' ');
-      stream << "  " << name << kind << padded(growth, 14) << padded(hertz, 16) << '\n';
+      stream << "  " << name << kind << padded(growth, 14) << padded(hertz, 16) << (motion.empty() ? "" : "  " + motion) << '\n';
     };
-    line("as it is", kind_name(present.kind), present.growth_rate(), present.frequency());
+    line("as it is", kind_name(present.kind), present.growth_rate(), present.frequency(), present.motion());
     for (const auto &role : roles)
-      line(role.name, kind_name(role.kind), role.growth_rate, role.frequency);
+      line(role.name, kind_name(role.kind), role.growth_rate, role.frequency, role.motion);
   }
 
   void print_critical(std::ostream &stream, const std::vector<CriticalSearch> &searches)
   {
     stream << "\nCritical values, everything else as it is:\n";
-    for (const auto &[range, first, changes, not_judged] : searches)
+    for (const auto &[range, first, changes, not_judged, spacing, more_values] : searches)
     {
       stream << "  " << range.name << " from " << rounded_text(range.from) << " to " << rounded_text(range.to) << ": "
              << (first ? kind_name(*first) : "cannot be judged");
@@ -275,7 +296,8 @@ namespace sprag
       {
         const bool of_friction = range.name == "Friction/Factor" && !std::isnan(critical.mu);
         stream << ", " << kind_name(critical.above) << " from " << rounded_text(critical.value)
-               << (of_friction ? " (mu = " + rounded_text(critical.mu) + ")" : "");
+               << (of_friction ? " (mu = " + rounded_text(critical.mu) + ")" : "")
+               << (critical.motion.empty() ? "" : " (" + critical.motion + ")");
       }
       stream << (first && changes.empty() ? " throughout" : "");
       if (first && !not_judged.empty())
@@ -284,7 +306,12 @@ namespace sprag
         stream << "; cannot be judged at " << rounded_text(*least)
                << (*least < *most ? " to " + rounded_text(*most) + " (" + std::to_string(not_judged.size()) + " values)" : "");
       }
+      stream << "; tried every " << rounded_text(spacing);
+      if (more_values > 0)
+        stream << " and " << more_values << " times between, where growth peaks";
       stream << '\n';
     }
+    if (!searches.empty())
+      stream << "  Islands narrower than what was tried may be missed: try a shorter range.\n";
   }
 } // namespace sprag

@@ -1,8 +1,8 @@
 #include "base/all_cores.h"
 
+#include "base/guard.h"
 #include "base/progress.h"
 
-#include <cerrno>
 #include <csignal>
 #include <cstdlib>
 #include <fcntl.h>
@@ -11,7 +11,6 @@
 #include <sstream>
 #include <string>
 #include <sys/prctl.h>
-#include <sys/wait.h>
 #include <unistd.h>
 #include <vector>
 
@@ -19,26 +18,6 @@ namespace sprag
 {
   namespace
   {
-    volatile std::sig_atomic_t running = 0; ///< process of mpirun
-    volatile std::sig_atomic_t asked   = 0;
-
-    /// mpirun itself would kill the ranks a second after SIGTERM; SIGUSR1 it hands on.
-    extern "C" void hand_on(int)
-    {
-      const auto mpirun = static_cast<pid_t>(running);
-      if (mpirun > 0)
-        ::kill(mpirun, asked == 0 ? SIGUSR1 : SIGTERM);
-      asked = 1;
-    }
-
-    bool under_mpi()
-    {
-      for (const char *name : { "OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "PMIX_RANK" })
-        if (std::getenv(name) != nullptr)
-          return true;
-      return false;
-    }
-
     bool is_on_path(const std::string &program)
     {
       const char *path = std::getenv("PATH");
@@ -61,26 +40,6 @@ namespace sprag
           ::setenv(name, "1", 0);
     }
 
-    [[noreturn]] void become_mpirun(char **arguments, const unsigned int processes, const pid_t parent)
-    {
-      // A group of its own: a terminal's Ctrl-C reaches the parent alone. Its end is that of the ranks.
-      ::setpgid(0, 0);
-      ::prctl(PR_SET_PDEATHSIG, SIGTERM);
-      if (::getppid() != parent)
-        ::_exit(1);
-      if (const int nothing = ::open("/dev/null", O_RDONLY); nothing >= 0)
-        ::dup2(nothing, STDIN_FILENO);
-      set_environment();
-      const std::string number          = std::to_string(processes);
-      const std::string program         = std::filesystem::read_symlink("/proc/self/exe").string();
-      std::vector<const char *> command = { "mpirun",          "-q",           "-n", number.c_str(), "--bind-to", "none",
-                                            "--oversubscribe", program.c_str() };
-      for (char **argument = arguments + 1; *argument != nullptr; ++argument)
-        command.push_back(*argument);
-      command.push_back(nullptr);
-      ::execvp("mpirun", const_cast<char *const *>(command.data()));
-      ::_exit(127);
-    }
   } // namespace
 
   unsigned int available_cores()
@@ -90,23 +49,26 @@ namespace sprag
     return ::sched_getaffinity(0, sizeof cores, &cores) == 0 ? static_cast<unsigned int>(CPU_COUNT(&cores)) : 1;
   }
 
-  std::optional<int> run_under_mpi(char **arguments, const unsigned int processes)
+  bool works_on_all_cores(const unsigned int processes)
   {
-    if (processes < 2 || under_mpi() || !is_on_path("mpirun"))
-      return {};
-    const pid_t parent = ::getpid();
-    std::signal(SIGINT, hand_on);
-    std::signal(SIGTERM, hand_on);
-    const pid_t child = ::fork();
-    if (child < 0)
-      return {};
-    if (child == 0)
-      become_mpirun(arguments, processes, parent);
-    running    = child;
-    int status = 0;
-    while (::waitpid(child, &status, 0) < 0 && errno == EINTR)
-    {
-    }
-    return WIFEXITED(status) ? WEXITSTATUS(status) : 1;
+    return processes >= 2 && !under_mpi() && is_on_path("mpirun");
+  }
+
+  void become_mpirun(char **arguments, const unsigned int processes)
+  {
+    // A group of its own: a terminal's Ctrl-C reaches the parent alone. Its end is that of the ranks.
+    ::setpgid(0, 0);
+    ::prctl(PR_SET_PDEATHSIG, SIGTERM);
+    if (const int nothing = ::open("/dev/null", O_RDONLY); nothing >= 0)
+      ::dup2(nothing, STDIN_FILENO);
+    set_environment();
+    const std::string number          = std::to_string(processes);
+    const std::string program         = std::filesystem::read_symlink("/proc/self/exe").string();
+    std::vector<const char *> command = { "mpirun",          "-q",           "-n", number.c_str(), "--bind-to", "none",
+                                          "--oversubscribe", program.c_str() };
+    for (char **argument = arguments + 1; *argument != nullptr; ++argument)
+      command.push_back(*argument);
+    command.push_back(nullptr);
+    ::execvp("mpirun", const_cast<char *const *>(command.data()));
   }
 } // namespace sprag

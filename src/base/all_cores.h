@@ -1,14 +1,14 @@
 #pragma once
 
-#include <optional>
-
 namespace sprag
 {
   /// Cores that this process may use.
   unsigned int available_cores();
 
-  /// Runs the program anew, with the same arguments, as `processes` ranks under mpirun and waits for its end: its exit status.
-  /// None where it is to go on by itself: under MPI already, for one process, and without mpirun on the PATH. SIGINT and SIGTERM
-  /// ask the ranks for an end, a second one makes it. To be called before MPI is initialised.
-  std::optional<int> run_under_mpi(char **arguments, unsigned int processes);
+  /// Whether `processes` ranks can be had: not under MPI already, for one process, or without mpirun on the PATH.
+  bool works_on_all_cores(unsigned int processes);
+
+  /// Becomes mpirun with `processes` ranks of this program with the same arguments. Returns only if that fails. SIGUSR1 asks the
+  /// ranks for an end, SIGTERM makes it. To be called before MPI is initialised.
+  void become_mpirun(char **arguments, unsigned int processes);
 } // namespace sprag

@@ -63,6 +63,16 @@ namespace sprag
       return same ? std::make_optional(trimmed(text.substr(keyword.size()))) : std::nullopt;
     }
 
+    /// By its full name.
+    std::vector<Parameter>::const_iterator find_parameter(const std::vector<Parameter> &declared, const std::string &name)
+    {
+      const auto slash = name.find('/');
+      const auto meant = [&](const Parameter &parameter) {
+        return name.compare(0, slash, parameter.section) == 0 && name.compare(slash + 1, std::string::npos, parameter.name) == 0;
+      };
+      return slash == std::string::npos ? declared.end() : std::find_if(declared.begin(), declared.end(), meant);
+    }
+
     class Reader
     {
     public:
@@ -73,7 +83,6 @@ namespace sprag
       }
 
       void read_file();
-      void read_all(std::istream &input);
       void read_override(const std::string &text);
 
     private:
@@ -83,6 +92,7 @@ namespace sprag
       bool section_known = false;
       std::string section_place;
 
+      void read_all(std::istream &input);
       void unusable(const std::string &rule);
       void mistake(const std::string &place, const std::string &what, const std::string &rule);
       void read(const std::string &place, const std::string &text);
@@ -199,7 +209,7 @@ namespace sprag
 
     void Reader::assign(const std::string &place, const std::string &name, const std::string &value, const bool again_allowed)
     {
-      const auto found = std::find_if(declared.begin(), declared.end(), [&](const auto &p) { return full_name(p) == name; });
+      const auto found = find_parameter(declared, name);
       if (found == declared.end())
         return unknown_name(place, name, value);
 
@@ -237,7 +247,10 @@ namespace sprag
     {
       std::vector<std::string> sections;
       for (const auto &parameter : declared)
-        sections.push_back(parameter.section);
+        if (parameter.section == name)
+          return name;
+        else if (sections.empty() || sections.back() != parameter.section)
+          sections.push_back(parameter.section);
       return nearest(name, sections);
     }
 
@@ -259,9 +272,10 @@ namespace sprag
   std::string documentation(const Parameter &parameter)
   {
     const Rule &rule       = parameter.rule;
-    const bool has_number  = rule.kind != Rule::Kind::choice && rule.kind != Rule::Kind::text;
+    const bool any_text    = rule.kind == Rule::Kind::text || rule.kind == Rule::Kind::file;
+    const bool has_number  = rule.kind != Rule::Kind::choice && !any_text;
     const std::string unit = has_number ? " [" + (rule.unit.empty() ? "-" : rule.unit) + "]" : "";
-    return parameter.meaning + unit + (rule.kind == Rule::Kind::text ? "." : ": " + description(rule) + ".");
+    return parameter.meaning + unit + (any_text ? "." : ": " + description(rule) + ".");
   }
 
   Settings read_settings(const std::string &file, const std::vector<std::string> &overrides,
@@ -276,14 +290,14 @@ namespace sprag
     return settings;
   }
 
-  Settings read_settings_text(const std::string &file, const std::string &text, const std::vector<std::string> &overrides,
-                              const std::vector<Parameter> &declared)
+  Settings override_settings(const std::string &file, const ParameterValues &values, const std::vector<std::string> &overrides,
+                             const std::vector<Parameter> &declared)
   {
     Settings settings;
     settings.file = file;
+    for (const auto &[name, value] : values)
+      settings.given[name] = { file, value };
     Reader reader(declared, settings);
-    std::istringstream input(text);
-    reader.read_all(input);
     for (const auto &override_given : overrides)
       reader.read_override(override_given);
     return settings;
@@ -291,22 +305,22 @@ namespace sprag
 
   void add_mistake(Settings &settings, const std::vector<Parameter> &declared, const std::string &name, const std::string &rule)
   {
-    const auto parameter = std::find_if(declared.begin(), declared.end(), [&](const auto &p) { return full_name(p) == name; });
+    const auto parameter = find_parameter(declared, name);
     AssertThrow(parameter != declared.end(), dealii::ExcMessage(name + " is not declared."));
     const auto given      = settings.given.find(name);
     const Setting setting = given == settings.given.end() ? Setting{ settings.file, parameter->default_value } : given->second;
     settings.mistakes.push_back(setting.place + ": " + name + " = " + setting.value + ": " + rule);
   }
 
-  std::string parameters_text(const std::vector<Parameter> &declared, const std::map<std::string, Setting> &given)
+  std::string parameters_text(const std::vector<Parameter> &declared, const ParameterValues &given)
   {
     dealii::ParameterHandler handler;
     for (const auto &parameter : declared)
     {
       handler.enter_subsection(parameter.section);
       handler.declare_entry(parameter.name, parameter.default_value, dealii::Patterns::Anything(), documentation(parameter));
-      if (const auto setting = given.find(full_name(parameter)); setting != given.end())
-        handler.set(parameter.name, setting->second.value);
+      if (const auto value = given.find(full_name(parameter)); value != given.end())
+        handler.set(parameter.name, value->second);
       handler.leave_subsection();
     }
     std::ostringstream text;

@@ -50,13 +50,16 @@ namespace sprag
   Settings read_settings(const std::string &file, const std::vector<std::string> &overrides,
                          const std::vector<Parameter> &declared);
 
-  /// The same for the text of a parameter file, to be called `file` in messages.
-  Settings read_settings_text(const std::string &file, const std::string &text, const std::vector<std::string> &overrides,
-                              const std::vector<Parameter> &declared);
+  /// Values by full name.
+  using ParameterValues = std::map<std::string, std::string>;
+
+  /// The overrides on top of values that were read before and keep their rules, to be called those of `file` in messages.
+  Settings override_settings(const std::string &file, const ParameterValues &values, const std::vector<std::string> &overrides,
+                             const std::vector<Parameter> &declared);
 
   /// Adds the mistake that the parameter with this full name breaks `rule`, with its place and the value in use.
   void add_mistake(Settings &settings, const std::vector<Parameter> &declared, const std::string &name, const std::string &rule);
 
   /// Every parameter with its documentation as a comment, in .prm form: the given values, defaults elsewhere. Reads back.
-  std::string parameters_text(const std::vector<Parameter> &declared, const std::map<std::string, Setting> &given);
+  std::string parameters_text(const std::vector<Parameter> &declared, const ParameterValues &given);
 } // namespace sprag

@@ -40,6 +40,8 @@ namespace sprag
     std::optional<std::string> number_violation(const Rule &rule, const std::string &value)
     {
       const auto number = leading_number(value);
+      if (const auto meant = with_decimal_point(value); meant && rule.kind != Rule::Kind::integer)
+        return "must be " + description(rule) + " with a decimal point: did you mean '" + *meant + "'?";
       if (number && !number->rest.empty())
         return "must be " + description(rule) + " and nothing else: leave out '" + number->rest + "', " +
                (rule.unit.empty() ? "it has no unit" : rule.unit + " is meant");
@@ -105,6 +107,8 @@ namespace sprag
         text += (&choice == &rule.choices.front() ? "" : " | ") + choice;
       return text;
     }
+    case Rule::Kind::file:
+      return "a file";
     case Rule::Kind::text:
       break;
     }
@@ -125,6 +129,7 @@ namespace sprag
     case Rule::Kind::choice:
       return choice_violation(rule, value);
     case Rule::Kind::text:
+    case Rule::Kind::file:
       break;
     }
     return std::nullopt;

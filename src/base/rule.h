@@ -31,7 +31,8 @@ namespace sprag
       number_or_auto,
       numbers, ///< separated by commas, at least one
       choice,
-      text ///< anything
+      text, ///< anything
+      file  ///< the path of one that is read, or nothing
     };
 
     Kind kind = Kind::text;

@@ -73,6 +73,19 @@ namespace sprag
     return LeadingNumber{ value, trimmed(std::string(result.ptr, end)) };
   }
 
+  std::optional<std::string> with_decimal_point(const std::string &text)
+  {
+    const auto whole   = leading_number(text);
+    const auto is_part = [](const std::string &rest)
+    { return rest.size() > 1 && rest[0] == ',' && std::isdigit(static_cast<unsigned char>(rest[1])); };
+    if (!whole || !is_part(whole->rest))
+      return std::nullopt;
+    std::string pointed        = trimmed(text);
+    pointed[pointed.find(',')] = '.';
+    const auto meant           = leading_number(pointed);
+    return trimmed(pointed.substr(0, pointed.size() - meant->rest.size()));
+  }
+
   std::optional<std::string> nearest(const std::string &name, const std::vector<std::string> &candidates)
   {
     std::optional<std::string> best;

@@ -25,6 +25,9 @@ namespace sprag
   /// None where the text does not begin with a finite decimal number.
   std::optional<LeadingNumber> leading_number(const std::string &text);
 
+  /// The number that a text begins with where it has a comma for its decimal point, with a point; none otherwise.
+  std::optional<std::string> with_decimal_point(const std::string &text);
+
   /// The candidate with the smallest edit distance (Levenshtein, capitals ignored); none where even that would change more than
   /// half of the name.
   std::optional<std::string> nearest(const std::string &name, const std::vector<std::string> &candidates);

@@ -1,12 +1,16 @@
 #include "fe/basis_file.h"
 
+#include "base/child_process.h"
 #include "base/errors.h"
+#include "base/fingerprint.h"
 #include "results/hdf5.h"
 
-#include <cstdio>
+#include <chrono>
 #include <cstdlib>
 #include <cstring>
+#include <fcntl.h>
 #include <filesystem>
+#include <sys/file.h>
 #include <unistd.h>
 
 namespace sprag
@@ -31,25 +35,42 @@ namespace sprag
       return static_cast<double>(sum.value() >> 11);
     }
 
-    /// Keeps HDF5 from printing while a file that may be anything is read.
-    class Silence
+    /// Written here first, each process to its own.
+    std::string temporary_path(const std::string &folder, const std::string &key)
+    {
+      return path_of(folder, key) + "." + std::to_string(::getpid());
+    }
+
+    bool is_temporary(const std::string &name)
+    {
+      return name.rfind("basis-", 0) == 0 && name.find(".h5.") != std::string::npos;
+    }
+
+    /// A file kept locked as long as this lives, for other machines of a shared folder too.
+    class Lock
     {
     public:
-      Silence()
+      explicit Lock(const std::string &path, const int flags = 0)
+          : file(::open(path.c_str(), O_RDWR | O_CLOEXEC | flags, 0666))
+          , is_held(file >= 0 && ::flock(file, LOCK_EX | LOCK_NB) == 0)
       {
-        H5Eget_auto2(H5E_DEFAULT, &function, &data);
-        H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
       }
-      Silence(const Silence &)            = delete;
-      Silence &operator=(const Silence &) = delete;
-      ~Silence()
+      Lock(const Lock &)            = delete;
+      Lock &operator=(const Lock &) = delete;
+      ~Lock()
       {
-        H5Eset_auto2(H5E_DEFAULT, function, data);
+        if (file >= 0)
+          ::close(file);
+      }
+
+      bool held() const
+      {
+        return is_held;
       }
 
     private:
-      H5E_auto2_t function = nullptr;
-      void *data           = nullptr;
+      const int file;
+      const bool is_held;
     };
 
     std::optional<std::vector<double>> read_array(const hid_t file, const std::string &name)
@@ -68,45 +89,77 @@ namespace sprag
       return values;
     }
 
+    /// A damaged file may keep HDF5 busy for ever [s], or ask for all the memory there is [bytes].
+    constexpr double file_patience  = 10.;
+    constexpr std::size_t file_room = std::size_t(1) << 28;
+
     herr_t collect_name(const hid_t, const char *name, const H5L_info_t *, void *names)
     {
       static_cast<std::vector<std::string> *>(names)->emplace_back(name);
       return 0;
     }
-  } // namespace
 
-  void Fingerprint::add(const double value)
-  {
-    add(&value, sizeof(value));
-  }
-
-  void Fingerprint::add(const void *bytes, const std::size_t count)
-  {
-    // Eight bytes at a time where there are so many: fast enough for a hundred megabytes.
-    const auto *data = static_cast<const unsigned char *>(bytes);
-    std::size_t i    = 0;
-    for (; i + 8 <= count; i += 8)
+    /// None if the file is damaged as far as HDF5 or the checksum can tell.
+    std::optional<StoredArrays> read_file(const std::string &path, const std::string &key)
     {
-      std::uint64_t word = 0;
-      std::memcpy(&word, data + i, 8);
-      hash = (hash ^ word) * 1099511628211u;
-      hash ^= hash >> 29;
+      const hid_t opened = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+      if (opened < 0)
+        return {};
+      const hdf5::Handle file(opened, H5Fclose);
+      std::vector<std::string> names;
+      hsize_t position = 0;
+      if (H5Literate(file.id(), H5_INDEX_NAME, H5_ITER_INC, &position, collect_name, &names) < 0)
+        return {};
+      StoredArrays arrays;
+      for (const auto &name : names)
+      {
+        auto values = read_array(file.id(), name);
+        if (!values)
+          return {};
+        arrays[name] = std::move(*values);
+      }
+      const auto found = arrays.find("checksum");
+      if (found == arrays.end() || found->second.size() != 1)
+        return {};
+      const double stored = found->second.front();
+      arrays.erase(found);
+      if (stored != checksum(key, arrays))
+        return {};
+      return arrays;
     }
-    for (; i < count; ++i)
-      hash = (hash ^ data[i]) * 1099511628211u;
-  }
 
-  std::uint64_t Fingerprint::value() const
-  {
-    return hash;
-  }
+    /// Of each array its name, a zero, the number of values and these.
+    std::string packed(const std::optional<StoredArrays> &arrays)
+    {
+      std::string bytes;
+      if (arrays)
+        for (const auto &[name, values] : *arrays)
+        {
+          const std::size_t count = values.size();
+          bytes.append(name.c_str(), name.size() + 1);
+          bytes.append(reinterpret_cast<const char *>(&count), sizeof count);
+          bytes.append(reinterpret_cast<const char *>(values.data()), count * sizeof(double));
+        }
+      return bytes;
+    }
 
-  std::string Fingerprint::text() const
-  {
-    char digits[24];
-    std::snprintf(digits, sizeof(digits), "%016llx", static_cast<unsigned long long>(hash));
-    return digits;
-  }
+    std::optional<StoredArrays> unpacked(const std::string &bytes)
+    {
+      StoredArrays arrays;
+      for (std::size_t at = 0; at < bytes.size();)
+      {
+        auto &values = arrays[bytes.data() + at];
+        at           = bytes.find('\0', at) + 1;
+        std::size_t count;
+        std::memcpy(&count, bytes.data() + at, sizeof count);
+        at += sizeof count;
+        values.resize(count);
+        std::memcpy(values.data(), bytes.data() + at, count * sizeof(double));
+        at += count * sizeof(double);
+      }
+      return arrays.empty() ? std::nullopt : std::optional(std::move(arrays));
+    }
+  } // namespace
 
   std::string cache_folder(const std::string &given)
   {
@@ -121,44 +174,43 @@ namespace sprag
 
   std::optional<StoredArrays> load_arrays(const std::string &folder, const std::string &key)
   {
-    const Silence silence;
     const std::string path = path_of(folder, key);
     std::error_code ignored;
     if (folder.empty() || !std::filesystem::is_regular_file(path, ignored))
       return {};
-    const hid_t opened = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
-    if (opened < 0)
-      return {};
-    const hdf5::Handle file(opened, H5Fclose);
-    std::vector<std::string> names;
-    hsize_t position = 0;
-    if (H5Literate(file.id(), H5_INDEX_NAME, H5_ITER_INC, &position, collect_name, &names) < 0)
-      return {};
-    StoredArrays arrays;
-    for (const auto &name : names)
+    const auto bytes  = std::filesystem::file_size(path, ignored);
+    const auto answer = in_child_process(
+        [&]
+        {
+          limit_growth(file_room + 20 * bytes);
+          return packed(read_file(path, key));
+        },
+        file_patience + 1e-7 * static_cast<double>(bytes));
+    return answer.failure.empty() ? unpacked(answer.text) : std::nullopt;
+  }
+
+  void remove_abandoned(const std::string &folder)
+  {
+    // A writer's lock follows the file's creation at once.
+    constexpr std::chrono::seconds young(10);
+    std::error_code ignored;
+    for (std::filesystem::directory_iterator entry(folder, ignored), end; entry != end; entry.increment(ignored))
     {
-      auto values = read_array(file.id(), name);
-      if (!values)
-        return {};
-      arrays[name] = std::move(*values);
+      const auto written = entry->last_write_time(ignored);
+      const bool old     = !ignored && std::filesystem::file_time_type::clock::now() - written > young;
+      if (old && is_temporary(entry->path().filename().string()) && Lock(entry->path().string()).held())
+        std::filesystem::remove(entry->path(), ignored);
     }
-    const auto found = arrays.find("checksum");
-    if (found == arrays.end() || found->second.size() != 1)
-      return {};
-    const double stored = found->second.front();
-    arrays.erase(found);
-    if (stored != checksum(key, arrays))
-      return {};
-    return arrays;
   }
 
   std::string store_arrays(const std::string &folder, const std::string &key, const StoredArrays &arrays)
   {
     if (folder.empty())
       return "there is no cache folder";
-    const std::string temporary = path_of(folder, key) + "." + std::to_string(::getpid());
+    const std::string temporary = temporary_path(folder, key);
     std::error_code error;
     std::filesystem::create_directories(folder, error);
+    const Lock lock(temporary, O_CREAT);
     try
     {
       auto file = hdf5::create_file(temporary);

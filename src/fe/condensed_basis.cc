@@ -1,5 +1,6 @@
 #include "fe/condensed_basis.h"
 
+#include "base/fingerprint.h"
 #include "fe/basis_file.h"
 
 #include <deal.II/base/timer.h>
@@ -13,7 +14,7 @@ namespace sprag
   namespace
   {
     /// Of the content of stored files and of the numbers in them.
-    constexpr double format_version = 2.;
+    constexpr double format_version = 4.;
 
     void add_mesh(const Triangulation<2> &triangulation, Fingerprint &key)
     {
@@ -44,6 +45,8 @@ namespace sprag
     {
       Fingerprint key;
       key.add(format_version);
+      key.add(SPRAG_VERSION);
+      key.add(settings.origin);
       const auto &properties = body.body_properties();
       key.add(properties.degree);
       key.add(static_cast<double>(properties.plane));
@@ -224,6 +227,7 @@ namespace sprag
   {
     const std::string folder = cache_folder(settings.cache);
     const std::string key    = key_of(body, settings);
+    remove_abandoned(folder);
     if (auto stored = load_arrays(folder, key))
     {
       const auto n_attached = static_cast<unsigned int>(settings.inertia.leaf.modes.size());

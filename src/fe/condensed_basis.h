@@ -32,7 +32,8 @@ namespace sprag
     unsigned int modes      = 1;
     double spring_stiffness = 0.; ///< [N mm/rad], > 0
     LeverInertia inertia;
-    std::string cache; ///< folder; empty: the user's
+    std::string cache;  ///< folder; empty: the user's
+    std::string origin; ///< what the basis is made for, see body_key(): part of its name in the cache
   };
 
   /// Looks for the basis in the cache, else makes and stores it.

@@ -6,6 +6,7 @@
 #include "model/mirrored_modes.h"
 #include "model/mirrored_structure.h"
 #include "scene/mirrored_pair.h"
+#include "scene/scene_key.h"
 
 #include <algorithm>
 #include <cmath>
@@ -28,7 +29,7 @@ namespace sprag
 
     BasisSettings basis_settings(const Scene &scene)
     {
-      return { scene.condensed.modes, scene.spring.stiffness, inertia_of(scene), scene.condensed.cache };
+      return { scene.condensed.modes, scene.spring.stiffness, inertia_of(scene), scene.condensed.cache, body_key(scene) };
     }
 
     LeverDynamics constants_of(const Scene &scene, const double relaxation, const double lever_mass)
@@ -140,8 +141,9 @@ namespace sprag
     result.moment_of_inertia = matrices.moment_of_inertia;
     const auto complete      = [&](auto lever)
     {
-      result.elastic_displacement = [of = lever.get()](const Motion &motion) { return of->elastic_displacement(motion); };
-      result.model                = assemble(scene, body, std::move(lever), result);
+      result.elastic_displacement = [of = lever.get()](const Motion &motion, const unsigned int index)
+      { return of->elastic_displacement(motion, index); };
+      result.model = assemble(scene, body, std::move(lever), result);
     };
     if (number_of_levers(scene) == 1)
       complete(structure(basis));
@@ -183,14 +185,16 @@ namespace sprag
       };
     };
     if (ports.levers == 1)
-      result.elastic_displacement = displacement(scene, basis);
+      result.elastic_displacement = [of_lever = displacement(scene, basis)](const Motion &motion, unsigned int) mutable
+      { return of_lever(motion); };
     else
-      result.elastic_displacement = [ports, of_first = displacement(scene, basis),
-                                     of_second = displacement(swinging_scene(scene), swinging)](const Motion &motion) mutable
+      result.elastic_displacement =
+          [ports, of_first = displacement(scene, basis),
+           of_second = displacement(swinging_scene(scene), swinging)](const Motion &motion, const unsigned int lever) mutable
       {
         const auto parts = mirrored_motions(ports, motion);
         auto total       = of_first(parts[0]);
-        total += of_second(parts[1]);
+        total.add(lever == 0 ? 1. : -1., of_second(parts[1]));
         total *= std::sqrt(0.5);
         return total;
       };

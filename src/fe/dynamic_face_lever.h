@@ -14,9 +14,9 @@ namespace sprag
   {
     std::unique_ptr<DynamicModel> model;
 
-    /// Elastic displacement of all degrees of freedom of the body in lever axes [mm], of a pair's first lever; the model must
+    /// Elastic displacement of all degrees of freedom of the body in the axes of a lever, 0 or of a pair 1 [mm]; the model must
     /// live.
-    std::function<dealii::Vector<double>(const Motion &)> elastic_displacement;
+    std::function<dealii::Vector<double>(const Motion &, unsigned int lever)> elastic_displacement;
 
     unsigned int n_coordinates = 0;
     double density_factor      = 1.; ///< by which the densities were scaled to meet the moment of inertia

@@ -1,5 +1,7 @@
 #include "fe/elastic_body.h"
 
+#include "fe/cell_elasticity.h"
+
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_q.h>
@@ -13,45 +15,6 @@
 namespace sprag
 {
   using namespace dealii;
-
-  namespace
-  {
-    template <int dim>
-    Tensor<2, dim> identity()
-    {
-      return Tensor<2, dim>(unit_symmetric_tensor<dim>());
-    }
-
-    template <int dim>
-    Stress<dim> stress(const MaterialModel model, const Lame &constants, const Tensor<2, dim> &displacement_gradient)
-    {
-      switch (model)
-      {
-      case MaterialModel::linear:
-        return linear_elastic<dim>(constants, displacement_gradient);
-      case MaterialModel::neo_hookean:
-        return neo_hookean<dim>(constants, identity<dim>() + displacement_gradient);
-      case MaterialModel::st_venant_kirchhoff:
-        break;
-      }
-      return st_venant_kirchhoff<dim>(constants, displacement_gradient);
-    }
-
-    template <int dim>
-    double energy_density(const MaterialModel model, const Lame &constants, const Tensor<2, dim> &displacement_gradient)
-    {
-      switch (model)
-      {
-      case MaterialModel::linear:
-        return 0.5 * scalar_product(linear_elastic<dim>(constants, displacement_gradient).piola, displacement_gradient);
-      case MaterialModel::neo_hookean:
-        return neo_hookean_energy<dim>(constants, identity<dim>() + displacement_gradient);
-      case MaterialModel::st_venant_kirchhoff:
-        break;
-      }
-      return st_venant_kirchhoff_energy<dim>(constants, displacement_gradient);
-    }
-  } // namespace
 
   template <int dim>
   ElasticBody<dim>::ElasticBody(const Triangulation<dim> &triangulation, BodyProperties body_properties,
@@ -199,51 +162,21 @@ namespace sprag
   void ElasticBody<dim>::assemble(const Vector<double> &displacement, PETScWrappers::SparseMatrix &matrix,
                                   Vector<double> &forces) const
   {
-    FEValues<dim> values(mapping, fe, QGauss<dim>(properties.degree + 1), update_gradients | update_JxW_values);
+    CellElasticity<dim> elasticity(mapping, fe, properties);
     const unsigned int n = fe.n_dofs_per_cell();
-
     FullMatrix<double> cell_matrix(n, n);
     Vector<double> cell_forces(n);
     Vector<double> cell_displacement(n);
     std::vector<types::global_dof_index> indices(n);
-    std::vector<Tensor<1, dim>> gradients(n);
     for (const auto &cell : dof_handler.active_cell_iterators())
     {
       if (cell->material_id() == material_id::hub)
         continue;
-      const Lame constants = plane_constants(properties.constants.at(cell->material_id()), properties.plane);
-      values.reinit(cell);
       cell->get_dof_indices(indices);
       for (unsigned int i = 0; i < n; ++i)
         cell_displacement[i] = displacement[indices[i]];
-      cell_matrix = 0.;
-      cell_forces = 0.;
-      for (const unsigned int q : values.quadrature_point_indices())
-      {
-        Tensor<2, dim> gradient;
-        for (unsigned int i = 0; i < n; ++i)
-        {
-          gradients[i] = values.shape_grad(i, q);
-          gradient[fe.system_to_component_index(i).first] += cell_displacement[i] * gradients[i];
-        }
-        const double volume = values.JxW(q) * properties.width_of(cell->material_id());
-        const auto at_point = stress<dim>(properties.material, constants, gradient);
-        for (unsigned int j = 0; j < n; ++j)
-        {
-          const unsigned int component_j = fe.system_to_component_index(j).first;
-          cell_forces[j] += volume * (at_point.piola[component_j] * gradients[j]);
-          Tensor<1, dim * dim> d_piola;
-          for (unsigned int a = 0; a < dim * dim; ++a)
-            for (unsigned int d = 0; d < dim; ++d)
-              d_piola[a] += volume * at_point.tangent[a][component_j * dim + d] * gradients[j][d];
-          for (unsigned int i = 0; i < n; ++i)
-          {
-            const unsigned int row = fe.system_to_component_index(i).first * dim;
-            for (unsigned int d = 0; d < dim; ++d)
-              cell_matrix(i, j) += gradients[i][d] * d_piola[row + d];
-          }
-        }
-      }
+      elasticity.reinit(cell, cell_displacement);
+      elasticity.assemble(cell_matrix, cell_forces);
       constraints.distribute_local_to_global(cell_matrix, cell_forces, indices, matrix, forces);
     }
     add_connectors(displacement, matrix, forces);
@@ -274,20 +207,17 @@ namespace sprag
   template <int dim>
   double ElasticBody<dim>::energy(const Vector<double> &displacement) const
   {
-    FEValues<dim> values(mapping, fe, QGauss<dim>(properties.degree + 1), update_gradients | update_JxW_values);
-    std::vector<Tensor<2, dim>> gradients(values.n_quadrature_points);
+    CellElasticity<dim> elasticity(mapping, fe, properties);
+    Vector<double> cell_displacement(fe.n_dofs_per_cell());
     double sum = 0.;
     for (const auto &spring : springs)
       sum += 0.5 * spring.stiffness * std::pow(spring.compression(displacement), 2);
     for (const auto &cell : dof_handler.active_cell_iterators())
       if (cell->material_id() != material_id::hub)
       {
-        const Lame constants = plane_constants(properties.constants.at(cell->material_id()), properties.plane);
-        values.reinit(cell);
-        values[FEValuesExtractors::Vector(0)].get_function_gradients(displacement, gradients);
-        for (const unsigned int q : values.quadrature_point_indices())
-          sum += energy_density<dim>(properties.material, constants, gradients[q]) * values.JxW(q) *
-                 properties.width_of(cell->material_id());
+        cell->get_dof_values(displacement, cell_displacement);
+        elasticity.reinit(cell, cell_displacement);
+        sum += elasticity.energy();
       }
     return sum;
   }

@@ -84,7 +84,8 @@ namespace sprag
   {
     const auto &of_face = face.patches()[patch];
     const auto nodal    = FacePatches::nodal(of_face, *at.at.displacement);
-    pair.find_facets(patch, at, of);
+    const auto slip_of  = slips(patch);
+    const auto slope    = slopes(of_face, slip_of);
     Sum sum(pair.coordinates(patch, { &of }));
     bool touches = false, ends = false;
     for (unsigned int q = of_face.begin; q < of_face.end; ++q)
@@ -94,24 +95,67 @@ namespace sprag
       auto &point        = points.emplace_back();
       point.index        = q;
       point.position     = FacePatches::position(face.points()[q], nodal);
-      const double run   = slip(facet, point.position) - memory.slip;
+      const double run   = slip_of[q - of_face.begin] - memory.slip;
       ends               = ends || !facet.opposed;
       if (!set_trial(facet.opposed ? memory : ContactMemory{}, facet.gap, facet.stretch * run, step.law, point))
         continue;
-      touches = true;
-      add(facet, memory, run, step, point, sum);
-      set_elastic_slip(memory, step, point);
+      touches          = true;
+      const auto shift = slip_shift(face, q, slope[q - of_face.begin], step);
+      add(facet, memory, run, shift, step, point, sum);
+      set_slips(memory, step, facet.stretch * shift.slip, point);
+      if (const double by_slope = shift.d_slope * facet.stretch * point.response.d_shift; by_slope != 0.)
+        add_slope(of_face, q, by_slope, sum);
     }
     beyond_face = beyond_face || (touches && ends);
     if (touches)
       loaded.push_back(on_ports(sum));
   }
 
-  void ElasticSurface::add(const Facet &facet, const ContactMemory &memory, const double run, const StaticStep &step,
-                           StaticPoint &point, Sum &sum)
+  /// The facets beside one, of whose slips the slope is the difference.
+  std::array<unsigned int, 2> ElasticSurface::neighbours(const FacePatches::Patch &patch, const unsigned int q)
+  {
+    return { { std::max(q, patch.begin + 1) - 1, std::min(q + 1, patch.end - 1) } };
+  }
+
+  /// Of the slip along the face [1].
+  std::vector<double> ElasticSurface::slopes(const FacePatches::Patch &patch, const std::vector<double> &slips) const
+  {
+    std::vector<double> result(slips.size(), 1.);
+    for (unsigned int q = patch.begin; patch.end > patch.begin + 1 && q < patch.end; ++q)
+    {
+      const auto [before, after] = neighbours(patch, q);
+      result[q - patch.begin]    = (slips[after - patch.begin] - slips[before - patch.begin]) / distance(before, after);
+    }
+    return result;
+  }
+
+  /// Along the undeformed face [mm].
+  double ElasticSurface::distance(const unsigned int before, const unsigned int after) const
+  {
+    return face.points()[after].position.xi - face.points()[before].position.xi;
+  }
+
+  /// How the traction on a facet changes with the slip's slope. Turning moves both neighbours alike.
+  void ElasticSurface::add_slope(const FacePatches::Patch &patch, const unsigned int q, const double traction_by_slope, Sum &sum)
+  {
+    const auto [before, after] = neighbours(patch, q);
+    const auto &left           = of.facets[before - patch.begin];
+    const auto &right          = of.facets[after - patch.begin];
+    if (before == after || !left.opposed || !right.opposed)
+      return;
+    FacetRows at_left, at_right;
+    find_rows(of, left, at, sum.coordinates, radius, at_left);
+    find_rows(of, right, at, sum.coordinates, radius, at_right);
+    at_right.arc -= at_left.arc;
+    add_product(-of.facets[q - patch.begin].weight * traction_by_slope / distance(before, after), rows.slip, at_right.arc,
+                sum.tangent);
+  }
+
+  void ElasticSurface::add(const Facet &facet, const ContactMemory &memory, const double run, const SlipShift &shift,
+                           const StaticStep &step, StaticPoint &point, Sum &sum)
   {
     // Gap and slip as the only coordinates.
-    ContactKinematics<2> kinematics{ facet.gap, {}, {}, point.slip_change, {}, {} };
+    ContactKinematics<2> kinematics{ facet.gap, {}, {}, point.slip_change, {}, {}, facet.stretch * shift.slip + shift.elastic };
     kinematics.gap_row[0] = kinematics.slip_row[1] = 1.;
     ContactMemory from                             = memory;
     from.slip                                      = 0.;
@@ -124,6 +168,7 @@ namespace sprag
     point.response.traction = response.traction;
     point.response.mu       = response.mu;
     point.response.slipping = response.slipping;
+    point.response.d_shift  = response.d_shift;
     for (unsigned int i = 0; i < 2 * sum.coordinates.n_lever; ++i)
       point.response.force[i % 2] += normal * rows.gap[i] + along_slip * rows.slip[i];
     for (const auto &[i, coordinate] : { std::pair{ 2u, sum.coordinates.theta() }, { 3u, sum.coordinates.x() } })
@@ -139,6 +184,7 @@ namespace sprag
     add_product(weight * response.tangent[0][0], rows.gap, rows.gap, sum.tangent);
     add_product(weight * response.tangent[1][0], rows.slip, rows.gap, sum.tangent);
     add_product(weight * response.tangent[1][1], rows.slip, slip_change, sum.tangent);
+    add_product(-weight * shift.slip * response.d_shift, rows.slip, rows.stretch, sum.tangent);
     add_curvature(of, facet, at, sum.coordinates, radius, weight * normal, weight * along_slip, sum.tangent);
   }
 

@@ -27,7 +27,12 @@ namespace sprag
     struct Sum;
 
     double slip(const Facet &facet, const LeverPoint &position) const;
-    void add(const Facet &facet, const ContactMemory &memory, double run, const StaticStep &step, StaticPoint &point, Sum &sum);
+    std::vector<double> slopes(const FacePatches::Patch &patch, const std::vector<double> &slips) const;
+    static std::array<unsigned int, 2> neighbours(const FacePatches::Patch &patch, unsigned int q);
+    double distance(unsigned int before, unsigned int after) const;
+    void add(const Facet &facet, const ContactMemory &memory, double run, const SlipShift &shift, const StaticStep &step,
+             StaticPoint &point, Sum &sum);
+    void add_slope(const FacePatches::Patch &patch, unsigned int q, double traction_by_slope, Sum &sum);
     StaticPatch on_ports(const Sum &sum) const;
 
     const FacePatches face;

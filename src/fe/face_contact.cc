@@ -1,8 +1,7 @@
 #include "fe/face_contact.h"
 
 #include "laws/friction_of_step.h"
-
-#include <deal.II/lac/lapack_full_matrix.h>
+#include "scene/closed_form.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,20 +10,12 @@ namespace sprag
 {
   using namespace dealii;
 
-  namespace
-  {
-    void make_set(std::vector<unsigned int> &numbers)
-    {
-      std::sort(numbers.begin(), numbers.end());
-      numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
-    }
-  } // namespace
-
   FaceContact::FaceContact(const ElasticBody<2> &body_, std::unique_ptr<StaticSurface> surface_,
                            FaceContactProperties contact_properties)
       : body(body_)
       , surface(std::move(surface_))
       , properties(std::move(contact_properties))
+      , multipliers(body_.friction_face())
   {
   }
 
@@ -45,15 +36,31 @@ namespace sprag
     return { normal, tangential, friction_of_step(properties.friction, v), step_duration };
   }
 
+  /// Travel and ratio as of a rigid lever on a rigid support.
+  StaticStep FaceContact::step_to(const DrivePoint &end, const DrivePoint &begin, const FrictionMode mode) const
+  {
+    constexpr double least_ratio = 1e-6;
+    StaticStep step{ start, law_of_step(end.v, mode), mode, properties.enforcement == Enforcement::augmented_lagrangian };
+    if (!properties.geometry || end.x == begin.x || step_duration == 0.)
+      return step;
+    const auto &geometry = *properties.geometry;
+    const auto from      = kinematics(geometry, begin.x);
+    const auto to        = kinematics(geometry, end.x);
+    step.travel          = to.s - from.s;
+    const double slid    = -step.travel - geometry.cylinder_radius * (to.theta - from.theta);
+    step.speed_ratio     = std::max(least_ratio, sliding_speed(geometry, end.x, end.v) * step_duration / slid);
+    step.law.dt /= step.speed_ratio;
+    return step;
+  }
+
   void FaceContact::evaluate(const Vector<double> &displacements, const State &trial, const State &accepted,
                              const FrictionMode mode)
   {
-    ports         = displacements;
-    drive_x       = trial.drive.x;
-    start         = trial.contact;
-    step_duration = trial.drive.time - accepted.drive.time;
-    const StaticStep step{ start, law_of_step(trial.drive.v, mode), mode,
-                           properties.enforcement == Enforcement::augmented_lagrangian };
+    ports           = displacements;
+    drive_x         = trial.drive.x;
+    start           = trial.contact;
+    step_duration   = trial.drive.time - accepted.drive.time;
+    const auto step = step_to(trial.drive, accepted.drive, mode);
     surface->enter(configuration(ports, drive_x));
     states.clear();
     patches.clear();
@@ -62,27 +69,20 @@ namespace sprag
     sum_forces();
   }
 
-  /// Lists the nodes under pressure, and the ports that carry forces.
-  void FaceContact::find_loaded()
+  void FaceContact::list_ports()
   {
-    loaded.clear();
-    for (const auto &state : states)
-      if (state.trial_pressure > 0.)
-        for (const auto &entry : body.friction_face().points[state.index].nodes)
-          loaded.push_back(entry.first);
-    make_set(loaded);
-
     summed.ports.clear();
     for (unsigned int port = properties.ports.rotation(); port < properties.ports.size(); ++port)
       summed.ports.push_back(port);
     for (const auto &patch : patches)
       summed.ports.insert(summed.ports.end(), patch.ports.begin(), patch.ports.end());
-    make_set(summed.ports);
+    std::sort(summed.ports.begin(), summed.ports.end());
+    summed.ports.erase(std::unique(summed.ports.begin(), summed.ports.end()), summed.ports.end());
   }
 
   void FaceContact::sum_forces()
   {
-    find_loaded();
+    list_ports();
     const auto n = static_cast<unsigned int>(summed.ports.size());
     summed.values.reinit(n);
     summed.tangent.reinit(n, n);
@@ -106,34 +106,21 @@ namespace sprag
     return summed;
   }
 
-  double FaceContact::largest_weighted_overlap() const
-  {
-    const auto &points = body.friction_face().points;
-    const auto n       = static_cast<unsigned int>(loaded.size());
-    Vector<double> overlap(n);
-    Vector<double> area(n);
-    for (const auto &state : states)
-      for (const auto &[node, shape] : points[state.index].nodes)
-        if (const unsigned int i = place_of(node, loaded); i < n && loaded[i] == node)
-        {
-          area[i] += points[state.index].weight * shape;
-          if (state.trial_pressure > 0.)
-            overlap[i] -= points[state.index].weight * shape * state.gap;
-        }
-    double largest = 0.;
-    for (unsigned int i = 0; i < n; ++i)
-      largest = std::max(largest, std::abs(overlap[i] / area[i]));
-    return largest;
-  }
-
   double FaceContact::penetration() const
   {
-    if (properties.enforcement == Enforcement::augmented_lagrangian)
-      return largest_weighted_overlap();
     double largest = 0.;
     for (const auto &state : states)
       largest = std::max(largest, -state.gap);
     return largest;
+  }
+
+  double FaceContact::unaugmented_overlap() const
+  {
+    const auto pressures = multipliers.averaged(states, &ContactResponse<4>::pressure);
+    double largest       = 0.;
+    for (std::size_t a = 0; a < states.size(); ++a)
+      largest = std::max(largest, std::abs(pressures[a] - start[states[a].index].normal_multiplier));
+    return largest / properties.penalties.normal;
   }
 
   double FaceContact::overlap() const
@@ -144,46 +131,12 @@ namespace sprag
     return largest;
   }
 
-  /// Least-squares fit of a traction by a finite-element function on the face, over the points under pressure; an entry per
-  /// state.
-  std::vector<double> FaceContact::projected(double ContactResponse<4>::*traction) const
-  {
-    const auto n = static_cast<unsigned int>(loaded.size());
-    std::vector<double> result(states.size());
-    if (n == 0)
-      return result;
-    LAPACKFullMatrix<double> mass(n);
-    Vector<double> nodal(n);
-    const auto &points = body.friction_face().points;
-    for (const auto &state : states)
-      if (state.trial_pressure > 0.)
-        for (const auto &[node, shape] : points[state.index].nodes)
-        {
-          const double weight  = points[state.index].weight;
-          const unsigned int i = place_of(node, loaded);
-          nodal[i] += weight * shape * (state.response.*traction);
-          for (const auto &[other_node, other_shape] : points[state.index].nodes)
-            mass(i, place_of(other_node, loaded)) += weight * shape * other_shape;
-        }
-    // A node whose support the contact hardly reaches has no say of its own.
-    const double ridge = 1e-9 * points.front().weight;
-    for (unsigned int i = 0; i < n; ++i)
-      mass(i, i) += ridge;
-    mass.compute_lu_factorization();
-    mass.solve(nodal);
-    for (std::size_t a = 0; a < states.size(); ++a)
-      if (states[a].trial_pressure > 0.)
-        for (const auto &[node, shape] : points[states[a].index].nodes)
-          result[a] += shape * nodal[place_of(node, loaded)];
-    return result;
-  }
-
   void FaceContact::augment(std::vector<ContactMemory> &memory) const
   {
     for (auto &point : memory)
       point.normal_multiplier = point.traction = 0.;
-    const auto pressures = projected(&ContactResponse<4>::pressure);
-    const auto tractions = projected(&ContactResponse<4>::traction);
+    const auto pressures = multipliers.averaged(states, &ContactResponse<4>::pressure);
+    const auto tractions = multipliers.averaged(states, &ContactResponse<4>::traction);
     for (std::size_t a = 0; a < states.size(); ++a)
     {
       memory[states[a].index].normal_multiplier = pressures[a];

@@ -1,11 +1,13 @@
 #pragma once
 
 #include "fe/elastic_body.h"
+#include "fe/face_multipliers.h"
 #include "fe/static_surface.h"
 #include "model/model.h"
 
 #include <functional>
 #include <memory>
+#include <optional>
 
 namespace sprag
 {
@@ -19,11 +21,13 @@ namespace sprag
 
     /// Centre of what the lever rubs against over its position x from the pivot frame's origin and theta.
     std::function<LeverPoint(double x, double theta)> centre;
+
+    /// Of the damper: speeds of sliding are then those at the end of a step, see StaticStep. None: its means.
+    std::optional<Geometry> geometry;
   };
 
   /// Contact along the friction face, integrated over points denser than the nodes. In the augmented Lagrangian method the
-  /// multiplier is a finite-element function on the face, so that it meets as many conditions as the face can fulfil: the overlap
-  /// weighted with each node's shape function vanishes.
+  /// penalty takes what FaceMultipliers leave: the edge of the contact lies wherever the pressure of a point vanishes.
   class FaceContact
   {
   public:
@@ -37,8 +41,11 @@ namespace sprag
     /// On the nodes that points under pressure move, hub and support.
     const PortForces &forces() const;
 
-    /// Largest overlap [mm]: of a point (penalty), or weighted with a node's shape function (augmented Lagrangian).
+    /// Largest overlap of a point and what lies below the face [mm].
     double penetration() const;
+
+    /// Largest change of a multiplier by the next augmentation, over the penalty [mm].
+    double unaugmented_overlap() const;
 
     /// Largest p / penalty [mm].
     double overlap() const;
@@ -73,15 +80,15 @@ namespace sprag
   private:
     FaceConfiguration configuration(const dealii::Vector<double> &displacements, double x) const;
     ContactLaw law_of_step(double v, FrictionMode mode) const;
+    StaticStep step_to(const DrivePoint &end, const DrivePoint &begin, FrictionMode mode) const;
     void set_slips(const FaceConfiguration &at, std::vector<ContactMemory> &memory) const;
-    void find_loaded();
+    void list_ports();
     void sum_forces();
-    double largest_weighted_overlap() const;
-    std::vector<double> projected(double ContactResponse<4>::*traction) const;
 
     const ElasticBody<2> &body;
     const std::unique_ptr<StaticSurface> surface;
     const FaceContactProperties properties;
+    const FaceMultipliers multipliers;
 
     // Of the last evaluation.
     std::vector<ContactMemory> start; ///< memory and multipliers it used
@@ -90,7 +97,6 @@ namespace sprag
     double step_duration = 0.;
     std::vector<PointState> states;
     std::vector<StaticPatch> patches; ///< under pressure
-    std::vector<unsigned int> loaded; ///< nodes under pressure, increasing
     PortForces summed;
   };
 } // namespace sprag

@@ -1,5 +1,7 @@
 #include "fe/face_observation.h"
 
+#include "fe/pressure_recovery.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -8,6 +10,21 @@ namespace sprag
   namespace
   {
     using PointState = FaceContact::PointState;
+
+    RecoveredPressure recovered(const FaceView &contact)
+    {
+      const auto &face = contact.body.friction_face();
+      PressureSamples samples;
+      for (const auto &point : contact.points)
+      {
+        samples.xi.push_back(point.position.xi);
+        samples.weight.push_back(face.points[point.index].weight);
+        samples.pressure.push_back(point.response.pressure);
+      }
+      samples.begin = face.points.front().position[0];
+      samples.end   = face.points.back().position[0];
+      return recover(samples);
+    }
 
     /// Length under pressure, the edges where the trial pressure, linear between the points, changes sign [mm].
     double contact_width(const std::vector<PointState> &points)
@@ -69,6 +86,22 @@ namespace sprag
       return peak > 0. ? excess / peak : 0.;
     }
 
+    /// Of every point; those without pressure take it from one beside them.
+    std::vector<double> friction_over_pressure(const std::vector<PointState> &points)
+    {
+      std::vector<double> ratios;
+      const auto is_closed = [](const PointState &point) { return point.response.pressure > 0.; };
+      const auto first     = std::find_if(points.begin(), points.end(), is_closed);
+      double ratio         = first == points.end() ? 0. : first->response.traction / first->response.pressure;
+      for (const auto &point : points)
+      {
+        if (is_closed(point))
+          ratio = point.response.traction / point.response.pressure;
+        ratios.push_back(ratio);
+      }
+      return ratios;
+    }
+
     /// What a force on a point leaves on nodes that the hub does not hold.
     double share_of_free_nodes(const FaceView &contact, const unsigned int point)
     {
@@ -124,18 +157,22 @@ namespace sprag
   {
     const auto &points              = contact.points;
     const Sums sums                 = sum(contact);
+    const auto recovery             = recovered(contact);
     row[Column::normal_resultant]   = sums.normal;
     row[Column::friction_resultant] = sums.friction;
     row[Column::friction_power]     = sums.power;
     row[Column::elastic_energy]     = sums.energy;
     row[Column::active_points]      = sums.active;
     row[Column::elastic_slip]       = sums.elastic_slip;
-    row[Column::contact_width]      = contact_width(points);
-    row[Column::penetration]        = contact.penetration;
-    row[Column::cone_violation]     = cone_violation(points);
-    row[Column::P]                  = sums.P;
-    row[Column::F]                  = sums.F;
-    row[Column::indentation]        = 0.;
+    row[Column::contact_width]      = recovery.is_fitted ? recovery.width : contact_width(points);
+    row[Column::largest_pressure]   = recovery.largest;
+    if (recovery.largest > 0.)
+      row[Column::largest_pressure_xi] = recovery.place;
+    row[Column::penetration]    = contact.penetration;
+    row[Column::cone_violation] = cone_violation(points);
+    row[Column::P]              = sums.P;
+    row[Column::F]              = sums.F;
+    row[Column::indentation]    = 0.;
     if (sums.normal > 0.)
     {
       row[Column::s]           = sums.position / sums.normal;
@@ -165,10 +202,12 @@ namespace sprag
     const std::size_t n = contact.body.friction_face().points.size();
     result.pressure.resize(n);
     result.traction.resize(n);
-    for (const auto &point : contact.points)
+    const auto recovery = recovered(contact);
+    const auto ratios   = friction_over_pressure(contact.points);
+    for (std::size_t i = 0; i < contact.points.size(); ++i)
     {
-      result.pressure[point.index] = point.response.pressure;
-      result.traction[point.index] = point.response.traction;
+      result.pressure[contact.points[i].index] = recovery.pressure[i];
+      result.traction[contact.points[i].index] = ratios[i] * recovery.pressure[i];
     }
     return result;
   }

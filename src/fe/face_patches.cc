@@ -15,6 +15,34 @@ namespace sprag
       const double across = a.eta - b.eta;
       return std::sqrt(along * along + across * across);
     }
+    /// Derivative along the face of the polynomial that is 1 at one node of an edge and 0 at the others.
+    double slope_of_shape(const FaceEdge<2> &edge, const std::size_t node, const double xi)
+    {
+      const auto at = [&](const std::size_t i) { return edge.nodes[i].position[0]; };
+      double sum    = 0.;
+      for (std::size_t left_out = 0; left_out < edge.nodes.size(); ++left_out)
+      {
+        if (left_out == node)
+          continue;
+        double product = 1. / (at(node) - at(left_out));
+        for (std::size_t i = 0; i < edge.nodes.size(); ++i)
+          if (i != node && i != left_out)
+            product *= (xi - at(i)) / (at(node) - at(i));
+        sum += product;
+      }
+      return sum;
+    }
+
+    std::array<double, FacePatches::max_nodes> slopes_of_shapes(const FaceEdge<2> &edge, const FacePatches::Patch &patch,
+                                                                const double xi)
+    {
+      std::array<double, FacePatches::max_nodes> result{};
+      for (unsigned int a = 0; a < patch.n_nodes; ++a)
+        for (std::size_t node = 0; node < edge.nodes.size(); ++node)
+          if (edge.nodes[node].index == patch.nodes[a])
+            result[a] = slope_of_shape(edge, node, xi);
+      return result;
+    }
   } // namespace
 
   FacePatches::FacePatches(const FrictionFace<2> &face)
@@ -31,11 +59,14 @@ namespace sprag
     }
     for (const auto &point : face.points)
     {
-      Point copy{ { point.position[0], point.position[1] }, point.weight, {} };
+      Point copy{ { point.position[0], point.position[1] }, point.weight, {}, {} };
       for (unsigned int a = 0; a < point.nodes.size(); ++a)
         copy.shapes[a] = point.nodes[a].second;
       all_points.push_back(copy);
     }
+    for (unsigned int patch = 0; patch < all_patches.size(); ++patch)
+      for (unsigned int q = all_patches[patch].begin; q < all_patches[patch].end; ++q)
+        all_points[q].slopes = slopes_of_shapes(face.edges[patch], all_patches[patch], all_points[q].position.xi);
   }
 
   const std::vector<FacePatches::Patch> &FacePatches::patches() const

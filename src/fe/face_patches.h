@@ -49,6 +49,7 @@ namespace sprag
       LeverPoint position; ///< undeformed
       double weight;
       std::array<double, max_nodes> shapes; ///< of the patch's nodes
+      std::array<double, max_nodes> slopes; ///< their derivatives along the face [1/mm]
     };
 
     explicit FacePatches(const FrictionFace<2> &face);

@@ -1,14 +1,20 @@
 #include "fe/geometry_script.h"
 
+#include "base/child_process.h"
 #include "base/errors.h"
+#include "base/text.h"
 
 #include <deal.II/grid/grid_in.h>
 
 #include <gmsh.h>
 
+#include <algorithm>
+#include <cmath>
+#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <unistd.h>
 
 namespace sprag
@@ -17,6 +23,19 @@ namespace sprag
 
   namespace
   {
+    /// A damaged mesh may keep gmsh busy for ever [s], or ask for all the memory there is [bytes].
+    constexpr double mesh_patience  = 20.;
+    constexpr std::size_t mesh_room = std::size_t(1) << 30;
+
+    std::vector<std::string> lines_of(const std::string &text)
+    {
+      std::vector<std::string> lines;
+      std::istringstream stream(text);
+      for (std::string line; std::getline(stream, line);)
+        lines.push_back(line);
+      return lines;
+    }
+
     /// gmsh lives in one global session; this opens and closes it.
     class GmshSession
     {
@@ -35,24 +54,6 @@ namespace sprag
       {
         gmsh::finalize();
       }
-    };
-
-    /// A file that is gone with its owner.
-    class TemporaryFile
-    {
-    public:
-      TemporaryFile()
-          : path((std::filesystem::temp_directory_path() / ("sprag-" + std::to_string(::getpid()) + ".msh")).string())
-      {
-      }
-      TemporaryFile(const TemporaryFile &)            = delete;
-      TemporaryFile &operator=(const TemporaryFile &) = delete;
-      ~TemporaryFile()
-      {
-        std::remove(path.c_str());
-      }
-
-      const std::string path;
     };
 
     struct GroupIds
@@ -105,6 +106,32 @@ namespace sprag
         throw InputError(file + ": the mesh has no elements in a physical surface");
     }
 
+    /// A plane lever's mesh lies in z = 0: another would be read as its shadow.
+    void refuse_third_dimension(const std::string &file)
+    {
+      std::vector<int> types;
+      std::vector<std::vector<std::size_t>> tags, corners;
+      gmsh::model::mesh::getElements(types, tags, corners, 3);
+      gmsh::vectorpair volumes;
+      gmsh::model::getEntities(volumes, 3);
+      if (!types.empty() || !volumes.empty())
+        throw InputError(file + ": has volumes: the lever is modelled in its plane; give its surfaces in z = 0 alone, "
+                                "Lever/Width is the third dimension");
+      std::vector<std::size_t> nodes;
+      std::vector<double> positions, parametric;
+      gmsh::model::mesh::getNodes(nodes, positions, parametric);
+      double size = 0., farthest = 0.;
+      for (std::size_t i = 0; i < positions.size(); ++i)
+      {
+        size = std::max(size, std::abs(positions[i]));
+        if (i % 3 == 2 && std::abs(positions[i]) > std::abs(farthest))
+          farthest = positions[i];
+      }
+      if (std::abs(farthest) > 1e-9 * size)
+        throw InputError(file + ": has a node at z = " + rounded_text(farthest) +
+                         " mm: the lever is modelled in its plane, x along it and y away from the cylinder; z must be 0");
+    }
+
     std::vector<std::string> arguments_of(const std::vector<std::pair<std::string, double>> &constants)
     {
       std::vector<std::string> arguments = { "sprag" };
@@ -117,12 +144,26 @@ namespace sprag
       return arguments;
     }
 
-    /// Runs gmsh and leaves its mesh in `output`.
-    GroupIds run_gmsh(const std::string &file, const std::vector<std::pair<std::string, double>> &constants,
-                      const MeshGroups &groups, const std::string &output)
+    /// What gmsh writes; the end of the process waits until its file is gone.
+    std::string written_mesh()
     {
-      if (!std::ifstream(file))
-        throw InputError(file + ": the mesh file cannot be read");
+      sigset_t all, before;
+      sigfillset(&all);
+      ::sigprocmask(SIG_BLOCK, &all, &before);
+      const auto folder      = std::filesystem::temp_directory_path();
+      const std::string path = (folder / ("sprag-" + std::to_string(::getpid()) + ".msh")).string();
+      gmsh::write(path);
+      std::ifstream stream(path);
+      const std::string mesh{ std::istreambuf_iterator<char>(stream), {} };
+      std::remove(path.c_str());
+      ::sigprocmask(SIG_SETMASK, &before, nullptr);
+      return mesh;
+    }
+
+    /// Ids and the mesh itself, in gmsh's format 2.2.
+    std::pair<GroupIds, std::string>
+    run_gmsh(const std::string &file, const std::vector<std::pair<std::string, double>> &constants, const MeshGroups &groups)
+    {
       const GmshSession session(arguments_of(constants));
       gmsh::option::setNumber("General.Terminal", 0);
       gmsh::option::setNumber("Mesh.MshFileVersion", 2.2);
@@ -135,9 +176,9 @@ namespace sprag
         if (nodes.empty())
           gmsh::model::mesh::generate(2);
         const GroupIds ids = read_groups(file, groups);
+        refuse_third_dimension(file);
         refuse_other_elements(file);
-        gmsh::write(output);
-        return ids;
+        return { ids, written_mesh() };
       }
       catch (const InputError &)
       {
@@ -165,8 +206,23 @@ namespace sprag
       }
     }
 
-    void read(const std::string &file, std::istream &stream, Triangulation<2> &triangulation)
+    /// Of cells whose corners are damaged deal.II makes what it can.
+    void refuse_inverted_cells(const std::string &file, const Triangulation<2> &triangulation)
     {
+      for (const auto &cell : triangulation.active_cell_iterators())
+        for (const unsigned int v : { 0, 1, 2, 3 })
+        {
+          constexpr unsigned int next[] = { 1, 3, 0, 2 }, last[] = { 2, 0, 3, 1 }; // anticlockwise
+          const auto a = cell->vertex(next[v]) - cell->vertex(v), b = cell->vertex(last[v]) - cell->vertex(v);
+          if (!(a[0] * b[1] - a[1] * b[0] > 0.))
+            throw InputError(file + ": the cell at (" + rounded_text(cell->center()[0]) + ", " + rounded_text(cell->center()[1]) +
+                             ") mm is degenerate or turned inside out");
+        }
+    }
+
+    void read(const std::string &file, const std::string &mesh, Triangulation<2> &triangulation)
+    {
+      std::istringstream stream(mesh);
       try
       {
         GridIn<2> reader(triangulation);
@@ -177,6 +233,53 @@ namespace sprag
         throw InputError(file +
                          ": the mesh cannot be used: a surface is in two physical groups, a physical curve lies inside the " +
                          "body, or cells do not match along a common side");
+      }
+      refuse_inverted_cells(file, triangulation);
+    }
+
+    // What the process that runs gmsh hands back: a kind, then mistakes, a line each, or ids and mesh.
+    constexpr char refused = 'r', meshed = 'm';
+
+    std::string mesh_text(const GroupIds &ids, const std::string &mesh)
+    {
+      std::ostringstream text;
+      text << meshed << ids.materials.size() << ' ' << ids.boundaries.size();
+      for (const auto &[tag, id] : ids.materials)
+        text << ' ' << tag << ' ' << id;
+      for (const auto &[tag, id] : ids.boundaries)
+        text << ' ' << tag << ' ' << id;
+      return text.str() + '\n' + mesh;
+    }
+
+    GroupIds ids_of(std::istream &text)
+    {
+      GroupIds ids;
+      std::size_t materials = 0, boundaries = 0;
+      int tag         = 0;
+      unsigned int id = 0;
+      text >> materials >> boundaries;
+      for (; materials > 0 && text >> tag >> id; --materials)
+        ids.materials[tag] = id;
+      for (; boundaries > 0 && text >> tag >> id; --boundaries)
+        ids.boundaries[tag] = id;
+      return ids;
+    }
+
+    /// Carried out in a process of its own.
+    std::string gmsh_answer(const std::string &file, const std::vector<std::pair<std::string, double>> &constants,
+                            const MeshGroups &groups)
+    {
+      try
+      {
+        const auto [ids, mesh] = run_gmsh(file, constants, groups);
+        Triangulation<2> trial;
+        if (constants.empty()) // a user's own may be anything
+          read(file, mesh, trial);
+        return mesh_text(ids, mesh);
+      }
+      catch (const InputError &error)
+      {
+        return refused + std::string(error.what());
       }
     }
   } // namespace
@@ -197,10 +300,25 @@ namespace sprag
   void read_gmsh(const std::string &file, const std::vector<std::pair<std::string, double>> &constants, const MeshGroups &groups,
                  Triangulation<2> &triangulation)
   {
-    const TemporaryFile output;
-    const GroupIds ids = run_gmsh(file, constants, groups, output.path);
-    std::ifstream stream(output.path);
-    read(file, stream, triangulation);
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(file, ignored) || !std::ifstream(file))
+      throw InputError(file + ": the mesh file cannot be read");
+    const bool is_mesh = std::filesystem::path(file).extension() == ".msh"; // and no script, which may take its time
+    const auto bytes   = std::filesystem::file_size(file);
+    const auto work    = [&]
+    {
+      if (is_mesh)
+        limit_growth(mesh_room + 200 * bytes);
+      return gmsh_answer(file, constants, groups);
+    };
+    const auto answer = in_child_process(work, is_mesh ? mesh_patience + 1e-6 * static_cast<double>(bytes) : 0.);
+    if (!answer.failure.empty())
+      throw InputError(file + ": gmsh " + answer.failure + " on it: the file is damaged, or meshing it needs too much memory");
+    if (answer.text.front() == refused)
+      throw InputError(lines_of(answer.text.substr(1)));
+    std::istringstream text(answer.text.substr(1));
+    const GroupIds ids = ids_of(text);
+    read(file, answer.text.substr(answer.text.find('\n') + 1), triangulation);
     rename_ids(ids, triangulation);
   }
 } // namespace sprag

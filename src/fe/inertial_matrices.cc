@@ -2,6 +2,7 @@
 
 #include "base/errors.h"
 #include "base/text.h"
+#include "fe/cell_elasticity.h"
 #include "fe/end_face.h"
 
 #include <deal.II/base/quadrature_lib.h>
@@ -75,26 +76,6 @@ namespace sprag
       std::vector<double> shares;
       FullMatrix<double> scaled;
     };
-
-    template <int dim>
-    FullMatrix<double> cell_stiffness(const FEValues<dim> &values, const Tensor<2, dim * dim> &elasticity, const double width)
-    {
-      const auto &fe       = values.get_fe();
-      const unsigned int n = fe.n_dofs_per_cell();
-      FullMatrix<double> result(n, n);
-      for (const unsigned int q : values.quadrature_point_indices())
-        for (unsigned int j = 0; j < n; ++j)
-        {
-          Tensor<1, dim * dim> strain;
-          for (unsigned int d = 0; d < dim; ++d)
-            strain[fe.system_to_component_index(j).first * dim + d] = values.shape_grad(j, q)[d];
-          const auto stress = width * values.JxW(q) * (elasticity * strain);
-          for (unsigned int i = 0; i < n; ++i)
-            for (unsigned int d = 0; d < dim; ++d)
-              result(i, j) += values.shape_grad(i, q)[d] * stress[fe.system_to_component_index(i).first * dim + d];
-        }
-      return result;
-    }
 
     /// Of a cell or, with a mass per area, of a face.
     template <int dim>
@@ -326,19 +307,22 @@ namespace sprag
   {
     const auto &properties = body.body_properties();
     const auto &fe         = body.dofs().get_fe();
-    FEValues<dim> values(body.cell_mapping(), fe, QGauss<dim>(properties.degree + 1),
-                         update_values | update_gradients | update_JxW_values);
-    Scatter<dim> scatter(coordinates, fe.n_dofs_per_cell());
+    FEValues<dim> values(body.cell_mapping(), fe, QGauss<dim>(properties.degree + 1), update_values | update_JxW_values);
+    CellElasticity<dim> elasticity(body.cell_mapping(), fe, properties);
+    const unsigned int n = fe.n_dofs_per_cell();
+    const Vector<double> at_rest(n);
+    FullMatrix<double> of_cell(n, n);
+    Vector<double> forces(n);
+    Scatter<dim> scatter(coordinates, n);
     for (const auto &cell : body.dofs().active_cell_iterators())
     {
       const auto material = cell->material_id();
       if (material == material_id::hub)
         continue;
-      const Lame constants  = plane_constants(properties.constants.at(material), properties.plane);
-      const auto elasticity = linear_elastic<dim>(constants, Tensor<2, dim>()).tangent;
       values.reinit(cell);
+      elasticity.reinit(cell, at_rest);
+      elasticity.assemble(of_cell, forces);
       scatter.reinit(cell);
-      const auto of_cell   = cell_stiffness(values, elasticity, properties.width_of(material));
       const auto cell_mass = local_mass<dim>(values, densities.at(material) * properties.width_of(material));
       scatter.add(of_cell, stiffness);
       scatter.add(cell_mass, mass);

@@ -7,6 +7,7 @@
 #include "fe/rigid_surface.h"
 #include "model/hub_spring.h"
 
+#include <functional>
 #include <optional>
 #include <variant>
 
@@ -28,15 +29,12 @@ namespace sprag
     double stiffness = 0.; ///< what its stiffness exceeds k by [N mm/rad]
   };
 
-  /// Automatic normal penalty over E/depth of the friction layer or, without one, of the first cells.
+  /// Automatic normal penalty over E/depth of the friction layer or, without one, of the first cells, where it is not that of a
+  /// run without inertia.
   namespace penalty_over_layer
   {
-    /// The overlap is a tenth of the layer's compression, which moves P by 0.03 %. Much stiffer penalties make a contact
-    /// narrower than the elements, which then tilts with each of them.
-    constexpr double quasi_static = 12.;
-
-    /// In time the penalty lies in series with the layer and slows the ringing: by 2.4 % if it is the quasi-static one, by 0.25 %
-    /// if it is this one. Linear elements would ring as they pass under such a contact.
+    /// In time the penalty lies in series with the layer and slows the ringing: by 2.4 % at 12, by 0.25 % at this one. Linear
+    /// elements would ring as they pass under such a contact.
     constexpr double in_time        = 120.;
     constexpr double in_time_linear = 12.;
 
@@ -56,21 +54,23 @@ namespace sprag
     std::optional<double> support_stiffness; ///< k_f of a sprung support [N/mm], > 0; none: it is rigid
     FrictionLaw friction;
     ContactSettings contact;
-    double penalty_factor   = penalty_over_layer::quasi_static; ///< counts where the penalty is automatic
+    std::optional<double> penalty_factor; ///< of an automatic penalty, see contact_penalties()
     Solution solution       = Solution::automatic;
-    double layer_thickness  = 0.; ///< [mm]
-    double interface_offset = 0.; ///< e [mm]
+    double layer_thickness  = 0.;     ///< [mm]
+    double interface_offset = 0.;     ///< e [mm]
+    std::optional<Geometry> geometry; ///< of the damper, see FaceContactProperties; none: another body on another path
   };
 
   LeverProperties lever_properties(const Scene &scene);
 
-  /// The settings' penalties, or `penalty_factor` E/depth; the augmented Lagrangian has a factor of its own.
+  /// The settings' penalties, or `over_layer` E/depth, or without it what suits mesh and layer of a run without inertia or of the
+  /// augmented Lagrangian.
   ContactPenalties contact_penalties(const FrictionFace<2> &face, const ContactSettings &settings, double layer_thickness,
-                                     double penalty_factor);
+                                     const std::optional<double> &over_layer);
 
   /// The same of a body; with an elastic cylinder the softer of both faces counts.
   ContactPenalties contact_penalties(const ElasticBody<2> &body, const ContactSettings &settings, double layer_thickness,
-                                     double penalty_factor);
+                                     const std::optional<double> &over_layer);
 
   /// Meshed lever on its hub, rotational spring and support against a rigid obstacle or, where the body has a cylinder's face, an
   /// elastic one: Model in lever axes, which turn with the hub.
@@ -106,6 +106,9 @@ namespace sprag
 
     /// Displacement of all degrees of freedom at the last evaluation, in lever axes [mm].
     dealii::Vector<double> body_displacement(const State &state) const;
+
+    /// Finds body_displacement() of the last evaluation when it is asked, also after the model has moved on.
+    std::function<dealii::Vector<double>()> recovery(const State &state) const;
 
     /// Index of the hub's turn among the coordinates.
     unsigned int rotation() const;

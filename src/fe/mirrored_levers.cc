@@ -189,6 +189,6 @@ namespace sprag
 
   FaceState MirroredLevers::face_state(const State &trial) const
   {
-    return levers[0].face_state(state_of(0, trial));
+    return joined_faces(levers[0].face_state(state_of(0, trial)), levers[1].face_state(state_of(1, trial)));
   }
 } // namespace sprag

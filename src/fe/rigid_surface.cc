@@ -15,6 +15,22 @@ namespace sprag
     double values[n]{};
     double tangent[n][n]{};
 
+    /// Of a traction that changes with the slope of the slip along the face, as far as the face's direction goes with it.
+    void add_slope(const FacePatches::Point &point, const dealii::Tensor<1, 4> &slip_row, const double traction_by_slope)
+    {
+      for (unsigned int b = 0; b < FacePatches::max_nodes; ++b)
+        for (unsigned int e = 0; e < 2; ++e)
+        {
+          const double change       = point.weight * traction_by_slope * slip_row[e] * point.slopes[b];
+          const unsigned int column = 2 * b + e;
+          for (unsigned int i = 2; i < 4; ++i)
+            tangent[theta + i - 2][column] -= slip_row[i] * change;
+          for (unsigned int a = 0; a < FacePatches::max_nodes; ++a)
+            for (unsigned int d = 0; d < 2; ++d)
+              tangent[2 * a + d][column] -= point.shapes[a] * slip_row[d] * change;
+        }
+    }
+
     void add(const FacePatches::Point &point, const ContactResponse<4> &response)
     {
       const auto force    = point.weight * response.force;
@@ -80,6 +96,18 @@ namespace sprag
     return result;
   }
 
+  namespace
+  {
+    /// Derivative of a deformed point's position along the undeformed face.
+    Tensor<1, 4> direction_of_face(const FacePatches::Point &point, const FacePatches::Nodal &displacement)
+    {
+      Tensor<1, 4> result({ 1., 0., 0., 0. });
+      for (unsigned int i = 0; i < displacement.size(); ++i)
+        result[i % 2] += point.slopes[i / 2] * displacement[i];
+      return result;
+    }
+  } // namespace
+
   void RigidSurface::evaluate(const unsigned int patch, const StaticStep &step, std::vector<StaticPoint> &points,
                               std::vector<StaticPatch> &loaded)
   {
@@ -93,13 +121,20 @@ namespace sprag
       auto &point        = points.emplace_back();
       point.index        = q;
       point.position     = FacePatches::position(face.points()[q], nodal);
-      const auto contact = kinematics_of(point.position);
+      auto contact       = kinematics_of(point.position);
       if (!set_trial(memory, contact.gap, contact.slip - memory.slip, step.law, point))
         continue;
-      touches        = true;
-      point.response = contact_response(contact, memory, step.law, step.mode);
-      set_elastic_slip(memory, step, point);
+      touches              = true;
+      const auto direction = direction_of_face(face.points()[q], nodal);
+      const auto shift     = slip_shift(face, q, contact.slip_row * direction, step);
+      contact.slip_shift   = shift.total();
+      point.response       = contact_response(contact, memory, step.law, step.mode);
+      set_slips(memory, step, shift.slip, point);
+      const double by_slope = shift.d_slope * point.response.d_shift;
+      point.response.tangent -= by_slope * outer_product(contact.slip_row, contact.slip_curvature * direction);
       sum.add(face.points()[q], point.response);
+      if (by_slope != 0.)
+        sum.add_slope(face.points()[q], contact.slip_row, by_slope);
     }
     if (touches)
       loaded.push_back(on_ports(of, sum));

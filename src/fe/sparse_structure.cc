@@ -420,7 +420,7 @@ namespace sprag
     return result;
   }
 
-  Vector<double> SparseStructure::elastic_displacement(const Motion &motion) const
+  Vector<double> SparseStructure::elastic_displacement(const Motion &motion, unsigned int) const
   {
     return matrices->coordinates.elastic_displacement(motion.coordinates.position);
   }

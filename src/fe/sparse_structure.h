@@ -71,8 +71,8 @@ namespace sprag
     /// v^T C v with the motion's positions as velocities v: twice the power that damping takes.
     double damping_form(const Motion &velocities) const;
 
-    /// Elastic displacement of all degrees of freedom of the body, in lever axes [mm].
-    dealii::Vector<double> elastic_displacement(const Motion &motion) const;
+    /// Elastic displacement of all degrees of freedom of the body, in lever axes [mm]. Of a pair's structure that of a lever.
+    dealii::Vector<double> elastic_displacement(const Motion &motion, unsigned int lever = 0) const;
 
   private:
     /// Products of a motion's position, velocity and acceleration (rates of the stiffnesses only where damping needs them).

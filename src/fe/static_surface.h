@@ -21,7 +21,7 @@ namespace sprag
     LeverPoint position; ///< deformed, lever axes
     double gap;
     double trial_pressure; ///< lambda - eps g: the pressure where positive [MPa]
-    double slip_change;    ///< in the step [mm]
+    double slip_change;    ///< in a step at the speed of its end [mm]
     double elastic_slip;   ///< of the tangential penalty [mm]
 
     /// Force on the lever, its coordinates as in Obstacle; the tangent counts against a rigid obstacle alone.
@@ -35,7 +35,30 @@ namespace sprag
     ContactLaw law;
     FrictionMode mode;
     bool multipliers; ///< whether the traction remembered is a multiplier
+
+    // Of a lever that follows a cylinder. mu is taken at the speed with which a point slides where the step ends, which differs
+    // from its mean over the step: most points were not in contact when it began, and the cylinder has changed its speed. What
+    // moves along the lever with the contact does so almost steadily, so that a point's rate follows from the place that had
+    // the same distance from the contact when the step began, and from the slip's slope along the face where it ends.
+    double travel      = 0.; ///< of the contact along the lever in the step [mm]; 0: speeds are means
+    double speed_ratio = 1.; ///< sliding speed of a rigid lever at the end over its mean; the law's duration is shorter by it
   };
+
+  /// By how much more a point would slip in a step at the speed of its end, the ratio of speeds apart [mm].
+  struct SlipShift
+  {
+    double slip    = 0.;
+    double elastic = 0.; ///< what the elastic slip of the tangential penalty would change less
+    double d_slope = 0.; ///< derivative by the slope [mm]
+
+    double total() const
+    {
+      return slip + elastic;
+    }
+  };
+
+  /// `slope`: of the slip coordinate along the face at the end of the step. None where the contact came from beyond the face.
+  SlipShift slip_shift(const FacePatches &face, unsigned int point, double slope, const StaticStep &step);
 
   /// Forces of one patch of the friction face on some ports, in any order, and their tangent.
   struct StaticPatch
@@ -92,6 +115,6 @@ namespace sprag
   /// Sets a point's pressures and slip from its gap and how far it slipped; whether it is under pressure.
   bool set_trial(const ContactMemory &memory, double gap, double slip_change, const ContactLaw &law, StaticPoint &point);
 
-  /// Sets the elastic slip of a point under pressure whose response is known.
-  void set_elastic_slip(const ContactMemory &memory, const StaticStep &step, StaticPoint &point);
+  /// Sets the elastic slip of a point under pressure whose response is known, and its slip at the speed of the step's end.
+  void set_slips(const ContactMemory &memory, const StaticStep &step, double shift, StaticPoint &point);
 } // namespace sprag

@@ -107,7 +107,7 @@ namespace sprag
   }
 
   FrictionTraction friction_traction(const double trial, const double pressure, const FrictionLaw &law, const double penalty,
-                                     const double dt)
+                                     const double dt, const double shift)
   {
     const double size  = std::abs(trial);
     const double mu_0  = friction_coefficient(law, 0.).coefficient;
@@ -115,9 +115,17 @@ namespace sprag
     if (size <= mu_0 * pressure)
       return { trial, 1., 0., mu_0, false };
 
+    const double shifted = size + sense * penalty * shift;
+    if (shifted <= mu_0 * pressure)
+      return { sense * mu_0 * pressure, 0., sense * mu_0, mu_0, true };
     const double resistance = penalty * dt;
-    const auto mu           = friction_coefficient(law, slip_speed({ law, size, pressure, resistance }));
-    const double rate       = mu.derivative * pressure / resistance;
-    return { sense * mu.coefficient * pressure, rate / (1. + rate), sense * mu.coefficient / (1. + rate), mu.coefficient, true };
+    const auto mu           = friction_coefficient(law, slip_speed({ law, shifted, pressure, resistance }));
+    if (mu.coefficient * pressure > size)
+      return { trial, 1., 0., mu.coefficient, false };
+    const double rate  = mu.derivative * pressure / resistance;
+    const double share = rate / (1. + rate);
+    return {
+      sense * mu.coefficient * pressure, share, sense * mu.coefficient / (1. + rate), mu.coefficient, true, penalty * share
+    };
   }
 } // namespace sprag

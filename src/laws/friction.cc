@@ -20,6 +20,12 @@ namespace sprag
     const std::vector<double> speeds;
   };
 
+  namespace
+  {
+    constexpr double largest_coefficient = 10.;
+    constexpr double plausible           = 2.; ///< for a coefficient, and too slow for the fastest of a table [mm/s]
+  }                                            // namespace
+
   TabulatedFriction::TabulatedFriction(std::vector<double> speeds, std::vector<double> coefficients)
       : interpolant(std::make_shared<const Interpolant>(speeds, coefficients))
   {
@@ -29,6 +35,13 @@ namespace sprag
     if (negative != coefficients.end())
       throw InputError("row " + std::to_string(negative - coefficients.begin() + 1) + ": coefficient " + number_text(*negative) +
                        ": must be >= 0");
+    const auto largest   = std::max_element(coefficients.begin(), coefficients.end());
+    const bool exchanged = *largest > plausible && speeds.back() <= plausible;
+    if (*largest > largest_coefficient || exchanged)
+      throw InputError("row " + std::to_string(largest - coefficients.begin() + 1) + ": coefficient " + number_text(*largest) +
+                       (exchanged ? " with speeds of " + number_text(speeds.back()) + " mm/s at most" : "") +
+                       ": must be <= " + number_text(exchanged ? plausible : largest_coefficient) +
+                       "; the speed is the first column, mu the second: are they exchanged?");
   }
 
   FrictionValue TabulatedFriction::value(const double speed) const

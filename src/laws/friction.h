@@ -32,7 +32,8 @@ namespace sprag
   class TabulatedFriction
   {
   public:
-    /// `speeds` [mm/s] start at >= 0 and increase; `coefficients` >= 0; at least 4 rows. Throws InputError otherwise.
+    /// `speeds` [mm/s] start at >= 0 and increase; 0 <= `coefficients` <= 10; at least 4 rows. Throws InputError otherwise, and
+    /// where it looks as if both were exchanged: no speed beyond 2 mm/s, but a coefficient.
     TabulatedFriction(std::vector<double> speeds, std::vector<double> coefficients);
 
     FrictionValue value(double speed) const;

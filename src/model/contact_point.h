@@ -17,6 +17,7 @@ namespace sprag
     double slip;                         ///< slip coordinate [mm]: its change is what the obstacle slides along the body
     dealii::Tensor<1, n> slip_row;       ///< d(slip)/dq
     dealii::Tensor<2, n> slip_curvature; ///< d2(slip)/dq2
+    double slip_shift = 0.; ///< what the step's slip at the speed of its end is longer than its own, see friction_traction() [mm]
   };
 
   /// What a contact point remembers. In an accepted state: the values at the end of its step.
@@ -45,7 +46,7 @@ namespace sprag
     double normal_penalty;     ///< [N/mm^3], > 0
     double tangential_penalty; ///< [N/mm^3], > 0
     FrictionLaw friction;
-    double dt; ///< duration of the step [s], > 0
+    double dt; ///< duration of the step, or as long as its slip would take at the speed of its end [s], > 0
   };
 
   enum class FrictionMode
@@ -62,8 +63,9 @@ namespace sprag
     double traction = 0.; ///< [MPa], positive where the slip coordinate grows
     double mu       = 0.; ///< coefficient at the slip speed
     bool slipping   = false;
+    double d_shift  = 0.;         ///< of the traction by the slip's shift [N/mm^3]
     dealii::Tensor<1, n> force;   ///< p dg/dq - t d(slip)/dq
-    dealii::Tensor<2, n> tangent; ///< d(force)/dq, unsymmetric
+    dealii::Tensor<2, n> tangent; ///< d(force)/dq at a given shift, unsymmetric
   };
 
   /// The one place where contact tractions and tangents come from. `memory` holds the slip coordinate at the start of the step
@@ -79,14 +81,15 @@ namespace sprag
       return response;
 
     const double stick  = memory.traction + law.tangential_penalty * (point.slip - memory.slip);
-    const auto friction = mode == FrictionMode::stick
-                              ? FrictionTraction{ stick, 1., 0., 0., false }
-                              : friction_traction(stick, normal.pressure, law.friction, law.tangential_penalty, law.dt);
+    const auto friction = mode == FrictionMode::stick ? FrictionTraction{ stick, 1., 0., 0., false }
+                                                      : friction_traction(stick, normal.pressure, law.friction,
+                                                                          law.tangential_penalty, law.dt, point.slip_shift);
 
     response.pressure = normal.pressure;
     response.traction = friction.traction;
     response.mu       = friction.mu;
     response.slipping = friction.slipping;
+    response.d_shift  = friction.d_shift;
     response.force    = normal.pressure * point.gap_row - friction.traction * point.slip_row;
 
     const auto d_pressure = normal.derivative * point.gap_row;

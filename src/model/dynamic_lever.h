@@ -110,8 +110,9 @@ namespace sprag
 
     std::optional<SlidingForces> sliding_forces(const DrivePoint &drive) override
     {
-      if (drive.v == 0.)
-        return {};
+      // There a lever touches without force.
+      if (drive.v == 0. && drive.x == 0. && frame.ports.levers == 1)
+        return SlidingForces{ 0., 0. };
       if (solve_sliding(drive, 1.) == nullptr)
         return {};
       return observed_forces();
@@ -162,16 +163,7 @@ namespace sprag
     std::vector<Eigenmode> vibrations(const HeldSlide &slide, const bool in_contact, const unsigned int number) override
     {
       const auto forces = perturbation(slide, in_contact);
-      std::vector<Eigenmode> result;
-      for (auto &mode : structure->vibrations(forces, number))
-      {
-        ComplexVector ports;
-        for (unsigned int part = 0; part < 2; ++part)
-          ports[part] = structure->port_positions(as_motion(mode, part));
-        const auto forms = mode_forms(*structure, mode);
-        result.push_back(explained(std::move(mode), std::move(ports), forms, forces, frame.ports));
-      }
-      return result;
+      return explained(*structure, structure->vibrations(forces, number), forces, frame.ports);
     }
 
     Motion perturbed(const HeldSlide &slide, const Eigenmode &eigenmode, const double amplitude) override
@@ -324,13 +316,16 @@ namespace sprag
       return drive;
     }
 
+    /// Touching at x = 0. Further on as slowly slid there from x = 0, with friction as in a motion forward and mu at rest.
     Motion start_at_rest(const DrivePoint &drive)
     {
+      if (drive.x > 0.)
+        return pressed_at_rest(drive, ContactFriction::sliding);
       Motion motion = structure->rest();
       motion.drive  = drive;
       // A cylinder out of the mirror plane presses on one lever from the beginning.
       if (frame.ports.levers == 2 && overlaps(structure->port_positions(motion), drive))
-        return pressed_at_rest(drive);
+        return pressed_at_rest(drive, ContactFriction::none);
       motion.contact = contact->touch(structure->port_positions(motion), drive);
       return motion;
     }
@@ -341,15 +336,11 @@ namespace sprag
       return contact->overlap() > 1e-9 * frame.geometries.front().cylinder_radius;
     }
 
-    /// In equilibrium without friction.
-    Motion pressed_at_rest(const DrivePoint &drive)
+    Motion pressed_at_rest(const DrivePoint &drive, const ContactFriction friction)
     {
-      DrivePoint passing             = drive;
-      passing.v                      = 1.;
-      const PortForces *const forces = solve_sliding(passing, 1., ContactFriction::none);
+      const PortForces *const forces = solve_sliding({ drive.time, drive.x, 0., 0. }, 1., friction);
       if (forces == nullptr)
-        throw AnalysisError("no equilibrium at rest with the cylinder out of the mirror plane. Try a Drive/Start at which both "
-                            "levers are pressed, or a smaller Mirrored pair/Cylinder offset.");
+        throw AnalysisError("no equilibrium at rest. Try another Drive/Start or a smaller Mirrored pair/Cylinder offset.");
       return completed(structure->deform(*forces), drive, *forces);
     }
 

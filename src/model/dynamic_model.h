@@ -88,14 +88,15 @@ namespace sprag
   public:
     virtual ~DynamicModel() = default;
 
-    /// At rest without contact force where the drive rests, else in steady sliding at its x and v, with velocities and
-    /// accelerations. Throws AnalysisError if there is no such equilibrium.
+    /// Where the drive moves in steady sliding at its x and v, with velocities and accelerations; where it rests, touching at
+    /// x = 0, further on in equilibrium with friction as left by sliding there forward, slowly. Throws AnalysisError if there is
+    /// no such equilibrium.
     virtual Motion initial_motion(const DrivePoint &drive) = 0;
 
     /// One step of the time integration from an accepted motion. Throws AnalysisError if a factorisation fails.
     virtual StepOutcome step(const Motion &accepted, const DrivePoint &to, const StepWeights &weights) = 0;
 
-    /// Equilibrium of steady sliding with the drive at x, v != 0; none where there is none.
+    /// Equilibrium of steady sliding with the drive at x and v, of a zero its sign; none where there is none.
     virtual std::optional<SlidingForces> sliding_forces(const DrivePoint &drive) = 0;
 
     /// The slide held at the drive's x, sliding as it does at its v; none where there is no equilibrium.

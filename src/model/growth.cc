@@ -52,21 +52,6 @@ namespace sprag
       for (auto *const vector : { &mode.coordinates, &mode.face_force, &ports })
         multiply(*vector, factor);
     }
-
-    /// See Eigenmode.
-    double mirroring_of(const ComplexVector &ports, const PortLayout &layout)
-    {
-      double of_both = 0.;
-      double sizes   = 0.;
-      for (unsigned int i = layout.first(0); i <= layout.rotation(0); ++i)
-      {
-        const unsigned int j = layout.first(1) + i;
-        const Complex first(ports[0][i], ports[1][i]), second(ports[0][j], ports[1][j]);
-        of_both += 2. * (std::conj(first) * second).real();
-        sizes += std::norm(first) + std::norm(second);
-      }
-      return of_both / sizes;
-    }
   } // namespace
 
   Eigenmode explained(StructureMode mode, ComplexVector ports, const ModeForms &forms, const PortPerturbation &perturbation,

@@ -2,6 +2,7 @@
 
 #include "model/dynamic_model.h"
 #include "model/linearisation.h"
+#include "model/mirroring.h"
 #include "model/port_layout.h"
 
 #include <cmath>
@@ -50,4 +51,23 @@ namespace sprag
   /// mode's energy grows by 2 Re lambda times the power of what is not conservative. `ports` are displacements of all ports.
   Eigenmode explained(StructureMode mode, ComplexVector ports, const ModeForms &forms, const PortPerturbation &perturbation,
                       const PortLayout &layout);
+
+  /// All modes of a structure, those of a pair that tie separated.
+  template <class Structure>
+  std::vector<Eigenmode> explained(const Structure &structure, std::vector<StructureMode> modes,
+                                   const PortPerturbation &perturbation, const PortLayout &layout)
+  {
+    std::vector<ComplexVector> ports;
+    for (const auto &mode : modes)
+      ports.push_back({ { structure.port_positions(as_motion(mode, 0)), structure.port_positions(as_motion(mode, 1)) } });
+    if (layout.levers == 2)
+      separate_ties(modes, ports, layout);
+    std::vector<Eigenmode> result;
+    for (std::size_t i = 0; i < modes.size(); ++i)
+    {
+      const auto forms = mode_forms(structure, modes[i]);
+      result.push_back(explained(std::move(modes[i]), std::move(ports[i]), forms, perturbation, layout));
+    }
+    return result;
+  }
 } // namespace sprag

@@ -140,14 +140,14 @@ namespace sprag
       return contact[lever]->surface_shape(ports_of(lever, displacements));
     }
 
-    // Of the first lever.
+    /// Of either lever.
     FacePoints face_points() const
     {
       return contact[0]->face_points();
     }
     FaceState face_state(const DrivePoint &drive) const
     {
-      return contact[0]->face_state(drive);
+      return joined_faces(contact[0]->face_state(drive), contact[1]->face_state(drive));
     }
 
   private:

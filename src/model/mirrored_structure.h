@@ -154,11 +154,10 @@ namespace sprag
       return parts[0]->damping_form(part_of(velocities, 0)) + parts[1]->damping_form(part_of(velocities, 1));
     }
 
-    /// Of the first lever.
-    dealii::Vector<double> elastic_displacement(const Motion &motion) const
+    dealii::Vector<double> elastic_displacement(const Motion &motion, const unsigned int lever) const
     {
       auto result = parts[0]->elastic_displacement(part_of(motion, 0));
-      result += parts[1]->elastic_displacement(part_of(motion, 1));
+      result.add(lever == 0 ? 1. : -1., parts[1]->elastic_displacement(part_of(motion, 1)));
       result *= half_root();
       return result;
     }

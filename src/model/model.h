@@ -50,7 +50,7 @@ namespace sprag
     /// Size of the scene, against which positions are rounded off [mm].
     virtual double length_scale() const = 0;
 
-    /// Largest overlap of body and obstacle [mm].
+    /// Largest overlap of body and obstacle, or what of it the next augmentation removes [mm].
     virtual double penetration() const = 0;
 
     /// Why the state of the last evaluation, though balanced, is beyond what the model can tell; empty if it is not.

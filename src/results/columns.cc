@@ -25,6 +25,10 @@ namespace sprag
       { "mu", "1", "friction coefficient at v_rel" },
       { "centre_offset", "mm", "s minus the lever coordinate of the cylinder's centre; by it F/P in lever axes differs from mu" },
       { "contact_width", "mm", "length of the friction face with pressure > 0, its edges interpolated; 0 where open" },
+      { "largest_pressure", "MPa",
+        "largest pressure on the friction face, of finite elements; 0 where open; NaN of models without a face" },
+      { "largest_pressure_xi", "mm",
+        "its place: distance from the pivot along the deformed lever's axis; NaN where the contact is open" },
       { "penetration", "mm", "largest numerical overlap of cylinder and friction face" },
       { "indentation", "mm",
         "largest physical compression of the friction layer; of rigid and beam that of the contact law that stands for it" },
@@ -97,10 +101,18 @@ namespace sprag
 
   const std::vector<Column> &columns_of_a_lever()
   {
-    static const std::vector<Column> columns = {
-      Column::theta,         Column::theta_rate,   Column::s, Column::P, Column::F, Column::Q, Column::v_rel, Column::mu,
-      Column::centre_offset, Column::contact_width
-    };
+    static const std::vector<Column> columns = { Column::theta,
+                                                 Column::theta_rate,
+                                                 Column::s,
+                                                 Column::P,
+                                                 Column::F,
+                                                 Column::Q,
+                                                 Column::v_rel,
+                                                 Column::mu,
+                                                 Column::centre_offset,
+                                                 Column::contact_width,
+                                                 Column::largest_pressure,
+                                                 Column::largest_pressure_xi };
     return columns;
   }
 

@@ -28,6 +28,8 @@ namespace sprag
     mu,
     centre_offset,
     contact_width,
+    largest_pressure,
+    largest_pressure_xi,
     penetration,
     indentation,
     cone_violation,

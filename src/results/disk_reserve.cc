@@ -63,6 +63,14 @@ namespace sprag
     reserved = needed + margin;
   }
 
+  void DiskReserve::require_in_place() const
+  {
+    struct stat own = {}, found = {};
+    ::fstat(descriptor, &own);
+    if (::stat(path.c_str(), &found) != 0 || own.st_ino != found.st_ino || own.st_dev != found.st_dev)
+      throw AnalysisError(path + " was removed or replaced while the run wrote it: its results are lost");
+  }
+
   void DiskReserve::reserve(const std::size_t end) const
   {
     rlimit limit = {};
@@ -71,5 +79,18 @@ namespace sprag
     if (fallocate(descriptor, FALLOC_FL_KEEP_SIZE, 0, static_cast<off_t>(end)) != 0)
       if (errno == ENOSPC || errno == EDQUOT || errno == EFBIG)
         fail(path, errno);
+  }
+
+  void require_space(const std::string &path, const std::size_t bytes)
+  {
+    try
+    {
+      DiskReserve(path).cover(bytes);
+    }
+    catch (const AnalysisError &)
+    {
+      ::unlink(path.c_str());
+      throw;
+    }
   }
 } // namespace sprag

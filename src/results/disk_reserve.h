@@ -23,6 +23,9 @@ namespace sprag
     /// that cannot reserve are taken at their word that there is space.
     void cover(std::size_t bytes);
 
+    /// Throws AnalysisError if the file is no longer at its path: its folder, or the file itself, was removed or replaced.
+    void require_in_place() const;
+
   private:
     void reserve(std::size_t end) const;
 
@@ -30,4 +33,8 @@ namespace sprag
     int descriptor;
     std::size_t reserved = 0; ///< from the start of the file
   };
+
+  /// Throws AnalysisError with the system's reason, and removes the file, if it cannot be created or not take that many bytes at
+  /// present.
+  void require_space(const std::string &path, std::size_t bytes);
 } // namespace sprag

@@ -114,6 +114,27 @@ namespace sprag::hdf5
       return dataset;
     }
 
+    /// One chunk, its bytes sorted before they are compressed.
+    template <typename Number>
+    Handle write_compressed(const Handle &location, const std::string &name, const hid_t type, const std::vector<Number> &values,
+                            const std::size_t width)
+    {
+      Assert(values.size() % width == 0, dealii::ExcMessage("Not a whole number of rows."));
+      std::vector<hsize_t> extent = { values.size() / width };
+      if (width > 1)
+        extent.push_back(width);
+      Handle creation(checked("storage", [] { return H5Pcreate(H5P_DATASET_CREATE); }), H5Pclose);
+      if (!values.empty())
+      {
+        checked("chunks", [&] { return H5Pset_chunk(creation.id(), static_cast<int>(extent.size()), extent.data()); });
+        checked("compression", [&] { return H5Pset_shuffle(creation.id()); });
+        checked("compression", [&] { return H5Pset_deflate(creation.id(), 1); });
+      }
+      Handle dataset = create_dataset(location, name, type, simple_space(extent, extent), creation.id());
+      checked("dataset " + name, [&] { return H5Dwrite(dataset.id(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()); });
+      return dataset;
+    }
+
     Handle chunked(const std::vector<hsize_t> &chunk)
     {
       Handle creation(checked("storage", [] { return H5Pcreate(H5P_DATASET_CREATE); }), H5Pclose);
@@ -150,6 +171,25 @@ namespace sprag::hdf5
   {
     const Handle access = file_access();
     return Handle(checked("opening " + path, [&] { return H5Fopen(path.c_str(), H5F_ACC_RDWR, access.id()); }), H5Fclose);
+  }
+
+  Handle open_abandoned_file(const std::string &path)
+  {
+    const Handle access = file_access();
+    const hbool_t clear = true; // as h5clear does
+    checked("file access", [&] { return H5Pset(access.id(), "clear_status_flags", &clear); });
+    return Handle(checked("opening " + path, [&] { return H5Fopen(path.c_str(), H5F_ACC_RDWR, access.id()); }), H5Fclose);
+  }
+
+  std::string read_text(const Handle &location, const std::string &name)
+  {
+    const Handle dataset(checked("dataset " + name, [&] { return H5Dopen2(location.id(), name.c_str(), H5P_DEFAULT); }),
+                         H5Dclose);
+    char *text = nullptr;
+    checked("dataset " + name, [&] { return H5Dread(dataset.id(), text_type().id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, &text); });
+    const std::string result = text != nullptr ? text : "";
+    H5free_memory(text);
+    return result;
   }
 
   void start_swmr_write(const Handle &file)
@@ -202,6 +242,22 @@ namespace sprag::hdf5
   {
     const std::vector<hsize_t> extent(shape.begin(), shape.end());
     return write_dataset(location, name, H5T_NATIVE_DOUBLE, simple_space(extent, extent), values.data());
+  }
+
+  Handle write_rows(const Handle &location, const std::string &name, const std::vector<float> &values, const std::size_t width)
+  {
+    return write_compressed(location, name, H5T_NATIVE_FLOAT, values, width);
+  }
+
+  Handle write_rows(const Handle &location, const std::string &name, const std::vector<double> &values, const std::size_t width)
+  {
+    return write_compressed(location, name, H5T_NATIVE_DOUBLE, values, width);
+  }
+
+  Handle write_rows(const Handle &location, const std::string &name, const std::vector<unsigned int> &values,
+                    const std::size_t width)
+  {
+    return write_compressed(location, name, H5T_NATIVE_UINT, values, width);
   }
 
   Series::Series(Handle created, std::vector<hsize_t> initial_extent)

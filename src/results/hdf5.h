@@ -53,6 +53,12 @@ namespace sprag
     /// Opens an existing file for reading and writing.
     Handle open_file(const std::string &path);
 
+    /// The same of a file that is still marked as being written, as its writer was killed.
+    Handle open_abandoned_file(const std::string &path);
+
+    /// A scalar text.
+    std::string read_text(const Handle &location, const std::string &name);
+
     /// From here on others can read along; no object and no attribute can be created any more.
     void start_swmr_write(const Handle &file);
 
@@ -70,6 +76,12 @@ namespace sprag
     Handle write_dataset(const Handle &location, const std::string &name, const std::vector<double> &values);
     Handle write_dataset(const Handle &location, const std::string &name, const std::vector<double> &values,
                          const std::vector<std::size_t> &shape);
+
+    // Rows of `width` numbers each, compressed; in single precision, or as they are.
+    Handle write_rows(const Handle &location, const std::string &name, const std::vector<float> &values, std::size_t width);
+    Handle write_rows(const Handle &location, const std::string &name, const std::vector<double> &values, std::size_t width);
+    Handle write_rows(const Handle &location, const std::string &name, const std::vector<unsigned int> &values,
+                      std::size_t width);
 
     /// A dataset of doubles to which rows are appended: [rows] or [rows x width].
     class Series

@@ -2,6 +2,7 @@
 
 #include "base/errors.h"
 #include "results/disk_reserve.h"
+#include "results/entries.h"
 #include "results/hdf5.h"
 
 #include <deal.II/base/exceptions.h>
@@ -70,15 +71,6 @@ namespace sprag
       describe(hdf5::write_dataset(group, column.name, values), column.unit, column.description);
     }
 
-    void write_entries(const hdf5::Handle &file, const std::string &name, const std::vector<Entry> &entries)
-    {
-      const hdf5::Handle group = hdf5::create_group(file, name);
-      for (const Entry &entry : entries)
-        std::visit([&](const auto &value)
-                   { describe(hdf5::write_dataset(group, entry.name, value), entry.unit, entry.description); },
-                   entry.value);
-    }
-
     void write_group(const hdf5::Handle &file, const Group &group)
     {
       const hdf5::Handle handle = hdf5::create_group(file, group.name);
@@ -86,6 +78,26 @@ namespace sprag
         describe(shape.empty() ? hdf5::write_dataset(handle, info.name, values)
                                : hdf5::write_dataset(handle, info.name, values, shape),
                  info.unit, info.description);
+    }
+
+    void write_warnings(const hdf5::Handle &file, const Warnings &warnings)
+    {
+      const hdf5::Handle group = hdf5::create_group(file, "warnings");
+      for (const Warning &warning : warnings)
+      {
+        const hdf5::Handle dataset = hdf5::write_dataset(group, warning.name, warning.found);
+        describe(dataset, "", "what was found; its effect and remedy are attributes");
+        hdf5::write_attribute(dataset, "effect", warning.effect);
+        hdf5::write_attribute(dataset, "remedy", warning.remedy);
+      }
+    }
+
+    std::size_t size_of(const Warnings &warnings)
+    {
+      std::size_t size = 0;
+      for (const Warning &warning : warnings)
+        size += overhead / 16 + warning.found.size() + warning.effect.size() + warning.remedy.size();
+      return size;
     }
 
     std::size_t size_of(const std::vector<Group> &groups)
@@ -191,10 +203,26 @@ namespace sprag
 
       void flush()
       {
+        reserve.require_in_place();
         reserve.cover(overhead + table.pending_bytes());
         table.write();
         hdf5::flush(file);
         last_flush = std::chrono::steady_clock::now();
+      }
+
+      /// At the end: false where there is no space left but for the end itself.
+      bool flush_what_fits()
+      {
+        reserve.require_in_place();
+        try
+        {
+          flush();
+          return true;
+        }
+        catch (const AnalysisError &)
+        {
+          return false;
+        }
       }
     };
 
@@ -300,18 +328,31 @@ namespace sprag
     writer.flush();
   }
 
-  void ResultFile::finish(const std::vector<Entry> &summary, const std::vector<Entry> &meta, const std::vector<Group> &groups)
+  void add_entries(const hdf5::Handle &file, const std::string &name, const std::vector<Entry> &entries)
+  {
+    const hdf5::Handle group = hdf5::create_group(file, name);
+    for (const Entry &entry : entries)
+      std::visit([&](const auto &value)
+                 { describe(hdf5::write_dataset(group, entry.name, value), entry.unit, entry.description); },
+                 entry.value);
+  }
+
+  void ResultFile::finish(const std::vector<Entry> &summary, const std::vector<Entry> &meta, const Warnings &warnings,
+                          const std::vector<Group> &groups)
   {
     Assert(implementation->writer, dealii::ExcMessage("The result file is finished already."));
     // Nothing can be created in a file that others may be reading along: close it and open it anew.
-    implementation->writer->flush();
+    const bool has_space = implementation->writer->flush_what_fits();
     implementation->writer.reset();
     DiskReserve reserve(implementation->path);
-    reserve.cover(overhead + size_of(groups));
+    if (has_space)
+      reserve.cover(overhead + size_of(groups) + size_of(warnings));
     hdf5::Handle file = hdf5::open_file(implementation->path);
-    write_entries(file, "summary", summary);
-    write_entries(file, "meta", meta);
-    for (const Group &group : groups)
+    add_entries(file, "summary", summary);
+    add_entries(file, "meta", meta);
+    if (has_space)
+      write_warnings(file, warnings);
+    for (const Group &group : has_space ? groups : std::vector<Group>())
       write_group(file, group);
     file.close();
   }

@@ -1,9 +1,11 @@
 #pragma once
 
 #include "results/columns.h"
+#include "results/warning.h"
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -47,11 +49,24 @@ namespace sprag
     double x    = 0.;             ///< [mm]
     std::vector<double> pressure; ///< [MPa]
     std::vector<double> traction; ///< friction on the lever along -d [MPa]
+
+    // Of a pair's second lever; empty without. Fields have them, /face does not.
+    std::vector<double> pressure_2;
+    std::vector<double> traction_2;
   };
 
-  /// `result.h5`: /table/<column>, /face, /summary, /parameters, /meta. The file can be read while the run goes on (HDF5
-  /// single-writer-multiple-reader) and after it is killed: what is appended is flushed at once; of rows that come within 5 ms of
-  /// the last flush several are flushed together. Throws AnalysisError when HDF5 fails. To be destroyed before MPI is finalised.
+  /// The first lever's with the second's.
+  inline FaceState joined_faces(FaceState first, FaceState second)
+  {
+    first.pressure_2 = std::move(second.pressure);
+    first.traction_2 = std::move(second.traction);
+    return first;
+  }
+
+  /// `result.h5`: /table/<column>, /face, /summary, /parameters, /meta, /warnings. The file can be read while the run goes on
+  /// (HDF5 single-writer-multiple-reader) and after it is killed: what is appended is flushed at once; of rows that come within 5
+  /// ms of the last flush several are flushed together. Throws AnalysisError when HDF5 fails. To be destroyed before MPI is
+  /// finalised.
   class ResultFile
   {
   public:
@@ -70,8 +85,10 @@ namespace sprag
 
     void append(const FaceState &state);
 
-    /// Writes /summary, /meta and other groups and closes the file. To be called once, also after a failed analysis.
-    void finish(const std::vector<Entry> &summary, const std::vector<Entry> &meta, const std::vector<Group> &groups = {});
+    /// Writes /summary, /meta, /warnings and other groups and closes the file. To be called once, also after a failed analysis.
+    /// Of each warning a dataset of its name: what was found, with the attributes effect and remedy.
+    void finish(const std::vector<Entry> &summary, const std::vector<Entry> &meta, const Warnings &warnings = {},
+                const std::vector<Group> &groups = {});
 
   private:
     struct Implementation;

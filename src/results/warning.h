@@ -16,4 +16,13 @@ namespace sprag
   };
 
   using Warnings = std::vector<Warning>;
+
+  /// Adds more of them.
+  void append(Warnings &warnings, const Warnings &more);
+
+  /// All of them for people, a paragraph each in lines of at most 100 characters; empty without.
+  std::string text_of(const Warnings &warnings);
+
+  /// "no warnings" or their number and names.
+  std::string count_text(const Warnings &warnings);
 } // namespace sprag

@@ -58,7 +58,12 @@ namespace sprag
       const Drive &drive = scene.drive;
       Violations result;
       if (drive.minimum() < 0.)
-        result.push_back({ "Drive/Table", {}, "x must be >= 0 mm throughout, it falls to " + rounded_text(drive.minimum()) });
+        result.push_back({ "Drive/Table",
+                           {},
+                           "x must be >= 0 mm throughout, it falls to " + rounded_text(drive.minimum()) +
+                               ": levers stand on one side of x = 0 alone. Of a record about rest, max(x, 0) moves those of one "
+                               "side, max(-x, 0) those opposite, |x| both in turn (Q then acts against the sign of x); a record "
+                               "that counts from elsewhere needs an offset" });
       // A pivot farther than R from the path is never touched.
       const Geometry &g = scene.geometry;
       if (std::abs(g.pivot_height) > g.cylinder_radius)
@@ -119,7 +124,7 @@ namespace sprag
       std::error_code ignored;
       if (ending != ".geo" && ending != ".msh")
         result.push_back({ "Mesh/File", {}, "must end in .geo or .msh" });
-      else if (!std::ifstream(settings.file) || std::filesystem::is_directory(settings.file, ignored))
+      else if (!std::filesystem::is_regular_file(settings.file, ignored) || !std::ifstream(settings.file))
         result.push_back({ "Mesh/File", {}, "cannot be read" });
       return result;
     }

@@ -36,7 +36,8 @@ namespace sprag
     double Q; ///< along x [N], eq. 6
   };
 
-  /// State at x while moving at v [mm/s], v != 0 for a direction. Infinite or negative forces where s + sgn(v) mu e <= 0.
+  /// State at x while moving at v [mm/s]; of a zero the sign is the direction. Infinite or negative forces where
+  /// s + sgn(v) mu e <= 0.
   ClosedFormState closed_form(const Scene &scene, double x, double v);
 
   /// The same of any lever, which a moment presses on the cylinder [N mm].

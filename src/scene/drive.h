@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <memory>
 #include <string>
 #include <vector>
@@ -14,6 +15,8 @@ namespace sprag
   };
 
   /// Where the drive is at an instant. v is two-valued at an instantaneous reversal and a at a table's samples: see `Drive::at`.
+  /// The sign of v, that of a zero included, is the direction of motion: at a turning point of the stroke that ends or begins
+  /// there, in a rest of the motion that led to it, in a rest at the beginning forward, see direction_of().
   struct DrivePoint
   {
     double time = 0.; ///< [s]
@@ -24,6 +27,12 @@ namespace sprag
     /// How far the cylinder's surface has run by turning, counted as slip along the lever [mm]; a drive never turns it.
     double surface = 0.;
   };
+
+  /// +1 forward, -1 back.
+  inline int direction_of(const double v)
+  {
+    return std::signbit(v) ? -1 : 1;
+  }
 
   class DriveMotion;
 
@@ -61,7 +70,8 @@ namespace sprag
     /// 0 where reversals are instantaneous, and for harmonic motion and tables, which turn in their own way [s].
     double reversal_duration() const;
 
-    /// Times strictly between 0 and duration() where the direction of motion changes, increasing.
+    /// Times strictly between 0 and duration() where the direction of motion changes, increasing. A motion back that sets in
+    /// after a rest at the beginning is one of them.
     const std::vector<double> &reversals() const;
 
     /// Times strictly between 0 and duration() at which a time integration must begin a new step, increasing: the reversals, the

@@ -72,7 +72,8 @@ namespace sprag
       DrivePoint point(const std::size_t piece, const double time, Drive::Side) const override
       {
         const double way  = row[piece].to - row[piece].from;
-        const auto shares = shape((time - times[piece]) / duration);
+        const bool ends   = time == times[piece + 1] && row[piece].part == 1.;
+        const auto shares = shape(ends ? 1. : (time - times[piece]) / duration);
         return { time, row[piece].from + way * shares.x, way / duration * shares.v, way / duration / duration * shares.a };
       }
 
@@ -359,6 +360,8 @@ namespace sprag
       result.x = positions[piece];
     else if (time == times[piece + 1])
       result.x = positions[piece + 1];
+    if (result.v * directions[piece] <= 0.)
+      result.v = std::copysign(0., directions[piece]);
     return result;
   }
 
@@ -375,14 +378,14 @@ namespace sprag
   /// After a rest the direction changes when the motion sets in again.
   void DriveMotion::find_reversals()
   {
-    int before = 0;
     for (std::size_t i = 0; i + 1 < times.size(); ++i)
-      if (const int direction = sign(positions[i + 1] - positions[i]); direction != 0)
-      {
-        if (direction == -before)
-          reversals.push_back(times[i]);
-        before = direction;
-      }
+    {
+      const int before = i == 0 ? 1 : directions.back();
+      const int moves  = sign(positions[i + 1] - positions[i]);
+      directions.push_back(moves != 0 ? moves : before);
+      if (i > 0 && directions.back() != before)
+        reversals.push_back(times[i]);
+    }
   }
 
   std::shared_ptr<const DriveMotion> triangle_motion(const double start, const double stroke, const double speed,
@@ -403,7 +406,8 @@ namespace sprag
     const auto shape = [](const double fraction)
     {
       const double sine = std::sin(pi / 2. * fraction);
-      return EqualStrokes::Shares{ sine * sine, pi / 2. * std::sin(pi * fraction), pi * pi / 2. * std::cos(pi * fraction) };
+      const double rate = fraction < 1. ? pi / 2. * std::sin(pi * fraction) : 0.;
+      return EqualStrokes::Shares{ sine * sine, rate, pi * pi / 2. * std::cos(pi * fraction) };
     };
     const double duration = pi / 2. * std::abs(stroke - start) / speed;
     const auto motion = std::make_shared<EqualStrokes>(DriveProfile::harmonic, strokes(start, stroke, cycles), duration, shape);

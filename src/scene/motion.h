@@ -16,7 +16,7 @@ namespace sprag
 
     std::size_t piece(double time, Drive::Side side) const;
 
-    /// The turning points and ends are met bit for bit.
+    /// The turning points and ends are met bit for bit, and v has the sign of the piece's direction, whatever round-off says.
     DrivePoint at(std::size_t piece, double time, Drive::Side side) const;
 
     /// The time within a moving piece, after `time`, at which x has moved by dx; the piece moves farther than that.
@@ -25,6 +25,7 @@ namespace sprag
     const DriveProfile profile;
     std::vector<double> times;
     std::vector<double> positions;
+    std::vector<int> directions; ///< of the pieces, +1 or -1; of a rest that of the motion that led to it, of the first +1
     std::vector<double> reversals;
     std::vector<double> kinks;
     double peak_speed        = 0.;
@@ -34,6 +35,7 @@ namespace sprag
     /// Between the ends of a piece, or as near to them as rounding gets.
     virtual DrivePoint point(std::size_t piece, double time, Drive::Side side) const = 0;
 
+    /// Sets directions and reversals by the positions.
     void find_reversals();
   };
 

@@ -22,7 +22,8 @@ namespace sprag
     double spring_energy = 0.;   ///< its share [N mm]
   };
 
-  /// Both levers at x while the cylinder moves at v, v != 0 for a direction. Forces are infinite or negative as in closed_form().
+  /// Both levers at x while the cylinder moves at v; of a zero the sign is the direction. Forces are infinite or negative as in
+  /// closed_form().
   std::array<PairedLever, 2> pair_closed_form(const Scene &scene, double x, double v);
 
   /// Work on each lever from one instant of the drive to another, as accurate as that of a single one.

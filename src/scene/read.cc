@@ -11,6 +11,7 @@
 #include <cmath>
 #include <filesystem>
 #include <functional>
+#include <map>
 
 namespace sprag
 {
@@ -22,9 +23,24 @@ namespace sprag
       return rounded_text(value * (1. - 5e-6));
     }
 
-    void set_time_tolerance(std::map<std::string, Setting> &given, const double tolerance)
+    /// The largest pressure of model A is then within 2 % over the whole stroke. In time every step would cost more.
+    constexpr double quasi_static_face_size = 0.25; ///< [mm]
+
+    /// How the header of a table may call a column.
+    std::vector<std::string> words_for(const std::string &column)
     {
-      given["Time/Tolerance"].value = number_text(tolerance);
+      const std::map<std::string, std::vector<std::string>> words = { { "time", { "time", "t" } },
+                                                                      { "x", { "x", "position", "displacement" } },
+                                                                      { "speed", { "speed", "velocity", "v" } },
+                                                                      { "mu", { "mu", "coefficient", "friction" } } };
+      return words.at(column);
+    }
+
+    const char *const time_tolerance = "Time/Tolerance";
+
+    ParameterValues values_of(const Scene &scene)
+    {
+      return scene.parameters ? *scene.parameters : ParameterValues();
     }
 
     /// Reports the mistakes met on the way to a scene against the parameters they come from.
@@ -40,6 +56,7 @@ namespace sprag
       std::vector<Parameter> parameters;
       Settings settings;
 
+      ParameterValues values() const;
       void store();
       void make_time_tolerance();
       void make_drive();
@@ -73,9 +90,21 @@ namespace sprag
       check_ranges();
       if (!settings.mistakes.empty())
         throw InputError(settings.mistakes);
-      input.scene.name            = std::filesystem::path(settings.file).stem().string();
-      input.scene.parameters_text = parameters_text(parameters, settings.given);
+      input.scene.name       = std::filesystem::path(settings.file).stem().string();
+      input.scene.parameters = std::make_shared<const ParameterValues>(values());
+      for (const auto &[name, setting] : settings.given)
+        input.scene.given.insert(name);
       return input.scene;
+    }
+
+    ParameterValues SceneReader::values() const
+    {
+      ParameterValues result;
+      for (const auto &parameter : parameters)
+        result.emplace(full_name(parameter), parameter.default_value);
+      for (const auto &[name, setting] : settings.given)
+        result[name] = setting.value;
+      return result;
     }
 
     void SceneReader::store()
@@ -89,14 +118,16 @@ namespace sprag
       resolve("Mesh/File", input.scene.mesh.file);
       resolve("Condensed/Cache", input.scene.condensed.cache);
       make_time_tolerance();
+      const bool inertia         = input.scene.analysis.type != AnalysisType::quasi_static;
+      input.scene.mesh.face_size = input.face_size.value_or(inertia ? input.scene.mesh.face_size : quasi_static_face_size);
     }
 
     /// The printed parameters give a step, so that they must give the tolerance too.
     void SceneReader::make_time_tolerance()
     {
-      const double by_step       = settings.given.count("Time/Step") > 0 ? 0. : input.scene.time.tolerance;
-      input.scene.time.tolerance = input.time_tolerance.value_or(by_step);
-      set_time_tolerance(settings.given, input.scene.time.tolerance);
+      const double by_step                 = settings.given.count("Time/Step") > 0 ? 0. : input.scene.time.tolerance;
+      input.scene.time.tolerance           = input.time_tolerance.value_or(by_step);
+      settings.given[time_tolerance].value = number_text(input.scene.time.tolerance);
     }
 
     /// The printed parameters hold absolute paths, so that they can be read back from anywhere.
@@ -167,7 +198,11 @@ namespace sprag
         return report(parameter, "must name a file");
       try
       {
-        use(read_table(file, names));
+        const auto table = read_table(file, names);
+        if (exchanged_columns(table.header, words_for(names.first), words_for(names.second)))
+          return report(parameter, "the header '" + table.header + "' has the columns exchanged: " + names.first +
+                                       " must be the first, " + names.second + " the second");
+        use(table);
       }
       catch (const InputError &error)
       {
@@ -278,8 +313,14 @@ namespace sprag
   Scene variant(const Scene &scene, const std::vector<std::string> &overrides)
   {
     return SceneReader([&](const auto &declared)
-                       { return read_settings_text(scene.name + ".prm", scene.parameters_text, overrides, declared); })
+                       { return override_settings(scene.name + ".prm", values_of(scene), overrides, declared); })
         .scene();
+  }
+
+  std::string parameters_text(const Scene &scene)
+  {
+    SceneSettings defaults;
+    return scene.parameters ? parameters_text(scene_parameters(defaults), *scene.parameters) : std::string();
   }
 
   std::string override_text(const std::string &parameter, const double value)
@@ -291,8 +332,6 @@ namespace sprag
   {
     SceneSettings defaults;
     const auto parameters = scene_parameters(defaults);
-    std::map<std::string, Setting> given;
-    set_time_tolerance(given, defaults.scene.time.tolerance);
-    return parameters_text(parameters, given);
+    return parameters_text(parameters, { { time_tolerance, number_text(defaults.scene.time.tolerance) } });
   }
 } // namespace sprag

@@ -18,6 +18,9 @@ namespace sprag
   /// The same with a number given to a parameter.
   std::string override_text(const std::string &parameter, double value);
 
+  /// Every parameter as it was read with its documentation, in .prm form; empty for a scene that was not read.
+  std::string parameters_text(const Scene &scene);
+
   /// Every parameter with its default and documentation, in .prm form.
   std::string default_parameters_text();
 } // namespace sprag

@@ -4,7 +4,10 @@
 #include "scene/apparatus.h"
 #include "scene/drive.h"
 
+#include <map>
+#include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -58,17 +61,25 @@ namespace sprag
     general    ///< assemble and factorise in every Newton iteration
   };
 
+  /// What a run does with the warnings that it has.
+  enum class WarningTreatment
+  {
+    report, ///< print and store them
+    error   ///< and fail
+  };
+
   struct AnalysisSettings
   {
-    AnalysisType type        = AnalysisType::quasi_static;
-    ModelType model          = ModelType::finite_element;
-    unsigned int dimension   = 2;
-    PlaneState plane         = PlaneState::stress;
-    Solution solution        = Solution::automatic;
-    double step              = 1.;   ///< largest change of x in a step [mm], > 0
-    double minimum_step      = 1e-6; ///< smallest change of x tried before the analysis gives up [mm], > 0
-    double maximum_deviation = 0.;   ///< largest admissible deviation from the closed form [-]; 0: any
-    double maximum_residual  = 1e-3; ///< largest admissible energy residual over the largest work done [-]; 0: any
+    AnalysisType type         = AnalysisType::quasi_static;
+    ModelType model           = ModelType::finite_element;
+    unsigned int dimension    = 2;
+    PlaneState plane          = PlaneState::stress;
+    Solution solution         = Solution::automatic;
+    double step               = 1.;   ///< largest change of x in a step [mm], > 0
+    double minimum_step       = 1e-6; ///< smallest change of x tried before the analysis gives up [mm], > 0
+    double maximum_deviation  = 0.;   ///< largest admissible deviation from the closed form [-]; 0: any
+    double maximum_residual   = 1e-3; ///< largest admissible energy residual over the largest work done [-]; 0: any
+    WarningTreatment warnings = WarningTreatment::report;
   };
 
   /// Figure 1 of the paper; the lever lies on the far side of the cylinder seen from the x-axis.
@@ -118,7 +129,8 @@ namespace sprag
     double thickness     = 1.; ///< [mm], >= 0; 0: no layer
     double young_modulus = 20.;
     double poisson_ratio = 0.;
-    double density       = 2e-10; ///< [t/mm^3], scaled together with the lever's
+    double density       = 2e-10;   ///< [t/mm^3], scaled together with the lever's
+    std::optional<double> strength; ///< pressure at which its cells give way [MPa]; none: 0.04 times its Young's modulus
   };
 
   enum class ContactType
@@ -307,7 +319,11 @@ namespace sprag
     MapSettings map;
     SpragSlipSettings sprag_slip;
     CalibrationSettings calibration;
-    std::string name;            ///< file name without folder and ending
-    std::string parameters_text; ///< every parameter as used, in .prm form
+    std::string name; ///< file name without folder and ending
+
+    /// Every parameter as it was read, by "Section/Name", files with absolute paths; null for a scene that was not read.
+    std::shared_ptr<const std::map<std::string, std::string>> parameters;
+
+    std::set<std::string> given; ///< "Section/Name" of the parameters that were given rather than left at their defaults
   };
 } // namespace sprag

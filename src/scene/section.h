@@ -39,7 +39,7 @@ namespace sprag
     void number_or_auto(const std::string &entry, std::optional<double> &value, const Interval &interval, const std::string &unit,
                         const std::string &meaning)
     {
-      add(entry, "auto", { Rule::Kind::number_or_auto, interval, unit, {} }, meaning,
+      add(entry, value ? number_text(*value) : "auto", { Rule::Kind::number_or_auto, interval, unit, {} }, meaning,
           [&value](const auto &text)
           { value = text == "auto" ? std::nullopt : std::make_optional(leading_number(text)->value); });
     }
@@ -57,6 +57,11 @@ namespace sprag
     void text(const std::string &entry, std::string &value, const std::string &meaning)
     {
       add(entry, value, {}, meaning, [&value](const auto &given) { value = given; });
+    }
+
+    void file(const std::string &entry, std::string &value, const std::string &meaning)
+    {
+      add(entry, value, { Rule::Kind::file, {}, "", {} }, meaning, [&value](const auto &given) { value = given; });
     }
 
     template <typename T>

@@ -45,6 +45,9 @@ namespace sprag
                      "Largest admissible deviation of P, Q and theta from the closed form; 0 admits any");
       section.number("Maximum energy residual", settings.maximum_residual, at_least(0.), "",
                      "Transient: largest admissible gap in the energy balance, over the largest work done; 0 admits any");
+      section.choice<WarningTreatment>("Warnings", settings.warnings,
+                                       { { "report", WarningTreatment::report }, { "error", WarningTreatment::error } },
+                                       "Whether a run that has warnings prints and stores them, or fails as well");
     }
 
     void geometry(Section section, Geometry &settings)
@@ -71,7 +74,7 @@ namespace sprag
                      "How often from Start to Stroke and back; 0.5 is there only");
       section.number("Reversal duration", settings.reversal, at_least(0.), "s",
                      "T, transient triangle only: from Speed to the opposite Speed, and from rest to Speed where Start = 0");
-      section.text("Table", settings.table, "File with the columns time [s] and x [mm], relative to the folder of this one");
+      section.file("Table", settings.table, "File with the columns time [s] and x [mm], relative to the folder of this one");
     }
 
     void friction(Section section, FrictionSettings &settings)
@@ -82,7 +85,7 @@ namespace sprag
                                        { "table", FrictionChoice::table } },
                                      "Friction coefficient: constant, eqs. 13-15, or from a file");
       section.number("Coefficient", settings.coefficient, at_least(0.), "", "mu of the Coulomb law");
-      section.text("Table", settings.table, "File with the columns speed [mm/s] and mu [-], relative to the folder of this one");
+      section.file("Table", settings.table, "File with the columns speed [mm/s] and mu [-], relative to the folder of this one");
       section.choice<FrictionSpeed>("Speed", settings.speed,
                                     { { "sliding", FrictionSpeed::sliding }, { "drive", FrictionSpeed::drive } },
                                     "Speed that mu depends on: of sliding, or the drive's (the paper's choice)");
@@ -131,6 +134,9 @@ namespace sprag
       section.number("Young's modulus", settings.young_modulus, above(0.), "MPa", "E of the layer");
       section.number("Poisson's ratio", settings.poisson_ratio, between(-1., 0.5), "", "nu of the layer");
       section.number("Density", settings.density, above(0.), "t/mm3", "rho of the layer");
+      section.number_or_auto("Strength", settings.strength, above(0.), "MPa",
+                             "Pressure from which the layer's cells give way, for a warning; auto: 0.04 E of a cork, none for "
+                             "nu > 0.2");
     }
 
     void support(Section section, Support &settings)
@@ -155,7 +161,7 @@ namespace sprag
       section.number_or_auto("Tangential penalty", settings.tangential_penalty, above(0.), "N/mm3",
                              "Friction traction over elastic slip; auto: equal to the normal one");
       section.number("Penetration tolerance", settings.penetration_tolerance, above(0.), "mm",
-                     "Largest overlap left by the augmented Lagrangian");
+                     "Augmented Lagrangian: change of a multiplier over the penalty at which augmentation ends");
       section.integer("Maximum augmentations", settings.maximum_augmentations, { 1., 1000. },
                       "Of the augmented Lagrangian in a step");
       section.choice<ContactType>(
@@ -187,11 +193,12 @@ namespace sprag
                    "Folder of stored bases, relative to the folder of this file; empty: the user's cache folder");
     }
 
-    void mesh(Section section, MeshSettings &settings)
+    void mesh(Section section, MeshSettings &settings, std::optional<double> &face_size)
     {
-      section.number("Face size", settings.face_size, above(0.), "mm", "Element length along the friction face");
+      section.number_or_auto("Face size", face_size, above(0.), "mm",
+                             "Element length along the friction face; auto: 0.25 where Analysis/Type is quasi-static, else 0.5");
       section.integer("Degree", settings.degree, { 1., 2. }, "Of the polynomials");
-      section.text("File", settings.file,
+      section.file("File", settings.file,
                    "A .geo or .msh file instead of the built-in lever, relative to the folder of this one");
     }
 
@@ -201,7 +208,7 @@ namespace sprag
                                   { { "none", FieldOutput::none },
                                     { "turning points", FieldOutput::turning_points },
                                     { "interval", FieldOutput::interval } },
-                                  "When displacement and stress are written: never, at reversals and the end, or in between too");
+                                  "When fields are written: never, where P is largest and at and behind reversals, or in between too");
       section.number("Field interval", settings.field_interval, above(0.), "mm", "Travel of x between written fields");
     }
 
@@ -285,7 +292,7 @@ namespace sprag
     support({ all, "Support" }, scene.support);
     contact({ all, "Contact" }, scene.contact);
     time({ all, "Time" }, scene.time, settings.time_tolerance);
-    mesh({ all, "Mesh" }, scene.mesh);
+    mesh({ all, "Mesh" }, scene.mesh, settings.face_size);
     condensed({ all, "Condensed" }, scene.condensed);
     output({ all, "Output" }, scene.output);
     slope({ all, "Slope" }, scene.slope, settings.maximum_inclination);

@@ -47,6 +47,7 @@ namespace sprag
     FrictionSettings friction;
     double maximum_inclination = 60.;     ///< [deg]
     std::optional<double> time_tolerance; ///< none: by whether a time step is given
+    std::optional<double> face_size;      ///< none: by the analysis
   };
 
   /// Every parameter of a scene file. Defaults are the present values in `settings`, where `store` writes to; `settings` must

@@ -80,10 +80,10 @@ namespace sprag
   const SprungClosedForm::State &SprungClosedForm::advance(const double x, const double v)
   {
     const double before     = state.support_energy;
-    const double from_speed = speed * v > 0. ? speed : v;
+    const double from_speed = direction_of(speed) == direction_of(v) ? speed : v;
     speed                   = v;
     const double slid       = sliding_position(x, v);
-    state.sticks            = (slid - relative) * v <= 0.;
+    state.sticks            = (slid - relative) * direction_of(v) <= 0.;
     if (state.sticks)
     {
       set(x, relative, sticking(x, relative));

@@ -54,6 +54,39 @@ TEST(Jamming, StiffBeamJamsWhereTheRigidLeverLocks)
   EXPECT_NEAR(*margin.flexible_critical_mu, margin.critical_mu, 0.02 * margin.critical_mu);
 }
 
+// mu falls with speed, and a harmonic motion is slowest where s is shortest.
+TEST(Jamming, MarginIsTheLeastOnTheWayWithMuAtTheSpeedThere)
+{
+  Scene scene        = rigid_lever(0.);
+  scene.friction.law = TabulatedFriction({ 0., 20., 60., 120. }, { 0.9, 0.85, 0.3, 0.2 });
+  const auto least   = [&]
+  {
+    double result = 2.;
+    for (double time = 0.; time < scene.drive.duration(); time += 1e-4)
+    {
+      const auto at    = scene.drive.at(time);
+      const auto slide = closed_form(scene, at.x, at.v);
+      result           = std::min(result, 1. + direction_of(at.v) * slide.mu * 45.6 / slide.contact.s);
+    }
+    return result;
+  };
+  const Drive harmonic(DriveProfile::harmonic, 20., 65., 112., 2.);
+  const Drive table({ 0., 0.2, 0.5, 0.9, 1.1, 1.5, 2. }, { 0., 30., 60., 60., 20., 50., 0. });
+  const Drive cut_short(DriveProfile::harmonic, 20., 65., 112., 4.75);
+  for (const auto &drive : { harmonic, table, cut_short })
+  {
+    scene.drive       = drive;
+    const auto margin = jamming_margin(scene, false);
+    EXPECT_NEAR(margin.margin(), least(), 2e-3);
+    EXPECT_EQ(direction_of(margin.v), -1);
+  }
+  scene.drive = harmonic;
+  EXPECT_NEAR(jamming_margin(scene, false).margin(), 1. - 0.9 * 45.6 / kinematics(scene.geometry, 65.).s, 1e-12);
+  // A slide held anywhere has the peak speed.
+  scene.analysis.type = AnalysisType::stability;
+  EXPECT_GT(jamming_margin(scene, false).margin(), 0.9);
+}
+
 TEST(Jamming, NoOffsetNoRigidLocking)
 {
   const auto margin = jamming_margin(with_coulomb(model_b(), 0.73), false);
@@ -102,6 +135,41 @@ TEST(CriticalValues, ThinLeverFluttersThickOneDoesNot)
   { return judge(variant(scene, { override_text("Lever/Depth", depth) }), maker).kind; };
   EXPECT_EQ(kind_at(found.changes.front().value - 1e-3), SlideKind::flutter);
   EXPECT_EQ(kind_at(found.changes.front().value + 1e-3), SlideKind::stable);
+}
+
+// Model B flutters from 11.822 to 14.514 mm: between the values tried, of which none does.
+TEST(CriticalValues, IslandBetweenTheValuesTriedIsFoundWhereGrowthPeaks)
+{
+  const Scene scene = from_params("stability-b.prm", {});
+  DynamicsMaker maker;
+  const auto found = critical_values(scene, { "Lever/Depth", 5., 25., 5 }, 1e-6, maker);
+  EXPECT_EQ(found.spacing, 5.);
+  EXPECT_GT(found.more_values, 0u);
+  ASSERT_EQ(found.changes.size(), 2u);
+  EXPECT_NEAR(found.changes[0].value, 11.822, 1e-3);
+  EXPECT_NEAR(found.changes[1].value, 14.5137, 1e-3);
+  EXPECT_EQ(found.changes[0].above, SlideKind::flutter);
+  EXPECT_EQ(found.changes[1].above, SlideKind::stable);
+}
+
+TEST(CriticalValues, TellTheMotionOfAPair)
+{
+  // A held joint leaves the levers nothing in common.
+  const Scene scene = from_params("pair-stability-a.prm", { "Mirrored pair/Joint=held", "Support/Type=rigid" });
+  DynamicsMaker maker;
+  const auto present = judge(scene, maker);
+  EXPECT_EQ(present.motion(), "either");
+  EXPECT_NEAR(present.worst_mode().mirroring, 1., 1e-9);
+  const auto found = critical_values(scene, { "Lever/Depth", 5., 21., 5 }, 1e-6, maker);
+  ASSERT_EQ(found.changes.size(), 1u);
+  EXPECT_EQ(found.changes.front().motion, "either");
+  for (const auto &role : roles(scene, present, maker))
+    if (role.name == "without_damping")
+    {
+      EXPECT_EQ(role.motion, "either");
+    }
+  const auto free = judge(variant(scene, { "Mirrored pair/Joint=free" }), maker);
+  EXPECT_TRUE(free.motion() == "swinging" || free.motion() == "mirroring") << free.motion();
 }
 
 TEST(CriticalValues, ScenesThatAreNotAdmittedArePassedOver)

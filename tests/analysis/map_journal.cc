@@ -92,6 +92,58 @@ TEST_F(MapJournalTest, DropsATornLineWhereverItIsTornAndGoesOn)
   }
 }
 
+// Any character of a line changed or taken away: as a rule it would still read as numbers.
+TEST_F(MapJournalTest, DropsAGarbledLineAndKeepsTheOthers)
+{
+  const auto cells = some_cells();
+  MapJournal(path, "a scene").append(cells);
+  std::ifstream input(path);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(input, line);)
+    lines.push_back(line);
+  ASSERT_EQ(lines.size(), cells.size() + 1);
+  auto fewer = cells;
+  fewer.erase(std::next(fewer.begin()));
+  for (std::size_t i = 0; i < lines[2].size(); ++i)
+    for (const bool taken_away : { true, false })
+    {
+      auto garbled = lines;
+      if (taken_away)
+        garbled[2].erase(i, 1);
+      else
+        garbled[2][i] = garbled[2][i] == '1' ? '2' : '1';
+      std::ofstream output(path);
+      for (const auto &line : garbled)
+        output << line << '\n';
+      output.close();
+      {
+        MapJournal journal(path, "a scene");
+        expect_same_bits(journal.cells(), fewer);
+        EXPECT_EQ(journal.damaged_lines(), 1u);
+        journal.append({ *std::next(cells.begin()) });
+      }
+      expect_same_bits(MapJournal(path, "a scene").cells(), cells);
+    }
+}
+
+TEST_F(MapJournalTest, DropsALineOfAnotherScenesJournal)
+{
+  const auto cells = some_cells();
+  MapJournal(path, "another scene").append(cells);
+  std::ifstream input(path);
+  std::string line;
+  std::getline(input, line);
+  std::getline(input, line);
+  std::filesystem::remove(path);
+  {
+    const MapJournal begun(path, "a scene");
+  }
+  std::ofstream(path, std::ios::app) << line << '\n';
+  const MapJournal journal(path, "a scene");
+  EXPECT_TRUE(journal.cells().empty());
+  EXPECT_EQ(journal.damaged_lines(), 1u);
+}
+
 TEST_F(MapJournalTest, BeginsAnewForAnotherScene)
 {
   MapJournal(path, "a scene").append(some_cells());

@@ -63,6 +63,14 @@ namespace
   }
 
   using Messages = std::vector<std::string>;
+
+  ParameterValues values_of(const std::map<std::string, Setting> &given)
+  {
+    ParameterValues values;
+    for (const auto &[name, setting] : given)
+      values[name] = setting.value;
+    return values;
+  }
 } // namespace
 
 TEST(Parameters, GivenValuesAreReadWithTheirPlaces)
@@ -206,16 +214,27 @@ TEST(Parameters, LaterMistakesNamePlaceAndValueInUse)
                        settings.file + ": Geometry/Pivot height = 0: must be more", "--set: Mesh/Degree = 1: must be more" }));
 }
 
+TEST(Parameters, OverridesComeOnTopOfValuesReadBefore)
+{
+  const ParameterValues before = { { "Geometry/Cylinder radius", "21.1" }, { "Mesh/Degree", "1" } };
+  const auto settings = override_settings("scene.prm", before, { "Mesh/Degree=2", "Geomtry/Pivot height=7" }, declared());
+  EXPECT_EQ(settings.given.at("Mesh/Degree").value, "2");
+  EXPECT_EQ(settings.given.at("Mesh/Degree").place, "--set");
+  EXPECT_EQ(settings.given.at("Geometry/Cylinder radius").place, "scene.prm");
+  ASSERT_EQ(settings.mistakes.size(), 1u);
+  EXPECT_NE(settings.mistakes[0].find("did you mean 'Geometry'?"), std::string::npos) << settings.mistakes[0];
+}
+
 TEST(Parameters, PrintedTextReadsBackHereAndInDealII)
 {
   const auto given = read("", { "Geometry/Cylinder radius=21.1", "Drive/Table=a b.csv", "Mesh/Penalty=1000" }).given;
-  const auto text  = parameters_text(declared(), given);
+  const auto text  = parameters_text(declared(), values_of(given));
   EXPECT_NE(text.find("Radius R [mm]: a number > 0."), std::string::npos) << text;
 
   const auto again = read(text);
   EXPECT_TRUE(again.mistakes.empty()) << again.mistakes[0];
   EXPECT_EQ(again.given.size(), declared().size());
-  EXPECT_EQ(parameters_text(declared(), again.given), text);
+  EXPECT_EQ(parameters_text(declared(), values_of(again.given)), text);
 
   dealii::ParameterHandler handler;
   for (const auto &parameter : declared())

@@ -3,9 +3,12 @@
 #include "bar.h"
 #include "mpi_environment.h"
 
+#include <chrono>
+#include <fcntl.h>
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 using namespace sprag;
@@ -33,7 +36,7 @@ namespace
 
   BasisSettings settings_of(const unsigned int modes, const std::string &cache = {})
   {
-    return { modes, spring_stiffness, bar_inertia(1e-3, 1e-7), cache };
+    return { modes, spring_stiffness, bar_inertia(1e-3, 1e-7), cache, {} };
   }
 
   SparseStructure sparse(const ElasticBody<2> &body, const unsigned int modes, const bool sprung)
@@ -187,6 +190,47 @@ TEST(CondensedBasis, OfOtherLeversIsAnother)
   heavier.inertia.moment_of_inertia *= 1.01;
   EXPECT_FALSE(condensed_basis(*MeshedBar({}), heavier).from_cache);
   EXPECT_TRUE(condensed_basis(*MeshedBar({}), settings_of(3, folder.path)).from_cache);
+}
+
+TEST(CondensedBasis, MadeForAnotherSceneIsAnother)
+{
+  const TemporaryFolder folder;
+  auto settings   = settings_of(3, folder.path);
+  settings.origin = "a scene";
+  condensed_basis(*MeshedBar({}), settings);
+  EXPECT_TRUE(condensed_basis(*MeshedBar({}), settings).from_cache);
+  settings.origin = "another scene";
+  EXPECT_FALSE(condensed_basis(*MeshedBar({}), settings).from_cache);
+}
+
+// A killed process leaves an old file that nobody keeps locked. One that is locked or young is another process's at work.
+TEST(CondensedBasis, LeftoversOfKilledProcessesAreRemoved)
+{
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(folder.path);
+  const auto old     = std::filesystem::file_time_type::clock::now() - std::chrono::minutes(1);
+  const auto written = [&](const std::string &name, const bool is_old)
+  {
+    const auto path = std::filesystem::path(folder.path) / name;
+    std::ofstream(path) << "half a basis";
+    if (is_old)
+      std::filesystem::last_write_time(path, old);
+    return path;
+  };
+  const auto left                                 = written("basis-0123456789abcdef.h5.4711", true);
+  const std::vector<std::filesystem::path> others = { written("basis-0123456789abcdef.h5.4712", false),
+                                                      written("basis-0123456789abcdef.h5", true), written("mine.h5.1", true) };
+  const auto at_work                              = written("basis-fedcba9876543210.h5.4713", true);
+  const int writer                                = ::open(at_work.c_str(), O_RDWR);
+  ASSERT_EQ(::flock(writer, LOCK_EX), 0);
+  EXPECT_EQ(condensed_basis(*MeshedBar({}), settings_of(3, folder.path)).message, "");
+  EXPECT_FALSE(std::filesystem::exists(left));
+  EXPECT_TRUE(std::filesystem::exists(at_work));
+  for (const auto &path : others)
+    EXPECT_TRUE(std::filesystem::exists(path)) << path;
+  ::close(writer);
+  EXPECT_TRUE(condensed_basis(*MeshedBar({}), settings_of(3, folder.path)).from_cache);
+  EXPECT_FALSE(std::filesystem::exists(at_work));
 }
 
 TEST(CondensedBasis, DamagedFilesAreMadeAnew)

@@ -74,6 +74,36 @@ TEST(NormalTraction, DerivativeIsThePenaltyUnderPressureAndZeroApart)
   EXPECT_EQ(normal_traction(0.01, 2., 500.).derivative, 0.);
 }
 
+TEST(FrictionTraction, ShiftLeadsToMuAtAnotherSpeedThanTheMean)
+{
+  const double penalty = 80., dt = 0.01, pressure = 0.2, speed = 100.;
+  for (const auto &law : { coulomb, cork })
+    for (const double sense : { 1., -1. })
+      for (const double shift : { -0.3, -0.01, 0.02, 0.3 })
+      {
+        const double mu    = friction_coefficient(law, speed).coefficient;
+        const double trial = mu * pressure + penalty * (dt * speed - shift);
+        const auto at      = [&](const double more)
+        { return friction_traction(sense * trial, pressure, law, penalty, dt, sense * shift + more); };
+        EXPECT_TRUE(at(0.).slipping);
+        EXPECT_NEAR(at(0.).traction, sense * mu * pressure, 1e-12);
+        EXPECT_NEAR(at(0.).mu, mu, 1e-12);
+        EXPECT_NEAR(at(0.).d_shift, (at(1e-5).traction - at(-1e-5).traction) / 2e-5, 1e-6);
+      }
+}
+
+TEST(FrictionTraction, ShiftNeitherPullsBackNorBeyondTheTrial)
+{
+  const double penalty = 80., dt = 0.01, pressure = 0.2;
+  const double at_rest = 0.3491 * pressure;
+  const double trial   = 1.1 * at_rest;
+  EXPECT_DOUBLE_EQ(friction_traction(trial, pressure, cork, penalty, dt, -1.).traction, at_rest);
+  EXPECT_DOUBLE_EQ(friction_traction(trial, pressure, cork, penalty, dt, 1.).traction, trial);
+  EXPECT_FALSE(friction_traction(trial, pressure, cork, penalty, dt, 1.).slipping);
+  // In stick it does not count.
+  EXPECT_DOUBLE_EQ(friction_traction(0.9 * at_rest, pressure, cork, penalty, dt, 1.).traction, 0.9 * at_rest);
+}
+
 TEST(FrictionTraction, StickKeepsTheTrialUpToTheConeAtRest)
 {
   for (const auto &law : { coulomb, cork, falling })

@@ -76,27 +76,50 @@ def displacement_of(nodes, part):
     return np.stack((1e-4 * xi, across), axis=-1)
 
 
-def write_frame(path, blocks):
+def axes_at(theta):
+    return np.array(((-np.cos(theta), np.sin(theta)), (np.sin(theta), np.cos(theta))))
+
+
+def write_group(path, **datasets):
+    with h5py.File(path, "w") as file:
+        group = file.create_group("fields")
+        for name, values in datasets.items():
+            group[name] = values
+
+
+def in_space(vectors):
+    return np.column_stack((vectors, np.zeros(len(vectors))))
+
+
+def write_frames(folder, rows, blocks):
+    """In the axes of the world, as sprag does: a lever's mesh where it is at rest, its displacement from there."""
     nodes = np.concatenate([cells.reshape(-1, 2) for cells, _ in blocks])
-    displacement = np.concatenate([displacement_of(cells, part).reshape(-1, 2) for cells, part in blocks])
+    elastic = np.concatenate([displacement_of(cells, part).reshape(-1, 2) for cells, part in blocks])
     part = np.concatenate([np.full(len(cells) * 9, NUMBERS[name]) for cells, name in blocks])
     first = np.arange(0, len(nodes), 9)[:, None, None]
     quads = (first + np.array([(0, 1, 4, 3), (1, 2, 5, 4), (3, 4, 7, 6), (4, 5, 8, 7)])).reshape(-1, 4)
-    with h5py.File(path, "w") as file:
-        file["nodes"] = nodes
-        file["cells"] = quads.astype(np.uint32)
-        file["displacement"] = np.column_stack((displacement, np.zeros(len(nodes))))
-        file["von_mises_stress"] = np.where(part == NUMBERS["hub"], 0, 1e-2 * part * (1 + np.abs(np.sin(nodes[:, 0] / 20))))[:, None]
-        file["part"] = part[:, None].astype(float)
+    at_centre = (part == NUMBERS["cylinder"])[:, None]
+    resting = touching(SPRUNG)
 
+    def place(points, x, theta, moved):
+        return points @ axes_at(theta) + np.where(at_centre, (x, 0.0), (DISTANCE + moved, HEIGHT))
 
-def write_frames(folder, times, blocks, name="fields"):
+    rest = place(nodes, 0.0, resting, 0.0)
+    write_group(folder / "fields-mesh.h5", nodes=in_space(rest), cells=quads.astype(np.uint32), part=part.astype("f4"),
+                lever=np.ones(len(nodes)))  # fmt: skip
     index = ""
-    for number, time in enumerate(times):
-        file = f"{name}-{number:04}.h5"
-        write_frame(folder / file, blocks)
-        index += f'<Grid>\n<Time Value="{time:g}"/>\n<DataItem>\n{file}:/nodes\n</DataItem>\n'
-    (folder / f"{name}.xdmf").write_text(index)
+    for number, row in enumerate(rows):
+        theta = touching(X[row])
+        file = f"fields-{number:04}.h5"
+        now = place(nodes + elastic, X[row], theta, SPRUNG)
+        write_group(
+            folder / file,
+            displacement=in_space(now - rest),
+            elastic_displacement=in_space(elastic @ axes_at(theta)),
+            von_mises_stress=np.where(part == NUMBERS["hub"], 0, 1e-2 * part * (1 + np.abs(np.sin(nodes[:, 0] / 20)))),
+        )
+        index += f'<Grid>\n<Time Value="{TIMES[row]:.17g}"/>\n<DataItem>fields-mesh.h5:/fields/nodes</DataItem>\n<DataItem>{file}:/fields/displacement</DataItem>\n</Grid>\n'
+    (folder / "fields.xdmf").write_text(index)
 
 
 PARAMETERS = f"""subsection Analysis
@@ -178,7 +201,8 @@ def make_run(folder, blocks, written=WRITTEN, wanted="interval"):
     ):
         put(face, name, values, unit)
     finish(file)
-    write_frames(folder, TIMES[list(written)], blocks)
+    if written:
+        write_frames(folder, written, blocks)
     return read_result(folder)
 
 
@@ -240,17 +264,19 @@ class PlaceTest(TemporaryFolder):
         cylinder = scenery.frame.shown(["cylinder"])
         points = scenery.pose.place(scenery.in_lever_axes(50))[cylinder]
         distance = np.hypot(points[:, 0] - 30, points[:, 1])
-        self.assertAlmostEqual(distance.max(), RADIUS, 9)
-        self.assertTrue((distance > 10 * np.cos(np.pi / 80) - 1e-9).all())
+        self.assertAlmostEqual(distance.max(), RADIUS, 7)
+        self.assertTrue((distance > 10 * np.cos(np.pi / 80) - 1e-7).all())
 
-    def test_leaf_of_the_same_time(self):
-        result = make_run(self.folder / "a", lever_blocks())
-        write_frames(self.folder / "a", [0.2, 0.5], leaf_blocks(), "leaf")
-        for x, way, there in ((20, "forward", True), (30, "forward", False), (30, "backward", True)):
-            scenery = fields.Scenery(result, frames.chosen_frame(result, x, way), "all")
-            self.assertEqual(scenery.leaf is not None, there)
-        result.parameters = result.parameters.replace("Type = leaf", "Type = torsional")
-        self.assertIsNone(fields.Scenery(result, frames.chosen_frame(result, 20), "all").leaf)
+    def test_leaf_turns_with_the_hub_from_where_it_was_at_rest(self):
+        result = make_run(self.folder / "a", lever_blocks() + leaf_blocks())
+        scenery = fields.Scenery(result, frames.chosen_frame(result, 20, "forward"), "all")
+        turn = touching(20.0) - touching(SPRUNG)
+        nodes = scenery.leaf.nodes
+        elastic = displacement_of(nodes, "leaf")
+        c, s = np.cos(turn), np.sin(turn)
+        expected = (nodes + elastic) @ np.array(((c, s), (-s, c))) - nodes
+        np.testing.assert_allclose(scenery.leaf.displacement, expected, atol=1e-6)
+        self.assertFalse(scenery.frame.shown(["leaf"]).any())
 
     def test_magnified_contact_leaves_the_circle_in_view(self):
         window = fields.Window(self.scenery(lever_blocks()))
@@ -317,8 +343,7 @@ class PictureTest(TemporaryFolder):
         self.assertIn("× 50", whole.get_title(loc="left"))
 
     def test_every_part_of_the_apparatus(self):
-        make_run(self.folder / "a", apparatus_blocks())
-        write_frames(self.folder / "a", TIMES[list(WRITTEN)], leaf_blocks(), "leaf")
+        make_run(self.folder / "a", apparatus_blocks() + leaf_blocks())
         for part in ("all", "lever", "plate", "cylinder", "leaf"):
             name = "fields-x30" + ("" if part == "all" else f"-{part}") + ".png"
             done = self.draw("fields.py", self.folder / "a", "--x", "30", "--part", part)

@@ -200,6 +200,19 @@ class PlotTest(unittest.TestCase):
         done = self.plot(self.folder / "a", self.folder / "b")
         self.expect_pictures(done, ["forces-over-time.png", "forces-over-x.png", "comparison.png"])
 
+    def test_line_of_the_slope_only_where_there_is_one(self):
+        import plot
+
+        for name, slope, lines in (("constant", 0.08, 1), ("changing", np.nan, 0)):
+            with self.subTest(name):
+                file = new_file(self.folder / name)
+                fill_run(file, np.arange(0.0, 11))
+                finish(file, slope_forward=slope)
+                figure, axes = plot.plt.subplots()
+                plot.draw_slopes(axes, [results.read_result(self.folder / name)])
+                self.assertEqual(len(axes.lines), lines)
+                plot.plt.close(figure)
+
     def test_transient_run(self):
         for growth in (-40.0, 25.0):
             finish(make_transient(self.folder / f"a{growth}", growth=growth, summary={"reversal_1_frequency": 290.1}))

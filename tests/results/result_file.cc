@@ -72,7 +72,7 @@ namespace
 
   FaceState face_state(const double time)
   {
-    return { time, 112. * time, { 0., time, 0. }, { 0., 0.5 * time, 0. } };
+    return { time, 112. * time, { 0., time, 0. }, { 0., 0.5 * time, 0. }, {}, {} };
   }
 
   void write_rows(ResultFile &file, const int n_rows)
@@ -132,10 +132,26 @@ TEST_F(ResultFileTest, ColumnsOfAPairOnSensorsHoldWhatTheirNamesSay)
             "0.02 -1.964437\n"); // 8 cos 0.06 - 10 cos 0.1
 }
 
+TEST_F(ResultFileTest, EachWarningIsADatasetOfItsName)
+{
+  ResultFile file(path(), "", {});
+  file.finish({}, {}, { { "second", "It is 2.", "Q is off.", "Halve it." }, { "first", "x", "y", "z" } });
+  EXPECT_EQ(h5py("print(list(f[\"warnings\"]), f[\"warnings/second\"].asstr()[()], "
+                 "*(f[\"warnings/second\"].attrs[n] for n in (\"effect\", \"remedy\")))"),
+            "['first', 'second'] It is 2. Q is off. Halve it.\n");
+}
+
+TEST_F(ResultFileTest, WithoutWarningsTheirGroupIsEmpty)
+{
+  ResultFile(path(), "", {}).finish({}, {});
+  EXPECT_EQ(h5py("print(len(f[\"warnings\"]))"), "0\n");
+}
+
 TEST_F(ResultFileTest, EveryDatasetHasUnitAndDescription)
 {
   ResultFile file(path(), "", three_points);
-  file.finish({ { "loop_area", 1., "N mm", "area of the loop" } }, { { "version", std::string("1"), "", "of sprag" } });
+  file.finish({ { "loop_area", 1., "N mm", "area of the loop" } }, { { "version", std::string("1"), "", "of sprag" } },
+              { { "some_warning", "found", "effect", "remedy" } });
 
   EXPECT_EQ(h5py("f.visititems(lambda name, o: isinstance(o, h5py.Dataset) and not "
                  "(isinstance(o.attrs[\"unit\"], str) and o.attrs[\"description\"]) and print(name))"),

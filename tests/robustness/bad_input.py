@@ -181,6 +181,50 @@ class BadScene(ProgramTest):
                     self.assertIn(name, message)
 
 
+    def table(self, text, section="Friction", choice="Law", header=""):
+        self.write(header + text, "own.csv")
+        return self.write(f"subsection {section}\n  set {choice} = table\n  set Table = own.csv\nend\n")
+
+    def test_decimal_commas(self):
+        says = ["Friction/Coefficient = 0,73", "decimal point", "'0.73'"]
+        changes = ("--set", "Friction/Law=Coulomb", "--set", "Friction/Coefficient=0,73")
+        self.refused(self.write(""), *changes, says=says, mistakes=1)
+        self.refused_lines(
+            [
+                ("subsection Geometry", None),
+                ("  set Interface offset = 45,6 mm", ["decimal point", "'45.6'"]),
+                ("end", None),
+                ("subsection Support", None),
+                ("  set Type = sprung", None),
+                ("  set Mass = 2,5e-3", ["decimal point", "'2.5e-3'"]),
+                ("end", None),
+            ]
+        )
+
+    def test_decimal_commas_in_tables(self):
+        for text in ("0;0,3\n10,5;0,5\n20;0,7\n30;0,9\n", "0,0 0,3\n10,5\t0,5\n20,0 0,7\n30,0 0,9\n"):
+            with self.subTest(text=text):
+                self.refused(self.table(text), says=["own.csv:1: ", "decimal point", "0.3"], mistakes=1)
+        self.refused(self.table("0;0,0\n0,1;5,5\n", "Drive", "Profile"), says=["point: 0;0.0"], mistakes=1)
+
+    def test_exchanged_columns(self):
+        rows = "0.3,0\n0.4,20\n0.5,60\n0.6,120\n"
+        self.refused(self.table(rows), says=["row 4: coefficient 120", "exchanged"], mistakes=1)
+        self.refused(self.table("0.3,0\n0.4,1\n0.5,2\n0.6,3\n"), says=["coefficient 3", "exchanged"], mistakes=1)
+        fine = "0,0.3\n1,0.4\n2,0.5\n3,0.6\n"
+        for header in ("mu,v [mm/s]\n", "friction coefficient;speed\n", "mu speed\n"):
+            with self.subTest(header=header):
+                self.refused(self.table(fine, header=header), says=["exchanged", "speed must be the first"], mistakes=1)
+        done = sprag(self.table(fine, header="friction speed [mm/s], mu [-]\n"), "--validate")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        drive = self.table("0,0\n1,0.1\n2,0.2\n3,0.3\n", "Drive", "Profile", header="displacement [mm]; t [s]\n")
+        self.refused(drive, says=["exchanged", "time must be the first"], mistakes=1)
+
+    def test_negative_displacements(self):
+        record = self.table("0,0\n0.1,9\n0.2,-8\n0.3,0\n", "Drive", "Profile")
+        self.refused(record, says=["falls to -8", "max(x, 0)", "|x|"], mistakes=1)
+
+
 class BadMesh(ProgramTest):
     """Mistakes that show when the mesh is made."""
 
@@ -206,6 +250,14 @@ class BadMesh(ProgramTest):
     def test_triangles(self):
         scene = self.geometry(STRIP.replace("Recombine;", "") + LEVER + HUB + FACE)
         self.refused(scene, says=["own.geo", "quadrilaterals"], mistakes=1)
+
+    def test_volumes(self):
+        solid = STRIP + "solid[] = Extrude {0, 0, 40} { Surface{area[1]}; Layers{4}; Recombine; };\n" + LEVER + HUB + FACE
+        self.refused(self.geometry(solid), says=["own.geo", "has volumes", "Lever/Width"], mistakes=1)
+
+    def test_out_of_its_plane(self):
+        tilted = STRIP.replace("{0, 20, 0}", "{0, 20, 5}") + LEVER + HUB + FACE
+        self.refused(self.geometry(tilted), says=["own.geo", "z = 5 mm", "must be 0"], mistakes=1)
 
     def test_face_elsewhere_and_too_short(self):
         scene = self.geometry(STRIP.replace("45.6", "40").replace("210", "150") + LEVER + HUB + FACE)

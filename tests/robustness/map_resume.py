@@ -20,6 +20,8 @@ TIMEOUT = 120  # seconds: a run that hangs is a failed test
 SCENE = SOURCE / "params" / "map-friction-depth-a.prm"
 # Every point of the grid: long enough, some 1700 cells, to be killed on the way.
 LONG = ("--set", "Map/Coarsest=1", "--set", "Map/First points=41", "--set", "Map/Second points=41", "--set", "Map/Bisections=2")
+# The same grid without bisections, as long as it takes to be stopped after the first half second.
+MEDIUM = ("--set", "Map/Coarsest=1", "--set", "Map/First points=26", "--set", "Map/Second points=26", "--set", "Map/Bisections=0")
 SHORT = ("--set", "Map/Coarsest=4", "--set", "Map/First points=9", "--set", "Map/Second points=9", "--set", "Map/Bisections=1")
 MESHED = (*SHORT, "--set", "Analysis/Model=condensed", "--set", "Mesh/Face size=4", "--set", "Map/Second points=5")
 
@@ -82,6 +84,55 @@ class MapTest(unittest.TestCase):
             self.assertGreater(file["meta/cells_taken_over"][()], 600)
         self.assertEqual(numbers(killed), numbers(whole))
 
+    def friction_table(self, mu):
+        rows = "\n".join(f"{speed},{mu + speed / 1000}" for speed in (0, 50, 100, 200, 400))
+        (self.folder / "mu.csv").write_text("speed,mu\n" + rows + "\n")
+
+    def with_table(self):
+        options = (*MEDIUM, "--set", "Friction/Law=table", "--set", f"Friction/Table={self.folder / 'mu.csv'}")
+        return (*options, "--set", "Map/First parameter=Friction/Factor", "--jobs", 1)
+
+    def test_changed_friction_table_begins_anew(self):
+        self.friction_table(0.4)
+        output = self.folder / "output"
+        process = self.started(output, 100, *self.with_table())
+        process.kill()
+        process.wait(TIMEOUT)
+        times = os.stat(self.folder / "mu.csv")
+        self.friction_table(0.6)  # of the same size
+        os.utime(self.folder / "mu.csv", ns=(times.st_atime_ns, times.st_mtime_ns))
+        _, said = self.completed("output", *self.with_table())
+        self.assertIn("another scene", said)
+        fresh, _ = self.completed("fresh", *self.with_table())
+        self.assertEqual(numbers(output), numbers(fresh))
+
+    def test_friction_table_changed_on_the_way_ends_the_map(self):
+        self.friction_table(0.4)
+        output = self.folder / "output"
+        process = self.started(output, 100, *self.with_table(), "--quiet")
+        self.friction_table(0.6)
+        said = process.communicate(timeout=TIMEOUT)
+        self.assertEqual(process.returncode, 1)
+        self.assertIn("input file has changed", said[1])
+        self.friction_table(0.4)
+        self.completed("output", *self.with_table())
+        fresh, _ = self.completed("fresh", *self.with_table())
+        self.assertEqual(numbers(output), numbers(fresh))
+
+    def test_garbled_lines_are_judged_again(self):
+        output = self.folder / "output"
+        process = self.started(output, 200, *MEDIUM, "--jobs", 1)
+        process.kill()
+        process.wait(TIMEOUT)
+        lines = (output / "map.journal").read_text().split("\n")
+        lines[50] = lines[50].replace("0x1.", "0x1.8", 1)
+        lines[60] = lines[60][:-3]
+        (output / "map.journal").write_text("\n".join(lines))
+        _, said = self.completed("output", *MEDIUM, "--quiet")
+        self.assertRegex(said, r"map.journal: damaged lines dropped, their cells are judged again: [23]\n")
+        whole, _ = self.completed("whole", *MEDIUM)
+        self.assertEqual(numbers(output), numbers(whole))
+
     def test_any_number_of_processes(self):
         one, _ = self.completed("one", *SHORT, "--jobs", 1)
         for jobs in (2, 3):
@@ -128,7 +179,7 @@ class MapTest(unittest.TestCase):
     def test_an_older_result_stays_until_the_map_is_written(self):
         output, _ = self.completed("output", *SHORT)
         before = (output / "result.h5").read_bytes()
-        process = self.started(output, 100, *LONG, "--jobs", 1)
+        process = self.started(output, 100, *LONG, "--jobs", 1, "--overwrite")
         process.kill()
         process.wait(TIMEOUT)
         self.assertEqual((output / "result.h5").read_bytes(), before)

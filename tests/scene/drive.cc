@@ -155,6 +155,32 @@ TEST(Drive, HarmonicFollowsItsFormula)
   }
 }
 
+TEST(Drive, DirectionIsThatOfTheStrokeWhateverTheTurn)
+{
+  const Drive drive(DriveProfile::harmonic, 45., 65., 112., 6.5);
+  int way = 1;
+  EXPECT_EQ(drive.at(0., Drive::Side::after).v, 0.);
+  EXPECT_EQ(direction_of(drive.at(0., Drive::Side::after).v), 1);
+  for (const double turn : drive.reversals())
+  {
+    EXPECT_EQ(drive.at(turn, Drive::Side::before).v, 0.);
+    EXPECT_EQ(direction_of(drive.at(turn, Drive::Side::before).v), way) << turn;
+    EXPECT_EQ(direction_of(drive.at(turn, Drive::Side::after).v), -way) << turn;
+    way = -way;
+  }
+  EXPECT_EQ(direction_of(drive.at(drive.duration()).v), 1);
+}
+
+TEST(Drive, RestKeepsTheDirectionThatLedToIt)
+{
+  const Drive drive({ 0., 1., 2., 3., 4., 5., 6. }, { 40., 40., 20., 20., 30., 30., 10. });
+  EXPECT_EQ(direction_of(drive.at(0.5).v), 1);
+  EXPECT_EQ(direction_of(drive.at(2.5).v), -1);
+  EXPECT_EQ(direction_of(drive.at(4.5).v), 1);
+  // A rest at the beginning was reached forward.
+  EXPECT_EQ(drive.reversals(), (std::vector<double>{ 1., 3., 5. }));
+}
+
 TEST(Drive, TableReversesWhereItsSamplesTurn)
 {
   const Drive drive = rise_rest_fall();

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string>
+
+namespace sprag
+{
+  /// What came of work in a process of its own.
+  struct ChildAnswer
+  {
+    std::string text;    ///< what the work returned
+    std::string failure; ///< empty if it came to its end, else how it ended: "crashes (Segmentation fault)"
+  };
+
+  /// Does `work` in a forked process and hands back the bytes that it returns, so that a library which crashes or does not come
+  /// back on a damaged file takes nobody along. The child prints nothing, must catch its own exceptions and ends with its parent.
+  /// After `seconds` > 0 it is killed. Throws AnalysisError where no process can be made, and when the run is
+  /// interrupted meanwhile.
+  ChildAnswer in_child_process(const std::function<std::string()> &work, double seconds);
+
+  /// From now on this process cannot grow by more than `bytes`. Without effect under an address sanitizer, which maps terabytes.
+  void limit_growth(std::size_t bytes);
+} // namespace sprag

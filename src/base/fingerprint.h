@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace sprag
+{
+  /// Hash over numbers and texts (64 bits, after FNV-1a): for keys and checksums, not against an adversary.
+  class Fingerprint
+  {
+  public:
+    void add(double value);
+    void add(const std::string &text);
+    void add(const void *bytes, std::size_t count);
+    std::uint64_t value() const;
+    std::string text() const; ///< 16 hexadecimal digits
+
+  private:
+    std::uint64_t hash = 14695981039346656037u;
+  };
+
+  /// Of what a file holds, whatever its name and time. What a script of gmsh (.geo) includes or merges by a name in quotes,
+  /// relative to its folder, belongs to its content. A file that cannot be read has the fingerprint "unreadable".
+  std::string content_fingerprint(const std::string &file);
+} // namespace sprag

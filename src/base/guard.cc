@@ -1,0 +1,122 @@
+#include "base/guard.h"
+
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <ctime>
+#include <initializer_list>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace sprag
+{
+  namespace
+  {
+    using Clock = std::chrono::steady_clock;
+
+    sigset_t watched_signals()
+    {
+      sigset_t signals;
+      sigemptyset(&signals);
+      for (const int signal : { SIGINT, SIGTERM, SIGCHLD })
+        sigaddset(&signals, signal);
+      struct sigaction hangup = {};
+      if (::sigaction(SIGHUP, nullptr, &hangup) == 0 && hangup.sa_handler != SIG_IGN) // ignored under nohup
+        sigaddset(&signals, SIGHUP);
+      return signals;
+    }
+
+    /// The next of the signals, or 0 after a tenth of a second without one.
+    int next_signal(const sigset_t &signals)
+    {
+      const timespec pause = { 0, 100'000'000 };
+      const int signal     = ::sigtimedwait(&signals, nullptr, &pause);
+      return signal < 0 || signal == SIGCHLD ? 0 : signal;
+    }
+
+    /// What a wish for an end has led to so far.
+    class Ending
+    {
+    public:
+      Ending(const pid_t working_process, const int signal)
+          : process(working_process)
+          , last_signal(signal)
+      {
+      }
+
+      void ask()
+      {
+        ++wishes;
+        if (wishes == 1)
+          send(SIGUSR1);
+        else
+          insist();
+      }
+
+      void go_on()
+      {
+        if (wishes > 0 && Clock::now() - sent > std::chrono::duration<double>(grace))
+          insist();
+      }
+
+      bool asked() const
+      {
+        return wishes > 0;
+      }
+
+    private:
+      void insist()
+      {
+        send(insisted ? SIGKILL : last_signal);
+        insisted = true;
+      }
+
+      void send(const int signal)
+      {
+        ::kill(process, signal);
+        sent = Clock::now();
+      }
+
+      const pid_t process;
+      const int last_signal;
+      unsigned int wishes = 0;
+      bool insisted       = false;
+      Clock::time_point sent;
+    };
+  } // namespace
+
+  std::optional<WorkEnd> look_after(const int last_signal)
+  {
+    const sigset_t signals = watched_signals();
+    sigset_t before;
+    ::sigprocmask(SIG_BLOCK, &signals, &before);
+    const pid_t parent = ::getpid();
+    const pid_t child  = ::fork();
+    if (child <= 0)
+    {
+      if (child == 0)
+        ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+      if (child == 0 && ::getppid() != parent)
+        ::_exit(1);
+      ::sigprocmask(SIG_SETMASK, &before, nullptr);
+      return {};
+    }
+    Ending ending(child, last_signal);
+    int status = 0;
+    while (::waitpid(child, &status, WNOHANG) == 0)
+      if (next_signal(signals) != 0)
+        ending.ask();
+      else
+        ending.go_on();
+    return WorkEnd{ WIFEXITED(status) ? WEXITSTATUS(status) : 0, WIFSIGNALED(status) ? WTERMSIG(status) : 0, ending.asked() };
+  }
+
+  bool under_mpi()
+  {
+    for (const char *name : { "OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "PMIX_RANK" })
+      if (std::getenv(name) != nullptr)
+        return true;
+    return false;
+  }
+} // namespace sprag

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <optional>
+
+namespace sprag
+{
+  /// How a process that was looked after came to its end.
+  struct WorkEnd
+  {
+    int status = 0;     ///< exit status, if it ended by itself
+    int signal = 0;     ///< that ended it, or 0
+    bool asked = false; ///< whether the user asked for the end
+  };
+
+  /// Time from the wish for an end to making one [s]: libraries in the middle of a mesh, a factorisation or a basis cannot ask.
+  inline constexpr double grace = 2.;
+
+  /// Splits the process: none is returned in a child, which goes on with the work, and its end in the parent, which looks after
+  /// it. SIGINT, SIGTERM and SIGHUP are handed on as SIGUSR1; after `grace`, or a second one, follows `last_signal`, and SIGKILL
+  /// another `grace` later. The child ends with its parent. Where no process can be made the work is not looked after: none.
+  std::optional<WorkEnd> look_after(int last_signal);
+
+  /// Whether mpirun has started the process.
+  bool under_mpi();
+} // namespace sprag

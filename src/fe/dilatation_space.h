@@ -1,0 +1,45 @@
+#pragma once
+
+#include <deal.II/base/point.h>
+#include <deal.II/fe/fe_values.h>
+
+#include <vector>
+
+namespace sprag
+{
+  /// constant + slope . (x - centre)
+  template <int dim>
+  struct LinearPolynomial
+  {
+    dealii::Point<dim> centre;
+    double constant = 0.;
+    dealii::Tensor<1, dim> slope;
+
+    double operator()(const dealii::Point<dim> &point) const
+    {
+      return constant + slope * (point - centre);
+    }
+  };
+
+  /// Polynomials in the coordinates x of the cell as it lies (those of the reference cell lose an order where cells are
+  /// distorted: Arnold, Boffi and Falk 2002), of degree 0 or 1, orthonormal in the integral over the cell.
+  template <int dim>
+  class DilatationSpace
+  {
+  public:
+    /// Enters the cell of `values`, which has points and weights.
+    void reinit(const dealii::FEValues<dim> &values, unsigned int degree);
+
+    unsigned int size() const;
+
+    /// Of a function at a point of `values`.
+    double value(unsigned int function, unsigned int point) const;
+
+    /// Sum of the functions by `factors`.
+    LinearPolynomial<dim> combined(const std::vector<double> &factors) const;
+
+  private:
+    std::vector<LinearPolynomial<dim>> functions;
+    std::vector<std::vector<double>> at_points;
+  };
+} // namespace sprag

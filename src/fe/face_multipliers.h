@@ -1,0 +1,34 @@
+#pragma once
+
+#include "fe/static_surface.h"
+
+#include <array>
+
+namespace sprag
+{
+  /// Multipliers of the augmented Lagrangian method on a friction face: continuous and linear between the corners of its cells,
+  /// whatever the degree of the displacements, which keeps the pair stable. A coefficient is the mean traction weighted with its
+  /// hat function (dual basis, lumped): it is never negative where the pressures are not, and a corner that the contact hardly
+  /// reaches does not swing. What of the traction varies within a cell stays with the penalty, which stabilises it.
+  class FaceMultipliers
+  {
+  public:
+    /// The face must outlive this.
+    explicit FaceMultipliers(const FrictionFace<2> &face);
+
+    /// Values at the points of `states` of the function that a traction of theirs is averaged to, an entry per state [MPa].
+    std::vector<double> averaged(const std::vector<StaticPoint> &states, double ContactResponse<4>::*traction) const;
+
+  private:
+    /// Two hats that share a point.
+    struct Share
+    {
+      unsigned int first; ///< the second follows
+      std::array<double, 2> values;
+    };
+
+    const FrictionFace<2> &face;
+    std::vector<Share> shares; ///< of the points
+    std::vector<double> areas; ///< of the face, weighted with a hat [mm^2]
+  };
+} // namespace sprag

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "model/port_layout.h"
+#include "model/vibration.h"
+
+#include <vector>
+
+namespace sprag
+{
+  /// Eigenvalues no farther apart than this share of |lambda| count as one.
+  constexpr double tie = 1e-7;
+
+  bool are_tied(const StructureMode &a, const StructureMode &b);
+
+  /// Of a mode of a pair: 1 where the levers mirror each other, -1 where the second does the opposite.
+  double mirroring_of(const ComplexVector &ports, const PortLayout &layout);
+
+  /// Two modes of a pair with one eigenvalue, as levers have that feel nothing of each other, are known up to their combinations.
+  /// Puts the combination that mirrors most in place of the first and the one orthogonal to it in place of the second: where the
+  /// levers are alike, one mirrors and the other swings. `ports` holds the modes' displacements of all ports.
+  void separate_ties(std::vector<StructureMode> &modes, std::vector<ComplexVector> &ports, const PortLayout &layout);
+} // namespace sprag

@@ -1,0 +1,78 @@
+#include "results/earlier_result.h"
+
+#include "base/child_process.h"
+#include "results/entries.h"
+
+#include <filesystem>
+#include <sys/stat.h>
+
+namespace sprag
+{
+  namespace
+  {
+    /// A damaged file may keep HDF5 busy for ever [s].
+    constexpr double patience = 20.;
+
+    bool is_newer(const std::string &path, const std::timespec &since)
+    {
+      struct stat status = {};
+      if (::stat(path.c_str(), &status) != 0)
+        return false;
+      const auto &changed = status.st_mtim;
+      return changed.tv_sec > since.tv_sec || (changed.tv_sec == since.tv_sec && changed.tv_nsec >= since.tv_nsec);
+    }
+
+    std::vector<Entry> end_entries(const std::string &status)
+    {
+      return { { "status", status, "", "how the run ended" } };
+    }
+
+    void write_end(const std::string &path, const std::string &parameters, const std::string &status)
+    {
+      const std::vector<Entry> meta = { { "version", std::string(SPRAG_VERSION), "", "of sprag" } };
+      if (std::filesystem::exists(path))
+      {
+        hdf5::Handle file = hdf5::open_abandoned_file(path);
+        if (H5Lexists(file.id(), "summary", H5P_DEFAULT) > 0)
+          return;
+        add_entries(file, "summary", end_entries(status));
+        add_entries(file, "meta", meta);
+        file.close();
+        return;
+      }
+      std::filesystem::create_directories(std::filesystem::path(path).parent_path());
+      ResultFile(path, parameters, {}, {}).finish(end_entries(status), meta);
+    }
+  } // namespace
+
+  std::optional<EarlierResult> earlier_result(const std::string &path)
+  {
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(path, ignored))
+      return {};
+    const auto read = [&]
+    {
+      const hdf5::Handle file = hdf5::open_file(path);
+      const auto status       = hdf5::read_text(file, "summary/status");
+      return status + '\0' + hdf5::read_text(file, "parameters");
+    };
+    const auto answer = in_child_process(read, patience);
+    const auto end    = answer.text.find('\0');
+    if (!answer.failure.empty() || end == std::string::npos)
+      return {};
+    return EarlierResult{ answer.text.substr(end + 1), answer.text.substr(0, end) };
+  }
+
+  bool finish_abandoned(const std::string &path, const std::string &parameters, const std::string &status,
+                        const std::timespec since)
+  {
+    if (std::filesystem::exists(path) && (!is_newer(path, since) || earlier_result(path)))
+      return false;
+    const auto work = [&]
+    {
+      write_end(path, parameters, status);
+      return std::string();
+    };
+    return in_child_process(work, patience).failure.empty();
+  }
+} // namespace sprag

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <ctime>
+#include <optional>
+#include <string>
+
+namespace sprag
+{
+  /// What a finished result file tells about its run.
+  struct EarlierResult
+  {
+    std::string parameters; ///< of the scene, in .prm form
+    std::string status;     ///< how the run ended
+  };
+
+  /// Of the result file at `path`; none where there is no such file, it is damaged, or its run was not finished.
+  std::optional<EarlierResult> earlier_result(const std::string &path);
+
+  /// Gives the result file that a run left unfinished a /summary with the status, so that it is no longer marked as being
+  /// written; makes a file without rows where there is none. Leaves alone what is finished and what was there before `since`.
+  /// Returns whether there was something to do and it could be done.
+  bool finish_abandoned(const std::string &path, const std::string &parameters, const std::string &status, std::timespec since);
+} // namespace sprag

@@ -1,0 +1,10 @@
+#pragma once
+
+#include "results/hdf5.h"
+#include "results/result_file.h"
+
+namespace sprag
+{
+  /// Adds a group of entries to an open file. Throws AnalysisError when HDF5 fails.
+  void add_entries(const hdf5::Handle &file, const std::string &group, const std::vector<Entry> &entries);
+} // namespace sprag

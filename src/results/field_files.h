@@ -1,0 +1,83 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace sprag
+{
+  /// Numbers at the nodes of a mesh, `components` a node.
+  struct Field
+  {
+    std::string name; ///< ParaView shows it with the unit behind it
+    std::string unit; ///< "1" where dimensionless
+    std::string description;
+    unsigned int components = 1; ///< 1: scalar, 3: vector, 9: tensor by rows
+    std::vector<float> values;
+  };
+
+  /// Cells of one kind in the plane.
+  struct FieldMesh
+  {
+    std::string name;                ///< of its index: `name`.xdmf
+    std::vector<double> nodes;       ///< x and y of each [mm]
+    std::vector<unsigned int> cells; ///< numbers of the nodes of each
+    unsigned int nodes_per_cell = 4; ///< 2: lines, 4: quadrilaterals
+    std::vector<Field> fixed;        ///< the same in every frame
+
+    std::size_t n_nodes() const
+    {
+      return nodes.size() / 2;
+    }
+  };
+
+  /// Names and values of a frame as a whole, attributes of its file and data of the grid in ParaView.
+  struct FrameFact
+  {
+    std::string name;
+    std::string unit;
+    double value;
+  };
+
+  /// How frames are kept: long runs a file each, so that what is written is never touched again.
+  enum class FrameStorage
+  {
+    files,   ///< `name`-mesh.h5, and `name`-0000.h5, ... in the order of writing
+    one_file ///< `name`.h5, a group each
+  };
+
+  /// Fields on meshes that do not change, frame by frame, for ParaView: meshes and the fields of each frame on each of them, and
+  /// an XDMF index a mesh which lists the frames in the order of time. Every index holds one grid a time, which all of ParaView's
+  /// readers show alike. Throws AnalysisError when a file cannot be written.
+  class FieldFiles
+  {
+  public:
+    FieldFiles(std::string folder, std::string name, std::vector<FieldMesh> meshes, FrameStorage storage = FrameStorage::files);
+
+    /// Adds a frame: fields of each mesh, in the order of the meshes. `time` [s] differs from those of the frames before.
+    void write(double time, const std::vector<std::vector<Field>> &fields, const std::vector<FrameFact> &facts = {});
+
+  private:
+    struct Index
+    {
+      FieldMesh mesh; ///< without its numbers
+      std::size_t n_nodes;
+      std::size_t n_cells;
+      std::string path;
+      double last_time;
+    };
+
+    void write_mesh_file(const std::vector<FieldMesh> &meshes) const;
+    std::string mesh_file() const;
+    std::string grid(const Index &index, double time, const std::string &place, const std::vector<Field> &fields,
+                     const std::vector<FrameFact> &facts) const;
+
+    const std::string folder;
+    const std::string name;
+    const FrameStorage storage;
+    std::vector<Index> indices;
+    unsigned int n_frames = 0;
+  };
+
+  /// Removes what FieldFiles of any run left in a folder, leaf springs' of earlier versions included.
+  void remove_field_files(const std::string &folder);
+} // namespace sprag

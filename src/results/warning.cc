@@ -1,0 +1,52 @@
+#include "results/warning.h"
+
+#include <sstream>
+
+namespace sprag
+{
+  namespace
+  {
+    constexpr std::size_t line_length = 100;
+
+    /// `text` behind a label, its further lines below its first word.
+    std::string paragraph(const std::string &label, const std::string &text)
+    {
+      std::string result, line = label;
+      std::istringstream words(text);
+      for (std::string word; words >> word;)
+      {
+        if (line.size() + 1 + word.size() > line_length)
+        {
+          result += line + '\n';
+          line = std::string(label.size(), ' ');
+        }
+        line += ' ' + word;
+      }
+      return result + line + '\n';
+    }
+  } // namespace
+
+  void append(Warnings &warnings, const Warnings &more)
+  {
+    warnings.insert(warnings.end(), more.begin(), more.end());
+  }
+
+  std::string text_of(const Warnings &warnings)
+  {
+    std::string result;
+    for (const Warning &warning : warnings)
+      result += "\nWarning: " + warning.name + '\n' + paragraph("  found: ", warning.found) +
+                paragraph("  effect:", warning.effect) + paragraph("  remedy:", warning.remedy);
+    return warnings.empty() ? "" : result + '\n';
+  }
+
+  std::string count_text(const Warnings &warnings)
+  {
+    if (warnings.empty())
+      return "no warnings";
+    std::string names;
+    for (const Warning &warning : warnings)
+      names += (names.empty() ? ": " : ", ") + warning.name;
+    return std::to_string(warnings.size()) + (warnings.size() == 1 ? " warning" : " warnings") + names;
+  }
+} // namespace sprag

@@ -1,0 +1,378 @@
+#include "analysis/map_journal.h"
+#include "analysis/prepared_scene.h"
+#include "analysis/stability.h"
+#include "base/errors.h"
+#include "base/text.h"
+#include "mpi_environment.h"
+#include "scene/held_slide.h"
+#include "scene/read.h"
+#include "scene/scene_key.h"
+#include "scene/sections.h"
+
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <optional>
+#include <set>
+#include <unistd.h>
+
+// Each parameter that the program declares is changed in turn: what is shared between scenes must be what the changed scene makes
+// for itself.
+
+using namespace sprag;
+
+namespace
+{
+  using Changes = std::vector<std::string>;
+
+  class Folder
+  {
+  public:
+    Folder()
+    {
+      std::filesystem::create_directories(path / "other");
+    }
+    Folder(const Folder &)            = delete;
+    Folder &operator=(const Folder &) = delete;
+    ~Folder()
+    {
+      std::filesystem::remove_all(path);
+    }
+
+    std::string write(const std::string &name, const std::string &text) const
+    {
+      std::ofstream(path / name) << text;
+      return (path / name).string();
+    }
+
+    const std::filesystem::path path = std::filesystem::temp_directory_path() / ("sprag-every-" + std::to_string(::getpid()));
+  };
+
+  std::vector<Parameter> declared()
+  {
+    static SceneSettings settings;
+    return scene_parameters(settings);
+  }
+
+  const std::string &value_in(const Scene &scene, const std::string &name)
+  {
+    return scene.parameters->at(name);
+  }
+
+  std::vector<std::string> other_numbers(const std::string &value)
+  {
+    const auto number = leading_number(value);
+    if (!number || number->value == 0.)
+      return { "0.01", "1e-6", "1", "30", "100" };
+    return { number_text(1.01 * number->value), number_text(0.99 * number->value), number_text(1. + number->value) };
+  }
+
+  /// Values that may do in place of the present one.
+  std::vector<std::string> others(const Parameter &parameter, const std::string &value, const Folder &folder)
+  {
+    using Kind = Rule::Kind;
+    std::vector<std::string> result;
+    switch (parameter.rule.kind)
+    {
+    case Kind::number:
+    case Kind::number_or_auto:
+      return other_numbers(value);
+    case Kind::integer:
+    {
+      const auto number = static_cast<int>(leading_number(value)->value);
+      for (const int other : { number + 1, number - 1, 2 * number })
+        result.push_back(std::to_string(other));
+      return result;
+    }
+    case Kind::numbers:
+      return { number_text(1.01 * list_of_numbers(value).front() + 0.01) + value.substr(value.find(',')) };
+    case Kind::choice:
+      return parameter.rule.choices;
+    case Kind::text:
+      return { "none", "Lever/Width", (folder.path / "other").string() };
+    case Kind::file:
+      break;
+    }
+    return result;
+  }
+
+  /// The scene with another value of one parameter, for each that is admitted.
+  std::vector<Scene> changed_scenes(const Scene &scene, const Parameter &parameter, const Folder &folder)
+  {
+    std::vector<Scene> result;
+    const auto name  = full_name(parameter);
+    const auto value = value_in(scene, name);
+    for (const auto &other : others(parameter, value, folder))
+      try
+      {
+        if (other == value)
+          continue;
+        result.push_back(variant(scene, { name + "=" + other }));
+        if (parameter.rule.kind != Rule::Kind::choice)
+          break;
+      }
+      catch (const InputError &)
+      {
+      }
+    return result;
+  }
+
+  std::string table(const std::string &header, const std::vector<std::pair<double, double>> &rows)
+  {
+    std::string text = header + '\n';
+    for (const auto &[first, second] : rows)
+      text += number_text(first) + ',' + number_text(second) + '\n';
+    return text;
+  }
+
+  /// Of both ends of a stroke, scaled.
+  std::string drive_table(const double stroke)
+  {
+    return table("time,x", { { 0., 0. }, { 0.2, 0.3 * stroke }, { 0.4, 0.8 * stroke }, { 0.6, stroke }, { 1.2, 0. } });
+  }
+
+  std::string friction_table(const double mu)
+  {
+    return table("speed,mu", { { 0., mu }, { 50., 1.1 * mu }, { 100., 1.2 * mu }, { 200., 1.3 * mu } });
+  }
+
+  /// A bar meshed by a script that includes its depth.
+  std::string mesh_script()
+  {
+    return "Include \"depth.geo\";\n"
+           "Point(1) = {10, 46.6, 0}; Point(2) = {210, 46.6, 0}; Point(3) = {210, 46.6 + h, 0}; Point(4) = {10, 46.6 + h, 0};\n"
+           "Point(5) = {10, 45.6, 0}; Point(6) = {210, 45.6, 0};\n"
+           "Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};\n"
+           "Line(5) = {5, 6}; Line(6) = {6, 2}; Line(7) = {1, 5};\n"
+           "Curve Loop(1) = {1, 2, 3, 4}; Plane Surface(1) = {1};\n"
+           "Curve Loop(2) = {5, 6, -1, 7}; Plane Surface(2) = {2};\n"
+           "Transfinite Curve {1, 3, 5} = 31; Transfinite Curve {2, 4} = 3; Transfinite Curve {6, 7} = 2;\n"
+           "Transfinite Surface {1, 2}; Recombine Surface {1, 2};\n"
+           "Physical Surface(\"lever\") = {1}; Physical Surface(\"layer\") = {2};\n"
+           "Physical Curve(\"friction face\") = {5}; Physical Curve(\"hub\") = {4};\n";
+  }
+
+  Scene scene_of(const Folder &folder, const Changes &more)
+  {
+    Changes changes = { "Analysis/Type=stability", "Analysis/Model=condensed", "Mesh/Face size=8", "Condensed/Modes=3",
+                        "Condensed/Cache=" + (folder.path / "cache").string() };
+    changes.insert(changes.end(), more.begin(), more.end());
+    return read_scene(folder.write("scene.prm", ""), changes);
+  }
+
+  /// The lever of model A, coarse.
+  Scene bar(const Folder &folder)
+  {
+    return scene_of(folder, {});
+  }
+
+  Scene frame_with_plate(const Folder &folder)
+  {
+    return scene_of(folder, { "Lever/Outline=frame", "Friction plate/Type=on sensors", "Cylinder/Type=solid",
+                              "Cylinder/Face size=4", "Support/Type=sprung", "Lever/Tip mass=1e-5", "Lever/Hub inertia=0.1" });
+  }
+
+  Scene pair_on_leaves(const Folder &folder)
+  {
+    return scene_of(folder, { "Mirrored pair/Type=full", "Rotational spring/Type=leaf", "Mirrored pair/Joint mass=1e-4",
+                              "Lever/Inertia=as built", "Drive/Profile=harmonic", "Friction/Law=Coulomb" });
+  }
+
+  Scene from_files(const Folder &folder)
+  {
+    folder.write("depth.geo", "h = 20;\n");
+    return scene_of(folder, { "Mesh/File=" + folder.write("lever.geo", mesh_script()), "Drive/Profile=table",
+                              "Drive/Table=" + folder.write("drive.csv", drive_table(60.)), "Friction/Law=table",
+                              "Friction/Table=" + folder.write("mu.csv", friction_table(0.5)) });
+  }
+
+  /// Everything that a basis is, and the mesh below it.
+  std::vector<double> content_of(const MeshedLever &lever)
+  {
+    std::vector<double> result;
+    for (const auto &vertex : lever.triangulation.get_vertices())
+      result.insert(result.end(), { vertex[0], vertex[1] });
+    for (const auto &cell : lever.triangulation.active_cell_iterators())
+      result.push_back(cell->material_id());
+    for (const auto &point : lever.body->friction_face().points)
+      result.push_back(point.weight);
+    const auto add = [&](const dealii::FullMatrix<double> &matrix)
+    {
+      for (unsigned int i = 0; i < matrix.m(); ++i)
+        for (unsigned int j = 0; j < matrix.n(); ++j)
+          result.push_back(matrix(i, j));
+    };
+    for (const auto &basis : { lever.condensed.lever, lever.condensed.swinging })
+      if (basis)
+      {
+        result.insert(result.end(), basis->stiffness.begin(), basis->stiffness.end());
+        result.insert(result.end(), { basis->density_factor, basis->lever_mass, basis->moment_of_inertia });
+        for (const auto *const matrix :
+             { &basis->shapes, &basis->layer_stiffness, &basis->face_compliance, &basis->coordinate_shapes })
+          add(*matrix);
+      }
+    return result;
+  }
+
+  /// P and eigenvalues, or why there are none.
+  std::string answer_of(const Scene &scene, const Dynamics &dynamics)
+  {
+    std::string result;
+    try
+    {
+      const auto found = judge(dynamics.model(), held_drive(scene), scene.stability.modes);
+      if (found.slide)
+        result = number_text(found.slide->forces.P);
+      for (const auto &mode : found.modes)
+        result += ' ' + number_text(mode.mode.eigenvalue.real()) + ' ' + number_text(mode.mode.eigenvalue.imag());
+    }
+    catch (const AnalysisError &error)
+    {
+      result = error.what();
+    }
+    return result;
+  }
+
+  /// The changed scene after `before` in one maker, and from the cache that `before` filled, against the same made afresh.
+  void expect_shared_is_fresh(const Scene &before, const Scene &changed, const std::string &what)
+  {
+    DynamicsMaker sharing(true), reading(true), making(false);
+    sharing.make(prepared(before));
+    const Scene scene  = prepared(changed);
+    const auto fresh   = making.make(scene);
+    const auto content = content_of(*fresh.lever);
+    const auto answer  = answer_of(scene, fresh);
+    for (auto *const maker : { &sharing, &reading })
+    {
+      const auto shared = maker->make(scene);
+      EXPECT_TRUE(content_of(*shared.lever) == content) << what << (maker == &sharing ? ": shared" : ": from the cache");
+      EXPECT_EQ(answer_of(scene, shared), answer) << what;
+    }
+  }
+
+  /// A scene that was changed in memory, as roles do it, not by its parameters.
+  Scene in_memory(const Scene &changed, const Scene &before)
+  {
+    Scene result      = changed;
+    result.parameters = before.parameters;
+    return result;
+  }
+
+  bool is_bound(const Scene &before, const Scene &changed, const std::string &name)
+  {
+    const auto value = [&](const Scene &scene)
+    {
+      SceneSettings settings;
+      settings.scene = scene;
+      for (const auto &parameter : scene_parameters(settings))
+        if (full_name(parameter) == name)
+          return parameter.default_value;
+      return std::string();
+    };
+    return value(before) != value(changed);
+  }
+
+  /// Changes each parameter, notes the ones that the scene admits and compares what is shared then.
+  void change_each(const Scene &scene, const Folder &folder, const bool compare, std::set<std::string> &admitted)
+  {
+    const auto key      = scene_key(scene);
+    const auto body     = body_key(scene);
+    unsigned int shared = 0;
+    for (const auto &parameter : declared())
+      for (const Scene &changed : changed_scenes(scene, parameter, folder))
+      {
+        const auto name = full_name(parameter);
+        const auto what = name + " = " + value_in(changed, name);
+        admitted.insert(name);
+        EXPECT_NE(scene_key(changed), key) << what;
+        const bool shares = body_key(changed) == body && is_meshed(changed.analysis.model);
+        if (is_bound(scene, changed, name))
+        {
+          EXPECT_EQ(body_key(in_memory(changed, scene)) == body, body_key(changed) == body) << what;
+        }
+        shared += shares ? 1 : 0;
+        if (compare && shares)
+          expect_shared_is_fresh(scene, changed, what);
+      }
+    EXPECT_TRUE(shared > 50 || !is_meshed(scene.analysis.model)) << shared;
+  }
+} // namespace
+
+TEST(EveryParameter, OfABarIsSharedWhereItDoesNotCount)
+{
+  const Folder folder;
+  std::set<std::string> admitted;
+  change_each(bar(folder), folder, true, admitted);
+}
+
+TEST(EveryParameterSlow, OfAFrameAndOfAPairIsSharedWhereItDoesNotCount)
+{
+  const Folder folder;
+  std::set<std::string> admitted;
+  change_each(frame_with_plate(folder), folder, true, admitted);
+  change_each(pair_on_leaves(folder), folder, true, admitted);
+}
+
+TEST(EveryParameter, BelongsToTheKeysOfSomeScene)
+{
+  const Folder folder;
+  std::set<std::string> admitted;
+  const Changes statics = { "Analysis/Type=quasi-static", "Analysis/Model=finite element", "Analysis/Plane=strain" };
+  const Changes in_time = { "Analysis/Type=transient", "Analysis/Model=rigid" };
+  for (const Scene &scene :
+       { bar(folder), frame_with_plate(folder), pair_on_leaves(folder), scene_of(folder, statics), scene_of(folder, in_time) })
+    change_each(scene, folder, false, admitted);
+  std::set<std::string> missing;
+  for (const auto &parameter : declared())
+    if (parameter.rule.kind != Rule::Kind::file && admitted.count(full_name(parameter)) == 0)
+      missing.insert(full_name(parameter));
+  // There is one dimension to choose so far.
+  EXPECT_EQ(missing, std::set<std::string>{ "Analysis/Dimension" });
+}
+
+TEST(EveryParameter, SparedOnesAreDeclared)
+{
+  std::set<std::string> names;
+  for (const auto &parameter : declared())
+    names.insert(full_name(parameter));
+  for (const auto &spared : spared_parameters())
+    for (const auto &name : spared.parameters)
+      EXPECT_EQ(names.count(name), 1u) << name;
+}
+
+TEST(EveryParameter, FilesCountByWhatTheyHold)
+{
+  const Folder folder;
+  const Scene scene = from_files(folder);
+  const auto key    = scene_key(scene);
+  const auto body   = body_key(scene);
+  for (const auto &[file, text] : std::vector<std::pair<std::string, std::string>>{ { "drive.csv", drive_table(61.) },
+                                                                                    { "mu.csv", friction_table(0.51) },
+                                                                                    { "lever.geo", mesh_script() + "// more\n" },
+                                                                                    { "depth.geo", "h = 21;\n" } })
+  {
+    folder.write(file, text);
+    const Scene changed = variant(scene, {});
+    EXPECT_NE(scene_key(changed), key) << file;
+    EXPECT_EQ(body_key(changed) == body, file == "mu.csv") << file;
+    expect_shared_is_fresh(scene, changed, file);
+    from_files(folder);
+    EXPECT_EQ(scene_key(scene), key) << file;
+  }
+  for (const auto &parameter : declared())
+    if (parameter.rule.kind == Rule::Kind::file)
+    {
+      EXPECT_NE(value_in(scene, full_name(parameter)), "") << full_name(parameter) << " needs a file here";
+    }
+}
+
+TEST(EveryParameter, AMeshIsMadeAnewWhenItsFileChangesInOneProcess)
+{
+  const Folder folder;
+  const Scene scene = from_files(folder);
+  DynamicsMaker maker(false);
+  const auto before = maker.make(scene).lever;
+  EXPECT_EQ(maker.make(scene).lever, before);
+  folder.write("depth.geo", "h = 21;\n");
+  EXPECT_NE(content_of(*maker.make(scene).lever), content_of(*before));
+}

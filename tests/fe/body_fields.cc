@@ -1,0 +1,192 @@
+#include "fe/body_fields.h"
+
+#include "bar.h"
+#include "fe/leaf_body.h"
+#include "fe/stress_peaks.h"
+#include "leaf_beam.h"
+#include "mpi_environment.h"
+
+#include <deal.II/grid/grid_generator.h>
+#include <deal.II/numerics/vector_tools.h>
+
+#include <cmath>
+#include <gtest/gtest.h>
+
+using namespace sprag;
+
+namespace
+{
+  constexpr double along = 1e-3, across = -4e-4;
+
+  struct Stretch : dealii::Function<2>
+  {
+    Stretch()
+        : dealii::Function<2>(2)
+    {
+    }
+    double value(const dealii::Point<2> &p, const unsigned int component) const override
+    {
+      return component == 0 ? along * p[0] : across * p[1];
+    }
+  };
+
+  /// A bar of steel-like metal on a soft layer, both stretched along xi and across eta by strains that are the same everywhere.
+  struct StretchedBar
+  {
+    StretchedBar()
+        : body((make_bar(bar, triangulation), triangulation), bar_properties({}, 0.3))
+        , displacement(body.n_dofs())
+    {
+      dealii::VectorTools::interpolate(body.cell_mapping(), body.dofs(), Stretch(), displacement);
+    }
+
+    Bar bar;
+    dealii::Triangulation<2> triangulation;
+    ElasticBody<2> body;
+    dealii::Vector<double> displacement;
+  };
+
+  /// Of plane stress, by hand.
+  double stress_along(const double modulus, const double nu)
+  {
+    return modulus / (1. - nu * nu) * (along + nu * across);
+  }
+  double stress_across(const double modulus, const double nu)
+  {
+    return modulus / (1. - nu * nu) * (across + nu * along);
+  }
+} // namespace
+
+TEST(BodyFields, EachPartHasItsOwnStressUpToWhereItMeetsAnother)
+{
+  const StretchedBar stretched;
+  const BodyFields fields(stretched.body);
+  const auto nodal       = fields.at(stretched.displacement);
+  const double interface = stretched.bar.offset + stretched.bar.layer;
+  unsigned int of_layer = 0, at_interface = 0, at_hub = 0;
+  for (unsigned int i = 0; i < nodal.size(); ++i)
+  {
+    const auto &node = fields.nodes()[i];
+    const bool layer = node.part == material_id::layer;
+    of_layer += layer ? 1 : 0;
+    at_hub += node.at_hub ? 1 : 0;
+    at_interface += std::abs(node.position[1] - interface) < 1e-9 ? 1 : 0;
+    const double modulus = layer ? 20. : 70000., nu = layer ? 0. : 0.3;
+    const double a = stress_along(modulus, nu), b = stress_across(modulus, nu);
+    EXPECT_NEAR(nodal[i].stress[0][0], a, 1e-9 * modulus);
+    EXPECT_NEAR(nodal[i].stress[1][1], b, 1e-9 * modulus);
+    EXPECT_NEAR(von_mises(nodal[i]), std::sqrt(a * a - a * b + b * b), 1e-9 * modulus);
+    EXPECT_NEAR(nodal[i].displacement[0], along * node.position[0], 1e-12);
+    EXPECT_NEAR(nodal[i].displacement[1], across * node.position[1], 1e-12);
+  }
+  // 8 elements along, 1 + 2 across, nine nodes each.
+  EXPECT_EQ(nodal.size(), 9u * 8 * 3);
+  EXPECT_EQ(of_layer, 9u * 8);
+  EXPECT_EQ(at_interface, 2u * 3 * 8);
+  EXPECT_EQ(at_hub, 9u * 3);
+  ASSERT_EQ(fields.quadrilaterals().size(), 4u * 4 * 8 * 3);
+  double area = 0.;
+  for (unsigned int q = 0; q < fields.quadrilaterals().size(); q += 4)
+  {
+    const auto corner = [&](const unsigned int c) { return fields.nodes()[fields.quadrilaterals()[q + c]].position; };
+    for (unsigned int c = 0; c < 4; ++c)
+      area += 0.5 * (corner(c)[0] * corner((c + 1) % 4)[1] - corner((c + 1) % 4)[0] * corner(c)[1]);
+  }
+  EXPECT_NEAR(area, 20. * 2.5, 1e-9);
+}
+
+TEST(BodyFields, CurvedCellsHaveTheirNodesOnTheCircle)
+{
+  const double radius = 56., core = 28.;
+  dealii::Triangulation<2> triangulation;
+  dealii::GridGenerator::hyper_shell(triangulation, {}, core, radius, 8);
+  for (const auto &cell : triangulation.active_cell_iterators())
+    cell->set_material_id(material_id::cylinder);
+  BodyProperties properties;
+  properties.curved    = true;
+  properties.constants = { { material_id::cylinder, { 70000., 0.33 } } };
+  const ElasticBody<2> body(triangulation, properties);
+  const BodyFields fields(body);
+  unsigned int outside = 0;
+  for (const auto &node : fields.nodes())
+  {
+    const double distance = node.position.norm();
+    const double nearest  = distance > 50. ? radius : distance > 35. ? 0.5 * (radius + core) : core;
+    outside += nearest == radius ? 1 : 0;
+    EXPECT_NEAR(distance, nearest, 1e-9);
+  }
+  EXPECT_EQ(outside, 8u * 3);
+}
+
+// A guided leaf bends to an arc of the angle by which its hub turns: E t/2 angle/L at its surfaces, whatever the rotation. The
+// stress of the solid differs from that of a beam by about the strain itself. Parabolas in place of the arc stretch by up to
+// beta^2/24, beta the angle over an element, the longest of which is 1.7 times the mean one (the grading of meshes/leaf.geo).
+TEST(BodyFields, StressOfATurnedLeafIsThatOfBending)
+{
+  LeafSpring leaf;
+  leaf.end           = LeafEnd::guided;
+  leaf.poisson_ratio = 0.;
+  LeafBody body(leaf, PlaneState::stress);
+  const double turn = 0.2;
+  const auto state  = body.steps(body.rest(), turn).back();
+  const BodyFields fields(body.body());
+  const auto nodal    = fields.at(state.displacement);
+  const double strain = 0.5 * leaf.thickness * turn / leaf.length;
+  const double beta   = 1.7 * turn / leaf_elements(leaf).along;
+  unsigned int found  = 0;
+  for (unsigned int i = 0; i < nodal.size(); ++i)
+    if (std::abs(std::abs(fields.nodes()[i].position[1]) - 0.5 * leaf.thickness) < 1e-5)
+    {
+      EXPECT_NEAR(von_mises(nodal[i]), leaf.young_modulus * strain,
+                  leaf.young_modulus * (2. * strain * strain + beta * beta / 24.))
+          << "at " << fields.nodes()[i].position[0];
+      ++found;
+    }
+  EXPECT_GE(found, 4 * leaf_elements(leaf).along);
+}
+
+TEST(StressPeaks, AreTheLargestOfTheirPartAndSayWhereAndWhen)
+{
+  const StretchedBar stretched;
+  const BodyFields fields(stretched.body);
+  StressPeaks peaks(fields);
+  auto nodal         = fields.at(dealii::Vector<double>(stretched.body.n_dofs()));
+  const auto highest = [&](const dealii::types::material_id part, const bool at_hub)
+  {
+    unsigned int last = 0;
+    for (unsigned int i = 0; i < nodal.size(); ++i)
+      if (fields.nodes()[i].part == part && fields.nodes()[i].at_hub == at_hub)
+        last = i;
+    return last;
+  };
+  const unsigned int lever = highest(material_id::lever, false), layer = highest(material_id::layer, false),
+                     hub    = highest(material_id::lever, true);
+  nodal[lever].stress[0][0] = 5.;
+  nodal[layer].stress[0][0] = 2.;
+  nodal[hub].stress[0][0]   = 9.;
+  peaks.look_at(nodal, 30., 1, 0);
+  nodal[lever].stress[0][0] = 4.;
+  nodal[layer].stress[0][0] = -3.;
+  peaks.look_at(nodal, 20., -1, 1);
+
+  const auto entries = peaks.entries(2);
+  const auto value   = [&](const std::string &name)
+  {
+    for (const auto &entry : entries)
+      if (entry.name == name)
+        return entry.value;
+    return std::variant<double, std::string>(-1.);
+  };
+  const auto number = [&](const std::string &name) { return std::get<double>(value(name)); };
+  EXPECT_DOUBLE_EQ(number("largest_lever_stress"), 5.);
+  EXPECT_DOUBLE_EQ(number("largest_lever_stress_x"), 30.);
+  EXPECT_EQ(std::get<std::string>(value("largest_lever_stress_direction")), "forward");
+  EXPECT_DOUBLE_EQ(number("largest_lever_stress_lever"), 1.);
+  EXPECT_DOUBLE_EQ(number("largest_lever_stress_xi"), fields.nodes()[lever].position[0]);
+  EXPECT_DOUBLE_EQ(number("largest_layer_stress"), 3.);
+  EXPECT_DOUBLE_EQ(number("largest_layer_stress_x"), 20.);
+  EXPECT_EQ(std::get<std::string>(value("largest_layer_stress_direction")), "backward");
+  EXPECT_DOUBLE_EQ(number("largest_layer_stress_lever"), 2.);
+  EXPECT_DOUBLE_EQ(number("largest_layer_stress_eta"), fields.nodes()[layer].position[1]);
+  EXPECT_DOUBLE_EQ(number("largest_stress_at_hub"), 9.);
+}

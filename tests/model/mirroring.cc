@@ -1,0 +1,107 @@
+#include "model/mirroring.h"
+
+#include <gtest/gtest.h>
+
+using namespace sprag;
+
+namespace
+{
+  using Complex = std::complex<double>;
+
+  /// Two levers with two surface ports and a rotation each.
+  PortLayout two_levers()
+  {
+    PortLayout layout;
+    layout.surface = 2;
+    layout.levers  = 2;
+    return layout;
+  }
+
+  ComplexVector vector_of(const std::vector<Complex> &values)
+  {
+    ComplexVector result;
+    for (auto &part : result)
+      part.reinit(static_cast<unsigned int>(values.size()));
+    for (unsigned int i = 0; i < values.size(); ++i)
+    {
+      result[0][i] = values[i].real();
+      result[1][i] = values[i].imag();
+    }
+    return result;
+  }
+
+  std::vector<Complex> sum(const Complex a, const std::vector<Complex> &x, const Complex b, const std::vector<Complex> &y)
+  {
+    std::vector<Complex> result;
+    for (std::size_t i = 0; i < x.size(); ++i)
+      result.push_back(a * x[i] + b * y[i]);
+    return result;
+  }
+
+  const std::vector<Complex> first_moves  = { { 1., 0.5 }, { -0.3, 2. }, 0.7, 0., 0., 0. };
+  const std::vector<Complex> second_moves = { 0., 0., 0., { 1., 0.5 }, { -0.3, 2. }, 0.7 };
+
+  struct Pair
+  {
+    std::vector<StructureMode> modes;
+    std::vector<ComplexVector> ports;
+  };
+
+  /// Coordinates are the ports.
+  Pair pair_of(const std::vector<Complex> &a, const std::vector<Complex> &b, const Complex other_eigenvalue = { -1., 50. })
+  {
+    Pair result;
+    for (const auto *const values : { &a, &b })
+    {
+      StructureMode mode;
+      mode.eigenvalue  = values == &a ? Complex(-1., 50.) : other_eigenvalue;
+      mode.coordinates = vector_of(*values);
+      result.modes.push_back(mode);
+      result.ports.push_back(vector_of(*values));
+    }
+    return result;
+  }
+} // namespace
+
+TEST(Mirroring, IsOneOrMinusOneOfLeversThatMoveAlike)
+{
+  EXPECT_NEAR(mirroring_of(vector_of(sum(1., first_moves, 1., second_moves)), two_levers()), 1., 1e-15);
+  EXPECT_NEAR(mirroring_of(vector_of(sum(1., first_moves, -1., second_moves)), two_levers()), -1., 1e-15);
+  EXPECT_NEAR(mirroring_of(vector_of(first_moves), two_levers()), 0., 1e-15);
+}
+
+// Any two combinations of what two levers do alone are modes of one eigenvalue.
+TEST(Mirroring, TiedModesAreToldApartByIt)
+{
+  for (const Complex factor : { Complex(0., 0.), Complex(0.4, 0.), Complex(-0.2, 3.), Complex(1., 1e-9) })
+  {
+    auto pair = pair_of(sum(1., first_moves, factor, second_moves), sum({ 0.3, 0.7 }, first_moves, { -2., 1. }, second_moves));
+    separate_ties(pair.modes, pair.ports, two_levers());
+    EXPECT_NEAR(mirroring_of(pair.ports[0], two_levers()), 1., 1e-12);
+    EXPECT_NEAR(mirroring_of(pair.ports[1], two_levers()), -1., 1e-12);
+    for (unsigned int k = 0; k < 2; ++k)
+      for (unsigned int part = 0; part < 2; ++part)
+      {
+        auto difference = pair.modes[k].coordinates[part];
+        difference -= pair.ports[k][part];
+        EXPECT_LE(difference.linfty_norm(), 1e-14);
+      }
+  }
+}
+
+TEST(Mirroring, ModesThatDoNotTieStayAsTheyAre)
+{
+  const auto a = sum(1., first_moves, 0.4, second_moves);
+  const auto b = sum(0.3, first_moves, -2., second_moves);
+  auto pair    = pair_of(a, b, { -1., 50.001 });
+  separate_ties(pair.modes, pair.ports, two_levers());
+  EXPECT_TRUE(pair.ports[0][0] == vector_of(a)[0]);
+  EXPECT_TRUE(pair.ports[1][1] == vector_of(b)[1]);
+}
+
+TEST(Mirroring, OneModeTwiceStaysAsItIs)
+{
+  auto pair = pair_of(first_moves, sum({ 0., 2. }, first_moves, 0., second_moves));
+  separate_ties(pair.modes, pair.ports, two_levers());
+  EXPECT_TRUE(pair.ports[0][0] == vector_of(first_moves)[0]);
+}

@@ -1,0 +1,235 @@
+"""Fields of short runs reopened in ParaView's own Python: where the parts stand, times and ranges of values.
+
+Run with /usr/bin/python3, which starts pvpython on this file once; environment: SPRAG, the program, and SPRAG_SOURCE, the sources.
+"""
+
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+SOURCE = Path(os.environ.get("SPRAG_SOURCE", Path(__file__).resolve().parents[2]))
+SPRAG = os.environ.get("SPRAG", str(SOURCE / "build" / "sprag"))
+
+RADIUS, OFFSET, DISTANCE, STIFFNESS = 56.0, 45.6, 185.5, 7.4e4  # of model A
+THETA_0 = np.arcsin((RADIUS - OFFSET) / DISTANCE)
+DEFAULTS = ("Mesh/Face size=2", "Analysis/Step=5", "Drive/Stroke=40")
+RUNS = {
+    "lever": ("Output/Fields=interval", "Output/Field interval=20"),
+    "cylinder": ("Cylinder/Type=solid", "Cylinder/Face size=1"),
+    "pair": ("Mirrored pair/Type=full", "Rotational spring/Type=leaf", "Leaf spring/Thickness=1.3914"),
+    "mode": ("Analysis/Type=stability", "Analysis/Model=condensed", "Condensed/Modes=8", "Condensed/Cache=cache", "Lever/Depth=6",
+             "Stability/Position=40", "Stability/Direction=backward", "Stability/Modes=2", "Stability/Roles=off"),
+}  # fmt: skip
+LEVER, LAYER, HUB, CYLINDER, LEAF = 1, 2, 3, 6, 7
+FIRST_READER, SECOND_READER = "XDMFReader", "Xdmf3ReaderS"  # both that ParaView offers for a file of this kind
+
+
+def look(folder):
+    """In pvpython: everything ParaView reads of a run, as an archive of numpy."""
+    from paraview import servermanager, simple
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+
+    for path in sorted(folder.glob("*.xdmf")):
+        for name in (FIRST_READER, SECOND_READER):
+            reader = simple.XDMFReader(FileNames=[str(path)]) if name == FIRST_READER else simple.Xdmf3ReaderS(FileName=[str(path)])
+            arrays = {"times": np.array(reader.TimestepValues)}
+            for number, time in enumerate(arrays["times"]):
+                simple.UpdatePipeline(float(time), reader)
+                data = servermanager.Fetch(reader)
+                while data.IsA("vtkCompositeDataSet"):
+                    data = data.GetBlock(0)
+                arrays[f"{number} points"] = np.array(vtk_to_numpy(data.GetPoints().GetData()))
+                arrays[f"{number} cells"] = np.array(data.GetNumberOfCells())
+                for values in (data.GetPointData(), data.GetFieldData()):
+                    for index in range(values.GetNumberOfArrays()):
+                        arrays[f"{number} {values.GetArrayName(index)}"] = np.array(vtk_to_numpy(values.GetArray(index)))
+            np.savez(path.with_name(f"{path.stem}-{name}.npz"), **arrays)
+            simple.Delete(reader)
+
+
+class Seen:
+    """An index as a reader shows it."""
+
+    def __init__(self, folder, index, reader=FIRST_READER):
+        self.arrays = np.load(folder / f"{index}-{reader}.npz")
+        self.times = self.arrays["times"]
+
+    def of(self, number, name):
+        return self.arrays[f"{number} {name}"]
+
+    def now(self, number):
+        """What Warp by Vector shows."""
+        return (self.of(number, "points") + self.of(number, "displacement [mm]"))[:, :2]
+
+    def rest(self, number=0):
+        return self.of(number, "points")[:, :2]
+
+
+def turned(points, pivot, theta, side=1):
+    """Where a rigid lever of theta has what it had at rest."""
+    def axes(angle):
+        return np.array(((-np.cos(angle), side * np.sin(angle)), (np.sin(angle), side * np.cos(angle))))
+
+    return pivot + (points - pivot) @ axes(THETA_0).T @ axes(theta)
+
+
+class ParaViewTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        # h5py and ParaView have a library each of HDF5: they must not meet in one process.
+        import h5py
+
+        cls.h5py = h5py
+        temporary = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(temporary.cleanup)
+        cls.folder = Path(temporary.name)
+        (cls.folder / "empty.prm").write_text("")
+        for name, changes in RUNS.items():
+            options = [word for change in DEFAULTS + changes for word in ("--set", change)]
+            command = [SPRAG, cls.folder / "empty.prm", *options, "--output", cls.folder / name, "--quiet"]
+            subprocess.run(command, check=True, timeout=120)
+        if shutil.which("pvpython") is None:
+            raise RuntimeError("pvpython is missing; ./test installs it (packages.txt)")
+        command = ["pvpython", __file__, "--look", *(cls.folder / name for name in RUNS)]
+        done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=240)
+        if done.returncode != 0 or "rror" in done.stderr:
+            raise RuntimeError(f"pvpython: {done.stdout[-2000:]}{done.stderr[-2000:]}")
+
+    def result(self, name):
+        file = self.h5py.File(self.folder / name / "result.h5")
+        self.addCleanup(file.close)
+        return file
+
+    def rows(self, name, seen):
+        """Of the table, one a frame."""
+        table = {column: values[:] for column, values in self.result(name)["table"].items()}
+        at = [int(np.flatnonzero(table["time"] == time)[0]) for time in seen.times]
+        self.assertTrue((np.diff(seen.times) > 0).all())
+        return [{column: values[row] for column, values in table.items()} for row in at]
+
+    def test_both_readers_show_the_same(self):
+        for path in sorted(self.folder.glob("*/*.xdmf")):
+            first, second = (Seen(path.parent, path.stem, reader) for reader in (FIRST_READER, SECOND_READER))
+            self.assertEqual(sorted(first.arrays.files), sorted(second.arrays.files), path)
+            for name in first.arrays.files:
+                np.testing.assert_allclose(first.arrays[name], second.arrays[name], rtol=1e-6, atol=1e-9, err_msg=f"{path} {name}")
+
+    def test_lever_turns_on_its_pivot_and_the_cylinder_is_at_x(self):
+        seen = Seen(self.folder / "lever", "fields")
+        for number, row in enumerate(self.rows("lever", seen)):
+            part, lever, now = seen.of(number, "part"), seen.of(number, "lever"), seen.now(number)
+            rim = now[lever == 0][1:]
+            np.testing.assert_allclose(now[lever == 0][0], (row["x"], 0), atol=1e-5)
+            np.testing.assert_allclose(np.hypot(*(rim - (row["x"], 0)).T), RADIUS, atol=1e-4)
+            elastic = seen.of(number, "elastic_displacement [mm]")[:, :2]
+            body = lever == 1
+            rigid = turned(seen.rest()[body], (DISTANCE, 0), row["theta"])
+            np.testing.assert_allclose(now[body] - elastic[body], rigid, atol=1e-4)
+            self.assertEqual(set(part[body]), {LEVER, LAYER, HUB})
+            self.assertLess(np.abs(elastic).max(), 0.5)
+
+    def test_bodies_touch_where_they_press(self):
+        seen = Seen(self.folder / "lever", "face")
+        file = self.result("lever")
+        for number, row in enumerate(self.rows("lever", seen)):
+            pressure = seen.of(number, "pressure [MPa]")
+            written = file["face/pressure"][int(np.flatnonzero(file["face/time"][:] == row["time"])[0])]
+            np.testing.assert_allclose(pressure, written, rtol=1e-6)
+            if not row["P"] > 1:
+                continue
+            away = np.hypot(*(seen.now(number) - (row["x"], 0)).T) - RADIUS
+            self.assertAlmostEqual(away.min(), -row["penetration"], delta=1e-4)
+            self.assertLess(np.abs(away[pressure > 0]).max(), 2 * row["penetration"] + 1e-4)
+            traction = seen.of(number, "traction [MPa]")[:, :2]
+            force = (0.5 * (traction[1:] + traction[:-1]) * np.hypot(*np.diff(seen.rest(number), axis=0).T)[:, None]).sum(axis=0)
+            self.assertAlmostEqual(40 * force[0], row["Q"], delta=0.02 * abs(row["Q"]))
+
+    def test_stress_of_frames_is_the_peak_told(self):
+        summary = {name: value[()] for name, value in self.result("lever")["summary"].items()}
+        seen = Seen(self.folder / "lever", "fields")
+        table = self.result("lever")["table"]
+        self.assertIn(table["time"][int(np.argmax(table["P"][:]))], seen.times)
+        self.assertIn(table["time"][int(np.argmax(table["x"][:]))], seen.times)
+        layer = max(seen.of(i, "von_mises_stress [MPa]")[seen.of(i, "part") == LAYER].max() for i in range(len(seen.times)))
+        self.assertAlmostEqual(layer, summary["largest_layer_stress"], delta=1e-2 * layer)
+        for number in range(len(seen.times)):
+            s = seen.of(number, "stress [MPa]").reshape(-1, 3, 3)
+            np.testing.assert_allclose(s, s.transpose(0, 2, 1))
+            deviator = s - np.trace(s, axis1=1, axis2=2)[:, None, None] * np.eye(3) / 3
+            mises = np.sqrt(1.5 * (deviator**2).sum(axis=(1, 2)))
+            np.testing.assert_allclose(mises, seen.of(number, "von_mises_stress [MPa]"), rtol=1e-4, atol=1e-5)
+
+    def test_elastic_cylinder_is_around_its_centre_and_touches_the_face(self):
+        seen, face = Seen(self.folder / "cylinder", "fields"), Seen(self.folder / "cylinder", "face")
+        for number, row in enumerate(self.rows("cylinder", seen)):
+            disc = seen.of(number, "part") == CYLINDER
+            now = seen.now(number)[disc]
+            core = now[np.hypot(*seen.rest()[disc].T) < 28.001]
+            np.testing.assert_allclose(0.5 * (core.min(axis=0) + core.max(axis=0)), (row["x"], 0), atol=0.05)
+            distance = np.hypot(*(now - (row["x"], 0)).T)
+            self.assertAlmostEqual(distance.max(), RADIUS, delta=1e-3)
+            self.assertAlmostEqual(distance.min(), 28, delta=1e-3)
+            pressed = face.of(number, "pressure [MPa]") > 0
+            if not row["P"] > 1:
+                continue
+            # Distance of points under pressure from the polygon of the rim.
+            rim = now[distance > RADIUS - 0.1]
+            for point in face.now(number)[pressed]:
+                nearest = np.hypot(*(rim - point).T).argmin()
+                normal = (rim[nearest] - (row["x"], 0)) / np.hypot(*(rim[nearest] - (row["x"], 0)))
+                self.assertLess(abs((point - rim[nearest]) @ normal), 0.03)
+
+    def test_second_lever_is_the_mirror_image_and_leaf_springs_hang_on_the_hubs(self):
+        seen = Seen(self.folder / "pair", "fields")
+        for number, row in enumerate(self.rows("pair", seen)):
+            lever, part, now = seen.of(number, "lever"), seen.of(number, "part"), seen.now(number)
+            mirrored = now[lever == 1] * (1, -1)
+            np.testing.assert_allclose(now[lever == 2], mirrored, atol=2e-4)
+            self.assertGreater(now[(lever == 1) & (part == LAYER)][:, 1].min(), 0)
+            stress = seen.of(number, "von_mises_stress [MPa]")
+            np.testing.assert_allclose(stress[lever == 1], stress[lever == 2], rtol=1e-2, atol=1e-2)
+            leaf = (part == LEAF) & (lever == 1)
+            from_pivot = np.hypot(*(seen.rest()[leaf] - (DISTANCE, 0)).T)
+            clamped = from_pivot < 0.71  # half the thickness
+            np.testing.assert_allclose(
+                now[leaf][clamped], turned(seen.rest()[leaf][clamped], (DISTANCE, 0), row["theta"]), atol=1e-3
+            )
+
+    def test_mode_swings_for_one_period(self):
+        modes = {name: values[:] for name, values in self.result("mode")["modes"].items()}
+        for number in range(len(modes["frequency"])):
+            seen = Seen(self.folder / "mode", f"mode-{number + 1:02}")
+            frequency = modes["frequency"][number]
+            np.testing.assert_allclose(seen.times, np.arange(1, 25) / (24 * frequency), rtol=1e-9)
+            real, imaginary = (seen.of(0, f"displacement_{name} [mm]") for name in ("real", "imaginary"))
+            largest = np.hypot(np.linalg.norm(real, axis=1), np.linalg.norm(imaginary, axis=1)).max()
+            self.assertAlmostEqual(largest, 0.05 * 210, delta=1e-4)
+            for k in range(24):
+                expected = np.cos(np.pi * (k + 1) / 12) * real - np.sin(np.pi * (k + 1) / 12) * imaginary
+                np.testing.assert_allclose(seen.of(k, "displacement [mm]"), expected, atol=1e-5)
+                self.assertAlmostEqual(seen.of(k, "frequency [Hz]")[0], frequency, delta=1e-6 * frequency)
+                self.assertAlmostEqual(seen.of(k, "growth_rate [1/s]")[0], modes["growth_rate"][number], delta=1e-6 * frequency)
+            # A hub turns about its pivot: (x, y) moves by its rotation times (y, -x).
+            rotation = seen.of(0, "hub_rotation_real [rad]")[0]
+            body = seen.of(0, "lever") == 1
+            away = seen.rest()[body] - (DISTANCE, 0)
+            rigid = (real - seen.of(0, "elastic_real [mm]"))[body][:, :2]
+            np.testing.assert_allclose(rigid, rotation * np.column_stack((away[:, 1], -away[:, 0])), atol=1e-4)
+            told = modes["rotation_imaginary"][number] / modes["rotation_real"][number]
+            self.assertAlmostEqual(seen.of(0, "hub_rotation_imaginary [rad]")[0] / rotation, told, delta=1e-4)
+
+
+if __name__ == "__main__":
+    if sys.argv[1:2] == ["--look"]:
+        for name in sys.argv[2:]:
+            look(Path(name))
+        # Readers that are torn down at the end of the program have been seen to fail there.
+        sys.stdout.flush()
+        os._exit(0)
+    unittest.main()

@@ -1,0 +1,99 @@
+#include "results/field_files.h"
+
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <iterator>
+#include <set>
+#include <unistd.h>
+
+using namespace sprag;
+
+namespace
+{
+  /// Empty, and gone with its owner.
+  class FieldFilesTest : public testing::Test
+  {
+  protected:
+    FieldFilesTest()
+        : folder(std::filesystem::temp_directory_path() / ("sprag-test-fields-" + std::to_string(::getpid())))
+    {
+      std::filesystem::remove_all(folder);
+      std::filesystem::create_directories(folder);
+    }
+    ~FieldFilesTest() override
+    {
+      std::filesystem::remove_all(folder);
+    }
+
+    std::set<std::string> names() const
+    {
+      std::set<std::string> result;
+      for (const auto &entry : std::filesystem::directory_iterator(folder))
+        result.insert(entry.path().filename());
+      return result;
+    }
+
+    std::string text(const std::string &name) const
+    {
+      std::ifstream stream(folder / name);
+      return { std::istreambuf_iterator<char>(stream), {} };
+    }
+
+    const std::filesystem::path folder;
+  };
+
+  FieldMesh square()
+  {
+    return { "bodies", { 0., 0., 1., 0., 1., 1., 0., 1. }, { 0, 1, 2, 3 }, 4, { { "part", "1", "", 1, { 1, 1, 1, 1 } } } };
+  }
+
+  FieldMesh line()
+  {
+    return { "edge", { 0., 0., 1., 0. }, { 0, 1 }, 2, {} };
+  }
+
+  std::vector<std::vector<Field>> values()
+  {
+    return { { { "heat", "K", "", 1, { 1, 2, 3, 4 } } }, { { "flow", "W", "", 3, { 0, 0, 0, 1, 1, 0 } } } };
+  }
+} // namespace
+
+TEST_F(FieldFilesTest, IndexListsFramesInTheOrderOfTimeWhateverThatOfWriting)
+{
+  FieldFiles files(folder, "run", { square(), line() });
+  files.write(0.5, values());
+  files.write(2., values());
+  files.write(0.25, values());
+  files.write(1., values());
+  files.write(4., values());
+  EXPECT_EQ(names(), (std::set<std::string>{ "bodies.xdmf", "edge.xdmf", "run-mesh.h5", "run-0000.h5", "run-0001.h5",
+                                             "run-0002.h5", "run-0003.h5", "run-0004.h5" }));
+  for (const std::string name : { "bodies", "edge" })
+  {
+    const auto index = text(name + ".xdmf");
+    std::size_t last = 0;
+    for (const auto &[time, file] :
+         { std::pair("0.25", "0002"), { "0.5", "0000" }, { "1", "0003" }, { "2", "0001" }, { "4", "0004" } })
+    {
+      const auto begin = index.find("<Time Value=\"" + std::string(time) + "\"/>");
+      const auto end   = index.find("</Grid>", begin);
+      ASSERT_NE(begin, std::string::npos) << time;
+      EXPECT_GT(begin, last);
+      EXPECT_LT(index.find("run-" + std::string(file) + ".h5:/" + name, begin), end);
+      last = begin;
+    }
+    EXPECT_EQ(index.substr(index.size() - 8), "</Xdmf>\n");
+    EXPECT_EQ(index.find("</Xdmf>"), index.size() - 8);
+  }
+}
+
+TEST_F(FieldFilesTest, OnlyFieldsAreRemoved)
+{
+  for (const std::string name :
+       { "fields-0012.h5", "fields-mesh.h5", "fields.xdmf", "face.xdmf", "leaf-0000.h5", "mode-01.h5", "mode-01.xdmf",
+         "fields.png", "result.h5", "fields-of-mine.h5", "modes.png" })
+    std::ofstream(folder / name) << "something";
+  remove_field_files(folder);
+  EXPECT_EQ(names(), (std::set<std::string>{ "fields.png", "result.h5", "fields-of-mine.h5", "modes.png" }));
+}

@@ -1,0 +1,233 @@
+"""How runs end: asked for, crashed, short of memory or disk, robbed of their folder, beside another run. Run with
+/usr/bin/python3; environment: SPRAG, the program, and SPRAG_SOURCE, the sources."""
+
+import os
+import resource
+import shutil
+import signal
+import subprocess
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+import h5py
+
+SOURCE = Path(os.environ.get("SPRAG_SOURCE", Path(__file__).resolve().parents[2]))
+SPRAG = os.environ.get("SPRAG", str(SOURCE / "build" / "sprag"))
+MODEL_A = SOURCE / "params" / "model-a.prm"
+TIMEOUT = 120  # seconds: a run that hangs is a failed test
+
+CLOSED_FORM = ("--set", "Analysis/Model=closed form")
+COARSE = ("--set", "Mesh/Face size=4", "--set", "Analysis/Step=5")
+LONG = ("--set", "Mesh/Face size=4", "--set", "Analysis/Step=0.005", "--set", "Output/Fields=none")
+# The compliance of the friction face takes some seconds in one piece.
+FINE = ("--set", "Mesh/Face size=0.06", "--set", "Output/Fields=none")
+
+
+def mesh_files():
+    return set(Path(tempfile.gettempdir()).glob("sprag-*.msh"))
+
+
+class EndsTest(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory(prefix="sprag-test-")
+        self.addCleanup(temporary.cleanup)
+        self.folder = Path(temporary.name)
+        self.output = self.folder / "output"
+
+    def command(self, *options):
+        return [SPRAG, str(MODEL_A), "--output", str(self.output), "--quiet", *map(str, options)]
+
+    def run_to_end(self, *options, **settings):
+        return subprocess.run(
+            self.command(*options), capture_output=True, text=True, check=False, timeout=TIMEOUT, stdin=subprocess.DEVNULL, **settings
+        )
+
+    def start(self, *options):
+        process = subprocess.Popen(self.command(*options), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.addCleanup(process.communicate)
+        self.addCleanup(process.kill)
+        return process
+
+    def rows(self):
+        try:
+            with h5py.File(self.output / "result.h5", "r", swmr=True) as file:
+                return len(file["table/x"])
+        except (OSError, KeyError):
+            return 0
+
+    def start_with_rows(self, number, *options):
+        process = self.start(*LONG, *options)
+        end = time.monotonic() + TIMEOUT
+        while self.rows() < number:
+            self.assertIsNone(process.poll(), "ended too early")
+            self.assertLess(time.monotonic(), end)
+            time.sleep(0.02)
+        return process
+
+    def failed(self, process, text):
+        """Exit 1 with one message that holds the text; a finished file: its status and number of rows."""
+        said = process.communicate(timeout=TIMEOUT)
+        self.assertEqual(process.returncode, 1, said)
+        self.assertEqual((said[0], len(said[1].splitlines())), ("", 1), said)
+        self.assertIn(text, said[1])
+        with h5py.File(self.output / "result.h5", "r") as file:
+            self.assertIn("subsection Drive", file["parameters"].asstr()[()])
+            return file["summary/status"].asstr()[()], len(file["table/x"]) if "x" in file["table"] else 0
+
+    def refused(self, done, *texts):
+        self.assertEqual((done.returncode, done.stdout), (2, ""), done.stderr)
+        self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+        for text in texts:
+            self.assertIn(text, done.stderr)
+
+    def working_process(self, process):
+        children = Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text().split()
+        return int(children[0]) if children else None
+
+    def start_working(self, seconds, *options):
+        """A run whose working process has had so much CPU time."""
+        process = self.start(*options)
+        end = time.monotonic() + TIMEOUT
+        while time.monotonic() < end:
+            self.assertIsNone(process.poll(), "ended too early")
+            if worker := self.working_process(process):
+                used = Path(f"/proc/{worker}/stat").read_text().rpartition(")")[2].split()[11:13]
+                if sum(map(int, used)) > seconds * os.sysconf("SC_CLK_TCK"):
+                    return process
+            time.sleep(0.01)
+        return self.fail("does not start")
+
+
+class Interrupted(EndsTest):
+    def test_between_steps(self):
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+            with self.subTest(signal=number):
+                process = self.start_with_rows(5)
+                process.send_signal(number)
+                status, rows = self.failed(process, "interrupted")
+                self.assertIn("interrupted", status)
+                self.assertGreaterEqual(rows, 5)
+                shutil.rmtree(self.output)
+
+    def test_inside_a_library(self):
+        before = mesh_files()
+        process = self.start_working(1.0, *FINE)
+        begin = time.monotonic()
+        process.send_signal(signal.SIGTERM)
+        status, rows = self.failed(process, "interrupted")
+        self.assertLess(time.monotonic() - begin, 10)
+        self.assertIn("interrupted", status)
+        self.assertEqual(rows, 0)
+        self.assertEqual(mesh_files() - before, set())
+        self.assertEqual([path.name for path in self.output.iterdir()], ["result.h5"])
+
+    def test_while_meshing(self):
+        (self.folder / "endless.geo").write_text("For i In {1:1e9}\n  Point(i) = {0, 0, 0};\nEndFor\n")
+        process = self.start_working(0.05, "--set", f"Mesh/File={self.folder}/endless.geo")
+        process.send_signal(signal.SIGINT)
+        self.assertIn("interrupted", self.failed(process, "interrupted")[0])
+
+    def test_twice_ends_at_once(self):
+        process = self.start_working(1.0, *FINE)
+        begin = time.monotonic()
+        process.send_signal(signal.SIGINT)
+        time.sleep(0.1)
+        process.send_signal(signal.SIGINT)
+        self.failed(process, "interrupted")
+        self.assertLess(time.monotonic() - begin, 1.9)
+
+
+class Crashed(EndsTest):
+    def test_steps_are_kept(self):
+        for number, text in ((signal.SIGSEGV, "Segmentation fault"), (signal.SIGKILL, "want of memory")):
+            with self.subTest(signal=number):
+                process = self.start_with_rows(5)
+                os.kill(self.working_process(process), number)
+                status, rows = self.failed(process, text)
+                self.assertIn(text, status)
+                self.assertGreaterEqual(rows, 5)
+                shutil.rmtree(self.output)
+
+    def test_folder_removed(self):
+        process = self.start_with_rows(5)
+        shutil.rmtree(self.output)
+        said = process.communicate(timeout=TIMEOUT)[1]
+        self.assertEqual((process.returncode, len(said.splitlines())), (1, 1), said)
+        self.assertIn(f"{self.output}/result.h5 was removed", said)
+
+    def test_disk_full(self):
+        fields = ("--set", "Mesh/Face size=0.15", "--set", "Analysis/Step=5", "--set", "Output/Fields=interval")
+        for limit, options, name in ((1_400_000, LONG, "result.h5"), (2_500_000, fields, "fields")):
+            with self.subTest(limit=limit):
+                # The limit is not for files of Open MPI's daemon.
+                done = self.run_to_end(
+                    *options,
+                    preexec_fn=lambda most=limit: resource.setrlimit(resource.RLIMIT_FSIZE, (most, most)),
+                    env={**os.environ, "OMPI_MCA_ess_singleton_isolated": "1"},
+                )
+                self.assertEqual((done.returncode, len(done.stderr.splitlines())), (1, 1), done.stderr)
+                self.assertIn(f"cannot write {self.output}/{name}", done.stderr)
+                self.assertIn("File too large", done.stderr)
+                with h5py.File(self.output / "result.h5", "r") as file:
+                    self.assertIn("File too large", file["summary/status"].asstr()[()])
+                    if name == "result.h5":
+                        self.assertGreater(len(file["table/x"]), 0)
+                for path in self.output.glob("*.h5"):
+                    h5py.File(path, "r").close()
+                shutil.rmtree(self.output)
+
+
+class Refused(EndsTest):
+    def test_too_fine_a_mesh(self):
+        for options in ((), ("--set", "Analysis/Type=transient"), ("--set", "Analysis/Type=transient", "--set", "Analysis/Model=condensed")):
+            with self.subTest(options=options):
+                done = self.run_to_end("--set", "Mesh/Face size=0.0005", *options)
+                self.refused(done, "Mesh/Face size = 0.0005", "GB of memory", "free on this machine")
+                self.assertFalse(self.output.exists())
+
+    def test_too_many_rows(self):
+        done = self.run_to_end(*CLOSED_FORM, "--set", "Drive/Cycles=1000", "--set", "Analysis/Step=1e-5")
+        self.refused(done, "rows", "GB of memory")
+
+    def test_second_run_in_the_folder(self):
+        first = self.start_with_rows(1)
+        self.refused(self.run_to_end(*COARSE), str(self.output), "another run writes there", f"process {self.working_process(first)}")
+        first.kill()
+        first.wait(TIMEOUT)
+        self.assertEqual(self.run_to_end(*COARSE).returncode, 0)
+
+    def test_another_result(self):
+        self.assertEqual(self.run_to_end(*CLOSED_FORM).returncode, 0)
+        before = (self.output / "result.h5").read_bytes()
+        other = (*CLOSED_FORM, "--set", "Drive/Stroke=10")
+        self.refused(self.run_to_end(*other), str(self.output), "result.h5", "--overwrite")
+        self.assertEqual((self.output / "result.h5").read_bytes(), before)
+        self.assertEqual(self.run_to_end(*CLOSED_FORM).returncode, 0)
+        self.assertEqual(self.run_to_end(*other, "--overwrite").returncode, 0)
+        with h5py.File(self.output / "result.h5", "r") as file:
+            self.assertEqual(file["table/x"][:].max(), 10)
+
+    def test_result_that_is_no_file(self):
+        self.output.mkdir()
+        os.mkfifo(self.output / "result.h5")
+        self.refused(self.run_to_end(*CLOSED_FORM), "result.h5 is no regular file")
+
+    def test_damaged_earlier_result(self):
+        self.assertEqual(self.run_to_end(*CLOSED_FORM).returncode, 0)
+        path = self.output / "result.h5"
+        whole = path.read_bytes()
+        for size in (0, 100, len(whole) // 2):
+            path.write_bytes(whole[:size])
+            self.assertEqual(self.run_to_end(*CLOSED_FORM, "--set", f"Drive/Stroke={10 + size % 7}").returncode, 0)
+            shutil.rmtree(self.output)
+            self.output.mkdir()
+
+    def test_mesh_that_is_a_pipe(self):
+        os.mkfifo(self.folder / "pipe.msh")
+        self.refused(self.run_to_end("--set", f"Mesh/File={self.folder}/pipe.msh"), "pipe.msh", "cannot be read")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,144 @@
+"""Each warning is provoked by a command line, printed, stored and counted; the table of warnings in params/README.md is that of the
+program. Run with /usr/bin/python3; environment: SPRAG, the program, and SPRAG_SOURCE, the sources."""
+
+import os
+import re
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+import h5py
+
+SOURCE = Path(os.environ.get("SPRAG_SOURCE", Path(__file__).resolve().parents[2]))
+SPRAG = os.environ.get("SPRAG", str(SOURCE / "build" / "sprag"))
+
+STRAIN = "Analysis/Plane=strain"
+FORWARD = ("Drive/Cycles=0.5", "Output/Fields=none", "Analysis/Step=2")
+OTHER_DEVICE = ("Geometry/Cylinder radius=50", "Geometry/Pivot distance=180")
+
+# What is provoked: scene, options, warnings in the order of the program.
+PROVOKED = {
+    "soft penalty": ("model-a", (*FORWARD, "Contact/Penalty=20"), ["soft_penalty"]),
+    "penalty of 1e-3": ("model-a", (*FORWARD, "Contact/Penalty=1e-3"), ["overlap_of_layer", "soft_penalty", "soft_tangential_penalty"]),
+    "lever of 1 mm": ("model-a", (*FORWARD, "Lever/Depth=1"), ["coarse_contact", "large_deflection"]),
+    "leaf of 5 mm": ("leaf-a", (*FORWARD, "Leaf spring/Thickness=5"), ["large_strain", "pressure_beyond_strength"]),
+    "leaf of 8 mm": ("leaf-a", ("Analysis/Model=closed form", "Leaf spring/Thickness=8"), ["leaf_beyond_yield", "pressure_beyond_strength"]),
+    "incompressible in plane stress": ("model-a", (*FORWARD, "Friction layer/Poisson's ratio=0.49"), ["plane_stress_of_layer"]),
+    "coarse contact": ("model-a", (*FORWARD, "Mesh/Face size=2"), ["coarse_contact"]),
+    "other device": ("model-a", (*FORWARD, *OTHER_DEVICE), ["defaults_of_model_a"]),
+    "crushed cork": ("model-a", (*FORWARD, "Friction layer/Strength=0.1"), ["pressure_beyond_strength"]),
+    "crushed cork under a beam": ("reversal-a", ("Friction layer/Strength=0.1",), ["pressure_beyond_strength"]),
+    "soft tangential penalty": ("model-a", (*FORWARD, "Contact/Tangential penalty=1e-6"), ["soft_tangential_penalty"]),
+    "one step": ("model-a", (*FORWARD, "Analysis/Step=65"), ["long_steps"]),
+    "near locking": ("closed-form-a", ("Friction/Law=Coulomb", "Friction/Coefficient=2.62"), ["near_locking", "pressure_beyond_strength"]),
+    "none": ("model-a", FORWARD, []),
+}
+
+
+def sprag(scene, options, *arguments):
+    command = [SPRAG, SOURCE / "params" / f"{scene}.prm", *arguments]
+    for option in options:
+        command += ["--set", option]
+    return subprocess.run(list(map(str, command)), capture_output=True, text=True, check=False, timeout=120)
+
+
+def counted(names):
+    if not names:
+        return "no warnings"
+    return f"{len(names)} warning{'s' if len(names) > 1 else ''}: {', '.join(names)}"
+
+
+class WarnedRunsTest(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory(prefix="sprag-test-")
+        self.addCleanup(temporary.cleanup)
+        self.output = Path(temporary.name) / "output"
+
+    def stored(self, output=None):
+        with h5py.File((output or self.output) / "result.h5", "r") as file:
+            group = file["warnings"]
+            return {name: (data.asstr()[()], data.attrs["effect"], data.attrs["remedy"]) for name, data in group.items()}
+
+    def test_each_is_printed_stored_and_counted(self):
+        for case, (scene, options, names) in PROVOKED.items():
+            with self.subTest(case=case):
+                output = self.output / case.replace(" ", "-")
+                done = sprag(scene, options, "--output", output)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertEqual(re.findall(r"^Warning: (\w+)$", done.stdout, re.MULTILINE), names)
+                self.assertEqual(done.stdout.splitlines()[-1], "completed, " + counted(names))
+                stored = self.stored(output)
+                self.assertEqual(sorted(stored), sorted(names))
+                words = " ".join(done.stdout.split())
+                for texts in stored.values():
+                    for text in texts:
+                        self.assertIn(text, words)
+                        self.assertRegex(text, r"^[A-Z].*\.$")
+
+    def test_error_fails_the_run_after_everything_is_written(self):
+        scene, options, names = PROVOKED["near locking"]
+        done = sprag(scene, (*options, "Analysis/Warnings=error"), "--output", self.output)
+        self.assertEqual(done.returncode, 1)
+        self.assertEqual(done.stdout.splitlines()[-1], "completed, " + counted(names))
+        self.assertRegex(done.stderr.splitlines()[-1], r"^sprag: Analysis/Warnings = error: 2 warnings: near_locking, pressure_beyond_strength. The first says: \w")
+        self.assertEqual(list(self.stored()), names)
+        with h5py.File(self.output / "result.h5", "r") as file:
+            self.assertEqual(file["summary/status"].asstr()[()], "completed")
+        self.assertEqual(sprag("closed-form-a", ("Analysis/Warnings=error",), "--output", self.output).returncode, 0)
+
+    def test_quiet_prints_none_and_stores_them(self):
+        scene, options, names = PROVOKED["near locking"]
+        done = sprag(scene, options, "--output", self.output, "--quiet")
+        self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
+        self.assertEqual(list(self.stored()), names)
+
+    def test_validate_prints_those_of_the_scene(self):
+        for case in ("near locking", "other device", "incompressible in plane stress"):
+            scene, options, names = PROVOKED[case]
+            names = names[:1]  # the pressure follows from the run
+            done = sprag(scene, options, "--validate")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertTrue(done.stdout.endswith(f"{scene}.prm: valid, {counted(names)}\n"), done.stdout)
+            self.assertEqual(sprag(scene, (*options, "Analysis/Warnings=error"), "--validate").returncode, 1)
+        self.assertFalse(self.output.exists())
+
+    def test_every_analysis_counts_them(self):
+        cut = ("Mesh/Face size=4", "Stability/Critical=none", "Stability/Roles=off", "Map/First points=2", "Map/Second points=2")
+        cut += ("Map/Coarsest=1", "Map/Bisections=0", "Sprag slip/Continuation=0", "Sprag slip/Settling time=0.02")
+        for scene in ("fig10", "contact-law-a", "modal-a", "stability-a", "map-friction-depth-a", "onset-a", "calibration-a", "reversal-a"):
+            with self.subTest(scene=scene):
+                output = self.output / scene
+                options = (*cut, "Geometry/Cylinder radius=55", "Geometry/Interface offset=45")
+                done = sprag(scene, options, "--output", output)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                names = re.findall(r"^Warning: (\w+)$", done.stdout, re.MULTILINE)
+                self.assertEqual(done.stdout.splitlines()[-1], "completed, " + counted(names))
+                self.assertEqual(sorted(self.stored(output)), sorted(names))
+                if scene != "fig10":
+                    self.assertIn("defaults_of_model_a", names)
+
+    def test_a_failed_run_tells_them_too(self):
+        options = ("Friction layer/Strength=0.01", "Analysis/Maximum deviation=1e-9", *FORWARD)
+        done = sprag("model-a", options, "--output", self.output)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("Maximum deviation", done.stderr)
+        self.assertEqual(done.stdout.splitlines()[-1], "failed, 1 warning: pressure_beyond_strength")
+
+    def test_the_table_is_that_of_the_program(self):
+        text = (SOURCE / "params/README.md").read_text(encoding="utf-8")
+        section = text.partition("\n## Warnings\n")[2].partition("\n## ")[0]
+        table = re.findall(r"^\| `(\w+)` \|", section, re.MULTILINE)
+        self.assertEqual(len(table), len(set(table)))
+        program = set()
+        for path in (SOURCE / "src").rglob("*.cc"):
+            text = path.read_text(encoding="utf-8")
+            program |= set(re.findall(r'warnings\.push_back\(\s*\{\s*"(\w+)"', text))
+            for function in re.findall(r"^  Warnings \w+\(.*?^  \}", text, re.MULTILINE | re.DOTALL):
+                program |= set(re.findall(r'return \{ \{ "(\w+)"', function))
+        self.assertEqual(set(table), program)
+        self.assertLessEqual({name for _, _, names in PROVOKED.values() for name in names}, program)
+
+
+if __name__ == "__main__":
+    unittest.main()
