@@ -185,6 +185,16 @@ class ParaViewTest(unittest.TestCase):
                 normal = (rim[nearest] - (row["x"], 0)) / np.hypot(*(rim[nearest] - (row["x"], 0)))
                 self.assertLess(abs((point - rim[nearest]) @ normal), 0.03)
 
+    def test_default_frames_are_the_turn_the_state_behind_it_and_the_largest_force(self):
+        table = {name: values[:] for name, values in self.result("pair")["table"].items()}
+        rows = self.rows("pair", Seen(self.folder / "pair", "fields"))
+        turn = table["time"][table["x"].argmax()]
+        self.assertEqual(rows[0]["time"], turn)
+        self.assertGreater(rows[0]["Q"], 0)
+        self.assertTrue(any(row["friction_resultant"] <= -0.99 * row["mu"] * row["normal_resultant"] for row in rows[1:]))
+        self.assertIn(np.maximum(table["P"], table["P_2"]).max(), [max(row["P"], row["P_2"]) for row in rows])
+        self.assertTrue(all(row["P"] > 1 for row in rows))
+
     def test_second_lever_is_the_mirror_image_and_leaf_springs_hang_on_the_hubs(self):
         seen = Seen(self.folder / "pair", "fields")
         for number, row in enumerate(self.rows("pair", seen)):
