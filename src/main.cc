@@ -5,6 +5,7 @@
 #include "base/interrupt.h"
 #include "scene/read.h"
 
+#include <cstdlib>
 #include <deal.II/base/mpi.h>
 
 #include <CLI/CLI.hpp>
@@ -147,6 +148,9 @@ int main(int argc, char **argv)
   }
   if (const auto status = run_on_all_cores(arguments, argv))
     return *status;
+  // Alone, Open MPI would start a daemon beside the program.
+  if (!std::getenv("OMPI_COMM_WORLD_SIZE"))
+    setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
   int no_arguments = 1;
   dealii::Utilities::MPI::MPI_InitFinalize mpi(no_arguments, argv, 1);
   sprag::catch_interrupts();

@@ -73,7 +73,9 @@ TEST(PressureRecovery, SmoothsDents)
   {
     falls = falls || result.pressure[i] < result.pressure[i - 1];
     if (falls)
+    {
       EXPECT_LE(result.pressure[i], result.pressure[i - 1]);
+    }
   }
   for (const int power : { 0, 1 })
     EXPECT_NEAR(moment(samples, result.pressure, power) / moment(samples, samples.pressure, power), 1., 1e-12);
