@@ -26,16 +26,18 @@ face_begin = plate ? plate_begin : 0;
 face_end = plate ? plate_end : lever_length;
 
 // Element boundaries along the friction face: sizes grow away from the swept part and are scaled to fit.
+longest = Max(largest, face_size);
+most = growth > 1.01 ? Min(5000, Ceil(Log(longest / face_size) / Log(growth) + (face_end - face_begin) / longest + 3)) : 5000;
 left[] = {}; size = face_size; sum = 0;
-For i In {1:5000}
+For i In {1:most}
   If (sum < sweep_begin - face_begin - 1e-9)
-    size = Min(size * growth, Max(largest, face_size)); sum += size; left[] += size;
+    size = Min(size * growth, longest); sum += size; left[] += size;
   EndIf
 EndFor
 right[] = {}; size = face_size; sum_right = 0;
-For i In {1:5000}
+For i In {1:most}
   If (sum_right < face_end - sweep_end - 1e-9)
-    size = Min(size * growth, Max(largest, face_size)); sum_right += size; right[] += size;
+    size = Min(size * growth, longest); sum_right += size; right[] += size;
   EndIf
 EndFor
 fine = Ceil((sweep_end - sweep_begin) / face_size - 1e-6);

@@ -10,6 +10,7 @@
 #include "results/warning.h"
 #include "scene/read.h"
 
+#include <cstdlib>
 #include <deal.II/base/mpi.h>
 
 #include <CLI/CLI.hpp>
@@ -202,6 +203,9 @@ namespace
   int run_as_process_of_mpi(const Arguments &arguments, std::optional<sprag::Scene> scene, const std::timespec &since,
                             char **argv)
   {
+    // Alone, Open MPI would start a daemon beside the program.
+    if (!sprag::under_mpi())
+      ::setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
     int no_arguments = 1;
     dealii::Utilities::MPI::MPI_InitFinalize mpi(no_arguments, argv, 1);
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); // what HDF5 has to say is in the errors thrown

@@ -18,8 +18,8 @@ namespace sprag
   {
     constexpr std::size_t table_chunk = 256;
 
-    // A flush costs about 0.4 ms: nothing beside a finite-element step, much beside a row of the closed form.
-    constexpr std::chrono::milliseconds flush_interval(5);
+    // A flush costs about 0.4 ms of CPU time, a tenth of a quasi-static step.
+    constexpr std::chrono::milliseconds flush_interval(50);
 
     void describe(const hdf5::Handle &dataset, const std::string &unit, const std::string &description)
     {

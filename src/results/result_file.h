@@ -64,8 +64,8 @@ namespace sprag
   }
 
   /// `result.h5`: /table/<column>, /face, /summary, /parameters, /meta, /warnings. The file can be read while the run goes on
-  /// (HDF5 single-writer-multiple-reader) and after it is killed: what is appended is flushed at once; of rows that come within 5
-  /// ms of the last flush several are flushed together. Throws AnalysisError when HDF5 fails. To be destroyed before MPI is
+  /// (HDF5 single-writer-multiple-reader) and after it is killed: what is appended is flushed at once; of rows that come within
+  /// 50 ms of the last flush several are flushed together. Throws AnalysisError when HDF5 fails. To be destroyed before MPI is
   /// finalised.
   class ResultFile
   {

@@ -43,7 +43,7 @@ def cpu_of_children():
 def run(sprag, changes, output):
     """{column: number} of one run; its message where it failed."""
     command = [sprag, ROOT / "params" / "model-a.prm", "--output", output, "--quiet", "--set", "Output/Fields=turning points"]
-    for name, value in changes.items():
+    for name, value in {"Mesh/Face size": 0.5, **changes}.items():
         command += ["--set", f"{name}={value}"]
     environment = {**os.environ, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
     before = cpu_of_children()

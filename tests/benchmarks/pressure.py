@@ -77,8 +77,8 @@ def errors(run, reference):
     return np.array(result)
 
 
-def line(name, values, order=None):
-    cells = " | ".join(f"{100 * value:6.2f}" for value in values)
+def line(name, values, order=None, digits=1):
+    cells = " | ".join(f"{value:.{digits}f}" for value in values)
     print(f"| {name} | {cells} | {'' if order is None else f'{order:.1f}'} |", flush=True)
 
 
@@ -94,8 +94,8 @@ def table(sprag, scene, degree, sizes, finest, cylinder):
           f"{100 * np.abs(own[:, 0]).max():.2f} % of the largest pressure and {100 * np.abs(own[:, 1]).max():.2f} % of the width off\n")
     print("| | " + " | ".join(f"{'forward' if way > 0 else 'back'} {min(x, 64) if way < 0 else x}" for way, x in PLACES) + " | order |")
     print("|---" * (len(PLACES) + 2) + "|")
-    line("largest pressure [MPa]", [reference[place][0] / 100 for place in PLACES])
-    line("width [mm]", [reference[place][1] / 100 for place in PLACES])
+    line("largest pressure [MPa]", [reference[place][0] for place in PLACES], digits=4)
+    line("width [mm]", [reference[place][1] for place in PLACES], digits=3)
     for name, enforcement in METHODS.items():
         before = None
         for size in sizes:
@@ -106,7 +106,7 @@ def table(sprag, scene, degree, sizes, finest, cylinder):
                 if before is not None:
                     order = np.log2(norm(before[:, column]) / norm(found[:, column]))
                 label = f"{name}, {size} mm ({run.cpu:.2f} s): {what} [%]" if column == 0 else f"{what} [%]"
-                line(label, found[:, column], order)
+                line(label, 100 * found[:, column], order)
             before = found
 
 

