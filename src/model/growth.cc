@@ -29,6 +29,8 @@ namespace sprag
     }
     void multiply(ComplexVector &vector, const Complex factor)
     {
+      if (vector[0].size() == 0) // face forces of a reduced lever
+        return;
       const auto real = vector[0];
       vector[0] *= factor.real();
       vector[0].add(-factor.imag(), vector[1]);

@@ -29,10 +29,20 @@ namespace sprag
     /// Forces this small beside the largest are what repeated halving has left of old ones.
     void drop_remnants(Vector<double> &forces)
     {
+      if (forces.size() == 0)
+        return;
       const double small = 1e-16 * forces.linfty_norm();
       for (auto &force : forces)
         if (std::abs(force) <= small)
           force = 0.;
+    }
+
+    /// Face forces of which a share is carried on; reduced levers have none.
+    Vector<double> scaled(Vector<double> forces, const double share)
+    {
+      if (forces.size() > 0)
+        forces *= share;
+      return forces;
     }
 
     double quadratic_form(const FullMatrix<double> &matrix, const Vector<double> &sparse)
@@ -218,8 +228,7 @@ namespace sprag
 
     Motion unloaded;
     unloaded.coordinates.position = free_motion;
-    unloaded.face_force           = accepted.face_force;
-    unloaded.face_force *= -(w.alpha_f - data.relaxation / w.dt) / static_weight(w);
+    unloaded.face_force           = scaled(accepted.face_force, -(w.alpha_f - data.relaxation / w.dt) / static_weight(w));
     return port_positions(unloaded, selected);
   }
 
@@ -234,8 +243,7 @@ namespace sprag
     motion.coordinates = unaccelerated(accepted.coordinates, w);
     set_position(motion.coordinates, position, w);
 
-    motion.face_force = accepted.face_force;
-    motion.face_force *= -(w.alpha_f - data.relaxation / w.dt) / static_weight(w);
+    motion.face_force = scaled(accepted.face_force, -(w.alpha_f - data.relaxation / w.dt) / static_weight(w));
     for (unsigned int a = 0; a < forces.ports.size(); ++a)
       if (forces.ports[a] < motion.face_force.size())
         motion.face_force[forces.ports[a]] += forces.values[a] / static_weight(w);
@@ -259,7 +267,8 @@ namespace sprag
       work.algorithmic += w.delay() * data.stiffness[i] * change[i] * change[i];
 
     Vector<double> change_of_force = end.face_force;
-    change_of_force -= begin.face_force;
+    if (change_of_force.size() > 0)
+      change_of_force -= begin.face_force;
     const double static_change = quadratic_form(data.face_compliance, change_of_force);
     work.damping += data.relaxation / w.dt * static_change;
     work.algorithmic += w.delay() * static_change;
