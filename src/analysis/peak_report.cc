@@ -40,8 +40,7 @@ namespace sprag
 
     std::string direction(const Row &row)
     {
-      const double v = row[Column::v];
-      return v == 0. ? "at rest" : v > 0. ? "forward" : "backward";
+      return direction_of(row[Column::v]) > 0 ? "forward" : "backward";
     }
   } // namespace
 
@@ -52,7 +51,7 @@ namespace sprag
       return;
     entries.push_back({ "largest_pressure", peak.value, "MPa", "largest pressure on the friction face over the run" });
     entries.push_back({ "largest_pressure_x", (*peak.row)[Column::x], "mm", "position of the cylinder there" });
-    entries.push_back({ "largest_pressure_way", direction(*peak.row), "", "which way the cylinder moved there" });
+    entries.push_back({ "largest_pressure_direction", direction(*peak.row), "", "which way the cylinder moved there" });
     entries.push_back(
         { "largest_pressure_xi", peak.place, "mm", "place of the largest pressure on the lever, distance from the pivot" });
   }

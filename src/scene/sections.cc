@@ -204,11 +204,12 @@ namespace sprag
 
     void output(Section section, OutputSettings &settings)
     {
-      section.choice<FieldOutput>("Fields", settings.fields,
-                                  { { "none", FieldOutput::none },
-                                    { "turning points", FieldOutput::turning_points },
-                                    { "interval", FieldOutput::interval } },
-                                  "When fields are written: never, where P is largest and at and behind reversals, or in between too");
+      section.choice<FieldOutput>(
+          "Fields", settings.fields,
+          { { "none", FieldOutput::none },
+            { "turning points", FieldOutput::turning_points },
+            { "interval", FieldOutput::interval } },
+          "When fields are written: never, where P is largest and at and behind reversals, or in between too");
       section.number("Field interval", settings.field_interval, above(0.), "mm", "Travel of x between written fields");
     }
 

@@ -167,7 +167,7 @@ TEST(PlateInTime, CondensedSensorsAreThoseOfTheFiniteElements)
     const auto expected = sensors(whole);
     const auto error    = [&](const unsigned int modes)
     {
-      const auto basis = make_basis(*plate, { modes, spring_stiffness, plate_inertia(), {} });
+      const auto basis = make_basis(*plate, { modes, spring_stiffness, plate_inertia(), {}, {} });
       ModalStructure condensed(modal_data(basis, constants_of(sprung)));
       EXPECT_EQ(condensed.ports().sensors, 2u);
       EXPECT_EQ(condensed.ports().rotation(), layout.rotation());
@@ -188,7 +188,7 @@ TEST(PlateInTime, CondensedStaticsAreExactWithAnyNumberOfModes)
 {
   const PlateOnBar scene;
   const MeshedPlate plate(scene);
-  const auto basis = make_basis(*plate, { 3, spring_stiffness, plate_inertia(), {} });
+  const auto basis = make_basis(*plate, { 3, spring_stiffness, plate_inertia(), {}, {} });
   ModalStructure condensed(modal_data(basis, constants_of(false)));
   condensed.use_statics();
   const auto forces = forces_of(0);

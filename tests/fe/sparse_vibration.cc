@@ -74,7 +74,8 @@ namespace
 
     ModalStructure condensed(const unsigned int n_modes) const
     {
-      return ModalStructure(modal_data(make_basis(*bar, { n_modes, spring_stiffness, bar_inertia(1e-3, 1e-7), {} }), constants));
+      return ModalStructure(
+          modal_data(make_basis(*bar, { n_modes, spring_stiffness, bar_inertia(1e-3, 1e-7), {}, {} }), constants));
     }
 
     unsigned int n() const

@@ -127,7 +127,7 @@ namespace sprag
 
     FaceState face_state(const State &trial) const override
     {
-      return { trial.drive.time, trial.drive.x, { response.pressure }, { response.traction } };
+      return { trial.drive.time, trial.drive.x, { response.pressure }, { response.traction }, {}, {} };
     }
 
   private:
