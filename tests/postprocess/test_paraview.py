@@ -20,7 +20,7 @@ RADIUS, OFFSET, DISTANCE, STIFFNESS = 56.0, 45.6, 185.5, 7.4e4  # of model A
 THETA_0 = np.arcsin((RADIUS - OFFSET) / DISTANCE)
 DEFAULTS = ("Mesh/Face size=2", "Analysis/Step=5", "Drive/Stroke=40")
 RUNS = {
-    "lever": ("Output/Fields=interval", "Output/Field interval=20"),
+    "lever": ("Output/Fields=interval", "Output/Field interval=2"),
     "cylinder": ("Cylinder/Type=solid", "Cylinder/Face size=1"),
     "pair": ("Mirrored pair/Type=full", "Rotational spring/Type=leaf", "Leaf spring/Thickness=1.3914"),
     "mode": ("Analysis/Type=stability", "Analysis/Model=condensed", "Condensed/Modes=8", "Condensed/Cache=cache", "Lever/Depth=6",
