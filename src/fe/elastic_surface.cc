@@ -124,15 +124,15 @@ namespace sprag
     for (unsigned int q = patch.begin; patch.end > patch.begin + 1 && q < patch.end; ++q)
     {
       const auto [before, after] = neighbours(patch, q);
-      result[q - patch.begin]    = (slips[after - patch.begin] - slips[before - patch.begin]) / distance(before, after);
+      result[q - patch.begin]    = (slips[after - patch.begin] - slips[before - patch.begin]) / distance(patch, before, after);
     }
     return result;
   }
 
-  /// Along the undeformed face [mm].
-  double ElasticSurface::distance(const unsigned int before, const unsigned int after) const
+  /// Along the undeformed face, which the facets of a patch share evenly [mm].
+  double ElasticSurface::distance(const FacePatches::Patch &patch, const unsigned int before, const unsigned int after)
   {
-    return face.points()[after].position.xi - face.points()[before].position.xi;
+    return patch.length * (after - before) / (patch.end - patch.begin);
   }
 
   /// How the traction on a facet changes with the slip's slope. Turning moves both neighbours alike.
@@ -147,7 +147,7 @@ namespace sprag
     find_rows(of, left, at, sum.coordinates, radius, at_left);
     find_rows(of, right, at, sum.coordinates, radius, at_right);
     at_right.arc -= at_left.arc;
-    add_product(-of.facets[q - patch.begin].weight * traction_by_slope / distance(before, after), rows.slip, at_right.arc,
+    add_product(-of.facets[q - patch.begin].weight * traction_by_slope / distance(patch, before, after), rows.slip, at_right.arc,
                 sum.tangent);
   }
 

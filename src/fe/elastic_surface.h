@@ -29,7 +29,7 @@ namespace sprag
     double slip(const Facet &facet, const LeverPoint &position) const;
     std::vector<double> slopes(const FacePatches::Patch &patch, const std::vector<double> &slips) const;
     static std::array<unsigned int, 2> neighbours(const FacePatches::Patch &patch, unsigned int q);
-    double distance(unsigned int before, unsigned int after) const;
+    static double distance(const FacePatches::Patch &patch, unsigned int before, unsigned int after);
     void add(const Facet &facet, const ContactMemory &memory, double run, const SlipShift &shift, const StaticStep &step,
              StaticPoint &point, Sum &sum);
     void add_slope(const FacePatches::Patch &patch, unsigned int q, double traction_by_slope, Sum &sum);
