@@ -83,15 +83,20 @@ TEST(HeldSlide, StaysWhereItIs)
 
 TEST(HeldSlide, OfAMeshedLeverStaysWhereItIs)
 {
-  // Its static shapes carry round-off of the condensed basis, 1e-7 N.
-  EXPECT_LT(drift(JudgedSlide(backward_a(ModelType::condensed, 20.)), 2000), 1e-7);
+  // The steps solve for a correction below 1e-7 of the overlap, and what the static shapes carry of round-off counts the more the
+  // stiffer the penalty: 2e-9 at 12 E/depth, 1.4e-7 at 120, 5.7e-6 at 1200. It is the first step's: 500 and 8000 steps drift
+  // alike.
+  const JudgedSlide judged(backward_a(ModelType::condensed, 20.));
+  const double early = drift(judged, 200);
+  EXPECT_LT(early, 3e-7);
+  EXPECT_NEAR(drift(judged, 2000), early, 1e-2 * early);
 }
 
 // Levers that swing together neither move the frame nor bend the springs between them: on a sprung frame they sprag-slip where
 // half of the pair, which can but mirror, is stable.
 TEST(Growth, OfAPairThatSwingsWhereHalfOfItIsStable)
 {
-  Scene scene        = with_lever(in_time(model_a(), ModelType::beam), 7.13, 13068.5, 1.50185);
+  Scene scene        = with_lever(in_time(model_a(), ModelType::beam), 7.15, 10577.8, 1.47073);
   scene.support.type = SupportType::sprung;
   scene              = held_at(scene, 65.);
   EXPECT_EQ(JudgedSlide(scene).stability.kind, SlideKind::stable);

@@ -76,11 +76,14 @@ TEST(Ladder, SlowFiniteElementsAgreeInFrequencyAndVerdict)
 }
 
 // Face size 1 mm: what is compared is how modes stand for the mesh, whatever it is. Truncated modes answer statically: their
-// share of P errs by (omega / omega_n)^2 of what they contribute.
+// share of P errs by (omega / omega_n)^2 of what they contribute. The meshed lever's face starts out of balance, by as much as
+// the penalty is stiff: its nodes, which the modes leave without mass, ring far above the steps' frequency, so that P turns its
+// error of 9e-4 with every step and shrinks it by the spectral radius of 0.8. After 20 steps 1 % of it are left.
 TEST(Ladder, CondensedLeverApproachesTheFiniteElementsWithItsModes)
 {
   auto scene       = with_fixed_step(with_face_size(around_the_reversal(thick_a(ModelType::finite_element), 63.5), 1.), 5e-5);
   const auto exact = run_meshed_in_time(scene);
+  constexpr std::size_t start = 20;
   double peak = 0., last = std::numeric_limits<double>::infinity();
   for (const auto &row : exact.rows)
     peak = std::max(peak, row[Column::P]);
@@ -91,7 +94,7 @@ TEST(Ladder, CondensedLeverApproachesTheFiniteElementsWithItsModes)
     const auto condensed  = run_meshed_in_time(scene);
     ASSERT_EQ(condensed.rows.size(), exact.rows.size());
     double error = 0.;
-    for (std::size_t i = 0; i < exact.rows.size(); ++i)
+    for (std::size_t i = start; i < exact.rows.size(); ++i)
       error = std::max(error, std::abs(condensed.rows[i][Column::P] - exact.rows[i][Column::P]) / peak);
     EXPECT_LT(error, last) << modes;
     std::cout << modes << " modes: error of P " << error << " of its peak\n";
