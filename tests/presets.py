@@ -1,10 +1,10 @@
 """Builds sprag with the presets `debug` (assertions of the libraries) and `sanitize` (the same with the sanitizers for addresses,
-leaks and undefined behaviour) and runs short scenes of every analysis with both: none may abort or be reported on.
-Run with /usr/bin/python3; environment: SPRAG_SOURCE, the sources.
+leaks and undefined behaviour) and runs short scenes with both: none may abort, fail or be reported on. Run with /usr/bin/python3;
+environment: SPRAG_SOURCE, the sources.
 
-    tests/robustness/presets_slow.py                        # what ctest runs: both presets, a scene of each analysis
-    tests/robustness/presets_slow.py --all                  # every scene of params/ as well
-    tests/robustness/presets_slow.py --all sanitize leaf    # one preset, runs with `leaf` in their name
+    tests/presets.py                        # both presets, every analysis and model
+    tests/presets.py --all                  # more of their parameters and every scene of params/ as well
+    tests/presets.py --all sanitize leaf    # one preset, runs with `leaf` in their name
 """
 
 import os
@@ -14,7 +14,7 @@ import tempfile
 import time
 from pathlib import Path
 
-SOURCE = Path(os.environ.get("SPRAG_SOURCE", Path(__file__).resolve().parents[2]))
+SOURCE = Path(os.environ.get("SPRAG_SOURCE", Path(__file__).resolve().parents[1]))
 PRESETS = ("debug", "sanitize")
 LONGEST_RUN = 300  # s
 
@@ -22,6 +22,8 @@ COARSE = ("Mesh/Face size=4", "Cylinder/Face size=4", "Analysis/Step=20", "Conde
 # Without inertia over some steps each way; in time over a reversal.
 SLIDE = ("Drive/Stroke=10", "Analysis/Step=5")
 REVERSAL = ("Drive/Start=45", "Drive/Stroke=45.6", "Drive/Reversal duration=2e-3")
+IN_TIME = ("Analysis/Type=transient",)
+FEW_STEPS = ("Drive/Stroke=45.2", "Time/Step=2e-4", "Time/Tolerance=0")
 MAP = ("Map/First points=3", "Map/Second points=2", "Map/Coarsest=1", "Map/Bisections=1", "Condensed/Modes=2")
 ONSET = ("Sprag slip/Continuation=0", "Sprag slip/Settling time=0.02", "Sprag slip/Initial amplitude=1e-4", "Sprag slip/Steps per period=32")
 NO_SEARCH = ("Stability/Critical=none", "Stability/Roles=off")
@@ -35,7 +37,7 @@ RUNS = {
     "reversal, rigid": ("reversal-a", (*REVERSAL, "Analysis/Model=rigid")),
     "reversal, beam": ("reversal-a", REVERSAL),
     "reversal, condensed": ("reversal-a", (*REVERSAL, "Analysis/Model=condensed")),
-    "reversal, finite elements": ("reversal-a", (*REVERSAL, "Analysis/Model=finite element", "Drive/Stroke=45.2", "Time/Step=2e-4", "Time/Tolerance=0")),
+    "reversal, finite elements": ("reversal-a", (*REVERSAL, "Analysis/Model=finite element", *FEW_STEPS)),
     "contact law": ("contact-law-a", ()),
     "modal": ("modal-a", ("Stability/Modes=3",)),
     "stability": ("stability-a", ("Stability/Critical=Lever/Depth 5 8", "Stability/Modes=3")),
@@ -64,9 +66,16 @@ FURTHER = {
     "regularised friction": ("reversal-a", (*REVERSAL, "Friction/Regularisation speed=5")),
     "support, rigid": ("support-a", (*REVERSAL, "Analysis/Model=rigid")),
     "support, condensed": ("support-a", (*REVERSAL, "Analysis/Model=condensed")),
-    "support, finite elements": ("support-a", (*REVERSAL, "Analysis/Model=finite element", "Drive/Stroke=45.2", "Time/Step=2e-4", "Time/Tolerance=0")),
+    "support, finite elements": ("support-a", (*REVERSAL, "Analysis/Model=finite element", *FEW_STEPS)),
     "pair, rigid in time": ("pair-reversal-a", (*REVERSAL, "Analysis/Model=rigid", "Rotational spring/Type=torsional", "Mirrored pair/Joint mass=0")),
     "pair, beam in time": ("pair-reversal-a", (*REVERSAL, "Analysis/Model=beam", "Rotational spring/Type=torsional", "Mirrored pair/Joint mass=0")),
+    "cylinder, condensed in time": ("cylinder-a", (*REVERSAL, *IN_TIME, "Analysis/Model=condensed")),
+    "cylinder, finite elements in time": ("cylinder-a", (*REVERSAL, *IN_TIME, *FEW_STEPS)),
+    "ring": ("cylinder-a", (*SLIDE, "Cylinder/Type=ring")),
+    "leaf, finite elements in time": ("leaf-a", (*REVERSAL, *IN_TIME, *FEW_STEPS)),
+    "plate, finite elements in time": ("plate-a", (*REVERSAL, *IN_TIME, *FEW_STEPS)),
+    "stability of a pair, condensed": ("pair-reversal-a", ("Analysis/Type=stability", *NO_SEARCH)),
+    "stability of a cylinder": ("cylinder-a", ("Analysis/Type=stability", "Analysis/Model=condensed", *NO_SEARCH)),
     "degree 1": ("model-a", (*SLIDE, "Mesh/Degree=1")),
     "fields at intervals": ("model-a", (*SLIDE, "Output/Fields=interval", "Output/Field interval=5")),
     "general solution": ("model-a", (*SLIDE, "Analysis/Solution=general")),
