@@ -10,7 +10,8 @@ namespace sprag
     FullMatrix<double> sum(const FullMatrix<double> &a, const FullMatrix<double> &b)
     {
       FullMatrix<double> result = a;
-      result.add(1., b);
+      if (!result.empty()) // of a lever out of contact
+        result.add(1., b);
       return result;
     }
 

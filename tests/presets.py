@@ -1,0 +1,170 @@
+"""Builds sprag with the presets `debug` (assertions of the libraries) and `sanitize` (the same with the sanitizers for addresses,
+leaks and undefined behaviour) and runs short scenes with both: none may abort, fail or be reported on. Run with /usr/bin/python3;
+environment: SPRAG_SOURCE, the sources.
+
+    tests/presets.py                        # both presets, every analysis and model
+    tests/presets.py --all                  # more of their parameters and every scene of params/ as well
+    tests/presets.py --all sanitize leaf    # one preset, runs with `leaf` in their name
+"""
+
+import os
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+SOURCE = Path(os.environ.get("SPRAG_SOURCE", Path(__file__).resolve().parents[1]))
+PRESETS = ("debug", "sanitize")
+LONGEST_RUN = 300  # s
+
+COARSE = ("Mesh/Face size=4", "Cylinder/Face size=4", "Analysis/Step=20", "Condensed/Modes=4")
+# Without inertia over some steps each way; in time over a reversal.
+SLIDE = ("Drive/Stroke=10", "Analysis/Step=5")
+REVERSAL = ("Drive/Start=45", "Drive/Stroke=45.6", "Drive/Reversal duration=2e-3")
+IN_TIME = ("Analysis/Type=transient",)
+FEW_STEPS = ("Drive/Stroke=45.2", "Time/Step=2e-4", "Time/Tolerance=0")
+MAP = ("Map/First points=3", "Map/Second points=2", "Map/Coarsest=1", "Map/Bisections=1", "Condensed/Modes=2")
+ONSET = ("Sprag slip/Continuation=0", "Sprag slip/Settling time=0.02", "Sprag slip/Initial amplitude=1e-4", "Sprag slip/Steps per period=32")
+NO_SEARCH = ("Stability/Critical=none", "Stability/Roles=off")
+
+# Name: scene and what is changed in it.
+RUNS = {
+    "finite elements": ("model-a", SLIDE),
+    "closed form": ("closed-form-b", SLIDE),
+    "elastic cylinder": ("cylinder-a", SLIDE),
+    "slope": ("fig11", ("Slope/Number of points=5",)),
+    "reversal, rigid": ("reversal-a", (*REVERSAL, "Analysis/Model=rigid")),
+    "reversal, beam": ("reversal-a", REVERSAL),
+    "reversal, condensed": ("reversal-a", (*REVERSAL, "Analysis/Model=condensed")),
+    "reversal, finite elements": ("reversal-a", (*REVERSAL, "Analysis/Model=finite element", *FEW_STEPS)),
+    "contact law": ("contact-law-a", ()),
+    "modal": ("modal-a", ("Stability/Modes=3",)),
+    "stability": ("stability-a", ("Stability/Critical=Lever/Depth 5 8", "Stability/Modes=3")),
+    "map": ("map-position-depth-a", MAP),
+    "sprag slip": ("onset-a", ONSET),
+    "calibration": ("calibration-a", ()),
+    "full pair": ("pair-a", SLIDE),
+    "full pair, reversal": ("pair-reversal-a", REVERSAL),
+}
+
+# The other scenes and models.
+FURTHER = {
+    "modal, beam": ("modal-a", ("Analysis/Model=beam",)),
+    "modal, finite elements": ("modal-a", ("Analysis/Model=finite element", "Stability/Contact=stuck")),
+    "modal, open": ("modal-a", ("Stability/Contact=open",)),
+    "modal of a beam, open": ("modal-a", ("Analysis/Model=beam", "Stability/Contact=open")),
+    "modal, finite elements, open": ("modal-a", ("Analysis/Model=finite element", "Stability/Contact=open")),
+    "modal of a pair, beam": ("pair-stability-a", ("Analysis/Type=modal",)),
+    "modal of a pair, finite elements": ("pair-modal-a", ("Analysis/Model=finite element",)),
+    "stability, rigid": ("stability-a", ("Analysis/Model=rigid",)),
+    "stability, condensed": ("stability-a", ("Analysis/Model=condensed", *NO_SEARCH)),
+    "stability, finite elements": ("stability-a", ("Analysis/Model=finite element", *NO_SEARCH)),
+    "map, rigid": ("map-friction-depth-a", (*MAP, "Analysis/Model=rigid")),
+    "continuation": ("onset-a", (*ONSET, "Sprag slip/Continuation=1", "Sprag slip/Turn=64")),
+    "ideal contact, rigid": ("reversal-a", (*REVERSAL, "Contact/Type=ideal", "Analysis/Model=rigid")),
+    "regularised friction": ("reversal-a", (*REVERSAL, "Friction/Regularisation speed=5")),
+    "support, rigid": ("support-a", (*REVERSAL, "Analysis/Model=rigid")),
+    "support, condensed": ("support-a", (*REVERSAL, "Analysis/Model=condensed")),
+    "support, finite elements": ("support-a", (*REVERSAL, "Analysis/Model=finite element", *FEW_STEPS)),
+    "pair, rigid in time": ("pair-reversal-a", (*REVERSAL, "Analysis/Model=rigid", "Rotational spring/Type=torsional", "Mirrored pair/Joint mass=0")),
+    "pair, beam in time": ("pair-reversal-a", (*REVERSAL, "Analysis/Model=beam", "Rotational spring/Type=torsional", "Mirrored pair/Joint mass=0")),
+    "cylinder, condensed in time": ("cylinder-a", (*REVERSAL, *IN_TIME, "Analysis/Model=condensed")),
+    "cylinder, finite elements in time": ("cylinder-a", (*REVERSAL, *IN_TIME, *FEW_STEPS)),
+    "ring": ("cylinder-a", (*SLIDE, "Cylinder/Type=ring")),
+    "leaf, finite elements in time": ("leaf-a", (*REVERSAL, *IN_TIME, *FEW_STEPS)),
+    "plate, finite elements in time": ("plate-a", (*REVERSAL, *IN_TIME, *FEW_STEPS)),
+    "stability of a pair, condensed": ("pair-reversal-a", ("Analysis/Type=stability", *NO_SEARCH)),
+    "stability of a cylinder": ("cylinder-a", ("Analysis/Type=stability", "Analysis/Model=condensed", *NO_SEARCH)),
+    "degree 1": ("model-a", (*SLIDE, "Mesh/Degree=1")),
+    "fields at intervals": ("model-a", (*SLIDE, "Output/Fields=interval", "Output/Field interval=5")),
+    "general solution": ("model-a", (*SLIDE, "Analysis/Solution=general")),
+    "no friction layer": ("model-a", (*SLIDE, "Friction layer/Thickness=0")),
+}
+BY_SCENE = {
+    "fig": ("Slope/Number of points=5",),
+    "map-": MAP,
+    "onset-": ONSET,
+    "harmonic-": ("Drive/Stroke=2",),
+    "reversal-": REVERSAL,
+    "pair-reversal-": REVERSAL,
+    "plate-reversal-": REVERSAL,
+    "support-": REVERSAL,
+    "sprag-slip-": REVERSAL,
+    "stability-": ("Stability/Modes=3",),
+    "pair-stability-": ("Stability/Modes=3", *NO_SEARCH),
+    "modal-": (),
+    "pair-modal-": (),
+    "contact-law-": (),
+    "calibration-": (),
+}
+
+
+def every_scene():
+    for path in sorted((SOURCE / "params").glob("*.prm")):
+        changes = next((changes for begin, changes in BY_SCENE.items() if path.stem.startswith(begin)), SLIDE)
+        yield path.stem, (path.stem, changes)
+
+
+def build(preset):
+    began = time.monotonic()
+    subprocess.run(["cmake", "--preset", preset], cwd=SOURCE, check=True, stdout=subprocess.DEVNULL)
+    subprocess.run(["cmake", "--build", f"build-{preset}", "--target", "sprag"], cwd=SOURCE, check=True, stdout=subprocess.DEVNULL)
+    print(f"{preset}: built in {time.monotonic() - began:.0f} s", flush=True)
+    return SOURCE / f"build-{preset}" / "sprag"
+
+
+def environment(folder):
+    return {
+        "OMP_NUM_THREADS": "1",
+        "OPENBLAS_NUM_THREADS": "1",
+        "OMPI_ALLOW_RUN_AS_ROOT": "1",
+        "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
+        "OMPI_MCA_pml": "ob1",
+        **os.environ,
+        "XDG_CACHE_HOME": folder,
+        "ASAN_OPTIONS": "fast_unwind_on_malloc=0",
+        "LSAN_OPTIONS": f"suppressions={SOURCE}/tests/sanitizer.supp:print_suppressions=0",
+        "UBSAN_OPTIONS": "print_stacktrace=1:halt_on_error=1",
+    }
+
+
+def run(program, scene, changes, folder):
+    """What is wrong with the run; empty if nothing is."""
+    command = [program, SOURCE / "params" / f"{scene}.prm", "--output", f"{folder}/output", "--overwrite", "--quiet", "--jobs", "2"]
+    for change in (*COARSE, *changes):
+        command += ["--set", change]
+    try:
+        done = subprocess.run(
+            list(map(str, command)), env=environment(folder), capture_output=True, text=True, errors="replace", check=False, timeout=LONGEST_RUN
+        )
+    except subprocess.TimeoutExpired:
+        return f"longer than {LONGEST_RUN} s"
+    # --quiet: whatever is printed is an error or a report.
+    if (done.returncode, done.stdout, done.stderr) == (0, "", ""):
+        return ""
+    return f"exit status {done.returncode}\n{done.stdout}{done.stderr}"
+
+
+def main(arguments):
+    runs = {**RUNS, **FURTHER, **dict(every_scene())} if "--all" in arguments else RUNS
+    presets = [preset for preset in PRESETS if preset in arguments] or PRESETS
+    words = [word for word in arguments if word not in ("--all", *PRESETS)]
+    failed = 0
+    for preset in presets:
+        program = build(preset)
+        for name, (scene, changes) in runs.items():
+            if words and not any(word in name for word in words):
+                continue
+            began = time.monotonic()
+            with tempfile.TemporaryDirectory(prefix="sprag-test-") as folder:
+                wrong = run(program, scene, changes, folder)
+            print(f"{preset}: {name}: {'FAILED' if wrong else 'passed'} in {time.monotonic() - began:.1f} s", flush=True)
+            if wrong:
+                failed += 1
+                print(wrong, flush=True)
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
