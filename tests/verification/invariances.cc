@@ -225,6 +225,14 @@ TEST(EnergyLedger, ClosesAtEveryStep)
       EXPECT_LT(std::abs(residual(scene, step)), 2e-4);
 }
 
+// Facets of both faces carry the friction; its speed is that of their slip, whose slope is a difference between neighbours.
+TEST(EnergyLedger, ClosesWithAnElasticCylinder)
+{
+  Scene scene         = models().front();
+  scene.cylinder.type = CylinderType::solid;
+  EXPECT_LT(std::abs(residual(scene, 1.)), 5e-4);
+}
+
 // P and Q of both strokes at mu and at 0.9 mu: what they change by is the closed form's change but for the change of the
 // deviation between the two, itself a few per cent of the deviation's size, 1 to 2 %.
 TEST(FrictionCoefficient, MovesTheForcesAsTheClosedFormSays)
