@@ -272,7 +272,8 @@ namespace sprag
 
   std::vector<StructureMode> modal_vibrations(const ModalData &data, const PortPerturbation &forces)
   {
-    constexpr double widest = 1e-10;
+    constexpr double widest     = 1e-10;
+    constexpr double free_creep = 1e-10;
     const StateProblem problem(data, forces);
     const auto pairs = problem.inverse_pairs();
     double largest   = 0.;
@@ -284,6 +285,9 @@ namespace sprag
       if (std::abs(pair.value) <= widest * largest)
         continue;
       const Complex lambda = std::conj(1. / pair.value);
+      // Static shapes creep back without any force on them, which leaves their elastic force 0 / 0.
+      if (std::abs(1. + lambda * data.relaxation) <= free_creep)
+        continue;
       pair.vector[1] *= -1.;
       result.push_back(problem.mode(lambda, pair));
     }

@@ -9,7 +9,7 @@ namespace sprag
   /// q of the modes and u of the loaded static shapes
   ///   q'' + C q' + omega^2 q = S^T f,   u + relaxation u' = G f,   f as in PortPerturbation, z = S q + u,
   /// and the tractions of friction's delays.
-  /// Eigenvalues more than 1e10 times the smallest are left out. Throws AnalysisError if LAPACK fails or the structure under
-  /// these forces has a static mode, lambda = 0, exactly.
+  /// Eigenvalues more than 1e10 times the smallest are left out, and -1 / relaxation, at which f = 0. Throws AnalysisError if
+  /// LAPACK fails or the structure under these forces has a static mode, lambda = 0, exactly.
   std::vector<StructureMode> modal_vibrations(const ModalData &data, const PortPerturbation &forces);
 } // namespace sprag
