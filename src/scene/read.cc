@@ -23,8 +23,9 @@ namespace sprag
       return rounded_text(value * (1. - 5e-6));
     }
 
-    /// The largest pressure of model A is then within 2 % over the whole stroke. In time every step would cost more.
-    constexpr double quasi_static_face_size = 0.25; ///< [mm]
+    /// Where pressures are told: that of model A is then within 3 % over the whole stroke. In time cells of 0.5 mm tilt under the
+    /// stiffer penalty, and P is 2 % off where the contact is 1.3 mm wide.
+    constexpr double driven_face_size = 0.25; ///< [mm]
 
     /// How the header of a table may call a column.
     std::vector<std::string> words_for(const std::string &column)
@@ -118,8 +119,9 @@ namespace sprag
       resolve("Mesh/File", input.scene.mesh.file);
       resolve("Condensed/Cache", input.scene.condensed.cache);
       make_time_tolerance();
-      const bool inertia         = input.scene.analysis.type != AnalysisType::quasi_static;
-      input.scene.mesh.face_size = input.face_size.value_or(inertia ? input.scene.mesh.face_size : quasi_static_face_size);
+      const auto type            = input.scene.analysis.type;
+      const bool is_driven       = type == AnalysisType::quasi_static || type == AnalysisType::transient;
+      input.scene.mesh.face_size = input.face_size.value_or(is_driven ? driven_face_size : input.scene.mesh.face_size);
     }
 
     /// The printed parameters give a step, so that they must give the tolerance too.

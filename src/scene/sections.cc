@@ -195,8 +195,9 @@ namespace sprag
 
     void mesh(Section section, MeshSettings &settings, std::optional<double> &face_size)
     {
-      section.number_or_auto("Face size", face_size, above(0.), "mm",
-                             "Element length along the friction face; auto: 0.25 where Analysis/Type is quasi-static, else 0.5");
+      section.number_or_auto(
+          "Face size", face_size, above(0.), "mm",
+          "Element length along the friction face; auto: 0.25 where Analysis/Type is quasi-static or transient, else 0.5");
       section.integer("Degree", settings.degree, { 1., 2. }, "Of the polynomials");
       section.file("File", settings.file,
                    "A .geo or .msh file instead of the built-in lever, relative to the folder of this one");
