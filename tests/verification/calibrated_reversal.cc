@@ -60,7 +60,8 @@ TEST(CalibratedReversal, TheBeamsPeakIsThatOfTheMesh)
   }
 }
 
-/// All degrees of freedom in time. A condensed lever has them to 1e-5 in the frequencies and 2e-4 in P.
+/// All degrees of freedom in time. A condensed lever has them to 1e-5 in the frequencies and 2e-4 in P. Cells of 0.5 mm raise the
+/// frequencies by 0.3 %, which the peak does not feel.
 TEST(CalibratedReversal, SlowTheBeamIsThatOfTheFullFiniteElements)
 {
   const auto parts = calibrate_parts(calibration("a"));
@@ -72,6 +73,6 @@ TEST(CalibratedReversal, SlowTheBeamIsThatOfTheFullFiniteElements)
   const auto of_mesh  = contact_frequencies(meshed);
   for (unsigned int i = 0; i < 2; ++i)
     EXPECT_NEAR(of_beam[i], of_mesh[i], 5e-3 * of_mesh[i]);
-  const double peak = peak_P(meshed);
+  const double peak = peak_P(prepared(variant(meshed, { "Mesh/Face size=0.5" })));
   EXPECT_NEAR(peak_P(reduced), peak, 1e-2 * peak);
 }
