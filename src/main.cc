@@ -223,7 +223,8 @@ namespace
     const sprag::Scene scene     = scene_of(arguments);
     const unsigned int processes = arguments.jobs > 0 ? arguments.jobs : sprag::available_cores();
     const bool on_all_cores      = is_for_all_cores(arguments, scene, processes);
-    if (const auto end = sprag::look_after(on_all_cores ? SIGTERM : SIGKILL))
+    if (const auto end =
+            on_all_cores ? sprag::look_after(SIGTERM, sprag::grace_of_processes) : sprag::look_after(SIGKILL, sprag::grace))
       return conclude(*end, arguments, scene, since);
     if (on_all_cores)
       sprag::become_mpirun(argv, processes);

@@ -39,9 +39,10 @@ namespace sprag
     class Ending
     {
     public:
-      Ending(const pid_t working_process, const int signal)
+      Ending(const pid_t working_process, const int signal, const double seconds)
           : process(working_process)
           , last_signal(signal)
+          , patience(seconds)
       {
       }
 
@@ -56,7 +57,7 @@ namespace sprag
 
       void go_on()
       {
-        if (wishes > 0 && Clock::now() - sent > std::chrono::duration<double>(grace))
+        if (wishes > 0 && Clock::now() - sent > patience)
           insist();
       }
 
@@ -80,13 +81,14 @@ namespace sprag
 
       const pid_t process;
       const int last_signal;
+      const std::chrono::duration<double> patience;
       unsigned int wishes = 0;
       bool insisted       = false;
       Clock::time_point sent;
     };
   } // namespace
 
-  std::optional<WorkEnd> look_after(const int last_signal)
+  std::optional<WorkEnd> look_after(const int last_signal, const double patience)
   {
     const sigset_t signals = watched_signals();
     sigset_t before;
@@ -102,7 +104,7 @@ namespace sprag
       ::sigprocmask(SIG_SETMASK, &before, nullptr);
       return {};
     }
-    Ending ending(child, last_signal);
+    Ending ending(child, last_signal, patience);
     int status = 0;
     while (::waitpid(child, &status, WNOHANG) == 0)
       if (next_signal(signals) != 0)

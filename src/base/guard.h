@@ -15,10 +15,14 @@ namespace sprag
   /// Time from the wish for an end to making one [s]: libraries in the middle of a mesh, a factorisation or a basis cannot ask.
   inline constexpr double grace = 2.;
 
+  /// The same where processes of MPI have to end together: mpirun does not survive being hurried.
+  inline constexpr double grace_of_processes = 10.;
+
   /// Splits the process: none is returned in a child, which goes on with the work, and its end in the parent, which looks after
-  /// it. SIGINT, SIGTERM and SIGHUP are handed on as SIGUSR1; after `grace`, or a second one, follows `last_signal`, and SIGKILL
-  /// another `grace` later. The child ends with its parent. Where no process can be made the work is not looked after: none.
-  std::optional<WorkEnd> look_after(int last_signal);
+  /// it. SIGINT, SIGTERM and SIGHUP are handed on as SIGUSR1; after `patience` [s], or a second one, follows `last_signal`, and
+  /// SIGKILL another `patience` later. The child ends with its parent. Where no process can be made the work is not looked after:
+  /// none.
+  std::optional<WorkEnd> look_after(int last_signal, double patience);
 
   /// Whether mpirun has started the process.
   bool under_mpi();
