@@ -72,7 +72,8 @@ namespace
 
 // Everything is on: damping of lever, contact and support, mu(v) behind the spring of stick, friction. The parts are quadratic
 // forms of round-off 1e-16 of their terms, of which the largest are lambda times the energies; a traction that is delayed is
-// divided by 1 + lambda time, a hundredth or less at the eigenvalue that the delay itself brings along.
+// divided by 1 + lambda time, a hundredth or less at the eigenvalue that the delay itself brings along, whose own round-off of
+// some 1e-12 counts as much more.
 TEST(Growth, SharesAddUp)
 {
   for (const auto &scene : levers())
@@ -81,7 +82,7 @@ TEST(Growth, SharesAddUp)
         for (const auto &mode : modes_at(scene, x, direction))
         {
           const Complex lambda = mode.mode.eigenvalue;
-          EXPECT_NEAR(sum(mode.growth), lambda.real(), 1e-10 * std::abs(lambda)) << lambda;
+          EXPECT_NEAR(sum(mode.growth), lambda.real(), 5e-10 * std::abs(lambda)) << lambda;
           EXPECT_NEAR(sum(mode.energy), 1., 1e-12);
           EXPECT_LT(mode.growth.structure_damping, 0. + 1e-300);
           EXPECT_LE(mode.growth.contact_damping, 0.);
