@@ -1,13 +1,13 @@
-#include "analysis/map_team.h"
-#include "analysis/memory.h"
-#include "analysis/output_folder.h"
-#include "analysis/run.h"
+#include "analysis/map/map_team.h"
 #include "base/all_cores.h"
 #include "base/errors.h"
 #include "base/guard.h"
 #include "base/interrupt.h"
 #include "results/earlier_result.h"
 #include "results/warning.h"
+#include "run/memory.h"
+#include "run/output_folder.h"
+#include "run/run.h"
 #include "scene/read.h"
 
 #include <cstdlib>

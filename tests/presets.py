@@ -5,9 +5,17 @@ environment: SPRAG_SOURCE, the sources.
     tests/presets.py                        # both presets, every analysis and model
     tests/presets.py --all                  # more of their parameters and every scene of params/ as well
     tests/presets.py --all sanitize leaf    # one preset, runs with `leaf` in their name
+
+By ctest, for which each run is a case (tests/presets.cmake.in):
+
+    tests/presets.py --list                 # the names of the runs, nothing else
+    tests/presets.py --build sanitize       # no run
+    tests/presets.py --run map sanitize     # the run of this name, without a build
 """
 
+import argparse
 import os
+import resource
 import subprocess
 import sys
 import tempfile
@@ -16,7 +24,7 @@ from pathlib import Path
 
 SOURCE = Path(os.environ.get("SPRAG_SOURCE", Path(__file__).resolve().parents[1]))
 PRESETS = ("debug", "sanitize")
-LONGEST_RUN = 300  # s
+LONGEST_RUN = 900  # s, beside other work
 
 COARSE = ("Mesh/Face size=4", "Cylinder/Face size=4", "Analysis/Step=20", "Condensed/Modes=4")
 # Without inertia over some steps each way; in time over a reversal.
@@ -111,7 +119,6 @@ def build(preset):
     subprocess.run(["cmake", "--preset", preset], cwd=SOURCE, check=True, stdout=subprocess.DEVNULL)
     subprocess.run(["cmake", "--build", f"build-{preset}", "--target", "sprag"], cwd=SOURCE, check=True, stdout=subprocess.DEVNULL)
     print(f"{preset}: built in {time.monotonic() - began:.0f} s", flush=True)
-    return SOURCE / f"build-{preset}" / "sprag"
 
 
 def environment(folder):
@@ -129,9 +136,10 @@ def environment(folder):
     }
 
 
-def run(program, scene, changes, folder):
+def run(preset, scene, changes, folder):
     """What is wrong with the run; empty if nothing is."""
-    command = [program, SOURCE / "params" / f"{scene}.prm", "--output", f"{folder}/output", "--overwrite", "--quiet", "--jobs", "2"]
+    command = [SOURCE / f"build-{preset}" / "sprag", SOURCE / "params" / f"{scene}.prm"]
+    command += ["--output", f"{folder}/output", "--overwrite", "--quiet", "--jobs", "2"]
     for change in (*COARSE, *changes):
         command += ["--set", change]
     try:
@@ -146,20 +154,45 @@ def run(program, scene, changes, folder):
     return f"exit status {done.returncode}\n{done.stdout}{done.stderr}"
 
 
+def cpu_time_of_runs():
+    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return usage.ru_utime + usage.ru_stime
+
+
+def parsed(arguments):
+    parser = argparse.ArgumentParser(usage=__doc__)
+    parser.add_argument("--all", action="store_true")
+    parser.add_argument("--list", action="store_true")
+    parser.add_argument("--build", action="store_true")
+    parser.add_argument("--run")
+    parser.add_argument("words", nargs="*")
+    return parser.parse_args(arguments)
+
+
 def main(arguments):
-    runs = {**RUNS, **FURTHER, **dict(every_scene())} if "--all" in arguments else RUNS
-    presets = [preset for preset in PRESETS if preset in arguments] or PRESETS
-    words = [word for word in arguments if word not in ("--all", *PRESETS)]
+    options = parsed(arguments)
+    runs = {**RUNS, **FURTHER, **dict(every_scene())} if options.all else RUNS
+    presets = [preset for preset in PRESETS if preset in options.words] or PRESETS
+    words = [word for word in options.words if word not in PRESETS]
+    if options.run:
+        runs = {options.run: runs[options.run]}
+    elif options.build:
+        runs = {}
+    elif words:
+        runs = {name: run for name, run in runs.items() if any(word in name for word in words)}
+    if options.list:
+        print("\n".join(runs))
+        return 0
     failed = 0
     for preset in presets:
-        program = build(preset)
+        if not options.run:
+            build(preset)
         for name, (scene, changes) in runs.items():
-            if words and not any(word in name for word in words):
-                continue
-            began = time.monotonic()
+            began, cpu = time.monotonic(), cpu_time_of_runs()
             with tempfile.TemporaryDirectory(prefix="sprag-test-") as folder:
-                wrong = run(program, scene, changes, folder)
-            print(f"{preset}: {name}: {'FAILED' if wrong else 'passed'} in {time.monotonic() - began:.1f} s", flush=True)
+                wrong = run(preset, scene, changes, folder)
+            took = f"{time.monotonic() - began:.1f} s, {cpu_time_of_runs() - cpu:.1f} s of CPU"
+            print(f"{preset}: {name}: {'FAILED' if wrong else 'passed'} in {took}", flush=True)
             if wrong:
                 failed += 1
                 print(wrong, flush=True)

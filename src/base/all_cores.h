@@ -5,7 +5,7 @@ namespace sprag
   /// Cores that this process may use.
   unsigned int available_cores();
 
-  /// Whether `processes` ranks can be had: not under MPI already, for one process, or without mpirun on the PATH.
+  /// Returns whether `processes` ranks can be had: not under MPI already, not for one process, not without mpirun on the PATH.
   bool works_on_all_cores(unsigned int processes);
 
   /// Becomes mpirun with `processes` ranks of this program with the same arguments. Returns only if that fails. SIGUSR1 asks the

@@ -6,7 +6,7 @@
 
 namespace sprag
 {
-  /// What came of work in a process of its own.
+  /// The result of work done in a process of its own.
   struct ChildAnswer
   {
     std::string text;    ///< what the work returned

@@ -17,8 +17,8 @@ namespace sprag
   /// and line, but one alone for decimal commas; an unreadable file or one without numbers is an error too.
   TwoColumns read_two_columns(const std::string &file);
 
-  /// Whether a header names the columns in the other order: its first one by a word for the second alone, and the other way
-  /// round. Words in lower case.
+  /// Returns whether a header names the columns in the other order: the first by a word for the second alone, and the other way
+  /// round. The words are in lower case.
   bool exchanged_columns(const std::string &header, const std::vector<std::string> &first,
                          const std::vector<std::string> &second);
 } // namespace sprag

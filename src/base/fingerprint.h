@@ -19,7 +19,7 @@ namespace sprag
     std::uint64_t hash = 14695981039346656037u;
   };
 
-  /// Of what a file holds, whatever its name and time. What a script of gmsh (.geo) includes or merges by a name in quotes,
-  /// relative to its folder, belongs to its content. A file that cannot be read has the fingerprint "unreadable".
+  /// Fingerprint of a file's content, whatever its name and time. What a script of gmsh (.geo) includes or merges by a quoted
+  /// name, relative to its folder, belongs to its content. A file that cannot be read has the fingerprint "unreadable".
   std::string content_fingerprint(const std::string &file);
 } // namespace sprag

@@ -24,6 +24,6 @@ namespace sprag
   /// none.
   std::optional<WorkEnd> look_after(int last_signal, double patience);
 
-  /// Whether mpirun has started the process.
+  /// Returns whether mpirun has started the process.
   bool under_mpi();
 } // namespace sprag

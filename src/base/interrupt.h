@@ -2,7 +2,7 @@
 
 namespace sprag
 {
-  /// What an interrupted analysis says.
+  /// The status and message of an interrupted analysis.
   inline constexpr char interruption[] = "interrupted; every finished step is kept";
 
   /// From now on SIGINT, SIGTERM, SIGHUP and SIGUSR1, which mpirun hands on to its processes, ask for an end instead of making
@@ -10,9 +10,9 @@ namespace sprag
   /// nohup, stays so. Crashes are left to the system, and writing to a pipe that nobody reads is no reason to end.
   void catch_interrupts();
 
-  /// Whether an end was asked for.
+  /// Returns whether an end was asked for.
   bool interrupted();
 
-  /// Every signal does what it does by default.
+  /// From now on every signal does what it does by default.
   void forget_signal_handlers();
 } // namespace sprag

@@ -26,7 +26,7 @@ namespace sprag
   /// "Section/Name".
   std::string full_name(const Parameter &parameter);
 
-  /// Meaning, unit and range.
+  /// Returns meaning, unit and range in words.
   std::string documentation(const Parameter &parameter);
 
   /// A value given by the user and where: "FILE:LINE" or "--set".
@@ -36,7 +36,7 @@ namespace sprag
     std::string value;
   };
 
-  /// What a parameter file and the overrides say.
+  /// Everything that a parameter file and the overrides give, mistakes included.
   struct Settings
   {
     std::string file;                     ///< as given by the user

@@ -8,7 +8,7 @@
 
 namespace sprag
 {
-  /// What a line of progress tells beside the share done; NaN: left out.
+  /// Numbers that a line of progress shows beside the share done; NaN leaves one out.
   struct ProgressFields
   {
     double x                = std::numeric_limits<double>::quiet_NaN(); ///< [mm]
@@ -17,7 +17,7 @@ namespace sprag
     unsigned int iterations = 0;                                        ///< of the last step; 0: left out
   };
 
-  /// Where the lines go and what they may look like there.
+  /// The kind of output that the lines of progress go to.
   enum class ProgressStyle
   {
     terminal, ///< one line, redrawn in place at most ten times a second

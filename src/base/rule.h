@@ -21,7 +21,7 @@ namespace sprag
   /// Open at both ends.
   Interval between(double low, double high);
 
-  /// What the text of a parameter's value must be.
+  /// A rule that the text of a parameter's value must keep.
   struct Rule
   {
     enum class Kind

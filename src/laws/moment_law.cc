@@ -45,6 +45,21 @@ namespace sprag
       const auto index = static_cast<std::size_t>(after - samples.begin());
       return std::clamp<std::size_t>(index, 1, samples.size() - 1) - 1;
     }
+
+    /// Between samples `inside`(cubic, place on it from 0 to 1, number of the sample before), beyond them `outside`(the last
+    /// sample on that side, turn beyond it, its number); 0 where there are none to go between.
+    template <class Inside, class Outside>
+    double evaluated(const std::vector<Sample> &samples, const double turn, const Inside &inside, const Outside &outside)
+    {
+      if (samples.size() < 2)
+        return 0.;
+      for (const std::size_t end : { std::size_t(0), samples.size() - 1 })
+        if (end == 0 ? turn < samples[end].turn : turn > samples[end].turn)
+          return outside(samples[end], turn - samples[end].turn, end);
+      const auto i = interval(samples, turn);
+      const Cubic cubic(samples[i], samples[i + 1]);
+      return inside(cubic, (turn - samples[i].turn) / cubic.width, i);
+    }
   } // namespace
 
   MomentLaw::MomentLaw(const double stiffness_at_rest, std::vector<Sample> samples)
@@ -79,49 +94,25 @@ namespace sprag
 
   double MomentLaw::excess(const double turn) const
   {
-    if (is_linear())
-      return 0.;
-    const Sample &first = excess_samples.front();
-    const Sample &last  = excess_samples.back();
-    if (turn < first.turn || turn > last.turn)
-    {
-      const Sample &end = turn < first.turn ? first : last;
-      return end.moment + end.stiffness * (turn - end.turn);
-    }
-    const auto i = interval(excess_samples, turn);
-    const Cubic cubic(excess_samples[i], excess_samples[i + 1]);
-    return cubic.value((turn - excess_samples[i].turn) / cubic.width);
+    return evaluated(
+        excess_samples, turn, [](const Cubic &cubic, const double place, std::size_t) { return cubic.value(place); },
+        [](const Sample &end, const double beyond, std::size_t) { return end.moment + end.stiffness * beyond; });
   }
 
   double MomentLaw::excess_stiffness(const double turn) const
   {
-    if (is_linear())
-      return 0.;
-    const Sample &first = excess_samples.front();
-    const Sample &last  = excess_samples.back();
-    if (turn < first.turn || turn > last.turn)
-      return (turn < first.turn ? first : last).stiffness;
-    const auto i = interval(excess_samples, turn);
-    const Cubic cubic(excess_samples[i], excess_samples[i + 1]);
-    return cubic.derivative((turn - excess_samples[i].turn) / cubic.width);
+    return evaluated(
+        excess_samples, turn, [](const Cubic &cubic, const double place, std::size_t) { return cubic.derivative(place); },
+        [](const Sample &end, double, std::size_t) { return end.stiffness; });
   }
 
   double MomentLaw::excess_energy(const double turn) const
   {
-    if (is_linear())
-      return 0.;
-    const Sample &first = excess_samples.front();
-    const Sample &last  = excess_samples.back();
-    if (turn < first.turn || turn > last.turn)
-    {
-      const bool below  = turn < first.turn;
-      const Sample &end = below ? first : last;
-      const double more = turn - end.turn;
-      return (below ? energies.front() : energies.back()) + more * (end.moment + 0.5 * end.stiffness * more);
-    }
-    const auto i = interval(excess_samples, turn);
-    const Cubic cubic(excess_samples[i], excess_samples[i + 1]);
-    return energies[i] + cubic.integral((turn - excess_samples[i].turn) / cubic.width);
+    return evaluated(
+        excess_samples, turn,
+        [&](const Cubic &cubic, const double place, const std::size_t i) { return energies[i] + cubic.integral(place); },
+        [&](const Sample &end, const double beyond, const std::size_t i)
+        { return energies[i] + beyond * (end.moment + 0.5 * end.stiffness * beyond); });
   }
 
   double MomentLaw::moment(const double turn) const

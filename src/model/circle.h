@@ -22,7 +22,20 @@ namespace sprag
   /// the arc along which the circle has passed the point, so large sliding and large rotation are exact.
   ContactKinematics<3> circle_contact(const Geometry &geometry, const LeverPoint &point, double x, double theta);
 
+  /// The circle at a position x and a rotation theta, for many points.
+  struct PlacedCircle
+  {
+    double radius;
+    LeverPoint centre;
+    double theta;
+    double sine; ///< of theta
+    double cosine;
+  };
+
+  PlacedCircle placed_circle(const Geometry &geometry, double x, double theta);
+
   /// The same with the circle's position x as a fourth coordinate: minus the force on it is the x-force of the circle on the
   /// lever.
+  ContactKinematics<4> moving_circle_contact(const PlacedCircle &circle, const LeverPoint &point);
   ContactKinematics<4> moving_circle_contact(const Geometry &geometry, const LeverPoint &point, double x, double theta);
 } // namespace sprag

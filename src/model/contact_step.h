@@ -1,12 +1,20 @@
 #pragma once
 
+#include "laws/contact.h"
 #include "laws/contact_step.h"
 #include "model/contact_point.h"
 #include "model/generalised_alpha.h"
 
 namespace sprag
 {
-  /// Constants of a contact in one step of the time integration. Per area at points of a face, whole forces at a point contact.
+  /// Where in a step the forces of its contact are balanced.
+  enum class ForceBalance
+  {
+    mean, ///< in time: between beginning and end, as the time integration does
+    end   ///< without inertia: at the end
+  };
+
+  /// Constants of a contact in one step. Per area at points of a face, whole forces at a point contact.
   struct StepContactLaw
   {
     NormalLaw normal;
@@ -14,6 +22,8 @@ namespace sprag
     double tangential = 0.; ///< stiffness in stick, > 0
     FrictionLaw friction;
     StepWeights weights{};
+    ForceBalance balance = ForceBalance::mean; ///< at the end the spring is linear and has no dashpot
+    FrictionMode mode    = FrictionMode::cone; ///< counts for a balance at the end
   };
 
   /// Geometry of a contact point over a step, in n coordinates q. Rows "of the step" stand where generalised-alpha balances
@@ -37,7 +47,22 @@ namespace sprag
     double slip_bend    = 0.;             ///< [q] . d(slip_row)/dq [q] [mm]
     double gap_rate_end = 0.;             ///< counts with contact damping only [mm/s]
     dealii::Tensor<1, n> gap_rate_row;    ///< d(gap_rate_end)/dq_1
+    double slip_shift = 0.;               ///< see friction_traction(); counts for a balance at the end [mm]
   };
+
+  /// A step that ends at a point's kinematics and is balanced there, from where the slip coordinate was `slip_begin` [mm].
+  template <int n>
+  StepKinematics<n> step_to(const ContactKinematics<n> &end, const double slip_begin)
+  {
+    StepKinematics<n> result{};
+    result.gap_begin = result.gap_end = end.gap;
+    result.gap_row_end = result.gap_row = end.gap_row;
+    result.gap_curvature                = end.gap_curvature;
+    result.slip_change                  = end.slip - slip_begin;
+    result.slip_change_row = result.slip_row = end.slip_row;
+    result.slip_curvature                    = end.slip_curvature;
+    return result;
+  }
 
   /// What a contact point does in a step.
   template <int n>
@@ -50,7 +75,8 @@ namespace sprag
     double mean_traction = 0.;    ///< of the step
     dealii::Tensor<1, n> force;   ///< of the step, generalised
     dealii::Tensor<2, n> tangent; ///< d(force)/dq_1, unsymmetric
-    ContactMemory memory;         ///< at the end of the step; the slip coordinate is the caller's
+    ContactMemory memory;         ///< at the end of the step
+    double d_shift     = 0.;      ///< derivative of the traction by the slip's shift [N/mm^3]
     double energy      = 0.;      ///< of the springs at the end of the step
     double friction    = 0.;      ///< works dissipated in the step
     double damping     = 0.;
@@ -58,13 +84,48 @@ namespace sprag
     double creep       = 0.; ///< slip below the regularisation speed [mm]
   };
 
+  /// Sets the force of a step and its derivative from those of pressure and traction.
+  template <int n>
+  void set_force(const StepKinematics<n> &point, const double pressure, const dealii::Tensor<1, n> &d_pressure,
+                 const double traction, const dealii::Tensor<1, n> &d_traction, StepResponse<n> &response)
+  {
+    response.mean_traction = traction;
+    response.force         = pressure * point.gap_row - traction * point.slip_row;
+    response.tangent       = outer_product(point.gap_row, d_pressure) - outer_product(point.slip_row, d_traction) +
+                       pressure * point.gap_curvature - traction * point.slip_curvature;
+  }
+
+  /// A balance at the end of a step: tractions and forces there. The memory holds the multipliers of the current augmentation. A
+  /// point that was open has no traction to start from: its slip history begins with the step in which it touches.
+  template <int n>
+  StepResponse<n> end_response(const StepKinematics<n> &point, const ContactMemory &memory, const StepContactLaw &law)
+  {
+    StepResponse<n> response;
+    const auto normal = normal_traction(point.gap_end, memory.normal_multiplier, law.normal.stiffness);
+    if (normal.pressure == 0.)
+      return response;
+    const double stick    = memory.traction + law.tangential * point.slip_change;
+    const auto friction   = law.mode == FrictionMode::stick ? FrictionTraction{ stick, 1., 0., 0., false }
+                                                            : friction_traction(stick, normal.pressure, law.friction,
+                                                                                law.tangential, law.weights.dt, point.slip_shift);
+    const auto d_pressure = normal.derivative * point.gap_row_end;
+    set_force(point, normal.pressure, d_pressure, friction.traction,
+              friction.d_trial * law.tangential * point.slip_change_row + friction.d_pressure * d_pressure, response);
+    response.pressure        = normal.pressure;
+    response.traction        = friction.traction;
+    response.mu              = friction.mu;
+    response.slipping        = friction.slipping;
+    response.d_shift         = friction.d_shift;
+    response.memory.traction = friction.traction;
+    return response;
+  }
+
   /// Forces of a step consistent with the time integration: the spring's pressure is the mean over the change of the gap
   /// (discrete gradient), so that opening and closing make no energy; friction, returned to the cone at the end of the step, acts
   /// with the mean of both ends; both with the delay of generalised-alpha, whose work is the scheme's dissipation.
   template <int n>
-  StepResponse<n> step_response(const StepKinematics<n> &point, const ContactMemory &memory, const StepContactLaw &law)
+  StepResponse<n> mean_response(const StepKinematics<n> &point, const ContactMemory &memory, const StepContactLaw &law)
   {
-    using dealii::outer_product;
     StepResponse<n> response;
     const double delay  = law.weights.delay();
     const auto normal   = mean_normal_force(law.normal, point.gap_begin, point.gap_end);
@@ -86,11 +147,7 @@ namespace sprag
     const auto d_pressure = normal.d_mean * point.gap_row_end + delay * d_end + (1. - law.weights.alpha_f) * d_dashpot;
     const auto d_traction = share * (friction.d_slip * point.slip_change_row + friction.d_pressure * (d_end + d_dashpot));
 
-    response.mean_traction = traction;
-    response.force         = pressure * point.gap_row - traction * point.slip_row;
-    response.tangent       = outer_product(point.gap_row, d_pressure) - outer_product(point.slip_row, d_traction) +
-                       pressure * point.gap_curvature - traction * point.slip_curvature;
-
+    set_force(point, pressure, d_pressure, traction, d_traction, response);
     response.pressure          = normal.end + dashpot.force;
     response.traction          = friction.traction;
     response.mu                = friction.mu;
@@ -107,5 +164,12 @@ namespace sprag
                            delay * (pressure * point.gap_bend - traction * point.slip_bend);
     response.creep = friction.creep;
     return response;
+  }
+
+  /// The one place where contact tractions, forces and tangents come from.
+  template <int n>
+  StepResponse<n> step_response(const StepKinematics<n> &point, const ContactMemory &memory, const StepContactLaw &law)
+  {
+    return law.balance == ForceBalance::end ? end_response(point, memory, law) : mean_response(point, memory, law);
   }
 } // namespace sprag

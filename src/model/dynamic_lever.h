@@ -12,6 +12,7 @@
 #include "model/port_newton.h"
 #include "model/port_step.h"
 #include "model/port_vectors.h"
+#include "model/steady_slides.h"
 #include "scene/closed_form.h"
 
 #include <algorithm>
@@ -33,6 +34,7 @@ namespace sprag
         , frame(std::move(frame_))
         , coupling(frame.ports, frame.rest_inclination)
         , hub_spring(frame.ports, frame.spring, frame.joined)
+        , slides(*structure, *contact, frame, hub_spring)
     {
     }
 
@@ -42,13 +44,13 @@ namespace sprag
         return start_at_rest(drive);
       // Velocity and acceleration from equilibria to both sides; far enough apart to average over single points of a face.
       const double h     = 1e-3 * frame.geometries.front().cylinder_radius;
-      const double ratio = speed_ratio(drive, h);
+      const double ratio = slides.speed_ratio(drive, h);
       const auto before  = sliding(moved(drive, -h), ratio);
       const auto after   = sliding(moved(drive, h), ratio);
       auto here          = sliding(drive, ratio);
       if (!before || !after || !here)
         throw AnalysisError("no equilibrium of steady sliding at x = " + std::to_string(drive.x) +
-                            " mm. Try a smaller friction coefficient or another Drive/Start.");
+                            " mm. Try less friction, another Drive/Start or, where given, Contact/Penalty = auto.");
       auto &q    = here->coordinates;
       q.velocity = after->coordinates.position;
       q.velocity -= before->coordinates.position;
@@ -69,7 +71,7 @@ namespace sprag
           rates ? structure->port_kinematics(accepted) : Kinematic{ structure->port_positions(accepted, near), {}, {} };
       const Kinematic drifted = rates ? unaccelerated(begin, weights) : Kinematic{};
       const auto free         = structure->free_ports(accepted, near);
-      const OfLevers turned   = turns(begin.position);
+      const OfLevers turned   = turns_of(frame.ports, begin.position);
 
       dealii::Vector<double> rate;
       const auto evaluate = [&](const dealii::Vector<double> &z) -> const PortForces &
@@ -80,7 +82,8 @@ namespace sprag
           rate.add(weights.rate(), z, -weights.rate(), drifted.position);
         }
         contact->evaluate(PortStep{ accepted.drive, accepted.contact, to, begin, z, rate, weights });
-        return hub_spring.add_forces(coupling.add_forces(contact->forces(), begin, z, weights), turned, turns(z), weights);
+        return hub_spring.add_forces(coupling.add_forces(contact->forces(), begin, z, weights), turned, turns_of(frame.ports, z),
+                                     weights);
       };
 
       StepOutcome outcome;
@@ -102,7 +105,7 @@ namespace sprag
       structure->add_work(accepted, motion, outcome.work);
       contact->add_work(outcome.work);
       coupling.add_work(begin, z, weights, outcome.work);
-      hub_spring.add_work(turned, turns(z), weights, outcome.work);
+      hub_spring.add_work(turned, turns_of(frame.ports, z), weights, outcome.work);
       outcome.error  = weights.wants_error ? largest_gap_change(*contact, structure->port_error(accepted, motion)) : 0.;
       outcome.motion = std::move(motion);
       return outcome;
@@ -113,49 +116,49 @@ namespace sprag
       // There a lever touches without force.
       if (drive.v == 0. && drive.x == 0. && frame.ports.levers == 1)
         return SlidingForces{ 0., 0. };
-      if (solve_sliding(drive, 1.) == nullptr)
+      if (slides.solve(drive, 1.) == nullptr)
         return {};
       return observed_forces();
     }
 
     std::optional<HeldSlide> hold(const DrivePoint &drive, const ContactFriction friction) override
     {
-      const bool slides             = friction == ContactFriction::sliding;
+      const bool with_friction      = friction == ContactFriction::sliding;
       const auto P_without_friction = [&]
-      { return solve_sliding(drive, 1., ContactFriction::none) == nullptr ? 0. : observed_forces().P; };
-      const double P_free     = slides ? P_without_friction() : 0.;
-      const double ratio      = slides ? speed_ratio(drive, 1e-3 * frame.geometries.front().cylinder_radius) : 1.;
-      const auto law          = slides ? friction : ContactFriction::none;
-      const PortForces *force = solve_sliding(drive, ratio, law);
+      { return slides.solve(drive, 1., ContactFriction::none) == nullptr ? 0. : observed_forces().P; };
+      const double P_free     = with_friction ? P_without_friction() : 0.;
+      const double ratio      = with_friction ? slides.speed_ratio(drive, 1e-3 * frame.geometries.front().cylinder_radius) : 1.;
+      const auto law          = with_friction ? friction : ContactFriction::none;
+      const PortForces *force = slides.solve(drive, ratio, law);
       // Where the structure answers otherwise than its compliance, by round-off, that is put right.
       constexpr unsigned int most_corrections = 2;
       dealii::Vector<double> round_off(frame.ports.size());
       for (unsigned int i = 0; i < most_corrections && force != nullptr; ++i)
       {
         auto change = structure->port_positions(structure->deform(*force));
-        change -= last_sliding;
+        change -= slides.last_ports();
         const auto counts = [&](const unsigned int port)
         { return std::abs(frame.lengths[port] * change[port]) > 1e-10 * contact->overlap(); };
         if (std::none_of(force->ports.begin(), force->ports.end(), counts))
           break;
         round_off += change;
-        force = solve_sliding(drive, ratio, law, &round_off);
+        force = slides.solve(drive, ratio, law, &round_off);
       }
       if (force == nullptr)
         return {};
       HeldSlide slide;
       slide.drive    = drive;
       slide.motion   = completed(structure->deform(*force), { drive.time, drive.x, 0., 0. }, *force);
-      slide.ports    = last_sliding;
+      slide.ports    = slides.last_ports();
       slide.friction = friction;
       slide.speed    = ratio * sliding_speed(frame.geometries.front(), drive.x, drive.v);
       slide.overlap  = contact->overlap();
       Row row;
       observe_contact(*contact, 0, row);
       slide.indentation = row[Column::indentation];
-      slide.mu          = slides ? row[Column::mu] : 0.;
+      slide.mu          = with_friction ? row[Column::mu] : 0.;
       slide.forces      = { row[Column::P], row[Column::Q] };
-      slide.margin      = slides ? P_free / slide.forces.P : 1.;
+      slide.margin      = with_friction ? P_free / slide.forces.P : 1.;
       slide.uniqueness  = uniqueness(slide);
       return slide;
     }
@@ -168,22 +171,14 @@ namespace sprag
 
     Motion perturbed(const HeldSlide &slide, const Eigenmode &eigenmode, const double amplitude) override
     {
-      const auto &mode = eigenmode.mode;
       contact->evaluate_sliding(sliding_state(slide, TangentPart::all));
       const std::complex<double> size = amplitude / largest_gap_change(*contact, eigenmode.ports);
-      const auto add = [](const std::complex<double> factor, const ComplexVector &vector, dealii::Vector<double> &sum)
-      { sum.add(factor.real(), vector[0], -factor.imag(), vector[1]); };
-
-      Motion motion = slide.motion;
-      add(size, mode.coordinates, motion.coordinates.position);
-      add(size * mode.eigenvalue, mode.coordinates, motion.coordinates.velocity);
-      add(size * mode.eigenvalue * mode.eigenvalue, mode.coordinates, motion.coordinates.acceleration);
-      if (motion.face_force.size() > 0)
-        add(size, mode.face_force, motion.face_force);
+      Motion motion                   = slide.motion;
+      add_mode(size, eigenmode.mode, motion);
       dealii::Vector<double> ports = slide.ports;
       dealii::Vector<double> rates(ports.size());
-      add(size, eigenmode.ports, ports);
-      add(size * mode.eigenvalue, eigenmode.ports, rates);
+      add_real_part(size, eigenmode.ports, ports);
+      add_real_part(size * eigenmode.mode.eigenvalue, eigenmode.ports, rates);
       contact->evaluate_sliding(SlidingState{ ports, slide.drive, slide.speed, &rates, slide.friction, TangentPart::all });
       motion.contact = contact->memory();
       return motion;
@@ -251,17 +246,7 @@ namespace sprag
     const LeverFrame frame;
     FrameCoupling coupling;
     HubSpringExcess hub_spring;
-    dealii::Vector<double> last_sliding; ///< ports of the last equilibrium, from which the next one starts
-    PortLoads last_forces;               ///< there
-    OfLevers last_sliding_theta{};       ///< of the ideal contact there
-
-    OfLevers turns(const dealii::Vector<double> &ports) const
-    {
-      OfLevers result{};
-      for (unsigned int lever = 0; lever < frame.ports.levers; ++lever)
-        result[lever] = ports[frame.ports.rotation(lever)];
-      return result;
-    }
+    SteadySlides<Structure, Contact> slides;
 
     OfLevers turns(const Motion &motion) const
     {
@@ -274,15 +259,6 @@ namespace sprag
     OfLevers inclinations(const OfLevers &of_turns) const
     {
       return { { frame.rest_inclination + of_turns[0], frame.rest_inclination + of_turns[1] } };
-    }
-
-    /// In ideal contact.
-    OfLevers ideal_inclinations(const double x) const
-    {
-      OfLevers result{};
-      for (unsigned int lever = 0; lever < frame.ports.levers; ++lever)
-        result[lever] = kinematics(frame.geometries[lever], x).theta;
-      return result;
     }
 
     /// `x` from the pivot frame's origin.
@@ -310,12 +286,6 @@ namespace sprag
       return sprag::reachable_ports(*contact, motion.drive.x - u, inclinations(turns(motion)));
     }
 
-    static DrivePoint moved(DrivePoint drive, const double dx)
-    {
-      drive.x += dx;
-      return drive;
-    }
-
     /// Touching at x = 0. Further on as slowly slid there from x = 0, with friction as in a motion forward and mu at rest.
     Motion start_at_rest(const DrivePoint &drive)
     {
@@ -338,22 +308,10 @@ namespace sprag
 
     Motion pressed_at_rest(const DrivePoint &drive, const ContactFriction friction)
     {
-      const PortForces *const forces = solve_sliding({ drive.time, drive.x, 0., 0. }, 1., friction);
+      const PortForces *const forces = slides.solve({ drive.time, drive.x, 0., 0. }, 1., friction);
       if (forces == nullptr)
         throw AnalysisError("no equilibrium at rest. Try another Drive/Start or a smaller Mirrored pair/Cylinder offset.");
       return completed(structure->deform(*forces), drive, *forces);
-    }
-
-    /// Slip speed of the deformable lever over that of the rigid one.
-    double speed_ratio(const DrivePoint &drive, const double h)
-    {
-      const bool before = solve_sliding(moved(drive, -h), 1.) != nullptr;
-      const auto from   = last_sliding;
-      const bool after  = solve_sliding(moved(drive, h), 1.) != nullptr;
-      if (!before || !after)
-        return 1.;
-      const double slip = contact->mean_slip(from, drive.x - h, last_sliding, drive.x + h);
-      return slip / (2. * h * sliding_speed(frame.geometries.front(), drive.x, 1.));
     }
 
     /// Of the contact's last evaluation.
@@ -372,7 +330,7 @@ namespace sprag
     /// The contact's forces about a held slide, and the coupling with a sprung support.
     PortPerturbation perturbation(const HeldSlide &slide, const bool in_contact)
     {
-      const auto theta = inclinations(turns(slide.ports));
+      const auto theta = inclinations(turns_of(frame.ports, slide.ports));
       sprag::reachable_ports(*contact, slide.drive.x, theta);
       PortPerturbation result;
       const auto part = [&](const TangentPart wanted) -> const PortForces &
@@ -409,7 +367,7 @@ namespace sprag
                                     spread(delay.rate_row, loaded, result.ports) });
       }
       coupling.add_inertia(result.ports, theta, result.inertia);
-      hub_spring.add_stiffness(result.ports, turns(slide.ports), result.pressure);
+      hub_spring.add_stiffness(result.ports, turns_of(frame.ports, slide.ports), result.pressure);
       return result;
     }
 
@@ -422,52 +380,9 @@ namespace sprag
              port_determinant(structure->compliance(), forces.ports, forces.pressure);
     }
 
-    /// Contact and its forces in steady sliding at the ratio of speeds; null where there is no equilibrium.
-    /// `round_off`: displacements that the ports have besides.
-    const PortForces *solve_sliding(const DrivePoint &drive, const double ratio,
-                                    const ContactFriction friction          = ContactFriction::sliding,
-                                    const dealii::Vector<double> *round_off = nullptr)
-    {
-      structure->use_statics();
-      const auto ideal            = ideal_inclinations(drive.x);
-      const auto &near            = sprag::reachable_ports(*contact, drive.x, ideal);
-      dealii::Vector<double> free = structure->port_positions(structure->rest(), near);
-      if (round_off != nullptr)
-        for (const unsigned int port : near)
-          free[port] += (*round_off)[port];
-      dealii::Vector<double> z = free;
-      add_response(structure->compliance(), last_forces.ports, last_forces.values, near, z);
-      for (unsigned int lever = 0; lever < frame.ports.levers; ++lever)
-      {
-        const unsigned int hub = frame.ports.rotation(lever);
-        z[hub] =
-            (last_sliding.size() > 0 ? last_sliding[hub] - last_sliding_theta[lever] : -frame.rest_inclination) + ideal[lever];
-      }
-
-      const double speed  = ratio * sliding_speed(frame.geometries.front(), drive.x, drive.v);
-      const auto evaluate = [&](const dealii::Vector<double> &ports) -> const PortForces &
-      {
-        contact->evaluate_sliding(SlidingState{ ports, drive, speed, nullptr, friction, TangentPart::all });
-        return hub_spring.add_forces(contact->forces(), turns(ports));
-      };
-      const auto solved = solve_ports(
-          structure->compliance(), free, frame.lengths, near, evaluate, [&] { return contact->overlap(); }, z);
-      if (!solved.converged)
-        return nullptr;
-      if (!contact->within_reach())
-      {
-        contact->widen_reach();
-        return solve_sliding(drive, ratio, friction, round_off);
-      }
-      last_sliding       = z;
-      last_sliding_theta = ideal;
-      last_forces        = { solved.forces->ports, solved.forces->values };
-      return solved.forces;
-    }
-
     std::optional<Motion> sliding(const DrivePoint &drive, const double ratio)
     {
-      const PortForces *const forces = solve_sliding(drive, ratio);
+      const PortForces *const forces = slides.solve(drive, ratio);
       if (forces == nullptr)
         return {};
       return completed(structure->deform(*forces), drive, *forces);

@@ -27,6 +27,7 @@ namespace sprag
         sum += power;
       return sum.real();
     }
+
     void multiply(ComplexVector &vector, const Complex factor)
     {
       if (vector[0].size() == 0) // face forces of a reduced lever

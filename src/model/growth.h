@@ -29,6 +29,22 @@ namespace sprag
     return motion;
   }
 
+  /// Adds the real part of a complex vector times a factor.
+  inline void add_real_part(const std::complex<double> factor, const ComplexVector &vector, dealii::Vector<double> &sum)
+  {
+    sum.add(factor.real(), vector[0], -factor.imag(), vector[1]);
+  }
+
+  /// Adds a mode of a complex size, vibrating with its eigenvalue, to the coordinates and forces of a motion.
+  inline void add_mode(const std::complex<double> size, const StructureMode &mode, Motion &motion)
+  {
+    add_real_part(size, mode.coordinates, motion.coordinates.position);
+    add_real_part(size * mode.eigenvalue, mode.coordinates, motion.coordinates.velocity);
+    add_real_part(size * mode.eigenvalue * mode.eigenvalue, mode.coordinates, motion.coordinates.acceleration);
+    if (motion.face_force.size() > 0)
+      add_real_part(size, mode.face_force, motion.face_force);
+  }
+
   /// Structure: see ModalStructure.
   template <class Structure>
   ModeForms mode_forms(const Structure &structure, const StructureMode &mode)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "model/joined_memory.h"
 #include "model/linearisation.h"
 #include "model/port_layout.h"
 #include "model/port_step.h"
@@ -31,7 +32,7 @@ namespace sprag
     {
       for (unsigned int lever = 0; lever < levers; ++lever)
       {
-        const auto memory = memory_of(lever, step.memory);
+        const auto memory = memory_of_lever(lever, points, step.memory);
         const Kinematic begin{ ports_of(lever, step.begin.position), ports_of(lever, step.begin.velocity),
                                ports_of(lever, step.begin.acceleration) };
         const auto end  = ports_of(lever, step.end);
@@ -93,13 +94,13 @@ namespace sprag
 
     std::vector<ContactMemory> memory() const
     {
-      return joined_memory([](const unsigned int, Contact &of_lever) { return of_lever.memory(); });
+      return joined_memory(points, { { contact[0]->memory(), contact[1]->memory() } });
     }
 
     std::vector<ContactMemory> touch(const dealii::Vector<double> &ports, const DrivePoint &drive)
     {
-      return joined_memory([&](const unsigned int lever, Contact &of_lever)
-                           { return of_lever.touch(ports_of(lever, ports), drive); });
+      return joined_memory(points,
+                           { { contact[0]->touch(ports_of(0, ports), drive), contact[1]->touch(ports_of(1, ports), drive) } });
     }
 
     void add_work(StepWork &work) const
@@ -166,32 +167,6 @@ namespace sprag
       std::copy_n(of_pair.begin() + layout.first(lever), n, result.begin());
       if (layout.sprung)
         result[n] = of_pair[layout.support()];
-      return result;
-    }
-
-    /// Entries of contact points of the second lever are numbered after all of the first.
-    std::vector<ContactMemory> memory_of(const unsigned int lever, const std::vector<ContactMemory> &of_pair) const
-    {
-      std::vector<ContactMemory> result;
-      for (auto entry : of_pair)
-        if (entry.point / points == lever)
-        {
-          entry.point -= lever * points;
-          result.push_back(entry);
-        }
-      return result;
-    }
-
-    template <class MemoryOf>
-    std::vector<ContactMemory> joined_memory(const MemoryOf &memory_of_contact) const
-    {
-      std::vector<ContactMemory> result;
-      for (unsigned int lever = 0; lever < levers; ++lever)
-        for (auto entry : memory_of_contact(lever, *contact[lever]))
-        {
-          entry.point += lever * points;
-          result.push_back(entry);
-        }
       return result;
     }
 

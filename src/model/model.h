@@ -17,7 +17,7 @@ namespace sprag
   {
     DrivePoint drive;
     dealii::Vector<double> coordinates; ///< generalised coordinates of the model
-    std::vector<ContactMemory> contact; ///< an entry per contact point
+    std::vector<ContactMemory> contact; ///< of the contact points, as the model keeps them
   };
 
   /// Size of the unbalance at a trial state, and what a correction must be small against.

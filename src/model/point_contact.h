@@ -60,10 +60,12 @@ namespace sprag
 
   private:
     // Local coordinates: deflection and slope of three nodes in a row, theta, x of the circle from the pivot frame's origin.
-    static constexpr unsigned int n       = 8;
-    static constexpr unsigned int n_nodal = 6;
-    using Local                           = dealii::Tensor<1, n>;
-    using LocalMatrix                     = dealii::Tensor<2, n>;
+    static constexpr unsigned int n           = 8;
+    static constexpr unsigned int n_nodal     = 6;
+    static constexpr unsigned int theta_index = 6;
+    static constexpr unsigned int x_index     = 7;
+    using Local                               = dealii::Tensor<1, n>;
+    using LocalMatrix                         = dealii::Tensor<2, n>;
 
     /// The closest point at one configuration.
     struct Configuration

@@ -8,7 +8,8 @@ namespace sprag
   using OfLevers = std::array<double, 2>;
 
   /// Ports of a lever: first those of its friction face or axis in lever axes, then the compressions of its force sensors, which
-  /// are only read, then the hub's rotation from the spring's rest and on a sprung support the lever's momentum coordinates.
+  /// are only read, then the hub's rotation from the spring's rest and on a sprung support, in time, the lever's momentum
+  /// coordinates.
   /// Those of a mirrored pair's second lever follow, each in its own axes, and last the displacement of a sprung support.
   struct PortLayout
   {
@@ -16,10 +17,11 @@ namespace sprag
     bool sprung          = false;
     unsigned int sensors = 0; ///< of a lever
     unsigned int levers  = 1; ///< 2: a mirrored pair
+    bool has_inertia     = true;
 
     unsigned int of_a_lever() const
     {
-      return surface + sensors + (sprung ? 3 : 1);
+      return surface + sensors + (sprung && has_inertia ? 3 : 1);
     }
     unsigned int first(const unsigned int lever) const
     {

@@ -22,11 +22,6 @@ namespace sprag
       return changed.tv_sec > since.tv_sec || (changed.tv_sec == since.tv_sec && changed.tv_nsec >= since.tv_nsec);
     }
 
-    std::vector<Entry> end_entries(const std::string &status)
-    {
-      return { { "status", status, "", "how the run ended" } };
-    }
-
     void write_end(const std::string &path, const std::string &parameters, const std::string &status)
     {
       const std::vector<Entry> meta = { { "version", std::string(SPRAG_VERSION), "", "of sprag" } };
@@ -35,13 +30,13 @@ namespace sprag
         hdf5::Handle file = hdf5::open_abandoned_file(path);
         if (H5Lexists(file.id(), "summary", H5P_DEFAULT) > 0)
           return;
-        add_entries(file, "summary", end_entries(status));
+        add_entries(file, "summary", { status_entry(status) });
         add_entries(file, "meta", meta);
         file.close();
         return;
       }
       std::filesystem::create_directories(std::filesystem::path(path).parent_path());
-      ResultFile(path, parameters, {}, {}).finish(end_entries(status), meta);
+      ResultFile(path, parameters, {}, {}).finish({ status_entry(status) }, meta);
     }
   } // namespace
 

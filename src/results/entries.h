@@ -5,6 +5,12 @@
 
 namespace sprag
 {
+  /// The last entry of every summary: "completed" or what went wrong.
+  inline Entry status_entry(const std::string &status)
+  {
+    return { "status", status, "", "how the run ended" };
+  }
+
   /// Adds a group of entries to an open file. Throws AnalysisError when HDF5 fails.
   void add_entries(const hdf5::Handle &file, const std::string &group, const std::vector<Entry> &entries);
 } // namespace sprag

@@ -10,55 +10,6 @@ namespace sprag::hdf5
 {
   namespace
   {
-    /// Keeps the library from printing its error stack while in scope; the stack itself stays.
-    class SilencedErrors
-    {
-    public:
-      SilencedErrors()
-      {
-        H5Eget_auto2(H5E_DEFAULT, &function, &data);
-        H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-      }
-
-      ~SilencedErrors()
-      {
-        H5Eset_auto2(H5E_DEFAULT, function, data);
-      }
-
-      SilencedErrors(const SilencedErrors &)            = delete;
-      SilencedErrors &operator=(const SilencedErrors &) = delete;
-
-    private:
-      H5E_auto2_t function = nullptr;
-      void *data           = nullptr;
-    };
-
-    herr_t take_first_description(unsigned int, const H5E_error2_t *error, void *text)
-    {
-      auto &description = *static_cast<std::string *>(text);
-      if (description.empty() && error->desc != nullptr)
-        description = error->desc;
-      return 0;
-    }
-
-    /// What went wrong deepest in the library: that is where the file name and the system's reason are.
-    std::string deepest_error()
-    {
-      std::string description;
-      H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, take_first_description, &description);
-      return description.empty() ? "unknown HDF5 error" : description;
-    }
-
-    template <typename Call>
-    auto checked(const std::string &task, const Call &call)
-    {
-      const SilencedErrors silenced;
-      const auto result = call();
-      if (result < 0)
-        throw AnalysisError("HDF5, " + task + ": " + deepest_error());
-      return result;
-    }
-
     Handle file_access()
     {
       Handle access(checked("file access", [] { return H5Pcreate(H5P_FILE_ACCESS); }), H5Pclose);
@@ -144,21 +95,6 @@ namespace sprag::hdf5
       return creation;
     }
   } // namespace
-
-  Handle::~Handle()
-  {
-    if (identifier >= 0)
-    {
-      const SilencedErrors silenced;
-      closing_function(identifier);
-    }
-  }
-
-  void Handle::close()
-  {
-    const hid_t closed = std::exchange(identifier, H5I_INVALID_HID);
-    checked("closing", [&] { return closing_function(closed); });
-  }
 
   Handle create_file(const std::string &path)
   {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "base/hdf5_handle.h"
+
 #include <cstddef>
 #include <hdf5.h>
 #include <string>
@@ -12,41 +14,6 @@ namespace sprag
   // deal.II brings the parallel HDF5; it is used serially here, with the default driver, and not after MPI is finalised.
   namespace hdf5
   {
-    /// Owner of one identifier, closed with it.
-    class Handle
-    {
-    public:
-      using Close = herr_t (*)(hid_t);
-
-      Handle(hid_t owned, Close closing)
-          : identifier(owned)
-          , closing_function(closing)
-      {
-      }
-
-      Handle(Handle &&other) noexcept
-          : identifier(std::exchange(other.identifier, H5I_INVALID_HID))
-          , closing_function(other.closing_function)
-      {
-      }
-
-      Handle &operator=(Handle &&) = delete;
-
-      ~Handle();
-
-      hid_t id() const
-      {
-        return identifier;
-      }
-
-      /// Closes now and reports what a destructor has to swallow. Later calls of id() are a mistake.
-      void close();
-
-    private:
-      hid_t identifier;
-      Close closing_function;
-    };
-
     /// Creates or overwrites a file in the newest format.
     Handle create_file(const std::string &path);
 

@@ -8,8 +8,8 @@ namespace sprag
   {
     void spring(Section section, RotationalSpring &settings)
     {
-      section.choice<SpringType>("Type", settings.type, { { "torsional", SpringType::torsional }, { "leaf", SpringType::leaf } },
-                                 "A number at the hub, or a leaf spring of finite elements");
+      section.choice("Type", settings.type, { { "torsional", SpringType::torsional }, { "leaf", SpringType::leaf } },
+                     "A number at the hub, or a leaf spring of finite elements");
       section.number("Stiffness", settings.stiffness, above(0.), "N mm/rad",
                      "k, moment over the lever's rotation; that of a leaf spring follows from its dimensions");
     }
@@ -19,15 +19,12 @@ namespace sprag
       section.number("Length", settings.length, above(0.), "mm", "From its clamp in the hub to the spring joint, at rest");
       section.number("Thickness", settings.thickness, above(0.), "mm", "In the plane");
       section.number("Width", settings.width, above(0.), "mm", "Out of plane");
-      section.number("Young's modulus", settings.young_modulus, above(0.), "MPa", "E");
-      section.number("Poisson's ratio", settings.poisson_ratio, between(-1., 0.5), "", "nu");
-      section.number("Density", settings.density, above(0.), "t/mm3", "rho");
-      section.choice<LeafEnd>(
-          "Joint", settings.end,
-          { { "clamped", LeafEnd::clamped }, { "pinned", LeafEnd::pinned }, { "guided", LeafEnd::guided } },
-          "Far end: neither turns nor moves across, turns only, or moves across only (4, 3 and 1 times EI/L)");
-      section.choice<LeafAxial>("Axial", settings.axial, { { "free", LeafAxial::free }, { "held", LeafAxial::held } },
-                                "Of the joint along the spring: free as between mirrored levers, or held");
+      add_material(section, settings);
+      section.choice("Joint", settings.end,
+                     { { "clamped", LeafEnd::clamped }, { "pinned", LeafEnd::pinned }, { "guided", LeafEnd::guided } },
+                     "Far end: neither turns nor moves across, turns only, or moves across only (4, 3 and 1 times EI/L)");
+      section.choice("Axial", settings.axial, { { "free", LeafAxial::free }, { "held", LeafAxial::held } },
+                     "Of the joint along the spring: free as between mirrored levers, or held");
       section.number("Clamp distance", settings.clamp_distance, at_least(0.), "mm", "From the pivot back to the clamp");
       section.number("Sagitta", settings.sagitta, any_number(), "mm",
                      "Of the unloaded spring, an arc; positive: away from the cylinder; 0: straight");
@@ -46,15 +43,13 @@ namespace sprag
 
     void friction_plate(Section section, FrictionPlate &settings)
     {
-      section.choice<PlateType>("Type", settings.type, { { "none", PlateType::none }, { "on sensors", PlateType::on_sensors } },
-                                "Friction layer on the lever, or on a plate of its own held by force sensors");
+      section.choice("Type", settings.type, { { "none", PlateType::none }, { "on sensors", PlateType::on_sensors } },
+                     "Friction layer on the lever, or on a plate of its own held by force sensors");
       section.number("Begin", settings.begin, above(0.), "mm", "Of plate and layer, from the pivot along the lever");
       section.number("End", settings.end, above(0.), "mm", "Of plate and layer");
       section.number("Thickness", settings.thickness, above(0.), "mm", "Of the metal");
       section.number("Spacer", settings.spacer, above(0.), "mm", "Distance of plate and lever");
-      section.number("Young's modulus", settings.young_modulus, above(0.), "MPa", "E of the metal");
-      section.number("Poisson's ratio", settings.poisson_ratio, between(-1., 0.5), "", "nu of the metal");
-      section.number("Density", settings.density, above(0.), "t/mm3", "rho of the metal");
+      add_material(section, settings, " of the metal");
       section.numbers("Sensors", settings.sensors, above(0.), "mm",
                       "Middles of the force sensors, from the pivot along the lever");
       section.number("Sensor length", settings.sensor_length, above(0.), "mm", "Along the lever, over which each presses");
@@ -65,25 +60,22 @@ namespace sprag
 
     void cylinder(Section section, Cylinder &settings)
     {
-      section.choice<CylinderType>(
-          "Type", settings.type,
-          { { "rigid", CylinderType::rigid }, { "solid", CylinderType::solid }, { "ring", CylinderType::ring } },
-          "A rigid circle, or finite elements on a rigid core or shaft");
+      section.choice("Type", settings.type,
+                     { { "rigid", CylinderType::rigid }, { "solid", CylinderType::solid }, { "ring", CylinderType::ring } },
+                     "A rigid circle, or finite elements on a rigid core or shaft");
       section.number("Inner radius", settings.inner_radius, above(0.), "mm",
                      "Of the rigid core of a solid one, of a ring's shaft");
-      section.number("Young's modulus", settings.young_modulus, above(0.), "MPa", "E");
-      section.number("Poisson's ratio", settings.poisson_ratio, between(-1., 0.5), "", "nu");
-      section.number("Density", settings.density, above(0.), "t/mm3", "rho");
+      add_material(section, settings);
       section.number("Face size", settings.face_size, above(0.), "mm", "Element length where it touches the lever");
     }
 
     void mirrored_pair(Section section, MirroredPair &settings)
     {
-      section.choice<PairType>("Type", settings.type, { { "half", PairType::half }, { "full", PairType::full } },
-                               "One lever stands for both, or both are there");
-      section.choice<SpringJoint>("Joint", settings.joint, { { "free", SpringJoint::free }, { "held", SpringJoint::held } },
-                                  "Spring joint of a full pair: carried by the two springs alone, which then let both levers "
-                                  "swing together, or held by the pivot frame");
+      section.choice("Type", settings.type, { { "half", PairType::half }, { "full", PairType::full } },
+                     "One lever stands for both, or both are there");
+      section.choice("Joint", settings.joint, { { "free", SpringJoint::free }, { "held", SpringJoint::held } },
+                     "Spring joint of a full pair: carried by the two springs alone, which then let both levers "
+                     "swing together, or held by the pivot frame");
       section.number("Joint mass", settings.joint_mass, at_least(0.), "t", "Of the spring joint between leaf springs");
       section.number("Cylinder offset", settings.cylinder_offset, any_number(), "mm",
                      "Of the cylinder's path from the mirror plane towards the first lever");
@@ -96,8 +88,8 @@ namespace sprag
                              "k to be met by the leaf spring's thickness; auto: the leaf as it is");
       section.number_or_auto("Moment of inertia", settings.moment_of_inertia, above(0.), "t mm2",
                              "J to be met by added mass, densities as built; auto: as it is");
-      section.choice<AddedMass>("Mass", settings.mass, { { "hub", AddedMass::hub }, { "tip", AddedMass::tip } },
-                                "Where mass is added: Lever/Hub inertia or Lever/Tip mass");
+      section.choice("Mass", settings.mass, { { "hub", AddedMass::hub }, { "tip", AddedMass::tip } },
+                     "Where mass is added: Lever/Hub inertia or Lever/Tip mass");
     }
   } // namespace
 

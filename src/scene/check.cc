@@ -1,6 +1,9 @@
 #include "scene/check.h"
 
+#include "base/append.h"
 #include "base/text.h"
+#include "scene/analysis_use.h"
+#include "scene/check_penalty.h"
 #include "scene/check_plate.h"
 #include "scene/check_spring.h"
 #include "scene/closed_form.h"
@@ -26,12 +29,6 @@ namespace sprag
     std::vector<std::string> shape()
     {
       return { "Geometry/Cylinder radius", "Geometry/Interface offset", "Geometry/Pivot distance", "Geometry/Pivot height" };
-    }
-
-    std::vector<std::string> with(std::vector<std::string> names, const std::vector<std::string> &more)
-    {
-      names.insert(names.end(), more.begin(), more.end());
-      return names;
     }
 
     /// With e < R < l and h < R - e, eq. 9 gives 0 < theta_0 < 90 degrees.
@@ -70,7 +67,7 @@ namespace sprag
         return result;
       const double touched = pivot_contact(g);
       if (drive.maximum() >= touched)
-        result.push_back({ drive_end(scene), with(shape(), { "Drive/Start", "Drive/Profile" }),
+        result.push_back({ drive_end(scene), joined(shape(), { "Drive/Start", "Drive/Profile" }),
                            "x must stay below " + rounded_text(touched) +
                                " mm, where the cylinder reaches the pivot: (l - x)^2 + h^2 = R^2" });
       return result;
@@ -82,7 +79,7 @@ namespace sprag
       const double x = scene.drive.maximum();
       if (sliding_speed(scene.geometry, x, 1.) > 0.)
         return {};
-      return { { drive_end(scene), with(shape(), { "Drive/Start", "Drive/Profile" }),
+      return { { drive_end(scene), joined(shape(), { "Drive/Start", "Drive/Profile" }),
                  "the cylinder must slide along the lever as it moves: at x = " + rounded_text(x) +
                      " mm, s cos(th) <= e sin(th)" } };
     }
@@ -94,8 +91,8 @@ namespace sprag
         return {};
       const double mu_e = found->mu * scene.geometry.interface_offset;
       return { { drive_end(scene),
-                 with(shape(), { "Drive/Start", "Drive/Profile", "Drive/Speed", "Drive/Cycles", "Friction/Law",
-                                 "Friction/Coefficient", "Friction/Table" }),
+                 joined(shape(), { "Drive/Start", "Drive/Profile", "Drive/Speed", "Drive/Cycles", "Friction/Law",
+                                   "Friction/Coefficient", "Friction/Table" }),
                  "must not lock: moving back at x = " + rounded_text(found->x) + " mm, s = " + rounded_text(found->s) +
                      " mm <= mu e = " + rounded_text(mu_e) + " mm with mu = " + rounded_text(found->mu) } };
     }
@@ -108,7 +105,7 @@ namespace sprag
       const double contact = kinematics(scene.geometry, x).s;
       if (scene.lever.length >= contact + margin)
         return {};
-      return { { "Lever/Length", with(shape(), { "Drive/Start", "Drive/Profile", "Drive/Table" }),
+      return { { "Lever/Length", joined(shape(), { "Drive/Start", "Drive/Profile", "Drive/Table" }),
                  "must be at least " + rounded_text(contact + margin) + " mm: at x = " + rounded_text(x) +
                      " mm the cylinder touches the lever at s = " + rounded_text(contact) + " mm" } };
     }
@@ -129,28 +126,17 @@ namespace sprag
       return result;
     }
 
-    void append(Violations &all, const Violations &more)
-    {
-      all.insert(all.end(), more.begin(), more.end());
-    }
-
-    bool holds(const AnalysisType type)
-    {
-      return type == AnalysisType::modal || type == AnalysisType::stability || type == AnalysisType::map ||
-             type == AnalysisType::sprag_slip;
-    }
-
     /// What a type of analysis takes of the scene. The model counts only where the cylinder follows the drive.
     struct Use
     {
       explicit Use(const Scene &scene)
           : in_time(scene.analysis.type == AnalysisType::transient)
-          , held(holds(scene.analysis.type))
+          , held(holds_slide(scene.analysis.type))
           , transient(in_time || held)
-          , follows_drive(transient || scene.analysis.type == AnalysisType::quasi_static)
+          , follows_drive(runs_model(scene.analysis.type))
           , calibrated(scene.analysis.type == AnalysisType::calibration)
           , positions(follows_drive || calibrated || scene.analysis.type == AnalysisType::contact_law)
-          , meshed(positions && (!follows_drive || is_meshed(scene.analysis.model)))
+          , meshed(needs_mesh(scene))
           , lever(meshed || (transient && scene.analysis.model != ModelType::closed_form))
           , own_mesh(meshed && !scene.mesh.file.empty())
       {
@@ -325,6 +311,8 @@ namespace sprag
       append(result, support(scene, use));
       if (use.meshed)
         append(result, mesh_and_material(scene, use));
+      if (use.meshed && !use.own_mesh)
+        append(result, penalty_violations(scene));
       if (use.meshed)
         append(result, plate_violations(scene, use.own_mesh));
       if (use.transient && use.lever && !use.own_mesh)

@@ -1,5 +1,6 @@
 #include "scene/check_plate.h"
 
+#include "base/append.h"
 #include "base/text.h"
 #include "scene/lever_shape.h"
 
@@ -36,12 +37,6 @@ namespace sprag
                           "Drive/Stroke",
                           "Drive/Profile",
                           "Drive/Table" };
-
-    Names with_sweep(Names names)
-    {
-      names.insert(names.end(), sweep.begin(), sweep.end());
-      return names;
-    }
 
     void frame(const Scene &scene, Rules &rules)
     {
@@ -107,7 +102,7 @@ namespace sprag
     {
       const double first = swept_contact(scene)[0];
       const double begin = friction_face(scene)[0];
-      rules.need(begin <= first - margin, "Lever frame/Root", with_sweep({ "Lever frame/Rib", "Lever/Outline" }),
+      rules.need(begin <= first - margin, "Lever frame/Root", joined<std::string>({ "Lever frame/Rib", "Lever/Outline" }, sweep),
                  "must leave the contact its place: the friction face begins behind root and rib at " + mm(begin) +
                      ", and the cylinder comes as near as s = " + mm(first));
     }
@@ -118,7 +113,7 @@ namespace sprag
       const double axis     = scene.geometry.interface_offset - radius;
       const double nearest  = std::max(axis, -frame_hub_radius - frame_wall);
       const double distance = std::hypot(swept_contact(scene)[0] - scene.frame.root, axis - nearest);
-      rules.need(distance > radius, "Lever frame/Root", with_sweep({ "Lever/Outline" }),
+      rules.need(distance > radius, "Lever frame/Root", joined<std::string>({ "Lever/Outline" }, sweep),
                  "must leave room for the cylinder, whose axis comes as near to the root as " + mm(distance) +
                      " with R = " + mm(radius));
     }
@@ -126,9 +121,10 @@ namespace sprag
     void face_of_plate(const Scene &scene, Rules &rules)
     {
       const auto [first, last] = swept_contact(scene);
-      rules.need(scene.plate.begin <= first - margin, "Friction plate/Begin", with_sweep({ "Friction plate/Type" }),
+      rules.need(scene.plate.begin <= first - margin, "Friction plate/Begin",
+                 joined<std::string>({ "Friction plate/Type" }, sweep),
                  "must be at most " + mm(first - margin) + ": the cylinder comes as near to the pivot as s = " + mm(first));
-      rules.need(scene.plate.end >= last + margin, "Friction plate/End", with_sweep({ "Friction plate/Type" }),
+      rules.need(scene.plate.end >= last + margin, "Friction plate/End", joined<std::string>({ "Friction plate/Type" }, sweep),
                  "must be at least " + mm(last + margin) + ": the cylinder goes as far as s = " + mm(last));
     }
   } // namespace

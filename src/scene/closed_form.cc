@@ -36,12 +36,15 @@ namespace sprag
     }
 
     /// Integral over time of a power without a jump in v. Over the unit interval, because the library compares its error there
-    /// with the tolerance times the interval's length.
+    /// with the tolerance times the interval's length. Late in a long drive the rounding of the time limits what can be asked
+    /// for.
     double integral(const std::function<double(double)> &power, const double begin, const double end)
     {
-      const double duration = end - begin;
+      const double duration  = end - begin;
+      const double rounding  = std::numeric_limits<double>::epsilon() * end / duration;
+      const double tolerance = std::max(1e-12, 8. * rounding);
       return duration * boost::math::quadrature::gauss_kronrod<double, 31>::integrate(
-                            [&](const double part) { return power(begin + part * duration); }, 0., 1., 12, 1e-12);
+                            [&](const double part) { return power(begin + part * duration); }, 0., 1., 12, tolerance);
     }
 
     /// s - mu e while moving back at v < 0, positive where the lever slides [mm].
@@ -115,24 +118,38 @@ namespace sprag
     return geometry.pivot_distance - std::sqrt(std::max(0., R * R - h * h));
   }
 
+  namespace
+  {
+    std::optional<Locking> locking_between(const Scene &scene, const double from, const double to)
+    {
+      const double search_step = 0.1;
+      const auto &drive        = scene.drive;
+      for (DrivePoint point = drive.at(from, Drive::Side::after); point.time < to;)
+      {
+        const double begin = point.time;
+        point              = drive.step(point.time, search_step);
+        if (!(point.x < drive.at(begin).x))
+          continue;
+        for (const double time : { begin, point.time })
+        {
+          const auto at = drive.at(time, time == begin ? Drive::Side::after : Drive::Side::before);
+          if (locking_margin(scene, at) <= 0.)
+            return Locking{ at.x, kinematics(scene.geometry, at.x).s, sliding_friction(scene, at.x, at.v).coefficient };
+        }
+      }
+      return {};
+    }
+  } // namespace
+
   std::optional<Locking> locking(const Scene &scene)
   {
-    const double search_step = 0.1;
-    const auto &drive        = scene.drive;
-    for (DrivePoint point = drive.at(0.); point.time < drive.duration();)
-    {
-      const double begin = point.time;
-      point              = drive.step(point.time, search_step);
-      if (!(point.x < drive.at(begin).x))
-        continue;
-      for (const double time : { begin, point.time })
-      {
-        const auto at = drive.at(time, time == begin ? Drive::Side::after : Drive::Side::before);
-        if (locking_margin(scene, at) <= 0.)
-          return Locking{ at.x, kinematics(scene.geometry, at.x).s, sliding_friction(scene, at.x, at.v).coefficient };
-      }
-    }
-    return {};
+    // Strokes of a periodic drive are alike but for its first and last.
+    const auto &turns = scene.drive.reversals();
+    const double end  = scene.drive.duration();
+    if (scene.drive.profile() == DriveProfile::table || turns.size() <= 3)
+      return locking_between(scene, 0., end);
+    const auto found = locking_between(scene, 0., turns[2]);
+    return found ? found : locking_between(scene, turns.back(), end);
   }
 
   Work work_between(const Scene &scene, const double begin, const double end)
@@ -161,13 +178,14 @@ namespace sprag
       work.drive += integral(drive_power, from, to);
       work.friction += integral(friction_power, from, to);
     };
-    double from = begin;
-    for (const double reversal : drive.reversals())
-      if (from < reversal && reversal < end)
-      {
-        add(from, reversal);
-        from = reversal;
-      }
+    double from           = begin;
+    const auto &reversals = drive.reversals();
+    for (auto reversal = std::upper_bound(reversals.begin(), reversals.end(), begin);
+         reversal != reversals.end() && *reversal < end; ++reversal)
+    {
+      add(from, *reversal);
+      from = *reversal;
+    }
     add(from, end);
     return work;
   }

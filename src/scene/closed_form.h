@@ -73,7 +73,8 @@ namespace sprag
     double friction = 0.; ///< integral of F v_rel dt [N mm]
   };
 
-  /// Work done from one instant of the drive to another, to 1e-11 where mu(v) is smooth and 1e-8 across its joints.
+  /// Work done from one instant of the drive to another, to 1e-11 where mu(v) is smooth and 1e-8 across its joints, or to the
+  /// rounding of the time over the time between them.
   Work work_between(const Scene &scene, double begin, double end);
 
   /// The same of any lever, by its state over time.

@@ -1,6 +1,7 @@
 #include "scene/mirrored_pair.h"
 
 #include "base/text.h"
+#include "scene/analysis_use.h"
 #include "scene/closed_form.h"
 
 #include <cmath>
@@ -10,17 +11,6 @@ namespace sprag
   namespace
   {
     using Violations = std::vector<Violation>;
-
-    bool runs_pairs(const AnalysisType type)
-    {
-      return type == AnalysisType::quasi_static || type == AnalysisType::transient || type == AnalysisType::modal ||
-             type == AnalysisType::stability || type == AnalysisType::map || type == AnalysisType::sprag_slip;
-    }
-
-    bool holds_slide(const AnalysisType type)
-    {
-      return runs_pairs(type) && type != AnalysisType::quasi_static && type != AnalysisType::transient;
-    }
 
     bool are_alike(const MirroredPair &pair)
     {
@@ -34,7 +24,7 @@ namespace sprag
       };
       const auto type  = scene.analysis.type;
       const auto model = scene.analysis.model;
-      if (!runs_pairs(type))
+      if (!runs_model(type))
         reject("must be half but in a quasi-static, transient, modal, stability, map or sprag-slip analysis");
       else if (type == AnalysisType::transient && (model == ModelType::closed_form || scene.contact.type == ContactType::ideal))
         reject("must be half with an ideal contact in time");
@@ -44,7 +34,7 @@ namespace sprag
                "may be full");
     }
 
-    /// Of held slides.
+    /// Rules where a slide is held.
     void vibration(const Scene &scene, Violations &result)
     {
       const auto &pair = scene.pair;

@@ -39,6 +39,16 @@ namespace sprag
     void find_reversals();
   };
 
+  /// Number of the interval between `bounds`, of which there are at least two, that a time lies in; at a bound that on the side
+  /// asked for. Times beyond the ends belong to the first or last.
+  std::size_t interval_at(const std::vector<double> &bounds, double time, Drive::Side side);
+
+  /// -1, 0 or 1.
+  inline int sign_of(const double value)
+  {
+    return (value > 0.) - (value < 0.);
+  }
+
   std::shared_ptr<const DriveMotion> triangle_motion(double start, double stroke, double speed, double cycles);
 
   /// `reversal_duration` > 0 and at most largest_reversal_duration().

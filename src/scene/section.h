@@ -1,18 +1,15 @@
 #pragma once
 
+#include "base/choices.h"
 #include "base/parameters.h"
 #include "base/text.h"
 
-#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace sprag
 {
-  template <typename T>
-  using Choices = std::vector<std::pair<std::string, T>>;
-
   /// Collects the parameters of one section, each bound to the variable it sets.
   class Section
   {
@@ -69,17 +66,10 @@ namespace sprag
     {
       Rule rule;
       rule.kind = Rule::Kind::choice;
-      std::string present;
       for (const auto &[word, meant] : choices)
-      {
         rule.choices.push_back(word);
-        if (meant == value)
-          present = word;
-      }
-      add(entry, present, rule, meaning,
-          [&value, choices](const auto &text) {
-            value = std::find_if(choices.begin(), choices.end(), [&](const auto &pair) { return pair.first == text; })->second;
-          });
+      add(entry, word_for(choices, value), rule, meaning,
+          [&value, choices](const auto &text) { value = value_for(choices, text); });
     }
 
   private:
@@ -92,4 +82,13 @@ namespace sprag
       parameters.push_back({ name, entry, value, rule, meaning, store });
     }
   };
+
+  /// Constants of an elastic part; `of` says which.
+  template <class Part>
+  void add_material(Section &section, Part &part, const std::string &of = {})
+  {
+    section.number("Young's modulus", part.young_modulus, above(0.), "MPa", "E" + of);
+    section.number("Poisson's ratio", part.poisson_ratio, between(-1., 0.5), "", "nu" + of);
+    section.number("Density", part.density, above(0.), "t/mm3", "rho" + of);
+  }
 } // namespace sprag

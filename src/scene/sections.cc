@@ -9,45 +9,43 @@ namespace sprag
   {
     void analysis(Section section, AnalysisSettings &settings)
     {
-      section.choice<AnalysisType>("Type", settings.type,
-                                   { { "quasi-static", AnalysisType::quasi_static },
-                                     { "slope", AnalysisType::slope },
-                                     { "transient", AnalysisType::transient },
-                                     { "contact law", AnalysisType::contact_law },
-                                     { "modal", AnalysisType::modal },
-                                     { "stability", AnalysisType::stability },
-                                     { "map", AnalysisType::map },
-                                     { "sprag slip", AnalysisType::sprag_slip },
-                                     { "calibration", AnalysisType::calibration } },
-                                   "Follow the drive without inertia, sweep the representative slope C_Q, follow the drive "
-                                   "with inertia, fit the contact of rigid and beam to finite elements, find vibration modes at "
-                                   "one x, judge whether the slide there is stable, the same over two parameters, perturb it "
-                                   "in time and follow it to its limit cycle, or make parts that have a given k and J and "
-                                   "tell the constants of the reduced models");
-      section.choice<ModelType>(
-          "Model", settings.model,
-          { { "closed form", ModelType::closed_form },
-            { "rigid", ModelType::rigid },
-            { "beam", ModelType::beam },
-            { "condensed", ModelType::condensed },
-            { "finite element", ModelType::finite_element } },
-          "Rigid lever with ideal contact and without mass (eqs. 4-9), or the deformable lever; with inertia "
-          "also a rigid lever, a beam, or modes and face shapes of the finite elements");
+      section.choice("Type", settings.type,
+                     { { "quasi-static", AnalysisType::quasi_static },
+                       { "slope", AnalysisType::slope },
+                       { "transient", AnalysisType::transient },
+                       { "contact law", AnalysisType::contact_law },
+                       { "modal", AnalysisType::modal },
+                       { "stability", AnalysisType::stability },
+                       { "map", AnalysisType::map },
+                       { "sprag slip", AnalysisType::sprag_slip },
+                       { "calibration", AnalysisType::calibration } },
+                     "Follow the drive without inertia, sweep the representative slope C_Q, follow the drive "
+                     "with inertia, fit the contact of rigid and beam to finite elements, find vibration modes at "
+                     "one x, judge whether the slide there is stable, the same over two parameters, perturb it "
+                     "in time and follow it to its limit cycle, or make parts that have a given k and J and "
+                     "tell the constants of the reduced models");
+      section.choice("Model", settings.model,
+                     { { "closed form", ModelType::closed_form },
+                       { "rigid", ModelType::rigid },
+                       { "beam", ModelType::beam },
+                       { "condensed", ModelType::condensed },
+                       { "finite element", ModelType::finite_element } },
+                     "Rigid lever with ideal contact and without mass (eqs. 4-9), or the deformable lever; with inertia "
+                     "also a rigid lever, a beam, or modes and face shapes of the finite elements");
       section.integer("Dimension", settings.dimension, { 2., 3. }, "Dimension of the finite elements");
-      section.choice<PlaneState>("Plane", settings.plane, { { "stress", PlaneState::stress }, { "strain", PlaneState::strain } },
-                                 "Plane stress or plane strain of lever and friction layer");
-      section.choice<Solution>("Solution", settings.solution,
-                               { { "automatic", Solution::automatic }, { "general", Solution::general } },
-                               "Factorise once where the material is linear, or in every iteration");
+      section.choice("Plane", settings.plane, { { "stress", PlaneState::stress }, { "strain", PlaneState::strain } },
+                     "Plane stress or plane strain of lever and friction layer");
+      section.choice("Solution", settings.solution, { { "automatic", Solution::automatic }, { "general", Solution::general } },
+                     "Factorise once where the material is linear, or in every iteration");
       section.number("Step", settings.step, above(0.), "mm", "Largest change of x in a step");
       section.number("Minimum step", settings.minimum_step, above(0.), "mm", "Change of x below which the analysis gives up");
       section.number("Maximum deviation", settings.maximum_deviation, at_least(0.), "",
                      "Largest admissible deviation of P, Q and theta from the closed form; 0 admits any");
       section.number("Maximum energy residual", settings.maximum_residual, at_least(0.), "",
                      "Transient: largest admissible gap in the energy balance, over the largest work done; 0 admits any");
-      section.choice<WarningTreatment>("Warnings", settings.warnings,
-                                       { { "report", WarningTreatment::report }, { "error", WarningTreatment::error } },
-                                       "Whether a run that has warnings prints and stores them, or fails as well");
+      section.choice("Warnings", settings.warnings,
+                     { { "report", WarningTreatment::report }, { "error", WarningTreatment::error } },
+                     "Whether a run that has warnings prints and stores them, or fails as well");
     }
 
     void geometry(Section section, Geometry &settings)
@@ -63,7 +61,7 @@ namespace sprag
 
     void drive(Section section, DriveSettings &settings)
     {
-      section.choice<DriveProfile>(
+      section.choice(
           "Profile", settings.profile,
           { { "triangle", DriveProfile::triangle }, { "harmonic", DriveProfile::harmonic }, { "table", DriveProfile::table } },
           "Motion of the cylinder: constant speed, 1 - cos, or a file; a table needs none of the other numbers");
@@ -79,16 +77,15 @@ namespace sprag
 
     void friction(Section section, FrictionSettings &settings)
     {
-      section.choice<FrictionChoice>("Law", settings.law,
-                                     { { "Coulomb", FrictionChoice::coulomb },
-                                       { "cork on aluminium", FrictionChoice::cork_on_aluminium },
-                                       { "table", FrictionChoice::table } },
-                                     "Friction coefficient: constant, eqs. 13-15, or from a file");
+      section.choice("Law", settings.law,
+                     { { "Coulomb", FrictionChoice::coulomb },
+                       { "cork on aluminium", FrictionChoice::cork_on_aluminium },
+                       { "table", FrictionChoice::table } },
+                     "Friction coefficient: constant, eqs. 13-15, or from a file");
       section.number("Coefficient", settings.coefficient, at_least(0.), "", "mu of the Coulomb law");
       section.file("Table", settings.table, "File with the columns speed [mm/s] and mu [-], relative to the folder of this one");
-      section.choice<FrictionSpeed>("Speed", settings.speed,
-                                    { { "sliding", FrictionSpeed::sliding }, { "drive", FrictionSpeed::drive } },
-                                    "Speed that mu depends on: of sliding, or the drive's (the paper's choice)");
+      section.choice("Speed", settings.speed, { { "sliding", FrictionSpeed::sliding }, { "drive", FrictionSpeed::drive } },
+                     "Speed that mu depends on: of sliding, or the drive's (the paper's choice)");
       section.number("Factor", settings.factor, at_least(0.), "", "Times mu of whichever law");
       section.number("Regularisation speed", settings.regularisation_speed, at_least(0.), "mm/s",
                      "Transient: sliding speed over which friction changes sign; 0 resolves stick");
@@ -96,23 +93,20 @@ namespace sprag
 
     void lever(Section section, Lever &settings)
     {
-      section.choice<LeverOutline>("Outline", settings.outline,
-                                   { { "bar", LeverOutline::bar }, { "frame", LeverOutline::frame } },
-                                   "A bar of constant depth on a rigid hub, or the two parts of a lever frame");
+      section.choice("Outline", settings.outline, { { "bar", LeverOutline::bar }, { "frame", LeverOutline::frame } },
+                     "A bar of constant depth on a rigid hub, or the two parts of a lever frame");
       section.number("Length", settings.length, above(0.), "mm", "From the pivot to the tip");
       section.number("Depth", settings.depth, above(0.), "mm", "Of the metal, without the friction layer");
       section.number("Width", settings.width, above(0.), "mm", "Out of plane");
-      section.number("Young's modulus", settings.young_modulus, above(0.), "MPa", "E of the metal");
-      section.number("Poisson's ratio", settings.poisson_ratio, between(-1., 0.5), "", "nu of the metal");
-      section.number("Density", settings.density, above(0.), "t/mm3", "rho of the metal");
-      section.choice<MaterialModel>("Material", settings.material,
-                                    { { "linear", MaterialModel::linear }, { "neo-Hookean", MaterialModel::neo_hookean } },
-                                    "Of lever and friction layer: small strain, or finite strain (plane strain only)");
+      add_material(section, settings, " of the metal");
+      section.choice("Material", settings.material,
+                     { { "linear", MaterialModel::linear }, { "neo-Hookean", MaterialModel::neo_hookean } },
+                     "Of lever and friction layer: small strain, or finite strain (plane strain only)");
       section.number("Moment of inertia", settings.moment_of_inertia, above(0.), "t mm2",
                      "J about the pivot, of all that turns with the hub; densities are scaled to it");
-      section.choice<InertiaSource>("Inertia", settings.inertia,
-                                    { { "scaled", InertiaSource::scaled }, { "as built", InertiaSource::as_built } },
-                                    "Whether densities are scaled to the Moment of inertia, or that follows from them");
+      section.choice("Inertia", settings.inertia,
+                     { { "scaled", InertiaSource::scaled }, { "as built", InertiaSource::as_built } },
+                     "Whether densities are scaled to the Moment of inertia, or that follows from them");
       section.number("Hub inertia", settings.hub_inertia, at_least(0.), "t mm2",
                      "Of what turns with the rigid hub, about the pivot");
       section.number("Tip mass", settings.tip_mass, at_least(0.), "t", "At the tip, on the neutral axis");
@@ -131,9 +125,7 @@ namespace sprag
     void friction_layer(Section section, FrictionLayer &settings)
     {
       section.number("Thickness", settings.thickness, at_least(0.), "mm", "Of the cork sheet; 0: none");
-      section.number("Young's modulus", settings.young_modulus, above(0.), "MPa", "E of the layer");
-      section.number("Poisson's ratio", settings.poisson_ratio, between(-1., 0.5), "", "nu of the layer");
-      section.number("Density", settings.density, above(0.), "t/mm3", "rho of the layer");
+      add_material(section, settings, " of the layer");
       section.number_or_auto("Strength", settings.strength, above(0.), "MPa",
                              "Pressure from which the layer's cells give way, for a warning; auto: 0.04 E of a cork, none for "
                              "nu > 0.2");
@@ -141,9 +133,8 @@ namespace sprag
 
     void support(Section section, Support &settings)
     {
-      section.choice<SupportType>(
-          "Type", settings.type, { { "rigid", SupportType::rigid }, { "sprung", SupportType::sprung } },
-          "Whether the frame of the pivot stands still or moves along x; the rest counts only when sprung");
+      section.choice("Type", settings.type, { { "rigid", SupportType::rigid }, { "sprung", SupportType::sprung } },
+                     "Whether the frame of the pivot stands still or moves along x; the rest counts only when sprung");
       section.number("Mass", settings.mass, above(0.), "t", "m_f, of the frame without the lever");
       section.number("Stiffness", settings.stiffness, above(0.), "N/mm", "k_f, of the force sensor behind the frame");
       section.number("Damping", settings.damping, { 0., 1., true, false }, "",
@@ -152,22 +143,20 @@ namespace sprag
 
     void contact(Section section, ContactSettings &settings)
     {
-      section.choice<Enforcement>(
-          "Enforcement", settings.enforcement,
-          { { "penalty", Enforcement::penalty }, { "augmented Lagrangian", Enforcement::augmented_lagrangian } },
-          "How overlap of cylinder and lever is prevented");
+      section.choice("Enforcement", settings.enforcement,
+                     { { "penalty", Enforcement::penalty }, { "augmented Lagrangian", Enforcement::augmented_lagrangian } },
+                     "How overlap of cylinder and lever is prevented");
       section.number_or_auto("Penalty", settings.penalty, above(0.), "N/mm3",
-                             "Pressure over overlap; auto: from mesh and layer, in time ten times as much at degree 2");
+                             "Pressure over overlap; auto: from mesh and layer, stiffer in time at degree 2");
       section.number_or_auto("Tangential penalty", settings.tangential_penalty, above(0.), "N/mm3",
                              "Friction traction over elastic slip; auto: equal to the normal one");
       section.number("Penetration tolerance", settings.penetration_tolerance, above(0.), "mm",
                      "Augmented Lagrangian: change of a multiplier over the penalty at which augmentation ends");
       section.integer("Maximum augmentations", settings.maximum_augmentations, { 1., 1000. },
                       "Of the augmented Lagrangian in a step");
-      section.choice<ContactType>(
-          "Type", settings.type, { { "compliant", ContactType::compliant }, { "ideal", ContactType::ideal } },
-          "Of rigid and beam, as all below: P = k delta^n + c delta', or the lever always on the cylinder "
-          "(rigid only)");
+      section.choice("Type", settings.type, { { "compliant", ContactType::compliant }, { "ideal", ContactType::ideal } },
+                     "Of rigid and beam, as all below: P = k delta^n + c delta', or the lever always on the cylinder "
+                     "(rigid only)");
       section.number("Stiffness", settings.stiffness, above(0.), "N/mm^n", "k, over the whole width");
       section.number("Exponent", settings.exponent, { 1., 3. }, "", "n");
       section.number("Damping", settings.damping, { 0., 1., true, false }, "",
@@ -205,20 +194,19 @@ namespace sprag
 
     void output(Section section, OutputSettings &settings)
     {
-      section.choice<FieldOutput>(
-          "Fields", settings.fields,
-          { { "none", FieldOutput::none },
-            { "turning points", FieldOutput::turning_points },
-            { "interval", FieldOutput::interval } },
-          "When fields are written: never, where P is largest and at and behind reversals, or in between too");
+      section.choice("Fields", settings.fields,
+                     { { "none", FieldOutput::none },
+                       { "turning points", FieldOutput::turning_points },
+                       { "interval", FieldOutput::interval } },
+                     "When fields are written: never, where P is largest and at and behind reversals, or in between too");
       section.number("Field interval", settings.field_interval, above(0.), "mm", "Travel of x between written fields");
     }
 
     void slope(Section section, SlopeSettings &settings, double &maximum_inclination)
     {
-      section.choice<SlopeSweep>(
-          "Sweep", settings.sweep, { { "coefficient", SlopeSweep::coefficient }, { "inclination", SlopeSweep::inclination } },
-          "C_Q over mu for the geometry given (Fig. 10), or over theta_0 for a list of e/R at one mu (Fig. 11)");
+      section.choice("Sweep", settings.sweep,
+                     { { "coefficient", SlopeSweep::coefficient }, { "inclination", SlopeSweep::inclination } },
+                     "C_Q over mu for the geometry given (Fig. 10), or over theta_0 for a list of e/R at one mu (Fig. 11)");
       section.integer("Number of points", settings.number_of_points, { 2., 1e6 }, "Of each curve");
       section.number("Maximum coefficient", settings.maximum_coefficient, above(0.), "", "Largest mu of the sweep over mu");
       section.number("Maximum inclination", maximum_inclination, between(0., 90.), "deg",
@@ -230,21 +218,20 @@ namespace sprag
     {
       section.number_or_auto("Position", settings.position, at_least(0.), "mm",
                              "x at which the slide is held, between the ends of the drive; auto: the drive's largest");
-      section.choice<Direction>("Direction", settings.direction,
-                                { { "forward", Direction::forward }, { "backward", Direction::backward } },
-                                "Of the motion, away from x = 0 or back");
+      section.choice("Direction", settings.direction, { { "forward", Direction::forward }, { "backward", Direction::backward } },
+                     "Of the motion, away from x = 0 or back");
       section.integer("Modes", settings.modes, { 1., 1000. }, "Reported, those of the lowest frequencies and any unstable one");
-      section.choice<bool>("Damping", settings.damping, { { "on", true }, { "off", false } },
-                           "off: lever, support and contact without damping; friction keeps its dependence on speed");
-      section.choice<HeldContact>(
+      section.choice("Damping", settings.damping, { { "on", true }, { "off", false } },
+                     "off: lever, support and contact without damping; friction keeps its dependence on speed");
+      section.choice(
           "Contact", settings.contact,
           { { "open", HeldContact::open }, { "frictionless", HeldContact::frictionless }, { "stuck", HeldContact::stuck } },
           "Modal analysis: out of contact, in contact without friction, or stuck to the cylinder");
       section.text("Critical", settings.critical,
                    "Where the slide loses stability or jams along single parameters: list of SECTION/NAME FROM TO, separated by "
                    "semicolons; auto: friction factor, x, speed and, where it needs no new mesh, depth; none");
-      section.choice<bool>("Roles", settings.roles, { { "on", true }, { "off", false } },
-                           "Whether the slide is judged again without flexure, inertia, mu'(v), support and damping, one by one");
+      section.choice("Roles", settings.roles, { { "on", true }, { "off", false } },
+                     "Whether the slide is judged again without flexure, inertia, mu'(v), support and damping, one by one");
     }
 
     void map(Section section, MapSettings &settings)

@@ -1,7 +1,7 @@
-#include "analysis/calibration.h"
+#include "analysis/calibration/calibration.h"
 
-#include "analysis/prepared_scene.h"
 #include "base/errors.h"
+#include "levers/prepared_scene.h"
 #include "scene/read.h"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "analysis/closed_form.h"
+#include "analysis/statics/closed_form.h"
 
 #include "scene/closed_form.h"
 #include "scenes.h"

@@ -1,7 +1,7 @@
-#include "analysis/critical.h"
+#include "analysis/stability/critical.h"
 
-#include "analysis/jamming.h"
-#include "analysis/roles.h"
+#include "analysis/stability/jamming.h"
+#include "analysis/stability/roles.h"
 #include "scene/closed_form.h"
 #include "scene/read.h"
 #include "scenes.h"

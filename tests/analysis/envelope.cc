@@ -1,4 +1,4 @@
-#include "analysis/envelope.h"
+#include "analysis/transient/envelope.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

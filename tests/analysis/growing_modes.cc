@@ -1,4 +1,4 @@
-#include "analysis/growing_modes.h"
+#include "analysis/transient/growing_modes.h"
 
 #include "model/reduced_lever.h"
 #include "scenes.h"

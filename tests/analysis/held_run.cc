@@ -1,4 +1,4 @@
-#include "analysis/held_run.h"
+#include "analysis/transient/held_run.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "analysis/map_grid.h"
+#include "analysis/map/map_grid.h"
 
 #include <cmath>
 #include <functional>

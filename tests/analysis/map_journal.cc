@@ -1,4 +1,4 @@
-#include "analysis/map_journal.h"
+#include "analysis/map/map_journal.h"
 
 #include "base/errors.h"
 

@@ -1,4 +1,4 @@
-#include "analysis/newton.h"
+#include "analysis/statics/newton.h"
 
 #include "analysis/toy_model.h"
 

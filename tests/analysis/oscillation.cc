@@ -1,6 +1,6 @@
-#include "analysis/oscillation.h"
+#include "analysis/transient/oscillation.h"
 
-#include "analysis/ringing.h"
+#include "analysis/transient/ringing.h"
 
 #include <algorithm>
 #include <cmath>

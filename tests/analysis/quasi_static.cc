@@ -1,4 +1,4 @@
-#include "analysis/quasi_static.h"
+#include "analysis/statics/quasi_static.h"
 
 #include "analysis/toy_model.h"
 #include "verification/run_scene.h"

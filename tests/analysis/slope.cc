@@ -1,4 +1,4 @@
-#include "analysis/slope.h"
+#include "analysis/statics/slope.h"
 
 #include "scene/closed_form.h"
 #include "scenes.h"

@@ -2,6 +2,7 @@
 
 #include "base/errors.h"
 #include "model/model.h"
+#include "support/small_model.h"
 
 #include <cmath>
 #include <functional>
@@ -10,7 +11,7 @@ namespace sprag
 {
   /// One coordinate q with the equilibrium equation residual(q, x) = 0, without contact. What it can be asked to do wrong is
   /// decided by the tests.
-  class ToyModel : public Model
+  class ToyModel : public SmallModel
   {
   public:
     struct Value
@@ -31,7 +32,7 @@ namespace sprag
       state.drive = drive;
       state.coordinates.reinit(1);
       state.contact.resize(1);
-      state.contact[0].slip = drive.x;
+      state.contact[0].traction = drive.x; // as a mark
       return state;
     }
 
@@ -45,7 +46,7 @@ namespace sprag
       x    = trial.drive.x;
       from = accepted.drive.x;
       // Trial states must start from the accepted one, untouched by whatever was rejected before.
-      if (accepted.contact[0].slip != accepted.drive.x || trial.contact[0].slip != accepted.contact[0].slip)
+      if (accepted.contact[0].traction != accepted.drive.x || trial.contact[0].traction != accepted.contact[0].traction)
         history_intact = false;
       value = equation(q, x);
       return { std::abs(value.residual), 1. };
@@ -60,21 +61,6 @@ namespace sprag
       return result;
     }
 
-    double movement(const dealii::Vector<double> &correction) const override
-    {
-      return correction.linfty_norm();
-    }
-
-    double length_scale() const override
-    {
-      return 1.;
-    }
-
-    double penetration() const override
-    {
-      return 0.;
-    }
-
     std::string objection(const State &trial) const override
     {
       return objects(trial.drive.x);
@@ -86,7 +72,7 @@ namespace sprag
 
     std::vector<ContactMemory> memory() const override
     {
-      return { { 0., 0., x } };
+      return { { 0., x } };
     }
 
     void observe(const State & /*trial*/, Row &row) const override
@@ -95,16 +81,6 @@ namespace sprag
       row[Column::F]              = 0.;
       row[Column::Q]              = q;
       row[Column::friction_power] = 0.;
-    }
-
-    FacePoints face_points() const override
-    {
-      return {};
-    }
-
-    FaceState face_state(const State & /*trial*/) const override
-    {
-      return {};
     }
 
   private:

@@ -1,6 +1,6 @@
-#include "analysis/transient.h"
+#include "analysis/transient/transient.h"
 
-#include "analysis/step_clock.h"
+#include "analysis/transient/step_clock.h"
 #include "base/errors.h"
 #include "verification/run_transient.h"
 
@@ -123,9 +123,29 @@ namespace
     unsigned int calls = 0;
   };
 
+  bool same_bits(const double a, const double b)
+  {
+    return std::memcmp(&a, &b, sizeof(double)) == 0;
+  }
+
+  bool same_bits(const std::vector<double> &a, const std::vector<double> &b)
+  {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                      [](const double one, const double other) { return same_bits(one, other); });
+  }
+
+  std::vector<double> columns_of(const Row &row)
+  {
+    std::vector<double> result;
+    for (std::size_t i = 0; i < n_columns; ++i)
+      result.push_back(row[static_cast<Column>(i)]);
+    return result;
+  }
+
   bool same_bits(const Row &a, const Row &b)
   {
-    return std::memcmp(&a, &b, sizeof(Row)) == 0;
+    return same_bits(columns_of(a), columns_of(b)) && same_bits(a.sensor_forces, b.sensor_forces) &&
+           same_bits(a.second_lever(), b.second_lever());
   }
 
   Scene around_the_reversal(const double depth, const bool sprung)

@@ -3,16 +3,14 @@
 machine that does nothing else; see README.md."""
 
 import argparse
-import os
 import resource
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
 import h5py
+from runs import add_program, print_row, run_scene
 
-ROOT = Path(__file__).resolve().parents[2]
 PHASES = ("mesh", "model", "steps_and_output", "output")
 COLUMNS = ("run", "DOF", *PHASES, "in all", "process", "steps", "iterations", "MiB", "ratio")
 WIDTHS = (36, 8, 7, 7, 18, 8, 8, 9, 7, 12, 6, 0)
@@ -42,15 +40,12 @@ def cpu_of_children():
 
 def run(sprag, changes, output):
     """{column: number} of one run; its message where it failed."""
-    command = [sprag, ROOT / "params" / "model-a.prm", "--output", output, "--quiet", "--set", "Output/Fields=turning points"]
-    for name, value in {"Mesh/Face size": 0.5, **changes}.items():
-        command += ["--set", f"{name}={value}"]
-    environment = {**os.environ, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
     before = cpu_of_children()
-    done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
+    try:
+        run_scene(sprag, "model-a.prm", {"Output/Fields": "turning points", "Mesh/Face size": 0.5, **changes}, output)
+    except RuntimeError as failure:
+        return str(failure)
     process = cpu_of_children() - before
-    if done.returncode != 0:
-        return done.stderr.strip()
     with h5py.File(output / "result.h5", "r") as file:
         meta, summary = file["meta"], file["summary"]
         cost = {phase: meta[f"cpu_time_{phase}"][()] for phase in PHASES}
@@ -67,17 +62,9 @@ def text(column, cost):
     return f"{cost[column]:.0f}" if whole else f"{cost[column]:.2f}"
 
 
-def print_row(cells):
-    line = cells[0].ljust(WIDTHS[0])
-    for cell, width in zip(cells[1:], WIDTHS[1:]):
-        line += cell.rjust(width) if width else "  " + cell
-    print(line, flush=True)
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
-    default = Path(os.environ.get("SPRAG", ROOT / "build" / "sprag"))
-    parser.add_argument("--sprag", type=Path, default=default, help="the program; default $SPRAG or build/sprag")
+    add_program(parser)
     parser.add_argument("--only", default="", help="runs whose name contains this text, and what they are compared with")
     options = parser.parse_args()
 
@@ -93,11 +80,11 @@ def main():
                 print(f"{name}: {cost}", file=sys.stderr)
             else:
                 costs[name] = cost
-    print_row([{"steps_and_output": "steps and output"}.get(column, column) for column in COLUMNS])
+    print_row([{"steps_and_output": "steps and output"}.get(column, column) for column in COLUMNS], WIDTHS)
     for name, _, reference in runs:
         if name in costs and reference in costs:
             ratio = costs[name]["process"] / costs[reference]["process"]
-            print_row([name, *(text(column, costs[name]) for column in COLUMNS[1:-1]), f"{ratio:.2f} of '{reference}'"])
+            print_row([name, *(text(column, costs[name]) for column in COLUMNS[1:-1]), f"{ratio:.2f} of '{reference}'"], WIDTHS)
     return 0 if len(costs) == len(runs) else 1
 
 

@@ -4,14 +4,13 @@ beam, condensed lever and finite elements of two sizes, and ratios of the CPU ti
 see README.md."""
 
 import argparse
-import os
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
 import h5py
 import numpy as np
+from runs import add_program, print_row, run_scene
 
 ROOT = Path(__file__).resolve().parents[2]
 MAKING = ("mesh", "basis", "model")
@@ -44,13 +43,10 @@ def run(sprag, scene, model, face_size, modes, output):
         "Stability/Modes": modes,
         "Output/Fields": "none",
     }
-    command = [sprag, scene, "--output", output, "--quiet"]
-    for name, value in changes.items():
-        command += ["--set", f"{name}={value}"]
-    environment = {**os.environ, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
-    done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
-    if done.returncode != 0:
-        return done.stderr.strip()
+    try:
+        run_scene(sprag, scene, changes, output)
+    except RuntimeError as failure:
+        return str(failure)
     with h5py.File(output / "result.h5", "r") as file:
         meta, summary = file["meta"], file["summary"]
         return {
@@ -79,22 +75,14 @@ def text(value):
     return f"{value:.2e}" if abs(value) < 1e-3 else f"{value:.4g}"
 
 
-def print_row(cells):
-    line = cells[0].ljust(WIDTHS[0])
-    for cell, width in zip(cells[1:], WIDTHS[1:]):
-        line += cell.rjust(width)
-    print(line, flush=True)
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
-    default = Path(os.environ.get("SPRAG", ROOT / "build" / "sprag"))
-    parser.add_argument("--sprag", type=Path, default=default, help="the program; default $SPRAG or build/sprag")
+    add_program(parser)
     parser.add_argument("--scene", type=Path, default=ROOT / "params" / "stability-a.prm")
     parser.add_argument("--modes", type=int, default=10)
     options = parser.parse_args()
 
-    print_row(COLUMNS)
+    print_row(COLUMNS, WIDTHS)
     beam, elements, failed = np.nan, {}, 0
     rows = []
     with tempfile.TemporaryDirectory(prefix="sprag-eigen-") as folder:
@@ -112,7 +100,7 @@ def main():
     for face_size, row in rows:
         row["eigen / beam"] = row["eigen CPU"] / beam
         row["/ finite element"] = row["eigen CPU"] / elements.get(face_size, np.nan)
-        print_row([text(row[column]) for column in COLUMNS])
+        print_row([text(row[column]) for column in COLUMNS], WIDTHS)
     return 1 if failed else 0
 
 

@@ -3,16 +3,14 @@
 6 mm, accepted steps per CPU second, no fields; then model A with 20 mm, whose ringing decays and can be compared. See README.md."""
 
 import argparse
-import os
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
 import h5py
 import numpy as np
+from runs import add_program, run_scene
 
-ROOT = Path(__file__).resolve().parents[2]
 # Ten times the automatic penalty on half the face size, in shorter steps.
 HARD_CONTACT = {"Mesh/Face size": 0.25, "Contact/Penalty": 24000, "Time/Step": "2e-5"}
 MODELS = ("closed form", "rigid", "beam", "condensed", "finite element")
@@ -21,13 +19,7 @@ WIDTHS = (16, 12, 8, 12, 10, 11, 13, 12, 10)
 
 
 def run(sprag, scene, model, changes, output):
-    command = [sprag, ROOT / "params" / scene, "--output", output, "--quiet", "--set", "Output/Fields=none"]
-    for name, value in {"Analysis/Model": model, **changes}.items():
-        command += ["--set", f"{name}={value}"]
-    environment = {**os.environ, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
-    done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
-    if done.returncode != 0:
-        sys.exit(f"{model}: {done.stderr.strip()}")
+    run_scene(sprag, scene, {"Output/Fields": "none", "Analysis/Model": model, **changes}, output)
     with h5py.File(Path(output) / "result.h5", "r") as file:
         meta, summary, table = file["meta"], file["summary"], file["table"]
         verdict = summary["reversal_1_verdict"][()]
@@ -71,8 +63,7 @@ def print_table(title, results, hard):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
-    default = Path(os.environ.get("SPRAG", ROOT / "build" / "sprag"))
-    parser.add_argument("--sprag", type=Path, default=default, help="the program; default $SPRAG or build/sprag")
+    add_program(parser)
     parser.add_argument("--step", default="5e-5", help="Time/Step of all runs [s]")
     arguments = parser.parse_args()
     with tempfile.TemporaryDirectory(prefix="sprag-benchmark-") as folder:

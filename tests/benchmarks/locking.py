@@ -30,7 +30,7 @@ def run(sprag, nu, degree, size, penalty, folder):
         "Friction layer/Poisson's ratio": nu, "Mesh/Degree": degree, "Mesh/Face size": size, "Contact/Penalty": penalty,
         "Analysis/Step": 13, "Output/Fields": "none",
     }
-    command = [str(sprag), str(ROOT / "params" / "model-a.prm"), "--output", folder, "--quiet"]
+    command = [str(sprag), str(ROOT / "params" / "model-a.prm"), "--output", folder, "--quiet", "--overwrite"]
     for name, value in values.items():
         command += ["--set", f"{name}={value}"]
     done = subprocess.run(command, capture_output=True, text=True, check=False)

@@ -3,16 +3,14 @@
 refined near the boundaries and every cell. Run it on a machine that does nothing else; see README.md."""
 
 import argparse
-import os
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
 import h5py
+from runs import add_program, print_row, run_scene
 
-ROOT = Path(__file__).resolve().parents[2]
-SCENE = ROOT / "params" / "map-friction-depth-a.prm"
+SCENE = "map-friction-depth-a.prm"
 COLUMNS = ("map", "processes", "grid cells", "judged on grid", "in all", "wall [s]", "CPU [s]", "CPU/cell [ms]", "ratio")
 WIDTHS = (28, 11, 12, 16, 8, 10, 9, 15, 8)
 
@@ -28,15 +26,11 @@ RUNS = (
 def run(options, changes, output):
     """{column: number} of one map; its message where it failed."""
     grid = {"Map/First points": options.points, "Map/Second points": options.points}
-    command = [options.sprag.resolve(), SCENE, "--output", output, "--quiet"]
-    if options.jobs:
-        command += ["--jobs", str(options.jobs)]
-    for name, value in {**grid, **changes}.items():
-        command += ["--set", f"{name}={value}"]
-    environment = {**os.environ, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
-    done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
-    if done.returncode != 0:
-        return done.stderr.strip()
+    jobs = ("--jobs", options.jobs) if options.jobs else ()
+    try:
+        run_scene(options.sprag, SCENE, {**grid, **changes}, output, *jobs)
+    except RuntimeError as failure:
+        return str(failure)
     with h5py.File(output / "result.h5", "r") as file:
         meta, summary = file["meta"], file["summary"]
         cells = summary["cells_judged"][()]
@@ -55,14 +49,9 @@ def text(column, cost):
     return f"{cost[column]:.1f}" if "[" in column else f"{cost[column]:.0f}"
 
 
-def print_row(cells):
-    print(cells[0].ljust(WIDTHS[0]) + "".join(cell.rjust(width) for cell, width in zip(cells[1:], WIDTHS[1:])), flush=True)
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
-    default = Path(os.environ.get("SPRAG", ROOT / "build" / "sprag"))
-    parser.add_argument("--sprag", type=Path, default=default, help="the program; default $SPRAG or build/sprag")
+    add_program(parser)
     parser.add_argument("--only", default="", help="maps whose name contains this text")
     parser.add_argument("--points", type=int, default=60, help="of the grid, each way")
     parser.add_argument("--jobs", type=int, help="processes; default: one a core")
@@ -70,7 +59,7 @@ def main():
 
     chosen = [entry for entry in RUNS if options.only in entry[0]]
     costs = {}
-    print_row(COLUMNS)
+    print_row(COLUMNS, WIDTHS)
     with tempfile.TemporaryDirectory(prefix="sprag-map-") as folder:
         for number, (name, changes, reference) in enumerate(chosen):
             cost = run(options, changes, Path(folder) / str(number))
@@ -79,7 +68,7 @@ def main():
                 continue
             costs[name] = cost
             ratio = f"{cost['wall [s]'] / costs[reference]['wall [s]']:.2f}" if reference in costs else ""
-            print_row([name, *(text(column, cost) for column in COLUMNS[1:-1]), ratio])
+            print_row([name, *(text(column, cost) for column in COLUMNS[1:-1]), ratio], WIDTHS)
     return 0 if len(costs) == len(chosen) else 1
 
 

@@ -4,16 +4,14 @@ reversal in time (condensed), no fields. CPU seconds are the least of several ru
 there were such parts, also what model A without them cost there. See README.md."""
 
 import argparse
-import os
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
 import h5py
 import numpy as np
+from runs import add_program, run_scene
 
-ROOT = Path(__file__).resolve().parents[2]
 PARTS = {
     "none": {},
     "sprung pivot frame": {"Support/Type": "sprung"},
@@ -36,13 +34,7 @@ WIDTHS = (20, 8, 7, 12, 8, 8, 15, 13, 10)
 
 
 def run(sprag, scene, changes, folder):
-    command = [sprag, ROOT / "params" / scene, "--output", folder, "--quiet", "--set", "Output/Fields=none"]
-    for name, value in changes.items():
-        command += ["--set", f"{name}={value}"]
-    environment = {**os.environ, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
-    done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
-    if done.returncode != 0:
-        sys.exit(f"{' '.join(map(str, command))}: {done.stderr.strip()}")
+    run_scene(sprag, scene, {"Output/Fields": "none", **changes}, folder, "--overwrite")
     with h5py.File(Path(folder) / "result.h5", "r") as file:
         meta, summary = file["meta"], file["summary"]
         number = lambda group, name: float(group[name][()]) if name in group else np.nan
@@ -82,8 +74,7 @@ def row(name, sprag, changes, repeats, folder, reference):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
-    default = Path(os.environ.get("SPRAG", ROOT / "build" / "sprag"))
-    parser.add_argument("--sprag", type=Path, default=default, help="the program; default $SPRAG or build/sprag")
+    add_program(parser)
     parser.add_argument("--before", type=Path, help="an earlier build, for model A without parts")
     parser.add_argument("--repeats", type=int, default=3, help="runs of which the fastest counts")
     arguments = parser.parse_args()

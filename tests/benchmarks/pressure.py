@@ -16,7 +16,8 @@ ROOT = Path(__file__).resolve().parents[2]
 PLACES = [(way, x) for way in (1, -1) for x in (13, 26, 39, 52, 65)]
 GRID = np.linspace(-2.5, 2.5, 2001)  # from the centre of pressure [mm]
 NEAR_TURN = 1.0  # of x, where stick ends after the reversal: the backward stroke is compared there instead of at 65 mm
-PENALTIES = (2400, 7200)  # of the reference [N/mm^3], extrapolated to none as their error falls with 1/penalty
+PENALTIES = (100, 300)  # of the reference, over its face size [N/mm^2], extrapolated to none as their error falls with 1/penalty
+FINEST = {"model-a": 0.03125, "cylinder-a": 0.0625}  # face size of the reference [mm]
 COMMON = {"Friction/Law": "Coulomb", "Friction/Coefficient": 0.73, "Output/Fields": "none"}
 METHODS = {"penalty": "penalty", "AL": "augmented Lagrangian"}
 
@@ -82,16 +83,23 @@ def line(name, values, order=None, digits=1):
     print(f"| {name} | {cells} | {'' if order is None else f'{order:.1f}'} |", flush=True)
 
 
-def table(sprag, scene, degree, sizes, finest, cylinder):
-    def settings(size):
-        result = {"Mesh/Face size": size, "Mesh/Degree": degree}
-        return {**result, "Cylinder/Face size": size} if cylinder else result
+def settings(scene, size, degree):
+    result = {"Mesh/Face size": size, "Mesh/Degree": degree}
+    return {**result, "Cylinder/Face size": size} if scene.stem == "cylinder-a" else result
 
-    fine = [Run(sprag, scene, {**settings(finest), "Mesh/Degree": 2, "Contact/Penalty": penalty}) for penalty in PENALTIES]
+
+def hard_contact(sprag, scene):
+    size = FINEST[scene.stem]
+    fine = [Run(sprag, scene, {**settings(scene, size, 2), "Contact/Penalty": penalty / size}) for penalty in PENALTIES]
     reference = extrapolated(fine)
     own = errors(fine[1], reference)
-    print(f"\n{scene.name}, degree {degree}; reference: hard contact on faces of {finest} mm, degree 2; its stiffer penalty is "
-          f"{100 * np.abs(own[:, 0]).max():.2f} % of the largest pressure and {100 * np.abs(own[:, 1]).max():.2f} % of the width off\n")
+    print(f"\n{scene.name}; reference: hard contact on faces of {size} mm, degree 2; its stiffer penalty is "
+          f"{100 * np.abs(own[:, 0]).max():.2f} % of the largest pressure and {100 * np.abs(own[:, 1]).max():.2f} % of the width off")
+    return reference
+
+
+def table(sprag, scene, degree, sizes, reference):
+    print(f"\n{scene.name}, degree {degree}\n")
     print("| | " + " | ".join(f"{'forward' if way > 0 else 'back'} {min(x, 64) if way < 0 else x}" for way, x in PLACES) + " | order |")
     print("|---" * (len(PLACES) + 2) + "|")
     line("largest pressure [MPa]", [reference[place][0] for place in PLACES], digits=4)
@@ -99,7 +107,7 @@ def table(sprag, scene, degree, sizes, finest, cylinder):
     for name, enforcement in METHODS.items():
         before = None
         for size in sizes:
-            run = Run(sprag, scene, {**settings(size), "Contact/Enforcement": enforcement})
+            run = Run(sprag, scene, {**settings(scene, size, degree), "Contact/Enforcement": enforcement})
             found = errors(run, reference)
             for column, what in enumerate(("largest pressure", "width", "profile")):
                 order = None
@@ -114,13 +122,14 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--sprag", type=Path, default=ROOT / "build/sprag")
     parser.add_argument("--sizes", type=float, nargs="+", default=[1, 0.5, 0.25, 0.125])
-    parser.add_argument("--finest", type=float, default=0.0625, help="face size of the reference [mm]")
     parser.add_argument("--degrees", type=int, nargs="+", default=[2, 1])
-    parser.add_argument("--scenes", nargs="+", default=["model-a", "cylinder-a"])
+    parser.add_argument("--scenes", nargs="+", choices=FINEST, default=FINEST)
     options = parser.parse_args()
     for name in options.scenes:
-        for degree in options.degrees:
-            table(options.sprag.resolve(), ROOT / f"params/{name}.prm", degree, options.sizes, options.finest, name == "cylinder-a")
+        sprag, scene = options.sprag.resolve(), ROOT / f"params/{name}.prm"
+        reference = hard_contact(sprag, scene)
+        for degree in options.degrees if name == "model-a" else [2]:  # linear cells cannot be a round cylinder
+            table(sprag, scene, degree, options.sizes, reference)
 
 
 if __name__ == "__main__":

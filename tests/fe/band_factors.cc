@@ -1,4 +1,4 @@
-#include "fe/band_factors.h"
+#include "fe/algebra/band_factors.h"
 
 #include "base/errors.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "bar.h"
-#include "fe/face_step.h"
+#include "fe/contact/face_contact.h"
 
 #include <cmath>
 
@@ -18,12 +18,17 @@ namespace sprag
     return bar;
   }
 
-  inline FaceStepProperties properties_of(const ElasticBody<2> &body, const bool sprung, const double regularisation_speed)
+  inline Geometry cylinder_below_bar()
   {
     const double R = 6.;
-    FaceStepProperties result;
     // Touching at x = 0: l sin theta + h cos theta = R - e.
-    result.geometry         = { R, 3., 12., (R - 3. - 12. * std::sin(rest_inclination)) / std::cos(rest_inclination) };
+    return { R, 3., 12., (R - 3. - 12. * std::sin(rest_inclination)) / std::cos(rest_inclination) };
+  }
+
+  inline FaceContactProperties properties_of(const ElasticBody<2> &body, const bool sprung, const double regularisation_speed)
+  {
+    FaceContactProperties result;
+    set_cylinder(cylinder_below_bar(), result);
     result.ports            = { 2 * static_cast<unsigned int>(body.friction_face().nodes.size()), sprung };
     result.rest_inclination = rest_inclination;
     result.penalties        = { 240., 120. };

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "bar_on_cylinder.h"
-#include "fe/cylinder_mesh.h"
-#include "fe/lever_ports.h"
+#include "fe/dynamics/lever_ports.h"
+#include "fe/mesh/cylinder_mesh.h"
 
 namespace sprag
 {
@@ -38,7 +38,8 @@ namespace sprag
     std::unique_ptr<ElasticBody<2>> body;
   };
 
-  inline FaceStepProperties pair_properties_of(const ElasticBody<2> &body, const bool sprung, const double regularisation_speed)
+  inline FaceContactProperties pair_properties_of(const ElasticBody<2> &body, const bool sprung,
+                                                  const double regularisation_speed)
   {
     auto result          = properties_of(body, sprung, regularisation_speed);
     result.ports.surface = number_of_surface_ports(body);

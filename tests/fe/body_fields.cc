@@ -1,8 +1,8 @@
-#include "fe/body_fields.h"
+#include "fe/fields/body_fields.h"
 
 #include "bar.h"
-#include "fe/leaf_body.h"
-#include "fe/stress_peaks.h"
+#include "fe/fields/stress_peaks.h"
+#include "fe/leaf/leaf_body.h"
 #include "leaf_beam.h"
 #include "mpi_environment.h"
 

@@ -1,9 +1,11 @@
-#include "fe/cell_elasticity.h"
+#include "fe/body/cell_elasticity.h"
 
-#include "fe/body_fields.h"
-#include "fe/dilatation.h"
-#include "fe/elastic_body.h"
+#include "fe/body/dilatation.h"
+#include "fe/body/elastic_body.h"
+#include "fe/fields/body_fields.h"
 #include "mpi_environment.h"
+#include "support/random_vector.h"
+#include "support/solid.h"
 #include "verification/block.h"
 
 #include <deal.II/dofs/dof_tools.h>
@@ -12,7 +14,6 @@
 
 #include <cmath>
 #include <gtest/gtest.h>
-#include <random>
 
 using namespace sprag;
 
@@ -25,17 +26,6 @@ namespace
   const double nearly_half = 0.4999;
   const double width       = 3.;
 
-  BodyProperties properties_of(const unsigned int degree, const MaterialModel material, const double poisson_ratio)
-  {
-    BodyProperties properties;
-    properties.degree    = degree;
-    properties.plane     = PlaneState::strain;
-    properties.material  = material;
-    properties.width     = width;
-    properties.constants = { { material_id::lever, { 20., poisson_ratio } } };
-    return properties;
-  }
-
   /// Free, of cells that are no parallelograms.
   void make_free_block(dealii::Triangulation<2> &triangulation)
   {
@@ -47,16 +37,6 @@ namespace
         [](const dealii::Point<2> &p)
         { return dealii::Point<2>(p[0] + 0.1 * std::sin(2. * p[0] + p[1]), p[1] + 0.1 * std::sin(3. * p[0])); },
         triangulation);
-  }
-
-  Vector random(const unsigned int n, const double size, const unsigned int seed)
-  {
-    std::mt19937 generator(seed);
-    std::uniform_real_distribution<double> uniform(-size, size);
-    Vector result(n);
-    for (auto &value : result)
-      value = uniform(generator);
-    return result;
   }
 
   /// u = gradient X of all nodes.
@@ -87,30 +67,20 @@ namespace
       result.stiffness(entry.row(), entry.column()) = entry.value();
     return result;
   }
-
-  Gradient gradient(const double a, const double b, const double c, const double d)
-  {
-    Gradient result;
-    result[0][0] = a;
-    result[0][1] = b;
-    result[1][0] = c;
-    result[1][1] = d;
-    return result;
-  }
 } // namespace
 
 TEST(CellElasticity, WhatLocksIsPlaneStrainWithRatiosAboveTwoFifths)
 {
-  auto properties = properties_of(2, MaterialModel::linear, 0.41);
+  auto properties = soft_solid(2, MaterialModel::linear, 0.41);
   EXPECT_TRUE(is_nearly_incompressible(properties, material_id::lever));
   properties.material = MaterialModel::neo_hookean;
   EXPECT_TRUE(is_nearly_incompressible(properties, material_id::lever));
   properties.material = MaterialModel::st_venant_kirchhoff;
   EXPECT_FALSE(is_nearly_incompressible(properties, material_id::lever));
-  properties       = properties_of(2, MaterialModel::linear, 0.49);
+  properties       = soft_solid(2, MaterialModel::linear, 0.49);
   properties.plane = PlaneState::stress;
   EXPECT_FALSE(is_nearly_incompressible(properties, material_id::lever));
-  EXPECT_FALSE(is_nearly_incompressible(properties_of(2, MaterialModel::linear, 0.4), material_id::lever));
+  EXPECT_FALSE(is_nearly_incompressible(soft_solid(2, MaterialModel::linear, 0.4), material_id::lever));
 }
 
 // Together with lambda times the square of the dilatation's derivative.
@@ -144,7 +114,7 @@ TEST(CellElasticity, UniformStrainPassesThePatchTest)
   for (const unsigned int degree : { 1u, 2u })
     for (const auto material : { MaterialModel::linear, MaterialModel::neo_hookean })
     {
-      const ElasticBody<2> body(triangulation, properties_of(degree, material, nearly_half));
+      const ElasticBody<2> body(triangulation, soft_solid(degree, material, nearly_half));
       const auto u         = affine(body, G);
       const Lame constants = plane_constants({ 20., nearly_half }, PlaneState::strain);
       const double density = material == MaterialModel::linear ? 0.5 * scalar_product(linear_elastic<2>(constants, G).piola, G)
@@ -166,7 +136,7 @@ TEST(CellElasticity, OnlyRigidMotionsCostNothing)
   make_free_block(triangulation);
   for (const unsigned int degree : { 1u, 2u })
   {
-    const ElasticBody<2> body(triangulation, properties_of(degree, MaterialModel::linear, nearly_half));
+    const ElasticBody<2> body(triangulation, soft_solid(degree, MaterialModel::linear, nearly_half));
     auto stiffness = assembled(body, Vector(body.n_dofs())).stiffness;
     double largest = 0., asymmetry = 0.;
     for (unsigned int i = 0; i < body.n_dofs(); ++i)
@@ -196,9 +166,9 @@ TEST(CellElasticity, TangentAndForcesAreDerivativesOfTheEnergyAtFiniteStrain)
   make_free_block(triangulation);
   for (const unsigned int degree : { 1u, 2u })
   {
-    const ElasticBody<2> body(triangulation, properties_of(degree, MaterialModel::neo_hookean, nearly_half));
-    const auto u         = random(body.n_dofs(), 0.01, 1);
-    const auto direction = random(body.n_dofs(), 1., 2);
+    const ElasticBody<2> body(triangulation, soft_solid(degree, MaterialModel::neo_hookean, nearly_half));
+    const auto u         = random_vector(body.n_dofs(), 0.01, 1);
+    const auto direction = random_vector(body.n_dofs(), 1., 2);
     const auto at        = assembled(body, u);
     Vector product(body.n_dofs());
     at.stiffness.vmult(product, direction);
@@ -223,7 +193,7 @@ TEST(CellElasticity, LinearDilatationIsItsOwnProjectionAtDegree2)
 {
   dealii::Triangulation<2> triangulation;
   make_block({ 1., 1.5, 2.6, 4. }, { 0., 0.3, 1.2, 2. }, triangulation);
-  const auto properties = properties_of(2, MaterialModel::linear, nearly_half);
+  const auto properties = soft_solid(2, MaterialModel::linear, nearly_half);
   const ElasticBody<2> body(triangulation, properties);
   const auto &fe = body.dofs().get_fe();
   CellElasticity<2> elasticity(body.cell_mapping(), fe, properties);
@@ -249,9 +219,9 @@ TEST(CellElasticity, StressOfFieldsHasTheProjectedPressure)
   make_free_block(triangulation);
   for (const auto material : { MaterialModel::linear, MaterialModel::neo_hookean })
   {
-    const ElasticBody<2> body(triangulation, properties_of(1, material, nearly_half));
+    const ElasticBody<2> body(triangulation, soft_solid(1, material, nearly_half));
     const BodyFields fields(body);
-    const auto nodes = fields.at(random(body.n_dofs(), 0.01, 1));
+    const auto nodes = fields.at(random_vector(body.n_dofs(), 0.01, 1));
     for (std::size_t first = 0; first < nodes.size(); first += 4)
       for (std::size_t i = first + 1; i < first + 4; ++i)
       {

@@ -1,7 +1,8 @@
-#include "fe/condensed_basis.h"
+#include "fe/dynamics/condensed_basis.h"
 
 #include "bar.h"
 #include "mpi_environment.h"
+#include "support/lever_in_time.h"
 
 #include <chrono>
 #include <fcntl.h>
@@ -17,34 +18,9 @@ namespace
 {
   using Vector = dealii::Vector<double>;
 
-  constexpr double spring_stiffness = 1e4;
-
-  LeverDynamics constants_of(const bool sprung)
-  {
-    LeverDynamics result;
-    result.spring_stiffness  = spring_stiffness;
-    result.mass_damping      = 20.;
-    result.stiffness_damping = 1e-7;
-    result.relaxation        = 2e-5;
-    result.modal_damping     = 0.02;
-    result.sprung            = sprung;
-    result.support_mass      = 2e-5;
-    result.support_stiffness = 50.;
-    result.support_damping   = 1e-3;
-    return result;
-  }
-
   BasisSettings settings_of(const unsigned int modes, const std::string &cache = {})
   {
-    return { modes, spring_stiffness, bar_inertia(1e-3, 1e-7), cache, {} };
-  }
-
-  SparseStructure sparse(const ElasticBody<2> &body, const unsigned int modes, const bool sprung)
-  {
-    const auto matrices = std::make_shared<InertialMatrices<2>>(body, bar_inertia(1e-3, 1e-7));
-    dealii::PETScWrappers::SparseMatrix stiffness;
-    matrices->sum({ 0., 1., 0., spring_stiffness }, stiffness);
-    return SparseStructure(body, matrices, free_modes(stiffness, matrices->mass, modes), constants_of(sprung));
+    return { modes, spring_of_bar, bar_inertia(1e-3, 1e-7), cache, {} };
   }
 
   PortForces forces_on(const PortLayout &ports)
@@ -113,8 +89,8 @@ TEST(CondensedBasis, WithAllModesIsTheFiniteElements)
   ASSERT_EQ(basis.stiffness.size(), all);
   for (const bool sprung : { false, true })
   {
-    auto whole = sparse(*bar, all, sprung);
-    ModalStructure condensed(modal_data(basis, constants_of(sprung)));
+    auto whole = sparse_structure(*bar, bar_inertia(1e-3, 1e-7), all, damped_dynamics(sprung));
+    ModalStructure condensed(modal_data(basis, damped_dynamics(sprung)));
     const auto expected = stepped(whole);
     Vector difference   = stepped(condensed);
     difference -= expected;
@@ -130,8 +106,8 @@ TEST(CondensedBasis, WithFewModesHasTheStaticsOfTheFiniteElements)
   const MeshedBar bar({});
   for (const unsigned int modes : { 1u, 3u })
   {
-    auto whole = sparse(*bar, 2, false);
-    ModalStructure condensed(modal_data(make_basis(*bar, settings_of(modes)), constants_of(false)));
+    auto whole = sparse_structure(*bar, bar_inertia(1e-3, 1e-7), 2, damped_dynamics(false));
+    ModalStructure condensed(modal_data(make_basis(*bar, settings_of(modes)), damped_dynamics(false)));
     whole.use_statics();
     condensed.use_statics();
     const auto forces   = forces_on(whole.ports());
@@ -147,8 +123,8 @@ TEST(CondensedBasis, ItsElasticDisplacementIsThatOfTheFiniteElements)
   const MeshedBar bar({});
   const auto settings = settings_of(3);
   const auto basis    = make_basis(*bar, settings);
-  auto whole          = sparse(*bar, 2, false);
-  ModalStructure condensed(modal_data(basis, constants_of(false)));
+  auto whole          = sparse_structure(*bar, bar_inertia(1e-3, 1e-7), 2, damped_dynamics(false));
+  ModalStructure condensed(modal_data(basis, damped_dynamics(false)));
   whole.use_statics();
   condensed.use_statics();
   const auto forces   = forces_on(whole.ports());

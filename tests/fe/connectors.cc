@@ -1,8 +1,8 @@
-#include "fe/connectors.h"
+#include "fe/body/connectors.h"
 
 #include "base/errors.h"
-#include "fe/compressed_rows.h"
-#include "fe/mumps.h"
+#include "fe/algebra/compressed_rows.h"
+#include "fe/algebra/mumps.h"
 #include "mpi_environment.h"
 #include "plate.h"
 

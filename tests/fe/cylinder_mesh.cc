@@ -1,8 +1,8 @@
-#include "fe/cylinder_mesh.h"
+#include "fe/mesh/cylinder_mesh.h"
 
 #include "bar_on_elastic_cylinder.h"
 #include "base/errors.h"
-#include "fe/inertial_matrices.h"
+#include "fe/dynamics/inertial_matrices.h"
 #include "mpi_environment.h"
 
 #include <deal.II/base/quadrature_lib.h>

@@ -1,7 +1,7 @@
 // Files that were cut short or in which bits were turned over: what reads them refuses or takes them, and comes back.
 #include "base/errors.h"
-#include "fe/basis_file.h"
-#include "fe/geometry_script.h"
+#include "fe/dynamics/basis_file.h"
+#include "fe/mesh/geometry_script.h"
 
 #include "mpi_environment.h"
 

@@ -1,4 +1,4 @@
-#include "fe/effective_bending.h"
+#include "fe/body/effective_bending.h"
 
 #include "fe/bar.h"
 

@@ -1,7 +1,9 @@
-#include "fe/elastic_body.h"
+#include "fe/body/elastic_body.h"
 
-#include "fe/mumps.h"
+#include "fe/algebra/mumps.h"
 #include "mpi_environment.h"
+#include "support/random_vector.h"
+#include "support/solid.h"
 #include "verification/block.h"
 
 #include <deal.II/dofs/dof_tools.h>
@@ -9,7 +11,6 @@
 
 #include <cmath>
 #include <gtest/gtest.h>
-#include <random>
 
 using namespace sprag;
 
@@ -18,17 +19,6 @@ namespace
   using Matrix       = dealii::PETScWrappers::SparseMatrix;
   using Vector       = dealii::Vector<double>;
   const double width = 3.;
-
-  BodyProperties properties_of(const unsigned int degree, const MaterialModel material, const double poisson_ratio)
-  {
-    BodyProperties properties;
-    properties.degree    = degree;
-    properties.plane     = PlaneState::strain;
-    properties.material  = material;
-    properties.width     = width;
-    properties.constants = { { material_id::lever, { 20., poisson_ratio } } };
-    return properties;
-  }
 
   /// 4 x 2 mm, cells of unequal size and, for generality, not rectangular.
   void make_small_block(dealii::Triangulation<2> &triangulation)
@@ -43,11 +33,7 @@ namespace
   /// Displacements with none on the held side.
   Vector random_displacement(const ElasticBody<2> &body, const double size, const unsigned int seed)
   {
-    std::mt19937 generator(seed);
-    std::uniform_real_distribution<double> uniform(-size, size);
-    Vector result(body.n_dofs());
-    for (auto &value : result)
-      value = uniform(generator);
+    Vector result   = random_vector(body.n_dofs(), size, seed);
     const auto held = dealii::DoFTools::extract_boundary_dofs(body.dofs(), {}, { boundary_id::hub });
     for (const auto dof : held)
       result[dof] = 0.;
@@ -73,7 +59,7 @@ TEST(ElasticBody, LinearForcesAreStiffnessTimesDisplacement)
   make_small_block(triangulation);
   for (const unsigned int degree : { 1u, 2u })
   {
-    const ElasticBody<2> body(triangulation, properties_of(degree, MaterialModel::linear, 0.3));
+    const ElasticBody<2> body(triangulation, soft_solid(degree, MaterialModel::linear, 0.3));
     const auto displacement      = random_displacement(body, 1., 1);
     const auto [product, forces] = product_and_forces(body, displacement, displacement);
     Vector difference            = product;
@@ -91,7 +77,7 @@ TEST(ElasticBody, TangentIsTheDerivativeOfTheForcesAtFiniteStrain)
   make_small_block(triangulation);
   for (const unsigned int degree : { 1u, 2u })
   {
-    const ElasticBody<2> body(triangulation, properties_of(degree, MaterialModel::neo_hookean, 0.3));
+    const ElasticBody<2> body(triangulation, soft_solid(degree, MaterialModel::neo_hookean, 0.3));
     const auto displacement = random_displacement(body, 0.02, 1);
     const auto direction    = random_displacement(body, 1., 2);
     const auto product      = product_and_forces(body, displacement, direction).first;
@@ -113,7 +99,7 @@ TEST(ElasticBody, ForcesAreTheDerivativeOfTheEnergyAtFiniteStrain)
 {
   dealii::Triangulation<2> triangulation;
   make_small_block(triangulation);
-  const ElasticBody<2> body(triangulation, properties_of(2, MaterialModel::neo_hookean, 0.3));
+  const ElasticBody<2> body(triangulation, soft_solid(2, MaterialModel::neo_hookean, 0.3));
   const auto displacement = random_displacement(body, 0.02, 1);
   const auto direction    = random_displacement(body, 1., 2);
   const double exact      = product_and_forces(body, displacement, direction).second * direction;
@@ -134,7 +120,7 @@ TEST(ElasticBody, RigidMotionsOfAFreeBodyCostNothing)
   for (const auto &face : triangulation.active_face_iterators())
     if (face->at_boundary())
       face->set_boundary_id(0);
-  const ElasticBody<2> body(triangulation, properties_of(1, MaterialModel::neo_hookean, 0.3));
+  const ElasticBody<2> body(triangulation, soft_solid(1, MaterialModel::neo_hookean, 0.3));
   Vector turned(body.n_dofs());
   const double angle = 0.7;
   for (const auto &cell : body.dofs().active_cell_iterators())
@@ -153,7 +139,7 @@ TEST(ElasticBody, HeldNodesAreNotMovedByAnything)
 {
   dealii::Triangulation<2> triangulation;
   make_small_block(triangulation);
-  const ElasticBody<2> body(triangulation, properties_of(1, MaterialModel::linear, 0.3));
+  const ElasticBody<2> body(triangulation, soft_solid(1, MaterialModel::linear, 0.3));
   Matrix matrix;
   body.reinit(matrix, 1);
   Vector forces(body.n_dofs() + 1);
@@ -173,7 +159,7 @@ TEST(ElasticBody, MassAndInertiaOfARectangleAreExact)
 {
   dealii::Triangulation<2> triangulation;
   make_block({ 1., 1.5, 2.6, 4., 5. }, { 0., 0.3, 1.2, 2. }, triangulation);
-  const ElasticBody<2> body(triangulation, properties_of(1, MaterialModel::linear, 0.3));
+  const ElasticBody<2> body(triangulation, soft_solid(1, MaterialModel::linear, 0.3));
   const auto [mass, inertia] = body.mass_and_inertia(2.7e-9);
   const double expected      = 2.7e-9 * 4. * 2. * width;
   EXPECT_NEAR(mass, expected, 1e-14 * expected);
@@ -187,7 +173,7 @@ TEST(ElasticBody, PointsOfTheFaceStandForItsAreaAndAreOrdered)
   make_block({ 1., 1.5, 2.6, 4., 5. }, { 0.2, 1.2, 2. }, triangulation);
   for (const unsigned int degree : { 1u, 2u })
   {
-    const ElasticBody<2> body(triangulation, properties_of(degree, MaterialModel::linear, 0.3));
+    const ElasticBody<2> body(triangulation, soft_solid(degree, MaterialModel::linear, 0.3));
     const auto &face = body.friction_face();
     double area      = 0.;
     double last      = 0.;
@@ -213,7 +199,7 @@ TEST(ElasticBody, UniformPressureIsIntegratedExactly)
   make_block({ 1., 1.5, 2.6 }, { 0., 1. }, triangulation);
   for (const unsigned int degree : { 1u, 2u })
   {
-    const ElasticBody<2> body(triangulation, properties_of(degree, MaterialModel::linear, 0.));
+    const ElasticBody<2> body(triangulation, soft_solid(degree, MaterialModel::linear, 0.));
     const auto &face = body.friction_face();
     std::map<double, double> areas;
     for (const auto &point : face.points)
@@ -235,7 +221,7 @@ TEST(ElasticBody, PressedBlockShortensEvenly)
   make_small_block(triangulation);
   for (const unsigned int degree : { 1u, 2u })
   {
-    const ElasticBody<2> body(triangulation, properties_of(degree, MaterialModel::linear, 0.));
+    const ElasticBody<2> body(triangulation, soft_solid(degree, MaterialModel::linear, 0.));
     const auto &face = body.friction_face();
     Matrix matrix;
     body.reinit(matrix, 0);
@@ -272,7 +258,7 @@ TEST(ElasticBody, CellsOfTheHubDoNotMove)
           face->set_boundary_id(0);
       }
     }
-  const ElasticBody<2> body(triangulation, properties_of(1, MaterialModel::linear, 0.3));
+  const ElasticBody<2> body(triangulation, soft_solid(1, MaterialModel::linear, 0.3));
   // Of the four nodes on the lower side the hub holds the first two.
   EXPECT_EQ(body.friction_face().nodes.size(), 2u);
   EXPECT_EQ(body.friction_face().patches.size(), 2u);

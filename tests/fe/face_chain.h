@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fe/friction_face.h"
+#include "fe/body/friction_face.h"
 #include "model/circle.h"
 
 #include <cmath>

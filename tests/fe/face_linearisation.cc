@@ -1,4 +1,4 @@
-#include "fe/face_step.h"
+#include "fe/contact/face_contact.h"
 
 #include "bar_on_cylinder.h"
 #include "mpi_environment.h"
@@ -21,7 +21,7 @@ namespace
     return result;
   }
 
-  PortForces forces_of(FaceStepContact &contact, const SlidingState &state)
+  PortForces forces_of(FaceContact &contact, const SlidingState &state)
   {
     contact.evaluate_sliding(state);
     return contact.forces();
@@ -38,7 +38,7 @@ TEST(FaceLinearisation, RatesAreTheDerivativeOfTheForcesByVelocities)
       for (const double speed : { 100., -100. })
       {
         const auto properties = properties_of(*bar, sprung, regularisation);
-        FaceStepContact contact(*bar, properties);
+        FaceContact contact(*bar, properties);
         const Vector ports = pressed(properties.ports, 0.01);
         const DrivePoint drive{ 0., 0., speed, 0. };
         const auto with_rates = [&](const Vector &rates) {
@@ -76,7 +76,7 @@ TEST(FaceLinearisation, FrictionThatGrowsWithSpeedIsDelayedAsInSteps)
       for (const double dt : { 1e-5, 1e-4 })
       {
         const auto properties = properties_of(*bar, sprung, 0.);
-        FaceStepContact contact(*bar, properties);
+        FaceContact contact(*bar, properties);
         const Vector at = pressed(properties.ports, 0.01);
         PortPerturbation linear;
         const auto part = [&](const TangentPart wanted) {
@@ -133,7 +133,7 @@ TEST(FaceLinearisation, StuckIsTheTangentOfAStepInStick)
   for (const bool sprung : { false, true })
   {
     const auto properties = properties_of(*bar, sprung, 0.);
-    FaceStepContact contact(*bar, properties);
+    FaceContact contact(*bar, properties);
     const Vector ports = pressed(properties.ports, 0.01);
     const DrivePoint drive{ 0., 0., 0., 0. };
     const auto linear = forces_of(contact, { ports, drive, 100., nullptr, ContactFriction::stuck, TangentPart::all });
@@ -154,7 +154,7 @@ TEST(FaceLinearisation, IsNothingOutOfContact)
 {
   const MeshedBar bar(bar_on_cylinder());
   const auto properties = properties_of(*bar, true, 0.);
-  FaceStepContact contact(*bar, properties);
+  FaceContact contact(*bar, properties);
   const Vector ports = pressed(properties.ports, -0.1);
   const DrivePoint drive{ 0., 0., 100., 0. };
   for (const auto part :

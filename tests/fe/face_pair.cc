@@ -1,4 +1,4 @@
-#include "fe/face_pair_rows.h"
+#include "fe/contact/face_pair_rows.h"
 
 #include "face_chain.h"
 

@@ -1,7 +1,7 @@
-#include "fe/free_modes.h"
-#include "fe/inertial_matrices.h"
-#include "fe/lever_model.h"
-#include "fe/mesh.h"
+#include "fe/algebra/free_modes.h"
+#include "fe/dynamics/inertial_matrices.h"
+#include "fe/mesh/mesh.h"
+#include "fe/statics/lever_model.h"
 #include "mpi_environment.h"
 #include "scenes.h"
 

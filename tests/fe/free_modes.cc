@@ -1,7 +1,7 @@
-#include "fe/free_modes.h"
+#include "fe/algebra/free_modes.h"
 
 #include "bar.h"
-#include "fe/compressed_rows.h"
+#include "fe/algebra/compressed_rows.h"
 #include "mpi_environment.h"
 
 #include <cmath>

@@ -1,8 +1,8 @@
-#include "fe/inertial_matrices.h"
+#include "fe/dynamics/inertial_matrices.h"
 
 #include "bar.h"
 #include "base/errors.h"
-#include "fe/compressed_rows.h"
+#include "fe/algebra/compressed_rows.h"
 #include "mpi_environment.h"
 
 #include <gtest/gtest.h>

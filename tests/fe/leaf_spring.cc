@@ -1,7 +1,7 @@
-#include "fe/leaf_spring.h"
+#include "fe/leaf/leaf_spring.h"
 
 #include "base/errors.h"
-#include "fe/leaf_body.h"
+#include "fe/leaf/leaf_body.h"
 #include "leaf_beam.h"
 #include "mpi_environment.h"
 #include "scene/closed_form.h"

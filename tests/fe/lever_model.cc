@@ -1,13 +1,15 @@
-#include "fe/lever_model.h"
+#include "fe/statics/lever_model.h"
 
 #include "fe/meshed.h"
 #include "mpi_environment.h"
 #include "scene/closed_form.h"
 #include "scenes.h"
+#include "support/newton_step.h"
+#include "support/quadratic_return.h"
+#include "support/random_vector.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
-#include <random>
 
 using namespace sprag;
 
@@ -48,32 +50,6 @@ namespace
     return { x / 112., x, 112. };
   }
 
-  /// Newton's method from `trial`, halving a correction until the unbalance falls, to round-off. False if it ends elsewhere.
-  bool solve(Model &model, State &trial, const State &accepted, const bool stick_first)
-  {
-    double norm = model.evaluate(trial, accepted, stick_first ? FrictionMode::stick : FrictionMode::cone).norm;
-    for (unsigned int i = 0; i < 40; ++i)
-    {
-      const auto correction = model.correction();
-      const double movement = model.movement(correction);
-      const bool full       = movement <= 1e-10 || (stick_first && i == 0);
-      const Vector from     = trial.coordinates;
-      double next           = norm;
-      for (double share = 1.; share > 0.01; share *= 0.5)
-      {
-        trial.coordinates = from;
-        trial.coordinates.add(share, correction);
-        next = model.evaluate(trial, accepted, FrictionMode::cone).norm;
-        if (full || next < norm)
-          break;
-      }
-      norm = next;
-      if (movement <= 1e-12)
-        return true;
-    }
-    return false;
-  }
-
   /// Equilibrium of a step from the accepted state, memory not yet committed.
   State solved(Model &model, const State &accepted, const DrivePoint &drive)
   {
@@ -81,10 +57,10 @@ namespace
     guess.drive = drive;
     model.predict(guess, accepted);
     State trial = guess;
-    if (!solve(model, trial, accepted, drive.v < 0.))
+    if (!solve_step(model, trial, accepted, drive.v < 0. ? FrictionMode::stick : FrictionMode::cone))
     {
       trial = guess;
-      EXPECT_TRUE(solve(model, trial, accepted, drive.v > 0.)) << "x " << drive.x;
+      EXPECT_TRUE(solve_step(model, trial, accepted, drive.v > 0. ? FrictionMode::stick : FrictionMode::cone)) << "x " << drive.x;
     }
     return trial;
   }
@@ -92,13 +68,7 @@ namespace
   /// Accepted after sliding forward to 20 mm.
   State slid(Model &model)
   {
-    State accepted = model.initial_state(forward_to(0.));
-    for (const double x : { 5., 10., 15., 20. })
-    {
-      accepted         = solved(model, accepted, forward_to(x));
-      accepted.contact = model.memory();
-    }
-    return accepted;
+    return slid_forward(model, solved);
   }
 
   /// Back by dx after forward sliding to 20 mm.
@@ -110,11 +80,7 @@ namespace
   /// A movement of 1 mm of everything that can move.
   Vector random_direction(const State &state, const LeverModel &model, const bool sprung)
   {
-    std::mt19937 generator(1);
-    std::uniform_real_distribution<double> uniform(-1., 1.);
-    Vector result(state.coordinates.size());
-    for (auto &value : result)
-      value = uniform(generator);
+    Vector result               = random_vector(state.coordinates.size(), 1., 1);
     const auto &body            = model.elastic_body();
     const unsigned int rotation = result.size() - (sprung ? 2 : 1);
     if (rotation == body.n_dofs())
@@ -126,22 +92,9 @@ namespace
     return result;
   }
 
-  // From h away from an equilibrium a consistent correction returns but for a share of it proportional to h, as long as no point
-  // changes between stick, slip and separation. Points are 0.01 mm apart and the overlap (some 1e-3 mm) falls to 0 along the
-  // circle (56 mm) at a slope of 1e-2: within 1e-5 mm no more than a point in a hundred changes, and its pressure is then small.
-  // A tangent wrong in one term leaves a share that does not depend on h.
-  void expect_quadratic_return(LeverModel &model, const State &equilibrium, const State &accepted, const bool sprung)
+  void expect_return(LeverModel &model, const State &equilibrium, const State &accepted, const bool sprung)
   {
-    const auto direction = random_direction(equilibrium, model, sprung);
-    for (const double h : { 1e-6, 1e-7 })
-    {
-      State trial = equilibrium;
-      trial.coordinates.add(h, direction);
-      model.evaluate(trial, accepted, FrictionMode::cone);
-      Vector left = model.correction();
-      left.add(h, direction);
-      EXPECT_LE(model.movement(left), (5e3 * h + 1e-12 / h) * h) << "h " << h;
-    }
+    expect_quadratic_return(model, equilibrium, accepted, random_direction(equilibrium, model, sprung));
   }
 
   void expect_consistent_tangent(const Scene &scene)
@@ -155,17 +108,17 @@ namespace
       Row row;
       model.observe(sliding, row);
       ASSERT_GT(row[Column::P], 0.);
-      expect_quadratic_return(model, sliding, accepted, sprung);
+      expect_return(model, sliding, accepted, sprung);
     }
     {
       // Of the passage through stick, some hundredths of a millimetre, only a beginning: all points stick.
       const auto sticking = solved(model, accepted, back_by(1e-4));
-      expect_quadratic_return(model, sticking, accepted, sprung);
+      expect_return(model, sticking, accepted, sprung);
     }
     {
       // Further on: some stick, some slip.
       const auto both = solved(model, accepted, back_by(5e-3));
-      expect_quadratic_return(model, both, accepted, sprung);
+      expect_return(model, both, accepted, sprung);
     }
   }
 } // namespace
@@ -219,12 +172,11 @@ TEST(LeverModel, ApartTheSpringReturnsTheLeverInOneCorrection)
   }
 }
 
-TEST(LeverModel, ATriedStepLeavesTheAcceptedStateAndTheNextStepAsTheyWere)
+TEST(LeverModel, ATriedStepLeavesTheNextStepAsItWas)
 {
   MeshedLever meshed(coarse_scene(Solution::automatic));
   auto &model         = meshed.model;
   const auto accepted = slid(model);
-  const State before  = accepted;
   const auto direct   = solved(model, accepted, forward_to(21.));
   const auto memory   = model.memory();
 
@@ -236,20 +188,12 @@ TEST(LeverModel, ATriedStepLeavesTheAcceptedStateAndTheNextStepAsTheyWere)
   model.augment(trial);
   model.correction();
 
-  EXPECT_TRUE(accepted.coordinates == before.coordinates);
-  ASSERT_EQ(accepted.contact.size(), before.contact.size());
-  for (std::size_t q = 0; q < accepted.contact.size(); ++q)
-  {
-    EXPECT_EQ(accepted.contact[q].slip, before.contact[q].slip);
-    EXPECT_EQ(accepted.contact[q].traction, before.contact[q].traction);
-    EXPECT_EQ(accepted.contact[q].normal_multiplier, before.contact[q].normal_multiplier);
-  }
   const auto again        = solved(model, accepted, forward_to(21.));
   const auto memory_again = model.memory();
   EXPECT_TRUE(again.coordinates == direct.coordinates);
+  EXPECT_FALSE(memory.empty());
   for (std::size_t q = 0; q < memory.size(); ++q)
   {
-    ASSERT_EQ(memory[q].slip, memory_again[q].slip);
     ASSERT_EQ(memory[q].traction, memory_again[q].traction);
   }
 }

@@ -1,6 +1,7 @@
-#include "fe/material.h"
+#include "fe/body/material.h"
 
 #include "base/errors.h"
+#include "support/solid.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -12,16 +13,6 @@ namespace
   using Gradient = dealii::Tensor<2, 2>;
 
   const Lame constants = plane_constants({ 20., 0.3 }, PlaneState::strain);
-
-  Gradient gradient(const double a, const double b, const double c, const double d)
-  {
-    Gradient result;
-    result[0][0] = a;
-    result[0][1] = b;
-    result[1][0] = c;
-    result[1][1] = d;
-    return result;
-  }
 
   const std::vector<Gradient> deformations = { gradient(1., 0., 0., 1.), gradient(1.1, 0.2, -0.1, 0.9),
                                                gradient(0.6, -0.5, 0.7, 1.4), gradient(1.02, 0.01, 0.03, 0.97) };

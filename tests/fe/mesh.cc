@@ -1,7 +1,7 @@
-#include "fe/mesh.h"
+#include "fe/mesh/mesh.h"
 
 #include "base/errors.h"
-#include "fe/body_properties.h"
+#include "fe/body/body_properties.h"
 #include "scenes.h"
 
 #include <cmath>

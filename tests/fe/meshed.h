@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fe/mesh.h"
+#include "fe/mesh/mesh.h"
 
 namespace sprag
 {

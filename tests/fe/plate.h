@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fe/inertial_matrices.h"
+#include "fe/dynamics/inertial_matrices.h"
 
 #include <deal.II/grid/grid_generator.h>
 #include <deal.II/grid/tria.h>

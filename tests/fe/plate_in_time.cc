@@ -1,9 +1,10 @@
-#include "fe/compressed_rows.h"
-#include "fe/condensed_basis.h"
-#include "fe/sparse_structure.h"
+#include "fe/algebra/compressed_rows.h"
+#include "fe/dynamics/condensed_basis.h"
+#include "fe/dynamics/sparse_structure.h"
 #include "model/modal_structure.h"
 #include "mpi_environment.h"
 #include "plate.h"
+#include "support/lever_in_time.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_values.h>
@@ -15,26 +16,6 @@ using namespace sprag;
 namespace
 {
   using Vector = dealii::Vector<double>;
-
-  constexpr double spring_stiffness = 1e4;
-
-  LeverDynamics constants_of(const bool sprung)
-  {
-    LeverDynamics result;
-    result.spring_stiffness  = spring_stiffness;
-    result.sprung            = sprung;
-    result.support_mass      = 2e-5;
-    result.support_stiffness = 50.;
-    return result;
-  }
-
-  SparseStructure finite_elements(const ElasticBody<2> &body, const unsigned int modes, const bool sprung)
-  {
-    const auto matrices = std::make_shared<InertialMatrices<2>>(body, plate_inertia());
-    dealii::PETScWrappers::SparseMatrix stiffness;
-    matrices->sum({ 0., 1., 0., spring_stiffness }, stiffness);
-    return SparseStructure(body, matrices, free_modes(stiffness, matrices->mass, modes), constants_of(sprung));
-  }
 
   /// On some nodes of the friction face, growing.
   PortForces forces_of(const unsigned int step)
@@ -99,7 +80,7 @@ TEST(PlateInTime, ContactLessSensorsIsThePlatesInertia)
 {
   const PlateOnBar scene;
   const MeshedPlate plate(scene);
-  auto structure     = finite_elements(*plate, 4, false);
+  auto structure     = sparse_structure(*plate, plate_inertia(), 4, undamped_dynamics(false));
   const auto &layout = structure.ports();
   ASSERT_EQ(layout.sensors, 2u);
   const auto momentum = momentum_of_plate(*plate, plate_inertia());
@@ -125,7 +106,7 @@ TEST(PlateInTime, SensorsAreOnlyReadButAnswerAsPorts)
   const MeshedPlate plate(scene);
   for (const bool sprung : { false, true })
   {
-    auto structure     = finite_elements(*plate, 4, sprung);
+    auto structure     = sparse_structure(*plate, plate_inertia(), 4, undamped_dynamics(sprung));
     const auto &layout = structure.ports();
     structure.use_statics();
     const auto forces = forces_of(0);
@@ -155,7 +136,7 @@ TEST(PlateInTime, CondensedSensorsAreThoseOfTheFiniteElements)
   const unsigned int all = TotalCoordinates<2>(*plate).size();
   for (const bool sprung : { false, true })
   {
-    auto whole         = finite_elements(*plate, 4, sprung);
+    auto whole         = sparse_structure(*plate, plate_inertia(), 4, undamped_dynamics(sprung));
     const auto layout  = whole.ports();
     const auto sensors = [&](auto &structure)
     {
@@ -167,8 +148,8 @@ TEST(PlateInTime, CondensedSensorsAreThoseOfTheFiniteElements)
     const auto expected = sensors(whole);
     const auto error    = [&](const unsigned int modes)
     {
-      const auto basis = make_basis(*plate, { modes, spring_stiffness, plate_inertia(), {}, {} });
-      ModalStructure condensed(modal_data(basis, constants_of(sprung)));
+      const auto basis = make_basis(*plate, { modes, spring_of_bar, plate_inertia(), {}, {} });
+      ModalStructure condensed(modal_data(basis, undamped_dynamics(sprung)));
       EXPECT_EQ(condensed.ports().sensors, 2u);
       EXPECT_EQ(condensed.ports().rotation(), layout.rotation());
       const auto found = sensors(condensed);
@@ -188,8 +169,8 @@ TEST(PlateInTime, CondensedStaticsAreExactWithAnyNumberOfModes)
 {
   const PlateOnBar scene;
   const MeshedPlate plate(scene);
-  const auto basis = make_basis(*plate, { 3, spring_stiffness, plate_inertia(), {}, {} });
-  ModalStructure condensed(modal_data(basis, constants_of(false)));
+  const auto basis = make_basis(*plate, { 3, spring_of_bar, plate_inertia(), {}, {} });
+  ModalStructure condensed(modal_data(basis, undamped_dynamics(false)));
   condensed.use_statics();
   const auto forces = forces_of(0);
   const auto ports  = condensed.port_positions(condensed.deform(forces));

@@ -1,10 +1,11 @@
-#include "fe/sparse_structure.h"
+#include "fe/dynamics/sparse_structure.h"
 
 #include "bar.h"
 #include "mpi_environment.h"
+#include "support/lever_in_time.h"
+#include "support/random_vector.h"
 
 #include <gtest/gtest.h>
-#include <random>
 
 using namespace sprag;
 
@@ -13,46 +14,24 @@ namespace
   using Vector = dealii::Vector<double>;
   using Full   = dealii::FullMatrix<double>;
 
-  LeverDynamics constants_of(const bool sprung)
-  {
-    LeverDynamics result;
-    result.spring_stiffness  = 1e4;
-    result.mass_damping      = 20.;
-    result.stiffness_damping = 1e-7;
-    result.relaxation        = 2e-5;
-    result.modal_damping     = 0.02;
-    result.sprung            = sprung;
-    result.support_mass      = 2e-5;
-    result.support_stiffness = 50.;
-    result.support_damping   = 1e-3;
-    return result;
-  }
-
   /// A small lever with what its parts are made of.
   class SmallLever
   {
   public:
     explicit SmallLever(const bool sprung)
-        : SmallLever(constants_of(sprung))
+        : SmallLever(damped_dynamics(sprung))
     {
     }
 
     explicit SmallLever(const LeverDynamics &lever_constants)
         : constants(lever_constants)
         , matrices(std::make_shared<InertialMatrices<2>>(*bar, bar_inertia(1e-3, 1e-7)))
-        , modes(find_modes(5))
+        , modes(modes_on_spring(*matrices, 5))
         , structure(*bar, matrices, modes, constants)
     {
     }
 
   private:
-    FreeModes find_modes(const unsigned int n) const
-    {
-      dealii::PETScWrappers::SparseMatrix stiffness;
-      matrices->sum({ 0., 1., 0., constants.spring_stiffness }, stiffness);
-      return free_modes(stiffness, matrices->mass, n);
-    }
-
     const MeshedBar bar{ Bar{} };
 
   public:
@@ -61,16 +40,6 @@ namespace
     const FreeModes modes;
     SparseStructure structure;
   };
-
-  Vector random_vector(const unsigned int n, const double size, const unsigned int seed)
-  {
-    std::mt19937 generator(seed);
-    std::uniform_real_distribution<double> uniform(-size, size);
-    Vector result(n);
-    for (auto &value : result)
-      value = uniform(generator);
-    return result;
-  }
 
   /// Not in equilibrium: displacements of 0.01 mm that turn into each other in 1e-4 s.
   Motion random_motion(const SparseStructure &structure)

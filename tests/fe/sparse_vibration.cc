@@ -1,8 +1,8 @@
-#include "fe/sparse_vibration.h"
+#include "fe/dynamics/sparse_vibration.h"
 
 #include "bar.h"
 #include "base/eigenvalues.h"
-#include "fe/condensed_basis.h"
+#include "fe/dynamics/condensed_basis.h"
 #include "mpi_environment.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "bar.h"
 #include "base/errors.h"
-#include "fe/compressed_rows.h"
+#include "fe/algebra/compressed_rows.h"
 #include "mpi_environment.h"
 
 #include <deal.II/dofs/dof_tools.h>

@@ -1,5 +1,7 @@
 #include "laws/moment_law.h"
 
+#include "support/hardening.h"
+
 #include <cmath>
 #include <gtest/gtest.h>
 
@@ -10,16 +12,9 @@ namespace
   constexpr double k = 7.4e4;
   constexpr double c = 3e6;
 
-  /// M = k phi + c phi^3, which cubic interpolation meets.
   MomentLaw hardening()
   {
-    std::vector<MomentLaw::Sample> samples;
-    for (int i = -4; i <= 6; ++i)
-    {
-      const double turn = 0.01 * i;
-      samples.push_back({ turn, k * turn + c * std::pow(turn, 3), k + 3. * c * turn * turn });
-    }
-    return MomentLaw(k, samples);
+    return cubic_hardening(k, c, -4, 6);
   }
 } // namespace
 

@@ -1,4 +1,4 @@
-#include "model/contact_point.h"
+#include "model/contact_step.h"
 
 #include "model/circle.h"
 
@@ -28,7 +28,8 @@ namespace
   {
     double gap;
     ContactMemory memory;
-    ContactLaw law;
+    StepContactLaw law;
+    double slip_begin = 0.;
 
     ContactKinematics<n> kinematics(const Coordinates &q = {}) const
     {
@@ -36,9 +37,11 @@ namespace
       return circle_contact(geometry, { point.xi + q[0], point.eta + q[1] }, x, theta + q[2]);
     }
 
-    ContactResponse<n> response(const Coordinates &q = {}, const FrictionMode mode = FrictionMode::cone) const
+    StepResponse<n> response(const Coordinates &q = {}, const FrictionMode mode = FrictionMode::cone) const
     {
-      return contact_response(kinematics(q), memory, law, mode);
+      StepContactLaw in_mode = law;
+      in_mode.mode           = mode;
+      return step_response(step_to(kinematics(q), slip_begin), memory, in_mode);
     }
   };
 
@@ -48,8 +51,13 @@ namespace
   /// Pressure 2 MPa from the gap (`multiplier` + 500 N/mm^3 gap) and a slip of `slip` mm in a step of 1 mm at 112 mm/s.
   Case make_case(const double multiplier, const double slip, const double traction, const FrictionLaw &friction)
   {
-    Case result{ (multiplier - 2.) / 500., { multiplier, traction, 0. }, { 500., 300., friction, 1. / 112. } };
-    result.memory.slip = result.kinematics().slip - slip;
+    Case result{ (multiplier - 2.) / 500., { multiplier, traction }, {} };
+    result.law.normal     = { 500., 1. };
+    result.law.tangential = 300.;
+    result.law.friction   = friction;
+    result.law.weights.dt = 1. / 112.;
+    result.law.balance    = ForceBalance::end;
+    result.slip_begin     = result.kinematics().slip - slip;
     return result;
   }
 

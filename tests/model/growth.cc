@@ -79,7 +79,10 @@ TEST(Growth, SharesAddUp)
   for (const auto &scene : levers())
     for (const double direction : { 1., -1. })
       for (const double x : { 10., 65. })
-        for (const auto &mode : modes_at(scene, x, direction))
+      {
+        const auto modes = modes_at(scene, x, direction);
+        EXPECT_FALSE(modes.empty());
+        for (const auto &mode : modes)
         {
           const Complex lambda = mode.mode.eigenvalue;
           EXPECT_NEAR(sum(mode.growth), lambda.real(), 5e-10 * std::abs(lambda)) << lambda;
@@ -88,12 +91,16 @@ TEST(Growth, SharesAddUp)
           EXPECT_LE(mode.growth.contact_damping, 0.);
           EXPECT_LT(mode.mode.residual, 1e-10) << lambda;
         }
+      }
 }
 
 TEST(Growth, OnlyDampingIsLeftWithoutFriction)
 {
   for (const auto &scene : levers())
-    for (const auto &mode : modes_at(scene, 65., -1., ContactFriction::none))
+  {
+    const auto modes = modes_at(scene, 65., -1., ContactFriction::none);
+    EXPECT_FALSE(modes.empty());
+    for (const auto &mode : modes)
     {
       EXPECT_EQ(mode.growth.friction_rotation, 0.);
       EXPECT_EQ(mode.growth.friction_bending, 0.);
@@ -101,6 +108,7 @@ TEST(Growth, OnlyDampingIsLeftWithoutFriction)
       EXPECT_EQ(mode.growth.friction_speed, 0.);
       EXPECT_LT(mode.mode.eigenvalue.real(), 0.);
     }
+  }
 }
 
 // A flutter of the undamped lever under constant mu is fed by friction as it follows displacements and by nothing else.

@@ -3,6 +3,8 @@
 #include "model/beam.h"
 #include "scenes.h"
 
+#include "support/hardening.h"
+
 #include <cmath>
 #include <gtest/gtest.h>
 
@@ -20,13 +22,7 @@ namespace
 
   MomentLaw hardening()
   {
-    std::vector<MomentLaw::Sample> samples;
-    for (int i = -10; i <= 10; ++i)
-    {
-      const double turn = 0.01 * i;
-      samples.push_back({ turn, k * turn + c * std::pow(turn, 3), k + 3. * c * turn * turn });
-    }
-    return MomentLaw(k, samples);
+    return cubic_hardening(k, c, -10, 10);
   }
 
   /// On the rotation, 4, and on others.

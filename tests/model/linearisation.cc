@@ -293,6 +293,15 @@ TEST(Linearisation, IsNothingOutOfContact)
   }
 }
 
+// As of a lever that is held out of contact: matrices without rows, which libraries' assertions do not take everywhere.
+TEST(Linearisation, WithoutPortsIsEmpty)
+{
+  const PortPerturbation open;
+  for (const Full &sum : { open.stiffness(), open.damping(), open.immediate_stiffness(), open.immediate_damping() })
+    EXPECT_TRUE(sum.empty());
+  EXPECT_TRUE(open.forces({ -1., 20. }, {}).empty());
+}
+
 TEST(Linearisation, InertiaOfTheCouplingIsTheDerivativeOfItsForcesByAccelerations)
 {
   const PortLayout layout{ 4, true };

@@ -189,6 +189,29 @@ TEST(ModalVibration, FulfilsTheEquationOfThePorts)
   }
 }
 
+// Two of three static shapes bear no force: they creep back at -1 / relaxation, where their elastic force is 0 / 0.
+TEST(ModalVibration, CreepWithoutAForceIsNoMode)
+{
+  auto data = two_modes(10., 400.);
+  data.face_compliance.reinit(3, 3);
+  for (unsigned int i = 0; i < 3; ++i)
+    data.face_compliance(i, i) = 0.02;
+  data.relaxation       = 0.01;
+  auto forces           = no_forces({ 0, 1, 2 });
+  forces.pressure(0, 0) = -5.;
+  const auto modes      = modal_vibrations(data, forces);
+  // Two vibrations, and one shape that creeps under its force.
+  ASSERT_EQ(modes.size(), 3u);
+  for (const auto &mode : modes)
+  {
+    EXPECT_GT(std::abs(1. + mode.eigenvalue * data.relaxation), 1e-3) << mode.eigenvalue;
+    EXPECT_LT(mode.residual, 1e-12);
+    for (const auto &part : mode.face_force)
+      for (const double force : part)
+        EXPECT_TRUE(std::isfinite(force)) << mode.eigenvalue;
+  }
+}
+
 TEST(ModalVibration, MassOnAPortLowersTheFrequency)
 {
   const auto data      = two_modes(10., 400.);

@@ -14,18 +14,20 @@ import mesh  # noqa: E402
 import test_fields  # noqa: E402
 from results import NotAResult  # noqa: E402
 
-# Two quadrilaterals side by side, a plate and a lever, with the plate's lower side and the lever's right one named.
-VERSION_2 = """$MeshFormat
-2.2 0 8
-$EndMeshFormat
-$PhysicalNames
+NAMES = """$PhysicalNames
 4
 1 1 "sensor plate"
 1 2 "joint"
 2 3 "plate"
 2 4 "lever"
 $EndPhysicalNames
-$Nodes
+"""
+
+# Two quadrilaterals side by side, a plate and a lever, with the plate's lower side and the lever's right one named.
+VERSION_2 = """$MeshFormat
+2.2 0 8
+$EndMeshFormat
+""" + NAMES + """$Nodes
 6
 1 0 0 0
 2 1 0 0
@@ -46,14 +48,7 @@ $EndElements
 VERSION_4 = """$MeshFormat
 4.1 0 8
 $EndMeshFormat
-$PhysicalNames
-4
-1 1 "sensor plate"
-1 2 "joint"
-2 3 "plate"
-2 4 "lever"
-$EndPhysicalNames
-$Entities
+""" + NAMES + """$Entities
 0 2 2 0
 1 0 0 0 1 0 0 1 1 0
 2 2 0 0 2 1 0 1 2 0

@@ -1,8 +1,6 @@
 """plot.py on small files of the shape sprag writes; run with /usr/bin/python3."""
 
-import subprocess
 import sys
-import tempfile
 import unittest
 from pathlib import Path
 
@@ -11,8 +9,10 @@ import numpy as np
 
 FOLDER = Path(__file__).resolve().parents[2] / "postprocess"
 sys.path.insert(0, str(FOLDER))
+sys.path.insert(0, str(FOLDER.parent / "tests" / "support"))
 
 import results  # noqa: E402
+from pictures import PictureTest  # noqa: E402
 
 
 def put(group, name, values, unit):
@@ -162,33 +162,7 @@ def make_transient(folder, model="beam", growth=-40.0, rows=None, summary=None, 
 TRANSIENT = ["forces-over-time.png", "forces-over-x.png", "reversal.png", "energy.png"]
 
 
-class PlotTest(unittest.TestCase):
-    def setUp(self):
-        self.temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(self.temporary.cleanup)
-        self.folder = Path(self.temporary.name)
-        self.pictures = self.folder / "pictures"
-
-    def plot(self, *arguments):
-        return subprocess.run(
-            ["/usr/bin/python3", FOLDER / "plot.py", "--output", self.pictures, *arguments],
-            capture_output=True,
-            text=True,
-            check=False,
-        )
-
-    def expect_pictures(self, done, names):
-        self.assertEqual((done.returncode, done.stderr), (0, ""))
-        self.assertEqual(sorted(path.name for path in self.pictures.iterdir()), sorted(names))
-        for path in self.pictures.iterdir():
-            self.assertGreater(path.stat().st_size, 5000)
-
-    def expect_refusal(self, done, *words):
-        self.assertEqual(done.returncode, 2)
-        self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
-        for word in words:
-            self.assertIn(word, done.stderr)
-
+class PlotTest(PictureTest):
     def test_one_run_in_two_formats(self):
         make_run(self.folder / "a")
         names = [f"{name}.{ending}" for name in ("forces-over-time", "forces-over-x", "contact") for ending in ("png", "pdf")]

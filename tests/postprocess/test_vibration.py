@@ -1,8 +1,6 @@
 """Pictures of modes, stability and sprag slip on small files of the shape sprag writes; run with /usr/bin/python3."""
 
-import subprocess
 import sys
-import tempfile
 import unittest
 from pathlib import Path
 
@@ -11,10 +9,12 @@ import numpy as np
 
 FOLDER = Path(__file__).resolve().parents[2] / "postprocess"
 sys.path.insert(0, str(FOLDER))
+sys.path.insert(0, str(FOLDER.parent / "tests" / "support"))
 
 import results  # noqa: E402
 import sprag_slip  # noqa: E402
 import vibration  # noqa: E402
+from pictures import PictureTest  # noqa: E402
 from style import plt  # noqa: E402
 
 FEEDS = [f"growth_by_{name}" for name, _ in vibration.FEEDS]
@@ -127,32 +127,16 @@ def make_sprag_slip(folder, end=0.3, **arguments):
     return file
 
 
-class PictureTest(unittest.TestCase):
+class ModePictureTest(PictureTest):
     def setUp(self):
-        temporary = tempfile.TemporaryDirectory(prefix="sprag-test-")
-        self.addCleanup(temporary.cleanup)
+        super().setUp()
         self.addCleanup(plt.close, "all")
-        self.folder = Path(temporary.name)
-        self.pictures = self.folder / "pictures"
 
-    def plot(self, folder):
-        command = ["/usr/bin/python3", FOLDER / "plot.py", "--output", self.pictures, folder]
-        return subprocess.run(command, capture_output=True, text=True, check=False)
-
-    def expect_pictures(self, done, names):
-        self.assertEqual((done.returncode, done.stderr), (0, ""))
-        self.assertEqual(sorted(path.name for path in self.pictures.iterdir()), sorted(f"{name}.png" for name in names))
-        for path in self.pictures.iterdir():
-            self.assertGreater(path.stat().st_size, 5000)
-
-    def expect_refusal(self, done, *words):
-        self.assertEqual(done.returncode, 2)
-        self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
-        for word in words:
-            self.assertIn(word, done.stderr)
+    def expect_png(self, done, names):
+        self.expect_pictures(done, [f"{name}.png" for name in names])
 
 
-class Vibration(PictureTest):
+class Vibration(ModePictureTest):
     def modes(self, *arguments, **options):
         return results.read_result(make_stability(self.folder / "a", *arguments, **options)).groups["modes"]
 
@@ -217,13 +201,13 @@ class Vibration(PictureTest):
         for name, (run, pictures) in cases.items():
             with self.subTest(case=name):
                 self.pictures = self.folder / f"pictures of {name}"
-                self.expect_pictures(self.plot(run), pictures)
+                self.expect_png(self.plot(run), pictures)
 
     def test_nothing_to_draw(self):
         self.expect_refusal(self.plot(make_stability(self.folder / "a", (), kind="modal")), "no mode")
 
 
-class SpragSlip(PictureTest):
+class SpragSlip(ModePictureTest):
     given = SpragSlipRun()
 
     def test_all_pictures(self):
@@ -232,7 +216,7 @@ class SpragSlip(PictureTest):
             self.given.fill_growth(file)
             self.given.fill_continuation(file, x, np.where(x > 60, 1.0, 0.0), np.where(x > 62, 2.0, 0.0))
             finish(file, coexistence_from=61.0, coexistence_to=62.0, **self.given.summary, **self.given.cycle)
-        self.expect_pictures(self.plot(self.folder / "a"), ["growth", "cycle", "continuation"])
+        self.expect_png(self.plot(self.folder / "a"), ["growth", "cycle", "continuation"])
 
     def test_branches_jump(self):
         """From slide to vibration no line is drawn but dots."""
@@ -259,13 +243,13 @@ class SpragSlip(PictureTest):
         with make_sprag_slip(self.folder / "a") as file:
             self.given.fill_growth(file)
             finish(file, **{**self.given.summary, "linear_frequency": 0.0, "measured_frequency": np.nan})
-        self.expect_pictures(self.plot(self.folder / "a"), ["growth"])
+        self.expect_png(self.plot(self.folder / "a"), ["growth"])
 
     def test_stopped_before_the_vibration_is_told(self):
         with make_sprag_slip(self.folder / "a") as file:
             self.given.fill_growth(file)
             finish(file, **{**self.given.summary, "cycle_begin": np.nan, "status": "interrupted"})
-        self.expect_pictures(self.plot(self.folder / "a"), ["growth"])
+        self.expect_png(self.plot(self.folder / "a"), ["growth"])
 
     def test_nothing_measured(self):
         """Stopped while it grows: groups of no length."""
@@ -273,12 +257,12 @@ class SpragSlip(PictureTest):
             for name in ("time", "amplitude", "predicted"):
                 put(file.require_group("growth"), name, np.empty(0))
             finish(file, **self.given.summary)
-        self.expect_pictures(self.plot(self.folder / "a"), ["growth"])
+        self.expect_png(self.plot(self.folder / "a"), ["growth"])
 
     def test_going_on_or_killed(self):
         with make_sprag_slip(self.folder / "a", libver="latest") as file:
             file.swmr_mode = True
-            self.expect_pictures(self.plot(self.folder / "a"), ["growth"])
+            self.expect_png(self.plot(self.folder / "a"), ["growth"])
 
     def test_jammed(self):
         with make_sprag_slip(self.folder / "a", 0.0) as file:

@@ -5,13 +5,16 @@ import os
 import shutil
 import signal
 import subprocess
-import tempfile
+import sys
 import time
 import unittest
 from pathlib import Path
 
 import h5py
 import numpy as np
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from folders import FolderTest  # noqa: E402
 
 SOURCE = Path(os.environ.get("SPRAG_SOURCE", Path(__file__).resolve().parents[2]))
 SPRAG = os.environ.get("SPRAG", str(SOURCE / "build" / "sprag"))
@@ -43,11 +46,9 @@ def tree(folder):
     return {path: path.read_bytes() if path.is_file() else None for path in sorted(folder.rglob("*"))}
 
 
-class ProgramTest(unittest.TestCase):
+class ProgramTest(FolderTest):
     def setUp(self):
-        temporary = tempfile.TemporaryDirectory(prefix="sprag-test-")
-        self.addCleanup(temporary.cleanup)
-        self.folder = Path(temporary.name)
+        super().setUp()
         self.output = self.folder / "output"
 
     def write(self, text, name="scene.prm"):
@@ -447,8 +448,7 @@ class Options(ProgramTest):
             "/=": "/ = : no such section",
             "": ": must have the form Section/Name=value",
         }
-        options = [part for text in refused for part in ("--set", text)]
-        messages = self.complains([scene, *options], "--set: ")
+        messages = self.complains([scene, *(part for text in refused for part in ("--set", text))], "--set: ")
         self.assertEqual(len(messages), len(refused), messages)
         for text, message in zip(refused.values(), messages):
             self.assertTrue(message.startswith("--set: " + text), message)

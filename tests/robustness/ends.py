@@ -6,12 +6,17 @@ import resource
 import shutil
 import signal
 import subprocess
+import sys
 import tempfile
 import time
 import unittest
 from pathlib import Path
 
 import h5py
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+
+from folders import FolderTest  # noqa: E402
 
 SOURCE = Path(os.environ.get("SPRAG_SOURCE", Path(__file__).resolve().parents[2]))
 SPRAG = os.environ.get("SPRAG", str(SOURCE / "build" / "sprag"))
@@ -29,11 +34,9 @@ def mesh_files():
     return set(Path(tempfile.gettempdir()).glob("sprag-*.msh"))
 
 
-class EndsTest(unittest.TestCase):
+class EndsTest(FolderTest):
     def setUp(self):
-        temporary = tempfile.TemporaryDirectory(prefix="sprag-test-")
-        self.addCleanup(temporary.cleanup)
-        self.folder = Path(temporary.name)
+        super().setUp()
         self.output = self.folder / "output"
 
     def command(self, *options):
@@ -188,8 +191,31 @@ class Refused(EndsTest):
                 self.assertFalse(self.output.exists())
 
     def test_too_many_rows(self):
-        done = self.run_to_end(*CLOSED_FORM, "--set", "Drive/Cycles=1000", "--set", "Analysis/Step=1e-5")
-        self.refused(done, "rows", "GB of memory")
+        for options in (
+            (*CLOSED_FORM, "--set", "Drive/Cycles=1e5"),
+            (*CLOSED_FORM, "--set", "Drive/Cycles=1e5", "--set", "Drive/Profile=harmonic"),
+            ("--set", "Analysis/Type=transient", "--set", "Analysis/Model=beam", "--set", "Drive/Speed=1e-8"),
+        ):
+            with self.subTest(options=options):
+                self.refused(self.run_to_end(*options), "e+", "rows or more, of which a run may have 1e+07")
+                self.assertFalse(self.output.exists())
+
+    def test_penalty_far_too_stiff(self):
+        for type_and_model in (("quasi-static", "finite element"), ("transient", "condensed"), ("stability", "condensed")):
+            with self.subTest(type_and_model):
+                options = [f"Analysis/{name}={value}" for name, value in zip(("Type", "Model"), type_and_model)]
+                done = self.run_to_end(*(word for option in (*options, "Contact/Penalty=2.4e8") for word in ("--set", option)))
+                self.refused(done, "Contact/Penalty = 2.4e8: must be <= ", "N/mm3")
+                self.assertFalse(self.output.exists())
+
+    def test_slow_without_inertia(self):
+        self.assertEqual(self.run_to_end(*COARSE, "--set", "Drive/Speed=1e-8").returncode, 0)
+
+    def test_slow_and_held(self):
+        held = ("Analysis/Type=stability", "Analysis/Model=beam", "Stability/Critical=none", "Drive/Speed=1e-8")
+        self.assertEqual(self.run_to_end(*(word for option in held for word in ("--set", option))).returncode, 0)
+        with h5py.File(self.output / "result.h5", "r") as file:
+            self.assertIn(file["summary/verdict"].asstr()[()], ("stable", "flutter"))
 
     def test_second_run_in_the_folder(self):
         first = self.start_with_rows(1)

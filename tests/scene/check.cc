@@ -67,6 +67,25 @@ TEST(CheckScene, MeshFileMustBeOne)
   EXPECT_EQ(mistakes_of({ "Mesh/File=none.msh" }), (Messages{ "--set: Mesh/File = none.msh: cannot be read" }));
 }
 
+TEST(CheckScene, PenaltiesThatNoContactConvergesWithAreRefused)
+{
+  const auto refusal = [](const std::string &largest)
+  {
+    return ": must be <= " + largest +
+           " N/mm3 for this layer and mesh: a stiffer one moves P by less than 1e-4, lets single points carry the pressure and "
+           "lets Newton's method fail; leave it at auto";
+  };
+  EXPECT_EQ(mistakes_of({ "Contact/Penalty=1e8" }), (Messages{ "--set: Contact/Penalty = 1e8" + refusal("24000") }));
+  EXPECT_TRUE(mistakes_of({ "Contact/Penalty=24000" }).empty());
+  EXPECT_TRUE(mistakes_of({ "Contact/Penalty=40000", "Mesh/Face size=0.125" }).empty());
+  EXPECT_EQ(mistakes_of({ "Contact/Penalty=1e8", "Friction layer/Thickness=0" }),
+            (Messages{ "--set: Contact/Penalty = 1e8" + refusal("2.8e+07") }));
+  EXPECT_EQ(mistakes_of({ "Contact/Tangential penalty=4e5" }).size(), 1u);
+  EXPECT_EQ(mistakes_of({ "Contact/Penalty=1e8", "Analysis/Type=stability", "Analysis/Model=condensed" }).size(), 1u);
+  EXPECT_EQ(mistakes_of({ "Contact/Penalty=1e8", "Analysis/Type=contact law" }).size(), 1u);
+  EXPECT_TRUE(mistakes_of({ "Contact/Penalty=1e8", "Analysis/Model=closed form" }).empty());
+}
+
 TEST(CheckScene, ModelsOfTheLeverNeedInertia)
 {
   for (const std::string model : { "rigid", "beam", "condensed" })

@@ -226,6 +226,30 @@ TEST(ClosedForm, LoopAreaEqualsFrictionWork)
   }
 }
 
+/// The time of a row is rounded the more the later it is, and with it a power that begins at zero.
+TEST(ClosedForm, WorkLateInALongDriveTakesNoMoreThanInTheFirstCycle)
+{
+  Scene scene                    = model_a();
+  scene.drive                    = Drive(DriveProfile::triangle, 0., 65., 112., 1e4);
+  const double cycle             = 2. * 65. / 112.;
+  const auto first_step_of_cycle = [&](const double number)
+  {
+    unsigned int states = 0;
+    const auto count    = [&](const DrivePoint &point)
+    {
+      ++states;
+      return closed_form(scene, point.x, point.v);
+    };
+    const double begin = scene.drive.reversals()[static_cast<std::size_t>(2. * number) - 1];
+    const Work work    = work_between(scene.drive, count, begin, begin + cycle / 130.);
+    return std::make_pair(work.drive, states);
+  };
+  const auto [early_work, early] = first_step_of_cycle(1.);
+  const auto [late_work, late]   = first_step_of_cycle(9999.);
+  EXPECT_EQ(late, early);
+  EXPECT_NEAR(late_work, early_work, 1e-9 * early_work);
+}
+
 TEST(ClosedForm, HalfACycleStoresTheEnergyOfTheSpring)
 {
   Scene scene         = model_a();

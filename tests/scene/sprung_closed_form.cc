@@ -1,6 +1,7 @@
 #include "scene/sprung_closed_form.h"
 
 #include "scenes.h"
+#include "support/scene_parts.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -9,19 +10,12 @@ using namespace sprag;
 
 namespace
 {
-  Scene sprung(Scene scene, const double stiffness)
-  {
-    scene.support.type      = SupportType::sprung;
-    scene.support.stiffness = stiffness;
-    return scene;
-  }
-
   constexpr double v = 112.;
 } // namespace
 
 TEST(SprungClosedForm, TheFramesSpringBalancesQ)
 {
-  for (const Scene &scene : { sprung(model_a(), 50.), sprung(model_b(), 20.) })
+  for (const Scene &scene : { on_sprung_support(model_a(), 50.), on_sprung_support(model_b(), 20.) })
   {
     SprungClosedForm lever(scene);
     lever.start(0., v);
@@ -41,7 +35,7 @@ TEST(SprungClosedForm, TheFramesSpringBalancesQ)
 
 TEST(SprungClosedForm, AStiffFrameIsARigidOne)
 {
-  const auto scene = sprung(model_a(), 1e9);
+  const auto scene = on_sprung_support(model_a(), 1e9);
   SprungClosedForm lever(scene);
   lever.start(40., v);
   const auto forward = lever.advance(65., v);
@@ -53,7 +47,7 @@ TEST(SprungClosedForm, AStiffFrameIsARigidOne)
 
 TEST(SprungClosedForm, AReversalSticksUntilFrictionHasTurned)
 {
-  const auto scene = with_coulomb(sprung(model_a(), 100.), 0.7);
+  const auto scene = with_coulomb(on_sprung_support(model_a(), 100.), 0.7);
   SprungClosedForm lever(scene);
   lever.start(0., v);
   const auto turning  = lever.advance(65., v);
@@ -76,7 +70,7 @@ TEST(SprungClosedForm, AReversalSticksUntilFrictionHasTurned)
 
 TEST(SprungClosedForm, TheDrivesWorkIsStoredOrDissipated)
 {
-  const auto scene  = sprung(model_a(), 30.);
+  const auto scene  = on_sprung_support(model_a(), 30.);
   const auto energy = [&](const SprungClosedForm::State &state)
   {
     const double turn = state.lever.contact.theta - kinematics(scene.geometry, 0.).theta;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fe/body_properties.h"
+#include "fe/body/body_properties.h"
 
 #include <deal.II/grid/grid_generator.h>
 #include <deal.II/grid/tria.h>

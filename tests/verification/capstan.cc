@@ -56,11 +56,14 @@ namespace
   Obstacle drum()
   {
     const auto rising = rigid_circle(radius, [](const double x) { return LeverPoint{ 0., 0.3 * std::min(x, 1.) }; });
-    return [rising](const LeverPoint &point, const double x, const double theta)
+    return [rising](const double x, const double theta)
     {
-      auto result = rising(point, x, theta);
-      result.slip += std::max(0., x - 1.);
-      return result;
+      return [circle = rising(x, theta), run = std::max(0., x - 1.)](const LeverPoint &point)
+      {
+        auto result = circle(point);
+        result.slip += run;
+        return result;
+      };
     };
   }
 

@@ -1,3 +1,4 @@
+#include "support/scene_parts.h"
 #include "verification/run_scene.h"
 
 #include <cstdio>
@@ -11,13 +12,6 @@ using namespace sprag;
 namespace
 {
   constexpr double mu = 0.73;
-
-  Scene on_cylinder(Scene scene, const double young_modulus)
-  {
-    scene.cylinder.type          = CylinderType::solid;
-    scene.cylinder.young_modulus = young_modulus;
-    return scene;
-  }
 
   using Visit = std::function<void(const Row &row, const FaceState &face)>;
 
@@ -81,14 +75,14 @@ namespace
 TEST(ElasticCylinder, StiffIsTheRigidCircle)
 {
   for (const Scene &scene : { coarse(), with_augmented_lagrangian(coarse()) })
-    EXPECT_LT(difference(run_scene(on_cylinder(scene, 7e10)), run_scene(scene)), 1e-4);
+    EXPECT_LT(difference(run_scene(on_solid_cylinder(scene, 7e10)), run_scene(scene)), 1e-4);
 }
 
 // Aluminium is 3500 times as stiff as cork: of the indentation of some 0.02 mm it takes no more than a hundredth, which P, from
 // the turn of the hub, hardly notices.
 TEST(ElasticCylinder, OfAluminiumHardlyMatters)
 {
-  EXPECT_LT(difference(run_scene(on_cylinder(coarse(), 7e4)), run_scene(coarse())), 5e-4);
+  EXPECT_LT(difference(run_scene(on_solid_cylinder(coarse(), 7e4)), run_scene(coarse())), 5e-4);
 }
 
 // Coulomb's law holds at each point, on every row and in full sliding with equality.
@@ -98,7 +92,7 @@ TEST(ElasticCylinder, FrictionIsMuTimesPressureThroughBothStrokesAndTheReversal)
   {
     unsigned int sliding_rows = 0, partial_rows = 0;
     double worst = 0.;
-    follow(on_cylinder(scene, 7e4),
+    follow(on_solid_cylinder(scene, 7e4),
            [&](const Row &row, const FaceState &face)
            {
              double peak = 0., largest = 0., smallest = 1.;
@@ -130,7 +124,7 @@ TEST(ElasticCylinder, FrictionIsMuTimesPressureThroughBothStrokesAndTheReversal)
 
 TEST(ElasticCylinder, MeetsTheGeneralPath)
 {
-  Scene scene             = on_cylinder(with_face_size(coarse(), 2.), 7e4);
+  Scene scene             = on_solid_cylinder(with_face_size(coarse(), 2.), 7e4);
   scene.drive             = Drive(DriveProfile::triangle, 0., 65., 112., 0.5);
   scene.analysis.step     = 5.;
   const auto once         = run_scene(scene);

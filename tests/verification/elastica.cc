@@ -1,5 +1,5 @@
-#include "fe/finite_statics.h"
-#include "fe/leaf_mesh.h"
+#include "fe/body/finite_statics.h"
+#include "fe/leaf/leaf_mesh.h"
 #include "mpi_environment.h"
 
 #include <deal.II/base/quadrature_lib.h>

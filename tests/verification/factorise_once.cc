@@ -1,5 +1,5 @@
-#include "analysis/newton.h"
-#include "fe/lever_model.h"
+#include "analysis/statics/newton.h"
+#include "fe/statics/lever_model.h"
 #include "mpi_environment.h"
 #include "scenes.h"
 

@@ -1,4 +1,4 @@
-#include "analysis/energy_ledger.h"
+#include "analysis/transient/energy_ledger.h"
 #include "model/modal_structure.h"
 #include "verification/point_at_port.h"
 

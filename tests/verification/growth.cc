@@ -85,10 +85,10 @@ TEST(HeldSlide, OfAMeshedLeverStaysWhereItIs)
 {
   // The steps solve for a correction below 1e-7 of the overlap, and what the static shapes carry of round-off counts the more the
   // stiffer the penalty: 2e-9 at 12 E/depth, 1.4e-7 at 120, 5.7e-6 at 1200. It is the first step's: 500 and 8000 steps drift
-  // alike.
+  // alike. Which round-off it is changes it at random: 1.3e-8 to 4.2e-7 for levers of 18, 18.5 ... 22 mm.
   const JudgedSlide judged(backward_a(ModelType::condensed, 20.));
   const double early = drift(judged, 200);
-  EXPECT_LT(early, 3e-7);
+  EXPECT_LT(early, 1e-6);
   EXPECT_NEAR(drift(judged, 2000), early, 1e-2 * early);
 }
 
@@ -198,7 +198,9 @@ TEST(Growth, IsFrictions)
     HeldSlide without = judged.slide();
     without.friction  = ContactFriction::none;
     double largest    = -1e9;
-    for (const auto &mode : judged.dynamics.model().vibrations(without, true, 10))
+    const auto modes  = judged.dynamics.model().vibrations(without, true, 10);
+    ASSERT_GE(modes.size(), 10u);
+    for (const auto &mode : modes)
       largest = std::max(largest, mode.mode.eigenvalue.real());
     EXPECT_LT(largest, 0.);
     EXPECT_GT(growth_of(judged).envelope.rate, 50.);

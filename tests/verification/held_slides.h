@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/sprag_slip.h"
+#include "analysis/limit_cycle/sprag_slip.h"
 #include "mpi_environment.h"
 #include "scene/held_slide.h"
 #include "verification/run_transient.h"

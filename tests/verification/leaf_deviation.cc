@@ -1,4 +1,4 @@
-#include "analysis/calibration.h"
+#include "analysis/calibration/calibration.h"
 #include "scene/closed_form.h"
 #include "scene/read.h"
 #include "verification/run_scene.h"

@@ -1,4 +1,4 @@
-#include "analysis/continuation.h"
+#include "analysis/limit_cycle/continuation.h"
 #include "verification/held_slides.h"
 
 #include <algorithm>

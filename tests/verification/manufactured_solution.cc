@@ -1,5 +1,5 @@
-#include "fe/elastic_body.h"
-#include "fe/mumps.h"
+#include "fe/algebra/mumps.h"
+#include "fe/body/elastic_body.h"
 #include "mpi_environment.h"
 #include "verification/block.h"
 

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "analysis/oscillation.h"
-#include "fe/dynamic_face_lever.h"
-#include "fe/lever_model.h"
-#include "fe/mesh.h"
+#include "analysis/transient/oscillation.h"
+#include "fe/dynamics/dynamic_face_lever.h"
+#include "fe/mesh/mesh.h"
+#include "fe/statics/lever_model.h"
 #include "mpi_environment.h"
 #include "verification/run_transient.h"
 

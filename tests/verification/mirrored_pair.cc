@@ -1,5 +1,7 @@
-#include "analysis/closed_form.h"
+#include "analysis/statics/closed_form.h"
+#include "results/row_statistics.h"
 #include "scene/pair_closed_form.h"
+#include "support/scene_parts.h"
 #include "verification/run_scene.h"
 
 #include <algorithm>
@@ -13,15 +15,6 @@ namespace
   Scene coarse_scene()
   {
     return with_step(with_face_size(model_a(), 1.), 2.);
-  }
-
-  Scene pair(Scene scene, const SpringJoint joint, const double offset, const double friction_ratio)
-  {
-    scene.pair.type            = PairType::full;
-    scene.pair.joint           = joint;
-    scene.pair.cylinder_offset = offset;
-    scene.pair.friction_ratio  = friction_ratio;
-    return scene;
   }
 
   struct Case
@@ -63,14 +56,6 @@ namespace
     return result;
   }
 
-  double largest(const std::vector<Row> &rows, const std::function<double(const Row &)> &value)
-  {
-    double result = 0.;
-    for (const auto &row : rows)
-      result = std::max(result, std::abs(value(row)));
-    return result;
-  }
-
   /// Difference of two forces over the larger.
   double inequality(const double first, const double second)
   {
@@ -97,7 +82,7 @@ namespace
   {
   protected:
     PairOfLevers()
-        : scene(pair(coarse_scene(), GetParam().joint, GetParam().offset, GetParam().friction_ratio))
+        : scene(paired(coarse_scene(), GetParam().joint, GetParam().offset, GetParam().friction_ratio))
         , rows(run_scene(scene))
         , slides(sliding(rows))
     {

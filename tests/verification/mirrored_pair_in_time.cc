@@ -1,5 +1,7 @@
-#include "fe/leaf_spring.h"
+#include "fe/leaf/leaf_spring.h"
+#include "results/row_statistics.h"
 #include "scene/mirrored_pair.h"
+#include "support/scene_parts.h"
 #include "verification/held_slides.h"
 #include "verification/meshed_in_time.h"
 
@@ -10,26 +12,11 @@ using namespace sprag;
 
 namespace
 {
-  Scene paired(Scene scene, const SpringJoint joint)
-  {
-    scene.pair.type  = PairType::full;
-    scene.pair.joint = joint;
-    return scene;
-  }
-
   Scene around_a_reversal(Scene scene)
   {
     scene.mesh.face_size = 2.;
     scene.drive          = Drive(DriveProfile::triangle, 45., 46., 112., 1., 5e-3);
     return scene;
-  }
-
-  double largest(const std::vector<Row> &rows, const std::function<double(const Row &)> &value)
-  {
-    double result = 0.;
-    for (const auto &row : rows)
-      result = std::max(result, std::abs(value(row)));
-    return result;
   }
 
   /// Frequencies of undamped modes in contact without friction at x = 30 of a pair [1/s].
@@ -60,7 +47,9 @@ namespace
   }
 } // namespace
 
-// Both levers do the same to round-off, which swinging without a spring lets grow with the square of the time.
+// Both levers do the same to round-off, which swinging without a spring lets grow with the square of the time. That of a gap,
+// 7e-15 mm of the radius, is 1e-10 of an overlap of 7e-5 mm; the start's speeds, differences of equilibria 0.1 mm apart, make
+// some 1e-7 of P of it.
 TEST(MirroredPairInTime, WithoutOffsetBothLeversDoWhatOneAloneDoes)
 {
   for (const auto model : { ModelType::rigid, ModelType::beam, ModelType::condensed, ModelType::finite_element })
@@ -77,7 +66,7 @@ TEST(MirroredPairInTime, WithoutOffsetBothLeversDoWhatOneAloneDoes)
         energy = std::max(energy, std::abs(2. * half[i][Column::kinetic_energy] - full[i][Column::kinetic_energy]));
         EXPECT_NEAR(2. * half[i][Column::Q], full[i].drive_force(), 2e-7 * 30.);
       }
-      EXPECT_LT(error, 1e-7 * 30.);
+      EXPECT_LT(error, 3e-7 * 30.);
       EXPECT_LT(energy, 1e-7 * largest(full, [](const Row &row) { return row[Column::kinetic_energy]; }));
       EXPECT_LT(largest(full, [](const Row &row) { return row.lateral_force(); }), 2e-7 * 30.);
     }

@@ -1,4 +1,5 @@
 #include "scene/closed_form.h"
+#include "support/scene_parts.h"
 #include "verification/run_scene.h"
 
 #include <gtest/gtest.h>
@@ -15,21 +16,6 @@ namespace
     return scene;
   }
 
-  Scene pair(Scene scene, const SpringJoint joint, const double offset = 0.)
-  {
-    scene.pair.type            = PairType::full;
-    scene.pair.joint           = joint;
-    scene.pair.cylinder_offset = offset;
-    return scene;
-  }
-
-  Scene with_elastic_cylinder(Scene scene)
-  {
-    scene.cylinder.type          = CylinderType::solid;
-    scene.cylinder.young_modulus = 200.; // so that it shares in the deformation
-    scene.cylinder.face_size     = 0.5;
-    return scene;
-  }
   Scene with_neo_hookean(Scene scene)
   {
     scene.lever.material = MaterialModel::neo_hookean;
@@ -75,14 +61,14 @@ TEST(MirroredPair, WithoutOffsetIsASingleLeverTwice)
                                                                 { "hardening spring", with_hardening(linear) },
                                                                 { "augmented Lagrangian", with_augmented_lagrangian(linear) },
                                                                 { "neo-Hookean", with_neo_hookean(linear) },
-                                                                { "elastic cylinder", with_elastic_cylinder(linear) },
+                                                                { "elastic cylinder", on_solid_cylinder(linear, 200., 0.5) },
                                                                 { "plate", with_plate(linear) } };
   for (const auto &[name, scene] : of_parts)
   {
     const auto single = run_scene(scene);
     for (const auto joint : { SpringJoint::held, SpringJoint::free })
     {
-      const auto rows = run_scene(pair(scene, joint));
+      const auto rows = run_scene(paired(scene, joint));
       ASSERT_EQ(rows.size(), single.size()) << name;
       for (std::size_t i = 0; i < rows.size(); ++i)
         expect_twice(rows[i], single[i], name + ", row " + std::to_string(i));
@@ -95,7 +81,7 @@ TEST(MirroredPair, ACylinderOffTheMiddleIsPutBetweenTheLeversWithoutFriction)
 {
   for (const auto enforcement : { Enforcement::penalty, Enforcement::augmented_lagrangian })
   {
-    Scene scene               = pair(coarse_scene(), SpringJoint::held, 0.5);
+    Scene scene               = paired(coarse_scene(), SpringJoint::held, 0.5);
     scene.contact.enforcement = enforcement;
     scene.drive               = Drive(DriveProfile::triangle, 0., 1., 112., 0.5);
     const auto rows           = run_scene(scene);

@@ -1,4 +1,5 @@
-#include "fe/elastic_surface.h"
+#include "fe/contact/augmentation.h"
+#include "fe/contact/face_contact.h"
 #include "mpi_environment.h"
 #include "two_blocks.h"
 
@@ -148,23 +149,27 @@ TEST(Patch, HydrostaticPressureBalancesAcrossACurvedInterface)
   body.reinit(stiffness, 0);
   body.assemble(u, stiffness, internal);
   const auto dofs = surface_dofs(body);
-  const StaticPorts ports{ static_cast<unsigned int>(dofs.size()), false };
+  const PortLayout ports{ static_cast<unsigned int>(dofs.size()), false };
   dealii::Vector<double> z(ports.size());
   for (unsigned int i = 0; i < dofs.size(); ++i)
     z[i] = u[dofs[i]];
 
   FaceContactProperties constants;
-  constants.friction    = properties.friction;
-  constants.enforcement = Enforcement::augmented_lagrangian;
-  constants.penalties   = { 100., 100. };
-  constants.ports       = ports;
-  constants.centre      = properties.centre;
-  FaceContact contact(body, std::make_unique<ElasticSurface>(body, properties.obstacle, 0., ports), constants);
-  State state;
-  state.contact = contact.untouched(z, 0.);
-  for (auto &memory : state.contact)
-    memory.normal_multiplier = pressure;
-  contact.evaluate(z, state, state, FrictionMode::cone);
+  constants.obstacle  = properties.obstacle;
+  constants.centre    = properties.centre;
+  constants.friction  = properties.friction;
+  constants.penalties = { 100., 100. };
+  constants.ports     = ports;
+  FaceContact contact(body, constants);
+  std::vector<ContactMemory> memory(body.friction_face().points.size());
+  for (unsigned int q = 0; q < memory.size(); ++q)
+  {
+    memory[q].normal_multiplier = pressure;
+    memory[q].point             = q;
+  }
+  const DrivePoint rest{ 0., 0., 0. };
+  contact.evaluate({ rest, memory, rest, { z, {}, {} }, z, {}, { 0., 0., 0., 0., 0. } },
+                   StaticTerms{ properties.friction, 1., FrictionMode::cone, true });
   EXPECT_LT(contact.penetration(), 1e-12);
   EXPECT_EQ(contact.points().size(), body.friction_face().points.size());
   const auto &forces     = contact.forces();
@@ -180,10 +185,9 @@ TEST(Patch, HydrostaticPressureBalancesAcrossACurvedInterface)
   // All nodes of six edges each, two coordinates, without corners.
   EXPECT_EQ(n_checked, 2u * 2u * 11u);
 
-  contact.augment(state.contact);
-  for (const auto &memory : state.contact)
+  for (const auto &multiplier : FaceMultipliers(body.friction_face()).augmented(contact.points()))
   {
-    EXPECT_NEAR(memory.normal_multiplier, pressure, 1e-8);
-    EXPECT_NEAR(memory.traction, 0., 1e-12);
+    EXPECT_NEAR(multiplier.normal_multiplier, pressure, 1e-8);
+    EXPECT_NEAR(multiplier.traction, 0., 1e-12);
   }
 }

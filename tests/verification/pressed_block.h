@@ -1,7 +1,7 @@
 #pragma once
 
-#include "analysis/newton.h"
-#include "fe/lever_model.h"
+#include "analysis/statics/newton.h"
+#include "fe/statics/lever_model.h"
 #include "verification/block.h"
 
 #include <algorithm>
@@ -15,35 +15,40 @@ namespace sprag
   /// A rigid plane at height y(x), its material at xi = c(x).
   inline Obstacle rigid_plane(std::function<double(double)> height, std::function<double(double)> place)
   {
-    return [=](const LeverPoint &point, const double x, double)
+    return [=](const double x, double)
     {
-      ContactKinematics<4> result;
-      result.gap         = point.eta - height(x);
-      result.gap_row[1]  = 1.;
-      result.slip        = point.xi - place(x);
-      result.slip_row[0] = 1.;
-      return result;
+      return [eta = height(x), xi = place(x)](const LeverPoint &point)
+      {
+        ContactKinematics<4> result;
+        result.gap         = point.eta - eta;
+        result.gap_row[1]  = 1.;
+        result.slip        = point.xi - xi;
+        result.slip_row[0] = 1.;
+        return result;
+      };
     };
   }
 
   /// A rigid circle whose centre moves over x. The body's axes rest.
   inline Obstacle rigid_circle(const double radius, std::function<LeverPoint(double)> centre)
   {
-    return [=](const LeverPoint &point, const double x, double)
+    return [=](const double x, double)
     {
-      const auto at           = centre(x);
-      const Geometry geometry = { radius, 0., at.xi, -at.eta };
-      auto result             = moving_circle_contact(geometry, point, 0., 0.);
-      for (const unsigned int i : { 2, 3 })
+      return [=, at = centre(x)](const LeverPoint &point)
       {
-        result.gap_row[i] = result.slip_row[i] = 0.;
-        for (unsigned int j = 0; j < 4; ++j)
+        const Geometry geometry = { radius, 0., at.xi, -at.eta };
+        auto result             = moving_circle_contact(geometry, point, 0., 0.);
+        for (const unsigned int i : { 2, 3 })
         {
-          result.gap_curvature[i][j] = result.gap_curvature[j][i] = 0.;
-          result.slip_curvature[i][j] = result.slip_curvature[j][i] = 0.;
+          result.gap_row[i] = result.slip_row[i] = 0.;
+          for (unsigned int j = 0; j < 4; ++j)
+          {
+            result.gap_curvature[i][j] = result.gap_curvature[j][i] = 0.;
+            result.slip_curvature[i][j] = result.slip_curvature[j][i] = 0.;
+          }
         }
-      }
-      return result;
+        return result;
+      };
     };
   }
 

@@ -1,6 +1,7 @@
-#include "fe/dynamic_face_lever.h"
+#include "fe/dynamics/dynamic_face_lever.h"
 #include "scene/closed_form.h"
 #include "scene/contact_reference.h"
+#include "support/scene_parts.h"
 #include "verification/run_scene.h"
 
 #include <cstdio>
@@ -14,13 +15,6 @@ using namespace sprag;
 namespace
 {
   constexpr double mu = 0.73;
-
-  Scene on_support(Scene scene, const double stiffness)
-  {
-    scene.support.type      = SupportType::sprung;
-    scene.support.stiffness = stiffness;
-    return scene;
-  }
 
   /// Stiff enough that what is left of flexure is 1e-4, see RigidLimit.
   Scene nearly_rigid(const Scene &scene)
@@ -82,7 +76,7 @@ TEST(SprungSupport, OfARigidLeverMeetsTheClosedForm)
 {
   constexpr double k_f = 10.;
   for (const Scene &model : { model_a(), model_b() })
-    expect_rigid_lever(on_support(nearly_rigid(model), k_f), MomentLaw(model.spring.stiffness), k_f);
+    expect_rigid_lever(on_sprung_support(nearly_rigid(model), k_f), MomentLaw(model.spring.stiffness), k_f);
 }
 
 // The spring hardens by 30 % over a turn of 0.03.
@@ -102,7 +96,7 @@ TEST(SprungSupport, MeetsTheModelInTimeWithoutInertia)
 {
   for (const Scene &model : { model_a(), model_b() })
   {
-    Scene scene           = on_support(with_face_size(with_coulomb(model, mu), 1.), 50.);
+    Scene scene           = on_sprung_support(with_face_size(with_coulomb(model, mu), 1.), 50.);
     scene.contact.penalty = 12. * scene.layer.young_modulus / scene.layer.thickness;
     dealii::Triangulation<2> triangulation;
     make_mesh(scene, triangulation);
@@ -139,7 +133,7 @@ TEST(SprungSupport, StiffIsRigid)
     scene.analysis.solution = solution;
     scene.analysis.step     = 5.;
     const auto rigid        = run_scene(scene);
-    const auto sprung       = run_scene(on_support(scene, 1e12));
+    const auto sprung       = run_scene(on_sprung_support(scene, 1e12));
     ASSERT_EQ(rigid.size(), sprung.size());
     const double peak = rigid.back()[Column::P];
     for (std::size_t i = 0; i < rigid.size(); ++i)
@@ -159,7 +153,7 @@ TEST(SprungSupport, ItsEnergyClosesTheLedger)
   const Drive forward(DriveProfile::triangle, 0., 65., 112., 0.5);
   for (const Scene &model : { model_a(), model_b() })
   {
-    const Scene scene  = with_step(on_support(with_drive(with_coulomb(model, mu), forward), 10.), 0.25);
+    const Scene scene  = with_step(on_sprung_support(with_drive(with_coulomb(model, mu), forward), 10.), 0.25);
     const auto rows    = run_scene(scene);
     const auto summary = summary_of(scene, rows);
     const double share = value_of(summary, "energy_residual") / value_of(summary, "loop_area");

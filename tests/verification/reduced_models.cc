@@ -1,5 +1,5 @@
-#include "analysis/growing_modes.h"
-#include "analysis/oscillation.h"
+#include "analysis/transient/growing_modes.h"
+#include "analysis/transient/oscillation.h"
 #include "scene/closed_form.h"
 #include "verification/run_transient.h"
 

@@ -1,6 +1,8 @@
 #pragma once
 
-#include "analysis/quasi_static.h"
+#include "analysis/statics/quasi_static.h"
+#include "model/contact_step.h"
+#include "support/small_model.h"
 
 #include <deal.II/base/tensor.h>
 
@@ -12,7 +14,7 @@ namespace sprag
 {
   /// A rigid block with n displacements under a load that follows the drive, pressed against one contact of 1 mm^2.
   template <int n>
-  class RigidBlock : public Model
+  class RigidBlock : public SmallModel
   {
   public:
     struct Load
@@ -53,19 +55,23 @@ namespace sprag
 
     Unbalance evaluate(const State &trial, const State &accepted, const FrictionMode mode) override
     {
-      dealii::Tensor<1, n> u;
-      for (int i = 0; i < n; ++i)
-        u[i] = trial.coordinates[i];
-      const auto load       = properties.load(u, trial.drive.x);
-      const double duration = trial.drive.time - accepted.drive.time;
-      point                 = properties.contact(u);
-      response =
-          contact_response(point, trial.contact[0], { properties.penalty, properties.penalty, properties.friction, duration },
-                           duration > 0. ? mode : FrictionMode::stick);
-      external  = load.force;
-      unbalance = load.force + response.force;
-      tangent   = load.derivative + response.tangent;
-      rate      = duration > 0. ? (point.slip - accepted.contact[0].slip) / duration : 0.;
+      const auto u            = displacement(trial);
+      const auto load         = properties.load(u, trial.drive.x);
+      const double duration   = trial.drive.time - accepted.drive.time;
+      point                   = properties.contact(u);
+      const double slip_begin = properties.contact(displacement(accepted)).slip;
+      StepContactLaw law;
+      law.normal     = { properties.penalty, 1. };
+      law.tangential = properties.penalty;
+      law.friction   = properties.friction;
+      law.weights.dt = duration;
+      law.balance    = ForceBalance::end;
+      law.mode       = duration > 0. ? mode : FrictionMode::stick;
+      response       = step_response(sprag::step_to(point, slip_begin), trial.contact[0], law);
+      external       = load.force;
+      unbalance      = load.force + response.force;
+      tangent        = load.derivative + response.tangent;
+      rate           = duration > 0. ? (point.slip - slip_begin) / duration : 0.;
       return { unbalance.norm(), response.pressure / properties.penalty };
     }
 
@@ -78,24 +84,9 @@ namespace sprag
       return result;
     }
 
-    double movement(const dealii::Vector<double> &correction) const override
-    {
-      return correction.linfty_norm();
-    }
-
-    double length_scale() const override
-    {
-      return 1.;
-    }
-
     double penetration() const override
     {
       return response.pressure > 0. ? std::abs(point.gap) : 0.;
-    }
-
-    std::string objection(const State &) const override
-    {
-      return {};
     }
 
     void augment(State &trial) const override
@@ -106,8 +97,7 @@ namespace sprag
 
     std::vector<ContactMemory> memory() const override
     {
-      return { { properties.enforcement == Enforcement::augmented_lagrangian ? response.pressure : 0., response.traction,
-                 point.slip } };
+      return { { properties.enforcement == Enforcement::augmented_lagrangian ? response.pressure : 0., response.traction } };
     }
 
     /// P and F are normal force and friction, Q is the load along the first displacement.
@@ -120,20 +110,18 @@ namespace sprag
       row[Column::friction_power] = response.traction * rate;
     }
 
-    FacePoints face_points() const override
-    {
-      return { { 0. }, { 1. } };
-    }
-
-    FaceState face_state(const State &trial) const override
-    {
-      return { trial.drive.time, trial.drive.x, { response.pressure }, { response.traction }, {}, {} };
-    }
-
   private:
+    static dealii::Tensor<1, n> displacement(const State &state)
+    {
+      dealii::Tensor<1, n> result;
+      for (int i = 0; i < n; ++i)
+        result[i] = state.coordinates[i];
+      return result;
+    }
+
     const Properties properties;
     ContactKinematics<n> point;
-    ContactResponse<n> response;
+    StepResponse<n> response;
     dealii::Tensor<1, n> external, unbalance;
     dealii::Tensor<2, n> tangent;
     double rate = 0.;

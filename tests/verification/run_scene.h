@@ -1,9 +1,9 @@
 #pragma once
 
-#include "analysis/quasi_static.h"
-#include "analysis/report.h"
-#include "fe/mirrored_levers.h"
+#include "analysis/statics/quasi_static.h"
+#include "fe/statics/mirrored_levers.h"
 #include "mpi_environment.h"
+#include "run/report.h"
 #include "scene/mirrored_pair.h"
 #include "scenes.h"
 

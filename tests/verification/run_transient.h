@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/transient.h"
+#include "analysis/transient/transient.h"
 #include "model/reduced_lever.h"
 #include "scene/contact_reference.h"
 #include "scenes.h"

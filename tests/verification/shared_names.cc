@@ -1,6 +1,6 @@
-#include "analysis/closed_form.h"
-#include "analysis/transient_report.h"
-#include "analysis/vibration_report.h"
+#include "analysis/statics/closed_form.h"
+#include "run/transient_report.h"
+#include "run/vibration_report.h"
 #include "verification/meshed_in_time.h"
 #include "verification/run_scene.h"
 

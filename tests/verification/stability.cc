@@ -1,6 +1,6 @@
-#include "analysis/stability.h"
+#include "analysis/stability/stability.h"
 
-#include "analysis/contact_law.h"
+#include "analysis/statics/contact_law.h"
 #include "model/modal_vibration.h"
 #include "model/reduced_lever.h"
 #include "mpi_environment.h"

@@ -1,0 +1,82 @@
+#pragma once
+
+#include "analysis/limit_cycle/limit_cycle.h"
+
+#include <optional>
+
+namespace sprag
+{
+  /// The slide and the vibrations found at one x.
+  struct ContinuationPoint
+  {
+    SlideStability slide; ///< judged there
+    double x = 0.;        ///< [mm]
+    Settled away;         ///< the vibration carried along, or what a large kick of the slide leads to
+    Settled back;         ///< the slide, perturbed a little, or a vibration carried along
+
+    bool holds() const; ///< whether there is a slide to vibrate about
+    bool coexist() const;
+  };
+
+  /// From one x to another [mm], increasing.
+  struct Coexistence
+  {
+    double from;
+    double to;
+  };
+
+  /// Follows vibrations and slides from one x to the next, away from the start and back. The centre moves at the drive's speed at
+  /// most, the slip goes on at that of the slides.
+  class Continuation
+  {
+  public:
+    /// Perturbations of a slide over its overlap.
+    static constexpr double small_kick = 1e-3;
+    static constexpr double large_kick = 3.;
+
+    /// Bisections of the interval in which a vibration that was carried along dies.
+    static constexpr unsigned int bisections = 3;
+
+    /// `drive`: where it starts; `period` of the vibration at the start [s]; `modes` as of judge(). The run has to begin at a
+    /// slide or vibration at `drive`, which has led to `start`.
+    Continuation(DynamicModel &model, HeldRun &run, const DrivePoint &drive, double period, unsigned int modes,
+                 const SpragSlipSettings &settings);
+
+    /// Goes to `turn` [mm] in the scene's number of intervals, finds where the vibration dies on the way, and returns. `done` is
+    /// called after each x. What is finished can be asked for after an exception too. Throws as HeldRun::step() and judge().
+    void go(const SlideStability &slide, const Settled &start, double turn, const std::function<void()> &done);
+
+    /// The points visited so far, from the start to the turn.
+    const std::vector<ContinuationPoint> &points() const;
+
+    /// The longest interval in which a stable slide and a vibration were both found, up to where the slide loses its stability to
+    /// within 1e-3 mm, and to the last x at which the vibration was found; none if there is no such x.
+    std::optional<Coexistence> coexistence();
+
+  private:
+    /// The last x, of those visited, at which the vibration carried away lived, and its state there.
+    struct Alive
+    {
+      std::size_t point;
+      RunState state;
+    };
+
+    ContinuationPoint judged(double x);
+    Settled settled(const ContinuationPoint &point);
+    Settled kicked(const ContinuationPoint &point, double amplitude);
+    Settled carried(const ContinuationPoint &from, const ContinuationPoint &to);
+    void go_away(double turn, const std::function<void()> &done);
+    void find_death(const std::function<void()> &done);
+    void go_back(const std::function<void()> &done);
+    double stability_limit(double stable, double unstable);
+
+    DynamicModel &model;
+    HeldRun &run;
+    const DrivePoint drive;
+    const unsigned int modes;
+    const SpragSlipSettings &settings;
+    const SettlingTimes times;
+    std::vector<ContinuationPoint> visited;
+    std::optional<Alive> last_alive;
+  };
+} // namespace sprag

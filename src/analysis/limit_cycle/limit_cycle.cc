@@ -1,0 +1,176 @@
+#include "analysis/limit_cycle/limit_cycle.h"
+
+#include "base/choices.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace sprag
+{
+  namespace
+  {
+    constexpr double window_periods = 20.;
+    constexpr double same           = 0.01; ///< relative difference of amplitudes that counts as none
+
+    /// Sums up rows of equal steps.
+    class WindowSum
+    {
+    public:
+      void add(const Row &row, const bool slides)
+      {
+        const double P = row[Column::P];
+        lowest_P       = std::min(lowest_P, P);
+        highest_P      = std::max(highest_P, P);
+        lowest         = std::min(lowest, row[Column::indentation]);
+        highest        = std::max(highest, row[Column::indentation]);
+        open += P == 0. ? 1. : 0.;
+        stuck += slides ? 0. : 1.;
+        signal.push_back({ row[Column::time], P });
+      }
+
+      VibrationWindow result(const double begin) const
+      {
+        const double n = static_cast<double>(signal.size());
+        double mean    = 0.;
+        for (const auto &sample : signal)
+          mean += sample.value / n;
+        auto about_mean = signal;
+        for (auto &sample : about_mean)
+          sample.value -= mean;
+        return { begin,    signal.back().time, 0.5 * (highest_P - lowest_P), 0.5 * (highest - lowest), mean,
+                 open / n, stuck / n,          upward_frequency(about_mean) };
+      }
+
+    private:
+      /// Of the signal's upward changes of sign: a cycle that loses contact has one of each kind a period.
+      static double upward_frequency(const std::vector<Sample> &signal)
+      {
+        const auto times = crossings(signal);
+        std::vector<double> upward;
+        const bool starts_below = signal.front().value < 0.;
+        for (std::size_t i = starts_below ? 0 : 1; i < times.size(); i += 2)
+          upward.push_back(times[i]);
+        return 2. * fit_frequency(upward);
+      }
+
+      double lowest_P  = std::numeric_limits<double>::infinity();
+      double highest_P = -std::numeric_limits<double>::infinity();
+      double lowest    = std::numeric_limits<double>::infinity();
+      double highest   = -std::numeric_limits<double>::infinity();
+      double open      = 0.;
+      double stuck     = 0.;
+      std::vector<Sample> signal;
+    };
+
+    VibrationWindow next_window(HeldRun &run, const HeldSlide &slide, const DrivePath &path, const double duration,
+                                const RowSink &sink)
+    {
+      WindowSum sum;
+      const double begin = run.drive().time;
+      const auto n       = static_cast<unsigned int>(std::ceil(duration / run.time_step() - 1e-6));
+      for (unsigned int i = 0; i < n; ++i)
+      {
+        const Row &row = run.step(path);
+        sum.add(row, run.slides(slide.speed));
+        sink(row);
+      }
+      return sum.result(begin);
+    }
+
+    bool agree(const double a, const double b)
+    {
+      return std::abs(a - b) <= same * std::max(a, b);
+    }
+
+    bool agree(const VibrationWindow &a, const VibrationWindow &b)
+    {
+      return agree(a.amplitude_P, b.amplitude_P) && agree(a.amplitude_indentation, b.amplitude_indentation) &&
+             agree(a.frequency, b.frequency) && std::abs(a.open_share - b.open_share) <= same;
+    }
+
+    /// Mean of amplitudes over some windows.
+    double mean_amplitude(const std::vector<VibrationWindow> &windows, const std::size_t begin, const std::size_t end)
+    {
+      double sum = 0.;
+      for (std::size_t i = begin; i < end; ++i)
+        sum += windows[i].amplitude_P;
+      return sum / static_cast<double>(end - begin);
+    }
+
+    /// All windows from `begin` on as one: the largest amplitudes, the means of everything else.
+    VibrationWindow joined(const std::vector<VibrationWindow> &windows, const std::size_t begin)
+    {
+      VibrationWindow sum{ windows[begin].begin, windows.back().end };
+      const double share = 1. / static_cast<double>(windows.size() - begin);
+      for (std::size_t i = begin; i < windows.size(); ++i)
+      {
+        const auto &window        = windows[i];
+        sum.amplitude_P           = std::max(sum.amplitude_P, window.amplitude_P);
+        sum.amplitude_indentation = std::max(sum.amplitude_indentation, window.amplitude_indentation);
+        sum.mean_P += share * window.mean_P;
+        sum.open_share += share * window.open_share;
+        sum.stick_share += share * window.stick_share;
+        sum.frequency += share * window.frequency;
+      }
+      return sum;
+    }
+
+    /// What the windows so far amount to; undecided while they do not.
+    Settling judged(const std::vector<VibrationWindow> &windows, const double P)
+    {
+      const std::size_t n = windows.size();
+      if (n < 3)
+        return Settling::undecided;
+      const auto &before = windows[n - 2], &last = windows[n - 1];
+      if (last.amplitude_P < small_vibration * P)
+        return last.amplitude_P < before.amplitude_P ? Settling::slide : Settling::undecided;
+      return agree(before, last) && agree(windows[n - 3], last) ? Settling::cycle : Settling::undecided;
+    }
+
+    /// At the end of the time: a large vibration stays unless its second half is clearly smaller than its first.
+    Settling judged_at_last(const std::vector<VibrationWindow> &windows, const double P)
+    {
+      const std::size_t n = windows.size();
+      if (windows.back().amplitude_P < small_vibration * P || n < 4)
+        return Settling::undecided;
+      const double first  = mean_amplitude(windows, 0, n / 2);
+      const double second = mean_amplitude(windows, n / 2, n);
+      return second > 0.8 * first ? Settling::irregular : Settling::undecided;
+    }
+  } // namespace
+
+  std::string settling_name(const Settling settling)
+  {
+    static const Choices<Settling> settlings = { { "slide", Settling::slide },
+                                                 { "cycle", Settling::cycle },
+                                                 { "irregular", Settling::irregular },
+                                                 { "undecided", Settling::undecided } };
+    return word_for(settlings, settling);
+  }
+
+  Settled settle(HeldRun &run, const HeldSlide &slide, const SettlingTimes &times, const RowSink &sink)
+  {
+    const auto path    = held_path(run.drive(), slide);
+    const double begin = run.drive().time;
+    std::vector<VibrationWindow> windows;
+    Settled result;
+    double passed = 0.;
+    while (result.kind == Settling::undecided && passed < times.longest)
+    {
+      windows.push_back(next_window(run, slide, path, window_periods * times.period, sink));
+      passed = windows.back().end - begin;
+      if (passed >= times.shortest)
+        result.kind = judged(windows, slide.forces.P);
+    }
+    if (result.kind == Settling::undecided)
+      result.kind = judged_at_last(windows, slide.forces.P);
+    result.window = result.kind == Settling::irregular ? joined(windows, windows.size() / 2) : windows.back();
+    if (windows.size() > 1)
+    {
+      const double last = windows.back().amplitude_P, before = windows[windows.size() - 2].amplitude_P;
+      result.agreement = std::abs(last - before) / std::max(last, before);
+    }
+    return result;
+  }
+} // namespace sprag

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "analysis/stability/stability.h"
+#include "analysis/transient/envelope.h"
+#include "analysis/transient/held_run.h"
+#include "scene/scene.h"
+
+namespace sprag
+{
+  /// Called with every row of a run, right after its step.
+  using RowSink = std::function<void(const Row &row)>;
+
+  /// How a small perturbation of a held slide grows or decays in time, beside its eigenvalue.
+  ///
+  /// The eigenvalue is that of the contact that slides on without stick, which is the contact in time as long as it slides; only
+  /// where mu falls with speed the spring of stick, in series with friction then, is left out of the eigenvalue.
+  struct Growth
+  {
+    std::complex<double> eigenvalue;    ///< predicted [1/s]
+    ExponentialFit envelope{};          ///< measured, of P - P of the slide [N]
+    double frequency = 0.;              ///< measured [Hz]; NaN where the mode does not oscillate
+    std::vector<Sample> sizes;          ///< the envelope fitted, over the mean overlap
+    bool slid    = true;                ///< neither stick nor loss of contact in the window
+    bool reached = false;               ///< the amplitude aimed at, within Sprag slip/Longest growth
+    double predicted_frequency() const; ///< [Hz]
+    double growth_difference() const;   ///< measured over predicted - 1
+    double frequency_difference() const;
+  };
+
+  /// The mode that is watched: the worst one, or of a stable slide the oscillating one that decays slowest.
+  const Eigenmode &watched_mode(const SlideStability &stability);
+
+  /// Duration of a step: that of the mode's period over Sprag slip/Steps per period [s]. Without oscillation 2 pi / |lambda|
+  /// stands for the period.
+  double step_of(const Eigenmode &mode, const SpragSlipSettings &settings);
+
+  /// Perturbs a slide along its watched mode and follows that from the initial amplitude to the final one, a stable slide from
+  /// the final to the initial. The run goes on from there. Requires a slide that is not jammed; throws AnalysisError as
+  /// HeldRun::step().
+  Growth measure_growth(DynamicModel &model, const SlideStability &stability, const SpragSlipSettings &settings, HeldRun &run,
+                        const RowSink &sink);
+} // namespace sprag

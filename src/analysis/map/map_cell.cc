@@ -1,0 +1,161 @@
+#include "analysis/map/map_cell.h"
+
+#include "analysis/stability/stability.h"
+#include "base/errors.h"
+#include "levers/prepared_scene.h"
+#include "scene/closed_form.h"
+#include "scene/held_slide.h"
+#include "scene/read.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace sprag
+{
+  namespace
+  {
+    static_assert(static_cast<unsigned int>(SlideKind::jammed) + 1 == inadmissible_cell);
+
+    constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
+
+    std::vector<ColumnInfo> make_columns()
+    {
+      std::string kinds;
+      for (unsigned int kind = 0; kind < n_cell_kinds; ++kind)
+        kinds += (kind == 0 ? "" : ", ") + std::to_string(kind) + " " + cell_kind_name(kind);
+      std::vector<ColumnInfo> columns = { { "theta_0", "rad", "inclination of the lever at x = 0" } };
+      for (const std::string way : { "forward", "backward" })
+      {
+        columns.push_back({ "kind_" + way, "1", kinds });
+        columns.push_back({ "growth_rate_" + way, "1/s", "largest Re lambda of the slide " + way });
+        columns.push_back({ "frequency_" + way, "Hz", "of that vibration, 0: no vibration" });
+        columns.push_back(
+            { "uniqueness_" + way, "1", "of the equilibrium: 1 without friction, <= 0 where it has lost uniqueness" });
+        columns.push_back({ "P_" + way, "N", "normal force of the slide" });
+      }
+      return columns;
+    }
+
+    /// A cell without slides.
+    MapCell empty_cell(const unsigned int kind)
+    {
+      MapCell cell;
+      cell.values.fill(no_number);
+      cell.values[1] = cell.values[1 + n_slide_values] = kind;
+      return cell;
+    }
+
+    void set_slide(MapCell &cell, const unsigned int direction, const SlideStability &found)
+    {
+      // One NaN for all, as a journal keeps no others apart.
+      const auto number                               = [](const double value) { return std::isnan(value) ? no_number : value; };
+      const std::array<double, n_slide_values> values = { { static_cast<double>(found.kind), number(found.growth_rate()),
+                                                            number(found.frequency()), number(found.uniqueness()),
+                                                            found.slide ? number(found.slide->forces.P) : no_number } };
+      std::copy(values.begin(), values.end(), cell.values.begin() + 1 + static_cast<long>(direction * n_slide_values));
+    }
+    /// Leaves the direction failed where the analysis fails.
+    void judge_slide(const Scene &scene, DynamicModel &model, MapCell &cell)
+    {
+      try
+      {
+        const auto found = judge(model, held_drive(scene), scene.stability.modes);
+        set_slide(cell, scene.stability.direction == Direction::forward ? 0 : 1, found);
+      }
+      catch (const AnalysisError &)
+      {
+      }
+    }
+  } // namespace
+
+  std::string cell_kind_name(const unsigned int kind)
+  {
+    if (kind < inadmissible_cell)
+      return kind_name(static_cast<SlideKind>(kind));
+    return kind == inadmissible_cell ? "inadmissible" : "failed";
+  }
+
+  MapKinds MapCell::kinds() const
+  {
+    return { { static_cast<unsigned int>(values[1]), static_cast<unsigned int>(values[1 + n_slide_values]) } };
+  }
+
+  const std::vector<ColumnInfo> &cell_columns()
+  {
+    static const auto columns = make_columns();
+    return columns;
+  }
+
+  double parameter_at(const ParameterRange &range, const double coordinate)
+  {
+    const double share = coordinate / (range.points - 1);
+    return share == 1. ? range.to : range.from + share * (range.to - range.from);
+  }
+
+  CellJudge::CellJudge(const Scene &map_scene)
+      : scene(map_scene)
+      , maker(false)
+  {
+  }
+
+  Scene CellJudge::scene_at(const MapSite &site) const
+  {
+    const auto &[first, second, coarsest, bisections] = scene.map;
+    return prepared(variant(scene, { override_text(first.name, parameter_at(first, site.first)),
+                                     override_text(second.name, parameter_at(second, site.second)) }));
+  }
+
+  MapCell CellJudge::judge(const MapSite &site)
+  {
+    MapCell cell = empty_cell(failed_cell);
+    try
+    {
+      Scene here          = scene_at(site);
+      cell.values[0]      = kinematics(here.geometry, 0.).theta;
+      const auto dynamics = maker.make(held_scene(here));
+      for (const auto direction : { Direction::forward, Direction::backward })
+      {
+        here.stability.direction = direction;
+        judge_slide(here, dynamics.model(), cell);
+      }
+    }
+    catch (const InputError &)
+    {
+      return empty_cell(inadmissible_cell);
+    }
+    catch (const AnalysisError &)
+    {
+      // No model: both ways stay failed.
+    }
+    return cell;
+  }
+
+  dealii::TimerOutput &CellJudge::timer()
+  {
+    return maker.timer();
+  }
+
+  std::optional<unsigned int> CellJudge::mesh_parameter() const
+  {
+    if (!is_meshed(scene.analysis.model) || changes_mesh(0) == changes_mesh(1))
+      return {};
+    return changes_mesh(0) ? 0 : 1;
+  }
+
+  bool CellJudge::changes_mesh(const unsigned int parameter) const
+  {
+    const ParameterRange &range = parameter == 0 ? scene.map.first : scene.map.second;
+    // Values inside the range, where a scene is admissible sooner than at its ends.
+    const auto changed = [&](const double coordinate)
+    { return variant(scene, { override_text(range.name, parameter_at(range, coordinate)) }); };
+    try
+    {
+      return !share_mesh(changed(0.5 * (range.points - 1)), changed(0.25 * (range.points - 1)));
+    }
+    catch (const InputError &)
+    {
+      return false;
+    }
+  }
+} // namespace sprag

@@ -1,0 +1,58 @@
+#pragma once
+
+#include "analysis/map/map_grid.h"
+#include "levers/dynamics.h"
+#include "results/columns.h"
+
+#include <optional>
+
+namespace sprag
+{
+  /// Kinds of a map's cells: those of SlideKind and two more.
+  constexpr unsigned int inadmissible_cell = 4; ///< the scene is refused
+  constexpr unsigned int failed_cell       = 5; ///< its analysis fails
+  constexpr unsigned int n_cell_kinds      = 6;
+
+  std::string cell_kind_name(unsigned int kind);
+
+  constexpr std::size_t n_slide_values = 5;
+  constexpr std::size_t n_cell_values  = 1 + 2 * n_slide_values;
+
+  /// The results of a cell: numbers in the order of cell_columns(), NaN where there is none.
+  struct MapCell
+  {
+    std::array<double, n_cell_values> values;
+
+    MapKinds kinds() const; ///< forward, backward
+  };
+
+  /// Names, units and meaning of a cell's numbers.
+  const std::vector<ColumnInfo> &cell_columns();
+
+  /// The parameter's value at a coordinate of the grid: its ends exactly.
+  double parameter_at(const ParameterRange &range, double coordinate);
+
+  /// Judges the slides of a map's scene both ways with other values of its two parameters. A cell depends on nothing but its
+  /// site.
+  class CellJudge
+  {
+  public:
+    explicit CellJudge(const Scene &scene);
+
+    MapCell judge(const MapSite &site);
+
+    /// Time spent on meshes and models.
+    dealii::TimerOutput &timer();
+
+    /// The parameter, 0 or 1, that alone changes the mesh, so that cells in the order of it are judged faster; none where there
+    /// is no such parameter.
+    std::optional<unsigned int> mesh_parameter() const;
+
+  private:
+    const Scene scene;
+    DynamicsMaker maker;
+
+    Scene scene_at(const MapSite &site) const;
+    bool changes_mesh(unsigned int parameter) const;
+  };
+} // namespace sprag

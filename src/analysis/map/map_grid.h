@@ -1,0 +1,117 @@
+#pragma once
+
+#include <array>
+#include <map>
+#include <vector>
+
+namespace sprag
+{
+  // Where the kind of a result changes over two parameters, found by refinement near those places. The kinds are numbers without
+  // order; each point has one for each direction of motion.
+
+  using MapKinds = std::array<unsigned int, 2>;
+
+  /// A place in a map, in intervals of its grid: 0 ... points - 1, exact in binary.
+  struct MapSite
+  {
+    double first;
+    double second;
+  };
+
+  inline bool operator<(const MapSite &a, const MapSite &b)
+  {
+    return a.first < b.first || (a.first == b.first && a.second < b.second);
+  }
+
+  using KnownKinds = std::map<MapSite, MapKinds>;
+
+  /// A grid judged at every `coarsest`-th point and at its ends first, then closer and closer wherever kinds differ.
+  ///
+  /// A quad is split when not all points known in it and on its sides have the same kinds, so that a boundary is followed
+  /// wherever it leaves; and, while its parts are wider than an interval, when a quad beside it is split for that reason.
+  /// Features narrower than the coarsest quads are seen only where one of the points meets them.
+  class MapGrid
+  {
+  public:
+    /// At least two points each way; `coarsest` a power of 2.
+    MapGrid(unsigned int first_points, unsigned int second_points, unsigned int coarsest);
+
+    /// Grid points to be judged next, by increasing site; none once nothing is left to refine.
+    std::vector<MapSite> wanted();
+
+    /// Takes over what is known of the grid's points.
+    void learn(const KnownKinds &known);
+
+    bool is_known(unsigned int i, unsigned int j) const;
+
+    /// Kinds at a point of the grid, forward and backward; the point must be known.
+    const MapKinds &kinds(unsigned int i, unsigned int j) const;
+
+    std::array<unsigned int, 2> points() const;
+
+    /// Values at all points, the second parameter running fastest, from `values` at the known ones: bilinear over the smallest
+    /// quad around. Where a corner of that is NaN or not known, NaN.
+    std::vector<double> interpolated(const std::vector<double> &values) const;
+
+  private:
+    struct Level
+    {
+      unsigned int spacing;
+      std::array<unsigned int, 2> quads;
+      std::vector<char> split;
+
+      std::size_t index(unsigned int a, unsigned int b) const
+      {
+        return std::size_t{ a } * quads[1] + b;
+      }
+    };
+
+    /// First and last grid line of a quad each way.
+    struct Corners
+    {
+      std::array<unsigned int, 2> low;
+      std::array<unsigned int, 2> high;
+    };
+
+    const std::array<unsigned int, 2> n;
+    std::vector<Level> levels; ///< coarsest first
+    std::vector<char> known;
+    std::vector<MapKinds> kind;
+
+    std::size_t index(unsigned int i, unsigned int j) const;
+    Corners corners(const Level &level, unsigned int a, unsigned int b) const;
+    bool is_active(std::size_t level, unsigned int a, unsigned int b) const;
+    bool is_mixed(const Corners &quad) const;
+    void split_level(std::size_t level);
+    void interpolate(const Corners &quad, const std::vector<double> &values, std::vector<double> &result) const;
+  };
+
+  /// A place where the kind changes along one line of the grid.
+  struct BoundaryPoint
+  {
+    MapSite site;                      ///< middle of the bracket
+    unsigned int direction;            ///< of motion, index of MapKinds
+    unsigned int along;                ///< the parameter that varies: 0 or 1
+    double width;                      ///< of the bracket, in intervals
+    std::array<unsigned int, 2> kinds; ///< at its low and its high end
+  };
+
+  /// Narrows each edge between neighbouring known points that differ in kind.
+  class BoundarySearch
+  {
+  public:
+    BoundarySearch(const MapGrid &grid, unsigned int bisections);
+
+    /// Middles of the brackets, by increasing site; none after the last bisection.
+    std::vector<MapSite> wanted() const;
+
+    /// Takes one bisection; all wanted sites must be known.
+    void learn(const KnownKinds &known);
+
+    std::vector<BoundaryPoint> points() const;
+
+  private:
+    std::vector<BoundaryPoint> brackets;
+    unsigned int left;
+  };
+} // namespace sprag

@@ -1,0 +1,143 @@
+#include "analysis/stability/jamming.h"
+
+#include "base/errors.h"
+#include "base/text.h"
+#include "model/reduced_lever.h"
+#include "scene/closed_form.h"
+#include "scene/held_slide.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <tuple>
+
+namespace sprag
+{
+  namespace
+  {
+    constexpr unsigned int samples = 64;
+
+    using Visit = std::function<void(const DrivePoint &)>;
+
+    /// Calls visit along a part of the drive, on both sides of where it turns.
+    void follow(const Drive &drive, const double begin, const double end, const Visit &visit)
+    {
+      const double spacing = (drive.maximum() - drive.minimum()) / samples;
+      visit(drive.at(begin, Drive::Side::after));
+      for (double time = begin; time < end;)
+      {
+        // Where x changes little the speed may change much.
+        const double far    = drive.step(time, spacing).time;
+        const double middle = 0.5 * (time + far);
+        visit(drive.at(middle));
+        visit(drive.at(far, Drive::Side::before));
+        visit(drive.at(far, Drive::Side::after));
+        time = far;
+      }
+    }
+
+    /// Strokes of a periodic drive are alike but for its first, and for the last, which may be cut short or end at full speed.
+    void follow(const Drive &drive, const Visit &visit)
+    {
+      const auto &turns  = drive.reversals();
+      const bool repeats = drive.profile() != DriveProfile::table && turns.size() > 3;
+      follow(drive, 0., repeats ? turns[2] : drive.duration(), visit);
+      if (repeats)
+        follow(drive, turns.back(), drive.duration(), visit);
+    }
+
+    void visit_held(const Drive &drive, const Visit &visit)
+    {
+      for (unsigned int i = 0; i <= samples; ++i)
+        for (const double sign : { 1., -1. })
+          visit({ 0., drive.minimum() + (drive.maximum() - drive.minimum()) * i / samples, sign * drive.peak_speed(), 0. });
+    }
+
+    bool holds_slides(const AnalysisType type)
+    {
+      return type == AnalysisType::modal || type == AnalysisType::stability || type == AnalysisType::map ||
+             type == AnalysisType::sprag_slip || type == AnalysisType::calibration;
+    }
+
+    /// The scene as a beam moving at x with a constant mu; none where it has no equilibrium, or not a unique one.
+    std::optional<HeldSlide> beam_slide(const Scene &scene, const JammingMargin &at, const double mu)
+    {
+      Scene beam          = scene;
+      beam.analysis.model = ModelType::beam;
+      beam.friction       = {};
+      beam.friction.law   = CoulombFriction{ mu };
+      beam.support.type   = SupportType::rigid;
+      beam.contact.type   = ContactType::compliant;
+      const double v      = std::copysign(scene.drive.peak_speed(), at.v);
+      auto slide          = make_reduced_lever(beam)->hold({ 0., at.x, v, 0. }, ContactFriction::sliding);
+      if (slide && slide->forces.P > 0. && slide->uniqueness > 0.)
+        return slide;
+      return {};
+    }
+
+    /// Bisection between a mu at which the equilibrium is unique and one at which it is not.
+    std::optional<double> critical_mu(const Scene &scene, const JammingMargin &at, double unique, double jammed)
+    {
+      const auto is_unique = [&](const double mu) { return beam_slide(scene, at, mu).has_value(); };
+      if (!is_unique(unique) || is_unique(jammed))
+        return {};
+      while (jammed - unique > 1e-4 * jammed)
+      {
+        const double middle                   = 0.5 * (unique + jammed);
+        (is_unique(middle) ? unique : jammed) = middle;
+      }
+      return 0.5 * (unique + jammed);
+    }
+
+    void add_flexure(const Scene &scene, JammingMargin &margin)
+    {
+      constexpr double largest_mu = 5.;
+      if (const auto slide = beam_slide(scene, margin, margin.mu))
+        margin.flexible = slide->margin;
+      margin.flexible_critical_mu = critical_mu(scene, margin, 0., std::min(3. * margin.critical_mu, largest_mu));
+    }
+  } // namespace
+
+  JammingMargin jamming_margin(const Scene &scene, const bool flexible)
+  {
+    const double e = scene.geometry.interface_offset;
+    JammingMargin margin;
+    // Without an offset the margin is 1 everywhere; then the shortest s moving back is told.
+    const auto rank  = [](const JammingMargin &at) { return std::make_tuple(at.margin(), at.s, direction_of(at.v)); };
+    bool begins      = true;
+    const auto visit = [&](const DrivePoint &point)
+    {
+      const double s  = kinematics(scene.geometry, point.x).s;
+      const double mu = sliding_friction(scene, point.x, point.v).coefficient;
+      const JammingMargin here{
+        point.x, point.v, s, mu, mu * e, e > 0. ? s / e : std::numeric_limits<double>::infinity(), {}, {}
+      };
+      if (begins || rank(here) < rank(margin))
+        margin = here;
+      begins = false;
+    };
+    if (holds_slides(scene.analysis.type))
+      visit_held(scene.drive, visit);
+    else
+      follow(scene.drive, visit);
+    if (flexible)
+      add_flexure(scene, margin);
+    return margin;
+  }
+
+  std::string jamming_text(const JammingMargin &margin)
+  {
+    std::string text = "Jamming:      closest moving " + std::string(direction_of(margin.v) < 0 ? "back" : "forward") +
+                       " at x = " + rounded_text(margin.x) + " mm, " + rounded_text(std::abs(margin.v)) +
+                       " mm/s: s = " + rounded_text(margin.s) + " mm, mu e = " + rounded_text(margin.mu_e) + " mm, margin " +
+                       rounded_text(margin.margin()) + "; a rigid lever locks at " +
+                       (std::isfinite(margin.critical_mu) ? "mu = " + rounded_text(margin.critical_mu) : "no mu");
+    if (margin.flexible)
+      text += "; margin of the flexible one " + rounded_text(*margin.flexible);
+    if (margin.flexible_critical_mu)
+      text +=
+          (margin.flexible ? ", jams at mu = " : "; the flexible one jams at mu = ") + rounded_text(*margin.flexible_critical_mu);
+    return text;
+  }
+} // namespace sprag

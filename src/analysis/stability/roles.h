@@ -1,0 +1,21 @@
+#pragma once
+
+#include "analysis/stability/stability.h"
+#include "scene/scene.h"
+
+namespace sprag
+{
+  /// A slide with one of its ingredients left out.
+  struct Role
+  {
+    std::string name;    ///< "without_flexure" ...
+    std::string meaning; ///< what was done
+    SlideKind kind     = SlideKind::jammed;
+    double growth_rate = 0.; ///< [1/s]; NaN where there is none to tell
+    double frequency   = 0.; ///< [Hz]
+    std::string motion;      ///< of a pair's most unstable mode, see SlideStability::motion()
+  };
+
+  /// Judges the slide again without flexure, inertia, mu'(v), damping and a sprung support, each left out alone.
+  std::vector<Role> roles(const Scene &scene, const SlideStability &present, DynamicsMaker &maker);
+} // namespace sprag

@@ -1,0 +1,96 @@
+#include "analysis/stability/stability.h"
+
+#include "base/choices.h"
+#include "model/mirroring.h"
+#include "scene/held_slide.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace sprag
+{
+  namespace
+  {
+    SlideKind kind_of(const HeldSlide &slide, const std::complex<double> worst)
+    {
+      if (!(slide.uniqueness > 0.) || !(slide.forces.P > 0.))
+        return SlideKind::jammed;
+      if (worst.real() <= smallest_growth * std::abs(worst))
+        return SlideKind::stable;
+      return worst.imag() > smallest_growth * std::abs(worst) ? SlideKind::flutter : SlideKind::divergence;
+    }
+  } // namespace
+
+  std::string kind_name(const SlideKind kind)
+  {
+    static const Choices<SlideKind> kinds = { { "stable", SlideKind::stable },
+                                              { "flutter", SlideKind::flutter },
+                                              { "divergence", SlideKind::divergence },
+                                              { "jammed", SlideKind::jammed } };
+    return word_for(kinds, kind);
+  }
+
+  const Eigenmode &SlideStability::worst_mode() const
+  {
+    return modes.at(worst);
+  }
+
+  double SlideStability::growth_rate() const
+  {
+    return modes.empty() ? std::numeric_limits<double>::quiet_NaN() : worst_mode().mode.eigenvalue.real();
+  }
+
+  double SlideStability::frequency() const
+  {
+    return modes.empty() ? std::numeric_limits<double>::quiet_NaN() : worst_mode().mode.eigenvalue.imag() / (2. * M_PI);
+  }
+
+  double SlideStability::uniqueness() const
+  {
+    return slide ? slide->uniqueness : std::numeric_limits<double>::quiet_NaN();
+  }
+
+  std::string SlideStability::motion() const
+  {
+    constexpr double pure = 0.99;
+    if (modes.empty() || std::isnan(worst_mode().mirroring))
+      return "";
+    const auto is_other = [this](const Eigenmode &mode)
+    { return are_tied(mode.mode, worst_mode().mode) && mode.mirroring * worst_mode().mirroring < 0.; };
+    if (std::any_of(modes.begin(), modes.end(), is_other))
+      return "either";
+    if (std::abs(worst_mode().mirroring) < pure)
+      return "mixed";
+    return worst_mode().mirroring > 0. ? "mirroring" : "swinging";
+  }
+
+  SlideStability judge(DynamicModel &model, const DrivePoint &drive, const unsigned int modes)
+  {
+    SlideStability result;
+    result.slide = model.hold(drive, ContactFriction::sliding);
+    if (!result.slide)
+      return result;
+    result.modes        = model.vibrations(*result.slide, true, modes);
+    const auto growth   = [](const Eigenmode &mode) { return mode.mode.eigenvalue.real() / std::abs(mode.mode.eigenvalue); };
+    const auto is_worse = [&](const Eigenmode &a, const Eigenmode &b)
+    {
+      const bool a_grows = growth(a) > smallest_growth;
+      const bool b_grows = growth(b) > smallest_growth;
+      return a_grows == b_grows ? a.mode.eigenvalue.real() < b.mode.eigenvalue.real() : b_grows;
+    };
+    const auto worst = std::max_element(result.modes.begin(), result.modes.end(), is_worse);
+    const auto first =
+        std::find_if(result.modes.begin(), worst, [&](const Eigenmode &mode) { return are_tied(mode.mode, worst->mode); });
+    result.worst = static_cast<std::size_t>(first - result.modes.begin());
+    result.kind  = kind_of(*result.slide, result.worst_mode().mode.eigenvalue);
+    return result;
+  }
+
+  SlideStability judge(const Scene &scene, DynamicsMaker &maker)
+  {
+    const Scene held    = held_scene(scene);
+    const auto dynamics = maker.make(held);
+    return judge(dynamics.model(), held_drive(scene), held.stability.modes);
+  }
+} // namespace sprag

@@ -1,0 +1,47 @@
+#pragma once
+
+#include "levers/dynamics.h"
+
+#include <optional>
+#include <vector>
+
+namespace sprag
+{
+  enum class SlideKind
+  {
+    stable,
+    flutter,    ///< a vibration grows: sprag-slip
+    divergence, ///< a real eigenvalue > 0
+    jammed      ///< no unique equilibrium: none found, or its tangent has passed a singular one
+  };
+
+  /// "stable", "flutter" ...
+  std::string kind_name(SlideKind kind);
+
+  /// A steady slide and its vibrations.
+  struct SlideStability
+  {
+    SlideKind kind = SlideKind::jammed;
+    std::optional<HeldSlide> slide; ///< none where there is no equilibrium
+    std::vector<Eigenmode> modes;   ///< by increasing |lambda|; empty without equilibrium
+    std::size_t worst = 0;          ///< of the modes, the one with the largest growth rate, the first of those that tie
+
+    const Eigenmode &worst_mode() const;
+    double growth_rate() const; ///< largest Re lambda [1/s]; NaN without equilibrium
+    double frequency() const;   ///< of that mode [Hz]; NaN without equilibrium
+    double uniqueness() const;  ///< see HeldSlide; NaN without equilibrium
+
+    /// How a pair's levers move in that mode: "mirroring", "swinging", "either" where a mode of each kind has its eigenvalue,
+    /// "mixed" of levers that differ. Empty for one lever and without equilibrium.
+    std::string motion() const;
+  };
+
+  /// Growth above this share of |lambda| counts as such; below is round-off.
+  constexpr double smallest_growth = 1e-7;
+
+  /// Judges the slide at `drive`: its vibrations, at least the `modes` lowest.
+  SlideStability judge(DynamicModel &model, const DrivePoint &drive, unsigned int modes);
+
+  /// The same at the scene's held_drive(), its model in held_scene() made by `maker`.
+  SlideStability judge(const Scene &scene, DynamicsMaker &maker);
+} // namespace sprag

@@ -1,0 +1,108 @@
+#include "analysis/statics/contact_law.h"
+
+#include "analysis/statics/quasi_static.h"
+#include "base/least_squares.h"
+#include "levers/static_lever.h"
+#include "model/circle.h"
+#include "scene/closed_form.h"
+#include "scene/contact_reference.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sprag
+{
+  namespace
+  {
+    constexpr double beyond       = 1.2;  ///< largest P of the indentation over the run's
+    constexpr double smallest     = 0.05; ///< P counted, over the run's largest
+    constexpr double points_drawn = 40.;
+    constexpr double refinement   = 2.; ///< of the face, which a contact as narrow as hard contact is needs
+
+    /// The scene without friction and with a linear spring that leads to the largest P.
+    Scene indentation_scene(const Scene &scene, const ContactReference &reference)
+    {
+      Scene result            = scene;
+      result.friction.law     = CoulombFriction{ 0. };
+      result.drive            = Drive(DriveProfile::triangle, 0., scene.drive.maximum(), scene.drive.peak_speed(), 0.5);
+      result.spring.type      = SpringType::torsional;
+      result.spring.behaviour = {};
+      const double P          = closed_form(result, scene.drive.maximum(), 1.).P;
+      result.spring.stiffness *= beyond * reference.P / P;
+      result.mesh.face_size /= refinement;
+      return result;
+    }
+
+    double bar_stiffness(const Scene &scene)
+    {
+      const Lever &lever  = scene.lever;
+      const double nu     = lever.poisson_ratio;
+      const double strain = scene.analysis.plane == PlaneState::strain ? 1. - nu * nu : 1.;
+      return lever.young_modulus / strain * lever.width * std::pow(lever.depth, 3) / 12.;
+    }
+
+    Indentation indentation(const Scene &scene, const double bending_stiffness, const Row &row)
+    {
+      const auto centre = cylinder_centre(scene.geometry, row[Column::x], row[Column::theta]);
+      return { row[Column::P], scene.geometry.cylinder_radius - scene.geometry.interface_offset + centre.eta,
+               row[Column::P] * std::pow(centre.xi, 3) / (3. * bending_stiffness), row[Column::penetration] };
+    }
+  } // namespace
+
+  ContactLawFit fit_contact_law(const std::vector<Indentation> &points)
+  {
+    std::vector<double> log_local, log_P, weights;
+    for (const auto &point : points)
+    {
+      log_local.push_back(std::log(point.local()));
+      log_P.push_back(std::log(point.P));
+      weights.push_back(point.P * point.P);
+    }
+    Line line  = fitted_line(log_local, log_P, weights);
+    line.slope = std::clamp(line.slope, 1., 3.);
+    ContactLawFit fit{};
+    fit.exponent   = line.slope;
+    fit.stiffness  = std::exp(line.at(0.));
+    double squares = 0.;
+    for (const auto &point : points)
+    {
+      const double error = fit.stiffness * std::pow(point.local(), fit.exponent) / point.P - 1.;
+      fit.largest_error  = std::max(fit.largest_error, std::abs(error));
+      squares += error * error;
+    }
+    fit.rms_error = std::sqrt(squares / static_cast<double>(points.size()));
+    return fit;
+  }
+
+  double FittedContact::penalty_error() const
+  {
+    double largest = 0.;
+    for (const auto &point : points)
+      largest = std::max(largest, fit.exponent * point.overlap / point.local());
+    return largest;
+  }
+
+  FittedContact indent(const Scene &scene)
+  {
+    return indent(scene, bar_stiffness(scene));
+  }
+
+  FittedContact indent(const Scene &scene, const double bending_stiffness)
+  {
+    const auto reference = contact_reference(scene);
+    const Scene pressed  = indentation_scene(scene, reference);
+    const auto lever     = make_lever_in_hard_contact(pressed);
+
+    FittedContact result{};
+    const double from = std::max(smallest * reference.P, reference.smallest_P);
+    const QuasiStaticSettings settings{ scene.drive.maximum() / points_drawn, scene.analysis.minimum_step, scene.contact };
+    run_quasi_static(*lever.model, pressed.drive, settings,
+                     [&](const State &, const Row &row)
+                     {
+                       if (row[Column::P] >= from)
+                         result.points.push_back(indentation(pressed, bending_stiffness, row));
+                     });
+    result.fit = fit_contact_law(result.points);
+    return result;
+  }
+} // namespace sprag

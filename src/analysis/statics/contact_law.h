@@ -1,0 +1,53 @@
+#pragma once
+
+#include "results/result_file.h"
+#include "scene/scene.h"
+
+#include <vector>
+
+namespace sprag
+{
+  /// An indentation without friction: what the reduced models have to lump into their contact.
+  struct Indentation
+  {
+    double P;        ///< [N]
+    double approach; ///< overlap of the cylinder with the undeformed lever [mm]
+    double bending;  ///< deflection of the Euler-Bernoulli lever under P at the contact [mm]
+    double overlap;  ///< numerical, largest; what hard contact would not have [mm]
+
+    double local() const
+    {
+      return approach - bending;
+    }
+  };
+
+  /// P = stiffness delta^exponent, fitted to indentations.
+  struct ContactLawFit
+  {
+    double stiffness;     ///< [N/mm^n]
+    double exponent;      ///< n, 1 ... 3 as scenes take it; elements wider than the contact tend to less than 1
+    double largest_error; ///< of P, relative
+    double rms_error;
+  };
+
+  /// Least squares of the errors of P, to first order: the stiffness at the largest P, which the ringing after a reversal feels,
+  /// is met best. Requires two or more points with P, local() > 0.
+  ContactLawFit fit_contact_law(const std::vector<Indentation> &points);
+
+  struct FittedContact
+  {
+    std::vector<Indentation> points;
+    ContactLawFit fit;
+
+    /// Largest relative error of P that the penalty leaves: the exponent times the overlap over the local indentation.
+    double penalty_error() const;
+  };
+
+  /// Indents the scene's meshed lever by a cylinder moved along the drive without friction, the rotational spring scaled so that
+  /// P grows to 1.2 times the largest of the run. Points from 5 % of that on. The face is half as
+  /// coarse as the scene's and an automatic penalty as stiff as hard contact.
+  FittedContact indent(const Scene &scene);
+
+  /// The same for a lever that bends as a beam of that EI [N mm^2] does, instead of the scene's bar.
+  FittedContact indent(const Scene &scene, double bending_stiffness);
+} // namespace sprag

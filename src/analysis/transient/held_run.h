@@ -1,0 +1,73 @@
+#pragma once
+
+#include "analysis/transient/energy_ledger.h"
+#include "model/dynamic_model.h"
+
+#include <functional>
+#include <optional>
+
+namespace sprag
+{
+  /// The drive at an instant of a run, surface included.
+  using DrivePath = std::function<DrivePoint(double time)>;
+
+  /// The centre stays where it is and the surface runs on at the slide's speed.
+  DrivePath held_path(const DrivePoint &from, const HeldSlide &slide);
+
+  /// The centre moves smoothly from one slide's x to another's within `duration` > 0 [s]. The surface runs the slower the more
+  /// that motion slides by itself, so that the slip goes on at the speed of the slides.
+  DrivePath moving_path(const DrivePoint &from, const HeldSlide &begin, const HeldSlide &end, double duration);
+
+  /// A state of a run from which it can be taken up again.
+  struct RunState
+  {
+    Motion motion;
+    StoredEnergy energy;
+  };
+
+  /// Steps of one duration about held slides, with their ledger.
+  class HeldRun
+  {
+  public:
+    /// A step of `dt` > 0 [s] without solution is divided in two, up to 12 times.
+    HeldRun(DynamicModel &model, double dt);
+
+    /// Begins at a motion, the outcome of the model's last hold() or perturbed(). The ledger begins anew; the time of a run that
+    /// has begun before goes on.
+    void begin(Motion motion);
+
+    /// Takes up a former state of this run, its time apart; the ledger begins anew.
+    void resume(const RunState &state);
+
+    const RunState &state() const;
+
+    /// Spectral radius of the steps from now on, 0 ... 1; at first 1.
+    void use_spectral_radius(double radius);
+
+    /// Goes on by dt and returns the row there. Throws AnalysisError where there is no solution, or when the run is interrupted.
+    const Row &step(const DrivePath &path);
+
+    const DrivePoint &drive() const;
+    double time_step() const;
+    unsigned long steps() const;
+
+    /// Returns whether every point in contact now slides the way of `speed`.
+    bool slides(double speed) const;
+
+    /// Returns the report of the ledger that leaves most open.
+    LedgerReport ledger() const;
+
+  private:
+    void start(RunState state);
+    unsigned int advance(const DrivePath &path, double duration, unsigned int halvings);
+
+    DynamicModel &model;
+    const double dt;
+    double spectral_radius = 1.;
+    RunState now;
+    Row row;
+    std::optional<EnergyLedger> account;
+    LedgerReport worst;
+    unsigned long count = 0;
+  };
+} // namespace sprag

@@ -1,0 +1,148 @@
+#include "analysis/transient/ideal_contact.h"
+
+#include "analysis/transient/step_clock.h"
+#include "base/errors.h"
+#include "base/text.h"
+#include "scene/closed_form.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sprag
+{
+  namespace
+  {
+    class IdealContact
+    {
+    public:
+      IdealContact(const Scene &the_scene, const double moment_of_inertia)
+          : scene(the_scene)
+          , inertia(moment_of_inertia)
+          , rest(kinematics(the_scene.geometry, 0.).theta)
+          , spring(moment_law(the_scene.spring))
+      {
+      }
+
+      /// Columns at a point of the drive.
+      Row row(const DrivePoint &point) const
+      {
+        const auto &g          = scene.geometry;
+        const auto contact     = kinematics(g, point.x);
+        const double mu        = sliding_friction(scene, point.x, point.v).coefficient;
+        const double signed_mu = direction_of(point.v) * mu;
+        const double s_x       = -std::cos(contact.theta) - (g.cylinder_radius - g.interface_offset) * contact.theta_x;
+        const double theta_xx =
+            (std::cos(contact.theta) * contact.theta_x * contact.s - std::sin(contact.theta) * s_x) / (contact.s * contact.s);
+        const double rate         = contact.theta_x * point.v;
+        const double acceleration = contact.theta_x * point.a + theta_xx * point.v * point.v;
+        const double moment       = inertia * acceleration + spring.moment(contact.theta - rest);
+        const double P            = moment / (contact.s + signed_mu * g.interface_offset);
+        const double F            = signed_mu * P;
+        const double speed        = sliding_speed(g, point.x, point.v);
+
+        Row result;
+        result[Column::time]               = point.time;
+        result[Column::x]                  = point.x;
+        result[Column::v]                  = point.v;
+        result[Column::theta]              = contact.theta;
+        result[Column::theta_rate]         = rate;
+        result[Column::s]                  = contact.s;
+        result[Column::P]                  = P;
+        result[Column::F]                  = F;
+        result[Column::Q]                  = P * std::sin(contact.theta) + F * std::cos(contact.theta);
+        result[Column::Q_support]          = result[Column::Q];
+        result[Column::normal_resultant]   = P;
+        result[Column::friction_resultant] = F;
+        result[Column::v_rel]              = speed;
+        result[Column::mu]                 = mu;
+        result[Column::friction_power]     = F * speed;
+        result[Column::kinetic_energy]     = 0.5 * inertia * rate * rate;
+        result[Column::spring_energy]      = spring.energy(contact.theta - rest);
+        const auto quasi_static            = closed_form(scene, point.x, point.v);
+        result[Column::P_quasi_static]     = quasi_static.P;
+        result[Column::Q_quasi_static]     = quasi_static.Q;
+        for (const auto column :
+             { Column::centre_offset, Column::contact_width, Column::penetration, Column::indentation, Column::cone_violation,
+               Column::elastic_slip, Column::elastic_energy, Column::support_energy, Column::contact_energy, Column::damping_work,
+               Column::algorithmic_work, Column::support_displacement, Column::creep })
+          result[column] = 0.;
+        return result;
+      }
+
+    private:
+      const Scene &scene;
+      const double inertia;
+      const double rest;
+      const MomentLaw spring;
+    };
+
+    StoredEnergy stored(const Row &row)
+    {
+      StoredEnergy energy;
+      energy.kinetic = row[Column::kinetic_energy];
+      energy.spring  = row[Column::spring_energy];
+      return energy;
+    }
+
+    StepWork work_between(const IdealContact &lever, const Drive &drive, const double begin, const double end)
+    {
+      const double points[]  = { 0.5 - std::sqrt(0.15), 0.5, 0.5 + std::sqrt(0.15) };
+      const double weights[] = { 5. / 18., 8. / 18., 5. / 18. };
+      StepWork work;
+      for (unsigned int i = 0; i < 3; ++i)
+      {
+        const Row row = lever.row(drive.at(begin + points[i] * (end - begin)));
+        work.drive += weights[i] * (end - begin) * row[Column::Q] * row[Column::v];
+        work.friction += weights[i] * (end - begin) * row[Column::friction_power];
+      }
+      return work;
+    }
+
+    void require_contact(const Row &row)
+    {
+      if (row[Column::P] >= 0.)
+        return;
+      throw AnalysisError("the contact would have to pull: P = " + rounded_text(row[Column::P]) +
+                          " N at t = " + rounded_text(row[Column::time]) + " s, x = " + rounded_text(row[Column::x]) +
+                          " mm. An ideal contact cannot open: use Contact/Type = compliant or a longer Drive/Reversal duration.");
+    }
+  } // namespace
+
+  TransientReport run_ideal_contact(const Scene &scene, const double inertia, const std::function<void(const Row &)> &sink)
+  {
+    const auto &drive     = scene.drive;
+    const auto &reversals = drive.reversals();
+    const IdealContact lever(scene, inertia);
+    StepClock clock(drive, scene.time.step, 0);
+
+    double time = 0.;
+    Row row     = lever.row(drive.at(0., Drive::Side::after));
+    EnergyLedger ledger(stored(row));
+    TransientReport report;
+    const auto hand_on = [&](const double step)
+    {
+      ledger.fill(row);
+      row[Column::time_step] = step;
+      require_contact(row);
+      sink(row);
+    };
+    hand_on(0.);
+    for (; !clock.finished(); clock.advance())
+    {
+      const double end = clock.end_of_step();
+      const auto work  = work_between(lever, drive, time, end);
+      row              = lever.row(drive.at(end));
+      ledger.add(end, stored(row), work);
+      ++report.steps;
+      hand_on(end - time);
+      time = end;
+      if (std::binary_search(reversals.begin(), reversals.end(), end))
+      {
+        row = lever.row(drive.at(end, Drive::Side::after));
+        hand_on(0.);
+      }
+    }
+    report.ledger = ledger.report();
+    return report;
+  }
+} // namespace sprag

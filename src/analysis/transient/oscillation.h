@@ -1,0 +1,77 @@
+#pragma once
+
+#include "results/result_file.h"
+#include "results/warning.h"
+#include "scene/drive.h"
+
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace sprag
+{
+  enum class Verdict
+  {
+    unknown,  ///< fewer than two rows in the window
+    vibrates, ///< rms over 8 % of P without inertia, and the contact is open for more than 1 % of the time
+    passing,  ///< what lasts is the ripple of elements that pass under the contact, see Oscillation::passing_frequency
+    grows,    ///< none of these, the envelope grows and what is left at the end is over 1.2 % of P without inertia
+    decays,   ///< none of these, at most 1.2 % of P without inertia is left at the end, or 0.1 % of the run's; never open
+    rings     ///< none of these: it decays, but not within the window
+  };
+
+  /// "vibrates", "decays" ...
+  std::string verdict_name(Verdict verdict);
+
+  /// The vibration after a reversal of the drive, measured by how far P, Q and Q_support are off the values without inertia.
+  ///
+  /// The window is 0.1 s long from the end of the reversal, half its duration after the turning point, and ends earlier where the
+  /// next reversal begins or the rows end. All times of rows are taken as they come, unequally spaced. A value that the rows do
+  /// not tell is NaN.
+  ///
+  /// Overshoot: largest excess of a force over its quasi-static value in the direction of that value, relative to the largest
+  /// quasi-static value of the window; 0 if there is none. It counts up to the end of the window and from where the force first
+  /// meets its quasi-static value after the turning point: before that friction is still on its way from one direction to the
+  /// other. If that is only after the reversal's end, it counts from there.
+  struct Oscillation
+  {
+    static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+    double time         = unknown; ///< of the turning point [s]
+    double x            = unknown; ///< of the turning point [mm]
+    double window_begin = unknown; ///< [s]
+    double window_end   = unknown; ///< [s]
+    Verdict verdict     = Verdict::unknown;
+
+    double overshoot_P         = unknown;
+    double overshoot_Q         = unknown;
+    double overshoot_Q_support = unknown; ///< against the quasi-static Q
+    double frequency           = unknown; ///< of P [Hz], dominant in the window; NaN without oscillation
+    double frequency_Q         = unknown; ///< [Hz]
+    double frequency_Q_support = unknown; ///< [Hz]
+    double growth_rate         = unknown; ///< of the envelope of P in the window [1/s], negative: decays
+    double open_share          = unknown; ///< of the window with P = 0
+    double rms                 = unknown; ///< of P less its quasi-static value over the window [N]
+    double rms_end             = unknown; ///< the same over the last tenth of the window [N]
+    double scale               = unknown; ///< largest |P| without inertia in the window, to which verdicts refer [N]
+    double rms_Q               = unknown; ///< of Q less its quasi-static value over the window [N]
+    double rms_Q_support       = unknown; ///< of Q_support less the quasi-static Q over the window [N]
+
+    /// The frequency at which elements of the friction face pass under the contact [Hz], if `frequency` is that or twice that,
+    /// within 4 %, and more than a tenth of the rms over the window is left at its end; else NaN.
+    double passing_frequency = unknown;
+
+    /// Travel from the turning point until P stays within 5 % of its largest distance from the quasi-static value after the
+    /// reversal, or within 0.1 % of the largest P; at most to the beginning of the next reversal or the end of the rows [mm].
+    double extent = unknown;
+  };
+
+  /// One a reversal of the drive, in its order. `face_size`: of the elements along the friction face [mm]; 0: none, or unknown.
+  std::vector<Oscillation> oscillations(const std::vector<Row> &rows, const Drive &drive, double face_size = 0.);
+
+  /// Warns of ringing that the mesh makes, not the lever.
+  Warnings element_passing_warnings(const std::vector<Oscillation> &oscillations, double face_size);
+
+  /// For /summary: reversal_1_verdict, reversal_1_frequency, ... for every reversal.
+  std::vector<Entry> oscillation_entries(const std::vector<Oscillation> &oscillations);
+} // namespace sprag

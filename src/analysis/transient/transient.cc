@@ -1,0 +1,239 @@
+#include "analysis/transient/transient.h"
+
+#include "analysis/transient/step_clock.h"
+#include "base/errors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace sprag
+{
+  namespace
+  {
+    constexpr unsigned int largest_halvings = 12;       ///< of Time/Step
+    constexpr double small_error            = 1. / 24.; ///< of the tolerance: doubling the step makes it eight times as large
+    constexpr unsigned int small_errors     = 8;        ///< in a row before the step is doubled
+
+    [[noreturn]] void give_up(const DrivePoint &at, const double dt, const std::string &failure)
+    {
+      std::ostringstream message;
+      message << "no step beyond t = " << at.time << " s (x = " << at.x << " mm, v = " << at.v << " mm/s): " << failure
+              << " even in a step of " << dt
+              << " s. Try a larger Time/Tolerance, a smaller Contact/Stiffness or Contact/Penalty, "
+              << "or a smaller Time/Spectral radius.";
+      throw AnalysisError(message.str());
+    }
+
+    Row observe(const DynamicModel &model, const Motion &motion, const EnergyLedger &ledger)
+    {
+      Row row;
+      row[Column::time] = motion.drive.time;
+      row[Column::x]    = motion.drive.x;
+      row[Column::v]    = motion.drive.v;
+      model.observe(motion, row);
+      ledger.fill(row);
+      return row;
+    }
+
+    /// Steady sliding without inertia along the drive, computed where x or v has changed enough and joined by lines; a jump where
+    /// it turns.
+    class QuasiStaticCurve
+    {
+    public:
+      QuasiStaticCurve(DynamicModel &dynamic_model, const Drive &prescribed, const double largest_spacing)
+          : model(dynamic_model)
+          , drive(prescribed)
+          , spacing(largest_spacing)
+      {
+        add(drive.at(0., Drive::Side::after));
+      }
+
+      /// Evaluates the model: to be called before the step to that time.
+      void extend(const double time)
+      {
+        while (samples.back().time < time)
+        {
+          const double end  = next(samples.back().time);
+          const auto before = drive.at(end, Drive::Side::before);
+          const auto after  = drive.at(end, Drive::Side::after);
+          add(before);
+          if (direction_of(after.v) != direction_of(before.v))
+            add(after);
+        }
+      }
+
+      void fill(Row &row) const
+      {
+        const double time           = row[Column::time];
+        const auto after            = std::lower_bound(samples.begin(), samples.end(), time,
+                                                       [](const Sample &sample, const double value) { return sample.time < value; });
+        const auto &end             = *after;
+        const auto &begin           = after == samples.begin() ? end : *(after - 1);
+        const double share          = end.time > begin.time ? (time - begin.time) / (end.time - begin.time) : 0.;
+        row[Column::P_quasi_static] = begin.P + share * (end.P - begin.P);
+        row[Column::Q_quasi_static] = begin.Q + share * (end.Q - begin.Q);
+      }
+
+    private:
+      struct Sample
+      {
+        double time, P, Q;
+      };
+
+      void add(const DrivePoint &point)
+      {
+        const auto forces = model.sliding_forces(point);
+        samples.push_back(forces ? Sample{ point.time, forces->P, forces->Q } : Sample{ point.time, std::nan(""), std::nan("") });
+      }
+
+      double next(const double time) const
+      {
+        constexpr double speed_change = 0.05;
+        const double v                = drive.at(time, Drive::Side::after).v;
+        double dx                     = spacing;
+        auto point                    = drive.step(time, dx);
+        while (std::abs(point.v - v) > speed_change * drive.peak_speed())
+          point = drive.step(time, dx *= 0.5);
+        return point.time;
+      }
+
+      DynamicModel &model;
+      const Drive &drive;
+      const double spacing; ///< of x [mm]
+      std::vector<Sample> samples;
+    };
+
+    /// Decides on steps by their local error.
+    class StepControl
+    {
+    public:
+      explicit StepControl(const TransientSettings &transient_settings)
+          : settings(transient_settings)
+      {
+      }
+
+      bool accepts(const StepOutcome &outcome, const bool shortest)
+      {
+        if (!outcome.motion)
+          return false;
+        if (settings.time.tolerance == 0.)
+          return true;
+        error = outcome.error * settings.contact_stiffness / (settings.force_scale * local_tolerance());
+        small = error < small_error ? small + 1 : 0;
+        return error <= 1. || shortest;
+      }
+
+      bool wants_longer() const
+      {
+        return settings.time.tolerance > 0. && small >= small_errors;
+      }
+
+      void lengthened()
+      {
+        small = 0;
+      }
+
+    private:
+      /// Errors of steps go with dt^3 and that of the run with dt^2; for the ringing of models A and B their sizes are as
+      /// follows.
+      double local_tolerance() const
+      {
+        return std::pow(0.5 * settings.time.tolerance, 1.5);
+      }
+
+      const TransientSettings &settings;
+      double error       = 0.;
+      unsigned int small = 0;
+    };
+
+    StepClock make_clock(const Drive &drive, const TransientSettings &settings)
+    {
+      if (settings.time.tolerance == 0.)
+        return StepClock(drive, settings.time.step, 0);
+      const double first     = std::min(settings.time.step, settings.longest_step);
+      unsigned int doublings = 0;
+      while (doublings < largest_doublings && std::ldexp(first, static_cast<int>(doublings) + 1) <= settings.longest_step)
+        ++doublings;
+      return StepClock(drive, first, doublings);
+    }
+
+    struct Attempt
+    {
+      StepOutcome outcome;
+      unsigned int rejected   = 0;
+      unsigned int iterations = 0;
+      double dt               = 0.;
+    };
+
+    /// An accepted step; on the way the clock's step is halved as often as needed.
+    Attempt advance(DynamicModel &model, const Drive &drive, const Motion &accepted, const TransientSettings &settings,
+                    StepControl &control, StepClock &clock)
+    {
+      const double least  = std::ldexp(settings.time.step, -static_cast<int>(largest_halvings));
+      std::string failure = "Newton's method does not converge";
+      for (Attempt attempt;; ++attempt.rejected)
+      {
+        const bool shortest = clock.duration() < 2. * least;
+        attempt.dt          = clock.duration();
+        try
+        {
+          const auto to       = drive.at(clock.end_of_step());
+          auto weights        = generalised_alpha(settings.time.spectral_radius, attempt.dt);
+          weights.wants_error = settings.time.tolerance > 0.;
+          attempt.outcome     = model.step(accepted, to, weights);
+        }
+        catch (const AnalysisError &error)
+        {
+          failure         = error.what();
+          attempt.outcome = {};
+        }
+        attempt.iterations += attempt.outcome.iterations;
+        if (control.accepts(attempt.outcome, shortest))
+          return attempt;
+        if (shortest)
+          give_up(accepted.drive, attempt.dt, failure);
+        clock.halve();
+      }
+    }
+  } // namespace
+
+  TransientReport run_transient(DynamicModel &model, const Drive &drive, const TransientSettings &settings,
+                                const MotionSink &sink)
+  {
+    QuasiStaticCurve quasi_static(model, drive, settings.quasi_static_spacing);
+    Motion motion = model.initial_motion(drive.at(0., Drive::Side::after));
+    EnergyLedger ledger(model.stored_energy(motion));
+    Row first = observe(model, motion, ledger);
+    quasi_static.fill(first);
+    sink(motion, first);
+
+    TransientReport report;
+    StepControl control(settings);
+    StepClock clock = make_clock(drive, settings);
+    while (!clock.finished())
+    {
+      quasi_static.extend(clock.end_of_step());
+      auto attempt    = advance(model, drive, motion, settings, control, clock);
+      const double dx = attempt.outcome.motion->drive.x - motion.drive.x;
+      motion          = std::move(*attempt.outcome.motion);
+      ledger.add(motion.drive.time, model.stored_energy(motion), attempt.outcome.work);
+      Row row                     = observe(model, motion, ledger);
+      row[Column::step]           = dx;
+      row[Column::time_step]      = attempt.dt;
+      row[Column::iterations]     = attempt.iterations;
+      row[Column::rejected_steps] = attempt.rejected;
+      quasi_static.fill(row);
+      sink(motion, row);
+
+      ++report.steps;
+      report.rejected += attempt.rejected;
+      report.ledger = ledger.report();
+      clock.advance();
+      const bool recovers = settings.time.tolerance == 0. && attempt.rejected == 0;
+      if ((control.wants_longer() || recovers) && clock.grow())
+        control.lengthened();
+    }
+    return report;
+  }
+} // namespace sprag

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "analysis/transient/energy_ledger.h"
+#include "model/dynamic_model.h"
+#include "scene/scene.h"
+
+#include <functional>
+#include <limits>
+#include <string>
+
+namespace sprag
+{
+  /// How often adaptive steps may double Time/Step.
+  constexpr unsigned int largest_doublings = 4;
+
+  struct TransientSettings
+  {
+    TimeSettings time;
+    double force_scale          = 1.;   ///< P to which the tolerance refers [N], > 0
+    double contact_stiffness    = 1.;   ///< dP/d(gap) that turns errors of the gap into such of P [N/mm], > 0
+    double quasi_static_spacing = 0.25; ///< change of x from one equilibrium to the next, lines between [mm], > 0
+    double longest_step         = std::numeric_limits<double>::infinity(); ///< of adaptive ones [s], > 0
+  };
+
+  /// Called with every accepted motion, the first included, right after the model made it.
+  using MotionSink = std::function<void(const Motion &motion, const Row &row)>;
+
+  struct TransientReport
+  {
+    unsigned int steps    = 0;
+    unsigned int rejected = 0;
+    LedgerReport ledger;
+  };
+
+  /// Integrates the model along the drive by the generalised-alpha method. Every kink of the drive ends a step. With a tolerance
+  /// the step adapts: it is halved and tried again where the local error of P, over force_scale, exceeds the tolerance, and
+  /// doubled after steps with far smaller ones, up to 16 times Time/Step or the longest step; else it is Time/Step, or less by
+  /// what makes a whole number of steps up to the next kink. A step without a solution is halved too. Throws AnalysisError, after
+  /// the last accepted step was handed on, where halving does not help.
+  TransientReport run_transient(DynamicModel &model, const Drive &drive, const TransientSettings &settings,
+                                const MotionSink &sink);
+} // namespace sprag

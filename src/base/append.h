@@ -1,0 +1,21 @@
+#pragma once
+
+#include <vector>
+
+namespace sprag
+{
+  /// Adds `more` at the end of `all`.
+  template <class T>
+  void append(std::vector<T> &all, const std::vector<T> &more)
+  {
+    all.insert(all.end(), more.begin(), more.end());
+  }
+
+  /// `first` with `second` at its end.
+  template <class T>
+  std::vector<T> joined(std::vector<T> first, const std::vector<T> &second)
+  {
+    append(first, second);
+    return first;
+  }
+} // namespace sprag

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sprag
+{
+  /// The words for values of an enumeration, as files and reports have them. No word and no value occurs twice.
+  template <class T>
+  using Choices = std::vector<std::pair<std::string, T>>;
+
+  /// The word for a value; throws std::out_of_range where it has none.
+  template <class T>
+  std::string word_for(const Choices<T> &choices, const T &value)
+  {
+    const auto found = std::find_if(choices.begin(), choices.end(), [&](const auto &choice) { return choice.second == value; });
+    if (found == choices.end())
+      throw std::out_of_range("a value without a word");
+    return found->first;
+  }
+
+  /// The value that a word stands for; throws std::out_of_range for another word.
+  template <class T>
+  T value_for(const Choices<T> &choices, const std::string &word)
+  {
+    const auto found = std::find_if(choices.begin(), choices.end(), [&](const auto &choice) { return choice.first == word; });
+    if (found == choices.end())
+      throw std::out_of_range("'" + word + "' is none of the choices");
+    return found->second;
+  }
+} // namespace sprag

@@ -1,0 +1,64 @@
+#pragma once
+
+#include "base/errors.h"
+
+#include <deal.II/lac/petsc_sparse_matrix.h>
+
+namespace sprag
+{
+  /// Row beginnings and columns of a sequential matrix, in the order of its values; to be destroyed before the matrix changes its
+  /// pattern. Throws AnalysisError where PETSc does not give them.
+  class MatrixRows
+  {
+  public:
+    explicit MatrixRows(const dealii::PETScWrappers::SparseMatrix &matrix_)
+        : matrix(matrix_)
+    {
+      PetscBool found = PETSC_FALSE;
+      if (MatGetRowIJ(matrix, 0, PETSC_FALSE, PETSC_FALSE, &n, &begin, &column, &found) != 0 || found == PETSC_FALSE)
+        throw AnalysisError("the rows of a matrix cannot be read");
+    }
+    MatrixRows(const MatrixRows &)            = delete;
+    MatrixRows &operator=(const MatrixRows &) = delete;
+    ~MatrixRows()
+    {
+      PetscBool found = PETSC_FALSE;
+      MatRestoreRowIJ(matrix, 0, PETSC_FALSE, PETSC_FALSE, &n, &begin, &column, &found);
+    }
+
+    PetscInt n             = 0;
+    const PetscInt *begin  = nullptr;
+    const PetscInt *column = nullptr;
+
+  private:
+    const Mat matrix;
+  };
+
+  /// Entries of a sequential matrix in the order of MatrixRows, which can be read and changed. Throws AnalysisError where PETSc
+  /// does not give them.
+  class MatrixValues
+  {
+  public:
+    explicit MatrixValues(const dealii::PETScWrappers::SparseMatrix &matrix_)
+        : matrix(matrix_)
+    {
+      if (MatSeqAIJGetArray(matrix, &entries) != 0)
+        throw AnalysisError("the entries of a matrix cannot be read");
+    }
+    MatrixValues(const MatrixValues &)            = delete;
+    MatrixValues &operator=(const MatrixValues &) = delete;
+    ~MatrixValues()
+    {
+      MatSeqAIJRestoreArray(matrix, &entries);
+    }
+
+    PetscScalar &operator[](const std::size_t i) const
+    {
+      return entries[i];
+    }
+
+  private:
+    const Mat matrix;
+    PetscScalar *entries = nullptr;
+  };
+} // namespace sprag

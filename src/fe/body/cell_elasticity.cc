@@ -1,0 +1,174 @@
+#include "fe/body/cell_elasticity.h"
+
+#include "fe/body/dilatation.h"
+
+#include <deal.II/base/quadrature_lib.h>
+
+namespace sprag
+{
+  using namespace dealii;
+
+  namespace
+  {
+    template <int dim>
+    Tensor<2, dim> identity()
+    {
+      return Tensor<2, dim>(unit_symmetric_tensor<dim>());
+    }
+
+    template <int dim>
+    Stress<dim> stress(const MaterialModel model, const Lame &constants, const Tensor<2, dim> &displacement_gradient)
+    {
+      switch (model)
+      {
+      case MaterialModel::linear:
+        return linear_elastic<dim>(constants, displacement_gradient);
+      case MaterialModel::neo_hookean:
+        return neo_hookean<dim>(constants, identity<dim>() + displacement_gradient);
+      case MaterialModel::st_venant_kirchhoff:
+        break;
+      }
+      return st_venant_kirchhoff<dim>(constants, displacement_gradient);
+    }
+
+    template <int dim>
+    double energy_density(const MaterialModel model, const Lame &constants, const Tensor<2, dim> &displacement_gradient)
+    {
+      switch (model)
+      {
+      case MaterialModel::linear:
+        return 0.5 * scalar_product(linear_elastic<dim>(constants, displacement_gradient).piola, displacement_gradient);
+      case MaterialModel::neo_hookean:
+        return neo_hookean_energy<dim>(constants, identity<dim>() + displacement_gradient);
+      case MaterialModel::st_venant_kirchhoff:
+        break;
+      }
+      return st_venant_kirchhoff_energy<dim>(constants, displacement_gradient);
+    }
+  } // namespace
+
+  bool is_nearly_incompressible(const BodyProperties &properties, const types::material_id id)
+  {
+    return properties.plane == PlaneState::strain && properties.material != MaterialModel::st_venant_kirchhoff &&
+           properties.constants.at(id).poisson_ratio > 0.4;
+  }
+
+  template <int dim>
+  CellElasticity<dim>::CellElasticity(const Mapping<dim> &mapping, const FiniteElement<dim> &fe,
+                                      const BodyProperties &body_properties)
+      : properties(body_properties)
+      , values(mapping, fe, QGauss<dim>(properties.degree + 1), update_gradients | update_quadrature_points | update_JxW_values)
+      , displacement_gradients(values.n_quadrature_points)
+  {
+  }
+
+  template <int dim>
+  void CellElasticity<dim>::reinit(const Cell &cell, const Vector<double> &displacement)
+  {
+    values.reinit(cell);
+    const auto material = cell->material_id();
+    constants           = plane_constants(properties.constants.at(material), properties.plane);
+    width               = properties.width_of(material);
+    const auto &fe      = values.get_fe();
+    for (const unsigned int q : values.quadrature_point_indices())
+    {
+      auto &gradient = displacement_gradients[q] = Tensor<2, dim>();
+      for (unsigned int i = 0; i < fe.n_dofs_per_cell(); ++i)
+        gradient[fe.system_to_component_index(i).first] += displacement[i] * values.shape_grad(i, q);
+    }
+    projects = is_nearly_incompressible(properties, material);
+    if (projects)
+      project();
+  }
+
+  template <int dim>
+  void CellElasticity<dim>::project()
+  {
+    const auto &fe       = values.get_fe();
+    const unsigned int n = fe.n_dofs_per_cell();
+    space.reinit(values, properties.degree - 1);
+    projected.assign(space.size(), 0.);
+    changes.reinit(space.size(), n);
+    for (const unsigned int q : values.quadrature_point_indices())
+    {
+      const auto at_point = sprag::dilatation<dim>(properties.material, displacement_gradients[q]);
+      for (unsigned int a = 0; a < space.size(); ++a)
+      {
+        const double weight = space.value(a, q) * values.JxW(q);
+        projected[a] += weight * at_point.value;
+        for (unsigned int i = 0; i < n; ++i)
+          changes(a, i) += weight * (at_point.derivative[fe.system_to_component_index(i).first] * values.shape_grad(i, q));
+      }
+    }
+  }
+
+  /// At constant pressure where it is projected.
+  template <int dim>
+  Stress<dim> CellElasticity<dim>::stress_at(const unsigned int q) const
+  {
+    if (!projects)
+      return stress<dim>(properties.material, constants, displacement_gradients[q]);
+    double theta = 0.;
+    for (unsigned int a = 0; a < space.size(); ++a)
+      theta += projected[a] * space.value(a, q);
+    return stress_at_pressure<dim>(properties.material, constants.mu, displacement_gradients[q], constants.lambda * theta);
+  }
+
+  template <int dim>
+  void CellElasticity<dim>::assemble(FullMatrix<double> &stiffness, Vector<double> &forces) const
+  {
+    const auto &fe       = values.get_fe();
+    const unsigned int n = fe.n_dofs_per_cell();
+    std::vector<Tensor<1, dim>> gradients(n);
+    stiffness = 0.;
+    forces    = 0.;
+    for (const unsigned int q : values.quadrature_point_indices())
+    {
+      for (unsigned int i = 0; i < n; ++i)
+        gradients[i] = values.shape_grad(i, q);
+      const double volume = values.JxW(q) * width;
+      const auto at_point = stress_at(q);
+      for (unsigned int j = 0; j < n; ++j)
+      {
+        const unsigned int component_j = fe.system_to_component_index(j).first;
+        forces[j] += volume * (at_point.piola[component_j] * gradients[j]);
+        Tensor<1, dim * dim> d_piola;
+        for (unsigned int a = 0; a < dim * dim; ++a)
+          for (unsigned int d = 0; d < dim; ++d)
+            d_piola[a] += volume * at_point.tangent[a][component_j * dim + d] * gradients[j][d];
+        for (unsigned int i = 0; i < n; ++i)
+        {
+          const unsigned int row = fe.system_to_component_index(i).first * dim;
+          for (unsigned int d = 0; d < dim; ++d)
+            stiffness(i, j) += gradients[i][d] * d_piola[row + d];
+        }
+      }
+    }
+    if (projects)
+      for (unsigned int a = 0; a < space.size(); ++a)
+        for (unsigned int i = 0; i < n; ++i)
+          for (unsigned int j = 0; j < n; ++j)
+            stiffness(i, j) += width * constants.lambda * changes(a, i) * changes(a, j);
+  }
+
+  template <int dim>
+  double CellElasticity<dim>::energy() const
+  {
+    const Lame at_points{ projects ? 0. : constants.lambda, constants.mu };
+    double sum = 0.;
+    for (const unsigned int q : values.quadrature_point_indices())
+      sum += energy_density<dim>(properties.material, at_points, displacement_gradients[q]) * values.JxW(q) * width;
+    if (projects)
+      for (const double theta : projected)
+        sum += 0.5 * constants.lambda * theta * theta * width;
+    return sum;
+  }
+
+  template <int dim>
+  LinearPolynomial<dim> CellElasticity<dim>::dilatation() const
+  {
+    return space.combined(projected);
+  }
+
+  template class CellElasticity<2>;
+} // namespace sprag

@@ -1,0 +1,61 @@
+#pragma once
+
+#include "fe/body/body_properties.h"
+#include "fe/body/dilatation_space.h"
+
+#include <deal.II/dofs/dof_handler.h>
+#include <deal.II/fe/fe_values.h>
+#include <deal.II/lac/full_matrix.h>
+#include <deal.II/lac/vector.h>
+
+#include <vector>
+
+namespace sprag
+{
+  /// Whether cells of a material would lock: in plane strain, linear or neo-Hookean, nu > 0.4 (lambda > 4 mu).
+  bool is_nearly_incompressible(const BodyProperties &properties, dealii::types::material_id id);
+
+  /// Elastic energy, forces and stiffness of one cell of a body after the other.
+  ///
+  /// The energy is the integral of w(F) + lambda/2 theta^2, with the dilatation theta = tr eps (linear) or ln J (neo-Hookean) and
+  /// the rest w(F) of the material's energy. In cells that is_nearly_incompressible() names, theta is projected
+  /// onto the polynomials of degree p - 1, cell by cell: the mixed elements Q1-P0 (mean dilatation) and Q2-P1 of displacement and
+  /// pressure p = lambda theta with the pressure eliminated, which do not lock as lambda grows (Simo, Taylor and Pister 1985;
+  /// Boffi, Brezzi and Fortin, Mixed Finite Element Methods, 2013, section 8.6). Unknowns and couplings are those of the
+  /// displacements; the stiffness is symmetric.
+  template <int dim>
+  class CellElasticity
+  {
+  public:
+    using Cell = typename dealii::DoFHandler<dim>::active_cell_iterator;
+
+    /// Everything is kept by reference.
+    CellElasticity(const dealii::Mapping<dim> &mapping, const dealii::FiniteElement<dim> &fe, const BodyProperties &properties);
+
+    /// Enters a cell, not of the hub, with the displacements of its degrees of freedom.
+    void reinit(const Cell &cell, const dealii::Vector<double> &displacement);
+
+    /// Stiffness and internal forces [N], in place of what was there. Throws AnalysisError where an element turned inside out.
+    void assemble(dealii::FullMatrix<double> &stiffness, dealii::Vector<double> &forces) const;
+
+    /// [mJ]
+    double energy() const;
+
+    /// The projected dilatation, in nearly incompressible cells alone.
+    LinearPolynomial<dim> dilatation() const;
+
+  private:
+    void project();
+    Stress<dim> stress_at(unsigned int q) const;
+
+    const BodyProperties &properties;
+    dealii::FEValues<dim> values;
+    Lame constants = {};
+    double width   = 0.;
+    bool projects  = false;
+    std::vector<dealii::Tensor<2, dim>> displacement_gradients; ///< at each point
+    DilatationSpace<dim> space;
+    std::vector<double> projected;      ///< dilatation, on the functions of `space`
+    dealii::FullMatrix<double> changes; ///< derivative of `projected` by each displacement
+  };
+} // namespace sprag

@@ -1,0 +1,254 @@
+#include "fe/body/elastic_body.h"
+
+#include "fe/body/cell_elasticity.h"
+
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/dofs/dof_tools.h>
+#include <deal.II/fe/fe_q.h>
+#include <deal.II/fe/fe_values.h>
+#include <deal.II/lac/dynamic_sparsity_pattern.h>
+#include <deal.II/numerics/vector_tools.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sprag
+{
+  using namespace dealii;
+
+  template <int dim>
+  ElasticBody<dim>::ElasticBody(const Triangulation<dim> &triangulation, BodyProperties body_properties,
+                                const Constrain &constrain)
+      : properties(std::move(body_properties))
+      , fe(FE_Q<dim>(properties.degree), dim)
+      , mapping(properties.curved ? properties.degree : 1)
+      , dof_handler(triangulation)
+  {
+    dof_handler.distribute_dofs(fe);
+    find_constraints(constrain);
+    face             = find_friction_face(mapping, dof_handler, constraints, properties, boundary_id::friction_face);
+    face_of_cylinder = find_friction_face(mapping, dof_handler, constraints, properties, boundary_id::cylinder_face);
+    springs          = find_connectors(mapping, dof_handler, constraints, properties.connectors);
+  }
+
+  template <int dim>
+  void ElasticBody<dim>::find_constraints(const Constrain &constrain)
+  {
+    for (const auto held_boundary : { boundary_id::hub, boundary_id::core })
+      VectorTools::interpolate_boundary_values(dof_handler, held_boundary, Functions::ZeroFunction<dim>(dim), constraints);
+    std::vector<types::global_dof_index> indices(fe.n_dofs_per_cell());
+    for (const auto &cell : dof_handler.active_cell_iterators())
+      if (cell->material_id() == material_id::hub)
+      {
+        cell->get_dof_indices(indices);
+        for (const auto index : indices)
+          constraints.add_line(index);
+      }
+    if (constrain)
+      constrain(dof_handler, constraints);
+    constraints.close();
+  }
+
+  template <int dim>
+  unsigned int ElasticBody<dim>::n_dofs() const
+  {
+    return dof_handler.n_dofs();
+  }
+
+  template <int dim>
+  const FrictionFace<dim> &ElasticBody<dim>::friction_face() const
+  {
+    return face;
+  }
+
+  template <int dim>
+  const FrictionFace<dim> &ElasticBody<dim>::cylinder_face() const
+  {
+    return face_of_cylinder;
+  }
+
+  template <int dim>
+  const std::vector<Connector> &ElasticBody<dim>::connectors() const
+  {
+    return springs;
+  }
+
+  template <int dim>
+  std::vector<Connector> ElasticBody<dim>::sensors() const
+  {
+    std::vector<Connector> result;
+    for (const auto &spring : springs)
+      if (spring.type == ConnectorType::sensor)
+        result.push_back(spring);
+    return result;
+  }
+
+  template <int dim>
+  const Mapping<dim> &ElasticBody<dim>::cell_mapping() const
+  {
+    return mapping;
+  }
+
+  template <int dim>
+  const AffineConstraints<double> &ElasticBody<dim>::held() const
+  {
+    return constraints;
+  }
+
+  template <int dim>
+  const DoFHandler<dim> &ElasticBody<dim>::dofs() const
+  {
+    return dof_handler;
+  }
+
+  template <int dim>
+  bool ElasticBody<dim>::is_held(const unsigned int dof) const
+  {
+    return constraints.is_constrained(dof);
+  }
+
+  template <int dim>
+  const BodyProperties &ElasticBody<dim>::body_properties() const
+  {
+    return properties;
+  }
+
+  template <int dim>
+  void ElasticBody<dim>::reinit(PETScWrappers::SparseMatrix &matrix, const unsigned int extra) const
+  {
+    const unsigned int n = n_dofs() + extra;
+    DynamicSparsityPattern of_body(n_dofs(), n_dofs());
+    DynamicSparsityPattern pattern(n, n);
+    DoFTools::make_sparsity_pattern(dof_handler, of_body, constraints, true);
+    for (const auto &entry : of_body)
+      pattern.add(entry.row(), entry.column());
+    for (const auto &spring : springs)
+      for (const auto &i : spring.row)
+        for (const auto &j : spring.row)
+          pattern.add(i.first, j.first);
+    for (unsigned int e = n_dofs(); e < n; ++e)
+    {
+      for (unsigned int other = n_dofs(); other < n; ++other)
+        pattern.add(e, other);
+      for (const auto *const touched : { &face, &face_of_cylinder })
+        for (const auto &node : touched->nodes)
+          for (const unsigned int dof : node.dofs)
+          {
+            pattern.add(e, dof);
+            pattern.add(dof, e);
+          }
+    }
+    if (extra > 0)
+      couple_faces(pattern);
+    matrix.reinit(pattern);
+  }
+
+  /// Each node of a cylinder's face with all of both faces: the material of the lever slides along it.
+  template <int dim>
+  void ElasticBody<dim>::couple_faces(DynamicSparsityPattern &pattern) const
+  {
+    for (const auto &node : face_of_cylinder.nodes)
+      for (const unsigned int dof : node.dofs)
+        for (const auto *const touched : { &face, &face_of_cylinder })
+          for (const auto &other : touched->nodes)
+            for (const unsigned int other_dof : other.dofs)
+            {
+              pattern.add(dof, other_dof);
+              pattern.add(other_dof, dof);
+            }
+  }
+
+  template <int dim>
+  void ElasticBody<dim>::assemble(const Vector<double> &displacement, PETScWrappers::SparseMatrix &matrix,
+                                  Vector<double> &forces) const
+  {
+    CellElasticity<dim> elasticity(mapping, fe, properties);
+    const unsigned int n = fe.n_dofs_per_cell();
+    FullMatrix<double> cell_matrix(n, n);
+    Vector<double> cell_forces(n);
+    Vector<double> cell_displacement(n);
+    std::vector<types::global_dof_index> indices(n);
+    for (const auto &cell : dof_handler.active_cell_iterators())
+    {
+      if (cell->material_id() == material_id::hub)
+        continue;
+      cell->get_dof_indices(indices);
+      for (unsigned int i = 0; i < n; ++i)
+        cell_displacement[i] = displacement[indices[i]];
+      elasticity.reinit(cell, cell_displacement);
+      elasticity.assemble(cell_matrix, cell_forces);
+      constraints.distribute_local_to_global(cell_matrix, cell_forces, indices, matrix, forces);
+    }
+    add_connectors(displacement, matrix, forces);
+    for (const auto &line : constraints.get_lines())
+    {
+      matrix.add(line.index, line.index, 1.);
+      forces[line.index] = 0.;
+    }
+    matrix.compress(VectorOperation::add);
+  }
+
+  template <int dim>
+  void ElasticBody<dim>::add_connectors(const Vector<double> &displacement, PETScWrappers::SparseMatrix &matrix,
+                                        Vector<double> &forces) const
+  {
+    for (const auto &spring : springs)
+    {
+      const double force = spring.stiffness * spring.compression(displacement);
+      for (const auto &[i, weight_i] : spring.row)
+      {
+        forces[i] += weight_i * force;
+        for (const auto &[j, weight_j] : spring.row)
+          matrix.add(i, j, spring.stiffness * weight_i * weight_j);
+      }
+    }
+  }
+
+  template <int dim>
+  double ElasticBody<dim>::energy(const Vector<double> &displacement) const
+  {
+    CellElasticity<dim> elasticity(mapping, fe, properties);
+    Vector<double> cell_displacement(fe.n_dofs_per_cell());
+    double sum = 0.;
+    for (const auto &spring : springs)
+      sum += 0.5 * spring.stiffness * std::pow(spring.compression(displacement), 2);
+    for (const auto &cell : dof_handler.active_cell_iterators())
+      if (cell->material_id() != material_id::hub)
+      {
+        cell->get_dof_values(displacement, cell_displacement);
+        elasticity.reinit(cell, cell_displacement);
+        sum += elasticity.energy();
+      }
+    return sum;
+  }
+
+  template <int dim>
+  std::array<double, 2> ElasticBody<dim>::mass_and_inertia(const double density) const
+  {
+    FEValues<dim> values(mapping, fe, QGauss<dim>(2), update_quadrature_points | update_JxW_values);
+    std::array<double, 2> result{};
+    for (const auto &cell : dof_handler.active_cell_iterators())
+    {
+      values.reinit(cell);
+      for (const unsigned int q : values.quadrature_point_indices())
+      {
+        const double mass = density * values.JxW(q) * properties.width_of(cell->material_id());
+        result[0] += mass;
+        result[1] += mass * values.quadrature_point(q).square();
+      }
+    }
+    return result;
+  }
+
+  template <int dim>
+  std::vector<double> sensor_forces(const ElasticBody<dim> &body, const Vector<double> &displacement)
+  {
+    std::vector<double> result;
+    for (const auto &sensor : body.sensors())
+      result.push_back(sensor.stiffness * sensor.compression(displacement));
+    return result;
+  }
+
+  template class ElasticBody<2>;
+  template std::vector<double> sensor_forces(const ElasticBody<2> &, const Vector<double> &);
+} // namespace sprag

@@ -1,0 +1,96 @@
+#pragma once
+
+#include "fe/body/connectors.h"
+#include "fe/body/friction_face.h"
+
+#include <deal.II/base/point.h>
+#include <deal.II/dofs/dof_handler.h>
+#include <deal.II/fe/fe_system.h>
+#include <deal.II/fe/mapping_q.h>
+#include <deal.II/grid/tria.h>
+#include <deal.II/lac/affine_constraints.h>
+#include <deal.II/lac/dynamic_sparsity_pattern.h>
+#include <deal.II/lac/petsc_sparse_matrix.h>
+#include <deal.II/lac/vector.h>
+
+#include <array>
+#include <functional>
+#include <map>
+#include <vector>
+
+namespace sprag
+{
+  /// A meshed elastic body in axes in which its hub does not move. Displacement degrees of freedom are numbered from 0;
+  /// those of the hub are held at 0.
+  template <int dim>
+  class ElasticBody
+  {
+  public:
+    /// Adds constraints to those of hub and core.
+    using Constrain = std::function<void(const dealii::DoFHandler<dim> &, dealii::AffineConstraints<double> &)>;
+
+    /// The triangulation is kept by reference and must outlive the body.
+    ElasticBody(const dealii::Triangulation<dim> &triangulation, BodyProperties properties, const Constrain &constrain = {});
+    ElasticBody(const ElasticBody &)            = delete;
+    ElasticBody &operator=(const ElasticBody &) = delete;
+
+    unsigned int n_dofs() const;
+
+    const FrictionFace<dim> &friction_face() const;
+
+    /// Where an elastic cylinder can touch the friction face; empty without one.
+    const FrictionFace<dim> &cylinder_face() const;
+
+    /// Springs between friction plate and lever, part of stiffness and energy.
+    const std::vector<Connector> &connectors() const;
+
+    /// Those of them that are force sensors.
+    std::vector<Connector> sensors() const;
+
+    const dealii::Mapping<dim> &cell_mapping() const;
+
+    /// Which degrees of freedom are held or follow others.
+    const dealii::AffineConstraints<double> &held() const;
+
+    /// A matrix for the stiffness with `extra` further rows and columns, which couple with the faces and themselves; with any,
+    /// friction face and cylinder face couple too.
+    void reinit(dealii::PETScWrappers::SparseMatrix &matrix, unsigned int extra) const;
+
+    /// Adds the stiffness at `displacement` to `matrix` and the internal forces [N] to `forces`; both may be longer than
+    /// n_dofs().
+    void assemble(const dealii::Vector<double> &displacement, dealii::PETScWrappers::SparseMatrix &matrix,
+                  dealii::Vector<double> &forces) const;
+
+    /// Elastic energy [mJ].
+    double energy(const dealii::Vector<double> &displacement) const;
+
+    /// Mass [t] and moment of inertia about the origin of the axes [t mm^2] at the given density [t/mm^3], hub included.
+    std::array<double, 2> mass_and_inertia(double density) const;
+
+    const BodyProperties &body_properties() const;
+
+    const dealii::DoFHandler<dim> &dofs() const;
+
+    /// Whether the hub holds a degree of freedom.
+    bool is_held(unsigned int dof) const;
+
+  private:
+    void find_constraints(const Constrain &constrain);
+    void couple_faces(dealii::DynamicSparsityPattern &pattern) const;
+    void add_connectors(const dealii::Vector<double> &displacement, dealii::PETScWrappers::SparseMatrix &matrix,
+                        dealii::Vector<double> &forces) const;
+
+    const BodyProperties properties;
+    const dealii::FESystem<dim> fe;
+    const dealii::MappingQ<dim> mapping;
+    dealii::DoFHandler<dim> dof_handler;
+    dealii::AffineConstraints<double> constraints;
+    FrictionFace<dim> face;
+    FrictionFace<dim> face_of_cylinder;
+    std::vector<Connector> springs;
+  };
+
+  /// Forces of the body's sensors at a displacement [N].
+  template <int dim>
+  std::vector<double> sensor_forces(const ElasticBody<dim> &body, const dealii::Vector<double> &displacement);
+} // namespace sprag

@@ -1,0 +1,198 @@
+#include "fe/body/finite_statics.h"
+
+#include "base/errors.h"
+#include "fe/algebra/matrix_rows.h"
+
+#include <deal.II/lac/dynamic_sparsity_pattern.h>
+#include <deal.II/lac/sparsity_tools.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sprag
+{
+  using namespace dealii;
+  using Matrix = PETScWrappers::SparseMatrix;
+
+  namespace
+  {
+    /// Of the unbalanced over all forces: some hundred times what round-off leaves of a body that bends by several times its
+    /// thickness.
+    constexpr double tolerance = 1e-9;
+
+    constexpr unsigned int most_iterations = 20;
+
+    /// Calls act(entry, mover of its row, mover of its column).
+    template <typename Movers, typename Act>
+    void for_all_couplings(const MatrixRows &rows, const Movers &movers, const Act &act)
+    {
+      for (PetscInt row = 0; row < rows.n; ++row)
+        for (PetscInt a = rows.begin[row]; a < rows.begin[row + 1]; ++a)
+          for (const auto &of_row : movers[row])
+            for (const auto &of_column : movers[rows.column[a]])
+              act(static_cast<std::size_t>(a), of_row, of_column);
+    }
+  } // namespace
+
+  FiniteStatics::FiniteStatics(const ElasticBody<2> &body_, const AffineConstraints<double> &held)
+      : body(body_)
+      , internal(body.n_dofs())
+  {
+    body.reinit(tangent, 0);
+    number_coordinates(held);
+    arrange_band();
+  }
+
+  void FiniteStatics::number_coordinates(const AffineConstraints<double> &held)
+  {
+    const unsigned int n_dofs = body.n_dofs();
+    std::vector<unsigned int> number(n_dofs);
+    for (unsigned int dof = 0; dof < n_dofs; ++dof)
+      if (!held.is_constrained(dof))
+        number[dof] = n++;
+    movers.resize(n_dofs);
+    for (unsigned int dof = 0; dof < n_dofs; ++dof)
+      if (!held.is_constrained(dof))
+        movers[dof] = { { number[dof], 1. } };
+      else
+        for (const auto &[leader, share] : *held.get_constraint_entries(dof))
+          movers[dof].push_back({ number[leader], share });
+
+    DynamicSparsityPattern pattern(n, n);
+    for_all_couplings(MatrixRows(tangent), movers,
+                      [&](std::size_t, const auto &row, const auto &column) { pattern.add(row.coordinate, column.coordinate); });
+    std::vector<DynamicSparsityPattern::size_type> places(n);
+    SparsityTools::reorder_Cuthill_McKee(pattern, places);
+    for (auto &of_dof : movers)
+      for (auto &mover : of_dof)
+        mover.coordinate = static_cast<unsigned int>(places[mover.coordinate]);
+  }
+
+  void FiniteStatics::arrange_band()
+  {
+    const MatrixRows rows(tangent);
+    unsigned int width = 0;
+    for_all_couplings(rows, movers,
+                      [&](std::size_t, const Mover &row, const Mover &column)
+                      { width = std::max(width, std::max(row.coordinate, column.coordinate) - row.coordinate); });
+    band = BandFactors(n, width);
+    for_all_couplings(
+        rows, movers,
+        [&](const std::size_t a, const Mover &row, const Mover &column)
+        {
+          if (row.coordinate <= column.coordinate)
+            contributions.push_back({ a, band.position(row.coordinate, column.coordinate), row.share * column.share });
+        });
+  }
+
+  unsigned int FiniteStatics::n_coordinates() const
+  {
+    return n;
+  }
+
+  void FiniteStatics::reduce(const Matrix &of_body, Matrix &reduced) const
+  {
+    const MatrixRows rows(of_body);
+    const MatrixValues values(of_body);
+    DynamicSparsityPattern pattern(n, n);
+    for_all_couplings(rows, movers,
+                      [&](std::size_t, const Mover &row, const Mover &column)
+                      { pattern.add(row.coordinate, column.coordinate); });
+    reduced.reinit(pattern);
+    for_all_couplings(rows, movers,
+                      [&](const std::size_t a, const Mover &row, const Mover &column)
+                      { reduced.add(row.coordinate, column.coordinate, row.share * column.share * values[a]); });
+    reduced.compress(VectorOperation::add);
+  }
+
+  Vector<double> FiniteStatics::collect(const Vector<double> &forces_on_dofs) const
+  {
+    Vector<double> result(n);
+    for (unsigned int dof = 0; dof < movers.size(); ++dof)
+      for (const auto &mover : movers[dof])
+        result[mover.coordinate] += mover.share * forces_on_dofs[dof];
+    return result;
+  }
+
+  Vector<double> FiniteStatics::expand(const Vector<double> &coordinates) const
+  {
+    Vector<double> result(body.n_dofs());
+    for (unsigned int dof = 0; dof < movers.size(); ++dof)
+      for (const auto &mover : movers[dof])
+        result[dof] += mover.share * coordinates[mover.coordinate];
+    return result;
+  }
+
+  void FiniteStatics::linearise(const Vector<double> &displacement)
+  {
+    tangent  = 0.;
+    internal = 0.;
+    body.assemble(displacement, tangent, internal);
+    auto &entries = band.entries();
+    std::fill(entries.begin(), entries.end(), 0.);
+    const MatrixValues values(tangent);
+    for (const auto &[from, to, factor] : contributions)
+      entries[to] += factor * values[from];
+    negative_pivots = band.factorise();
+  }
+
+  void FiniteStatics::balance(Vector<double> &displacement, const Vector<double> &loads)
+  {
+    for (unsigned int i = 0; i < most_iterations; ++i)
+    {
+      linearise(displacement);
+      Vector<double> unbalanced = loads;
+      unbalanced -= internal;
+      auto residual     = collect(unbalanced);
+      const double size = internal.l2_norm() + loads.l2_norm();
+      if (!std::isfinite(size))
+        break;
+      if (residual.l2_norm() <= tolerance * size)
+        return;
+      band.solve(residual);
+      displacement += expand(residual);
+    }
+    throw AnalysisError("Newton's method found no equilibrium of a body at finite strain in " + std::to_string(most_iterations) +
+                        " iterations");
+  }
+
+  const Vector<double> &FiniteStatics::forces() const
+  {
+    return internal;
+  }
+
+  Vector<double> FiniteStatics::stiffness_product(const Vector<double> &displacement) const
+  {
+    const MatrixRows rows(tangent);
+    const MatrixValues values(tangent);
+    Vector<double> result(body.n_dofs());
+    for (PetscInt row = 0; row < rows.n; ++row)
+      for (PetscInt a = rows.begin[row]; a < rows.begin[row + 1]; ++a)
+        result[row] += values[a] * displacement[rows.column[a]];
+    return result;
+  }
+
+  Vector<double> FiniteStatics::response(const Vector<double> &of_held, const Vector<double> &of_loads) const
+  {
+    Vector<double> result(body.n_dofs());
+    for (unsigned int dof = 0; dof < movers.size(); ++dof)
+      if (movers[dof].empty())
+        result[dof] = of_held[dof];
+    Vector<double> loads = of_loads;
+    loads -= stiffness_product(result);
+    auto coordinates = collect(loads);
+    band.solve(coordinates);
+    result += expand(coordinates);
+    return result;
+  }
+
+  bool FiniteStatics::is_stable() const
+  {
+    return negative_pivots == 0;
+  }
+
+  const Matrix &FiniteStatics::stiffness() const
+  {
+    return tangent;
+  }
+} // namespace sprag

@@ -1,0 +1,77 @@
+#pragma once
+
+#include "fe/algebra/band_factors.h"
+#include "fe/body/elastic_body.h"
+
+#include <vector>
+
+namespace sprag
+{
+  /// Statics of a slender body at finite strain by Newton's method; the tangent is factorised as a band.
+  class FiniteStatics
+  {
+  public:
+    /// The body itself must hold nothing. What it is held by is closed and without inhomogeneities: a degree of freedom whose
+    /// line is empty is held at a given displacement, one with entries follows others, the rest are the coordinates.
+    FiniteStatics(const ElasticBody<2> &body, const dealii::AffineConstraints<double> &held);
+
+    unsigned int n_coordinates() const;
+
+    /// Brings `displacement` of all degrees of freedom into equilibrium with dead `loads` [N] on them, the held ones as they are
+    /// given. Those that follow others must begin so. Throws AnalysisError where the iteration finds none.
+    void balance(dealii::Vector<double> &displacement, const dealii::Vector<double> &loads);
+
+    // Of all degrees of freedom at the displacement last balanced.
+
+    /// Internal forces [N]; those of held ones are what holds them.
+    const dealii::Vector<double> &forces() const;
+
+    /// How displacements change with those of held ones (others in `of_held` count for nothing) and with the loads.
+    dealii::Vector<double> response(const dealii::Vector<double> &of_held, const dealii::Vector<double> &of_loads) const;
+
+    /// Tangent stiffness times a displacement.
+    dealii::Vector<double> stiffness_product(const dealii::Vector<double> &displacement) const;
+
+    /// Whether the equilibrium is stable.
+    bool is_stable() const;
+
+    /// The tangent stiffness of the body, without regard to what holds it.
+    const dealii::PETScWrappers::SparseMatrix &stiffness() const;
+
+    /// A matrix of the body, on the coordinates.
+    void reduce(const dealii::PETScWrappers::SparseMatrix &of_body, dealii::PETScWrappers::SparseMatrix &reduced) const;
+
+    /// Displacement of all degrees of freedom, 0 where held, from the coordinates.
+    dealii::Vector<double> expand(const dealii::Vector<double> &coordinates) const;
+
+  private:
+    /// A coordinate that moves a degree of freedom, and by how much a unit of it does.
+    struct Mover
+    {
+      unsigned int coordinate;
+      double share;
+    };
+
+    /// An entry of the tangent, the entry of the band it is added to, and the factor.
+    struct Contribution
+    {
+      std::size_t from;
+      std::size_t to;
+      double factor;
+    };
+
+    void number_coordinates(const dealii::AffineConstraints<double> &held);
+    void arrange_band();
+    dealii::Vector<double> collect(const dealii::Vector<double> &forces) const;
+    void linearise(const dealii::Vector<double> &displacement);
+
+    const ElasticBody<2> &body;
+    unsigned int n = 0;
+    dealii::PETScWrappers::SparseMatrix tangent;
+    std::vector<std::vector<Mover>> movers; ///< of each degree of freedom, none where held
+    std::vector<Contribution> contributions;
+    dealii::Vector<double> internal;
+    BandFactors band;
+    unsigned int negative_pivots = 0;
+  };
+} // namespace sprag

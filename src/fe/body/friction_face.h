@@ -1,0 +1,74 @@
+#pragma once
+
+#include "fe/body/body_properties.h"
+
+#include <deal.II/base/point.h>
+#include <deal.II/dofs/dof_handler.h>
+#include <deal.II/fe/mapping.h>
+#include <deal.II/lac/affine_constraints.h>
+
+#include <array>
+#include <utility>
+#include <vector>
+
+namespace sprag
+{
+  /// A free node of the friction face.
+  template <int dim>
+  struct FaceNode
+  {
+    dealii::Point<dim> position; ///< undeformed [mm]
+    std::array<unsigned int, dim> dofs;
+  };
+
+  /// An integration point of the friction face.
+  template <int dim>
+  struct FacePoint
+  {
+    dealii::Point<dim> position;                        ///< undeformed [mm]
+    double weight;                                      ///< area of the face that it stands for [mm^2]
+    std::vector<std::pair<unsigned int, double>> nodes; ///< indices of the free nodes that move it, and their shape functions
+  };
+
+  /// The points of one cell's face.
+  struct FacePatch
+  {
+    unsigned int begin; ///< index of the first
+    unsigned int end;   ///< beyond the last
+    double length;      ///< diameter [mm]
+  };
+
+  /// All nodes of one cell's face, ordered along the first axis.
+  template <int dim>
+  struct FaceEdge
+  {
+    static constexpr unsigned int held = dealii::numbers::invalid_unsigned_int;
+
+    struct Node
+    {
+      dealii::Point<dim> position; ///< undeformed [mm]
+      unsigned int index;          ///< among the free nodes, or `held`
+    };
+    std::vector<Node> nodes;
+  };
+
+  /// Where a body can be touched.
+  template <int dim>
+  struct FrictionFace
+  {
+    std::vector<FaceNode<dim>> nodes;
+    std::vector<FacePoint<dim>> points; ///< patch by patch, ordered along the first axis
+    std::vector<FacePatch> patches;
+    std::vector<FaceEdge<dim>> edges; ///< of the patches
+    double young_modulus = 0.;        ///< largest of its cells [MPa]
+    double depth         = 0.;        ///< largest size of its cells normal to the face [mm]
+  };
+
+  /// Reads the faces marked `boundary`. The integration points are denser than the nodes, about
+  /// `BodyProperties::point_spacing` apart, so that a contact narrower than a cell has its resultant in the right place and
+  /// direction; at most 48 a cell.
+  template <int dim>
+  FrictionFace<dim> find_friction_face(const dealii::Mapping<dim> &mapping, const dealii::DoFHandler<dim> &dof_handler,
+                                       const dealii::AffineConstraints<double> &constraints, const BodyProperties &properties,
+                                       dealii::types::boundary_id boundary);
+} // namespace sprag

@@ -1,0 +1,112 @@
+#include "fe/body/material.h"
+
+#include "base/errors.h"
+
+#include <deal.II/base/symmetric_tensor.h>
+
+#include <cmath>
+
+namespace sprag
+{
+  using dealii::Tensor;
+
+  namespace
+  {
+    /// From the displacement gradient, so that nothing is lost to the unit matrix where strains are small.
+    template <int dim>
+    Tensor<2, dim> green_lagrange(const Tensor<2, dim> &displacement_gradient)
+    {
+      return 0.5 * (displacement_gradient + transpose(displacement_gradient) +
+                    transpose(displacement_gradient) * displacement_gradient);
+    }
+  } // namespace
+
+  Lame plane_constants(const ElasticConstants &constants, const PlaneState plane)
+  {
+    const auto [E, nu]  = constants;
+    const double mu     = E / (2. * (1. + nu));
+    const double lambda = E * nu / ((1. + nu) * (1. - 2. * nu));
+    return { plane == PlaneState::strain ? lambda : 2. * lambda * mu / (lambda + 2. * mu), mu };
+  }
+
+  template <int dim>
+  Stress<dim> linear_elastic(const Lame &constants, const Tensor<2, dim> &displacement_gradient)
+  {
+    const auto [lambda, mu] = constants;
+    Stress<dim> stress;
+    stress.piola = mu * (displacement_gradient + transpose(displacement_gradient));
+    for (unsigned int i = 0; i < dim; ++i)
+      stress.piola[i][i] += lambda * trace(displacement_gradient);
+    for (unsigned int i = 0; i < dim; ++i)
+      for (unsigned int j = 0; j < dim; ++j)
+      {
+        stress.tangent[i * dim + i][j * dim + j] += lambda;
+        stress.tangent[i * dim + j][i * dim + j] += mu;
+        stress.tangent[i * dim + j][j * dim + i] += mu;
+      }
+    return stress;
+  }
+
+  template <int dim>
+  Stress<dim> neo_hookean(const Lame &constants, const Tensor<2, dim> &deformation_gradient)
+  {
+    const double J = determinant(deformation_gradient);
+    if (!(J > 0.))
+      throw AnalysisError("an element turned inside out");
+    const auto [lambda, mu] = constants;
+    const double pressure   = lambda * std::log(J);
+    const auto inverse_t    = transpose(invert(deformation_gradient));
+
+    Stress<dim> stress;
+    stress.piola = mu * (deformation_gradient - inverse_t) + pressure * inverse_t;
+    for (unsigned int i = 0; i < dim; ++i)
+      for (unsigned int a = 0; a < dim; ++a)
+        for (unsigned int k = 0; k < dim; ++k)
+          for (unsigned int b = 0; b < dim; ++b)
+            stress.tangent[i * dim + a][k * dim + b] = (i == k && a == b ? mu : 0.) + lambda * inverse_t[i][a] * inverse_t[k][b] +
+                                                       (mu - pressure) * inverse_t[i][b] * inverse_t[k][a];
+    return stress;
+  }
+
+  template <int dim>
+  double neo_hookean_energy(const Lame &constants, const Tensor<2, dim> &deformation_gradient)
+  {
+    const double log_J = std::log(determinant(deformation_gradient));
+    return 0.5 * constants.mu * (deformation_gradient.norm_square() - dim) - constants.mu * log_J +
+           0.5 * constants.lambda * log_J * log_J;
+  }
+
+  template <int dim>
+  Stress<dim> st_venant_kirchhoff(const Lame &constants, const Tensor<2, dim> &displacement_gradient)
+  {
+    const auto [lambda, mu]   = constants;
+    const Tensor<2, dim> unit = dealii::unit_symmetric_tensor<dim>();
+    const auto strain         = green_lagrange(displacement_gradient);
+    const Tensor<2, dim> F    = unit + displacement_gradient;
+    const Tensor<2, dim> S    = lambda * trace(strain) * unit + 2. * mu * strain;
+    const Tensor<2, dim> b    = F * transpose(F);
+
+    Stress<dim> stress;
+    stress.piola = F * S;
+    for (unsigned int i = 0; i < dim; ++i)
+      for (unsigned int a = 0; a < dim; ++a)
+        for (unsigned int k = 0; k < dim; ++k)
+          for (unsigned int c = 0; c < dim; ++c)
+            stress.tangent[i * dim + a][k * dim + c] =
+                (i == k ? S[a][c] : 0.) + lambda * F[i][a] * F[k][c] + mu * ((a == c ? b[i][k] : 0.) + F[i][c] * F[k][a]);
+    return stress;
+  }
+
+  template <int dim>
+  double st_venant_kirchhoff_energy(const Lame &constants, const Tensor<2, dim> &displacement_gradient)
+  {
+    const auto strain = green_lagrange(displacement_gradient);
+    return 0.5 * constants.lambda * trace(strain) * trace(strain) + constants.mu * strain.norm_square();
+  }
+
+  template Stress<2> linear_elastic(const Lame &, const Tensor<2, 2> &);
+  template Stress<2> neo_hookean(const Lame &, const Tensor<2, 2> &);
+  template double neo_hookean_energy(const Lame &, const Tensor<2, 2> &);
+  template Stress<2> st_venant_kirchhoff(const Lame &, const Tensor<2, 2> &);
+  template double st_venant_kirchhoff_energy(const Lame &, const Tensor<2, 2> &);
+} // namespace sprag

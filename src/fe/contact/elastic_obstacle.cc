@@ -1,0 +1,365 @@
+#include "fe/contact/elastic_obstacle.h"
+
+#include <algorithm>
+
+namespace sprag
+{
+  using dealii::Tensor;
+  using dealii::Vector;
+
+  namespace
+  {
+    LeverPoint first_node_of(const FrictionFace<2> &face)
+    {
+      const auto position = face.edges.front().nodes.front().position;
+      return { position[0], position[1] };
+    }
+  } // namespace
+
+  ElasticObstacle::ElasticObstacle(const FrictionFace<2> &lever, const FrictionFace<2> &cylinder, const FacePatches &face_,
+                                   const FaceContactProperties &properties_)
+      : face(face_)
+      , properties(properties_)
+      , pair(lever, cylinder)
+      , first_node(first_node_of(cylinder))
+  {
+  }
+
+  void ElasticObstacle::enter(const StepPlaces &of_step)
+  {
+    places         = of_step;
+    end.at         = pair.configuration(places.end);
+    end.first_slip = first_slip(places.end);
+    if (places.moves())
+      enter_begin(places.begin);
+    if (!places.balanced_at_end())
+      enter_balance();
+  }
+
+  FacePatches::Range ElasticObstacle::near() const
+  {
+    const auto at_last = pair.near(end.at);
+    return places.balanced_at_end() ? at_last : FacePatches::united(at_last, near_begin);
+  }
+
+  double ElasticObstacle::first_slip(const FaceConfiguration &at) const
+  {
+    return properties.obstacle(at.x, at.theta)({ at.centre.xi + first_node.xi, at.centre.eta + first_node.eta }).slip;
+  }
+
+  void ElasticObstacle::enter_begin(const FaceConfiguration &at)
+  {
+    if (is_same(at, of_begin.at.at, known_begin))
+      return;
+    of_begin.at                 = pair.configuration(at);
+    of_begin.first_slip         = first_slip(at);
+    known_begin                 = *at.displacement;
+    of_begin.at.at.displacement = &known_begin;
+    near_begin                  = pair.near(of_begin.at);
+    begin_facets.clear();
+  }
+
+  void ElasticObstacle::enter_balance()
+  {
+    between = *places.begin.displacement;
+    between.sadd(1. - places.balance, places.balance, *places.end.displacement);
+    const double theta = places.balanced(places.begin.theta, places.end.theta);
+    const double x     = places.balanced(places.begin.x, places.end.x);
+    of_balance.at      = pair.configuration({ &between, theta, x, properties.centre(x, theta) });
+  }
+
+  const PatchFacets &ElasticObstacle::facets_at_begin(const unsigned int of_patch)
+  {
+    const auto [found, is_new] = begin_facets.try_emplace(of_patch);
+    if (is_new)
+      pair.find_facets(of_patch, of_begin.at, found->second);
+    return found->second;
+  }
+
+  void ElasticObstacle::enter(const unsigned int of_face)
+  {
+    patch   = of_face;
+    first   = face.patches()[patch].begin;
+    nodal   = FacePatches::nodal(face.patches()[patch], *places.end.displacement);
+    touched = false;
+    pair.find_facets(patch, end.at, end.of);
+  }
+
+  const Facet &ElasticObstacle::facet_at_end(const unsigned int point) const
+  {
+    return end.of.facets[point - first];
+  }
+
+  bool ElasticObstacle::place(FacePointState &state) const
+  {
+    const auto &facet = facet_at_end(state.index);
+    state.position    = FacePatches::position(face.points()[state.index], nodal);
+    state.gap         = facet.gap;
+    return facet.opposed;
+  }
+
+  double ElasticObstacle::gap_at_begin(const unsigned int point)
+  {
+    return places.moves() ? facets_at_begin(patch).facets[point - first].gap : facet_at_end(point).gap;
+  }
+
+  /// How far the cylinder's undeformed surface has run past a facet, from where its first node without load counts 0 against the
+  /// undeformed body. Beside the cylinder's face that of the undeformed body.
+  double ElasticObstacle::slip_coordinate(const Facet &facet, const FaceConfiguration &at, const double of_first,
+                                          const unsigned int point) const
+  {
+    if (facet.opposed)
+      return facet.arc + of_first;
+    const auto &of      = face.patches()[face.patch_of_point(point)];
+    const auto position = FacePatches::position(face.points()[point], FacePatches::nodal(of, *at.displacement));
+    return properties.obstacle(at.x, at.theta)(position).slip;
+  }
+
+  double ElasticObstacle::slip_at_begin(const unsigned int point)
+  {
+    const unsigned int of_patch = face.patch_of_point(point);
+    const auto &facets          = facets_at_begin(of_patch).facets;
+    return slip_coordinate(facets[point - face.patches()[of_patch].begin], of_begin.at.at, of_begin.first_slip, point);
+  }
+
+  double ElasticObstacle::slip_at_end(const unsigned int point) const
+  {
+    return slip_coordinate(facet_at_end(point), places.end, end.first_slip, point);
+  }
+
+  double ElasticObstacle::slip(const FacePointState &state)
+  {
+    if (!places.moves())
+      return 0.;
+    const double stretch_at_begin = facets_at_begin(patch).facets[state.index - first].stretch;
+    return 0.5 * (stretch_at_begin + facet_at_end(state.index).stretch) * (slip_at_end(state.index) - slip_at_begin(state.index));
+  }
+
+  /// The facets of the patch beside one, of whose slips the slope is the difference.
+  std::array<unsigned int, 2> ElasticObstacle::neighbours(const unsigned int point) const
+  {
+    const auto &of = face.patches()[patch];
+    return { { std::max(point, of.begin + 1) - 1, std::min(point + 1, of.end - 1) } };
+  }
+
+  /// Along the undeformed face, which the facets of a patch share evenly [mm].
+  double ElasticObstacle::distance(const unsigned int from, const unsigned int to) const
+  {
+    const auto &of = face.patches()[patch];
+    return of.length * (to - from) / (of.end - of.begin);
+  }
+
+  /// Of the slip along the face [1].
+  double ElasticObstacle::slope(const unsigned int point) const
+  {
+    const auto [before, after] = neighbours(point);
+    return before == after ? 1. : (slip_at_end(after) - slip_at_end(before)) / distance(before, after);
+  }
+
+  /// Before the first forces of a patch.
+  void ElasticObstacle::touch()
+  {
+    if (touched)
+      return;
+    touched               = true;
+    const auto is_opposed = [](const Facet &facet) { return facet.opposed; };
+    at_end_of_face        = !std::all_of(end.of.facets.begin(), end.of.facets.end(), is_opposed);
+    if (places.balanced_at_end())
+      coordinates = pair.coordinates(patch, { &end.of });
+    else
+    {
+      pair.find_facets(patch, of_balance.at, of_balance.of);
+      coordinates = pair.coordinates(patch, { &facets_at_begin(patch), &end.of, &of_balance.of });
+    }
+    values.reinit(coordinates.size());
+    tangent.reinit(coordinates.size(), coordinates.size());
+    force_row.reinit(coordinates.size());
+    if (!places.balanced_at_end())
+    {
+      movement                      = change(*places.begin.displacement, *places.end.displacement);
+      movement[coordinates.theta()] = places.end.theta - places.begin.theta;
+      movement[coordinates.x()]     = places.end.x - places.begin.x;
+    }
+  }
+
+  /// Of the nodes of the patch.
+  Vector<double> ElasticObstacle::change(const Vector<double> &from, const Vector<double> &to) const
+  {
+    Vector<double> result(coordinates.size());
+    for (unsigned int i = 0; i < coordinates.theta(); ++i)
+      if (const unsigned int node = coordinates.nodes[i / 2]; node != FaceEdge<2>::held)
+        result[i] = to[2 * node + i % 2] - from[2 * node + i % 2];
+    return result;
+  }
+
+  void ElasticObstacle::step(FacePointState &state, const ContactMemory &memory, const FaceStep &step, ContactSums &sums)
+  {
+    touch();
+    const double R    = properties.radius;
+    const bool at_end = places.balanced_at_end();
+    const auto &last  = facet_at_end(state.index);
+    const auto &side  = at_end ? end : of_balance;
+    const auto &force = side.of.facets[state.index - first];
+    const auto *begin = places.moves() ? &facets_at_begin(patch).facets[state.index - first] : &last;
+    if (!last.opposed || !force.opposed || (!at_end && !begin->opposed))
+      return;
+    find_rows(end.of, last, end.at, coordinates, R, end_rows);
+    if (!at_end)
+      find_rows(side.of, force, side.at, coordinates, R, balance_rows);
+    const auto &rows = at_end ? end_rows : balance_rows;
+
+    // Gap and slip as the only coordinates.
+    const double share   = at_end ? 1. : 0.5; // of the stretch at the end
+    const double stretch = (1. - share) * begin->stretch + share * last.stretch;
+    const double run     = (places.moves() ? slip_at_end(state.index) - slip_at_begin(state.index) : 0.) + step.surface_run;
+    ContactKinematics<2> kinematics{};
+    kinematics.gap         = state.gap;
+    kinematics.slip        = stretch * run;
+    kinematics.gap_row[0]  = 1.;
+    kinematics.slip_row[1] = 1.;
+    auto over_step         = step_to(kinematics, 0.);
+    if (!at_end)
+    {
+      const auto bent     = bends(side.of, force, side.at, coordinates, R, movement);
+      over_step.gap_begin = begin->gap;
+      over_step.gap_bend  = bent.gap;
+      over_step.slip_bend = bent.slip;
+    }
+    SlipShift shift;
+    if (step.travel != 0.)
+      shift = slip_shift(face, state.index, slope(state.index), step, [this](const unsigned int q) { return slip_at_begin(q); });
+    over_step.slip_shift = stretch * shift.slip + shift.elastic;
+    const auto response  = step_response(over_step, memory, step.law);
+
+    record(response, step, memory, stretch * (run + shift.slip), force.weight, stretch * step.surface_run, state, sums);
+    sums.beyond_face = sums.beyond_face || (at_end_of_face && response.pressure > 0.);
+    state.end_force  = on_lever(response.pressure, -response.traction, end_rows);
+    add_force(force.weight, response.force[0], response.force[1], rows);
+    sums.force_on_obstacle +=
+        force.weight * (response.force[0] * rows.gap[coordinates.x()] + response.force[1] * rows.slip[coordinates.x()]);
+    if (shift.d_slope * response.d_shift != 0.)
+      add_shift(last, state.index, shift, response.d_shift);
+    add_tangent(response, force, stretch, run, share);
+  }
+
+  /// The change of slip varies with the place on the cylinder, its own turn and the stretch.
+  void ElasticObstacle::add_tangent(const StepResponse<2> &response, const Facet &facet, const double stretch, const double run,
+                                    const double stretch_of_end)
+  {
+    const bool at_end = places.balanced_at_end();
+    const auto &side  = at_end ? end : of_balance;
+    const auto &rows  = at_end ? end_rows : balance_rows;
+    auto &slip_change = end_rows.arc;
+    slip_change[coordinates.theta()] -= properties.radius;
+    slip_change *= stretch;
+    slip_change.add(stretch_of_end * run, end_rows.stretch);
+    for (const auto &[i, row] : { std::pair{ 0u, &rows.gap }, { 1u, &rows.slip } })
+    {
+      force_row.equ(response.tangent[i][0], end_rows.gap);
+      force_row.add(response.tangent[i][1], slip_change);
+      add_product(facet.weight, *row, force_row, tangent);
+    }
+    const double share = (at_end ? 1. : places.balance) * facet.weight;
+    add_curvature(side.of, facet, side.at, coordinates, properties.radius, share * response.force[0], share * response.force[1],
+                  tangent);
+  }
+
+  /// How the traction on a facet changes with the slip's shift, by the stretch and by the slip's slope. Turning moves both
+  /// neighbours alike.
+  void ElasticObstacle::add_shift(const Facet &facet, const unsigned int point, const SlipShift &shift, const double d_shift)
+  {
+    add_product(-facet.weight * shift.slip * d_shift, end_rows.slip, end_rows.stretch, tangent);
+    const auto [before, after] = neighbours(point);
+    const auto &left           = facet_at_end(before);
+    const auto &right          = facet_at_end(after);
+    if (before == after || !left.opposed || !right.opposed)
+      return;
+    find_rows(end.of, left, end.at, coordinates, properties.radius, at_left);
+    find_rows(end.of, right, end.at, coordinates, properties.radius, at_right);
+    at_right.arc -= at_left.arc;
+    add_product(-facet.weight * shift.d_slope * facet.stretch * d_shift / distance(before, after), end_rows.slip, at_right.arc,
+                tangent);
+  }
+
+  void ElasticObstacle::slide(FacePointState &state, const SlidingState &sliding, const FrictionLaw &law, ContactSums &sums)
+  {
+    touch();
+    const double R    = properties.radius;
+    const auto &facet = facet_at_end(state.index);
+    find_rows(end.of, facet, end.at, coordinates, R, end_rows);
+    state.slip_change = facet.stretch * sliding.speed;
+    if (sliding.rates != nullptr)
+    {
+      auto rates                 = change(Vector<double>(sliding.rates->size()), *sliding.rates);
+      rates[coordinates.theta()] = (*sliding.rates)[properties.ports.rotation()];
+      rates[coordinates.x()]     = properties.ports.sprung ? -(*sliding.rates)[properties.ports.support()] : 0.;
+      state.slip_change += end_rows.slip * rates;
+    }
+    sums.beyond_face = sums.beyond_face || at_end_of_face;
+    const auto of    = sprag::slide(properties, law, sliding, facet.weight, state, sums);
+    state.end_force  = on_lever(state.pressure, -state.traction, end_rows);
+    add_force(facet.weight, state.pressure, -state.traction, end_rows);
+    add_product(facet.weight * of.normal, end_rows.gap, end_rows.gap, tangent);
+    add_product(facet.weight * of.coupled, end_rows.slip, end_rows.gap, tangent);
+    add_product(facet.weight * of.tangential, end_rows.slip, end_rows.slip, tangent);
+    add_product(facet.weight * of.by_speed * sliding.speed, end_rows.slip, end_rows.stretch, tangent);
+    add_curvature(end.of, facet, end.at, coordinates, R, facet.weight * of.gap_curvature, facet.weight * of.slip_gradient,
+                  tangent);
+  }
+
+  void ElasticObstacle::add_force(const double weight, const double normal, const double along_slip, const FacetRows &rows)
+  {
+    values.add(weight * normal, rows.gap, weight * along_slip, rows.slip);
+  }
+
+  Tensor<1, 4> ElasticObstacle::on_lever(const double normal, const double along_slip, const FacetRows &rows) const
+  {
+    Tensor<1, 4> result;
+    const auto force = [&](const unsigned int i) { return normal * rows.gap[i] + along_slip * rows.slip[i]; };
+    for (unsigned int i = 0; i < 2 * coordinates.n_lever; ++i)
+      result[i % 2] += force(i);
+    result[2] = force(coordinates.theta());
+    result[3] = force(coordinates.x());
+    return result;
+  }
+
+  /// Coordinates of the patch that are ports. The support's moves the obstacle's position back.
+  std::vector<FaceCoordinate> ElasticObstacle::ports() const
+  {
+    std::vector<FaceCoordinate> result;
+    for (unsigned int i = 0; i < coordinates.theta(); ++i)
+      if (const unsigned int node = coordinates.nodes[i / 2]; node != FaceEdge<2>::held)
+        result.push_back({ i, 2 * node + i % 2, 1. });
+    result.push_back({ coordinates.theta(), properties.ports.rotation(), 1. });
+    if (properties.ports.sprung)
+      result.push_back({ coordinates.x(), properties.ports.support(), -1. });
+    return result;
+  }
+
+  void ElasticObstacle::leave(ContactSums &sums)
+  {
+    if (touched)
+      sums.loaded.push_back(forces_on_ports(
+          ports(), [&](const unsigned int i) { return values[i]; },
+          [&](const unsigned int i, const unsigned int j) { return tangent(i, j); }));
+  }
+
+  FacePointRows ElasticObstacle::rows(const FacePointState &state)
+  {
+    touch();
+    const auto &facet = facet_at_end(state.index);
+    find_rows(end.of, facet, end.at, coordinates, properties.radius, end_rows);
+    const auto of_patch = ports();
+    const auto n        = static_cast<unsigned int>(of_patch.size());
+    FacePointRows result{ facet.weight, {}, Vector<double>(n), Vector<double>(n), Vector<double>(n) };
+    for (unsigned int i = 0; i < n; ++i)
+    {
+      const auto &[coordinate, port, sign] = of_patch[i];
+      result.ports.push_back(port);
+      result.gap[i]     = sign * end_rows.gap[coordinate];
+      result.slip[i]    = sign * end_rows.slip[coordinate];
+      result.stretch[i] = sign * end_rows.stretch[coordinate];
+    }
+    return result;
+  }
+} // namespace sprag

@@ -1,0 +1,88 @@
+#pragma once
+
+#include "fe/contact/face_contact_point.h"
+#include "fe/contact/face_pair_rows.h"
+
+#include <map>
+
+namespace sprag
+{
+  /// What FaceContact sees of an elastic cylinder below the lever's face, the interface of RigidObstacle. Points of the friction
+  /// face are facets, see FacePair: pressure and traction are those of the facet's mean gap and slip. Ports of the cylinder's
+  /// nodes follow those of the lever's.
+  class ElasticObstacle
+  {
+  public:
+    /// All must outlive the obstacle; `face` are the lever's patches.
+    ElasticObstacle(const FrictionFace<2> &lever, const FrictionFace<2> &cylinder, const FacePatches &face,
+                    const FaceContactProperties &properties);
+
+    void enter(const StepPlaces &places);
+    FacePatches::Range near() const;
+    void enter(unsigned int patch);
+    bool place(FacePointState &state) const;
+    double gap_at_begin(unsigned int point);
+    void step(FacePointState &state, const ContactMemory &memory, const FaceStep &step, ContactSums &sums);
+    void slide(FacePointState &state, const SlidingState &sliding, const FrictionLaw &law, ContactSums &sums);
+    void leave(ContactSums &sums);
+    FacePointRows rows(const FacePointState &state);
+    double slip(const FacePointState &state);
+
+  private:
+    struct Side
+    {
+      PairConfiguration at;
+      PatchFacets of;
+      double first_slip = 0.; ///< slip coordinate of the cylinder's first node without load [mm]
+    };
+
+    double first_slip(const FaceConfiguration &at) const;
+    void enter_begin(const FaceConfiguration &at);
+    void enter_balance();
+    const PatchFacets &facets_at_begin(unsigned int of_patch);
+    double slip_at_begin(unsigned int point);
+    double slip_at_end(unsigned int point) const;
+    double slip_coordinate(const Facet &facet, const FaceConfiguration &at, double of_first, unsigned int point) const;
+    std::array<unsigned int, 2> neighbours(unsigned int point) const;
+    double distance(unsigned int from, unsigned int to) const;
+    double slope(unsigned int point) const;
+    void touch();
+    const Facet &facet_at_end(unsigned int point) const;
+    void add_tangent(const StepResponse<2> &response, const Facet &facet, double stretch, double run, double stretch_of_end);
+    void add_shift(const Facet &facet, unsigned int point, const SlipShift &shift, double d_shift);
+    void add_force(double weight, double normal, double along_slip, const FacetRows &rows);
+    dealii::Tensor<1, 4> on_lever(double normal, double along_slip, const FacetRows &rows) const;
+    std::vector<FaceCoordinate> ports() const;
+    dealii::Vector<double> change(const dealii::Vector<double> &from, const dealii::Vector<double> &to) const;
+
+    const FacePatches &face;
+    const FaceContactProperties &properties;
+    const FacePair pair;
+    const LeverPoint first_node; ///< of the cylinder's face, about its centre
+    StepPlaces places{};
+    Side end;
+
+    // Where the forces of a step are those between its ends.
+    Side of_balance;
+    dealii::Vector<double> between; ///< displacements at the balance
+
+    // Where the step begins, the same in all its iterations.
+    Side of_begin;
+    dealii::Vector<double> known_begin;
+    FacePatches::Range near_begin{ 0, 0 };
+    std::map<unsigned int, PatchFacets> begin_facets; ///< by patches
+
+    // Of the patch.
+    unsigned int patch = 0;
+    unsigned int first = 0;     ///< of its points
+    FacePatches::Nodal nodal{}; ///< its displacements at the end
+    bool touched        = false;
+    bool at_end_of_face = false;
+    PairCoordinates coordinates;
+    FacetRows end_rows, balance_rows, at_left, at_right;
+    dealii::Vector<double> force_row; ///< derivative of a force
+    dealii::Vector<double> movement;  ///< in the step
+    dealii::Vector<double> values;
+    dealii::FullMatrix<double> tangent;
+  };
+} // namespace sprag

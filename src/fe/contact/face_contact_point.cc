@@ -1,0 +1,94 @@
+#include "fe/contact/face_contact_point.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sprag
+{
+  namespace
+  {
+    SlidingTangent tangent(const TangentPart part, const ContactFriction friction, const ContactPenalties &penalty,
+                           const SlidingFriction &share, const double pressure)
+    {
+      SlidingTangent result;
+      const bool all = part == TangentPart::all;
+      if (all || part == TangentPart::pressure)
+      {
+        result.normal        = -penalty.normal;
+        result.gap_curvature = pressure;
+      }
+      if ((all || part == TangentPart::friction) && friction == ContactFriction::stuck)
+        result.tangential = -penalty.tangential;
+      else if (all || part == TangentPart::friction)
+      {
+        result.coupled       = share.coefficient * penalty.normal;
+        result.slip_gradient = -share.coefficient * pressure;
+        result.by_speed      = -share.derivative * pressure;
+      }
+      if (part == TangentPart::friction_rate)
+        result.tangential = -share.derivative * pressure;
+      return result;
+    }
+  } // namespace
+
+  Obstacle cylinder(const Geometry &geometry)
+  {
+    return [geometry](const double x, const double theta)
+    {
+      return [circle = placed_circle(geometry, x, theta)](const LeverPoint &point)
+      { return moving_circle_contact(circle, point); };
+    };
+  }
+
+  void set_cylinder(const Geometry &geometry, FaceContactProperties &properties)
+  {
+    properties.obstacle = cylinder(geometry);
+    properties.centre   = [geometry](const double x, const double theta) { return cylinder_centre(geometry, x, theta); };
+    properties.radius   = geometry.cylinder_radius;
+  }
+
+  ContactMemory FaceStep::memory_of(const unsigned int point) const
+  {
+    const auto is_before = [](const ContactMemory &entry, const unsigned int q) { return entry.point < q; };
+    const auto found     = std::lower_bound(memory.begin(), memory.end(), point, is_before);
+    return found != memory.end() && found->point == point ? *found : ContactMemory{};
+  }
+
+  SlipShift slip_shift(const FacePatches &face, const unsigned int point, const double slope, const FaceStep &step,
+                       const std::function<double(unsigned int)> &slip_at_begin)
+  {
+    const auto &points = face.points();
+    const double xi    = points[point].position.xi - step.travel;
+    if (step.travel == 0. || xi < points.front().position.xi || xi > points.back().position.xi)
+      return {};
+    const auto after       = std::upper_bound(points.begin() + 1, points.end() - 1, xi,
+                                              [](const double value, const FacePatches::Point &at) { return value < at.position.xi; });
+    const auto i           = static_cast<unsigned int>(after - points.begin());
+    const double before    = (after - 1)->position.xi;
+    const double share     = (xi - before) / (after->position.xi - before);
+    const auto between     = [share](const double a, const double b) { return (1. - share) * a + share * b; };
+    const double slip      = slip_at_begin(point) - between(slip_at_begin(i - 1), slip_at_begin(i)) - step.travel * slope;
+    const double unwinding = between(step.memory_of(i - 1).traction, step.memory_of(i).traction) - step.memory_of(point).traction;
+    return { slip, step.augmented ? 0. : unwinding / step.law.tangential, -step.travel };
+  }
+
+  SlidingTangent slide(const FaceContactProperties &properties, const FrictionLaw &law, const SlidingState &sliding,
+                       const double weight, FacePointState &state, ContactSums &sums)
+  {
+    const auto &penalty     = properties.penalties;
+    const bool slides       = sliding.friction == ContactFriction::sliding;
+    const auto share        = slides ? sliding_friction(law, state.slip_change) : SlidingFriction{};
+    state.pressure          = -penalty.normal * state.gap;
+    state.traction          = share.coefficient * state.pressure;
+    state.mu                = slides ? friction_coefficient(law, std::abs(state.slip_change)).coefficient : 0.;
+    state.slipping          = slides;
+    state.memory.traction   = state.traction;
+    state.memory.slip_speed = sliding.speed;
+    state.memory.point      = state.index;
+    state.elastic_slip      = std::abs(state.traction) / penalty.tangential;
+    const double elastic    = law.regularisation_speed > 0. ? 0. : 0.5 * state.traction * state.traction / penalty.tangential;
+    sums.stored += weight * (0.5 * penalty.normal * state.gap * state.gap + elastic);
+    sums.compression = std::max(sums.compression, -state.gap);
+    return tangent(sliding.part, sliding.friction, penalty, share, state.pressure);
+  }
+} // namespace sprag

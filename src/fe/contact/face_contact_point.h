@@ -1,0 +1,226 @@
+#pragma once
+
+#include "fe/contact/face_patches.h"
+#include "model/contact_step.h"
+#include "model/linearisation.h"
+#include "model/port_layout.h"
+
+#include <functional>
+
+namespace sprag
+{
+  /// Kinematics of a point of the lever against a convex body without deformation, in the coordinates (displacement along xi,
+  /// along eta, theta, x).
+  using PlacedObstacle = std::function<ContactKinematics<4>(const LeverPoint &point)>;
+
+  /// The body at its position x from the pivot frame's origin and hub rotation theta.
+  using Obstacle = std::function<PlacedObstacle(double x, double theta)>;
+
+  /// [N/mm^3], > 0
+  struct ContactPenalties
+  {
+    double normal;
+    double tangential;
+  };
+
+  /// Constants of the contact of a meshed lever.
+  struct FaceContactProperties
+  {
+    Obstacle obstacle;                                        ///< an elastic one as it is without load
+    std::function<LeverPoint(double x, double theta)> centre; ///< of the obstacle
+    double radius = 0.; ///< R: how far the obstacle's surface runs in its axes as they turn by 1, 0 if it turns with them [mm]
+    PortLayout ports;
+    double rest_inclination = 0.; ///< theta without moment [rad]
+    ContactPenalties penalties{};
+    FrictionLaw friction;
+    double layer_thickness = 0.; ///< [mm]
+  };
+
+  /// The damper's cylinder.
+  Obstacle cylinder(const Geometry &geometry);
+
+  /// Sets obstacle, centre and radius to it.
+  void set_cylinder(const Geometry &geometry, FaceContactProperties &properties);
+
+  /// What an evaluation found at a point of the friction face.
+  struct FacePointState
+  {
+    unsigned int index = 0; ///< in FrictionFace::points
+    unsigned int patch = 0;
+    LeverPoint position{}; ///< deformed, lever axes
+    double gap            = 0.;
+    double trial_pressure = 0.; ///< lambda - eps g at the end: the pressure where positive [MPa]
+    double slip_change    = 0.; ///< in the step; without inertia as far as it would be at the speed of its end [mm]
+    double elastic_slip   = 0.; ///< of the tangential penalty [mm]
+    double pressure       = 0.; ///< at the end
+    double traction       = 0.;
+    double mu             = 0.;
+    bool slipping         = false;
+    dealii::Tensor<1, 4> end_force; ///< on the lever per area: along xi, along eta, about the pivot, and along x on the drive
+    ContactMemory memory;
+  };
+
+  /// A step of the contact.
+  struct FaceStep
+  {
+    StepContactLaw law;
+    const std::vector<ContactMemory> &memory; ///< of the points in contact where it begins, by increasing point
+    double surface_run = 0.;                  ///< of the obstacle by turning [mm]
+    bool augmented     = false;               ///< whether the traction remembered is a multiplier
+
+    // Without inertia, of a lever that follows a cylinder. mu is taken at the speed with which a point slides where the step
+    // ends, which differs from its mean over the step: most points were not in contact when it began, and the cylinder has
+    // changed its speed. What moves along the lever with the contact does so almost steadily, so that a point's rate follows from
+    // the place that had the same distance from the contact when the step began, and from the slip's slope along the face where
+    // it ends.
+    double travel      = 0.; ///< of the contact along the lever in the step [mm]; 0: speeds are means
+    double speed_ratio = 1.; ///< sliding speed of a rigid lever at the end over its mean; the law's duration is shorter by it
+
+    /// That of a point that was open is empty.
+    ContactMemory memory_of(unsigned int point) const;
+  };
+
+  /// By how much more a point would slip in a step at the speed of its end, the ratio of speeds apart [mm].
+  struct SlipShift
+  {
+    double slip    = 0.;
+    double elastic = 0.; ///< what the elastic slip of the tangential penalty would change less
+    double d_slope = 0.; ///< derivative by the slope [mm]
+
+    double total() const
+    {
+      return slip + elastic;
+    }
+  };
+
+  /// `slope`: of the slip coordinate along the face at the end of the step. `slip_at_begin`: slip coordinate of any point where
+  /// the step begins. No shift where the contact came from beyond the face.
+  SlipShift slip_shift(const FacePatches &face, unsigned int point, double slope, const FaceStep &step,
+                       const std::function<double(unsigned int)> &slip_at_begin);
+
+  /// Forces and their tangent on some ports.
+  struct PatchForces
+  {
+    std::vector<unsigned int> ports; ///< in any order
+    dealii::Vector<double> values;
+    dealii::FullMatrix<double> tangent;
+  };
+
+  /// A coordinate of a patch that is a port.
+  struct FaceCoordinate
+  {
+    unsigned int index;
+    unsigned int port;
+    double sign; ///< of the coordinate along the port
+  };
+
+  /// From values and tangent over the coordinates of a patch.
+  template <class Values, class Tangent>
+  PatchForces forces_on_ports(const std::vector<FaceCoordinate> &coordinates, const Values &values, const Tangent &tangent)
+  {
+    const auto n = static_cast<unsigned int>(coordinates.size());
+    PatchForces result{ {}, dealii::Vector<double>(n), dealii::FullMatrix<double>(n, n) };
+    for (unsigned int i = 0; i < n; ++i)
+    {
+      const auto &row = coordinates[i];
+      result.ports.push_back(row.port);
+      result.values[i] = row.sign * values(row.index);
+      for (unsigned int j = 0; j < n; ++j)
+        result.tangent(i, j) = row.sign * coordinates[j].sign * tangent(row.index, coordinates[j].index);
+    }
+    return result;
+  }
+
+  /// Derivatives of a point's gap and slip, and of its slip speed at ports at rest over the cylinder's, by some ports.
+  struct FacePointRows
+  {
+    double weight; ///< area [mm^2]
+    std::vector<unsigned int> ports;
+    dealii::Vector<double> gap;
+    dealii::Vector<double> slip;
+    dealii::Vector<double> stretch;
+  };
+
+  /// Sums over the points of an evaluation.
+  struct ContactSums
+  {
+    double compression       = 0.;    ///< of the contact springs, the largest in the step [mm]
+    double stored            = 0.;    ///< energy
+    double force_on_obstacle = 0.;    ///< generalised, of the position x, in the step [N]
+    bool beyond_face         = false; ///< whether the contact reaches the end of what can be touched
+    StepWork work;
+    std::vector<PatchForces> loaded;
+  };
+
+  /// Where a step begins and ends, and at which share of it forces are balanced.
+  struct StepPlaces
+  {
+    FaceConfiguration begin;
+    FaceConfiguration end;
+    double balance  = 1.;
+    bool static_end = false; ///< without inertia: forces are those of the end, whatever was before
+
+    /// Whether beginning and end differ.
+    bool moves() const
+    {
+      return begin.displacement != end.displacement || begin.x != end.x;
+    }
+
+    /// Whether the end is all that counts for the forces.
+    bool balanced_at_end() const
+    {
+      return static_end || !moves();
+    }
+
+    double balanced(const double at_begin, const double at_end) const
+    {
+      return (1. - balance) * at_begin + balance * at_end;
+    }
+  };
+
+  /// Whether a configuration is another, whose displacements are `displacement`.
+  inline bool is_same(const FaceConfiguration &at, const FaceConfiguration &other, const dealii::Vector<double> &displacement)
+  {
+    return at.x == other.x && at.theta == other.theta && displacement.size() == at.displacement->size() &&
+           displacement == *at.displacement;
+  }
+
+  /// What a point's response to a step is in state and sums, its forces apart. `run` [mm]: of the obstacle's surface at the
+  /// point.
+  template <int n>
+  void record(const StepResponse<n> &response, const FaceStep &step, const ContactMemory &begin, const double slip_change,
+              const double weight, const double run, FacePointState &state, ContactSums &sums)
+  {
+    state.slip_change  = slip_change * step.speed_ratio;
+    state.elastic_slip = std::abs(response.traction - (step.augmented ? begin.traction : 0.)) / step.law.tangential;
+    state.pressure     = response.pressure;
+    state.traction     = response.traction;
+    state.mu           = response.mu;
+    state.slipping     = response.slipping;
+    state.memory       = response.memory;
+    state.memory.point = state.index;
+
+    sums.stored += weight * response.energy;
+    sums.work.drive += weight * response.mean_traction * run;
+    sums.work.friction += weight * response.friction;
+    sums.work.algorithmic += weight * response.algorithmic;
+    sums.work.creep = std::max(sums.work.creep, response.creep);
+  }
+
+  /// Derivative of the forces per area p G - t S of steady sliding, G and S the rows of gap and slip:
+  ///   normal G G + coupled S G + tangential S S + gap_curvature dG/dq + slip_gradient dS/dq + by_speed S dv/dq,
+  /// v what the slip speed is at ports at rest.
+  struct SlidingTangent
+  {
+    double normal        = 0.;
+    double coupled       = 0.;
+    double tangential    = 0.;
+    double gap_curvature = 0.;
+    double slip_gradient = 0.;
+    double by_speed      = 0.;
+  };
+
+  /// Sets tractions from the state's gap < 0 and slip and adds them to the sums; returns the part of the tangent asked for.
+  SlidingTangent slide(const FaceContactProperties &properties, const FrictionLaw &law, const SlidingState &sliding,
+                       double weight, FacePointState &state, ContactSums &sums);
+} // namespace sprag

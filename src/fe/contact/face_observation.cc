@@ -1,0 +1,252 @@
+#include "fe/contact/face_observation.h"
+
+#include "fe/contact/pressure_recovery.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sprag
+{
+  namespace
+  {
+    RecoveredPressure recovered(const FaceView &contact)
+    {
+      const auto &face = contact.body.friction_face();
+      PressureSamples samples;
+      const auto ends_before = [](const FacePatch &patch, const unsigned int point) { return patch.end <= point; };
+      auto patch             = face.patches.begin();
+      if (!contact.points.empty())
+        patch = std::lower_bound(patch, face.patches.end(), contact.points.front().index, ends_before);
+      for (const auto &point : contact.points)
+      {
+        while (ends_before(*patch, point.index))
+          ++patch;
+        samples.xi.push_back(point.position.xi);
+        samples.weight.push_back(face.points[point.index].weight);
+        samples.pressure.push_back(point.pressure);
+        samples.trial.push_back(point.trial_pressure);
+        samples.cell.push_back(static_cast<unsigned int>(patch - face.patches.begin()));
+      }
+      samples.begin = face.points.front().position[0];
+      samples.end   = face.points.back().position[0];
+      return recover(samples);
+    }
+
+    /// Length under pressure, the edges where the trial pressure, linear between the points, changes sign [mm].
+    double contact_width(const std::vector<FacePointState> &points)
+    {
+      double width = 0.;
+      for (std::size_t q = 0; q + 1 < points.size(); ++q)
+      {
+        const double length = points[q + 1].position.xi - points[q].position.xi;
+        const double left   = points[q].trial_pressure;
+        const double right  = points[q + 1].trial_pressure;
+        if (left > 0. && right > 0.)
+          width += length;
+        else if (left > 0. || right > 0.)
+          width += length * std::max(left, right) / (std::max(left, right) - std::min(left, right));
+      }
+      return width;
+    }
+
+    /// Displacement along xi and eta of an integration point [mm].
+    dealii::Tensor<1, 2> displacement(const FaceView &contact, const unsigned int point)
+    {
+      dealii::Tensor<1, 2> result;
+      for (const auto &[node, shape] : contact.body.friction_face().points[point].nodes)
+        for (unsigned int d = 0; d < 2; ++d)
+          result[d] += shape * contact.nodal_displacement[2 * node + d];
+      return result;
+    }
+
+    /// Displacement along eta at xi, linear between the points [mm].
+    double deflection(const FaceView &contact, const double xi)
+    {
+      const auto &points   = contact.body.friction_face().points;
+      const auto is_before = [](const auto &point, const double value) { return point.position[0] < value; };
+      const auto after     = std::lower_bound(points.begin() + 1, points.end() - 1, xi, is_before);
+      const auto before    = after - 1;
+      const double share   = std::clamp((xi - before->position[0]) / (after->position[0] - before->position[0]), 0., 1.);
+      const auto index     = static_cast<unsigned int>(before - points.begin());
+      return (1. - share) * displacement(contact, index)[1] + share * displacement(contact, index + 1)[1];
+    }
+
+    double indentation(const FaceView &contact, const double centre, const double width, const double layer_thickness)
+    {
+      if (layer_thickness == 0.)
+        return 0.;
+      const double aside = 0.5 * width + 4. * layer_thickness;
+      return deflection(contact, centre) - 0.5 * (deflection(contact, centre - aside) + deflection(contact, centre + aside));
+    }
+
+    double cone_violation(const std::vector<FacePointState> &points)
+    {
+      double excess = 0.;
+      double peak   = 0.;
+      for (const auto &point : points)
+      {
+        excess = std::max(excess, std::abs(point.traction) - point.mu * point.pressure);
+        peak   = std::max(peak, point.mu * point.pressure);
+      }
+      return peak > 0. ? excess / peak : 0.;
+    }
+
+    /// Of a point under pressure.
+    struct PointFriction
+    {
+      double ratio = 0.; ///< of friction to pressure
+      double mu    = 0.;
+    };
+
+    /// Of every point; those without pressure take it from one beside them.
+    std::vector<PointFriction> frictions(const std::vector<FacePointState> &points)
+    {
+      const auto is_closed   = [](const FacePointState &point) { return point.pressure > 0.; };
+      const auto friction_of = [](const FacePointState &point) {
+        return PointFriction{ point.traction / point.pressure, point.mu };
+      };
+      const auto first = std::find_if(points.begin(), points.end(), is_closed);
+      auto friction    = first == points.end() ? PointFriction() : friction_of(*first);
+      std::vector<PointFriction> result;
+      for (const auto &point : points)
+      {
+        if (is_closed(point))
+          friction = friction_of(point);
+        result.push_back(friction);
+      }
+      return result;
+    }
+
+    /// What friction the recovered pressure takes along: in the ratio of each point, then as far towards mu p, either way, as
+    /// the resultant of the points asks, the same share of the way everywhere.
+    std::vector<double> recovered_traction(const FaceView &contact, const std::vector<double> &pressure)
+    {
+      const auto friction = frictions(contact.points);
+      const auto area = [&](const std::size_t i) { return contact.body.friction_face().points[contact.points[i].index].weight; };
+      std::vector<double> result;
+      double lacking = 0.;
+      for (std::size_t i = 0; i < friction.size(); ++i)
+      {
+        result.push_back(friction[i].ratio * pressure[i]);
+        lacking += area(i) * (contact.points[i].traction - result.back());
+      }
+      const auto way = [&](const std::size_t i) { return std::copysign(friction[i].mu * pressure[i], lacking) - result[i]; };
+      double whole   = 0.;
+      for (std::size_t i = 0; i < friction.size(); ++i)
+        whole += area(i) * way(i);
+      if (lacking * whole > 0.)
+        for (std::size_t i = 0; i < friction.size(); ++i)
+          result[i] += std::min(1., lacking / whole) * way(i);
+      return result;
+    }
+
+    /// What a force on a point leaves on nodes that the hub does not hold.
+    double share_of_free_nodes(const FaceView &contact, const unsigned int point)
+    {
+      double share = 0.;
+      for (const auto &node : contact.body.friction_face().points[point].nodes)
+        share += node.second;
+      return share;
+    }
+
+    /// Sums over the points under pressure.
+    struct Sums
+    {
+      double normal = 0., friction = 0., position = 0., speed = 0., mu = 0., power = 0., energy = 0., active = 0.;
+      double elastic_slip = 0.; ///< the largest
+      double P = 0., F = 0.;
+    };
+
+    Sums sum(const FaceView &contact)
+    {
+      Sums sums;
+      const double dt = contact.duration;
+      for (const auto &point : contact.points)
+      {
+        if (!(point.trial_pressure > 0.))
+          continue;
+        const double area   = contact.body.friction_face().points[point.index].weight;
+        const double normal = area * point.pressure;
+        const double share  = share_of_free_nodes(contact, point.index);
+        sums.F -= area * share * point.end_force[0];
+        sums.P += area * share * point.end_force[1];
+        const auto moved  = displacement(contact, point.index);
+        const double rate = dt > 0. ? point.slip_change / dt : 0.;
+        sums.normal += normal;
+        sums.friction += area * point.traction;
+        sums.position += normal * point.position.xi;
+        sums.speed += normal * rate;
+        sums.mu += normal * point.mu;
+        sums.power += area * point.traction * rate;
+        sums.energy += 0.5 * area * (point.end_force[0] * moved[0] + point.end_force[1] * moved[1]);
+        sums.active += 1.;
+        sums.elastic_slip = std::max(sums.elastic_slip, point.elastic_slip);
+      }
+      return sums;
+    }
+  } // namespace
+
+  void observe_face(const FaceView &contact, const double layer_thickness, Row &row)
+  {
+    const auto recovery           = recovered(contact);
+    row[Column::contact_width]    = recovery.is_fitted ? recovery.width : contact_width(contact.points);
+    row[Column::largest_pressure] = recovery.largest;
+    if (recovery.largest > 0.)
+      row[Column::largest_pressure_xi] = recovery.place;
+    row[Column::indentation] = 0.;
+    observe_resultants(contact, row);
+    if (row[Column::normal_resultant] > 0.)
+      row[Column::indentation] = indentation(contact, row[Column::s], row[Column::contact_width], layer_thickness);
+  }
+
+  void observe_resultants(const FaceView &contact, Row &row)
+  {
+    const Sums sums                 = sum(contact);
+    row[Column::normal_resultant]   = sums.normal;
+    row[Column::friction_resultant] = sums.friction;
+    row[Column::friction_power]     = sums.power;
+    row[Column::elastic_energy]     = sums.energy;
+    row[Column::active_points]      = sums.active;
+    row[Column::elastic_slip]       = sums.elastic_slip;
+    row[Column::penetration]        = contact.penetration;
+    row[Column::cone_violation]     = cone_violation(contact.points);
+    row[Column::P]                  = sums.P;
+    row[Column::F]                  = sums.F;
+    if (sums.normal > 0.)
+    {
+      row[Column::s]  = sums.position / sums.normal;
+      row[Column::mu] = sums.mu / sums.normal;
+      if (contact.duration > 0.)
+        row[Column::v_rel] = sums.speed / sums.normal;
+    }
+  }
+
+  FacePoints face_points(const ElasticBody<2> &body)
+  {
+    FacePoints result;
+    for (const auto &point : body.friction_face().points)
+    {
+      result.xi.push_back(point.position[0]);
+      result.weight.push_back(point.weight);
+    }
+    return result;
+  }
+
+  FaceState face_state(const FaceView &contact, const DrivePoint &drive)
+  {
+    FaceState result;
+    result.time         = drive.time;
+    result.x            = drive.x;
+    const std::size_t n = contact.body.friction_face().points.size();
+    result.pressure.resize(n);
+    result.traction.resize(n);
+    const auto recovery = recovered(contact);
+    const auto traction = recovered_traction(contact, recovery.pressure);
+    for (std::size_t i = 0; i < contact.points.size(); ++i)
+    {
+      result.pressure[contact.points[i].index] = recovery.pressure[i];
+      result.traction[contact.points[i].index] = traction[i];
+    }
+    return result;
+  }
+} // namespace sprag

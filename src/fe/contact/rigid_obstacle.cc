@@ -1,0 +1,285 @@
+#include "fe/contact/rigid_obstacle.h"
+
+#include <algorithm>
+
+namespace sprag
+{
+  using dealii::Tensor;
+  using dealii::Vector;
+
+  RigidObstacle::RigidObstacle(const FacePatches &face_, const FaceContactProperties &properties_)
+      : face(face_)
+      , properties(properties_)
+  {
+  }
+
+  void RigidObstacle::enter(const StepPlaces &of_step)
+  {
+    places = of_step;
+    end    = properties.obstacle(places.end.x, places.end.theta);
+    if (places.moves())
+      enter_begin(places.begin);
+    if (!places.balanced_at_end())
+      balance = properties.obstacle(places.balanced(places.begin.x, places.end.x),
+                                    places.balanced(places.begin.theta, places.end.theta));
+  }
+
+  void RigidObstacle::enter_begin(const FaceConfiguration &at)
+  {
+    if (is_same(at, of_begin, known_begin))
+      return;
+    known_begin           = *at.displacement;
+    of_begin              = at;
+    of_begin.displacement = &known_begin;
+    begin                 = properties.obstacle(at.x, at.theta);
+    near_begin            = near(of_begin, begin);
+    begin_points.clear();
+  }
+
+  FacePatches::Range RigidObstacle::near() const
+  {
+    const auto at_last = near(places.end, end);
+    return places.balanced_at_end() ? at_last : FacePatches::united(at_last, near_begin);
+  }
+
+  /// The gap along a straight patch to a convex obstacle lies above its tangent at the first point; the margin covers bending.
+  FacePatches::Range RigidObstacle::near(const FaceConfiguration &at, const PlacedObstacle &obstacle) const
+  {
+    const auto least_gap = [&](const unsigned int of_face)
+    {
+      const auto &chosen = face.patches()[of_face];
+      const auto nodal   = FacePatches::nodal(chosen, *at.displacement);
+      const auto first   = FacePatches::position(face.points()[chosen.begin], nodal);
+      const auto last    = FacePatches::position(face.points()[chosen.end - 1], nodal);
+      const auto contact = obstacle(first);
+      const double rise  = contact.gap_row[0] * (last.xi - first.xi) + contact.gap_row[1] * (last.eta - first.eta);
+      return contact.gap + std::min(0., rise);
+    };
+    return FacePatches::find_near(face.patch_at(at.centre.xi), static_cast<unsigned int>(face.patches().size()), least_gap,
+                                  [&](const unsigned int of_face) { return 0.02 * face.patches()[of_face].length; });
+  }
+
+  void RigidObstacle::enter(const unsigned int of_face)
+  {
+    patch          = of_face;
+    at_end         = FacePatches::nodal(face.patches()[patch], *places.end.displacement);
+    begin_of_patch = places.moves() ? &begin_of(patch) : nullptr;
+    touched        = false;
+    std::fill_n(values, n_local, 0.);
+    std::fill_n(&tangents[0][0], n_local * n_local, 0.);
+  }
+
+  bool RigidObstacle::place(FacePointState &state)
+  {
+    state.position = FacePatches::position(face.points()[state.index], at_end);
+    placed         = end(state.position);
+    state.gap      = placed.gap;
+    return true;
+  }
+
+  const std::vector<RigidObstacle::BeginPoint> &RigidObstacle::begin_of(const unsigned int of_patch)
+  {
+    const auto [found, is_new] = begin_points.try_emplace(of_patch);
+    if (is_new)
+    {
+      const auto &chosen = face.patches()[of_patch];
+      const auto nodal   = FacePatches::nodal(chosen, known_begin);
+      for (unsigned int q = chosen.begin; q < chosen.end; ++q)
+      {
+        const auto position = FacePatches::position(face.points()[q], nodal);
+        const auto contact  = begin(position);
+        found->second.push_back({ position, contact.gap, contact.slip });
+      }
+    }
+    return found->second;
+  }
+
+  const RigidObstacle::BeginPoint &RigidObstacle::at_begin(const unsigned int point) const
+  {
+    return (*begin_of_patch)[point - face.patches()[patch].begin];
+  }
+
+  double RigidObstacle::gap_at_begin(const unsigned int point) const
+  {
+    return begin_of_patch ? at_begin(point).gap : placed.gap;
+  }
+
+  StepKinematics<4> RigidObstacle::over_step(const FacePointState &state, const double slip_change) const
+  {
+    auto result = step_to(placed, placed.slip - slip_change);
+    if (places.balanced_at_end())
+      return result;
+    const double share = places.balance;
+    const auto &first  = at_begin(state.index);
+    const Tensor<1, 4> change({ state.position.xi - first.position.xi, state.position.eta - first.position.eta,
+                                places.end.theta - places.begin.theta, places.end.x - places.begin.x });
+    const auto middle = balance(
+        { places.balanced(first.position.xi, state.position.xi), places.balanced(first.position.eta, state.position.eta) });
+    result.gap_begin      = first.gap;
+    result.gap_row        = middle.gap_row;
+    result.gap_curvature  = share * middle.gap_curvature;
+    result.gap_bend       = change * (middle.gap_curvature * change);
+    result.slip_row       = middle.slip_row;
+    result.slip_curvature = share * middle.slip_curvature;
+    result.slip_bend      = change * (middle.slip_curvature * change);
+    return result;
+  }
+
+  namespace
+  {
+    /// Derivative of a deformed point's position along the undeformed face.
+    Tensor<1, 4> direction_of_face(const FacePatches::Point &point, const FacePatches::Nodal &displacement)
+    {
+      Tensor<1, 4> result({ 1., 0., 0., 0. });
+      for (unsigned int i = 0; i < displacement.size(); ++i)
+        result[i % 2] += point.slopes[i / 2] * displacement[i];
+      return result;
+    }
+  } // namespace
+
+  void RigidObstacle::step(FacePointState &state, const ContactMemory &memory, const FaceStep &step, ContactSums &sums)
+  {
+    const auto &point        = face.points()[state.index];
+    const double slip_change = (begin_of_patch ? placed.slip - at_begin(state.index).slip : 0.) + step.surface_run;
+    auto kinematics_of_step  = over_step(state, slip_change);
+    SlipShift shift;
+    Tensor<1, 4> direction;
+    if (step.travel != 0.)
+    {
+      direction                     = direction_of_face(point, at_end);
+      shift                         = slip_shift(face, state.index, placed.slip_row * direction, step,
+                                                 [this](const unsigned int q)
+                                                 {
+                           const unsigned int of_patch = face.patch_of_point(q);
+                           return begin_of(of_patch)[q - face.patches()[of_patch].begin].slip;
+                         });
+      kinematics_of_step.slip_shift = shift.total();
+    }
+    auto response = step_response(kinematics_of_step, memory, step.law);
+    record(response, step, memory, slip_change + shift.slip, point.weight, step.surface_run, state, sums);
+    state.end_force = response.pressure * placed.gap_row - response.traction * placed.slip_row;
+    sums.force_on_obstacle += point.weight * response.force[3];
+    const double by_slope = shift.d_slope * response.d_shift;
+    if (by_slope != 0.)
+      response.tangent -= by_slope * outer_product(placed.slip_row, placed.slip_curvature * direction);
+    add(point, response.force, response.tangent);
+    if (by_slope != 0.)
+      add_slope(point, by_slope);
+  }
+
+  /// Of a traction that changes with the slope of the slip along the face, as far as the face's direction goes with it.
+  void RigidObstacle::add_slope(const FacePatches::Point &point, const double traction_by_slope)
+  {
+    const auto &slip_row = placed.slip_row;
+    for (unsigned int b = 0; b < FacePatches::max_nodes; ++b)
+      for (unsigned int e = 0; e < 2; ++e)
+      {
+        const double change       = point.weight * traction_by_slope * slip_row[e] * point.slopes[b];
+        const unsigned int column = 2 * b + e;
+        tangents[theta_index][column] -= slip_row[2] * change;
+        tangents[x_index][column] -= slip_row[3] * change;
+        for (unsigned int a = 0; a < FacePatches::max_nodes; ++a)
+          for (unsigned int d = 0; d < 2; ++d)
+            tangents[2 * a + d][column] -= point.shapes[a] * slip_row[d] * change;
+      }
+  }
+
+  void RigidObstacle::slide(FacePointState &state, const SlidingState &sliding, const FrictionLaw &law, ContactSums &sums)
+  {
+    const auto &point = face.points()[state.index];
+    state.slip_change = sliding.speed;
+    if (sliding.rates != nullptr)
+    {
+      const auto nodal = FacePatches::nodal(face.patches()[patch], *sliding.rates);
+      const auto moved = FacePatches::position(point, nodal);
+      const auto &at   = properties.ports;
+      state.slip_change += placed.slip_row[0] * (moved.xi - point.position.xi) +
+                           placed.slip_row[1] * (moved.eta - point.position.eta) +
+                           placed.slip_row[2] * (*sliding.rates)[at.rotation()] -
+                           (at.sprung ? placed.slip_row[3] * (*sliding.rates)[at.support()] : 0.);
+    }
+    const auto of      = sprag::slide(properties, law, sliding, point.weight, state, sums);
+    state.end_force    = state.pressure * placed.gap_row - state.traction * placed.slip_row;
+    const auto tangent = of.normal * outer_product(placed.gap_row, placed.gap_row) +
+                         of.coupled * outer_product(placed.slip_row, placed.gap_row) +
+                         of.tangential * outer_product(placed.slip_row, placed.slip_row) +
+                         of.gap_curvature * placed.gap_curvature + of.slip_gradient * placed.slip_curvature;
+    add(point, state.end_force, tangent);
+  }
+
+  void RigidObstacle::add(const FacePatches::Point &point, const Tensor<1, 4> &force, const Tensor<2, 4> &tangent)
+  {
+    touched                           = true;
+    const unsigned int n_nodes        = face.patches()[patch].n_nodes;
+    constexpr unsigned int rest[2][2] = { { 2, theta_index }, { 3, x_index } };
+    for (const auto &[i, row] : rest)
+    {
+      values[row] += point.weight * force[i];
+      for (const auto &[j, column] : rest)
+        tangents[row][column] += point.weight * tangent[i][j];
+    }
+    for (unsigned int a = 0; a < n_nodes; ++a)
+      for (unsigned int d = 0; d < 2; ++d)
+      {
+        const unsigned int row = 2 * a + d;
+        const double weight    = point.weight * point.shapes[a];
+        values[row] += weight * force[d];
+        for (const auto &[j, column] : rest)
+        {
+          tangents[row][column] += weight * tangent[d][j];
+          tangents[column][row] += weight * tangent[j][d];
+        }
+        for (unsigned int b = 0; b < n_nodes; ++b)
+          for (unsigned int e = 0; e < 2; ++e)
+            tangents[row][2 * b + e] += weight * point.shapes[b] * tangent[d][e];
+      }
+  }
+
+  /// Coordinates of the patch that are ports. The support's moves the obstacle's position back.
+  std::vector<FaceCoordinate> RigidObstacle::ports() const
+  {
+    std::vector<FaceCoordinate> result;
+    const auto &of = face.patches()[patch];
+    for (unsigned int i = 0; i < 2 * of.n_nodes; ++i)
+      result.push_back({ i, 2 * of.nodes[i / 2] + i % 2, 1. });
+    result.push_back({ theta_index, properties.ports.rotation(), 1. });
+    if (properties.ports.sprung)
+      result.push_back({ x_index, properties.ports.support(), -1. });
+    return result;
+  }
+
+  void RigidObstacle::leave(ContactSums &sums)
+  {
+    if (touched)
+      sums.loaded.push_back(forces_on_ports(
+          ports(), [&](const unsigned int i) { return values[i]; },
+          [&](const unsigned int i, const unsigned int j) { return tangents[i][j]; }));
+  }
+
+  FacePointRows RigidObstacle::rows(const FacePointState &state) const
+  {
+    const auto &point   = face.points()[state.index];
+    const auto contact  = end(state.position);
+    const auto of_patch = ports();
+    const auto n        = static_cast<unsigned int>(of_patch.size());
+    FacePointRows result{ point.weight, {}, Vector<double>(n), Vector<double>(n), Vector<double>(n) };
+    for (unsigned int i = 0; i < n; ++i)
+    {
+      const unsigned int c   = of_patch[i].index;
+      const double factor    = of_patch[i].sign * (c < theta_index ? point.shapes[c / 2] : 1.);
+      const unsigned int row = c < theta_index ? c % 2 : c - theta_index + 2;
+      result.ports.push_back(of_patch[i].port);
+      result.gap[i]  = factor * contact.gap_row[row];
+      result.slip[i] = factor * contact.slip_row[row];
+    }
+    return result;
+  }
+
+  double RigidObstacle::slip(const FacePointState &state) const
+  {
+    if (!begin_of_patch)
+      return 0.;
+    const auto position = FacePatches::position(face.points()[state.index], at_end);
+    return end(position).slip - at_begin(state.index).slip;
+  }
+} // namespace sprag

@@ -1,0 +1,93 @@
+#pragma once
+
+#include "fe/contact/face_contact_point.h"
+
+#include <map>
+
+namespace sprag
+{
+  /// What FaceContact sees of a rigid obstacle below the lever's face. Per point: displacement along xi and eta, rotation,
+  /// position of the obstacle.
+  class RigidObstacle
+  {
+  public:
+    /// `face` and `properties` must outlive the obstacle.
+    RigidObstacle(const FacePatches &face, const FaceContactProperties &properties);
+
+    /// Sets the configurations of all that follows; for steady sliding beginning and end are one.
+    void enter(const StepPlaces &places);
+
+    /// Patches within reach at the end of the step, and where the step's mean counts at its beginning as well; at least one that
+    /// is closest up to the margin, 0.02 of its length.
+    FacePatches::Range near() const;
+
+    /// Sets the patch of all that follows.
+    void enter(unsigned int patch);
+
+    /// Gives a point of the patch its position and gap, and makes it that of step() and slide(). Returns whether the obstacle can
+    /// touch it.
+    bool place(FacePointState &state);
+
+    /// Gap of a point of the patch at the beginning of the step [mm].
+    double gap_at_begin(unsigned int point) const;
+
+    /// Response of the point placed last to the step, and its forces.
+    void step(FacePointState &state, const ContactMemory &memory, const FaceStep &step, ContactSums &sums);
+
+    /// Of the point placed last, in contact, if it slides steadily.
+    void slide(FacePointState &state, const SlidingState &sliding, const FrictionLaw &law, ContactSums &sums);
+
+    /// Adds the forces of the patch, if it has any.
+    void leave(ContactSums &sums);
+
+    /// At the end of the step.
+    FacePointRows rows(const FacePointState &state) const;
+
+    /// Slip of a point of the patch from one configuration to the other of the step [mm].
+    double slip(const FacePointState &state) const;
+
+  private:
+    static constexpr unsigned int n_local     = 2 * FacePatches::max_nodes + 2;
+    static constexpr unsigned int theta_index = 2 * FacePatches::max_nodes;
+    static constexpr unsigned int x_index     = theta_index + 1;
+
+    /// A point where a step begins.
+    struct BeginPoint
+    {
+      LeverPoint position;
+      double gap;
+      double slip;
+    };
+
+    FacePatches::Range near(const FaceConfiguration &at, const PlacedObstacle &obstacle) const;
+    void enter_begin(const FaceConfiguration &at);
+    const std::vector<BeginPoint> &begin_of(unsigned int of_patch);
+    const BeginPoint &at_begin(unsigned int point) const;
+    StepKinematics<4> over_step(const FacePointState &state, double slip_change) const;
+    void add_slope(const FacePatches::Point &point, double traction_by_slope);
+    void add(const FacePatches::Point &point, const dealii::Tensor<1, 4> &force, const dealii::Tensor<2, 4> &tangent);
+    std::vector<FaceCoordinate> ports() const;
+
+    const FacePatches &face;
+    const FaceContactProperties &properties;
+    StepPlaces places{};
+    PlacedObstacle end;
+    PlacedObstacle balance; ///< where forces are not those at the end
+    unsigned int patch = 0;
+    FacePatches::Nodal at_end{};
+    ContactKinematics<4> placed{}; ///< of the point placed last
+
+    // Where the step begins, the same in all its iterations.
+    FaceConfiguration of_begin{};
+    PlacedObstacle begin;
+    dealii::Vector<double> known_begin;
+    FacePatches::Range near_begin{ 0, 0 };
+    std::map<unsigned int, std::vector<BeginPoint>> begin_points; ///< by patches
+
+    // Of the patch.
+    const std::vector<BeginPoint> *begin_of_patch = nullptr; ///< none where beginning and end are one
+    bool touched                                  = false;
+    double values[n_local]{};
+    double tangents[n_local][n_local]{};
+  };
+} // namespace sprag

@@ -1,0 +1,220 @@
+#include "fe/dynamics/basis_file.h"
+
+#include "base/child_process.h"
+#include "base/errors.h"
+#include "base/fingerprint.h"
+#include "results/hdf5.h"
+
+#include <chrono>
+#include <cstdlib>
+#include <cstring>
+#include <fcntl.h>
+#include <filesystem>
+#include <sys/file.h>
+#include <unistd.h>
+
+namespace sprag
+{
+  namespace
+  {
+    std::string path_of(const std::string &folder, const std::string &key)
+    {
+      return folder + "/basis-" + key + ".h5";
+    }
+
+    double checksum(const std::string &key, const StoredArrays &arrays)
+    {
+      Fingerprint sum;
+      sum.add(key.data(), key.size());
+      for (const auto &[name, values] : arrays)
+      {
+        sum.add(name.data(), name.size());
+        sum.add(values.data(), values.size() * sizeof(double));
+      }
+      // Below 2^53 whole numbers are exact.
+      return static_cast<double>(sum.value() >> 11);
+    }
+
+    /// Written here first, each process to its own.
+    std::string temporary_path(const std::string &folder, const std::string &key)
+    {
+      return path_of(folder, key) + "." + std::to_string(::getpid());
+    }
+
+    bool is_temporary(const std::string &name)
+    {
+      return name.rfind("basis-", 0) == 0 && name.find(".h5.") != std::string::npos;
+    }
+
+    /// A file kept locked as long as this lives, for other machines of a shared folder too.
+    class Lock
+    {
+    public:
+      explicit Lock(const std::string &path, const int flags = 0)
+          : file(::open(path.c_str(), O_RDWR | O_CLOEXEC | flags, 0666))
+          , is_held(file >= 0 && ::flock(file, LOCK_EX | LOCK_NB) == 0)
+      {
+      }
+      Lock(const Lock &)            = delete;
+      Lock &operator=(const Lock &) = delete;
+      ~Lock()
+      {
+        if (file >= 0)
+          ::close(file);
+      }
+
+      bool held() const
+      {
+        return is_held;
+      }
+
+    private:
+      const int file;
+      const bool is_held;
+    };
+
+    std::optional<std::vector<double>> read_array(const hid_t file, const std::string &name)
+    {
+      const hid_t opened = H5Dopen2(file, name.c_str(), H5P_DEFAULT);
+      if (opened < 0)
+        return {};
+      const hdf5::Handle dataset(opened, H5Dclose);
+      const hdf5::Handle space(H5Dget_space(dataset.id()), H5Sclose);
+      const auto count = H5Sget_simple_extent_npoints(space.id());
+      if (count < 0)
+        return {};
+      std::vector<double> values(static_cast<std::size_t>(count));
+      if (H5Dread(dataset.id(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
+        return {};
+      return values;
+    }
+
+    /// A damaged file may keep HDF5 busy for ever [s], or ask for all the memory there is [bytes].
+    constexpr double file_patience  = 10.;
+    constexpr std::size_t file_room = std::size_t(1) << 28;
+
+    /// None if the file is damaged as far as HDF5 or the checksum can tell.
+    std::optional<StoredArrays> read_file(const std::string &path, const std::string &key)
+    {
+      const hid_t opened = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+      if (opened < 0)
+        return {};
+      const hdf5::Handle file(opened, H5Fclose);
+      StoredArrays arrays;
+      for (const auto &name : hdf5::names_in(file))
+      {
+        auto values = read_array(file.id(), name);
+        if (!values)
+          return {};
+        arrays[name] = std::move(*values);
+      }
+      const auto found = arrays.find("checksum");
+      if (found == arrays.end() || found->second.size() != 1)
+        return {};
+      const double stored = found->second.front();
+      arrays.erase(found);
+      if (stored != checksum(key, arrays))
+        return {};
+      return arrays;
+    }
+
+    /// Of each array its name, a zero, the number of values and these.
+    std::string packed(const std::optional<StoredArrays> &arrays)
+    {
+      std::string bytes;
+      if (arrays)
+        for (const auto &[name, values] : *arrays)
+        {
+          const std::size_t count = values.size();
+          bytes.append(name.c_str(), name.size() + 1);
+          bytes.append(reinterpret_cast<const char *>(&count), sizeof count);
+          bytes.append(reinterpret_cast<const char *>(values.data()), count * sizeof(double));
+        }
+      return bytes;
+    }
+
+    std::optional<StoredArrays> unpacked(const std::string &bytes)
+    {
+      StoredArrays arrays;
+      for (std::size_t at = 0; at < bytes.size();)
+      {
+        auto &values = arrays[bytes.data() + at];
+        at           = bytes.find('\0', at) + 1;
+        std::size_t count;
+        std::memcpy(&count, bytes.data() + at, sizeof count);
+        at += sizeof count;
+        values.resize(count);
+        std::memcpy(values.data(), bytes.data() + at, count * sizeof(double));
+        at += count * sizeof(double);
+      }
+      return arrays.empty() ? std::nullopt : std::optional(std::move(arrays));
+    }
+  } // namespace
+
+  std::string cache_folder(const std::string &given)
+  {
+    if (!given.empty())
+      return given;
+    if (const char *cache = std::getenv("XDG_CACHE_HOME"); cache != nullptr && *cache != '\0')
+      return std::string(cache) + "/sprag";
+    if (const char *home = std::getenv("HOME"); home != nullptr && *home != '\0')
+      return std::string(home) + "/.cache/sprag";
+    return {};
+  }
+
+  std::optional<StoredArrays> load_arrays(const std::string &folder, const std::string &key)
+  {
+    const std::string path = path_of(folder, key);
+    std::error_code ignored;
+    if (folder.empty() || !std::filesystem::is_regular_file(path, ignored))
+      return {};
+    const auto bytes  = std::filesystem::file_size(path, ignored);
+    const auto answer = in_child_process(
+        [&]
+        {
+          limit_growth(file_room + 20 * bytes);
+          return packed(read_file(path, key));
+        },
+        file_patience + 1e-7 * static_cast<double>(bytes));
+    return answer.failure.empty() ? unpacked(answer.text) : std::nullopt;
+  }
+
+  void remove_abandoned(const std::string &folder)
+  {
+    // A writer's lock follows the file's creation at once.
+    constexpr std::chrono::seconds young(10);
+    std::error_code ignored;
+    for (std::filesystem::directory_iterator entry(folder, ignored), end; entry != end; entry.increment(ignored))
+    {
+      const auto written = entry->last_write_time(ignored);
+      const bool old     = !ignored && std::filesystem::file_time_type::clock::now() - written > young;
+      if (old && is_temporary(entry->path().filename().string()) && Lock(entry->path().string()).held())
+        std::filesystem::remove(entry->path(), ignored);
+    }
+  }
+
+  std::string store_arrays(const std::string &folder, const std::string &key, const StoredArrays &arrays)
+  {
+    if (folder.empty())
+      return "there is no cache folder";
+    const std::string temporary = temporary_path(folder, key);
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    const Lock lock(temporary, O_CREAT);
+    try
+    {
+      auto file = hdf5::create_file(temporary);
+      for (const auto &[name, values] : arrays)
+        hdf5::write_dataset(file, name, values);
+      hdf5::write_dataset(file, "checksum", checksum(key, arrays));
+      file.close();
+      std::filesystem::rename(temporary, path_of(folder, key));
+    }
+    catch (const std::exception &failure)
+    {
+      std::filesystem::remove(temporary, error);
+      return failure.what();
+    }
+    return {};
+  }
+} // namespace sprag

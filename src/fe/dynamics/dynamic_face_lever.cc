@@ -1,0 +1,203 @@
+#include "fe/dynamics/dynamic_face_lever.h"
+
+#include "fe/statics/lever_model.h"
+#include "model/dynamic_lever.h"
+#include "model/mirrored_contact.h"
+#include "model/mirrored_modes.h"
+#include "model/mirrored_structure.h"
+#include "scene/mirrored_pair.h"
+#include "scene/scene_key.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sprag
+{
+  namespace
+  {
+    LeverInertia inertia_of(const Scene &scene)
+    {
+      const Lever &lever                                     = scene.lever;
+      std::map<dealii::types::material_id, double> densities = { { material_id::lever, lever.density },
+                                                                 { material_id::web, lever.density },
+                                                                 { material_id::plate, scene.plate.density },
+                                                                 { material_id::layer, scene.layer.density } };
+      if (scene.cylinder.type != CylinderType::rigid)
+        densities[material_id::cylinder] = scene.cylinder.density;
+      return { densities, lever.tip_mass, lever.moment_of_inertia, lever.inertia, lever.hub_inertia, scene.spring.behaviour };
+    }
+
+    BasisSettings basis_settings(const Scene &scene)
+    {
+      return { scene.condensed.modes, scene.spring.stiffness, inertia_of(scene), scene.condensed.cache, body_key(scene) };
+    }
+
+    LeverDynamics constants_of(const Scene &scene, const double relaxation, const double lever_mass)
+    {
+      LeverDynamics result;
+      result.spring_stiffness  = scene.spring.stiffness;
+      result.mass_damping      = scene.lever.mass_damping;
+      result.stiffness_damping = scene.lever.stiffness_damping;
+      result.relaxation        = relaxation;
+      result.modal_damping     = scene.lever.modal_damping;
+      result.sprung            = scene.support.type == SupportType::sprung;
+      result.support_mass      = scene.support.mass + lever_mass;
+      result.support_stiffness = scene.support.stiffness;
+      result.support_damping   = support_damping(scene.support, lever_mass);
+      return result;
+    }
+
+    FaceContactProperties contact_of(const Scene &scene, PortLayout ports, const ContactPenalties &penalties,
+                                     const unsigned int lever)
+    {
+      const Scene own = scene_of_lever(scene, lever);
+      ports.levers    = 1;
+      FaceContactProperties result;
+      set_cylinder(own.geometry, result);
+      result.ports            = ports;
+      result.rest_inclination = rest_inclination(scene);
+      result.penalties        = penalties;
+      result.friction         = own.friction;
+      result.layer_thickness  = scene.layer.thickness;
+      return result;
+    }
+
+    MeshedDynamics facts(const Scene &scene, const ElasticBody<2> &body, const std::vector<double> &omega_squared)
+    {
+      using namespace penalty_over_layer;
+      MeshedDynamics result;
+      const double factor = scene.mesh.degree == 1 ? in_time_linear : in_time;
+      result.penalties    = contact_penalties(body, scene.contact, scene.layer.thickness, factor);
+      for (const double stiffness : omega_squared)
+        result.frequencies.push_back(0.5 * std::sqrt(stiffness) / M_PI);
+      return result;
+    }
+
+    template <class Structure>
+    std::unique_ptr<DynamicModel> assemble(const Scene &scene, const ElasticBody<2> &body, std::unique_ptr<Structure> structure,
+                                           const MeshedDynamics &facts)
+    {
+      const PortLayout ports = structure->ports();
+      const auto contact     = [&](const unsigned int lever)
+      { return std::make_unique<FaceContact>(body, contact_of(scene, ports, facts.penalties, lever)); };
+      auto frame = lever_frame(scene, ports, facts.lever_mass);
+      if (ports.levers == 1)
+        return std::make_unique<DynamicLever<Structure, FaceContact>>(std::move(structure), contact(0), std::move(frame));
+      using Pair    = MirroredContact<FaceContact>;
+      auto contacts = std::make_unique<Pair>(std::array<std::unique_ptr<FaceContact>, 2>{ { contact(0), contact(1) } }, ports,
+                                             static_cast<unsigned int>(body.friction_face().points.size()));
+      return std::make_unique<DynamicLever<Structure, Pair>>(std::move(structure), std::move(contacts), std::move(frame));
+    }
+
+    /// Whether a pair has a basis of its own for levers that swing together.
+    bool swings_otherwise(const Scene &scene)
+    {
+      return swings(scene) && scene.spring.swing;
+    }
+  } // namespace
+
+  double mesh_inertia(const Scene &scene, const ElasticBody<2> &body)
+  {
+    return InertialMatrices<2>(body, inertia_of(scene)).moment_of_inertia;
+  }
+
+  FiniteElementBasis make_finite_element_basis(const Scene &scene, const ElasticBody<2> &body)
+  {
+    const auto matrices = std::make_shared<InertialMatrices<2>>(body, inertia_of(scene));
+    dealii::PETScWrappers::SparseMatrix stiffness;
+    matrices->sum({ 0., 1., 0., scene.spring.stiffness }, stiffness);
+    FiniteElementBasis basis{ matrices, free_modes(stiffness, matrices->mass, scene.condensed.modes), {} };
+    if (swings_otherwise(scene))
+      basis.swinging = std::make_shared<const FiniteElementBasis>(make_finite_element_basis(swinging_scene(scene), body));
+    return basis;
+  }
+
+  CondensedBases make_condensed_basis(const Scene &scene, const ElasticBody<2> &body, const bool store)
+  {
+    const auto make = [&](const Scene &of)
+    {
+      const auto settings = basis_settings(of);
+      return std::make_shared<const CondensedBasis>(store ? condensed_basis(body, settings) : make_basis(body, settings));
+    };
+    CondensedBases bases{ make(scene), {} };
+    if (swings_otherwise(scene))
+      bases.swinging = make(swinging_scene(scene));
+    return bases;
+  }
+
+  MeshedDynamics make_finite_element_dynamics(const Scene &scene, const ElasticBody<2> &body, const FiniteElementBasis &basis,
+                                              const double relaxation)
+  {
+    const auto &matrices = *basis.matrices;
+    const auto constants = constants_of(scene, relaxation, matrices.total_mass);
+    const auto structure = [&](const FiniteElementBasis &of)
+    { return std::make_unique<SparseStructure>(body, of.matrices, of.modes, constants); };
+
+    MeshedDynamics result    = facts(scene, body, basis.modes.stiffness);
+    result.n_coordinates     = number_of_levers(scene) * matrices.coordinates.size();
+    result.density_factor    = matrices.density_factor;
+    result.lever_mass        = matrices.total_mass;
+    result.moment_of_inertia = matrices.moment_of_inertia;
+    const auto complete      = [&](auto lever)
+    {
+      result.elastic_displacement = [of = lever.get()](const Motion &motion, const unsigned int index)
+      { return of->elastic_displacement(motion, index); };
+      result.model = assemble(scene, body, std::move(lever), result);
+    };
+    if (number_of_levers(scene) == 1)
+      complete(structure(basis));
+    else
+      complete(std::make_unique<MirroredStructure<SparseStructure>>(structure(basis),
+                                                                    structure(basis.swinging ? *basis.swinging : basis)));
+    return result;
+  }
+
+  MeshedDynamics make_condensed_dynamics(const Scene &scene, const ElasticBody<2> &body, const CondensedBases &bases,
+                                         const double relaxation)
+  {
+    const auto &basis    = bases.lever;
+    const auto &swinging = bases.swinging ? bases.swinging : bases.lever;
+    const auto constants = constants_of(scene, relaxation, basis->lever_mass);
+    auto modes           = modal_data(*basis, constants);
+    if (number_of_levers(scene) == 2)
+      modes = mirrored_modes(modes, modal_data(*swinging, constants));
+    const auto ports = modes.ports;
+    auto structure   = std::make_unique<ModalStructure>(std::move(modes));
+
+    MeshedDynamics result    = facts(scene, body, basis->stiffness);
+    result.n_coordinates     = structure->n_modes();
+    result.density_factor    = basis->density_factor;
+    result.lever_mass        = basis->lever_mass;
+    result.moment_of_inertia = basis->moment_of_inertia;
+    result.basis_from_cache  = basis->from_cache && swinging->from_cache;
+    result.basis_cpu_seconds = basis->cpu_seconds + (bases.swinging ? swinging->cpu_seconds : 0.);
+    result.message           = basis->message;
+    // Made when the first field is wanted.
+    const auto displacement = [&body](const Scene &of, const std::shared_ptr<const CondensedBasis> &own)
+    {
+      return [&body, settings = basis_settings(of), own,
+              made = std::shared_ptr<CondensedDisplacement>()](const Motion &motion) mutable
+      {
+        if (!made)
+          made = std::make_shared<CondensedDisplacement>(body, settings, *own);
+        return (*made)(motion);
+      };
+    };
+    if (ports.levers == 1)
+      result.elastic_displacement = [of_lever = displacement(scene, basis)](const Motion &motion, unsigned int) mutable
+      { return of_lever(motion); };
+    else
+      result.elastic_displacement =
+          [ports, of_first = displacement(scene, basis),
+           of_second = displacement(swinging_scene(scene), swinging)](const Motion &motion, const unsigned int lever) mutable
+      {
+        const auto parts = mirrored_motions(ports, motion);
+        auto total       = of_first(parts[0]);
+        total.add(lever == 0 ? 1. : -1., of_second(parts[1]));
+        total *= std::sqrt(0.5);
+        return total;
+      };
+    result.model = assemble(scene, body, std::move(structure), result);
+    return result;
+  }
+} // namespace sprag

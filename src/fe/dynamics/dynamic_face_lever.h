@@ -1,0 +1,64 @@
+#pragma once
+
+#include "fe/contact/face_contact.h"
+#include "fe/dynamics/condensed_basis.h"
+#include "model/dynamic_model.h"
+
+#include <functional>
+#include <memory>
+
+namespace sprag
+{
+  /// A meshed lever in time, and what there is to tell about it.
+  struct MeshedDynamics
+  {
+    std::unique_ptr<DynamicModel> model;
+
+    /// Elastic displacement of all degrees of freedom of the body in the axes of a lever, 0 or of a pair 1 [mm]; the model must
+    /// live.
+    std::function<dealii::Vector<double>(const Motion &, unsigned int lever)> elastic_displacement;
+
+    unsigned int n_coordinates = 0;
+    double density_factor      = 1.; ///< by which the densities were scaled to meet the moment of inertia
+    double lever_mass          = 0.; ///< [t]
+    double moment_of_inertia   = 0.; ///< about the pivot [t mm^2]
+    std::vector<double> frequencies; ///< of the lever on its spring out of contact [Hz]
+    ContactPenalties penalties{};
+
+    // Condensed only.
+    bool basis_from_cache    = false;
+    double basis_cpu_seconds = 0.; ///< that the basis took, or saved if it comes from the cache
+    std::string message;           ///< why the basis was not stored; empty if it was
+  };
+
+  /// What of a meshed lever neither friction nor damping nor drive touch, to be shared by models of one body.
+  struct FiniteElementBasis
+  {
+    std::shared_ptr<const InertialMatrices<2>> matrices;
+    FreeModes modes;
+    std::shared_ptr<const FiniteElementBasis> swinging; ///< of a pair's levers that swing together, where it is another
+  };
+
+  /// The same of the condensed model.
+  struct CondensedBases
+  {
+    std::shared_ptr<const CondensedBasis> lever;
+    std::shared_ptr<const CondensedBasis> swinging;
+  };
+
+  /// J about the pivot of all that turns with the hub, by the mesh [t mm^2].
+  double mesh_inertia(const Scene &scene, const ElasticBody<2> &body);
+
+  FiniteElementBasis make_finite_element_basis(const Scene &scene, const ElasticBody<2> &body);
+
+  /// From the scene's cache if it is there; made, and stored there if `store`, if not.
+  CondensedBases make_condensed_basis(const Scene &scene, const ElasticBody<2> &body, bool store);
+
+  /// All degrees of freedom. `relaxation`: damping over stiffness of the friction layer [s]. The body must outlive the model.
+  MeshedDynamics make_finite_element_dynamics(const Scene &scene, const ElasticBody<2> &body, const FiniteElementBasis &basis,
+                                              double relaxation);
+
+  /// Modes and static face shapes, see CondensedBasis.
+  MeshedDynamics make_condensed_dynamics(const Scene &scene, const ElasticBody<2> &body, const CondensedBases &bases,
+                                         double relaxation);
+} // namespace sprag

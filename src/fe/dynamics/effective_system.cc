@@ -1,0 +1,135 @@
+#include "fe/dynamics/effective_system.h"
+
+#include <deal.II/lac/lapack_full_matrix.h>
+
+namespace sprag
+{
+  using namespace dealii;
+
+  namespace
+  {
+    void invert(FullMatrix<double> &matrix)
+    {
+      LAPACKFullMatrix<double> lapack(static_cast<unsigned int>(matrix.m()));
+      lapack = matrix;
+      lapack.set_property(LAPACKSupport::symmetric);
+      lapack.invert();
+      matrix = lapack;
+    }
+  } // namespace
+
+  EffectiveSystem::EffectiveSystem(const InertialMatrices<2> &matrices_, const LeverPorts &ports_, const ModalDamping &damping_,
+                                   const InertialMatrices<2>::Weights &weights_, const double weight_of_damping)
+      : matrices(matrices_)
+      , ports(ports_)
+      , damping(damping_)
+      , weights(weights_)
+  {
+    PETScWrappers::SparseMatrix matrix;
+    matrices.sum(weights, matrix);
+    factors.factorise(matrix);
+    if (weight_of_damping > 0. && !damping.directions.empty())
+      find_low_rank(weight_of_damping);
+  }
+
+  void EffectiveSystem::find_low_rank(const double weight_of_damping)
+  {
+    const auto n = static_cast<unsigned int>(damping.directions.size());
+    low_rank.reinit(n, n);
+    for (unsigned int j = 0; j < n; ++j)
+    {
+      damped.emplace_back();
+      factors.solve(damping.directions[j], damped.back());
+      for (unsigned int i = 0; i < n; ++i)
+        low_rank(i, j) = damping.directions[i] * damped[j];
+      low_rank(j, j) += 1. / (weight_of_damping * damping.factors[j]);
+    }
+    invert(low_rank);
+  }
+
+  Vector<double> EffectiveSystem::solve(const Vector<double> &right_hand_side) const
+  {
+    Vector<double> result;
+    factors.solve(right_hand_side, result);
+    const auto n = static_cast<unsigned int>(damped.size());
+    Vector<double> onto(n), amounts(n);
+    for (unsigned int i = 0; i < n; ++i)
+      onto[i] = damped[i] * right_hand_side;
+    if (n > 0)
+      low_rank.vmult(amounts, onto);
+    for (unsigned int i = 0; i < n; ++i)
+      result.add(-amounts[i], damped[i]);
+    return result;
+  }
+
+  const Vector<double> &EffectiveSystem::response(const unsigned int port) const
+  {
+    constexpr std::size_t kept = 128;
+    const auto found           = responses.find(port);
+    if (found != responses.end())
+      return found->second;
+    if (responses.size() >= kept)
+      responses.clear();
+    Vector<double> force(ports.n_coordinates());
+    ports.add_force(port, 1., force);
+    return responses[port] = solve(Vector<double>(force.begin(), force.begin() + matrices.coordinates.size()));
+  }
+
+  FullMatrix<double> EffectiveSystem::port_compliance(const double of_support) const
+  {
+    const auto &layout = ports.layout();
+    Mumps condensing;
+    PETScWrappers::SparseMatrix matrix;
+    matrices.sum(weights, matrix);
+    FullMatrix<double> of_face = condensing.factorise_with_schur_complement(matrix, ports.face_coordinates());
+    invert(of_face);
+    ports.transform(of_face);
+    FullMatrix<double> result(layout.size(), layout.size());
+    for (unsigned int i = 0; i < of_face.m(); ++i)
+      for (unsigned int j = 0; j < of_face.m(); ++j)
+        result(ports.port_of_face(i), ports.port_of_face(j)) = 0.5 * (of_face(i, j) + of_face(j, i));
+    subtract_low_rank(result);
+    for (unsigned int sensor = 0; sensor < layout.sensors; ++sensor)
+      append(layout.sensor(sensor), result);
+    if (layout.sprung)
+    {
+      append(layout.momentum_eta(), result);
+      append(layout.momentum_xi(), result);
+      result(layout.support(), layout.support()) = of_support;
+    }
+    return result;
+  }
+
+  void EffectiveSystem::subtract_low_rank(FullMatrix<double> &compliance) const
+  {
+    const auto n               = static_cast<unsigned int>(damped.size());
+    const unsigned int n_ports = ports.layout().rotation() + 1;
+    if (n == 0)
+      return;
+    FullMatrix<double> at_ports(n_ports, n), half(n_ports, n), product(n_ports, n_ports);
+    for (unsigned int k = 0; k < n; ++k)
+    {
+      Vector<double> with_support(ports.n_coordinates());
+      std::copy(damped[k].begin(), damped[k].end(), with_support.begin());
+      const auto displacements = ports.displacements(with_support);
+      for (unsigned int i = 0; i < n_ports; ++i)
+        at_ports(i, k) = displacements[i];
+    }
+    at_ports.mmult(half, low_rank);
+    half.mTmult(product, at_ports);
+    for (unsigned int i = 0; i < n_ports; ++i)
+      for (unsigned int j = 0; j < n_ports; ++j)
+        compliance(i, j) -= product(i, j);
+  }
+
+  void EffectiveSystem::append(const unsigned int port, FullMatrix<double> &compliance) const
+  {
+    const auto &layout = ports.layout();
+    Vector<double> with_support(ports.n_coordinates());
+    const auto &of_lever = response(port);
+    std::copy(of_lever.begin(), of_lever.end(), with_support.begin());
+    const auto displacements = ports.displacements(with_support);
+    for (unsigned int i = 0; i < layout.support(); ++i)
+      compliance(i, port) = compliance(port, i) = displacements[i];
+  }
+} // namespace sprag

@@ -1,0 +1,51 @@
+#pragma once
+
+#include "fe/algebra/mumps.h"
+#include "fe/dynamics/lever_ports.h"
+
+#include <map>
+
+namespace sprag
+{
+  /// Damping of single modes as forces against them: the sum of factor (M phi) (M phi)^T.
+  struct ModalDamping
+  {
+    std::vector<dealii::Vector<double>> directions; ///< M phi
+    std::vector<double> factors;                    ///< 2 zeta omega [1/s], > 0
+  };
+
+  /// Inverse of a weighted sum of a lever's matrices and of its modal damping, the support left out. Kept as factors; what a
+  /// force on a port does to all coordinates is found once.
+  class EffectiveSystem
+  {
+  public:
+    /// `weight_of_damping` 0: without the modal damping. Arguments must outlive the system.
+    EffectiveSystem(const InertialMatrices<2> &matrices, const LeverPorts &ports, const ModalDamping &damping,
+                    const InertialMatrices<2>::Weights &weights, double weight_of_damping);
+
+    /// Compliance of all ports, that of the support given.
+    dealii::FullMatrix<double> port_compliance(double of_support) const;
+
+    /// Right-hand side and solution without the support.
+    dealii::Vector<double> solve(const dealii::Vector<double> &right_hand_side) const;
+
+    /// Displacement of all coordinates by a unit force on a port, the support's excepted.
+    const dealii::Vector<double> &response(unsigned int port) const;
+
+  private:
+    void find_low_rank(double weight_of_damping);
+    void subtract_low_rank(dealii::FullMatrix<double> &compliance) const;
+
+    /// Row and column of a port that is not a coordinate.
+    void append(unsigned int port, dealii::FullMatrix<double> &compliance) const;
+
+    const InertialMatrices<2> &matrices;
+    const LeverPorts &ports;
+    const ModalDamping &damping;
+    const InertialMatrices<2>::Weights weights;
+    Mumps factors;
+    std::vector<dealii::Vector<double>> damped; ///< S^-1 M phi, S without modal damping
+    dealii::FullMatrix<double> low_rank;        ///< (D^-1 + (M phi)^T S^-1 M phi)^-1
+    mutable std::map<unsigned int, dealii::Vector<double>> responses;
+  };
+} // namespace sprag

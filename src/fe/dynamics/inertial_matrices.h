@@ -1,0 +1,107 @@
+#pragma once
+
+#include "fe/body/elastic_body.h"
+#include "scene/scene.h"
+
+#include <deal.II/lac/dynamic_sparsity_pattern.h>
+
+#include <array>
+#include <map>
+#include <vector>
+
+namespace sprag
+{
+  /// Coordinates of a body in axes that do not turn, linear in the rotation of its hub: the total displacements
+  /// u_tot = u_e + theta~ (-eta, xi) of all nodes which the hub does not hold, attached ones, and last theta~ itself.
+  template <int dim>
+  class TotalCoordinates
+  {
+  public:
+    /// `attached`: number of further coordinates, before the rotation, which move no node.
+    explicit TotalCoordinates(const ElasticBody<dim> &body, unsigned int attached = 0);
+
+    /// How many, the rotation included.
+    unsigned int size() const;
+
+    unsigned int rotation() const;
+
+    /// The i-th of the attached ones.
+    unsigned int attached(unsigned int i) const;
+
+    /// What moves a degree of freedom of the body: a coordinate, and by how much a unit of it does.
+    struct Mover
+    {
+      unsigned int coordinate;
+      double share;
+    };
+
+    const Mover &mover(unsigned int dof) const;
+
+    /// Displacement of a degree of freedom by a unit of rigid rotation [mm].
+    double arm(unsigned int dof) const;
+
+    /// The row of a connector: its product with the coordinates is the compression.
+    std::vector<std::pair<unsigned int, double>> row(const Connector &connector) const;
+
+    /// A unit of rigid rotation, in these coordinates.
+    dealii::Vector<double> rigid_rotation() const;
+
+    /// Elastic displacement of all degrees of freedom of the body, in the axes of its hub.
+    dealii::Vector<double> elastic_displacement(const dealii::Vector<double> &total) const;
+
+  private:
+    std::vector<Mover> movers;
+    std::vector<double> arms;
+    unsigned int n_free     = 0;
+    unsigned int n_attached = 0;
+  };
+
+  /// What a lever weighs. A hub in the mesh is massless.
+  struct LeverInertia
+  {
+    std::map<dealii::types::material_id, double> densities; ///< before scaling [t/mm^3]
+    double tip_mass          = 0.;                          ///< a line mass on the lever's end face [t]
+    double moment_of_inertia = 0.; ///< about the pivot, what the densities are scaled to; all below included [t mm^2]
+    InertiaSource source     = InertiaSource::scaled;
+    double hub               = 0.; ///< of what turns with the hub besides [t mm^2]
+    LeafBehaviour leaf       = {}; ///< its vibrations are attached coordinates
+  };
+
+  /// Matrices of small vibrations in total coordinates, without the hub's spring.
+  template <int dim>
+  class InertialMatrices
+  {
+  public:
+    /// Throws InputError if tip mass and hub alone have more than the moment of inertia, or there is no end face for the tip.
+    InertialMatrices(const ElasticBody<dim> &body, const LeverInertia &inertia);
+
+    const TotalCoordinates<dim> coordinates;
+    dealii::PETScWrappers::SparseMatrix mass;
+    dealii::PETScWrappers::SparseMatrix stiffness;       ///< of lever, friction layer and connectors
+    dealii::PETScWrappers::SparseMatrix layer_stiffness; ///< the layer's part of it
+    std::array<dealii::Vector<double>, dim> momentum;    ///< integral of rho u along each axis = row times coordinates [t]
+    double moment_of_inertia = 0.;                       ///< about the pivot, of all that turns with the hub [t mm^2]
+    double density_factor    = 1.;                       ///< by which the densities were scaled
+    double total_mass        = 0.;                       ///< of lever, tip and leaf spring [t]
+
+    /// Factors of a sum of mass, stiffness, the layer's stiffness and a unit on the hub's rotation.
+    struct Weights
+    {
+      double mass;
+      double stiffness;
+      double layer;
+      double rotation;
+    };
+
+    void sum(const Weights &weights, dealii::PETScWrappers::SparseMatrix &result) const;
+
+  private:
+    void find_pattern(const ElasticBody<dim> &body);
+    void assemble_cells(const ElasticBody<dim> &body, const std::map<dealii::types::material_id, double> &densities);
+    void assemble_connectors(const ElasticBody<dim> &body);
+    void assemble_tip(const ElasticBody<dim> &body, double tip_mass);
+    void attach_hub(double of_hub, const LeafBehaviour &leaf);
+
+    dealii::DynamicSparsityPattern pattern;
+  };
+} // namespace sprag

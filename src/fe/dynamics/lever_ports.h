@@ -1,0 +1,48 @@
+#pragma once
+
+#include "fe/dynamics/inertial_matrices.h"
+#include "model/port_layout.h"
+
+#include <deal.II/lac/full_matrix.h>
+
+namespace sprag
+{
+  /// Two a node: of the friction face, then of an elastic cylinder's face.
+  unsigned int number_of_surface_ports(const ElasticBody<2> &body);
+
+  /// Ports of a meshed lever in total coordinates: elastic displacements of those nodes (two entries a node), compressions of
+  /// the force sensors, the hub's rotation and, on a sprung support, the momentum. The support's displacement follows the
+  /// coordinates of the lever.
+  class LeverPorts
+  {
+  public:
+    LeverPorts(const ElasticBody<2> &body, const InertialMatrices<2> &matrices, bool sprung);
+
+    const PortLayout &layout() const;
+
+    /// Number of coordinates, the support's included.
+    unsigned int n_coordinates() const;
+
+    dealii::Vector<double> displacements(const dealii::Vector<double> &coordinates) const;
+
+    /// Adds what a force on a port is on the coordinates.
+    void add_force(unsigned int port, double force, dealii::Vector<double> &forces) const;
+
+    /// Coordinates of the face and the rotation, on which a compliance can be found.
+    std::vector<unsigned int> face_coordinates() const;
+
+    /// Their ports, in the same order.
+    unsigned int port_of_face(unsigned int coordinate) const;
+
+    /// From the compliance of those to that of the ports of face and rotation.
+    void transform(dealii::FullMatrix<double> &compliance) const;
+
+  private:
+    PortLayout ports;
+    unsigned int n_lever;
+    std::vector<unsigned int> coordinates;                             ///< of the face's ports
+    dealii::Vector<double> arms;                                       ///< what a unit of rotation moves them [mm]
+    std::vector<std::vector<std::pair<unsigned int, double>>> sensors; ///< rows of the sensors' ports
+    std::array<dealii::Vector<double>, 2> momentum;                    ///< rows of the ports along eta and xi
+  };
+} // namespace sprag

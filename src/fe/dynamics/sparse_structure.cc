@@ -1,0 +1,289 @@
+#include "fe/dynamics/sparse_structure.h"
+
+#include <algorithm>
+
+namespace sprag
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// Modes in which the local error of a step is told.
+    constexpr unsigned int n_error_modes = 8;
+
+    /// Step sizes whose factors are kept.
+    constexpr std::size_t n_steps = 4;
+
+    /// Factors of position, velocity and acceleration at the beginning of a step.
+    using Share = std::array<double, 3>;
+
+    /// Position, and what damping acts on, of a step without force: C times the latter is what the effective matrix leaves out.
+    Share drifted_position(const StepWeights &w)
+    {
+      return { { 1., w.dt, w.dt * w.dt * (0.5 - w.beta) } };
+    }
+
+    Share drifted_rate(const StepWeights &w)
+    {
+      const auto position = drifted_position(w);
+      return { { w.damping() * position[0], w.damping() * position[1] - 1.,
+                 w.damping() * position[2] - w.stiffness() * w.dt * (1. - w.gamma) } };
+    }
+
+    /// Rate that damping acts on at the drifted position.
+    Share mean_drifted_rate(const StepWeights &w)
+    {
+      return { { 0., 1., w.stiffness() * w.dt * (1. - w.gamma) } };
+    }
+
+    void add(const Share &share, const double factor, const std::array<Vector<double>, 3> &parts, Vector<double> &sum)
+    {
+      for (unsigned int k = 0; k < 3; ++k)
+        if (share[k] * factor != 0.)
+          for (unsigned int i = 0; i < parts[k].size(); ++i)
+            sum[i] += share[k] * factor * parts[k][i];
+    }
+  } // namespace
+
+  SparseStructure::SparseStructure(const ElasticBody<2> &body, std::shared_ptr<const InertialMatrices<2>> matrices_,
+                                   const FreeModes &modes, const LeverDynamics &constants_)
+      : matrices(std::move(matrices_))
+      , constants(constants_)
+      , lever_ports(body, *matrices, constants.sprung)
+      , n_lever(matrices->coordinates.size())
+      , rigid_rotation(matrices->coordinates.rigid_rotation())
+      , mass(matrices->mass)
+      , stiffness(matrices->stiffness)
+      , layer(matrices->layer_stiffness)
+  {
+    for (unsigned int i = 0; i < modes.shapes.size(); ++i)
+    {
+      Vector<double> momentum(n_lever);
+      Vector<double> shape(lever_ports.n_coordinates());
+      std::copy(modes.shapes[i].begin(), modes.shapes[i].end(), shape.begin());
+      mass.multiply<1>({ { &shape } }, { { &momentum } });
+      if (i > 0 && constants.modal_damping > 0.)
+      {
+        damping.directions.push_back(momentum);
+        damping.factors.push_back(2. * constants.modal_damping * std::sqrt(modes.stiffness[i]));
+      }
+      mode_momenta.push_back(momentum);
+      if (i < n_error_modes)
+        mode_ports.push_back(lever_ports.displacements(shape));
+    }
+  }
+
+  const PortLayout &SparseStructure::ports() const
+  {
+    return lever_ports.layout();
+  }
+
+  Motion SparseStructure::rest() const
+  {
+    Motion motion;
+    const unsigned int n            = lever_ports.n_coordinates();
+    motion.coordinates.position     = Vector<double>(n);
+    motion.coordinates.velocity     = Vector<double>(n);
+    motion.coordinates.acceleration = Vector<double>(n);
+    return motion;
+  }
+
+  void SparseStructure::use_statics()
+  {
+    if (!statics)
+    {
+      statics         = std::make_unique<Step>();
+      statics->system = std::make_unique<EffectiveSystem>(
+          *matrices, lever_ports, damping, InertialMatrices<2>::Weights{ 0., 1., 0., constants.spring_stiffness }, 0.);
+      statics->compliance = statics->system->port_compliance(constants.sprung ? 1. / constants.support_stiffness : 0.);
+    }
+    current = statics.get();
+  }
+
+  std::unique_ptr<SparseStructure::Step> SparseStructure::make_step(const StepWeights &w) const
+  {
+    auto step     = std::make_unique<Step>();
+    step->weights = w;
+    const InertialMatrices<2>::Weights of_matrices{ w.mass() + w.damping() * constants.mass_damping,
+                                                    w.stiffness() + w.damping() * constants.stiffness_damping,
+                                                    w.damping() * constants.relaxation,
+                                                    w.stiffness() * constants.spring_stiffness };
+    step->system     = std::make_unique<EffectiveSystem>(*matrices, lever_ports, damping, of_matrices, w.damping());
+    step->compliance = step->system->port_compliance(constants.sprung ? 1. / effective_support(w) : 0.);
+    return step;
+  }
+
+  void SparseStructure::use_step(const StepWeights &weights)
+  {
+    const auto found = std::find_if(steps.begin(), steps.end(),
+                                    [&](const auto &step)
+                                    { return step->weights.dt == weights.dt && step->weights.alpha_f == weights.alpha_f; });
+    if (found == steps.end())
+    {
+      if (steps.size() >= n_steps)
+        steps.erase(steps.begin());
+      steps.push_back(make_step(weights));
+    }
+    else
+      std::rotate(found, found + 1, steps.end());
+    current = steps.back().get();
+  }
+
+  const FullMatrix<double> &SparseStructure::compliance() const
+  {
+    return current->compliance;
+  }
+
+  double SparseStructure::effective_support(const StepWeights &w) const
+  {
+    return w.mass() * constants.support_mass + w.damping() * constants.support_damping +
+           w.stiffness() * constants.support_stiffness;
+  }
+
+  double SparseStructure::free_support(const Kinematic &start, const StepWeights &w) const
+  {
+    const auto position = drifted_position(w);
+    const auto rate     = drifted_rate(w);
+    const double q[]    = { start.position[n_lever], start.velocity[n_lever], start.acceleration[n_lever] };
+    double load         = -w.alpha_m * constants.support_mass * q[2] - w.alpha_f * constants.support_stiffness * q[0];
+    for (unsigned int k = 0; k < 3; ++k)
+      load += (w.mass() * constants.support_mass * position[k] + constants.support_damping * rate[k]) * q[k];
+    return load / effective_support(w);
+  }
+
+  void SparseStructure::add_responses(const Step &step, const PortForces &forces, const double of_support,
+                                      Vector<double> &position) const
+  {
+    for (unsigned int a = 0; a < forces.ports.size(); ++a)
+    {
+      const double force = forces.values[a];
+      if (constants.sprung && forces.ports[a] == ports().support())
+        position[n_lever] += of_support * force;
+      else
+      {
+        const auto &response = step.system->response(forces.ports[a]);
+        for (unsigned int i = 0; i < n_lever; ++i)
+          position[i] += response[i] * force;
+      }
+    }
+  }
+
+  Motion SparseStructure::deform(const PortForces &forces) const
+  {
+    Vector<double> load(lever_ports.n_coordinates());
+    for (unsigned int a = 0; a < forces.ports.size(); ++a)
+      lever_ports.add_force(forces.ports[a], forces.values[a], load);
+    // The rotational spring is soft beside the lever: what the first solution leaves out of balance is solved for again.
+    constexpr unsigned int corrections = 2;
+    Motion motion                      = rest();
+    auto &q                            = motion.coordinates.position;
+    Vector<double> left                = load;
+    Vector<double> product(load.size());
+    for (unsigned int i = 0; i <= corrections; ++i)
+    {
+      const auto of_lever = statics->system->solve(Vector<double>(left.begin(), left.begin() + n_lever));
+      for (unsigned int j = 0; j < n_lever; ++j)
+        q[j] += of_lever[j];
+      stiffness_product(q, product);
+      left = load;
+      left -= product;
+    }
+    if (constants.sprung)
+      q[n_lever] = load[n_lever] / constants.support_stiffness;
+    return motion;
+  }
+
+  Vector<double> SparseStructure::port_positions(const Motion &motion) const
+  {
+    return lever_ports.displacements(motion.coordinates.position);
+  }
+
+  Vector<double> SparseStructure::port_positions(const Motion &motion, const PortSelection &) const
+  {
+    return port_positions(motion);
+  }
+
+  PortState SparseStructure::port_state(const Motion &motion, const unsigned int port) const
+  {
+    const auto &q = motion.coordinates;
+    return { lever_ports.displacements(q.position)[port], lever_ports.displacements(q.velocity)[port] };
+  }
+
+  Kinematic SparseStructure::port_kinematics(const Motion &motion) const
+  {
+    const auto &q = motion.coordinates;
+    return { lever_ports.displacements(q.position), lever_ports.displacements(q.velocity),
+             lever_ports.displacements(q.acceleration) };
+  }
+
+  /// What is out of balance at the drifted position without force: the effective matrix times the way from there to the free
+  /// one. That way is short, so that round-off does not grow with the lever's rotation.
+  Vector<double> SparseStructure::load_of_motion(const Kinematic &start, const Products &of, const StepWeights &w) const
+  {
+    const Share rate = mean_drifted_rate(w);
+    Share of_mass;
+    for (unsigned int k = 0; k < 3; ++k)
+      of_mass[k] = -constants.mass_damping * rate[k];
+    of_mass[2] -= w.alpha_m;
+
+    Vector<double> load(n_lever);
+    add(of_mass, 1., of.mass, load);
+    add(rate, -constants.stiffness_damping, of.stiffness, load);
+    add(rate, -constants.relaxation, of.layer, load);
+    for (unsigned int i = 0; i < damping.directions.size(); ++i)
+    {
+      double amount = 0.;
+      for (unsigned int k = 0; k < 3; ++k)
+        amount -= rate[k] * of.modal[k][i + 1];
+      load.add(damping.factors[i] * amount, damping.directions[i]);
+    }
+    add_spring_forces(start, w, load);
+    return load;
+  }
+
+  /// Of lever, layer and rotational spring at the weighted mean of begin and drifted position.
+  void SparseStructure::add_spring_forces(const Kinematic &start, const StepWeights &w, Vector<double> &load) const
+  {
+    const Share drifted = drifted_position(w);
+    Vector<double> mean(n_lever);
+    for (unsigned int i = 0; i < n_lever; ++i)
+      mean[i] = start.position[i] + w.stiffness() * (drifted[1] * start.velocity[i] + drifted[2] * start.acceleration[i]);
+    const double rotation = mean[n_lever - 1];
+    Vector<double> force(n_lever);
+    mean.add(-rotation, rigid_rotation);
+    stiffness.multiply<1>({ { &mean } }, { { &force } });
+    load -= force;
+    load[n_lever - 1] -= constants.spring_stiffness * rotation;
+  }
+
+  Vector<double> SparseStructure::free_ports(const Motion &accepted, const PortSelection &) const
+  {
+    const auto &w       = current->weights;
+    const auto &start   = accepted.coordinates;
+    const auto of_lever = current->system->solve(load_of_motion(start, products(accepted), w));
+    const auto drifted  = unaccelerated(start, w);
+    free_motion         = drifted.position;
+    for (unsigned int i = 0; i < n_lever; ++i)
+      free_motion[i] += of_lever[i];
+    if (constants.sprung)
+      free_motion[n_lever] = free_support(start, w);
+    return lever_ports.displacements(free_motion);
+  }
+
+  Motion SparseStructure::advance(const Motion &accepted, const PortForces &forces, const DrivePoint &to) const
+  {
+    const auto &w = current->weights;
+    Motion motion;
+    motion.drive            = to;
+    Vector<double> position = free_motion;
+    add_responses(*current, forces, constants.sprung ? 1. / effective_support(w) : 0., position);
+    motion.coordinates = unaccelerated(accepted.coordinates, w);
+    set_position(motion.coordinates, position, w);
+    return motion;
+  }
+
+  Vector<double> SparseStructure::elastic_displacement(const Motion &motion, unsigned int) const
+  {
+    return matrices->coordinates.elastic_displacement(motion.coordinates.position);
+  }
+} // namespace sprag

@@ -1,0 +1,136 @@
+#pragma once
+
+#include "fe/algebra/compressed_rows.h"
+#include "fe/algebra/free_modes.h"
+#include "fe/dynamics/effective_system.h"
+#include "model/dynamic_model.h"
+#include "model/linearisation.h"
+
+#include <memory>
+
+namespace sprag
+{
+  /// Constants of a meshed lever in time that are not in its matrices.
+  struct LeverDynamics
+  {
+    double spring_stiffness  = 0.; ///< k [N mm/rad], > 0
+    double mass_damping      = 0.; ///< Rayleigh [1/s]
+    double stiffness_damping = 0.; ///< Rayleigh, the spring left out [s]
+    double relaxation        = 0.; ///< of the friction layer, damping over stiffness [s]
+    double modal_damping     = 0.; ///< of critical, on the bending modes
+    bool sprung              = false;
+    double support_mass      = 0.; ///< with the lever's [t]
+    double support_stiffness = 0.; ///< [N/mm]
+    double support_damping   = 0.; ///< [N s/mm]
+  };
+
+  /// A meshed linear lever with all its degrees of freedom, answering to forces on its ports as ModalStructure does. Coordinates:
+  /// TotalCoordinates and, on a sprung support, its displacement.
+  class SparseStructure
+  {
+  public:
+    /// `modes` are those of the free lever on its spring; all but the first are damped. The matrices are kept.
+    SparseStructure(const ElasticBody<2> &body, std::shared_ptr<const InertialMatrices<2>> matrices, const FreeModes &modes,
+                    const LeverDynamics &constants);
+
+    const PortLayout &ports() const;
+
+    /// At rest without force.
+    Motion rest() const;
+
+    /// Makes the compliance that of statics, or of a step.
+    void use_statics();
+    void use_step(const StepWeights &weights);
+    const dealii::FullMatrix<double> &compliance() const;
+
+    /// Motion at rest under forces, after use_statics().
+    Motion deform(const PortForces &forces) const;
+
+    dealii::Vector<double> port_positions(const Motion &motion) const;
+    dealii::Vector<double> port_positions(const Motion &motion, const PortSelection &selected) const;
+    PortState port_state(const Motion &motion, unsigned int port) const;
+    Kinematic port_kinematics(const Motion &motion) const;
+
+    /// Displacements of the ports at the end of a step without forces in it.
+    dealii::Vector<double> free_ports(const Motion &accepted, const PortSelection &selected) const;
+
+    /// Completes the step that free_ports() began under its forces.
+    Motion advance(const Motion &accepted, const PortForces &forces, const DrivePoint &to) const;
+
+    /// Adds the structure's damping and algorithmic work of the step.
+    void add_work(const Motion &begin, const Motion &end, StepWork &work) const;
+
+    StoredEnergy stored_energy(const Motion &motion) const;
+
+    /// Displacements of the ports by the local error of a step in the lowest modes.
+    dealii::Vector<double> port_error(const Motion &begin, const Motion &end) const;
+
+    /// The vibrations of lowest frequency under linear forces on the ports.
+    std::vector<StructureMode> vibrations(const PortPerturbation &forces, unsigned int number);
+
+    /// v^T C v with the motion's positions as velocities v: twice the power that damping takes.
+    double damping_form(const Motion &velocities) const;
+
+    /// Elastic displacement of all degrees of freedom of the body, in lever axes [mm]. Of a pair's structure that of a lever.
+    dealii::Vector<double> elastic_displacement(const Motion &motion, unsigned int lever = 0) const;
+
+  private:
+    /// Products of a motion's position, velocity and acceleration (rates of the stiffnesses only where damping needs them).
+    struct Products
+    {
+      dealii::Vector<double> position; ///< whose they are
+      dealii::Vector<double> velocity;
+      dealii::Vector<double> elastic; ///< the position less its rigid rotation, with which stiffnesses are multiplied
+      std::array<dealii::Vector<double>, 3> mass;
+      std::array<dealii::Vector<double>, 3> stiffness; ///< of lever and layer
+      std::array<dealii::Vector<double>, 3> layer;
+      std::array<dealii::Vector<double>, 3> modal; ///< phi^T M times each
+    };
+
+    struct Step
+    {
+      StepWeights weights{};
+      std::unique_ptr<const EffectiveSystem> system;
+      dealii::FullMatrix<double> compliance;
+    };
+
+    /// Known of the last two motions asked for.
+    const Products &products(const Motion &motion) const;
+    Products make_products(const Motion &motion) const;
+    std::unique_ptr<Step> make_step(const StepWeights &weights) const;
+    double effective_support(const StepWeights &w) const;
+    double free_support(const Kinematic &start, const StepWeights &w) const;
+    dealii::Vector<double> load_of_motion(const Kinematic &start, const Products &of, const StepWeights &w) const;
+
+    void add_spring_forces(const Kinematic &start, const StepWeights &w, dealii::Vector<double> &load) const;
+
+    // Products with all coordinates, the support's included.
+    void mass_product(const dealii::Vector<double> &q, dealii::Vector<double> &result) const;
+    void damping_product(const dealii::Vector<double> &q, dealii::Vector<double> &result) const;
+    void stiffness_product(const dealii::Vector<double> &q, dealii::Vector<double> &result) const;
+
+    void add_support_work(const Kinematic &q_0, const Kinematic &q_1, const StepWeights &w, StepWork &work) const;
+
+    /// Adds the lever's movement under forces on the ports, and the support's with compliance `of_support`.
+    void add_responses(const Step &step, const PortForces &forces, double of_support, dealii::Vector<double> &position) const;
+
+    const std::shared_ptr<const InertialMatrices<2>> matrices;
+    const LeverDynamics constants;
+    const LeverPorts lever_ports;
+    const unsigned int n_lever; ///< coordinates without the support's
+    const dealii::Vector<double> rigid_rotation;
+    const CompressedRows mass;
+    const CompressedRows stiffness;
+    const CompressedRows layer;
+    ModalDamping damping;
+    std::vector<dealii::Vector<double>> mode_momenta; ///< M phi
+    std::vector<dealii::Vector<double>> mode_ports;   ///< displacements of the ports
+
+    std::unique_ptr<Step> statics;
+    std::vector<std::unique_ptr<Step>> steps; ///< the latest last
+    const Step *current = nullptr;
+    mutable std::array<Products, 2> known;
+    mutable unsigned int latest = 0; ///< of those
+    mutable dealii::Vector<double> free_motion;
+  };
+} // namespace sprag

@@ -1,0 +1,64 @@
+#pragma once
+
+#include "fe/fields/body_fields.h"
+#include "fe/fields/world_axes.h"
+#include "results/columns.h"
+#include "results/field_files.h"
+#include "scene/scene.h"
+
+#include <array>
+
+namespace sprag
+{
+  /// Where the parts of the apparatus stand, see WorldAxes.
+  struct DevicePose
+  {
+    double x       = 0.;           ///< of the cylinder [mm]
+    double support = 0.;           ///< displacement of the pivot frame along x [mm]
+    std::array<double, 2> theta{}; ///< of each lever [rad]
+  };
+
+  /// At rest: x = 0, no lever turned, the pivot frame where it is without force.
+  DevicePose rest_pose(const Scene &scene);
+
+  DevicePose pose_of(const Row &row);
+
+  /// Axes of a lever, 0 or of a pair 1, on its pivot.
+  WorldAxes lever_axes(const Scene &scene, const DevicePose &pose, unsigned int lever);
+
+  /// Axes of an elastic cylinder's mesh: at the cylinder's centre, parallel to those of the lever that presses on it, through
+  /// which its material passes.
+  WorldAxes cylinder_axes(const Scene &scene, const DevicePose &pose, unsigned int lever);
+
+  /// What the apparatus consists of in pictures.
+  enum class DevicePart
+  {
+    lever,    ///< with layer and plate
+    cylinder, ///< an elastic one
+    leaf,
+    rigid_cylinder ///< not meshed: a disc
+  };
+
+  /// Nodes of one part that belong to one lever.
+  struct DeviceBlock
+  {
+    DevicePart part;
+    unsigned int lever;
+    std::vector<unsigned int> nodes;         ///< numbers among the BodyFields' nodes
+    std::vector<dealii::Point<2>> positions; ///< of those, in the axes of the part
+  };
+
+  /// Lever, cylinder and, where one is given, leaf spring, each for every lever of the scene, as blocks of one mesh. Of an
+  /// elastic cylinder between two levers, which is meshed for each of them, each has the half that faces it.
+  std::vector<DeviceBlock> device_blocks(const Scene &scene, const BodyFields &body, const BodyFields *leaf);
+
+  /// Axes of a block. A leaf spring's are those of the lever.
+  WorldAxes axes_of(const Scene &scene, const DevicePose &pose, const DeviceBlock &block);
+
+  /// The mesh of the blocks in a pose, with `part` (material_id) and `lever` (1 or 2, 0 of a rigid cylinder).
+  FieldMesh device_mesh(const Scene &scene, const DevicePose &pose, const std::vector<DeviceBlock> &blocks,
+                        const BodyFields &body, const BodyFields *leaf);
+
+  /// x and y as ParaView's vectors have them.
+  void append(const dealii::Tensor<1, 2> &vector, std::vector<float> &values);
+} // namespace sprag

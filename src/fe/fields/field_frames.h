@@ -1,0 +1,50 @@
+#pragma once
+
+#include "fe/fields/device_mesh.h"
+#include "fe/fields/leaf_shapes.h"
+#include "results/result_file.h"
+
+#include <memory>
+
+namespace sprag
+{
+  /// One state of the apparatus.
+  struct DeviceState
+  {
+    double time = 0.; ///< [s]
+    DevicePose pose;
+    std::vector<dealii::Vector<double>> displacements; ///< elastic, of the body, one a lever, in its axes [mm]
+    FaceState face;
+  };
+
+  /// Fields of a run for ParaView, frame by frame, in the axes of the world (WorldAxes). Nodes are where they are at rest
+  /// (rest_pose()), `displacement` leads from there, rotation included, and `elastic_displacement` is its elastic part alone.
+  /// `folder`/fields.xdmf shows the bodies with their stress, `folder`/face.xdmf pressure and traction along the friction faces,
+  /// both from fields-mesh.h5 and fields-0000.h5, ...
+  class FieldFrames
+  {
+  public:
+    /// Removes the fields of an earlier run from `folder`. Scene and body, which serves both levers of a pair, must outlive them.
+    FieldFrames(const Scene &scene, const ElasticBody<2> &body, const std::string &folder);
+
+    /// Adds a frame, of another time than those before.
+    void write(const DeviceState &state);
+
+  private:
+    struct Bodies;
+
+    FieldMesh face_mesh() const;
+    std::vector<Field> body_fields(const DeviceState &state);
+    void add_meshed(const DeviceState &state, const DeviceBlock &block, Bodies &values) const;
+    void add_leaf(const DeviceState &state, const DeviceBlock &block, Bodies &values);
+    std::vector<Field> face_fields(const DeviceState &state) const;
+
+    const Scene &scene;
+    const ElasticBody<2> &body;
+    const BodyFields fields;
+    const DevicePose rest;
+    std::unique_ptr<LeafShapes> leaf;
+    const std::vector<DeviceBlock> blocks;
+    std::unique_ptr<FieldFiles> files;
+  };
+} // namespace sprag

@@ -1,0 +1,84 @@
+#include "fe/fields/stress_peaks.h"
+
+#include <limits>
+
+namespace sprag
+{
+  namespace
+  {
+    constexpr std::array<const char *, 3> names{ { "largest_lever_stress", "largest_layer_stress", "largest_stress_at_hub" } };
+    constexpr std::array<const char *, 3> meanings{
+      { "largest von Mises stress in the lever, the cells at the hub left out",
+        "largest von Mises stress in the friction layer, the cells at the hub left out",
+        "largest von Mises stress in the cells that the hub holds: at its corner the linear elastic stress is singular, and a "
+        "finer mesh finds more" }
+    };
+  } // namespace
+
+  StressPeaks::StressPeaks(const BodyFields &of)
+      : fields(of)
+  {
+    for (const auto &node : fields.nodes())
+      if (const auto of_node = region(node))
+        there[*of_node] = true;
+  }
+
+  std::optional<unsigned int> StressPeaks::region(const BodyFields::Node &node) const
+  {
+    const bool lever = node.part == material_id::lever || node.part == material_id::web;
+    if (!lever && node.part != material_id::layer)
+      return {};
+    if (node.at_hub)
+      return 2;
+    return lever ? 0 : 1;
+  }
+
+  void StressPeaks::look_at(const std::vector<NodalField> &nodal, const double x, const int direction, const unsigned int lever)
+  {
+    for (unsigned int i = 0; i < nodal.size(); ++i)
+    {
+      const auto &node   = fields.nodes()[i];
+      const auto of_node = region(node);
+      if (!of_node)
+        continue;
+      const double stress = von_mises(nodal[i]);
+      auto &peak          = peaks[*of_node];
+      if (!peak || stress > peak->stress)
+        peak = { stress, x, direction, lever, node.position };
+    }
+  }
+
+  std::vector<Entry> StressPeaks::entries(const unsigned int levers) const
+  {
+    const double missing = std::numeric_limits<double>::quiet_NaN();
+    std::vector<Entry> result;
+    for (unsigned int i = 0; i < names.size(); ++i)
+      if (there[i])
+      {
+        const std::string name = names[i];
+        const Peak peak        = peaks[i].value_or(Peak{ missing, missing, 0, 0, { missing, missing } });
+        result.push_back({ name, peak.stress, "MPa", meanings[i] });
+        result.push_back({ name + "_x", peak.x, "mm", "position of the cylinder there" });
+        result.push_back({ name + "_direction",
+                           std::string(peak.direction == 0  ? "none"
+                                       : peak.direction > 0 ? "forward"
+                                                            : "backward"),
+                           "", "of the motion there" });
+        result.push_back({ name + "_xi", peak.place[0], "mm", "where: lever coordinate from the pivot" });
+        result.push_back(
+            { name + "_eta", peak.place[1], "mm", "where: across the lever from the pivot, away from the cylinder" });
+        if (levers == 2)
+          result.push_back({ name + "_lever", peak.lever + 1., "1", "of which lever" });
+      }
+    return result;
+  }
+
+  std::vector<Entry> no_stress_peaks(const std::string &reason)
+  {
+    const double missing = std::numeric_limits<double>::quiet_NaN();
+    std::vector<Entry> result;
+    for (const unsigned int i : { 0u, 1u })
+      result.push_back({ names[i], missing, "MPa", std::string(meanings[i]) + "; not told: " + reason });
+    return result;
+  }
+} // namespace sprag

@@ -1,0 +1,46 @@
+#pragma once
+
+#include "fe/fields/body_fields.h"
+#include "results/columns.h"
+#include "results/result_file.h"
+
+#include <array>
+#include <optional>
+
+namespace sprag
+{
+  /// Largest von Mises stress in lever (web included) and layer over the states that are looked at. In the cells that the hub
+  /// holds the stress of linear elasticity grows without bound with a finer mesh, so the lever's peak leaves them out and theirs
+  /// is told by itself.
+  class StressPeaks
+  {
+  public:
+    explicit StressPeaks(const BodyFields &fields);
+
+    /// `direction`: 1 forward, -1 backward; `lever`: 0 or of a pair 1.
+    void look_at(const std::vector<NodalField> &nodal, double x, int direction, unsigned int lever);
+
+    /// For /summary; `levers`: how many there are. NaN where nothing has been looked at.
+    std::vector<Entry> entries(unsigned int levers) const;
+
+  private:
+    struct Peak
+    {
+      double stress      = 0.;
+      double x           = 0.;
+      int direction      = 0;
+      unsigned int lever = 0;
+      dealii::Point<2> place;
+    };
+
+    /// Of lever, layer, hub.
+    std::optional<unsigned int> region(const BodyFields::Node &node) const;
+
+    const BodyFields &fields;
+    std::array<std::optional<Peak>, 3> peaks;
+    std::array<bool, 3> there{}; ///< whether the mesh has such cells
+  };
+
+  /// The same of a run that finds no stress.
+  std::vector<Entry> no_stress_peaks(const std::string &reason);
+} // namespace sprag

@@ -1,0 +1,224 @@
+#include "fe/leaf/leaf_body.h"
+
+#include "base/errors.h"
+#include "base/text.h"
+
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/dofs/dof_tools.h>
+#include <deal.II/fe/fe_values.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace sprag
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// Turns that are tried at once, and at which the leaf is given up [rad].
+    constexpr double largest_step  = 0.02;
+    constexpr double smallest_step = 1e-5;
+
+    BodyProperties properties_of(const LeafSpring &leaf, const PlaneState plane)
+    {
+      BodyProperties properties;
+      properties.degree    = 2;
+      properties.plane     = plane;
+      properties.material  = MaterialModel::st_venant_kirchhoff;
+      properties.width     = leaf.width;
+      properties.curved    = is_bent(leaf);
+      properties.constants = { { material_id::leaf, { leaf.young_modulus, leaf.poisson_ratio } } };
+      return properties;
+    }
+
+    const Triangulation<2> &meshed(const LeafSpring &leaf, const LeafElements &elements, Triangulation<2> &triangulation)
+    {
+      make_leaf_mesh(leaf, elements, triangulation);
+      return triangulation;
+    }
+
+    std::vector<unsigned int> dofs_on(const ElasticBody<2> &body, const unsigned int component, const types::boundary_id boundary)
+    {
+      ComponentMask mask(2, false);
+      mask.set(component, true);
+      std::vector<unsigned int> result;
+      for (const auto dof : DoFTools::extract_boundary_dofs(body.dofs(), mask, { boundary }))
+        result.push_back(static_cast<unsigned int>(dof));
+      return result;
+    }
+
+    void hold_all(const std::vector<unsigned int> &dofs, AffineConstraints<double> &constraints)
+    {
+      for (const unsigned int dof : dofs)
+        constraints.add_line(dof);
+    }
+
+    void move_alike(const std::vector<unsigned int> &dofs, AffineConstraints<double> &constraints)
+    {
+      for (std::size_t i = 1; i < dofs.size(); ++i)
+      {
+        constraints.add_line(dofs[i]);
+        constraints.add_entry(dofs[i], dofs.front(), 1.);
+      }
+    }
+
+    /// Holds the mean over the joint's section. A single node that were held would dent the leaf by more the finer its mesh.
+    void hold_mean(const ElasticBody<2> &body, const unsigned int component, AffineConstraints<double> &constraints)
+    {
+      const auto &fe = body.dofs().get_fe();
+      FEFaceValues<2> values(body.cell_mapping(), fe, QGauss<1>(fe.degree + 1), update_values | update_JxW_values);
+      std::vector<types::global_dof_index> indices(fe.n_dofs_per_cell());
+      std::map<types::global_dof_index, double> weights;
+      for (const auto &cell : body.dofs().active_cell_iterators())
+        for (const unsigned int f : cell->face_indices())
+          if (cell->face(f)->at_boundary() && cell->face(f)->boundary_id() == boundary_id::joint)
+          {
+            values.reinit(cell, f);
+            cell->get_dof_indices(indices);
+            for (unsigned int i = 0; i < indices.size(); ++i)
+              if (fe.system_to_component_index(i).first == component && fe.has_support_on_face(i, f))
+                for (const unsigned int q : values.quadrature_point_indices())
+                  weights[indices[i]] += values.shape_value(i, q) * values.JxW(q);
+          }
+      const auto largest =
+          std::max_element(weights.begin(), weights.end(), [](const auto &a, const auto &b) { return a.second < b.second; });
+      constraints.add_line(largest->first);
+      for (const auto &[dof, weight] : weights)
+        if (dof != largest->first)
+          constraints.add_entry(largest->first, dof, -weight / largest->second);
+    }
+
+    void hold_joint(const LeafSpring &leaf, const ElasticBody<2> &body, AffineConstraints<double> &constraints)
+    {
+      const auto along  = dofs_on(body, 0, boundary_id::joint);
+      const auto across = dofs_on(body, 1, boundary_id::joint);
+      const bool slides = leaf.axial == LeafAxial::free;
+      switch (leaf.end)
+      {
+      case LeafEnd::clamped:
+        hold_all(across, constraints);
+        break;
+      case LeafEnd::guided:
+        move_alike(across, constraints);
+        break;
+      case LeafEnd::pinned:
+        hold_mean(body, 1, constraints);
+        if (!slides)
+          hold_mean(body, 0, constraints);
+        return;
+      case LeafEnd::loose:
+        return;
+      }
+      if (slides)
+        move_alike(along, constraints);
+      else
+        hold_all(along, constraints);
+    }
+
+    /// Along the tangent.
+    Vector<double> continued(const LeafBody::State &from, const double step)
+    {
+      Vector<double> result = from.displacement;
+      result.add(step, from.rate);
+      return result;
+    }
+  } // namespace
+
+  LeafBody::LeafBody(const LeafSpring &leaf, const PlaneState plane)
+      : LeafBody(leaf, plane, leaf_elements(leaf))
+  {
+  }
+
+  LeafBody::LeafBody(const LeafSpring &leaf, const PlaneState plane, const LeafElements &elements)
+      : elastic(meshed(leaf, elements, triangulation), properties_of(leaf, plane))
+      , finite_statics(elastic, hold(leaf))
+  {
+  }
+
+  AffineConstraints<double> LeafBody::hold(const LeafSpring &leaf)
+  {
+    std::vector<Point<2>> positions(elastic.n_dofs());
+    DoFTools::map_dofs_to_support_points(elastic.cell_mapping(), elastic.dofs(), positions);
+    AffineConstraints<double> constraints;
+    for (const unsigned int component : { 0u, 1u })
+    {
+      const auto dofs = dofs_on(elastic, component, boundary_id::clamp);
+      hold_all(dofs, constraints);
+      for (const unsigned int dof : dofs)
+        clamp.push_back({ dof, component, positions[dof] });
+    }
+    hold_joint(leaf, elastic, constraints);
+    constraints.close();
+    return constraints;
+  }
+
+  const ElasticBody<2> &LeafBody::body() const
+  {
+    return elastic;
+  }
+
+  const FiniteStatics &LeafBody::statics() const
+  {
+    return finite_statics;
+  }
+
+  LeafBody::State LeafBody::rest()
+  {
+    return state(0., Vector<double>(elastic.n_dofs()));
+  }
+
+  LeafBody::State LeafBody::state(const double turn, Vector<double> guess)
+  {
+    const double sine = std::sin(turn);
+    const double less = -2. * std::pow(std::sin(0.5 * turn), 2); // cosine - 1
+    Vector<double> rate(elastic.n_dofs()), rate_of_rate(elastic.n_dofs());
+    const Vector<double> no_loads(elastic.n_dofs());
+    for (const auto &[dof, component, X] : clamp)
+    {
+      const Point<2> turned(X[0] + less * X[0] - sine * X[1], X[1] + sine * X[0] + less * X[1]);
+      guess[dof]        = turned[component] - X[component];
+      rate[dof]         = component == 0 ? -turned[1] : turned[0];
+      rate_of_rate[dof] = -turned[component];
+    }
+    State result;
+    result.turn         = turn;
+    result.displacement = std::move(guess);
+    finite_statics.balance(result.displacement, no_loads);
+    if (!finite_statics.is_stable())
+      throw AnalysisError("the leaf spring buckles when the hub turns by " + rounded_text(turn) + " rad");
+    result.rate = finite_statics.response(rate, no_loads);
+    // The work of what is left unbalanced on the rate makes the moment's error one of second order.
+    result.moment    = result.rate * finite_statics.forces();
+    result.stiffness = finite_statics.stiffness_product(result.rate) * result.rate + finite_statics.forces() * rate_of_rate;
+    return result;
+  }
+
+  std::vector<LeafBody::State> LeafBody::steps(const State &from, const double turn)
+  {
+    std::vector<State> result;
+    double step = (turn - from.turn) / std::ceil(std::abs(turn - from.turn) / largest_step);
+    State at    = from;
+    while (result.empty() || at.turn != turn)
+    {
+      const bool last   = std::abs(turn - at.turn) <= 1.001 * std::abs(step);
+      const double next = last ? turn : at.turn + step;
+      try
+      {
+        at = state(next, continued(at, next - at.turn));
+        result.push_back(at);
+      }
+      catch (const AnalysisError &)
+      {
+        step *= 0.5;
+        if (!(std::abs(step) > smallest_step))
+          throw AnalysisError(
+              "the leaf spring finds no equilibrium when the hub turns by more than " + rounded_text(at.turn) +
+              " rad: it buckles or snaps through there. Try a smaller 'Leaf spring/Sagitta' or one of the other sign, or "
+              "'Leaf spring/Axial' = free");
+      }
+    }
+    return result;
+  }
+} // namespace sprag

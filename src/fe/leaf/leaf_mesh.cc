@@ -1,0 +1,75 @@
+#include "fe/leaf/leaf_mesh.h"
+
+#include "base/errors.h"
+#include "base/text.h"
+#include "fe/body/body_properties.h"
+#include "fe/mesh/geometry_script.h"
+
+#include <deal.II/grid/manifold_lib.h>
+
+#include <cmath>
+
+namespace sprag
+{
+  using namespace dealii;
+
+  namespace
+  {
+    MeshGroups leaf_groups()
+    {
+      return { { { "leaf", material_id::leaf } },
+               { { "hub", boundary_id::clamp }, { "joint", boundary_id::joint } },
+               "'leaf'",
+               [](const std::set<std::string> &, const std::set<std::string> &) { return std::vector<std::string>(); } };
+    }
+
+    void refuse_impossible_shapes(const LeafSpring &leaf)
+    {
+      std::vector<std::string> mistakes;
+      const auto refuse = [&](const std::string &name, const double value)
+      {
+        mistakes.push_back("Leaf spring/" + name + " = " + rounded_text(value) +
+                           ": must be less than half of Leaf spring/Length (" + rounded_text(0.5 * leaf.length) + " mm)");
+      };
+      if (!(std::abs(leaf.sagitta) < 0.5 * leaf.length))
+        refuse("Sagitta", leaf.sagitta);
+      if (!(leaf.thickness < 0.5 * leaf.length))
+        refuse("Thickness", leaf.thickness);
+      if (!mistakes.empty())
+        throw InputError(mistakes);
+    }
+
+    Point<2> centre_of_arc(const LeafSpring &leaf)
+    {
+      const double radius = (0.25 * leaf.length * leaf.length + leaf.sagitta * leaf.sagitta) / (2. * leaf.sagitta);
+      return { -leaf.clamp_distance - 0.5 * leaf.length, leaf.sagitta - radius };
+    }
+  } // namespace
+
+  bool is_bent(const LeafSpring &leaf)
+  {
+    return std::abs(leaf.sagitta) >= 1e-6 * leaf.length;
+  }
+
+  LeafElements leaf_elements(const LeafSpring &leaf)
+  {
+    return { static_cast<unsigned int>(std::ceil(7. * std::sqrt(leaf.length / leaf.thickness))), 2 };
+  }
+
+  void make_leaf_mesh(const LeafSpring &leaf, const LeafElements &elements, Triangulation<2> &triangulation)
+  {
+    refuse_impossible_shapes(leaf);
+    read_gmsh(mesh_script("leaf.geo"),
+              { { "leaf_length", leaf.length },
+                { "leaf_thickness", leaf.thickness },
+                { "sagitta", leaf.sagitta },
+                { "clamp_distance", leaf.clamp_distance },
+                { "elements_along", elements.along },
+                { "elements_across", elements.across } },
+              leaf_groups(), triangulation);
+    if (!is_bent(leaf))
+      return;
+    triangulation.set_all_manifold_ids(0);
+    triangulation.set_manifold(0, PolarManifold<2>(centre_of_arc(leaf)));
+  }
+} // namespace sprag

@@ -1,0 +1,147 @@
+#include "fe/leaf/leaf_spring.h"
+
+#include "base/errors.h"
+#include "fe/leaf/leaf_vibration.h"
+#include "scene/closed_form.h"
+#include "scene/mirrored_pair.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sprag
+{
+  using namespace dealii;
+
+  namespace
+  {
+    using State = LeafBody::State;
+
+    /// Of the largest moment, by which the law may err between samples.
+    constexpr double precision = 1e-8;
+
+    /// Halvings of a step of the turn between samples.
+    constexpr unsigned int most_halvings = 12;
+
+    /// Cubic Hermite interpolation in the middle between two states.
+    double middle_moment(const State &a, const State &b)
+    {
+      return 0.5 * (a.moment + b.moment) + 0.125 * (b.turn - a.turn) * (a.stiffness - b.stiffness);
+    }
+
+    Vector<double> middle_displacement(const State &a, const State &b)
+    {
+      Vector<double> result = a.displacement;
+      result.sadd(0.5, 0.5, b.displacement);
+      result.add(0.125 * (b.turn - a.turn), a.rate, -0.125 * (b.turn - a.turn), b.rate);
+      return result;
+    }
+
+    /// Samples the moment of a leaf over the turn.
+    class Sampler
+    {
+    public:
+      Sampler(LeafBody &leaf_, const double smallest_turn, const double largest_turn)
+          : leaf(leaf_)
+      {
+        const State rest = leaf.rest();
+        std::vector<State> states;
+        if (smallest_turn < 0.)
+          states = leaf.steps(rest, smallest_turn);
+        std::reverse(states.begin(), states.end());
+        states.push_back(rest);
+        if (largest_turn > 0.)
+          for (auto &state : leaf.steps(rest, largest_turn))
+            states.push_back(std::move(state));
+        for (const auto &state : states)
+          allowed = std::max(allowed, precision * std::abs(state.moment));
+        add(states.front());
+        for (std::size_t i = 1; i < states.size(); ++i)
+          refine(states[i - 1], states[i], most_halvings);
+      }
+
+      const std::vector<MomentLaw::Sample> &samples() const
+      {
+        return all;
+      }
+
+    private:
+      void add(const State &state)
+      {
+        all.push_back({ state.turn, state.moment, state.stiffness });
+      }
+
+      State middle_of(const State &from, const State &to)
+      {
+        const double turn = 0.5 * (from.turn + to.turn);
+        try
+        {
+          return leaf.state(turn, middle_displacement(from, to));
+        }
+        catch (const AnalysisError &)
+        {
+          return leaf.steps(from, turn).back();
+        }
+      }
+
+      /// Adds what comes after `from` up to `to`. Halving a step divides the error of cubic interpolation by 16, of which half is
+      /// trusted.
+      void refine(const State &from, const State &to, const unsigned int halvings)
+      {
+        const State middle = middle_of(from, to);
+        const bool fine    = std::abs(middle.moment - middle_moment(from, to)) <= 8. * allowed;
+        if (!fine && halvings == 0)
+          throw AnalysisError("the moment of the leaf spring jumps over its turn: it snaps through. Try a smaller 'Leaf "
+                              "spring/Sagitta' or 'Leaf spring/Axial' = free");
+        if (fine)
+          add(middle);
+        else
+          refine(from, middle, halvings - 1);
+        if (fine)
+          add(to);
+        else
+          refine(middle, to, halvings - 1);
+      }
+
+      LeafBody &leaf;
+      double allowed = 0.;
+      std::vector<MomentLaw::Sample> all;
+    };
+  } // namespace
+
+  LeafBehaviour leaf_behaviour(const LeafSpring &leaf, const PlaneState plane, const double smallest_turn,
+                               const double largest_turn, const double joint_mass)
+  {
+    LeafBody body(leaf, plane);
+    LeafBehaviour behaviour;
+    add_inertia(body, leaf.density, joint_mass, behaviour);
+    const double stiffness = body.rest().stiffness;
+    behaviour.law          = MomentLaw(stiffness, Sampler(body, smallest_turn, largest_turn).samples());
+    return behaviour;
+  }
+
+  LeafBehaviour swinging_leaf(LeafSpring leaf, const PlaneState plane, const double joint_mass)
+  {
+    leaf.end = LeafEnd::loose;
+    LeafBody body(leaf, plane);
+    LeafBehaviour behaviour;
+    add_inertia(body, leaf.density, joint_mass, behaviour);
+    return behaviour;
+  }
+
+  Scene with_leaf_spring(Scene scene)
+  {
+    if (scene.spring.type != SpringType::leaf)
+      return scene;
+    const double rest       = kinematics(scene.geometry, 0.).theta;
+    const double smallest   = std::min(0., kinematics(scene.geometry, scene.drive.minimum()).theta - rest);
+    const double largest    = std::max(0., kinematics(scene.geometry, scene.drive.maximum()).theta - rest);
+    const double room       = std::max(0.02, 0.5 * std::max(-smallest, largest));
+    const double joint_mass = 0.5 * scene.pair.joint_mass; // the mirrored lever's leaf carries the other half
+    const auto plane        = scene.analysis.plane;
+    scene.spring.behaviour  = leaf_behaviour(scene.spring.leaf, plane, smallest - room, largest + room, joint_mass);
+    scene.spring.stiffness  = scene.spring.behaviour.law.linear_stiffness();
+    if (swings(scene))
+      scene.spring.swing = swinging_leaf(scene.spring.leaf, plane, joint_mass);
+    return scene;
+  }
+} // namespace sprag

@@ -1,0 +1,89 @@
+#include "fe/mesh/cylinder_mesh.h"
+
+#include "base/errors.h"
+#include "base/text.h"
+#include "fe/body/body_properties.h"
+#include "fe/mesh/geometry_script.h"
+
+#include <deal.II/grid/grid_tools.h>
+#include <deal.II/grid/manifold_lib.h>
+
+#include <tuple>
+
+namespace sprag
+{
+  using namespace dealii;
+
+  namespace
+  {
+    constexpr types::manifold_id circle = 1;
+
+    MeshGroups cylinder_groups()
+    {
+      return { { { "cylinder", material_id::cylinder } },
+               { { "core", boundary_id::core }, { "cylinder face", boundary_id::cylinder_face } },
+               "'cylinder'",
+               [](const auto &, const auto &) { return std::vector<std::string>(); } };
+    }
+
+    /// A facetted circle would tilt friction and pressure with each of its sides.
+    void check(const Scene &scene)
+    {
+      std::vector<std::string> mistakes;
+      if (scene.mesh.degree != 2)
+        mistakes.push_back("Mesh/Degree = " + std::to_string(scene.mesh.degree) +
+                           ": an elastic cylinder (Cylinder/Type) needs elements of degree 2, which follow its surface");
+      if (scene.cylinder.inner_radius >= scene.geometry.cylinder_radius)
+        mistakes.push_back("Cylinder/Inner radius = " + rounded_text(scene.cylinder.inner_radius) +
+                           " mm must be smaller than the cylinder's radius R = " + rounded_text(scene.geometry.cylinder_radius) +
+                           " mm");
+      if (!mistakes.empty())
+        throw InputError(mistakes);
+    }
+
+    void append(const Triangulation<2> &part, std::vector<Point<2>> &vertices, std::vector<CellData<2>> &cells,
+                SubCellData &boundary)
+    {
+      const auto first                   = static_cast<unsigned int>(vertices.size());
+      auto [points, of_cells, of_border] = GridTools::get_coarse_mesh_description(part);
+      vertices.insert(vertices.end(), points.begin(), points.end());
+      for (auto &cell : of_cells)
+      {
+        for (auto &vertex : cell.vertices)
+          vertex += first;
+        cells.push_back(cell);
+      }
+      for (auto &line : of_border.boundary_lines)
+      {
+        for (auto &vertex : line.vertices)
+          vertex += first;
+        boundary.boundary_lines.push_back(line);
+      }
+    }
+  } // namespace
+
+  void add_cylinder(const Scene &scene, Triangulation<2> &triangulation)
+  {
+    check(scene);
+    const double radius     = scene.geometry.cylinder_radius;
+    const double face_width = 2. * (0.1 * radius + scene.layer.thickness);
+    Triangulation<2> cylinder;
+    read_gmsh(mesh_script("cylinder.geo"),
+              { { "radius", radius },
+                { "inner_radius", scene.cylinder.inner_radius },
+                { "face_width", face_width },
+                { "face_size", scene.cylinder.face_size } },
+              cylinder_groups(), cylinder);
+    cylinder.set_all_manifold_ids(circle);
+
+    // Both lie about their origins: none of their vertices are to become one.
+    std::vector<Point<2>> vertices;
+    std::vector<CellData<2>> cells;
+    SubCellData boundary;
+    append(triangulation, vertices, cells, boundary);
+    append(cylinder, vertices, cells, boundary);
+    triangulation.clear();
+    triangulation.create_triangulation(vertices, cells, boundary);
+    triangulation.set_manifold(circle, SphericalManifold<2>());
+  }
+} // namespace sprag

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "fe/body/elastic_body.h"
+
+namespace sprag
+{
+  /// Linear springs at the ports of hub and support of a lever without inertia.
+  struct PortSprings
+  {
+    double rotation = 0.; ///< k [N mm/rad], > 0
+    double support  = 0.; ///< k_f [N/mm], > 0; counts on a sprung support
+    double arm      = 0.; ///< length that turns a rotation into a movement [mm], > 0
+  };
+
+  /// Degrees of freedom of the ports of the faces: two a node of the friction face, then of an elastic cylinder's face.
+  inline std::vector<unsigned int> surface_dofs(const ElasticBody<2> &body)
+  {
+    std::vector<unsigned int> result;
+    for (const auto *const face : { &body.friction_face(), &body.cylinder_face() })
+      for (const auto &node : face->nodes)
+        result.insert(result.end(), node.dofs.begin(), node.dofs.end());
+    return result;
+  }
+} // namespace sprag

@@ -1,0 +1,37 @@
+#include "levers/meshed_constants.h"
+
+#include "fe/dynamics/dynamic_face_lever.h"
+#include "fe/leaf/leaf_spring.h"
+#include "fe/statics/lever_model.h"
+#include "scene/closed_form.h"
+
+namespace sprag
+{
+  double leaf_stiffness(const Scene &scene, const double thickness)
+  {
+    LeafSpring leaf = scene.spring.leaf;
+    leaf.thickness  = thickness;
+    return leaf_behaviour(leaf, scene.analysis.plane, 0., 0.).law.linear_stiffness();
+  }
+
+  double inertia_as_built(const Scene &scene)
+  {
+    Scene built         = scene;
+    built.lever.inertia = InertiaSource::as_built;
+    dealii::Triangulation<2> triangulation;
+    make_mesh(built, triangulation);
+    const ElasticBody<2> body(triangulation, lever_properties(built).body);
+    return mesh_inertia(built, body);
+  }
+
+  MeshedConstants meshed_constants(const Scene &scene)
+  {
+    dealii::Triangulation<2> triangulation;
+    make_mesh(scene, triangulation);
+    const ElasticBody<2> body(triangulation, lever_properties(scene).body);
+    const double room     = 0.1 * scene.geometry.cylinder_radius;
+    const double nearest  = kinematics(scene.geometry, scene.drive.maximum()).s - room;
+    const double farthest = kinematics(scene.geometry, scene.drive.minimum()).s + room;
+    return { mesh_inertia(scene, body), effective_bending(body, nearest, farthest) };
+  }
+} // namespace sprag

@@ -1,0 +1,21 @@
+#include "levers/prepared_scene.h"
+
+#include "base/errors.h"
+#include "fe/leaf/leaf_spring.h"
+#include "scene/check.h"
+
+namespace sprag
+{
+  Scene prepared(const Scene &scene)
+  {
+    if (scene.spring.type == SpringType::torsional)
+      return scene;
+    Scene result = with_leaf_spring(scene);
+    std::vector<std::string> mistakes;
+    for (const auto &violation : violations(result))
+      mistakes.push_back(scene.name + ".prm: " + violation.parameter + " " + violation.rule);
+    if (!mistakes.empty())
+      throw InputError(mistakes);
+    return result;
+  }
+} // namespace sprag

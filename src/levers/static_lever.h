@@ -1,0 +1,22 @@
+#pragma once
+
+#include "model/model.h"
+#include "scene/scene.h"
+
+#include <deal.II/grid/tria.h>
+
+#include <memory>
+
+namespace sprag
+{
+  /// A meshed lever without inertia and the mesh that it stands on.
+  struct StaticLever
+  {
+    std::unique_ptr<dealii::Triangulation<2>> mesh;
+    std::unique_ptr<Model> model;
+  };
+
+  /// The scene's lever with an automatic penalty as stiff as hard contact, to which laws of the reduced models are fitted. Throws
+  /// InputError for a mesh that cannot serve.
+  StaticLever make_lever_in_hard_contact(const Scene &scene);
+} // namespace sprag

@@ -1,0 +1,125 @@
+#pragma once
+
+#include "model/circle.h"
+#include "model/contact_of_levers.h"
+#include "model/hub_spring.h"
+#include "model/lever_frame.h"
+#include "model/linearisation.h"
+#include "model/port_newton.h"
+#include "model/port_step.h"
+#include "model/port_vectors.h"
+#include "scene/closed_form.h"
+
+namespace sprag
+{
+  /// Rotations of the hubs among the displacements of the ports [rad].
+  inline OfLevers turns_of(const PortLayout &layout, const dealii::Vector<double> &ports)
+  {
+    OfLevers result{};
+    for (unsigned int lever = 0; lever < layout.levers; ++lever)
+      result[lever] = ports[layout.rotation(lever)];
+    return result;
+  }
+
+  /// The drive at another position.
+  inline DrivePoint moved(DrivePoint drive, const double dx)
+  {
+    drive.x += dx;
+    return drive;
+  }
+
+  /// Equilibria of a structure in contact with the cylinder that slides on it steadily, each sought from the one before.
+  /// Structure and Contact: see DynamicLever.
+  template <class Structure, class Contact>
+  class SteadySlides
+  {
+  public:
+    /// All are kept by reference.
+    SteadySlides(Structure &structure_, Contact &contact_, const LeverFrame &frame_, HubSpringExcess &hub_spring_)
+        : structure(structure_)
+        , contact(contact_)
+        , frame(frame_)
+        , hub_spring(hub_spring_)
+    {
+    }
+
+    /// Finds the equilibrium of steady sliding at a ratio of speeds, see speed_ratio(). Returns its forces, in which the contact
+    /// is left, and null where there is none. `round_off`: displacements that the ports have besides.
+    const PortForces *solve(const DrivePoint &drive, const double ratio,
+                            const ContactFriction friction          = ContactFriction::sliding,
+                            const dealii::Vector<double> *round_off = nullptr)
+    {
+      structure.use_statics();
+      const auto ideal            = ideal_inclinations(drive.x);
+      const auto &near            = sprag::reachable_ports(contact, drive.x, ideal);
+      dealii::Vector<double> free = structure.port_positions(structure.rest(), near);
+      if (round_off != nullptr)
+        for (const unsigned int port : near)
+          free[port] += (*round_off)[port];
+      dealii::Vector<double> z = free;
+      add_response(structure.compliance(), last_forces.ports, last_forces.values, near, z);
+      for (unsigned int lever = 0; lever < frame.ports.levers; ++lever)
+      {
+        const unsigned int hub = frame.ports.rotation(lever);
+        z[hub] =
+            (last_sliding.size() > 0 ? last_sliding[hub] - last_sliding_theta[lever] : -frame.rest_inclination) + ideal[lever];
+      }
+
+      const double speed  = ratio * sliding_speed(frame.geometries.front(), drive.x, drive.v);
+      const auto evaluate = [&](const dealii::Vector<double> &ports) -> const PortForces &
+      {
+        contact.evaluate_sliding(SlidingState{ ports, drive, speed, nullptr, friction, TangentPart::all });
+        return hub_spring.add_forces(contact.forces(), turns_of(frame.ports, ports));
+      };
+      const auto solved = solve_ports(
+          structure.compliance(), free, frame.lengths, near, evaluate, [&] { return contact.overlap(); }, z);
+      if (!solved.converged)
+        return nullptr;
+      if (!contact.within_reach())
+      {
+        contact.widen_reach();
+        return solve(drive, ratio, friction, round_off);
+      }
+      last_sliding       = z;
+      last_sliding_theta = ideal;
+      last_forces        = { solved.forces->ports, solved.forces->values };
+      return solved.forces;
+    }
+
+    /// Slip speed of the deformable lever over that of the rigid one, by equilibria at a distance h [mm] to both sides.
+    double speed_ratio(const DrivePoint &drive, const double h)
+    {
+      const bool before = solve(moved(drive, -h), 1.) != nullptr;
+      const auto from   = last_sliding;
+      const bool after  = solve(moved(drive, h), 1.) != nullptr;
+      if (!before || !after)
+        return 1.;
+      const double slip = contact.mean_slip(from, drive.x - h, last_sliding, drive.x + h);
+      return slip / (2. * h * sliding_speed(frame.geometries.front(), drive.x, 1.));
+    }
+
+    /// Displacements of the ports in the last equilibrium.
+    const dealii::Vector<double> &last_ports() const
+    {
+      return last_sliding;
+    }
+
+  private:
+    Structure &structure;
+    Contact &contact;
+    const LeverFrame &frame;
+    HubSpringExcess &hub_spring;
+    dealii::Vector<double> last_sliding; ///< ports of the last equilibrium, from which the next one starts
+    PortLoads last_forces;               ///< there
+    OfLevers last_sliding_theta{};       ///< inclinations of ideal contact there
+
+    /// Inclinations of the levers in ideal contact [rad].
+    OfLevers ideal_inclinations(const double x) const
+    {
+      OfLevers result{};
+      for (unsigned int lever = 0; lever < frame.ports.levers; ++lever)
+        result[lever] = kinematics(frame.geometries[lever], x).theta;
+      return result;
+    }
+  };
+} // namespace sprag

@@ -1,0 +1,61 @@
+#pragma once
+
+#include "results/columns.h"
+
+#include <cmath>
+
+namespace sprag
+{
+  // Of ranges of rows, or of whatever `value` takes. NaN does not count.
+
+  /// The value of largest size with its sign; 0 without any.
+  template <class Rows, class Value>
+  double signed_peak(const Rows &rows, const Value &value)
+  {
+    double result = 0.;
+    for (const auto &row : rows)
+      if (const double found = value(row); std::abs(found) > std::abs(result))
+        result = found;
+    return result;
+  }
+
+  /// The largest size of a value; 0 without any.
+  template <class Rows, class Value>
+  double largest(const Rows &rows, const Value &value)
+  {
+    return std::abs(signed_peak(rows, value));
+  }
+
+  /// The largest size in a column; 0 without any.
+  template <class Rows>
+  double largest(const Rows &rows, const Column column)
+  {
+    return largest(rows, [column](const Row &row) { return row[column]; });
+  }
+
+  /// The sum of a column.
+  template <class Rows>
+  double sum(const Rows &rows, const Column column)
+  {
+    double result = 0.;
+    for (const Row &row : rows)
+      if (!std::isnan(row[column]))
+        result += row[column];
+    return result;
+  }
+
+  /// The row with the largest finite value; null where no value is positive.
+  template <class Rows, class Value>
+  const Row *row_of_largest(const Rows &rows, const Value &value)
+  {
+    const Row *result = nullptr;
+    double found      = 0.;
+    for (const Row &row : rows)
+      if (const double candidate = value(row); std::isfinite(candidate) && candidate > found)
+      {
+        found  = candidate;
+        result = &row;
+      }
+    return result;
+  }
+} // namespace sprag

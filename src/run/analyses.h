@@ -1,0 +1,38 @@
+#pragma once
+
+#include "run/run.h"
+
+namespace sprag
+{
+  // What run() does for each Analysis/Type. Each writes and prints what it finds, adds the warnings that follow from it and
+  // throws what run() throws; what was finished before an AnalysisError is written.
+
+  /// Follows the drive without inertia, by finite elements or the closed form.
+  void run_quasi_static_scene(const Scene &scene, const RunOptions &options, Warnings &warnings);
+
+  /// Sweeps the representative slope C_Q.
+  void run_slope(const Scene &scene, const RunOptions &options, Warnings &warnings);
+
+  /// Follows the drive in time with any model. Throws AnalysisError too where the energy ledger leaves more open than
+  /// Analysis/Maximum energy residual.
+  void run_transient_scene(const Scene &scene, const RunOptions &options, Warnings &warnings);
+
+  /// Fits the contact law of the reduced models to an indentation by finite elements.
+  void run_contact_law(const Scene &scene, const RunOptions &options, Warnings &warnings);
+
+  /// Finds the vibrations of the slide at one x, undamped (modal) or judged (stability).
+  void run_vibrations(const Scene &scene, const RunOptions &options, Warnings &warnings);
+
+  /// Judges the scene's slides both ways over a grid of two parameters and finds the boundaries between kinds. All ranks of MPI
+  /// call it, and it throws on all of them. Until the map is complete its cells are in `map.journal`, from which the same scene
+  /// goes on when started again; result.h5 is written at the end.
+  void run_map(const Scene &scene, const RunOptions &options, Warnings &warnings);
+
+  /// Compares the growth of a perturbation with its eigenvalue, follows it to the vibration it leads to, and finds where a stable
+  /// slide and a vibration live side by side. Throws AnalysisError too where there is no slide to perturb and where the energy
+  /// ledger leaves more open than Analysis/Maximum energy residual.
+  void run_sprag_slip(const Scene &scene, const RunOptions &options, Warnings &warnings);
+
+  /// Makes parts that have the k and J asked for and finds the constants of the reduced models for them.
+  void run_calibration(const Scene &scene, const RunOptions &options, Warnings &warnings);
+} // namespace sprag

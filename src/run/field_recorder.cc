@@ -1,0 +1,171 @@
+#include "run/field_recorder.h"
+
+#include "scene/mirrored_pair.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sprag
+{
+  using Timer = dealii::TimerOutput;
+
+  namespace
+  {
+    constexpr double all_slide   = 0.99; ///< share of mu P from which the whole contact is told to slide
+    constexpr double long_behind = 0.02; ///< travel behind a turning point, over R, after which it is no longer waited for
+    constexpr double no_contact  = 1e-3; ///< P over the largest one so far
+
+    /// Middle of the lever where its free part begins.
+    dealii::Point<2> section_at_hub(const BodyFields &fields)
+    {
+      double begin = std::numeric_limits<double>::max();
+      for (const auto &node : fields.nodes())
+        if (!node.at_hub && node.part == material_id::lever)
+          begin = std::min(begin, node.position[0]);
+      double low = std::numeric_limits<double>::max(), high = -low;
+      for (const auto &node : fields.nodes())
+        if (node.part == material_id::lever && std::abs(node.position[0] - begin) < 1e-6)
+        {
+          low  = std::min(low, node.position[1]);
+          high = std::max(high, node.position[1]);
+        }
+      return { begin, 0.5 * (low + high) };
+    }
+
+    double largest_surface_stress(const std::vector<double> &pressure, const std::vector<double> &traction)
+    {
+      double result = 0.;
+      for (std::size_t q = 0; q < pressure.size(); ++q)
+        result = std::max(result, pressure[q] * pressure[q] + 3. * traction[q] * traction[q]);
+      return std::sqrt(result);
+    }
+  } // namespace
+
+  FieldRecorder::FieldRecorder(const Scene &of_scene, const ElasticBody<2> &body, const std::optional<std::string> &folder,
+                               Timer &of_run)
+      : scene(of_scene)
+      , timer(of_run)
+      , fields(body)
+      , peaks(fields)
+      , hub_section(section_at_hub(fields))
+      , last_x(scene.drive.at(0.).x)
+  {
+    if (folder)
+      frames.emplace(scene, body, *folder);
+  }
+
+  bool FieldRecorder::record(const Row &row, const FaceState &face, const std::function<Displacements()> &keep)
+  {
+    if (row[Column::v] != 0.)
+      direction = row[Column::v] > 0. ? 1 : -1;
+    travelled += std::abs(row[Column::x] - last_x);
+    last_x     = row[Column::x];
+    peak_force = std::max(peak_force, largest_force(row));
+
+    std::shared_ptr<const Kept> state;
+    const auto kept = [&]
+    {
+      if (!state)
+        state = std::make_shared<const Kept>(Kept{ row, face, direction, keep() });
+      return state;
+    };
+    for (const auto &[estimate, value] : estimates(row, face))
+      if (auto &found = best[{ estimate, direction }]; value > found.value || (!found.state && value > 0.))
+        found = { value, kept() };
+    const bool frame = is_frame(row);
+    if (frame)
+      find(*kept(), true);
+    return frame;
+  }
+
+  std::vector<std::pair<FieldRecorder::Estimate, double>> FieldRecorder::estimates(const Row &row, const FaceState &face) const
+  {
+    const double surface =
+        std::max(largest_surface_stress(face.pressure, face.traction), largest_surface_stress(face.pressure_2, face.traction_2));
+    std::vector<std::pair<Estimate, double>> result = { { Estimate::force, largest_force(row) },
+                                                        { Estimate::layer_stress, surface },
+                                                        { Estimate::lever_moment, moment_at_hub(row) } };
+    if (scene.analysis.type == AnalysisType::transient)
+      result.emplace_back(Estimate::elastic_energy, row[Column::elastic_energy]);
+    return result;
+  }
+
+  double FieldRecorder::largest_force(const Row &row) const
+  {
+    return row.second_lever().empty() ? row[Column::P] : std::max(row[Column::P], row.of_second_lever(Column::P));
+  }
+
+  double FieldRecorder::moment_at_hub(const Row &row) const
+  {
+    const double arm_of_F = hub_section[1] - scene.geometry.interface_offset;
+    const auto moment     = [&](const double P, const double s, const double F)
+    { return P > 0. ? std::abs(P * (s - hub_section[0]) - F * arm_of_F) : 0.; };
+    const double first = moment(row[Column::P], row[Column::s], row[Column::F]);
+    return row.second_lever().empty() ? first
+                                      : std::max(first, moment(row.of_second_lever(Column::P), row.of_second_lever(Column::s),
+                                                               row.of_second_lever(Column::F)));
+  }
+
+  bool FieldRecorder::is_turn_or_end(const double time) const
+  {
+    const auto &reversals = scene.drive.reversals();
+    return std::binary_search(reversals.begin(), reversals.end(), time) || time >= scene.drive.duration();
+  }
+
+  bool FieldRecorder::slides_back(const Row &row) const
+  {
+    const double reached = direction * row[Column::friction_resultant];
+    return reached > 0. && reached >= all_slide * row[Column::mu] * row[Column::normal_resultant];
+  }
+
+  bool FieldRecorder::is_frame(const Row &row)
+  {
+    if (!frames)
+      return false;
+    const auto &output = scene.output;
+    const bool turning = is_turn_or_end(row[Column::time]);
+    bool behind        = false;
+    if (turned)
+      behind = slides_back(row) || travelled >= *turned + long_behind * scene.geometry.cylinder_radius;
+    if (behind)
+      turned.reset();
+    if (turning)
+      turned = travelled;
+    const bool due = output.fields == FieldOutput::interval && travelled >= last_frame + output.field_interval - 1e-9;
+    if (due || turning)
+      last_frame = travelled;
+    return due || ((turning || behind) && largest_force(row) > no_contact * peak_force);
+  }
+
+  void FieldRecorder::find(const Kept &kept, const bool frame)
+  {
+    const Timer::Scope scope(timer, "fields");
+    const auto displacements = kept.displacements();
+    for (unsigned int lever = 0; lever < displacements.size(); ++lever)
+      peaks.look_at(fields.at(displacements[lever]), kept.row[Column::x], kept.direction, lever);
+    if (!frame)
+      return;
+    frames->write({ kept.row[Column::time], pose_of(kept.row), displacements, kept.face });
+    written.push_back(kept.row[Column::time]);
+  }
+
+  std::vector<Entry> FieldRecorder::finish()
+  {
+    std::map<double, std::pair<std::shared_ptr<const Kept>, bool>> left;
+    const Best *largest = nullptr;
+    for (const auto &[of, found] : best)
+      if (found.state)
+      {
+        left[found.state->row[Column::time]] = { found.state, false };
+        if (of.first == Estimate::force && (largest == nullptr || found.value > largest->value))
+          largest = &found;
+      }
+    if (largest != nullptr && frames)
+      left[largest->state->row[Column::time]].second = true;
+    for (const auto &[time, state] : left)
+      if (std::find(written.begin(), written.end(), time) == written.end())
+        find(*state.first, state.second);
+    best.clear();
+    return peaks.entries(number_of_levers(scene));
+  }
+} // namespace sprag

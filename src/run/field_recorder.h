@@ -1,0 +1,86 @@
+#pragma once
+
+#include "fe/fields/field_frames.h"
+#include "fe/fields/stress_peaks.h"
+
+#include <deal.II/base/timer.h>
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+
+namespace sprag
+{
+  /// Chooses the states of a run whose fields are found, writes those that are frames and looks at the stress of all. Frames
+  /// (Output/Fields) are: turning points, the first state behind each in which the whole contact slides back (or 0.02 R behind
+  /// it), the end, every interval if asked for, and the state of the largest P; but for the intervals only those in contact.
+  ///
+  /// The largest stress of a run is found without the fields of every step: each way the states are kept in which an estimate
+  /// from what a step knows anyway is largest, and their fields are found at the end. For the layer the estimate is
+  /// sqrt(p^2 + 3 t^2) of the worst point of the face, for the lever the bending moment of P and F at the hub and, in time, the
+  /// elastic energy.
+  class FieldRecorder
+  {
+  public:
+    /// Elastic displacement of the body, one a lever, in lever axes.
+    using Displacements = std::function<std::vector<dealii::Vector<double>>()>;
+
+    /// Scene and body must outlive it. No folder: peaks alone.
+    FieldRecorder(const Scene &scene, const ElasticBody<2> &body, const std::optional<std::string> &folder,
+                  dealii::TimerOutput &timer);
+
+    /// Looks at an accepted step and returns whether it was written as a frame. `keep` makes what finds its fields later.
+    bool record(const Row &row, const FaceState &face, const std::function<Displacements()> &keep);
+
+    /// Finds the fields that are still to be found. Returns the peaks of stress for /summary.
+    std::vector<Entry> finish();
+
+  private:
+    struct Kept
+    {
+      Row row;
+      FaceState face;
+      int direction;
+      Displacements displacements;
+    };
+
+    enum class Estimate
+    {
+      force,
+      layer_stress,
+      lever_moment,
+      elastic_energy
+    };
+
+    bool is_frame(const Row &row);
+    bool is_turn_or_end(double time) const;
+    bool slides_back(const Row &row) const;
+    double largest_force(const Row &row) const;
+    double moment_at_hub(const Row &row) const;
+    std::vector<std::pair<Estimate, double>> estimates(const Row &row, const FaceState &face) const;
+    void find(const Kept &kept, bool frame);
+
+    const Scene &scene;
+    dealii::TimerOutput &timer;
+    const BodyFields fields;
+    StressPeaks peaks;
+    std::optional<FieldFrames> frames;
+    dealii::Point<2> hub_section; ///< where the bending moment is taken, in lever axes
+
+    double travelled  = 0.; ///< by the cylinder [mm]
+    double last_frame = 0.; ///< travel there
+    double last_x;
+    double peak_force = 0.;
+    int direction     = 1;
+    std::optional<double> turned; ///< travel at a turning point whose state behind it is awaited
+    std::vector<double> written;  ///< times of the frames
+
+    struct Best
+    {
+      double value;
+      std::shared_ptr<const Kept> state;
+    };
+    std::map<std::pair<Estimate, int>, Best> best; ///< of the estimates, each way
+  };
+} // namespace sprag

@@ -1,0 +1,156 @@
+#include "run/memory.h"
+
+#include "analysis/transient/transient.h"
+#include "base/available_memory.h"
+#include "base/errors.h"
+#include "base/text.h"
+#include "run/recorder.h"
+#include "scene/analysis_use.h"
+#include "scene/lever_shape.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace sprag
+{
+  namespace
+  {
+    /// Elements over a length whose sizes grow by `growth` from `first` to `largest`.
+    double graded(const double length, const double first, const double largest, const double growth)
+    {
+      const double growing = std::max(0., std::log(largest / first) / std::log(growth));
+      const double grown   = first * (std::pow(growth, growing) - 1.) / (growth - 1.);
+      if (grown > length)
+        return std::log1p(length * (growth - 1.) / first) / std::log(growth);
+      return growing + (length - grown) / largest;
+    }
+
+    double elements_along_face(const Scene &scene)
+    {
+      const double size        = scene.mesh.face_size;
+      const double largest     = std::max(size, 0.15 * scene.lever.depth);
+      const double room        = 0.1 * scene.geometry.cylinder_radius;
+      const auto [first, last] = swept_contact(scene);
+      const auto [begin, end]  = friction_face(scene);
+      const double from        = std::clamp(first - room, begin, end);
+      const double to          = std::clamp(last + room, begin, end);
+      return (to - from) / size + graded(from - begin, size, largest, 1.2) + graded(end - to, size, largest, 1.2);
+    }
+
+    double rows_under_face(const Scene &scene)
+    {
+      const double size      = scene.mesh.face_size;
+      const double thickness = scene.layer.thickness;
+      const bool has_plate   = scene.plate.type == PlateType::on_sensors;
+      const double depth     = has_plate ? scene.plate.thickness : scene.lever.depth;
+      const double first     = thickness > 0. ? std::max(2. * size, thickness) : size;
+      return (thickness > 0. ? std::max(2., thickness / size) : 0.) +
+             std::max(2., std::log1p(0.5 * depth / first) / std::log(1.5));
+    }
+
+    double cylinder_elements(const Scene &scene)
+    {
+      if (scene.cylinder.type == CylinderType::rigid)
+        return 0.;
+      const double size = scene.cylinder.face_size, radius = scene.geometry.cylinder_radius;
+      const double width = 2. * (0.1 * radius + scene.layer.thickness);
+      return (width / size + 2. * graded(3. * radius, size, 0.26 * radius, 1.4)) *
+             std::max(2., std::log1p(0.4 * (radius - scene.cylinder.inner_radius) / size) / std::log(1.4));
+    }
+
+    /// Rows of the table, all of which are kept for the summary; the fewest that adaptive steps can make.
+    double expected_rows(const Scene &scene)
+    {
+      if (scene.analysis.type == AnalysisType::quasi_static)
+        return path_length(scene.drive) / scene.analysis.step;
+      if (scene.analysis.type != AnalysisType::transient)
+        return 0.;
+      const bool adaptive =
+          scene.time.tolerance > 0. && scene.analysis.model != ModelType::closed_form && scene.contact.type != ContactType::ideal;
+      return scene.drive.duration() / scene.time.step / (adaptive ? std::exp2(largest_doublings) : 1.);
+    }
+
+    /// While their vector grows there are two of most.
+    constexpr double bytes_of_row = 2. * sizeof(Row);
+    constexpr double most_rows    = 1e7;
+
+    void require_number_of_rows(const Scene &scene)
+    {
+      const double rows = expected_rows(scene);
+      if (rows <= most_rows)
+        return;
+      throw InputError("The drive and " +
+                       std::string(scene.analysis.type == AnalysisType::transient ? "Time/Step" : "Analysis/Step") + " make " +
+                       rounded_text(rows) + " rows or more, of which a run may have " + rounded_text(most_rows) +
+                       ". Try longer steps, fewer cycles or a faster drive");
+    }
+
+    /// Bytes a displacement, and copies of the face's square matrices that there are at the peak.
+    struct Cost
+    {
+      double a_displacement, copies;
+    };
+
+    /// Measured, see tests/run/memory.cc: 0.7 to 1.4 times what those runs have.
+    Cost cost_of(const Scene &scene)
+    {
+      if (scene.analysis.type != AnalysisType::quasi_static)
+      {
+        if (scene.analysis.model == ModelType::finite_element)
+          return { 12e3, 0. };
+        return { 0.8e3, scene.analysis.type == AnalysisType::modal ? 7. : 14. };
+      }
+      const bool compliance = scene.lever.material == MaterialModel::linear && scene.analysis.solution != Solution::general;
+      return compliance ? Cost{ 0.8e3, 9. } : Cost{ 5e3, 0. };
+    }
+
+    double bytes_of_matrices(const Scene &scene)
+    {
+      const auto [displacements, ports] = expected_size(scene);
+      const double levers               = scene.pair.type == PairType::full ? 2. : 1.;
+      const auto [each, copies]         = cost_of(scene);
+      return levers * (each * displacements + copies * 8. * ports * ports);
+    }
+
+    std::string gigabytes(const double bytes)
+    {
+      char text[32];
+      std::snprintf(text, sizeof text, bytes < 99.5e9 ? "%.2g GB" : "%.3g GB", bytes / 1e9);
+      return text;
+    }
+
+    constexpr double of_libraries = 0.15e9;
+  } // namespace
+
+  ExpectedSize expected_size(const Scene &scene)
+  {
+    if (!needs_mesh(scene) || !scene.mesh.file.empty())
+      return {};
+    const double p = scene.mesh.degree, n = elements_along_face(scene), rows = rows_under_face(scene);
+    return { 2. * (p * n + 1.) * (p * rows + 1.) + 2. * p * p * cylinder_elements(scene), 2. * (p * n + 1.) };
+  }
+
+  double expected_memory(const Scene &scene, const unsigned int processes)
+  {
+    return processes * (of_libraries + bytes_of_matrices(scene)) + expected_rows(scene) * bytes_of_row;
+  }
+
+  void require_memory(const Scene &scene, const unsigned int processes)
+  {
+    require_number_of_rows(scene);
+    const double needed  = expected_memory(scene, processes);
+    const auto available = available_memory();
+    if (needed <= available.bytes)
+      return;
+    const double rows     = expected_rows(scene) * bytes_of_row;
+    const std::string has = ": the run needs about " + gigabytes(needed) + " of memory, and " + gigabytes(available.bytes) +
+                            " are " + available.reason + ". ";
+    if (rows > needed / 2.)
+      throw InputError("Drive/Cycles and " +
+                       std::string(scene.analysis.type == AnalysisType::transient ? "Time/Step" : "Analysis/Step") + " make " +
+                       rounded_text(expected_rows(scene)) + " rows" + has + "Try fewer cycles or longer steps");
+    throw InputError("Mesh/Face size = " + rounded_text(scene.mesh.face_size) + " mm" + has +
+                     (processes > 1 ? "Try a larger one, or fewer processes (--jobs)" : "Try a larger one"));
+  }
+} // namespace sprag

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "base/progress.h"
+#include "run/report.h"
+#include "run/result_writer.h"
+
+namespace sprag
+{
+  /// Takes the rows of a run as they come: completes them, writes them, shows the progress and sums up at the end.
+  class Recorder
+  {
+  public:
+    /// Makes the folder and result file. Throws InputError if they cannot be written.
+    Recorder(const Scene &scene, const RunOptions &options, dealii::TimerOutput &timer, const FacePoints &points);
+
+    void record(const Row &row);
+
+    void record(const FaceState &face);
+
+    /// Sets the peaks of stress for the summary, see StressPeaks; without a call they are NaN, as of a model without a mesh.
+    void set_stress(std::vector<Entry> peaks);
+
+    /// Writes summary, meta and warnings, to which it adds those that follow from the rows, and prints the table at the end of a
+    /// run. Status and meta: see ResultWriter. Returns the summary.
+    std::vector<Entry> finish(const std::string &status, const std::vector<Entry> &meta, Warnings &warnings);
+
+  private:
+    const Scene &scene;
+    const bool quiet;
+    ResultWriter writer;
+    Progress progress;
+    std::vector<Row> rows;
+    std::vector<Entry> stress;
+    double travel = 0.;
+  };
+
+  /// Returns the length of the drive's path [mm].
+  double path_length(const Drive &drive);
+} // namespace sprag

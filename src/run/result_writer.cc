@@ -1,0 +1,63 @@
+#include "run/result_writer.h"
+
+#include "base/append.h"
+#include "results/entries.h"
+#include "scene/read.h"
+
+#include <deal.II/base/utilities.h>
+
+#include <petscversion.h>
+
+#include <ctime>
+#include <gmsh.h>
+#include <iostream>
+
+namespace sprag
+{
+  using Timer = dealii::TimerOutput;
+
+  namespace
+  {
+    /// Program, libraries and what the process has used so far, phases by wall and CPU time [s].
+    std::vector<Entry> process_entries(Timer &timer)
+    {
+      std::vector<Entry> entries;
+      entries.push_back({ "version", std::string(SPRAG_VERSION), "", "of sprag" });
+      entries.push_back({ "deal.II", std::string(DEAL_II_PACKAGE_VERSION), "", "version of the library" });
+      entries.push_back({ "PETSc",
+                          std::to_string(PETSC_VERSION_MAJOR) + "." + std::to_string(PETSC_VERSION_MINOR) + "." +
+                              std::to_string(PETSC_VERSION_SUBMINOR),
+                          "", "version of the library" });
+      entries.push_back({ "gmsh", std::string(GMSH_API_VERSION), "", "version of the library" });
+      for (const auto &[phase, seconds] : timer.get_summary_data(Timer::total_wall_time))
+        entries.push_back({ "wall_time_" + phase, seconds, "s", "wall time in the phase" });
+      for (const auto &[phase, seconds] : timer.get_summary_data(Timer::total_cpu_time))
+        entries.push_back({ "cpu_time_" + phase, seconds, "s", "CPU time in the phase" });
+      entries.push_back({ "cpu_time", static_cast<double>(std::clock()) / CLOCKS_PER_SEC, "s", "CPU time of the process" });
+      dealii::Utilities::System::MemoryStats memory;
+      dealii::Utilities::System::get_memory_stats(memory);
+      entries.push_back({ "peak_memory", static_cast<double>(memory.VmHWM) / 1024., "MiB", "largest resident memory" });
+      return entries;
+    }
+  } // namespace
+
+  Timer phase_timer()
+  {
+    return Timer(std::cout, Timer::never, Timer::cpu_and_wall_times);
+  }
+
+  ResultWriter::ResultWriter(const Scene &scene, const RunOptions &options, Timer &of_run, const std::vector<ColumnInfo> &columns,
+                             const FacePoints &points)
+      : timer(of_run)
+      , file((prepare_folder(options.folder), options.folder + "/result.h5"), parameters_text(scene), points, columns)
+  {
+  }
+
+  RunEnd ResultWriter::finish(const std::string &status, RunEnd end, const Warnings &warnings)
+  {
+    end.summary.push_back(status_entry(status));
+    sprag::append(end.meta, process_entries(timer));
+    file.finish(end.summary, end.meta, warnings, end.groups);
+    return end;
+  }
+} // namespace sprag

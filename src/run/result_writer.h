@@ -1,0 +1,71 @@
+#pragma once
+
+#include "base/errors.h"
+#include "results/result_file.h"
+#include "run/run.h"
+
+#include <deal.II/base/timer.h>
+
+#include <utility>
+
+namespace sprag
+{
+  /// Throws InputError if the folder could not be made or written to; makes nothing.
+  void require_writable(const std::string &folder);
+
+  /// Makes the folder if needed; throws InputError if nothing can be written there.
+  void prepare_folder(const std::string &folder);
+
+  /// Measures the wall and CPU time of a run's phases and prints nothing.
+  dealii::TimerOutput phase_timer();
+
+  /// The results of a run besides its rows, written at its end.
+  struct RunEnd
+  {
+    std::vector<Entry> summary;
+    std::vector<Entry> meta   = {}; ///< facts of the run's own; program, libraries and costs are added to them
+    std::vector<Group> groups = {};
+  };
+
+  /// The file result.h5 of a run of any type, from its first row to its summary.
+  class ResultWriter
+  {
+  public:
+    /// Makes the folder and the file, which has /face where there are points. Throws InputError if they cannot be written. The
+    /// timer is read at the end.
+    ResultWriter(const Scene &scene, const RunOptions &options, dealii::TimerOutput &timer,
+                 const std::vector<ColumnInfo> &columns, const FacePoints &points = {});
+
+    /// Appends a Row, a FaceState or the values of the columns.
+    template <class Appended>
+    void append(const Appended &appended)
+    {
+      file.append(appended);
+    }
+
+    /// Writes everything that the run leaves and closes the file. `status` is "completed" or what went wrong, and becomes the
+    /// last entry of the summary. Returns what was written, meta complete.
+    RunEnd finish(const std::string &status, RunEnd end, const Warnings &warnings);
+
+  private:
+    dealii::TimerOutput &timer;
+    ResultFile file;
+  };
+
+  /// Runs `steps`, then calls finish(status) whatever happened: with "completed", or with the message of an AnalysisError, which
+  /// is thrown again.
+  template <class Steps, class Finish>
+  void finish_in_any_case(const Steps &steps, const Finish &finish)
+  {
+    try
+    {
+      steps();
+    }
+    catch (const AnalysisError &error)
+    {
+      finish(error.what());
+      throw;
+    }
+    finish("completed");
+  }
+} // namespace sprag

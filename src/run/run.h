@@ -1,0 +1,28 @@
+#pragma once
+
+#include "results/warning.h"
+#include "scene/scene.h"
+
+#include <string>
+
+namespace sprag
+{
+  struct RunOptions
+  {
+    std::string folder; ///< for results; made if it does not exist
+    bool quiet = false;
+  };
+
+  /// Checks that the scene's mesh can serve, which read_scene() cannot, and throws InputError if not. Returns the warnings
+  /// that follow from the scene alone.
+  Warnings validate(const Scene &scene);
+
+  /// Throws AnalysisError where there are warnings and Analysis/Warnings = error; the message quotes the first of them.
+  void check_warnings(const Scene &scene, const Warnings &warnings);
+
+  /// Carries out the scene's analysis with its model and writes results into the folder. Throws InputError, before anything is
+  /// written, for meshes and folders that cannot serve; AnalysisError when the analysis fails or deviates from the closed form by
+  /// more than the scene admits, after every finished step was written, or has warnings with Analysis/Warnings = error. At the
+  /// end the warnings are printed on the standard output, counted in its last line, unless quiet.
+  void run(const Scene &scene, const RunOptions &options);
+} // namespace sprag

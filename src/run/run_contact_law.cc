@@ -1,0 +1,52 @@
+#include "analysis/statics/contact_law.h"
+#include "run/analyses.h"
+#include "run/report.h"
+#include "run/result_writer.h"
+
+#include <cmath>
+#include <iomanip>
+#include <iostream>
+
+namespace sprag
+{
+  namespace
+  {
+    std::vector<Entry> contact_law_entries(const FittedContact &law)
+    {
+      return { { "stiffness", law.fit.stiffness, "N/mm^n", "Contact/Stiffness of the reduced models" },
+               { "exponent", law.fit.exponent, "1", "Contact/Exponent" },
+               { "largest_error", law.fit.largest_error, "1", "of P of the fitted law, relative" },
+               { "rms_error", law.fit.rms_error, "1", "of P of the fitted law, relative" },
+               { "penalty_error", law.penalty_error(), "1",
+                 "of P by the overlap that the indentation's penalty leaves, relative" },
+               { "largest_P", law.points.back().P, "N", "up to which the law was fitted" } };
+    }
+
+    std::vector<ColumnInfo> columns()
+    {
+      return { { "P", "N", "normal force" },
+               { "approach", "mm", "overlap of the cylinder with the undeformed lever" },
+               { "bending", "mm", "deflection of the Euler-Bernoulli lever at the contact" },
+               { "local", "mm", "approach less bending: what the contact law has to give" },
+               { "P_fitted", "N", "P of the fitted law at the local approach" } };
+    }
+  } // namespace
+
+  void run_contact_law(const Scene &scene, const RunOptions &options, Warnings &warnings)
+  {
+    auto timer = phase_timer();
+    require_writable(options.folder);
+    const auto law = indent(scene);
+    ResultWriter writer(scene, options, timer, columns());
+    for (const auto &point : law.points)
+      writer.append(std::vector<double>{ point.P, point.approach, point.bending, point.local(),
+                                         law.fit.stiffness * std::pow(point.local(), law.fit.exponent) });
+    const auto end = writer.finish("completed", { contact_law_entries(law) }, warnings);
+    if (options.quiet)
+      return;
+    print_summary(std::cout, end.summary);
+    std::cout << std::setprecision(6)
+              << "\nLines for the parameter file:\n\nsubsection Contact\n  set Stiffness = " << law.fit.stiffness
+              << "\n  set Exponent  = " << law.fit.exponent << "\nend\n";
+  }
+} // namespace sprag

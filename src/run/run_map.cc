@@ -1,0 +1,253 @@
+#include "analysis/map/map_team.h"
+#include "base/progress.h"
+#include "run/analyses.h"
+#include "run/report.h"
+#include "run/result_writer.h"
+#include "scene/scene_key.h"
+#include "scene/sections.h"
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <chrono>
+#include <ctime>
+#include <iostream>
+#include <optional>
+
+namespace sprag
+{
+  namespace
+  {
+    namespace MPI = dealii::Utilities::MPI;
+
+    bool is_first_rank()
+    {
+      return MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+    }
+
+    /// A line at the beginning of each round and how far it has come.
+    class MapProgress
+    {
+    public:
+      explicit MapProgress(const bool is_quiet)
+          : style(progress_style(is_quiet))
+      {
+      }
+
+      void say(const std::string &text)
+      {
+        bar.reset();
+        if (style != ProgressStyle::quiet)
+          std::cerr << text << std::endl;
+      }
+
+      void judged(const std::size_t done, const std::size_t wanted)
+      {
+        if (!bar)
+          bar.emplace(std::cerr, style, static_cast<double>(wanted));
+        bar->update(static_cast<double>(done), {});
+      }
+
+      void finish()
+      {
+        bar.reset();
+      }
+
+    private:
+      const ProgressStyle style;
+      std::optional<Progress> bar;
+    };
+
+    struct StabilityMap
+    {
+      explicit StabilityMap(const MapSettings &settings)
+          : grid(settings.first.points, settings.second.points, settings.coarsest)
+      {
+      }
+
+      MapGrid grid;
+      std::vector<BoundaryPoint> boundary;
+    };
+
+    /// Leaves what there is in `map` when it throws.
+    void judge_all(const Scene &scene, MapTeam &team, MapProgress &progress, StabilityMap &map)
+    {
+      for (auto sites = map.grid.wanted(); !sites.empty(); sites = map.grid.wanted())
+      {
+        progress.say("grid: " + std::to_string(sites.size()) + " cells");
+        try
+        {
+          team.judge(sites);
+        }
+        catch (const AnalysisError &)
+        {
+          map.grid.learn(team.kinds());
+          throw;
+        }
+        map.grid.learn(team.kinds());
+      }
+      BoundarySearch search(map.grid, scene.map.bisections);
+      map.boundary = search.points();
+      for (auto sites = search.wanted(); !sites.empty(); sites = search.wanted())
+      {
+        progress.say("boundaries: " + std::to_string(sites.size()) + " cells");
+        team.judge(sites);
+        search.learn(team.kinds());
+        map.boundary = search.points();
+      }
+    }
+
+    std::string unit_of(const std::string &name)
+    {
+      SceneSettings settings;
+      for (const auto &parameter : scene_parameters(settings))
+        if (full_name(parameter) == name && !parameter.rule.unit.empty())
+          return parameter.rule.unit;
+      return "1";
+    }
+
+    Dataset axis(const std::string &name, const ParameterRange &range)
+    {
+      Dataset result{ { name, unit_of(range.name), range.name }, {}, {} };
+      for (unsigned int i = 0; i < range.points; ++i)
+        result.values.push_back(parameter_at(range, i));
+      return result;
+    }
+
+    Group map_group(const Scene &scene, const MapGrid &grid, const MapCells &cells)
+    {
+      const auto [n_first, n_second]       = grid.points();
+      const std::vector<std::size_t> shape = { n_first, n_second };
+      Dataset evaluated{
+        { "evaluated", "1", "1 where the cell was judged, 0 where its numbers are interpolated; first x second" }, {}, shape
+      };
+      std::vector<std::vector<double>> values(n_cell_values);
+      for (unsigned int i = 0; i < n_first; ++i)
+        for (unsigned int j = 0; j < n_second; ++j)
+        {
+          const bool known = grid.is_known(i, j);
+          evaluated.values.push_back(known ? 1. : 0.);
+          for (std::size_t k = 0; k < n_cell_values; ++k)
+            values[k].push_back(known ? cells.at({ static_cast<double>(i), static_cast<double>(j) }).values[k] : 0.);
+        }
+      Group group{ "map", { axis("first", scene.map.first), axis("second", scene.map.second), std::move(evaluated) } };
+      for (std::size_t k = 0; k < n_cell_values; ++k)
+        group.datasets.push_back({ cell_columns()[k], grid.interpolated(values[k]), shape });
+      return group;
+    }
+
+    std::vector<ColumnInfo> boundary_columns(const MapSettings &map)
+    {
+      return { { "first", unit_of(map.first.name), map.first.name + " where the kind changes" },
+               { "second", unit_of(map.second.name), map.second.name + " there" },
+               { "direction", "1", "of motion: 1 forward, -1 backward" },
+               { "along", "1", "parameter that was varied to find the point: 1 first, 2 second" },
+               { "width", unit_of(map.first.name) == unit_of(map.second.name) ? unit_of(map.first.name) : "1",
+                 "of the bracket about the point, in that parameter's unit" },
+               { "kind_low", "1", "kind at the bracket's end with the lower number of grid point" },
+               { "kind_high", "1", "kind at its other end" } };
+    }
+
+    std::vector<double> boundary_row(const MapSettings &map, const BoundaryPoint &point)
+    {
+      const ParameterRange &varied = point.along == 0 ? map.first : map.second;
+      const double width           = point.width * std::abs(varied.to - varied.from) / (varied.points - 1);
+      return { parameter_at(map.first, point.site.first),
+               parameter_at(map.second, point.site.second),
+               point.direction == 0 ? 1. : -1.,
+               point.along + 1.,
+               width,
+               static_cast<double>(point.kinds[0]),
+               static_cast<double>(point.kinds[1]) };
+    }
+
+    /// Share of the grid with any of the kinds.
+    double share_of(const Group &map, const std::string &dataset, const std::vector<double> &kinds)
+    {
+      const auto found = std::find_if(map.datasets.begin(), map.datasets.end(),
+                                      [&](const Dataset &candidate) { return candidate.info.name == dataset; });
+      const auto counted =
+          std::count_if(found->values.begin(), found->values.end(),
+                        [&](const double kind) { return std::find(kinds.begin(), kinds.end(), kind) != kinds.end(); });
+      return static_cast<double>(counted) / static_cast<double>(found->values.size());
+    }
+
+    std::vector<Entry> summary_of_map(const StabilityMap &map, const Group &group, const std::size_t judged)
+    {
+      const auto [n_first, n_second] = map.grid.points();
+      const auto on_grid             = std::count(group.datasets[2].values.begin(), group.datasets[2].values.end(), 1.);
+      std::vector<Entry> summary = { { "grid_points", static_cast<double>(n_first) * n_second, "1", "cells of the full grid" },
+                                     { "grid_cells_judged", static_cast<double>(on_grid), "1", "of them" },
+                                     { "cells_judged", static_cast<double>(judged), "1", "those of the boundaries included" },
+                                     { "boundary_points", static_cast<double>(map.boundary.size()), "1", "rows of /table" } };
+      for (const std::string way : { "forward", "backward" })
+      {
+        const std::string kind = "kind_" + way;
+        summary.push_back(
+            { "unstable_" + way, share_of(group, kind, { 1., 2. }), "1", "share of the grid: flutter, divergence" });
+        summary.push_back({ "jammed_" + way, share_of(group, kind, { 3. }), "1", "share of the grid" });
+        summary.push_back({ "not_judged_" + way, share_of(group, kind, { 4., 5. }), "1", "share: inadmissible or failed" });
+      }
+      return summary;
+    }
+
+    /// All ranks call it.
+    std::vector<Entry> cost_of_map(MapTeam &team, const double wall_seconds)
+    {
+      const double cpu = MPI::sum(static_cast<double>(std::clock()) / CLOCKS_PER_SEC, MPI_COMM_WORLD);
+      const auto ranks = static_cast<double>(MPI::n_mpi_processes(MPI_COMM_WORLD));
+      return { { "ranks", ranks, "1", "processes" },
+               { "cells_taken_over", static_cast<double>(team.taken_over()), "1", "from the journal" },
+               { "wall_time", wall_seconds, "s", "of the map" },
+               { "cpu_time_all", cpu, "s", "of all processes" } };
+    }
+
+    void write_map(const Scene &scene, const RunOptions &options, const StabilityMap &map, MapTeam &team,
+                   const std::string &status, const std::vector<Entry> &meta, const Warnings &warnings)
+    {
+      const Group group = map_group(scene, map.grid, team.cells());
+      ResultWriter writer(scene, options, team.cell_judge().timer(), boundary_columns(scene.map));
+      for (const auto &point : map.boundary)
+        writer.append(boundary_row(scene.map, point));
+      const auto end = writer.finish(status, { summary_of_map(map, group, team.cells().size()), meta, { group } }, warnings);
+      if (!options.quiet)
+        print_summary(std::cout, end.summary);
+    }
+
+    void announce(const MapJournal &journal, MapProgress &progress)
+    {
+      if (journal.dropped())
+        progress.say("map.journal is of another scene or version: begun anew");
+      if (const auto damaged = journal.damaged_lines(); damaged > 0)
+        std::cerr << "map.journal: damaged lines dropped, their cells are judged again: " << damaged << std::endl;
+      if (!journal.cells().empty())
+        progress.say("map.journal: " + std::to_string(journal.cells().size()) + " cells taken over");
+    }
+  } // namespace
+
+  void run_map(const Scene &scene, const RunOptions &options, Warnings &warnings)
+  {
+    const auto begin = std::chrono::steady_clock::now();
+    MapProgress progress(options.quiet || !is_first_rank());
+    std::optional<MapJournal> journal;
+    on_first_rank(
+        [&]
+        {
+          prepare_folder(options.folder);
+          journal.emplace(options.folder + "/map.journal", scene_key(scene));
+          announce(*journal, progress);
+        });
+    MapTeam team(scene, journal ? &*journal : nullptr,
+                 [&](const std::size_t done, const std::size_t wanted) { progress.judged(done, wanted); });
+    StabilityMap map(scene.map);
+    finish_in_any_case([&] { judge_all(scene, team, progress, map); },
+                       [&](const std::string &status)
+                       {
+                         progress.finish();
+                         const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+                         const auto meta                             = cost_of_map(team, seconds.count());
+                         on_first_rank([&] { write_map(scene, options, map, team, status, meta, warnings); });
+                       });
+    on_first_rank([&] { journal->remove(); });
+  }
+} // namespace sprag

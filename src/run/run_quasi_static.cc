@@ -1,0 +1,163 @@
+#include "analysis/statics/closed_form.h"
+#include "analysis/statics/quasi_static.h"
+#include "fe/mesh/mesh.h"
+#include "fe/statics/mirrored_levers.h"
+#include "run/analyses.h"
+#include "run/field_recorder.h"
+#include "run/recorder.h"
+#include "scene/mirrored_pair.h"
+
+#include <iostream>
+#include <optional>
+#include <sstream>
+
+namespace sprag
+{
+  namespace
+  {
+    using Timer = dealii::TimerOutput;
+
+    /// Exit status 1 for a run that ended but is too far from the closed form.
+    void check_deviation(const Scene &scene, const std::vector<Entry> &summary)
+    {
+      const double limit = scene.analysis.maximum_deviation;
+      const double found = largest_deviation(summary);
+      if (limit > 0. && !(found <= limit))
+      {
+        std::ostringstream message;
+        message << "the deviation from the closed form, " << found << ", is larger than Analysis/Maximum deviation = " << limit
+                << ". Try a finer Mesh/Face size or a stiffer lever, or admit more.";
+        throw AnalysisError(message.str());
+      }
+    }
+
+    void follow_closed_form(const Scene &scene, const RunOptions &options, Warnings &warnings)
+    {
+      auto timer = phase_timer();
+      Recorder recorder(scene, options, timer, {});
+      std::vector<Entry> summary;
+      finish_in_any_case([&] { run_closed_form(scene, [&](const Row &row) { recorder.record(row); }); },
+                         [&](const std::string &status) { summary = recorder.finish(status, {}, warnings); });
+      check_deviation(scene, summary);
+    }
+
+    std::vector<Entry> model_entries(const Scene &scene, const LeverModel &model)
+    {
+      const auto &body           = model.elastic_body();
+      const auto [mass, inertia] = body.mass_and_inertia(scene.lever.density);
+      const auto &[normal, slip] = model.penalties();
+      return { { "cells", static_cast<double>(body.dofs().get_triangulation().n_active_cells()), "1", "cells of the mesh" },
+               { "degrees_of_freedom", static_cast<double>(body.n_dofs()), "1", "displacements, those of the hub included" },
+               { "face_points", static_cast<double>(body.friction_face().points.size()), "1",
+                 "integration points of the friction face" },
+               { "penalty", normal, "N/mm^3", "normal penalty in use" },
+               { "tangential_penalty", slip, "N/mm^3", "tangential penalty in use" },
+               { "lever_mass", mass, "t", "mass of lever, layer and hub at the lever's density" },
+               { "lever_inertia", inertia, "t mm^2", "their moment of inertia about the pivot" } };
+    }
+
+    void print_model(const Scene &scene, const LeverModel &model)
+    {
+      const auto &body = model.elastic_body();
+      std::cout << "Finite elements: " << body.n_dofs() << " displacements of degree " << scene.mesh.degree << ", plane "
+                << (scene.analysis.plane == PlaneState::stress ? "stress" : "strain") << ", "
+                << (scene.lever.material == MaterialModel::linear ? "linear" : "neo-Hookean") << "; "
+                << body.friction_face().points.size() << " contact points; penalty " << model.penalties().normal << " N/mm^3\n"
+                << std::flush;
+    }
+
+    const LeverModel &first_lever(const LeverModel &model)
+    {
+      return model;
+    }
+
+    const LeverModel &first_lever(const MirroredLevers &model)
+    {
+      return model.lever(0);
+    }
+
+    FieldRecorder::Displacements recovery(const LeverModel &model, const State &state)
+    {
+      return [find = model.recovery(state)] { return std::vector<dealii::Vector<double>>{ find() }; };
+    }
+
+    FieldRecorder::Displacements recovery(const MirroredLevers &model, const State &state)
+    {
+      return [first  = model.lever(0).recovery(model.state_of(0, state)),
+              second = model.lever(1).recovery(model.state_of(1, state))] {
+        return std::vector<dealii::Vector<double>>{ first(), second() };
+      };
+    }
+
+    template <typename Levers>
+    void drive_levers(const Scene &scene, const RunOptions &options, Timer &timer, Levers &levers, Warnings &warnings)
+    {
+      const LeverModel &shown = first_lever(levers);
+      Recorder recorder(scene, options, timer, levers.face_points());
+      if (!options.quiet)
+        print_model(scene, shown);
+      auto meta             = model_entries(scene, shown);
+      const bool has_frames = scene.output.fields != FieldOutput::none;
+      FieldRecorder fields(scene, shown.elastic_body(), has_frames ? std::optional(options.folder) : std::nullopt, timer);
+
+      const auto write = [&](const State &state, const Row &row)
+      {
+        const Timer::Scope scope(timer, "output");
+        const auto face = levers.face_state(state);
+        recorder.record(row);
+        recorder.record(face);
+        fields.record(row, face, [&] { return recovery(levers, state); });
+      };
+      const QuasiStaticSettings settings{ scene.analysis.step, scene.analysis.minimum_step, scene.contact };
+      double stick = 0.;
+      std::vector<Entry> summary;
+      finish_in_any_case(
+          [&]
+          {
+            const Timer::Scope scope(timer, "steps_and_output");
+            stick = run_quasi_static(levers, scene.drive, settings, write);
+          },
+          [&](const std::string &status)
+          {
+            recorder.set_stress(fields.finish());
+            meta.push_back(
+                { "stick_stiffness", stick, "N/mm",
+                  "tangential stiffness of layer and penalty in stick at the first reversal, of both levers of a pair" });
+            summary = recorder.finish(status, meta, warnings);
+          });
+      check_deviation(scene, summary);
+    }
+
+    void follow_finite_elements(const Scene &scene, const RunOptions &options, Warnings &warnings)
+    {
+      auto timer = phase_timer();
+      require_writable(options.folder);
+      dealii::Triangulation<2> triangulation;
+      {
+        const Timer::Scope scope(timer, "mesh");
+        make_mesh(scene, triangulation);
+      }
+      std::optional<LeverModel> lever;
+      std::optional<MirroredLevers> pair;
+      {
+        const Timer::Scope scope(timer, "model");
+        if (number_of_levers(scene) == 2)
+          pair.emplace(triangulation, scene);
+        else
+          lever.emplace(triangulation, lever_properties(scene));
+      }
+      if (pair)
+        drive_levers(scene, options, timer, *pair, warnings);
+      else
+        drive_levers(scene, options, timer, *lever, warnings);
+    }
+  } // namespace
+
+  void run_quasi_static_scene(const Scene &scene, const RunOptions &options, Warnings &warnings)
+  {
+    if (scene.analysis.model == ModelType::closed_form)
+      follow_closed_form(scene, options, warnings);
+    else
+      follow_finite_elements(scene, options, warnings);
+  }
+} // namespace sprag

@@ -1,0 +1,25 @@
+#include "analysis/statics/slope.h"
+#include "run/analyses.h"
+#include "run/report.h"
+#include "run/result_writer.h"
+#include "scene/closed_form.h"
+
+#include <iostream>
+
+namespace sprag
+{
+  void run_slope(const Scene &scene, const RunOptions &options, Warnings &warnings)
+  {
+    auto timer       = phase_timer();
+    const auto sweep = slope_sweep(scene);
+    ResultWriter writer(scene, options, timer, sweep.columns);
+    for (const auto &row : sweep.rows)
+      writer.append(row);
+    const double mu                  = friction_coefficient(scene.friction, scene.drive.peak_speed()).coefficient;
+    const std::vector<Entry> summary = { { "critical_inclination", critical_inclination(mu), "rad",
+                                           "th0B = atan mu: steeper, the backward stroke no longer damps" } };
+    const auto end                   = writer.finish("completed", { summary }, warnings);
+    if (!options.quiet)
+      print_summary(std::cout, end.summary);
+  }
+} // namespace sprag

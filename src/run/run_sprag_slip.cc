@@ -1,0 +1,247 @@
+#include "base/progress.h"
+#include "base/text.h"
+#include "run/analyses.h"
+#include "run/report.h"
+#include "run/result_writer.h"
+#include "run/row_warnings.h"
+#include "run/sprag_slip_report.h"
+#include "run/transient_report.h"
+#include "scene/held_slide.h"
+
+#include <cmath>
+#include <deque>
+#include <functional>
+#include <iostream>
+
+namespace sprag
+{
+  namespace
+  {
+    using Timer = dealii::TimerOutput;
+
+    constexpr double most_growth_rows    = 20000.; ///< written of the growth
+    constexpr unsigned int approach_rows = 16;     ///< a period, from the growth to the vibration it leads to
+    constexpr double shown_periods       = 50.;    ///< of that vibration
+
+    /// Writes some of the rows as they come and keeps the last ones.
+    class Rows
+    {
+    public:
+      Rows(ResultWriter &of_run, const HeldSlide &held)
+          : writer(of_run)
+          , slide(held)
+      {
+      }
+
+      /// From now on every n-th row is written; the last `number` are kept.
+      void begin(const unsigned long every_nth, const std::size_t number)
+      {
+        every = every_nth;
+        kept  = number;
+        count = 0;
+        last.clear();
+      }
+
+      void operator()(Row row)
+      {
+        row[Column::P_quasi_static] = slide.forces.P;
+        row[Column::Q_quasi_static] = slide.forces.Q;
+        if (!(row[Column::P] <= highest[Column::P]))
+          highest = row;
+        if (kept > 0)
+          last.push_back(row);
+        if (last.size() > kept)
+        {
+          if (count++ % every == 0)
+            writer.append(last.front());
+          last.pop_front();
+        }
+        else if (kept == 0 && count++ % every == 0)
+          writer.append(row);
+      }
+
+      /// The one with the largest P.
+      const Row &largest() const
+      {
+        return highest;
+      }
+
+      /// Writes the rows kept and returns the first one's time, NaN if there are none [s].
+      double write_last()
+      {
+        const double begin = last.empty() ? std::nan("") : last.front()[Column::time];
+        for (const auto &row : last)
+          writer.append(row);
+        last.clear();
+        return begin;
+      }
+
+    private:
+      ResultWriter &writer;
+      const HeldSlide &slide;
+      unsigned long every = 1, count = 0;
+      std::size_t kept = 0;
+      std::deque<Row> last;
+      Row highest;
+    };
+
+    void require_slide(const SpragSlip &found, const double x)
+    {
+      if (found.slide.kind == SlideKind::jammed)
+        throw AnalysisError("no slide in contact that could be perturbed at x = " + rounded_text(x) +
+                            " mm. Try another Stability/Position or a smaller friction coefficient.");
+    }
+
+    /// Whether friction at this speed is the same in the eigenvalue and in time, see FrictionDelay.
+    bool linearised_exactly(const FrictionLaw &law, const double speed)
+    {
+      return law.regularisation_speed > 0. || friction_coefficient(law, std::abs(speed)).derivative >= 0.;
+    }
+
+    /// Growth, vibration and continuation, one after the other; what is finished stands in `found` whatever happens.
+    class Study
+    {
+    public:
+      Study(const Scene &scene_, DynamicModel &model_, ResultWriter &writer, Progress &progress_, SpragSlip &found_,
+            Warnings &warnings_)
+          : scene(scene_)
+          , settings(scene_.sprag_slip)
+          , model(model_)
+          , progress(progress_)
+          , found(found_)
+          , warnings(warnings_)
+          , rows(writer, *found_.slide.slide)
+          , dt(step_of(watched_mode(found_.slide), settings))
+          , run(model, dt)
+      {
+      }
+
+      void carry_out()
+      {
+        try
+        {
+          measure();
+          follow();
+          if (settings.continuation > 0)
+            continue_along();
+        }
+        catch (...)
+        {
+          sum_up();
+          throw;
+        }
+        sum_up();
+      }
+
+    private:
+      const Scene &scene;
+      const SpragSlipSettings &settings;
+      DynamicModel &model;
+      Progress &progress;
+      SpragSlip &found;
+      Warnings &warnings;
+      Rows rows;
+      const double dt;
+      HeldRun run;
+      double done = 0.;
+
+      void measure()
+      {
+        const double rate     = std::abs(watched_mode(found.slide).mode.eigenvalue.real());
+        const double duration = std::log(settings.final / settings.initial) / rate;
+        const double n_rows   = std::min(duration, settings.longest_growth) / dt;
+        rows.begin(1 + static_cast<unsigned long>(n_rows / most_growth_rows), 0);
+        found.growth = measure_growth(model, found.slide, settings, run, std::ref(rows));
+        report();
+      }
+
+      /// What a stable slide makes of a large kick, and an unstable one of itself.
+      void follow()
+      {
+        const auto &slide = *found.slide.slide;
+        run.use_spectral_radius(scene.time.spectral_radius);
+        if (found.slide.kind == SlideKind::stable)
+          run.begin(model.perturbed(slide, watched_mode(found.slide), Continuation::large_kick * slide.overlap));
+        rows.begin(std::max(1u, settings.steps_per_period / approach_rows),
+                   static_cast<std::size_t>(shown_periods * settings.steps_per_period));
+        found.settled       = settle(run, slide, { period(), settings.settling, longest() }, std::ref(rows));
+        found.settled_begin = rows.write_last();
+        report();
+      }
+
+      void continue_along()
+      {
+        Continuation continuation(model, run, held_drive(scene), period(), scene.stability.modes, settings);
+        const double turn = settings.turn.value_or(scene.drive.minimum());
+        const auto note   = [&]
+        {
+          found.points = continuation.points();
+          report();
+        };
+        continuation.go(found.slide, *found.settled, turn, note);
+        found.points      = continuation.points();
+        found.coexistence = continuation.coexistence();
+      }
+
+      double period() const
+      {
+        return dt * settings.steps_per_period;
+      }
+
+      double longest() const
+      {
+        return std::max(settings.settling, settings.longest_growth);
+      }
+
+      void report()
+      {
+        progress.update(++done, { run.drive().x });
+      }
+
+      void sum_up()
+      {
+        found.ledger = run.ledger();
+        found.steps  = run.steps();
+        for (const Warning &warning : row_warnings(scene, { rows.largest() }))
+          warnings.push_back(warning);
+      }
+    };
+
+    /// Growth, vibration, and every x of the continuation there and back.
+    double parts_of(const SpragSlipSettings &settings)
+    {
+      const unsigned int n = settings.continuation;
+      return n == 0 ? 2. : 2. + 2. * (n + Continuation::bisections) + 1.;
+    }
+  } // namespace
+
+  void run_sprag_slip(const Scene &scene, const RunOptions &options, Warnings &warnings)
+  {
+    require_writable(options.folder);
+    DynamicsMaker maker;
+    const Scene held    = held_scene(scene);
+    const auto dynamics = maker.make(held);
+    ResultWriter writer(scene, options, maker.timer(), table_columns(scene.plate, scene.pair));
+    Progress progress(std::cerr, progress_style(options.quiet), parts_of(scene.sprag_slip));
+    SpragSlip found;
+    finish_in_any_case(
+        [&]
+        {
+          const Timer::Scope scope(maker.timer(), "steps_and_output");
+          const auto drive = held_drive(scene);
+          found.slide      = judge(dynamics.model(), drive, scene.stability.modes);
+          require_slide(found, drive.x);
+          found.exact = linearised_exactly(held.friction, found.slide.slide->speed);
+          Study(scene, dynamics.model(), writer, progress, found, warnings).carry_out();
+          check_ledger(scene, found.ledger);
+        },
+        [&](const std::string &status)
+        {
+          progress.finish();
+          const auto end =
+              writer.finish(status, { sprag_slip_summary(found), {}, sprag_slip_groups(found, scene.sprag_slip) }, warnings);
+          if (!options.quiet)
+            print_summary(std::cout, end.summary);
+        });
+  }
+} // namespace sprag

@@ -1,0 +1,223 @@
+#include "analysis/transient/growing_modes.h"
+#include "analysis/transient/ideal_contact.h"
+#include "analysis/transient/transient.h"
+#include "base/append.h"
+#include "base/text.h"
+#include "levers/dynamics.h"
+#include "model/reduced_lever.h"
+#include "run/analyses.h"
+#include "run/field_recorder.h"
+#include "run/recorder.h"
+#include "run/transient_report.h"
+#include "scene/contact_reference.h"
+#include "scene/mirrored_pair.h"
+
+#include <algorithm>
+#include <functional>
+#include <iostream>
+#include <optional>
+
+namespace sprag
+{
+  namespace
+  {
+    using Timer = dealii::TimerOutput;
+
+    /// Runs `steps`, which returns its report, completes and finishes the record whatever happens.
+    void record_steps(
+        const Scene &scene, Recorder &recorder, Timer &timer, Warnings &warnings, const std::vector<Entry> &facts,
+        const std::function<TransientReport()> &steps, const std::function<void()> &complete = [] {})
+    {
+      TransientReport report;
+      double seconds = 0.;
+      finish_in_any_case(
+          [&]
+          {
+            const Timer::Scope scope(timer, "steps_and_output");
+            dealii::Timer clock;
+            report  = steps();
+            seconds = clock.cpu_time();
+            check_ledger(scene, report.ledger);
+          },
+          [&](const std::string &status)
+          {
+            complete();
+            const double rate = seconds > 0. ? report.steps / seconds : 0.;
+            recorder.finish(status, joined(facts, { { "steps_per_cpu_second", rate, "1/s", "accepted steps, output included" } }),
+                            warnings);
+          });
+    }
+
+    void announce(const Scene &scene, const RunOptions &options)
+    {
+      if (options.quiet)
+        return;
+      for (const auto &line : modelled(scene))
+        std::cout << line << '\n';
+      std::cout << std::flush;
+    }
+
+    TransientSettings settings_of(const Scene &scene, const std::vector<GrowingMode> &modes)
+    {
+      const auto reference = contact_reference(scene);
+      return { scene.time, reference.P, reference.stiffness, scene.geometry.cylinder_radius / 200.,
+               longest_step(modes, scene.time.spectral_radius) };
+    }
+
+    /// What grows about the slides of the run. A model of its own is asked, condensed for finite elements, which find the lowest
+    /// vibrations alone.
+    std::vector<GrowingMode> growing_modes_of(Scene scene, DynamicsMaker &maker)
+    {
+      if (scene.analysis.model == ModelType::finite_element)
+        scene.analysis.model = ModelType::condensed;
+      return growing_modes(maker.make(scene).model(), scene.drive);
+    }
+
+    void announce(const std::vector<GrowingMode> &modes, const Scene &scene, const RunOptions &options)
+    {
+      if (options.quiet || modes.empty())
+        return;
+      const auto fastest = std::max_element(modes.begin(), modes.end(),
+                                            [](const GrowingMode &a, const GrowingMode &b) { return a.frequency < b.frequency; });
+      std::cout << "Grows:        a vibration of the slide, by " << rounded_text(fastest->growth_rate) << " 1/s at "
+                << rounded_text(fastest->frequency) << " Hz at x = " << rounded_text(fastest->x) << " mm; steps of up to "
+                << rounded_text(longest_step(modes, scene.time.spectral_radius)) << " s follow it\n"
+                << std::flush;
+    }
+
+    void run_ideal(const Scene &scene, const RunOptions &options, Warnings &warnings)
+    {
+      auto timer           = phase_timer();
+      const double inertia = scene.analysis.model == ModelType::rigid ? moment_of_inertia(scene) : 0.;
+      Recorder recorder(scene, options, timer, {});
+      announce(scene, options);
+      record_steps(scene, recorder, timer, warnings, {},
+                   [&] { return run_ideal_contact(scene, inertia, [&](const Row &row) { recorder.record(row); }); });
+    }
+
+    void run_reduced(const Scene &scene, const RunOptions &options, Warnings &warnings)
+    {
+      auto timer       = phase_timer();
+      const auto model = make_reduced_lever(scene);
+      DynamicsMaker maker;
+      const auto growing = growing_modes_of(scene, maker);
+      Recorder recorder(scene, options, timer, model->face_points());
+      announce(scene, options);
+      announce(growing, scene, options);
+      append(warnings, hidden_vibration_warnings(growing, scene.time));
+      record_steps(scene, recorder, timer, warnings, {},
+                   [&]
+                   {
+                     return run_transient(*model, scene.drive, settings_of(scene, growing),
+                                          [&](const Motion &, const Row &row) { recorder.record(row); });
+                   });
+    }
+
+    std::vector<Entry> meshed_entries(const MeshedDynamics &lever, const ElasticBody<2> &body)
+    {
+      std::vector<Entry> entries = {
+        { "degrees_of_freedom", static_cast<double>(body.n_dofs()), "1", "displacements, those of the hub included" },
+        { "coordinates", static_cast<double>(lever.n_coordinates), "1", "generalised coordinates of the model" },
+        { "face_points", static_cast<double>(body.friction_face().points.size()), "1",
+          "integration points of the friction face" },
+        { "penalty", lever.penalties.normal, "N/mm^3", "normal penalty in use" },
+        { "tangential_penalty", lever.penalties.tangential, "N/mm^3", "tangential penalty in use" },
+        { "density_factor", lever.density_factor, "1", "by which the densities were scaled to meet Lever/Moment of inertia" },
+        { "moment_of_inertia", lever.moment_of_inertia, "t mm^2",
+          "of all that turns with the hub, about the pivot: Lever/Moment of inertia, or what follows from the densities as "
+          "built" },
+        { "lever_mass", lever.lever_mass, "t", "mass of lever and layer after scaling, tip mass included" },
+        { "basis_from_cache", lever.basis_from_cache ? 1. : 0., "1", "whether a stored condensed basis was used" },
+        { "basis_cpu_time", lever.basis_cpu_seconds, "s", "that the condensed basis took, or would have taken" }
+      };
+      for (std::size_t i = 0; i < std::min<std::size_t>(5, lever.frequencies.size()); ++i)
+        entries.push_back({ "frequency_" + std::to_string(i + 1), lever.frequencies[i], "Hz", "of the lever out of contact" });
+      return entries;
+    }
+
+    void announce(const Scene &scene, const MeshedDynamics &lever, const ElasticBody<2> &body, const RunOptions &options)
+    {
+      announce(scene, options);
+      if (options.quiet)
+        return;
+      std::cout << "Mesh:         " << body.n_dofs() << " displacements, " << lever.n_coordinates
+                << " coordinates; densities times " << lever.density_factor << " to meet J; free lever at";
+      for (std::size_t i = 0; i < std::min<std::size_t>(3, lever.frequencies.size()); ++i)
+        std::cout << ' ' << lever.frequencies[i];
+      std::cout << " Hz\n";
+      if (scene.analysis.model == ModelType::condensed)
+        std::cout << "Basis:        " << (lever.basis_from_cache ? "from the cache, saves " : "made in ")
+                  << lever.basis_cpu_seconds << " s" << (lever.message.empty() ? "" : "; " + lever.message) << '\n';
+      std::cout << std::flush;
+    }
+
+    FieldRecorder::Displacements recovery(const MeshedDynamics &lever, const Motion &motion, const unsigned int levers)
+    {
+      Motion kept;
+      kept.coordinates.position = motion.coordinates.position;
+      kept.face_force           = motion.face_force;
+      return [&lever, kept, levers]
+      {
+        std::vector<dealii::Vector<double>> result;
+        for (unsigned int i = 0; i < levers; ++i)
+          result.push_back(lever.elastic_displacement(kept, i));
+        return result;
+      };
+    }
+
+    void run_meshed(const Scene &scene, const RunOptions &options, Warnings &warnings)
+    {
+      require_writable(options.folder);
+      DynamicsMaker maker;
+      auto &timer         = maker.timer();
+      const auto dynamics = maker.make(scene);
+      const auto &lever   = dynamics.meshed;
+      const auto &body    = *dynamics.lever->body;
+      const auto growing  = growing_modes_of(scene, maker);
+      Recorder recorder(scene, options, timer, lever.model->face_points());
+      announce(scene, lever, body, options);
+      announce(growing, scene, options);
+      append(warnings, hidden_vibration_warnings(growing, scene.time));
+      std::optional<FieldRecorder> fields;
+      if (scene.output.fields != FieldOutput::none)
+        fields.emplace(scene, body, options.folder, timer);
+      else
+        recorder.set_stress(no_stress_peaks("Output/Fields = none"));
+
+      const auto write = [&](const Motion &motion, const Row &row)
+      {
+        recorder.record(row);
+        if (!fields)
+          return;
+        const auto face = lever.model->face_state(motion);
+        if (fields->record(row, face, [&] { return recovery(lever, motion, number_of_levers(scene)); }))
+          recorder.record(face);
+      };
+      record_steps(
+          scene, recorder, timer, warnings, meshed_entries(lever, body),
+          [&] { return run_transient(*lever.model, scene.drive, settings_of(scene, growing), write); },
+          [&]
+          {
+            if (fields)
+              recorder.set_stress(fields->finish());
+          });
+    }
+  } // namespace
+
+  void run_transient_scene(const Scene &scene, const RunOptions &options, Warnings &warnings)
+  {
+    switch (scene.analysis.model)
+    {
+    case ModelType::closed_form:
+      return run_ideal(scene, options, warnings);
+    case ModelType::rigid:
+      return scene.contact.type == ContactType::ideal ? run_ideal(scene, options, warnings)
+                                                      : run_reduced(scene, options, warnings);
+    case ModelType::beam:
+      return run_reduced(scene, options, warnings);
+    case ModelType::condensed:
+    case ModelType::finite_element:
+      return run_meshed(scene, options, warnings);
+    }
+  }
+} // namespace sprag

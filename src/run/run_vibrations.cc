@@ -1,0 +1,171 @@
+#include "base/append.h"
+#include "base/progress.h"
+#include "base/text.h"
+#include "fe/fields/mode_frames.h"
+#include "model/growth.h"
+#include "run/analyses.h"
+#include "run/report.h"
+#include "run/result_writer.h"
+#include "run/row_warnings.h"
+#include "run/vibration_report.h"
+#include "scene/held_slide.h"
+
+#include <algorithm>
+#include <iostream>
+
+namespace sprag
+{
+  namespace
+  {
+    /// Accuracy of a critical value, over the distance searched.
+    double tolerance_of(const Scene &scene)
+    {
+      return is_reduced(scene.analysis.model) ? 1e-8 : 1e-3;
+    }
+
+    std::vector<CriticalSearch> all_critical(const Scene &scene, DynamicsMaker &maker, const bool quiet)
+    {
+      const auto ranges = critical_searches(scene).value_or(std::vector<ParameterRange>());
+      double points     = 0.;
+      for (const auto &range : ranges)
+        points += range.points;
+      Progress progress(std::cerr, progress_style(quiet || is_reduced(scene.analysis.model)), std::max(1., points));
+      double done = 0.;
+      std::vector<CriticalSearch> result;
+      for (const auto &range : ranges)
+        result.push_back(critical_values(scene, range, tolerance_of(scene), maker, [&] { progress.update(++done, {}); }));
+      return result;
+    }
+
+    std::vector<Entry> meshed_entries(const Dynamics &dynamics)
+    {
+      if (!dynamics.lever)
+        return {};
+      return { { "degrees_of_freedom", static_cast<double>(dynamics.lever->body->n_dofs()), "1",
+                 "displacements, those of the hub included" },
+               { "coordinates", static_cast<double>(dynamics.meshed.n_coordinates), "1",
+                 "generalised coordinates of the model" } };
+    }
+
+    /// Counts the wall and CPU time of finding a slide and its vibrations.
+    template <class Find>
+    auto timed(DynamicsMaker &maker, const Find &find)
+    {
+      const dealii::TimerOutput::Scope scope(maker.timer(), "eigenvalues");
+      return find();
+    }
+
+    DevicePose pose_of_slide(const Scene &scene, const DynamicModel &model, const HeldSlide &slide)
+    {
+      Row row;
+      row[Column::x] = slide.drive.x;
+      model.observe(slide.motion, row);
+      auto pose = pose_of(row);
+      // A slide is held in the axes of the pivot frame.
+      pose.support = 0.;
+      pose.x       = held_drive(scene).x;
+      return pose;
+    }
+
+    /// The modes as fields for ParaView, mode-01.xdmf, ...
+    void write_fields(const Scene &scene, const Dynamics &dynamics, const DevicePose &held, const std::vector<Eigenmode> &modes,
+                      const std::string &folder)
+    {
+      if (!dynamics.lever || scene.output.fields == FieldOutput::none)
+        return;
+      prepare_folder(folder);
+      remove_field_files(folder);
+      const BodyFields fields(*dynamics.lever->body);
+      unsigned int number = 0;
+      for (const auto &mode : modes)
+      {
+        const auto lambda = mode.mode.eigenvalue;
+        const auto shape  = dynamics.model().mode_shape(mode);
+        DeviceMode told{ lambda.imag() / (2. * M_PI), lambda.real(), {}, shape.support };
+        for (unsigned int lever = 0; lever < shape.levers.size(); ++lever)
+        {
+          const auto part = [&](const unsigned int i)
+          { return dynamics.meshed.elastic_displacement(as_motion(mode.mode, i), lever); };
+          told.levers.push_back({ { { part(0), part(1) } }, shape.levers[lever].rotation });
+        }
+        write_mode(scene, fields, held, told, ++number, folder);
+      }
+    }
+
+    RunEnd modal(const Scene &scene, DynamicsMaker &maker, const RunOptions &options)
+    {
+      Scene undamped             = scene;
+      undamped.stability.damping = false;
+      undamped                   = held_scene(undamped);
+      const auto friction        = scene.stability.contact == HeldContact::stuck ? ContactFriction::stuck : ContactFriction::none;
+      const auto dynamics        = maker.make(undamped);
+      auto &model                = dynamics.model();
+      const auto slide           = timed(maker, [&] { return model.hold(held_drive(undamped), friction); });
+      if (!slide)
+        throw AnalysisError("no equilibrium at x = " + rounded_text(held_drive(undamped).x) +
+                            " mm. Try another Stability/Position.");
+      const bool in_contact = scene.stability.contact != HeldContact::open;
+      const auto found      = timed(maker, [&] { return model.vibrations(*slide, in_contact, scene.stability.modes); });
+      const auto modes      = reported(found, scene.stability.modes);
+      if (!options.quiet)
+        print_modes(std::cout, modes);
+      RunEnd result;
+      result.meta = meshed_entries(dynamics);
+      for (std::size_t i = 0; i < modes.size(); ++i)
+        result.summary.push_back({ "frequency_" + std::to_string(i + 1), modes[i].mode.eigenvalue.imag() / (2. * M_PI), "Hz",
+                                   "of the undamped mode" });
+      result.groups = { mode_group(modes, model) };
+      write_fields(scene, dynamics, pose_of_slide(scene, model, *slide), modes, options.folder);
+      return result;
+    }
+
+    RunEnd stability(const Scene &scene, DynamicsMaker &maker, const RunOptions &options, Warnings &warnings)
+    {
+      RunEnd result;
+      SlideStability found;
+      {
+        const Scene held    = held_scene(scene);
+        const auto dynamics = maker.make(held);
+        found               = timed(maker, [&] { return judge(dynamics.model(), held_drive(scene), scene.stability.modes); });
+        result.meta         = meshed_entries(dynamics);
+        const auto modes    = reported(found.modes, scene.stability.modes);
+        result.groups       = { mode_group(modes, dynamics.model()) };
+        if (found.slide)
+          write_fields(scene, dynamics, pose_of_slide(scene, dynamics.model(), *found.slide), modes, options.folder);
+        result.summary = slide_entries(found);
+        if (found.slide)
+          append(warnings, slide_warnings(scene, found.slide->drive, found.slide->forces.P, found.slide->indentation));
+        if (!options.quiet)
+        {
+          print_summary(std::cout, result.summary);
+          print_modes(std::cout, modes);
+          print_growth(std::cout, modes);
+        }
+      }
+      if (scene.stability.roles)
+      {
+        const auto told = roles(scene, found, maker);
+        append(result.summary, role_entries(told));
+        if (!options.quiet)
+          print_roles(std::cout, found, told);
+      }
+      if (scene.stability.critical != "none")
+      {
+        const auto critical = all_critical(scene, maker, options.quiet);
+        append(result.summary, critical_entries(critical));
+        if (!options.quiet)
+          print_critical(std::cout, critical);
+      }
+      return result;
+    }
+  } // namespace
+
+  void run_vibrations(const Scene &scene, const RunOptions &options, Warnings &warnings)
+  {
+    require_writable(options.folder);
+    DynamicsMaker maker;
+    const bool undamped = scene.analysis.type == AnalysisType::modal;
+    const auto end      = undamped ? modal(scene, maker, options) : stability(scene, maker, options, warnings);
+    ResultWriter(scene, options, maker.timer(), {}).finish("completed", end, warnings);
+  }
+} // namespace sprag

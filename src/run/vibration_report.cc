@@ -1,0 +1,313 @@
+#include "run/vibration_report.h"
+
+#include "base/append.h"
+#include "base/text.h"
+#include "run/dataset.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <functional>
+#include <iomanip>
+#include <map>
+#include <sstream>
+
+namespace sprag
+{
+  namespace
+  {
+    double frequency(const Eigenmode &mode)
+    {
+      return mode.mode.eigenvalue.imag() / (2. * M_PI);
+    }
+
+    bool grows(const Eigenmode &mode)
+    {
+      return mode.mode.eigenvalue.real() > smallest_growth * std::abs(mode.mode.eigenvalue);
+    }
+
+    SlideKind kind_of(const Eigenmode &mode)
+    {
+      if (!grows(mode))
+        return SlideKind::stable;
+      return mode.mode.eigenvalue.imag() > 0. ? SlideKind::flutter : SlideKind::divergence;
+    }
+
+    bool is_pair(const std::vector<Eigenmode> &modes)
+    {
+      return !modes.empty() && !std::isnan(modes.front().mirroring);
+    }
+
+    using Value = std::function<double(const Eigenmode &)>;
+
+    void append_numbers(const std::vector<Eigenmode> &modes, Group &group)
+    {
+      const auto add = [&](const ColumnInfo &info, const Value &value)
+      { group.datasets.push_back(dataset_of(modes, info, value)); };
+      add({ "frequency", "Hz", "Im lambda / 2 pi" }, frequency);
+      add({ "growth_rate", "1/s", "Re lambda" }, [](const auto &mode) { return mode.mode.eigenvalue.real(); });
+      add({ "damping_ratio", "1", "-Re lambda / |lambda|" },
+          [](const auto &mode) { return -mode.mode.eigenvalue.real() / std::abs(mode.mode.eigenvalue); });
+      add({ "kind", "1", "0 stable, 1 flutter, 2 divergence" },
+          [](const auto &mode) { return static_cast<double>(kind_of(mode)); });
+      add({ "residual", "1", "backward error of the eigenpair" }, [](const auto &mode) { return mode.mode.residual; });
+
+      if (is_pair(modes))
+        add({ "mirroring", "1", "1 where the levers of a pair mirror each other, -1 where both swing the same way" },
+            [](const auto &mode) { return mode.mirroring; });
+
+      const auto energy = [&](const std::string &name, double EnergyShares::*share, const std::string &where)
+      {
+        add({ "energy_" + name, "1", "share of the potential energy " + where },
+            [share](const auto &mode) { return mode.energy.*share; });
+      };
+      energy("rotation", &EnergyShares::rotation, "in the rotational spring");
+      energy("bending", &EnergyShares::bending, "in lever and layer");
+      energy("support", &EnergyShares::support, "in the support");
+      energy("contact", &EnergyShares::contact, "in the contact");
+
+      const auto growth = [&](const std::string &name, double GrowthShares::*share, const std::string &what)
+      {
+        add({ "growth_by_" + name, "1/s", "part of the growth rate: " + what },
+            [share](const auto &mode) { return mode.growth.*share; });
+      };
+      growth("friction_rotation", &GrowthShares::friction_rotation, "friction that follows displacements, on the hub's rotation");
+      growth("friction_bending", &GrowthShares::friction_bending,
+             "friction that follows displacements, on the deflection of the lever");
+      growth("friction_support", &GrowthShares::friction_support,
+             "friction that follows displacements, on the displacement of the support");
+      growth("friction_speed", &GrowthShares::friction_speed,
+             "friction that follows velocities: mu'(v), and mu times the contact damping's pressure");
+      growth("contact_damping", &GrowthShares::contact_damping, "contact damping");
+      growth("structure_damping", &GrowthShares::structure_damping, "damping of lever, layer and support");
+    }
+
+    void append_shapes(const std::vector<Eigenmode> &modes, const DynamicModel &model, Group &group)
+    {
+      std::vector<double> xi;
+      std::map<std::string, std::vector<double>> values;
+      const std::array<std::string, 2> part = { { "real", "imaginary" } };
+      for (const auto &mode : modes)
+      {
+        const auto shape = model.mode_shape(mode);
+        xi               = shape.xi;
+        for (unsigned int i = 0; i < 2; ++i)
+        {
+          const auto add = [&](const std::string &name, const std::vector<double> &more)
+          { append(values[name + part[i]], more); };
+          const auto part_of = [i](const std::complex<double> &value) { return i == 0 ? value.real() : value.imag(); };
+          for (std::size_t lever = 0; lever < shape.levers.size(); ++lever)
+          {
+            const std::string of_lever = lever == 0 ? "_" : "_2_";
+            add("along" + of_lever, shape.levers[lever].along[i]);
+            add("across" + of_lever, shape.levers[lever].across[i]);
+            add("rotation" + of_lever, { part_of(shape.levers[lever].rotation) });
+          }
+          add("support_", { part_of(shape.support) });
+        }
+      }
+      group.datasets.push_back({ { "xi", "mm", "lever coordinate of the shapes' points, from the pivot" }, xi, {} });
+      for (const auto &[name, numbers] : values)
+      {
+        const bool of_points   = name.front() == 'a';
+        const std::string unit = name[0] == 'r' ? "rad" : "mm";
+        group.datasets.push_back(
+            { { name, unit, of_points ? "displacement of the points in lever axes, modes x points" : "in the modes" },
+              numbers,
+              of_points ? std::vector<std::size_t>{ modes.size(), xi.size() } : std::vector<std::size_t>{} });
+      }
+    }
+
+    std::string slug(const std::string &name)
+    {
+      std::string result;
+      for (const char c : name)
+        result += std::isalnum(static_cast<unsigned char>(c)) != 0
+                      ? static_cast<char>(std::tolower(static_cast<unsigned char>(c)))
+                      : '_';
+      return result;
+    }
+
+    const std::string motions = "mirroring, swinging, either where both tie, mixed where the levers differ";
+
+    /// Which motion of a pair's levers is unstable on one side.
+    std::string of_motion(const CriticalValue &critical)
+    {
+      return critical.motion.empty() ? "" : ", the levers " + critical.motion;
+    }
+
+    std::string padded(const double value, const int width)
+    {
+      std::ostringstream number;
+      number << std::setprecision(4) << (std::abs(value) < 1e-6 ? 0. : value);
+      const std::string text = std::isnan(value) ? "-" : number.str();
+      return std::string(static_cast<std::size_t>(std::max(1, width - static_cast<int>(text.size()))), ' ') + text;
+    }
+
+    std::string share(const double value)
+    {
+      return padded(std::round(1000. * value) / 10., 7);
+    }
+  } // namespace
+
+  std::vector<Eigenmode> reported(const std::vector<Eigenmode> &modes, const unsigned int number)
+  {
+    std::vector<Eigenmode> result;
+    unsigned int oscillating = 0;
+    for (const auto &mode : modes)
+    {
+      const bool oscillates = mode.mode.eigenvalue.imag() > 0.;
+      if (grows(mode) || (oscillates && oscillating < number))
+        result.push_back(mode);
+      oscillating += oscillates ? 1 : 0;
+    }
+    return result;
+  }
+
+  Group mode_group(const std::vector<Eigenmode> &modes, const DynamicModel &model)
+  {
+    Group group{ "modes", {} };
+    append_numbers(modes, group);
+    if (!modes.empty())
+      append_shapes(modes, model, group);
+    return group;
+  }
+
+  void print_modes(std::ostream &stream, const std::vector<Eigenmode> &modes)
+  {
+    if (modes.empty())
+      return;
+    stream << "\n  frequency       energy [%] in\n"
+           << "       [Hz]  spring  lever  suppt contact" << (is_pair(modes) ? "  mirroring" : "") << '\n';
+    for (const auto &mode : modes)
+    {
+      const auto &e = mode.energy;
+      stream << padded(frequency(mode), 11) << ' ' << share(e.rotation) << share(e.bending) << share(e.support)
+             << share(e.contact) << (is_pair(modes) ? padded(mode.mirroring, 11) : "") << '\n';
+    }
+  }
+
+  void print_growth(std::ostream &stream, const std::vector<Eigenmode> &modes)
+  {
+    if (modes.empty())
+      return;
+    stream << "\n  frequency    growth  kind        growth [1/s] by friction on               friction's   damping of\n"
+           << "       [Hz]     [1/s]               rotation    bending   support  velocities   contact  structure\n";
+    for (const auto &mode : modes)
+    {
+      const auto &g    = mode.growth;
+      std::string kind = "  " + kind_name(kind_of(mode));
+      kind.resize(13, ' ');
+      stream << padded(frequency(mode), 11) << padded(mode.mode.eigenvalue.real(), 10) << kind << padded(g.friction_rotation, 10)
+             << padded(g.friction_bending, 11) << padded(g.friction_support, 10) << padded(g.friction_speed, 12)
+             << padded(g.contact_damping, 10) << padded(g.structure_damping, 11) << '\n';
+    }
+  }
+
+  std::vector<Entry> slide_entries(const SlideStability &found)
+  {
+    std::vector<Entry> result = { { "verdict", kind_name(found.kind), "",
+                                    "stable, flutter (sprag-slip), divergence or jammed" } };
+    if (!found.slide)
+      return result;
+    const auto &slide = *found.slide;
+    append<Entry>(
+        result,
+        {
+            { "growth_rate", found.growth_rate(), "1/s", "largest Re lambda" },
+            { "frequency", found.frequency(), "Hz", "of that mode" },
+            { "x", slide.drive.x, "mm", "where the slide is held" },
+            { "speed", slide.speed, "mm/s", "of the cylinder's surface along the lever" },
+            { "mu", slide.mu, "1", "friction coefficient" },
+            { "P", slide.forces.P, "N", "normal force" },
+            { "Q", slide.forces.Q, "N", "force along x" },
+            { "indentation", slide.indentation, "mm", "physical compression of the friction layer, at its largest" },
+            { "margin", slide.margin, "1", "to jamming: P without friction over P" },
+            { "uniqueness", slide.uniqueness, "1", "determinant of the tangent over that without friction; <= 0: not unique" },
+        });
+    if (is_pair(found.modes))
+      result.push_back({ "motion", found.motion(), "", "of the levers in that mode: " + motions });
+    return result;
+  }
+
+  std::vector<Entry> role_entries(const std::vector<Role> &roles)
+  {
+    std::vector<Entry> result;
+    for (const auto &role : roles)
+    {
+      result.push_back({ role.name + "_verdict", kind_name(role.kind), "", role.meaning });
+      result.push_back({ role.name + "_growth_rate", role.growth_rate, "1/s", role.meaning });
+      result.push_back({ role.name + "_frequency", role.frequency, "Hz", role.meaning });
+      if (!role.motion.empty())
+        result.push_back({ role.name + "_motion", role.motion, "", "of the levers in the most unstable mode: " + motions });
+    }
+    return result;
+  }
+
+  std::vector<Entry> critical_entries(const std::vector<CriticalSearch> &searches)
+  {
+    std::vector<Entry> result;
+    for (const auto &search : searches)
+    {
+      const std::string name = "critical_" + slug(search.range.name);
+      for (std::size_t i = 0; i < search.changes.size(); ++i)
+      {
+        const auto &critical = search.changes[i];
+        result.push_back({ name + "_" + std::to_string(i + 1), critical.value, "",
+                           search.range.name + ": from " + kind_name(critical.below) + " to " + kind_name(critical.above) +
+                               of_motion(critical) });
+      }
+      result.push_back({ name + "_spacing", search.spacing, "",
+                         "of the values of " + search.range.name + " tried: narrower islands may be missed" });
+      result.push_back({ name + "_values", static_cast<double>(search.range.points + search.more_values), "1",
+                         "tried, those between where a growth rate peaks included" });
+    }
+    return result;
+  }
+
+  void print_roles(std::ostream &stream, const SlideStability &present, const std::vector<Role> &roles)
+  {
+    const bool pair = is_pair(present.modes);
+    stream << "\n                               verdict     growth [1/s]  frequency [Hz]" << (pair ? "  motion" : "") << '\n';
+    const auto line = [&](std::string name, std::string kind, const double growth, const double hertz, const std::string &motion)
+    {
+      std::replace(name.begin(), name.end(), '_', ' ');
+      name.resize(29, ' ');
+      kind.resize(10, ' ');
+      stream << "  " << name << kind << padded(growth, 14) << padded(hertz, 16) << (motion.empty() ? "" : "  " + motion) << '\n';
+    };
+    line("as it is", kind_name(present.kind), present.growth_rate(), present.frequency(), present.motion());
+    for (const auto &role : roles)
+      line(role.name, kind_name(role.kind), role.growth_rate, role.frequency, role.motion);
+  }
+
+  void print_critical(std::ostream &stream, const std::vector<CriticalSearch> &searches)
+  {
+    stream << "\nCritical values, everything else as it is:\n";
+    for (const auto &[range, first, changes, not_judged, spacing, more_values] : searches)
+    {
+      stream << "  " << range.name << " from " << rounded_text(range.from) << " to " << rounded_text(range.to) << ": "
+             << (first ? kind_name(*first) : "cannot be judged");
+      for (const auto &critical : changes)
+      {
+        const bool of_friction = range.name == "Friction/Factor" && !std::isnan(critical.mu);
+        stream << ", " << kind_name(critical.above) << " from " << rounded_text(critical.value)
+               << (of_friction ? " (mu = " + rounded_text(critical.mu) + ")" : "")
+               << (critical.motion.empty() ? "" : " (" + critical.motion + ")");
+      }
+      stream << (first && changes.empty() ? " throughout" : "");
+      if (first && !not_judged.empty())
+      {
+        const auto [least, most] = std::minmax_element(not_judged.begin(), not_judged.end());
+        stream << "; cannot be judged at " << rounded_text(*least)
+               << (*least < *most ? " to " + rounded_text(*most) + " (" + std::to_string(not_judged.size()) + " values)" : "");
+      }
+      stream << "; tried every " << rounded_text(spacing);
+      if (more_values > 0)
+        stream << " and " << more_values << " times between, where growth peaks";
+      stream << '\n';
+    }
+    if (!searches.empty())
+      stream << "  Islands narrower than what was tried may be missed: try a shorter range.\n";
+  }
+} // namespace sprag

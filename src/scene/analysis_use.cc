@@ -1,0 +1,23 @@
+#include "scene/analysis_use.h"
+
+namespace sprag
+{
+  bool holds_slide(const AnalysisType type)
+  {
+    return type == AnalysisType::modal || type == AnalysisType::stability || type == AnalysisType::map ||
+           type == AnalysisType::sprag_slip;
+  }
+
+  bool runs_model(const AnalysisType type)
+  {
+    return holds_slide(type) || type == AnalysisType::quasi_static || type == AnalysisType::transient;
+  }
+
+  bool needs_mesh(const Scene &scene)
+  {
+    const AnalysisType type = scene.analysis.type;
+    if (runs_model(type))
+      return is_meshed(scene.analysis.model);
+    return type == AnalysisType::contact_law || type == AnalysisType::calibration;
+  }
+} // namespace sprag

@@ -1,0 +1,130 @@
+#include "run/memory.h"
+
+#include "base/errors.h"
+#include "scenes.h"
+
+#include <gtest/gtest.h>
+
+using namespace sprag;
+
+namespace
+{
+  /// Largest resident memory of runs of model A, as the system tells it (ru_maxrss), with what differed between them.
+  struct Measured
+  {
+    AnalysisType type;
+    ModelType model;
+    double start, stroke; ///< of the drive [mm]
+    double face_size;     ///< [mm]
+    double bytes;
+  };
+
+  constexpr auto quasi_static   = AnalysisType::quasi_static;
+  constexpr auto transient      = AnalysisType::transient;
+  constexpr auto modal          = AnalysisType::modal;
+  constexpr auto finite_element = ModelType::finite_element;
+  constexpr auto condensed      = ModelType::condensed;
+
+  constexpr Measured measured[] = {
+    { quasi_static, finite_element, 0., 65., 0.5, 0.182e9 },
+    { quasi_static, finite_element, 0., 65., 0.25, 0.298e9 },
+    { quasi_static, finite_element, 0., 65., 0.125, 0.688e9 },
+    { quasi_static, finite_element, 0., 65., 0.0625, 2.18e9 },
+    { quasi_static, finite_element, 0., 65., 0.03125, 7.2e9 },
+    { transient, condensed, 45., 45.6, 0.5, 0.160e9 },
+    { transient, condensed, 45., 45.6, 0.25, 0.183e9 },
+    { transient, condensed, 45., 45.6, 0.125, 0.259e9 },
+    { transient, condensed, 45., 45.6, 0.0625, 0.471e9 },
+    { transient, condensed, 0., 65., 0.25, 0.392e9 },
+    { transient, condensed, 0., 65., 0.125, 1.035e9 },
+    { transient, condensed, 0., 65., 0.0625, 3.22e9 },
+    { modal, condensed, 0., 65., 0.5, 0.218e9 },
+    { modal, condensed, 0., 65., 0.25, 0.281e9 },
+    { modal, condensed, 0., 65., 0.125, 0.592e9 },
+    { modal, condensed, 0., 65., 0.0625, 1.70e9 },
+    { modal, finite_element, 0., 65., 0.5, 0.229e9 },
+    { modal, finite_element, 0., 65., 0.25, 0.396e9 },
+    { modal, finite_element, 0., 65., 0.125, 0.951e9 },
+    { transient, finite_element, 45., 45.2, 0.5, 0.221e9 },
+    { transient, finite_element, 45., 45.2, 0.25, 0.290e9 },
+    { transient, finite_element, 45., 45.2, 0.125, 0.485e9 },
+  };
+
+  Scene scene_of(const Measured &run)
+  {
+    Scene scene          = model_a();
+    scene.drive          = Drive(DriveProfile::triangle, run.start, run.stroke, 112., 1.);
+    scene.analysis.type  = run.type;
+    scene.analysis.model = run.model;
+    scene.mesh.face_size = run.face_size;
+    return scene;
+  }
+
+  TEST(Memory, EstimateIsThatOfRuns)
+  {
+    for (const auto &run : measured)
+    {
+      SCOPED_TRACE(testing::Message() << "type " << static_cast<int>(run.type) << ", model " << static_cast<int>(run.model)
+                                      << ", " << run.face_size << " mm");
+      const double expected = expected_memory(scene_of(run));
+      EXPECT_LT(expected, 1.45 * run.bytes);
+      EXPECT_GT(expected, 0.7 * run.bytes);
+    }
+  }
+
+  TEST(Memory, EachProcessAndLeverNeedsItsOwn)
+  {
+    Scene scene = scene_of(measured[2]);
+    EXPECT_NEAR(expected_memory(scene, 4), 4. * expected_memory(scene), 1e7);
+    const double one = expected_memory(scene);
+    scene.pair.type  = PairType::full;
+    EXPECT_GT(expected_memory(scene), 1.5 * one);
+  }
+
+  TEST(Memory, WhatCannotFitIsRefusedWithBothNumbers)
+  {
+    Scene scene = model_a();
+    EXPECT_NO_THROW(require_memory(scene));
+    scene.mesh.face_size = 1e-4;
+    try
+    {
+      require_memory(scene);
+      FAIL();
+    }
+    catch (const InputError &error)
+    {
+      const std::string text = error.what();
+      EXPECT_NE(text.find("Mesh/Face size = 0.0001 mm"), std::string::npos) << text;
+      EXPECT_NE(text.find(" GB of memory, and "), std::string::npos) << text;
+    }
+    scene.analysis.model = ModelType::closed_form;
+    EXPECT_NO_THROW(require_memory(scene));
+  }
+
+  TEST(Memory, MoreRowsThanCanBeUsedAreRefused)
+  {
+    const auto refusal = [](const Scene &scene) -> std::string
+    {
+      try
+      {
+        require_memory(scene);
+      }
+      catch (const InputError &error)
+      {
+        return error.what();
+      }
+      return "";
+    };
+    Scene scene          = model_a();
+    scene.analysis.model = ModelType::closed_form;
+    scene.drive          = Drive(DriveProfile::harmonic, 0., 65., 112., 1e3);
+    EXPECT_EQ(refusal(scene), "");
+    scene.drive = Drive(DriveProfile::harmonic, 0., 65., 112., 1e5);
+    EXPECT_NE(refusal(scene).find("Analysis/Step make 1.3e+07 rows"), std::string::npos) << refusal(scene);
+    // 1.3e10 s in steps of 0.8 ms, to which adaptive ones may grow.
+    scene.drive          = Drive(DriveProfile::triangle, 0., 65., 1e-8, 1.);
+    scene.analysis.type  = AnalysisType::transient;
+    scene.analysis.model = ModelType::beam;
+    EXPECT_NE(refusal(scene).find("Time/Step make 1.625e+13 rows"), std::string::npos) << refusal(scene);
+  }
+} // namespace

@@ -1,0 +1,74 @@
+#include "run/peak_report.h"
+#include "run/report.h"
+#include "scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace sprag;
+
+namespace
+{
+  Row row(const double x, const double v, const double pressure, const double width)
+  {
+    Row result;
+    result[Column::x]                   = x;
+    result[Column::v]                   = v;
+    result[Column::largest_pressure]    = pressure;
+    result[Column::largest_pressure_xi] = 185. - x;
+    result[Column::contact_width]       = width;
+    return result;
+  }
+
+  const std::vector<Row> rows = { row(0., 112., 0., 0.), row(65., 112., 0.2, 2.), row(64., -112., 0.3, 2.4) };
+} // namespace
+
+TEST(PeakReport, TellsTheLargestPressureAndWhereItIs)
+{
+  std::vector<Entry> entries;
+  add_largest_pressure(rows, entries);
+  ASSERT_EQ(entries.size(), 4u);
+  EXPECT_EQ(value_of(entries, "largest_pressure"), 0.3);
+  EXPECT_EQ(value_of(entries, "largest_pressure_x"), 64.);
+  EXPECT_EQ(value_of(entries, "largest_pressure_xi"), 121.);
+  EXPECT_EQ(std::get<std::string>(entries[2].value), "backward");
+}
+
+TEST(PeakReport, IsEmptyWithoutAFace)
+{
+  std::vector<Entry> entries;
+  add_largest_pressure({ Row() }, entries);
+  EXPECT_TRUE(entries.empty());
+  EXPECT_TRUE(coarse_contact_warnings(model_a(), { Row() }).empty());
+}
+
+TEST(PeakReport, WarnsOfAContactOfFewElements)
+{
+  Scene scene          = model_a();
+  scene.mesh.face_size = 0.5; // 4.8 elements, 0.7 % expected
+  EXPECT_TRUE(coarse_contact_warnings(scene, rows).empty());
+  scene.mesh.face_size = 1.2; // two elements, 10 %
+  const auto warnings  = coarse_contact_warnings(scene, rows);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].found.find("2 times"), std::string::npos) << warnings[0].found;
+  EXPECT_NE(warnings[0].effect.find("10 %"), std::string::npos) << warnings[0].effect;
+  scene.mesh.face_size = 0.55;
+  scene.mesh.degree    = 1; // 4.4 elements, 6 % expected
+  EXPECT_EQ(coarse_contact_warnings(scene, rows).size(), 1u);
+}
+
+// Widths about those of model A.
+TEST(PeakReport, WarnsOfAContactThatIsNarrowOverMoreThanAQuarterOfItsWay)
+{
+  std::vector<Row> stroke;
+  for (int x = 0; x <= 65; ++x)
+    stroke.push_back(row(x, 112., 0.003 * x, 0.24 * std::sqrt(x)));
+  Scene scene          = model_a();
+  scene.mesh.face_size = 0.25; // narrower than 2.5 elements below x = 7 mm
+  EXPECT_TRUE(coarse_contact_warnings(scene, stroke).empty());
+  scene.mesh.face_size = 0.5; // below 27 mm
+  const auto warnings  = coarse_contact_warnings(scene, stroke);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].found.find("1.97"), std::string::npos) << warnings[0].found;
+}

@@ -1,0 +1,102 @@
+#include "run/report.h"
+
+#include "scene/closed_form.h"
+#include "scenes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <gtest/gtest.h>
+
+using namespace sprag;
+
+namespace
+{
+  /// Rows of a lever that answers a turn as the closed form does, but only after a millimetre of stick in which its friction goes
+  /// evenly from one sign to the other.
+  std::vector<Row> rows_with_stick(const Scene &scene, const double step)
+  {
+    std::vector<Row> rows;
+    double turned_at = -100.;
+    double before    = 0.;
+    for (DrivePoint point = scene.drive.at(0., Drive::Side::after);; point = scene.drive.step(point.time, step))
+    {
+      const auto slide = closed_form(scene, point.x, point.v);
+      const double way = std::abs(point.x - turned_at);
+      Row row;
+      row[Column::time]               = point.time;
+      row[Column::x]                  = point.x;
+      row[Column::v]                  = point.v;
+      row[Column::P]                  = slide.P;
+      row[Column::Q]                  = way < 1. ? before + way * (slide.Q - before) : slide.Q;
+      row[Column::F]                  = row[Column::Q];
+      row[Column::mu]                 = slide.mu;
+      row[Column::theta]              = slide.contact.theta;
+      row[Column::friction_resultant] = row[Column::F];
+      for (const auto column : { Column::drive_work, Column::friction_work, Column::spring_energy, Column::elastic_energy })
+        row[column] = 0.;
+      add_closed_form(scene, row);
+      rows.push_back(row);
+      const auto &turns = scene.drive.reversals();
+      if (std::binary_search(turns.begin(), turns.end(), point.time))
+      {
+        turned_at = point.x;
+        before    = row[Column::Q];
+      }
+      if (point.time >= scene.drive.duration())
+        return rows;
+    }
+  }
+
+  Scene moved_by(const Drive &drive)
+  {
+    Scene scene = model_a();
+    scene.drive = drive;
+    return scene;
+  }
+} // namespace
+
+// Where a table turns its speed is 0, and a row stands there.
+TEST(Report, StickAfterTheTurnsOfATableIsNoDeviation)
+{
+  const Drive unequal({ 0., 0.3, 0.6, 0.8, 1.2, 1.4, 2. }, { 0., 30., 60., 20., 50., 5., 0. });
+  const Drive rests({ 0., 0.2, 0.5, 0.9, 1.1, 1.5, 2. }, { 0., 30., 60., 60., 20., 50., 0. });
+  const Drive harmonic(DriveProfile::harmonic, 20., 65., 112., 2.);
+  for (const Drive &drive : { unequal, rests, harmonic })
+  {
+    const Scene scene  = moved_by(drive);
+    const auto rows    = rows_with_stick(scene, 0.25);
+    const auto summary = summary_of(scene, rows);
+    for (const std::string way : { "forward", "backward" })
+    {
+      EXPECT_NEAR(value_of(summary, "deviation_Q_" + way), 0., 1e-12);
+      EXPECT_NEAR(value_of(summary, "deviation_P_" + way), 0., 1e-12);
+    }
+  }
+}
+
+TEST(Report, SlopeIsToldWhereMuStaysAlone)
+{
+  const auto slope = [](const Drive &drive, const std::string &way)
+  {
+    const Scene scene = moved_by(drive);
+    return value_of(summary_of(scene, rows_with_stick(scene, 0.25)), "slope_" + way);
+  };
+  // Turns within the 10 mm of the fit, behind which friction is not yet that of sliding.
+  const Drive triangle(DriveProfile::triangle, 4., 65., 112., 2.);
+  for (const auto &[way, sign] : { std::pair<std::string, int>{ "forward", 1 }, { "backward", -1 } })
+  {
+    const double mu       = sliding_friction(model_a(), 0., 112.).coefficient;
+    const double expected = representative_slope(model_a().geometry, model_a().spring.stiffness, mu, sign);
+    EXPECT_NEAR(slope(triangle, way), expected, 0.01 * std::abs(expected));
+    EXPECT_TRUE(std::isnan(slope(Drive(DriveProfile::harmonic, 0., 65., 112., 1.), way)));
+  }
+}
+
+// The largest force of a stroke that comes to rest is in the row of its turning point.
+TEST(Report, TurningPointBelongsToTheStrokeThatEndsThere)
+{
+  const Scene scene  = moved_by(Drive(DriveProfile::harmonic, 0., 65., 112., 1.));
+  const auto rows    = rows_with_stick(scene, 1.);
+  const auto summary = summary_of(scene, rows);
+  EXPECT_DOUBLE_EQ(value_of(summary, "peak_P_forward"), closed_form(scene, 65., 0.).P);
+}

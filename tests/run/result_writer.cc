@@ -1,0 +1,48 @@
+#include "run/result_writer.h"
+
+#include "mpi_environment.h"
+#include "results/hdf5.h"
+#include "scenes.h"
+
+#include <filesystem>
+#include <gtest/gtest.h>
+
+using namespace sprag;
+
+namespace
+{
+  const std::vector<ColumnInfo> columns = { { "x", "mm", "position" } };
+
+  std::string new_folder()
+  {
+    std::string name = (std::filesystem::temp_directory_path() / "sprag-test-XXXXXX").string();
+    EXPECT_NE(::mkdtemp(name.data()), nullptr);
+    return name + "/run";
+  }
+} // namespace
+
+TEST(ResultWriter, AddsStatusAndWhatEveryRunTells)
+{
+  const std::string folder = new_folder();
+  auto timer               = phase_timer();
+  ResultWriter writer(model_a(), { folder, true }, timer, columns);
+  writer.append(std::vector<double>{ 1. });
+  const auto end = writer.finish("stopped", { { { "number", 2., "1", "of a test" } }, { { "own", 3., "1", "fact" } } }, {});
+  EXPECT_EQ(end.summary.size(), 2u);
+  EXPECT_EQ(end.meta.front().name, "own");
+  EXPECT_GT(end.meta.size(), 5u);
+  const auto file = hdf5::open_file(folder + "/result.h5");
+  EXPECT_EQ(hdf5::read_text(file, "summary/status"), "stopped");
+  EXPECT_EQ(hdf5::read_text(file, "meta/version"), SPRAG_VERSION);
+  std::filesystem::remove_all(std::filesystem::path(folder).parent_path());
+}
+
+TEST(FinishInAnyCase, TellsHowTheStepsEndedAndPassesAFailureOn)
+{
+  std::string status;
+  const auto finish = [&](const std::string &end) { status = end; };
+  finish_in_any_case([] {}, finish);
+  EXPECT_EQ(status, "completed");
+  EXPECT_THROW(finish_in_any_case([] { throw AnalysisError("no solution"); }, finish), AnalysisError);
+  EXPECT_EQ(status, "no solution");
+}

@@ -1,0 +1,46 @@
+#pragma once
+
+#include "fe/dynamics/sparse_structure.h"
+
+namespace sprag
+{
+  constexpr double spring_of_bar = 1e4; ///< [N mm/rad]
+
+  /// Constants of a small lever without damping.
+  inline LeverDynamics undamped_dynamics(const bool sprung)
+  {
+    LeverDynamics result;
+    result.spring_stiffness  = spring_of_bar;
+    result.sprung            = sprung;
+    result.support_mass      = 2e-5;
+    result.support_stiffness = 50.;
+    return result;
+  }
+
+  /// The same with damping of every kind.
+  inline LeverDynamics damped_dynamics(const bool sprung)
+  {
+    LeverDynamics result     = undamped_dynamics(sprung);
+    result.mass_damping      = 20.;
+    result.stiffness_damping = 1e-7;
+    result.relaxation        = 2e-5;
+    result.modal_damping     = 0.02;
+    result.support_damping   = 1e-3;
+    return result;
+  }
+
+  /// Vibrations of a lever out of contact on its spring.
+  inline FreeModes modes_on_spring(const InertialMatrices<2> &matrices, const unsigned int number)
+  {
+    dealii::PETScWrappers::SparseMatrix stiffness;
+    matrices.sum({ 0., 1., 0., spring_of_bar }, stiffness);
+    return free_modes(stiffness, matrices.mass, number);
+  }
+
+  inline SparseStructure sparse_structure(const ElasticBody<2> &body, const LeverInertia &inertia, const unsigned int modes,
+                                          const LeverDynamics &constants)
+  {
+    const auto matrices = std::make_shared<InertialMatrices<2>>(body, inertia);
+    return SparseStructure(body, matrices, modes_on_spring(*matrices, modes), constants);
+  }
+} // namespace sprag

@@ -1,0 +1,41 @@
+#pragma once
+
+#include "model/model.h"
+
+namespace sprag
+{
+  /// A model without a body and a face, whose coordinates are lengths of the order of 1 mm and which objects to nothing.
+  class SmallModel : public Model
+  {
+  public:
+    double movement(const dealii::Vector<double> &correction) const override
+    {
+      return correction.linfty_norm();
+    }
+
+    double length_scale() const override
+    {
+      return 1.;
+    }
+
+    double penetration() const override
+    {
+      return 0.;
+    }
+
+    std::string objection(const State & /*trial*/) const override
+    {
+      return {};
+    }
+
+    FacePoints face_points() const override
+    {
+      return {};
+    }
+
+    FaceState face_state(const State & /*trial*/) const override
+    {
+      return {};
+    }
+  };
+} // namespace sprag
