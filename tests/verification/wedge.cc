@@ -37,7 +37,7 @@ namespace
       return result;
     };
     dealii::Tensor<1, 1> start;
-    start[0] = 1e-6;
+    start[0] = 1e-15; // A rigid wedge must not slip back from where it first touches: friction would then leave its cone.
     return { load, contact, { CoulombFriction{ mu }, FrictionSpeed::sliding }, 1e5, enforcement, start };
   }
 
