@@ -1,6 +1,7 @@
 #include "levers/dynamics.h"
 
-#include "fe/statics/lever_model.h"
+#include "fe/mesh/mesh.h"
+#include "fe/statics/lever_properties.h"
 #include "model/reduced_lever.h"
 #include "scene/contact_reference.h"
 #include "scene/scene_key.h"

@@ -2,7 +2,8 @@
 
 #include "fe/dynamics/dynamic_face_lever.h"
 #include "fe/leaf/leaf_spring.h"
-#include "fe/statics/lever_model.h"
+#include "fe/mesh/mesh.h"
+#include "fe/statics/lever_properties.h"
 #include "scene/closed_form.h"
 
 namespace sprag

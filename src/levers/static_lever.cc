@@ -1,5 +1,7 @@
 #include "levers/static_lever.h"
 
+#include "fe/mesh/mesh.h"
+#include "fe/statics/contact_penalties.h"
 #include "fe/statics/lever_model.h"
 
 namespace sprag

@@ -92,8 +92,8 @@ namespace sprag
       add_response(structure->compliance(), last.ports, last.values, near, z);
       const auto solved = solve_ports(
           structure->compliance(), free, frame.lengths, near, evaluate, [&] { return contact->overlap(); }, z);
-      outcome.iterations = solved.iterations;
-      if (!solved.converged)
+      outcome.iterations = solved.newton.iterations;
+      if (!solved.newton.converged)
         return outcome;
       if (!contact->within_reach())
       {

@@ -6,9 +6,6 @@ namespace sprag
 {
   namespace
   {
-    /// Share of k left against swinging with a free joint.
-    constexpr double swing_stiffness = 1e-6;
-
     /// Mean of the excess over a turn, and its derivative by the end.
     struct MeanExcess
     {
@@ -48,7 +45,8 @@ namespace sprag
     }
   } // namespace
 
-  HubSpringExcess::HubSpringExcess(const PortLayout &ports, MomentLaw moment_law, const bool joined_by_free_joint)
+  HubSpringExcess::HubSpringExcess(const PortLayout &ports, MomentLaw moment_law, const bool joined_by_free_joint,
+                                   const double swing_stiffness)
       : layout(ports)
       , law(std::move(moment_law))
       , joined(joined_by_free_joint)
@@ -109,10 +107,11 @@ namespace sprag
     return result;
   }
 
-  HubSpringExcess::Moments HubSpringExcess::at(const OfLevers &turns) const
+  HubSpringExcess::Moments HubSpringExcess::at(const OfLevers &turns, const bool swing_is_held) const
   {
     if (joined)
-      return spread(law.excess(opening(turns)), law.excess_stiffness(opening(turns)), given_back * swing(turns), given_back);
+      return spread(law.excess(opening(turns)), law.excess_stiffness(opening(turns)), given_back * swing(turns),
+                    swing_is_held ? given_back : 0.);
     Moments result;
     for (unsigned int i = 0; i < layout.levers; ++i)
     {
@@ -130,7 +129,7 @@ namespace sprag
 
   const PortForces &HubSpringExcess::add_forces(const PortForces &others, const OfLevers &turns)
   {
-    return !is_active() ? others : with(others, at(turns));
+    return !is_active() ? others : with(others, at(turns, !others.ports.empty()));
   }
 
   void HubSpringExcess::add_work(const OfLevers &begin, const OfLevers &end, const StepWeights &weights, StepWork &work) const
@@ -162,7 +161,7 @@ namespace sprag
   {
     if (!is_active())
       return;
-    const auto moments = at(turns);
+    const auto moments = at(turns, true);
     for (unsigned int i = 0; i < layout.levers; ++i)
       for (unsigned int j = 0; j < layout.levers; ++j)
         stiffness(place_of(layout.rotation(i), ports), place_of(layout.rotation(j), ports)) += moments.tangent[i][j];

@@ -11,19 +11,20 @@ namespace sprag
   ///
   /// The springs of a mirrored pair whose joint nothing else carries take up what both levers open, energy
   /// 2 W((phi_1 + phi_2)/2) with W that of the law, and swing with them: of the stiffness against swinging,
-  /// (phi_1 - phi_2)/2, a millionth is left, so that levers which touch nothing have a place.
+  /// (phi_1 - phi_2)/2, a small share is left, so that levers which touch nothing have a place.
   class HubSpringExcess
   {
   public:
-    /// `joined`: by a free joint; needs two levers.
-    HubSpringExcess(const PortLayout &ports, MomentLaw law, bool joined = false);
+    /// `joined`: by a free joint; needs two levers. `swing_stiffness`: the share of k then left against swinging.
+    HubSpringExcess(const PortLayout &ports, MomentLaw law, bool joined = false, double swing_stiffness = 1e-6);
 
     /// `others` with the forces of a step from some turns of the hubs to others added: the mean over the turn (discrete gradient)
     /// with generalised-alpha's delay, so that no energy is made. Valid until the next call, as below.
     const PortForces &add_forces(const PortForces &others, const OfLevers &begin, const OfLevers &end,
                                  const StepWeights &weights);
 
-    /// `others` with the forces at turns of the hubs added.
+    /// `others` with the forces at turns of the hubs added. Without others nothing holds the swing of joined springs; the tangent
+    /// then leaves it where it is.
     const PortForces &add_forces(const PortForces &others, const OfLevers &turns);
 
     /// Adds the algorithmic dissipation of the step.
@@ -49,7 +50,7 @@ namespace sprag
 
     bool is_active() const;
     Moments of_step(const OfLevers &begin, const OfLevers &end, const StepWeights &weights) const;
-    Moments at(const OfLevers &turns) const;
+    Moments at(const OfLevers &turns, bool swing_is_held) const;
     Moments spread(double excess, double stiffness, double moment, double moment_stiffness) const;
     const PortForces &with(const PortForces &others, const Moments &moments);
 

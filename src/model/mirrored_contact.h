@@ -1,6 +1,7 @@
 #pragma once
 
 #include "model/joined_memory.h"
+#include "model/joined_ports.h"
 #include "model/linearisation.h"
 #include "model/port_layout.h"
 #include "model/port_step.h"
@@ -160,56 +161,17 @@ namespace sprag
 
     dealii::Vector<double> ports_of(const unsigned int lever, const dealii::Vector<double> &of_pair) const
     {
-      if (of_pair.size() == 0)
-        return {};
-      const unsigned int n = layout.of_a_lever();
-      dealii::Vector<double> result(n + (layout.sprung ? 1 : 0));
-      std::copy_n(of_pair.begin() + layout.first(lever), n, result.begin());
-      if (layout.sprung)
-        result[n] = of_pair[layout.support()];
-      return result;
-    }
-
-    unsigned int port_of_pair(const unsigned int lever, const unsigned int port) const
-    {
-      return port < layout.of_a_lever() ? layout.first(lever) + port : layout.support();
+      return ports_of_lever(layout, lever, of_pair);
     }
 
     void join_forces()
     {
-      std::vector<unsigned int> ports;
-      for (unsigned int lever = 0; lever < levers; ++lever)
-        for (const unsigned int port : contact[lever]->forces().ports)
-          ports.push_back(port_of_pair(lever, port));
-      std::sort(ports.begin(), ports.end());
-      ports.erase(std::unique(ports.begin(), ports.end()), ports.end());
-      const auto n = static_cast<unsigned int>(ports.size());
-      joined       = { std::move(ports), dealii::Vector<double>(n), dealii::FullMatrix<double>(n, n) };
-      for (unsigned int lever = 0; lever < levers; ++lever)
-      {
-        const auto &of_lever = contact[lever]->forces();
-        const auto places    = places_of(lever);
-        for (unsigned int a = 0; a < places.size(); ++a)
-        {
-          joined.values[places[a]] += of_lever.values[a];
-          for (unsigned int b = 0; b < places.size(); ++b)
-            joined.tangent(places[a], places[b]) += of_lever.tangent(a, b);
-        }
-      }
-    }
-
-    /// Of a lever's forces among the joined ones.
-    std::vector<unsigned int> places_of(const unsigned int lever) const
-    {
-      std::vector<unsigned int> result;
-      for (const unsigned int port : contact[lever]->forces().ports)
-        result.push_back(place_of(port_of_pair(lever, port), joined.ports));
-      return result;
+      joined = joined_forces(layout, { &contact[0]->forces(), &contact[1]->forces() });
     }
 
     dealii::Vector<double> joined_row(const unsigned int lever, const dealii::Vector<double> &row) const
     {
-      const auto places = places_of(lever);
+      const auto places = joined_places(layout, lever, contact[lever]->forces(), joined);
       dealii::Vector<double> result(static_cast<unsigned int>(joined.ports.size()));
       for (unsigned int a = 0; a < places.size(); ++a)
         result[places[a]] = row[a];

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "model/contact_point.h"
+#include "model/port_forces.h"
 #include "results/columns.h"
 #include "results/result_file.h"
 #include "scene/drive.h"
@@ -18,6 +19,7 @@ namespace sprag
     DrivePoint drive;
     dealii::Vector<double> coordinates; ///< generalised coordinates of the model
     std::vector<ContactMemory> contact; ///< of the contact points, as the model keeps them
+    PortLoads forces{};                 ///< on the ports of a meshed lever, which its displacements follow from
   };
 
   /// Size of the unbalance at a trial state, and what a correction must be small against.
@@ -35,11 +37,13 @@ namespace sprag
 
     virtual State initial_state(const DrivePoint &drive) const = 0;
 
-    /// First guess of the coordinates at `trial.drive`, from the accepted state in them.
-    virtual void predict(State &trial, const State &accepted) const = 0;
+    /// Begins a step from an accepted state, to which all that follows refers until the next. Returns a first guess of the state
+    /// at its end.
+    virtual State begin_step(const State &accepted, const DrivePoint &end) = 0;
 
-    /// Evaluates the equilibrium of `trial` for a step from `accepted`; correction() and friends refer to the last call.
-    virtual Unbalance evaluate(const State &trial, const State &accepted, FrictionMode mode) = 0;
+    /// Evaluates the equilibrium of `trial` at the end of the step and sets its forces; correction() and friends refer to the
+    /// last call.
+    virtual Unbalance evaluate(State &trial, FrictionMode mode) = 0;
 
     /// Solves the linearised equilibrium. Throws AnalysisError if the factorisation fails.
     virtual dealii::Vector<double> correction() = 0;

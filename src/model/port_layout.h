@@ -54,6 +54,12 @@ namespace sprag
       return support() + (sprung ? 1 : 0);
     }
 
+    /// Of a port that is not the support's.
+    unsigned int lever_of(const unsigned int port) const
+    {
+      return port / of_a_lever();
+    }
+
     /// Of the face of either lever.
     bool is_surface(const unsigned int port) const
     {

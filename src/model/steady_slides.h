@@ -73,7 +73,7 @@ namespace sprag
       };
       const auto solved = solve_ports(
           structure.compliance(), free, frame.lengths, near, evaluate, [&] { return contact.overlap(); }, z);
-      if (!solved.converged)
+      if (!solved.newton.converged)
         return nullptr;
       if (!contact.within_reach())
       {

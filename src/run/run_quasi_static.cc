@@ -1,11 +1,10 @@
 #include "analysis/statics/closed_form.h"
 #include "analysis/statics/quasi_static.h"
 #include "fe/mesh/mesh.h"
-#include "fe/statics/mirrored_levers.h"
+#include "fe/statics/lever_model.h"
 #include "run/analyses.h"
 #include "run/field_recorder.h"
 #include "run/recorder.h"
-#include "scene/mirrored_pair.h"
 
 #include <iostream>
 #include <optional>
@@ -66,39 +65,14 @@ namespace sprag
                 << std::flush;
     }
 
-    const LeverModel &first_lever(const LeverModel &model)
+    void drive_levers(const Scene &scene, const RunOptions &options, Timer &timer, LeverModel &levers, Warnings &warnings)
     {
-      return model;
-    }
-
-    const LeverModel &first_lever(const MirroredLevers &model)
-    {
-      return model.lever(0);
-    }
-
-    FieldRecorder::Displacements recovery(const LeverModel &model, const State &state)
-    {
-      return [find = model.recovery(state)] { return std::vector<dealii::Vector<double>>{ find() }; };
-    }
-
-    FieldRecorder::Displacements recovery(const MirroredLevers &model, const State &state)
-    {
-      return [first  = model.lever(0).recovery(model.state_of(0, state)),
-              second = model.lever(1).recovery(model.state_of(1, state))] {
-        return std::vector<dealii::Vector<double>>{ first(), second() };
-      };
-    }
-
-    template <typename Levers>
-    void drive_levers(const Scene &scene, const RunOptions &options, Timer &timer, Levers &levers, Warnings &warnings)
-    {
-      const LeverModel &shown = first_lever(levers);
       Recorder recorder(scene, options, timer, levers.face_points());
       if (!options.quiet)
-        print_model(scene, shown);
-      auto meta             = model_entries(scene, shown);
+        print_model(scene, levers);
+      auto meta             = model_entries(scene, levers);
       const bool has_frames = scene.output.fields != FieldOutput::none;
-      FieldRecorder fields(scene, shown.elastic_body(), has_frames ? std::optional(options.folder) : std::nullopt, timer);
+      FieldRecorder fields(scene, levers.elastic_body(), has_frames ? std::optional(options.folder) : std::nullopt, timer);
 
       const auto write = [&](const State &state, const Row &row)
       {
@@ -106,7 +80,7 @@ namespace sprag
         const auto face = levers.face_state(state);
         recorder.record(row);
         recorder.record(face);
-        fields.record(row, face, [&] { return recovery(levers, state); });
+        fields.record(row, face, [&] { return [&levers, state] { return levers.body_displacements(state); }; });
       };
       const QuasiStaticSettings settings{ scene.analysis.step, scene.analysis.minimum_step, scene.contact };
       double stick = 0.;
@@ -137,19 +111,12 @@ namespace sprag
         const Timer::Scope scope(timer, "mesh");
         make_mesh(scene, triangulation);
       }
-      std::optional<LeverModel> lever;
-      std::optional<MirroredLevers> pair;
+      std::optional<LeverModel> levers;
       {
         const Timer::Scope scope(timer, "model");
-        if (number_of_levers(scene) == 2)
-          pair.emplace(triangulation, scene);
-        else
-          lever.emplace(triangulation, lever_properties(scene));
+        levers.emplace(triangulation, scene);
       }
-      if (pair)
-        drive_levers(scene, options, timer, *pair, warnings);
-      else
-        drive_levers(scene, options, timer, *lever, warnings);
+      drive_levers(scene, options, timer, *levers, warnings);
     }
   } // namespace
 

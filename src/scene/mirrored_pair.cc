@@ -28,10 +28,9 @@ namespace sprag
         reject("must be half but in a quasi-static, transient, modal, stability, map or sprag-slip analysis");
       else if (type == AnalysisType::transient && (model == ModelType::closed_form || scene.contact.type == ContactType::ideal))
         reject("must be half with an ideal contact in time");
-      else if (type == AnalysisType::quasi_static && scene.support.type == SupportType::sprung &&
-               (model == ModelType::closed_form || !are_alike(scene.pair)))
-        reject("must be half on a sprung support without inertia, but with finite elements and levers that are alike; in time it "
-               "may be full");
+      else if (type == AnalysisType::quasi_static && scene.support.type == SupportType::sprung && model == ModelType::closed_form)
+        reject("must be half on a sprung support in the closed form without inertia; with finite elements and in time it may be "
+               "full");
     }
 
     /// Rules where a slide is held.

@@ -16,11 +16,9 @@ namespace
 
   Solution solve(ToyModel &model, const double guess, const double x)
   {
-    const State accepted = model.initial_state({});
-    State trial          = accepted;
-    trial.drive          = { 1., x, 1. };
+    State trial          = model.begin_step(model.initial_state({}), { 1., x, 1. });
     trial.coordinates[0] = guess;
-    const auto result    = solve_equilibrium(model, trial, accepted, false);
+    const auto result    = solve_equilibrium(model, trial, false);
     return { result, trial.coordinates[0] };
   }
 } // namespace

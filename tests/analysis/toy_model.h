@@ -36,19 +36,22 @@ namespace sprag
       return state;
     }
 
-    void predict(State & /*trial*/, const State & /*accepted*/) const override
+    // Trial states must start from the accepted one, untouched by whatever was rejected before.
+    State begin_step(const State &accepted, const DrivePoint &end) override
     {
+      from           = accepted.drive.x;
+      history_intact = history_intact && accepted.contact[0].traction == from;
+      State trial    = accepted;
+      trial.drive    = end;
+      return trial;
     }
 
-    Unbalance evaluate(const State &trial, const State &accepted, const FrictionMode /*mode*/) override
+    Unbalance evaluate(State &trial, const FrictionMode /*mode*/) override
     {
-      q    = trial.coordinates[0];
-      x    = trial.drive.x;
-      from = accepted.drive.x;
-      // Trial states must start from the accepted one, untouched by whatever was rejected before.
-      if (accepted.contact[0].traction != accepted.drive.x || trial.contact[0].traction != accepted.contact[0].traction)
-        history_intact = false;
-      value = equation(q, x);
+      q              = trial.coordinates[0];
+      x              = trial.drive.x;
+      history_intact = history_intact && trial.contact[0].traction == from;
+      value          = equation(q, x);
       return { std::abs(value.residual), 1. };
     }
 

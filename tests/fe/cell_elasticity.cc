@@ -60,7 +60,7 @@ namespace
   System assembled(const ElasticBody<2> &body, const Vector &displacement)
   {
     Matrix matrix;
-    body.reinit(matrix, 0);
+    body.reinit(matrix);
     System result{ dealii::LAPACKFullMatrix<double>(body.n_dofs()), Vector(body.n_dofs()) };
     body.assemble(displacement, matrix, result.forces);
     for (const auto &entry : matrix)

@@ -63,7 +63,7 @@ namespace
       }
     Matrix stiffness;
     Vector ignored(body.n_dofs()), result;
-    body.reinit(stiffness, 0);
+    body.reinit(stiffness);
     body.assemble(Vector(body.n_dofs()), stiffness, ignored);
     Mumps factors;
     factors.factorise(stiffness);
@@ -153,7 +153,7 @@ TEST(Connectors, TheirEnergyIsTheWorkOfTheLoad)
   const auto u = loaded(*plate, 20., { { -5., 10. } });
   Matrix stiffness;
   Vector forces(plate->n_dofs());
-  plate->reinit(stiffness, 0);
+  plate->reinit(stiffness);
   plate->assemble(u, stiffness, forces);
   const double energy = plate->energy(u);
   EXPECT_NEAR(energy, 0.5 * (u * forces), 1e-10 * energy);

@@ -1,7 +1,7 @@
 #include "fe/algebra/free_modes.h"
 #include "fe/dynamics/inertial_matrices.h"
 #include "fe/mesh/mesh.h"
-#include "fe/statics/lever_model.h"
+#include "fe/statics/lever_properties.h"
 #include "mpi_environment.h"
 #include "scenes.h"
 

@@ -105,7 +105,7 @@ TEST(InertialMatrices, AgreesWithTheStiffnessInTheAxesOfTheHub)
   const auto elastic = matrices.coordinates.elastic_displacement(total);
   Matrix stiffness;
   Vector forces((*bar).n_dofs());
-  (*bar).reinit(stiffness, 0);
+  (*bar).reinit(stiffness);
   (*bar).assemble(elastic, stiffness, forces);
   const double energy = 0.5 * (total * product(matrices.stiffness, total));
   EXPECT_NEAR(energy, 0.5 * (elastic * forces), 1e-11 * energy);

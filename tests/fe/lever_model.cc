@@ -53,14 +53,12 @@ namespace
   /// Equilibrium of a step from the accepted state, memory not yet committed.
   State solved(Model &model, const State &accepted, const DrivePoint &drive)
   {
-    State guess = accepted;
-    guess.drive = drive;
-    model.predict(guess, accepted);
-    State trial = guess;
-    if (!solve_step(model, trial, accepted, drive.v < 0. ? FrictionMode::stick : FrictionMode::cone))
+    const State guess = model.begin_step(accepted, drive);
+    State trial       = guess;
+    if (!solve_step(model, trial, drive.v < 0. ? FrictionMode::stick : FrictionMode::cone))
     {
       trial = guess;
-      EXPECT_TRUE(solve_step(model, trial, accepted, drive.v > 0. ? FrictionMode::stick : FrictionMode::cone)) << "x " << drive.x;
+      EXPECT_TRUE(solve_step(model, trial, drive.v > 0. ? FrictionMode::stick : FrictionMode::cone)) << "x " << drive.x;
     }
     return trial;
   }
@@ -157,12 +155,10 @@ TEST(LeverModel, ApartTheSpringReturnsTheLeverInOneCorrection)
   {
     const auto scene = coarse_scene(solution);
     MeshedLever meshed(scene);
-    const auto accepted = meshed.model.initial_state(forward_to(0.));
-    State trial         = accepted;
-    trial.drive         = forward_to(1e-3);
+    State trial = meshed.model.begin_step(meshed.model.initial_state(forward_to(0.)), forward_to(1e-3));
     trial.coordinates[trial.coordinates.size() - 1] += 0.01;
     Row row;
-    meshed.model.evaluate(trial, accepted, FrictionMode::cone);
+    meshed.model.evaluate(trial, FrictionMode::cone);
     meshed.model.observe(trial, row);
     EXPECT_EQ(row[Column::P], 0.);
     EXPECT_EQ(row[Column::contact_width], 0.);
@@ -181,10 +177,9 @@ TEST(LeverModel, ATriedStepLeavesTheNextStepAsItWas)
   const auto memory   = model.memory();
 
   // A trial far from any equilibrium, given up.
-  State trial = accepted;
-  trial.drive = back_by(9.);
+  State trial = model.begin_step(accepted, back_by(9.));
   trial.coordinates[trial.coordinates.size() - 1] -= 0.1;
-  model.evaluate(trial, accepted, FrictionMode::cone);
+  model.evaluate(trial, FrictionMode::cone);
   model.augment(trial);
   model.correction();
 

@@ -61,7 +61,7 @@ TEST(Widths, UniformTensionIsHeldByBothWidths)
   for (unsigned int i = 0; i < u.size(); ++i)
     u[i] = axis.is_element(i) ? strain * places[i][0] : 0.;
   dealii::PETScWrappers::SparseMatrix stiffness;
-  bar.body->reinit(stiffness, 0);
+  bar.body->reinit(stiffness);
   bar.body->assemble(u, stiffness, forces);
   // Uniform stress: nothing inside, E strain times the section at the end.
   const double tension = young_modulus * strain * bar.section();

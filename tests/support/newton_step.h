@@ -4,10 +4,11 @@
 
 namespace sprag
 {
-  /// Newton's method from `trial`, halving a correction until the unbalance falls, to round-off. False if it ends elsewhere.
-  inline bool solve_step(Model &model, State &trial, const State &accepted, const FrictionMode first)
+  /// Newton's method from `trial` in the model's step, halving a correction until the unbalance falls, to round-off. False if it
+  /// ends elsewhere.
+  inline bool solve_step(Model &model, State &trial, const FrictionMode first)
   {
-    double norm = model.evaluate(trial, accepted, first).norm;
+    double norm = model.evaluate(trial, first).norm;
     for (unsigned int i = 0; i < 40; ++i)
     {
       const auto correction = model.correction();
@@ -19,7 +20,7 @@ namespace sprag
       {
         trial.coordinates = from;
         trial.coordinates.add(share, correction);
-        next = model.evaluate(trial, accepted, FrictionMode::cone).norm;
+        next = model.evaluate(trial, FrictionMode::cone).norm;
         if (full || next < norm)
           break;
       }

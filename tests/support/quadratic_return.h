@@ -15,9 +15,10 @@ namespace sprag
   {
     for (const double h : { 1e-6, 1e-7 })
     {
+      model.begin_step(accepted, equilibrium.drive);
       State trial = equilibrium;
       trial.coordinates.add(h, direction);
-      model.evaluate(trial, accepted, FrictionMode::cone);
+      model.evaluate(trial, FrictionMode::cone);
       dealii::Vector<double> left = model.correction();
       left.add(h, direction);
       EXPECT_LE(model.movement(left), (5e3 * h + 1e-12 / h) * h) << "h " << h;

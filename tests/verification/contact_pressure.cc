@@ -161,7 +161,7 @@ TEST(ContactPressure, OfASecondLeverIsRecoveredToo)
   scene.analysis.step        = 6.5;
   dealii::Triangulation<2> triangulation;
   make_mesh(scene, triangulation);
-  MirroredLevers model(triangulation, scene);
+  LeverModel model(triangulation, scene);
   const auto found = strokes(scene, model);
   for (std::size_t i = 2; i < found.rows.size(); ++i)
   {

@@ -56,19 +56,17 @@ namespace
     State accepted = model.initial_state(drive.front());
     for (const auto &point : drive)
     {
-      State trial = accepted;
-      trial.drive = point;
-      model.predict(trial, accepted);
+      State trial       = model.begin_step(accepted, point);
       const State guess = trial;
-      if (!solve_equilibrium(model, trial, accepted, false).converged)
+      if (!solve_equilibrium(model, trial, false).converged)
       {
         trial = guess;
-        EXPECT_TRUE(solve_equilibrium(model, trial, accepted, true).converged) << "x " << point.x;
+        EXPECT_TRUE(solve_equilibrium(model, trial, true).converged) << "x " << point.x;
       }
       for (unsigned int i = 0; augmented && model.penetration() > meshed.scene.contact.penetration_tolerance && i < 20; ++i)
       {
         model.augment(trial);
-        EXPECT_TRUE(solve_equilibrium(model, trial, accepted, false).converged) << "x " << point.x;
+        EXPECT_TRUE(solve_equilibrium(model, trial, false).converged) << "x " << point.x;
       }
       Row row;
       model.observe(trial, row);

@@ -179,7 +179,7 @@ namespace
     Vector<double> displacement(body.n_dofs());
     VectorTools::interpolate(body.dofs(), problem.exact, displacement);
     PETScWrappers::SparseMatrix matrix;
-    body.reinit(matrix, 0);
+    body.reinit(matrix);
     std::vector<bool> held(body.n_dofs());
     for (const auto dof : DoFTools::extract_boundary_dofs(body.dofs(), {}, { boundary_id::hub }))
       held[dof] = true;

@@ -3,7 +3,7 @@
 #include "analysis/transient/oscillation.h"
 #include "fe/dynamics/dynamic_face_lever.h"
 #include "fe/mesh/mesh.h"
-#include "fe/statics/lever_model.h"
+#include "fe/statics/lever_properties.h"
 #include "mpi_environment.h"
 #include "verification/run_transient.h"
 

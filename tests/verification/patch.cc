@@ -146,7 +146,7 @@ TEST(Patch, HydrostaticPressureBalancesAcrossACurvedInterface)
       u[dofs[i]] = -shrinkage * support[dofs[i]][body.dofs().get_fe().system_to_component_index(i).first];
   }
   dealii::PETScWrappers::SparseMatrix stiffness;
-  body.reinit(stiffness, 0);
+  body.reinit(stiffness);
   body.assemble(u, stiffness, internal);
   const auto dofs = surface_dofs(body);
   const PortLayout ports{ static_cast<unsigned int>(dofs.size()), false };

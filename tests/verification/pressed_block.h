@@ -66,26 +66,25 @@ namespace sprag
   }
 
   /// Equilibrium from the coordinates in `trial`; if it is not found so, from the stick predictor.
-  inline bool equilibrate(Model &model, State &trial, const State &accepted)
+  inline bool equilibrate(Model &model, State &trial)
   {
     const State guess = trial;
-    if (solve_equilibrium(model, trial, accepted, false).converged)
+    if (solve_equilibrium(model, trial, false).converged)
       return true;
     trial = guess;
-    return solve_equilibrium(model, trial, accepted, true).converged;
+    return solve_equilibrium(model, trial, true).converged;
   }
 
   /// The accepted state at drive position x (also its time), from `accepted`; augments where `model` has multipliers.
   inline State step_to(Model &model, const State &accepted, const double x, const ContactSettings &contact)
   {
-    State trial = accepted;
-    trial.drive = { x, x, 1. };
-    EXPECT_TRUE(equilibrate(model, trial, accepted)) << "x " << x;
+    State trial = model.begin_step(accepted, { x, x, 1. });
+    EXPECT_TRUE(equilibrate(model, trial)) << "x " << x;
     if (contact.enforcement == Enforcement::augmented_lagrangian)
       for (unsigned int i = 0; model.penetration() > contact.penetration_tolerance; ++i)
       {
         model.augment(trial);
-        const bool converged = i < contact.maximum_augmentations && equilibrate(model, trial, accepted);
+        const bool converged = i < contact.maximum_augmentations && equilibrate(model, trial);
         EXPECT_TRUE(converged) << "x " << x << ", penetration " << model.penetration();
         if (!converged)
           break;

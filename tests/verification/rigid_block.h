@@ -49,17 +49,21 @@ namespace sprag
       return state;
     }
 
-    void predict(State & /*trial*/, const State & /*accepted*/) const override
+    State begin_step(const State &accepted, const DrivePoint &end) override
     {
+      start_time  = accepted.drive.time;
+      slip_begin  = properties.contact(displacement(accepted)).slip;
+      State trial = accepted;
+      trial.drive = end;
+      return trial;
     }
 
-    Unbalance evaluate(const State &trial, const State &accepted, const FrictionMode mode) override
+    Unbalance evaluate(State &trial, const FrictionMode mode) override
     {
-      const auto u            = displacement(trial);
-      const auto load         = properties.load(u, trial.drive.x);
-      const double duration   = trial.drive.time - accepted.drive.time;
-      point                   = properties.contact(u);
-      const double slip_begin = properties.contact(displacement(accepted)).slip;
+      const auto u          = displacement(trial);
+      const auto load       = properties.load(u, trial.drive.x);
+      const double duration = trial.drive.time - start_time;
+      point                 = properties.contact(u);
       StepContactLaw law;
       law.normal     = { properties.penalty, 1. };
       law.tangential = properties.penalty;
@@ -120,6 +124,7 @@ namespace sprag
     }
 
     const Properties properties;
+    double start_time = 0., slip_begin = 0.; // of the step
     ContactKinematics<n> point;
     StepResponse<n> response;
     dealii::Tensor<1, n> external, unbalance;

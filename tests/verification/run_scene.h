@@ -1,14 +1,13 @@
 #pragma once
 
 #include "analysis/statics/quasi_static.h"
-#include "fe/statics/mirrored_levers.h"
+#include "fe/mesh/mesh.h"
+#include "fe/statics/lever_model.h"
 #include "mpi_environment.h"
 #include "run/report.h"
-#include "scene/mirrored_pair.h"
 #include "scenes.h"
 
 #include <cmath>
-#include <memory>
 #include <vector>
 
 namespace sprag
@@ -19,12 +18,8 @@ namespace sprag
   {
     dealii::Triangulation<2> triangulation;
     make_mesh(scene, triangulation);
-    std::unique_ptr<Model> model;
-    if (number_of_levers(scene) == 2)
-      model = std::make_unique<MirroredLevers>(triangulation, scene);
-    else
-      model = std::make_unique<LeverModel>(triangulation, lever_properties(scene));
-    return run_quasi_static(*model, scene.drive, { scene.analysis.step, scene.analysis.minimum_step, scene.contact },
+    LeverModel model(triangulation, scene);
+    return run_quasi_static(model, scene.drive, { scene.analysis.step, scene.analysis.minimum_step, scene.contact },
                             [&](const State &, const Row &row)
                             {
                               rows.push_back(row);

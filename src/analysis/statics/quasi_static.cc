@@ -35,13 +35,13 @@ namespace sprag
     };
 
     /// Newton from the predictor; if it fails, once more from the stick predictor.
-    bool equilibrate(Model &model, State &trial, const State &accepted, const bool stick_first, StepCost &cost)
+    bool equilibrate(Model &model, State &trial, const bool stick_first, StepCost &cost)
     {
       const State guess = trial;
       for (const bool predict_stick : { stick_first, !stick_first })
       {
         trial             = guess;
-        const auto result = solve_equilibrium(model, trial, accepted, predict_stick);
+        const auto result = solve_equilibrium(model, trial, predict_stick);
         cost.iterations += result.iterations;
         if (result.converged)
           return true;
@@ -50,7 +50,7 @@ namespace sprag
     }
 
     /// Augments until no point overlaps by more than the tolerance.
-    bool augment(Model &model, State &trial, const State &accepted, const ContactSettings &settings, StepCost &cost)
+    bool augment(Model &model, State &trial, const ContactSettings &settings, StepCost &cost)
     {
       while (model.penetration() > settings.penetration_tolerance)
       {
@@ -58,7 +58,7 @@ namespace sprag
         if (++cost.augmentations > settings.maximum_augmentations)
           return model.penetration() <= stalled_overlap * settings.penetration_tolerance;
         model.augment(trial);
-        if (!equilibrate(model, trial, accepted, false, cost))
+        if (!equilibrate(model, trial, false, cost))
           return false;
       }
       return true;
@@ -68,17 +68,14 @@ namespace sprag
     std::optional<State> solve_step(Model &model, const State &accepted, const DrivePoint &drive,
                                     const QuasiStaticSettings &settings, const bool stick_first, StepCost &cost)
     {
-      State trial = accepted;
-      trial.drive = drive;
-      model.predict(trial, accepted);
+      State trial = model.begin_step(accepted, drive);
       try
       {
         cost.failure = "Newton's method does not converge";
-        if (!equilibrate(model, trial, accepted, stick_first, cost))
+        if (!equilibrate(model, trial, stick_first, cost))
           return {};
         cost.failure = "augmentation does not converge";
-        if (settings.contact.enforcement == Enforcement::augmented_lagrangian &&
-            !augment(model, trial, accepted, settings.contact, cost))
+        if (settings.contact.enforcement == Enforcement::augmented_lagrangian && !augment(model, trial, settings.contact, cost))
           return {};
       }
       catch (const AnalysisError &error)
@@ -230,7 +227,10 @@ namespace sprag
           now = advance(model, approach, settings, now, false, false, dx);
       }
       else if (!pressed)
-        model.evaluate(now.state, now.state, FrictionMode::stick);
+      {
+        now.state = model.begin_step(now.state, now.state.drive);
+        model.evaluate(now.state, FrictionMode::stick);
+      }
       now.state.drive = start;
       now.row         = observe(model, now.state);
       const bool rubs = pressed && start.x == 0.; // friction then builds up within the first step
@@ -238,13 +238,13 @@ namespace sprag
     }
 
     /// The overlap once every point in contact sticks to where it was in the accepted state [mm].
-    double balance_in_stick(Model &model, State &trial, const State &accepted)
+    double balance_in_stick(Model &model, State &trial)
     {
-      double overlap = model.evaluate(trial, accepted, FrictionMode::stick).overlap;
+      double overlap = model.evaluate(trial, FrictionMode::stick).overlap;
       for (unsigned int i = 0; i < stick_solutions && overlap > 0.; ++i)
       {
         trial.coordinates += model.correction();
-        overlap = model.evaluate(trial, accepted, FrictionMode::stick).overlap;
+        overlap = model.evaluate(trial, FrictionMode::stick).overlap;
       }
       return overlap;
     }
@@ -253,15 +253,15 @@ namespace sprag
   double stick_stiffness(Model &model, const State &accepted)
   {
     // The accepted state itself is not balanced in stick where the multipliers of the augmented Lagrangian are carried over.
-    State trial          = accepted;
-    const double overlap = balance_in_stick(model, trial, accepted);
+    State trial          = model.begin_step(accepted, accepted.drive);
+    const double overlap = balance_in_stick(model, trial);
     if (overlap == 0.)
       return 0.;
     Row before, after;
     model.observe(trial, before);
     const double probe = probe_share * overlap;
     trial.drive.x += probe;
-    balance_in_stick(model, trial, accepted);
+    balance_in_stick(model, trial);
     model.observe(trial, after);
     return (after.friction_force() - before.friction_force()) / probe;
   }

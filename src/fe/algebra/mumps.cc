@@ -4,6 +4,11 @@
 
 namespace sprag
 {
+  Mumps::Mumps(const MatrixKind kind_)
+      : kind(kind_)
+  {
+  }
+
   Mumps::~Mumps()
   {
     MatDestroy(&factor);
@@ -26,11 +31,23 @@ namespace sprag
                           ", MatFactorError = " + std::to_string(error) + ")");
   }
 
+  void Mumps::symbolic(const dealii::PETScWrappers::SparseMatrix &matrix)
+  {
+    MatFactorInfo info;
+    check(MatFactorInfoInitialize(&info), "set-up");
+    check(kind == MatrixKind::general ? MatLUFactorSymbolic(factor, matrix, nullptr, nullptr, &info)
+                                      : MatCholeskyFactorSymbolic(factor, matrix, nullptr, &info),
+          "analysis");
+    check_factor("analysis");
+  }
+
   void Mumps::numeric(const dealii::PETScWrappers::SparseMatrix &matrix)
   {
     MatFactorInfo info;
     check(MatFactorInfoInitialize(&info), "set-up");
-    check(MatLUFactorNumeric(factor, matrix, &info), "factorisation");
+    check(kind == MatrixKind::general ? MatLUFactorNumeric(factor, matrix, &info)
+                                      : MatCholeskyFactorNumeric(factor, matrix, &info),
+          "factorisation");
     check_factor("factorisation");
   }
 
@@ -38,11 +55,11 @@ namespace sprag
   {
     if (factor == nullptr)
     {
-      MatFactorInfo info;
-      check(MatFactorInfoInitialize(&info), "set-up");
-      check(MatGetFactor(matrix, MATSOLVERMUMPS, MAT_FACTOR_LU, &factor), "set-up");
-      check(MatLUFactorSymbolic(factor, matrix, nullptr, nullptr, &info), "analysis");
-      check_factor("analysis");
+      if (kind == MatrixKind::positive_definite)
+        check(MatSetOption(matrix, MAT_SPD, PETSC_TRUE), "set-up");
+      const auto type = kind == MatrixKind::general ? MAT_FACTOR_LU : MAT_FACTOR_CHOLESKY;
+      check(MatGetFactor(matrix, MATSOLVERMUMPS, type, &factor), "set-up");
+      symbolic(matrix);
     }
     numeric(matrix);
   }
@@ -52,16 +69,13 @@ namespace sprag
   {
     const std::vector<PetscInt> petsc_indices(indices.begin(), indices.end());
     const auto n = static_cast<PetscInt>(indices.size());
-    MatFactorInfo info;
     IS schur_set = nullptr;
     check(MatDestroy(&factor), "set-up");
-    check(MatFactorInfoInitialize(&info), "set-up");
     check(MatGetFactor(matrix, MATSOLVERMUMPS, MAT_FACTOR_LU, &factor), "set-up");
     check(ISCreateGeneral(PETSC_COMM_SELF, n, petsc_indices.data(), PETSC_COPY_VALUES, &schur_set), "set-up");
     check(MatFactorSetSchurIS(factor, schur_set), "set-up");
     check(ISDestroy(&schur_set), "set-up");
-    check(MatLUFactorSymbolic(factor, matrix, nullptr, nullptr, &info), "analysis");
-    check_factor("analysis");
+    symbolic(matrix);
     numeric(matrix);
 
     Mat schur = nullptr;
@@ -90,5 +104,32 @@ namespace sprag
     check_factor("a solve");
     check(VecDestroy(&b), "a solve");
     check(VecDestroy(&x), "a solve");
+  }
+
+  std::vector<double> Mumps::entries_of_inverse(const std::map<unsigned int, std::vector<unsigned int>> &wanted) const
+  {
+    constexpr PetscInt inverse_entries = 30; // of ICNTL
+    PetscInt n                         = 0;
+    check(MatGetSize(factor, &n, nullptr), "the inverse");
+    std::vector<PetscInt> begins(static_cast<std::size_t>(n) + 1), columns;
+    auto row = wanted.begin();
+    for (PetscInt i = 0; i < n; ++i)
+    {
+      if (row != wanted.end() && static_cast<PetscInt>(row->first) == i)
+      {
+        columns.insert(columns.end(), row->second.begin(), row->second.end());
+        ++row;
+      }
+      begins[static_cast<std::size_t>(i) + 1] = static_cast<PetscInt>(columns.size());
+    }
+    std::vector<double> result(columns.size());
+    Mat entries = nullptr;
+    check(MatCreateSeqAIJWithArrays(PETSC_COMM_SELF, n, n, begins.data(), columns.data(), result.data(), &entries),
+          "the inverse");
+    check(MatMumpsGetInverseTranspose(factor, entries), "the inverse");
+    check_factor("the inverse");
+    check(MatMumpsSetIcntl(factor, inverse_entries, 0), "the inverse"); // later solves are of all entries again
+    check(MatDestroy(&entries), "the inverse");
+    return result;
   }
 } // namespace sprag

@@ -6,16 +6,24 @@
 
 #include <petscmat.h>
 
+#include <map>
 #include <vector>
 
 namespace sprag
 {
-  /// LU factors of a sequential PETSc matrix by MUMPS. Every return status is checked: MUMPS fails silently otherwise.
+  /// What a matrix is known to be.
+  enum class MatrixKind
+  {
+    general,           ///< LU
+    positive_definite, ///< and symmetric: Cholesky, half of the time and memory
+  };
+
+  /// Factors of a sequential PETSc matrix by MUMPS. Every return status is checked: MUMPS fails silently otherwise.
   /// All functions throw AnalysisError, naming the status, when a factorisation or solve fails.
   class Mumps
   {
   public:
-    Mumps()                         = default;
+    explicit Mumps(MatrixKind kind = MatrixKind::general);
     Mumps(const Mumps &)            = delete;
     Mumps &operator=(const Mumps &) = delete;
     ~Mumps();
@@ -30,11 +38,17 @@ namespace sprag
 
     void solve(const dealii::Vector<double> &right_hand_side, dealii::Vector<double> &solution) const;
 
+    /// Entries of the inverse of a symmetric matrix, in the order asked for: `wanted` holds increasing columns by their row. Only
+    /// the parts of the factors between rows and columns are visited.
+    std::vector<double> entries_of_inverse(const std::map<unsigned int, std::vector<unsigned int>> &wanted) const;
+
   private:
     void check(PetscErrorCode code, const char *what) const;
     void check_factor(const char *what) const;
+    void symbolic(const dealii::PETScWrappers::SparseMatrix &matrix);
     void numeric(const dealii::PETScWrappers::SparseMatrix &matrix);
 
+    const MatrixKind kind;
     Mat factor = nullptr;
   };
 } // namespace sprag

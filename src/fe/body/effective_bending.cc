@@ -42,7 +42,7 @@ namespace sprag
       throw InputError("the mesh has no straight end face across the lever, at which its bending could be told");
     PETScWrappers::SparseMatrix stiffness;
     Vector<double> displacement(body.n_dofs());
-    body.reinit(stiffness, 0);
+    body.reinit(stiffness);
     body.assemble(Vector<double>(body.n_dofs()), stiffness, displacement);
     Mumps factors;
     factors.factorise(stiffness);

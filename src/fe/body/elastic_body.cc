@@ -114,48 +114,15 @@ namespace sprag
   }
 
   template <int dim>
-  void ElasticBody<dim>::reinit(PETScWrappers::SparseMatrix &matrix, const unsigned int extra) const
+  void ElasticBody<dim>::reinit(PETScWrappers::SparseMatrix &matrix) const
   {
-    const unsigned int n = n_dofs() + extra;
-    DynamicSparsityPattern of_body(n_dofs(), n_dofs());
-    DynamicSparsityPattern pattern(n, n);
-    DoFTools::make_sparsity_pattern(dof_handler, of_body, constraints, true);
-    for (const auto &entry : of_body)
-      pattern.add(entry.row(), entry.column());
+    DynamicSparsityPattern pattern(n_dofs(), n_dofs());
+    DoFTools::make_sparsity_pattern(dof_handler, pattern, constraints, true);
     for (const auto &spring : springs)
       for (const auto &i : spring.row)
         for (const auto &j : spring.row)
           pattern.add(i.first, j.first);
-    for (unsigned int e = n_dofs(); e < n; ++e)
-    {
-      for (unsigned int other = n_dofs(); other < n; ++other)
-        pattern.add(e, other);
-      for (const auto *const touched : { &face, &face_of_cylinder })
-        for (const auto &node : touched->nodes)
-          for (const unsigned int dof : node.dofs)
-          {
-            pattern.add(e, dof);
-            pattern.add(dof, e);
-          }
-    }
-    if (extra > 0)
-      couple_faces(pattern);
     matrix.reinit(pattern);
-  }
-
-  /// Each node of a cylinder's face with all of both faces: the material of the lever slides along it.
-  template <int dim>
-  void ElasticBody<dim>::couple_faces(DynamicSparsityPattern &pattern) const
-  {
-    for (const auto &node : face_of_cylinder.nodes)
-      for (const unsigned int dof : node.dofs)
-        for (const auto *const touched : { &face, &face_of_cylinder })
-          for (const auto &other : touched->nodes)
-            for (const unsigned int other_dof : other.dofs)
-            {
-              pattern.add(dof, other_dof);
-              pattern.add(other_dof, dof);
-            }
   }
 
   template <int dim>

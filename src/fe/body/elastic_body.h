@@ -52,12 +52,10 @@ namespace sprag
     /// Which degrees of freedom are held or follow others.
     const dealii::AffineConstraints<double> &held() const;
 
-    /// A matrix for the stiffness with `extra` further rows and columns, which couple with the faces and themselves; with any,
-    /// friction face and cylinder face couple too.
-    void reinit(dealii::PETScWrappers::SparseMatrix &matrix, unsigned int extra) const;
+    /// Gives a matrix room for the stiffness.
+    void reinit(dealii::PETScWrappers::SparseMatrix &matrix) const;
 
-    /// Adds the stiffness at `displacement` to `matrix` and the internal forces [N] to `forces`; both may be longer than
-    /// n_dofs().
+    /// Adds the stiffness at `displacement` to `matrix` and the internal forces [N] to `forces`.
     void assemble(const dealii::Vector<double> &displacement, dealii::PETScWrappers::SparseMatrix &matrix,
                   dealii::Vector<double> &forces) const;
 
@@ -76,7 +74,6 @@ namespace sprag
 
   private:
     void find_constraints(const Constrain &constrain);
-    void couple_faces(dealii::DynamicSparsityPattern &pattern) const;
     void add_connectors(const dealii::Vector<double> &displacement, dealii::PETScWrappers::SparseMatrix &matrix,
                         dealii::Vector<double> &forces) const;
 

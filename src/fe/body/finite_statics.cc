@@ -38,7 +38,7 @@ namespace sprag
       : body(body_)
       , internal(body.n_dofs())
   {
-    body.reinit(tangent, 0);
+    body.reinit(tangent);
     number_coordinates(held);
     arrange_band();
   }

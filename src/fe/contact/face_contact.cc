@@ -176,22 +176,21 @@ namespace sprag
       }
   }
 
-  const PortSelection &FaceContact::reachable_ports(const double x, const double inclination)
+  const PortSelection &FaceContact::reachable_ports(const double x, const double inclination, const double travel)
   {
-    const double margin = 0.1 * properties.radius + 5. * properties.layer_thickness;
-    const double xi     = properties.centre(x, inclination).xi;
-    const auto range    = face.patches_between(xi - margin, xi + margin);
-    if (!reaches_everywhere && (range.begin != reached.begin || range.end != reached.end))
-      reach(range);
+    const double of_contact = reach_factor * 0.05 * properties.radius + travel;
+    const double aside      = 5. * properties.layer_thickness; // where the face is looked at besides
+    const double xi         = properties.centre(x, inclination).xi;
+    reached                 = face.patches_between(xi - of_contact, xi + of_contact);
+    const auto range        = face.patches_between(xi - of_contact - aside, xi + of_contact + aside);
+    if (reachable.empty() || range.begin != looked_at.begin || range.end != looked_at.end)
+    {
+      looked_at = range;
+      reachable = face.displacements_of(range);
+      for (auto port = 2 * static_cast<unsigned int>(body.friction_face().nodes.size()); port < properties.ports.size(); ++port)
+        reachable.push_back(port);
+    }
     return reachable;
-  }
-
-  void FaceContact::reach(const FacePatches::Range &range)
-  {
-    reached   = range;
-    reachable = face.displacements_of(range);
-    for (auto port = 2 * static_cast<unsigned int>(body.friction_face().nodes.size()); port < properties.ports.size(); ++port)
-      reachable.push_back(port);
   }
 
   /// Without a call of reachable_ports() all can be reached.
@@ -208,8 +207,7 @@ namespace sprag
 
   void FaceContact::widen_reach()
   {
-    reaches_everywhere = true;
-    reach({ 0, static_cast<unsigned int>(face.patches().size()) });
+    reach_factor *= 2.;
   }
 
   const PortForces &FaceContact::forces() const

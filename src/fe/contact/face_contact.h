@@ -45,10 +45,12 @@ namespace sprag
     /// Delays of friction at the points in contact, at the last evaluate_sliding(), on the ports of forces().
     std::vector<FrictionDelay> friction_delays() const;
 
-    /// Ports near the cylinder at x from the pivot frame's origin and inclination theta, far beyond the contact's width.
-    const PortSelection &reachable_ports(double x, double theta);
+    /// Ports near the cylinder at x from the pivot frame's origin and inclination theta, far beyond the contact's width and where
+    /// it may have been `travel` before [mm].
+    const PortSelection &reachable_ports(double x, double theta, double travel = 0.);
 
-    /// Whether the contact of the last evaluation was within them. If not, widen_reach() makes them all.
+    /// Whether the contact of the last evaluation was within them. If not, widen_reach() doubles how far they reach from the next
+    /// call on.
     bool within_reach() const;
     void widen_reach();
 
@@ -110,7 +112,6 @@ namespace sprag
     FacePointState &add_state(unsigned int patch, unsigned int point);
     void sum_forces();
     FacePatches::Range clip(const FacePatches::Range &range);
-    void reach(const FacePatches::Range &range);
     unsigned int middle_of_contact() const;
 
     const ElasticBody<2> &body;
@@ -129,8 +130,9 @@ namespace sprag
     PortForces summed;
     std::vector<unsigned int> place_of_port; ///< among those summed
     PortSelection reachable;
-    FacePatches::Range reached{ 0, 0 }; ///< patches of `reachable`
-    bool reaches_everywhere = false;
-    bool clipped            = false;
+    FacePatches::Range reached{ 0, 0 };   ///< patches that the contact may touch
+    FacePatches::Range looked_at{ 0, 0 }; ///< patches of `reachable`
+    double reach_factor = 1.;
+    bool clipped        = false;
   };
 } // namespace sprag

@@ -1,6 +1,6 @@
 #include "fe/dynamics/dynamic_face_lever.h"
 
-#include "fe/statics/lever_model.h"
+#include "fe/statics/contact_penalties.h"
 #include "model/dynamic_lever.h"
 #include "model/mirrored_contact.h"
 #include "model/mirrored_modes.h"

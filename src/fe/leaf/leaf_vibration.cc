@@ -53,7 +53,7 @@ namespace sprag
     {
       const auto &fe = body.dofs().get_fe();
       FEValues<2> values(body.cell_mapping(), fe, QGauss<2>(fe.degree + 1), update_values | update_JxW_values);
-      body.reinit(mass, 0);
+      body.reinit(mass);
       MassOf of_cells(values, mass);
       for (const auto &cell : body.dofs().active_cell_iterators())
       {

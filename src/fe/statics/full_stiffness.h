@@ -8,15 +8,18 @@
 
 namespace sprag
 {
-  /// Newton iteration for any material: assembles and factorises at every iterate. Coordinates: displacement of all degrees of
-  /// freedom of the body, then those of the ports of hub and support.
+  /// Newton iteration for any material: assembles and factorises at every iterate. Coordinates: of each lever the displacements
+  /// of all degrees of freedom of its body and the turn of its hub, then the displacement of a sprung support.
   class FullStiffness
   {
   public:
-    /// The body must outlive this.
+    /// The body must outlive this; that of a pair's second lever is alike.
     FullStiffness(const ElasticBody<2> &body, const PortLayout &ports, const PortSprings &springs);
 
     unsigned int n_coordinates() const;
+
+    /// Index of the coordinate of a port.
+    unsigned int coordinate(unsigned int port) const;
 
     dealii::Vector<double> port_displacements(const dealii::Vector<double> &coordinates) const;
 
@@ -26,21 +29,31 @@ namespace sprag
     /// Correction at the last unbalance(). Throws AnalysisError if the factorisation fails.
     dealii::Vector<double> correction(const PortForces &forces);
 
-    /// What a unit moment on the hub adds to the last correction() [1/(N mm)].
-    dealii::Vector<double> moment_response(const PortForces &forces) const;
+    /// Absolute value of the largest coordinate.
+    double largest(const dealii::Vector<double> &coordinates) const;
 
-    dealii::Vector<double> body_displacement(const dealii::Vector<double> &coordinates, const PortForces &forces) const;
+    /// Displacement of the whole body of a lever.
+    dealii::Vector<double> body_displacement(unsigned int lever, const dealii::Vector<double> &coordinates,
+                                             const PortLoads &forces) const;
 
-    /// Forces of the body's sensors [N].
-    std::vector<double> sensor_forces(const dealii::Vector<double> &coordinates, const PortForces &forces) const;
+    /// Forces of the sensors of a lever [N].
+    std::vector<double> sensor_forces(unsigned int lever, const dealii::Vector<double> &coordinates,
+                                      const PortLoads &forces) const;
 
   private:
+    unsigned int first_coordinate(unsigned int lever) const;
+    void couple_ports(dealii::DynamicSparsityPattern &pattern) const;
+    void find_places(unsigned int lever);
+    void add_body(unsigned int lever, const dealii::Vector<double> &coordinates);
+
     const ElasticBody<2> &body;
     const PortLayout ports;
     const PortSprings springs;
-    std::vector<unsigned int> coordinate_of; ///< of each port
+    const std::vector<unsigned int> surface; ///< degrees of freedom of a lever's ports
     Mumps factors;
+    dealii::PETScWrappers::SparseMatrix of_body; ///< stiffness of a lever's body
     dealii::PETScWrappers::SparseMatrix matrix;
-    dealii::Vector<double> residual; ///< forces on the ports less those of body and springs
+    std::vector<std::size_t> places; ///< of the entries of each lever's body in the matrix
+    dealii::Vector<double> residual; ///< forces on the ports less those of bodies and springs
   };
 } // namespace sprag

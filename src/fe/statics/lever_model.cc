@@ -2,8 +2,11 @@
 
 #include "base/text.h"
 #include "fe/contact/face_observation.h"
+#include "fe/statics/contact_penalties.h"
 #include "fe/statics/static_terms.h"
-#include "scene/closed_form.h"
+#include "model/joined_memory.h"
+#include "model/joined_ports.h"
+#include "scene/mirrored_pair.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,48 +17,20 @@ namespace sprag
 
   namespace
   {
-    /// Over E/depth of the layer. The overlap is then a tenth of the layer's compression, which moves P by 0.03 % and the largest
-    /// pressure by 3 %.
-    constexpr double penalty_factor = 12.;
-
-    /// Leaves 0.25 % of the largest pressure where the cells are as fine as that takes.
-    constexpr double largest_penalty_factor = 200.;
-
-    /// Over E/length of the cells, of degree 2. Much stiffer penalties make a contact narrower than the cells, which then tilts
-    /// with each of them. Linear cells meet a circle with their chords, whose pressures would show.
-    constexpr double penalty_over_cells = 12.5;
-
-    double automatic_penalty(const FrictionFace<2> &face, const Enforcement enforcement, const double layer_thickness)
-    {
-      const double by_layer = penalty_factor * face.young_modulus / std::max(face.depth, layer_thickness);
-      if (face.edges.front().nodes.size() == 2)
-        return by_layer;
-      const auto shorter    = [](const FacePatch &a, const FacePatch &b) { return a.length < b.length; };
-      const double length   = std::min_element(face.patches.begin(), face.patches.end(), shorter)->length;
-      const double by_cells = std::max(by_layer, penalty_over_cells * face.young_modulus / length);
-      if (enforcement == Enforcement::augmented_lagrangian)
-        return by_cells;
-      return std::min(by_cells, largest_penalty_factor / penalty_factor * by_layer);
-    }
-
     /// Compression of the friction face beyond which linear elasticity says nothing.
     constexpr double largest_strain = 0.5;
 
-    bool has_elastic_cylinder(const ElasticBody<2> &body)
-    {
-      return !body.cylinder_face().patches.empty();
-    }
-
-    PortLayout static_ports(const ElasticBody<2> &body, const LeverProperties &properties)
+    PortLayout static_ports(const ElasticBody<2> &body, const LeverProperties &properties, const unsigned int levers)
     {
       PortLayout result{ static_cast<unsigned int>(surface_dofs(body).size()), properties.support_stiffness.has_value() };
+      result.levers      = levers;
       result.has_inertia = false;
       return result;
     }
 
-    FaceContactProperties contact_properties(const ElasticBody<2> &body, const LeverProperties &properties,
-                                             const PortLayout &ports)
+    FaceContactProperties contact_properties(const ElasticBody<2> &body, const LeverProperties &properties, PortLayout ports)
     {
+      ports.levers = 1;
       return { properties.obstacle,
                properties.centre,
                properties.radius,
@@ -66,265 +41,296 @@ namespace sprag
                properties.layer_thickness };
     }
 
-    std::variant<FaceCompliance, FullStiffness> make_system(const ElasticBody<2> &body, const LeverProperties &properties,
-                                                            const PortLayout &ports)
+    std::variant<StaticStructure, FullStiffness> make_structure(const ElasticBody<2> &body, const LeverProperties &properties,
+                                                                const PortLayout &ports)
     {
-      using System = std::variant<FaceCompliance, FullStiffness>;
+      using Structure = std::variant<StaticStructure, FullStiffness>;
       const PortSprings springs{ properties.spring.law.linear_stiffness(), properties.support_stiffness.value_or(0.),
                                  properties.spring.arm };
       if (properties.solution == Solution::automatic && properties.body.material == MaterialModel::linear)
-        return System(std::in_place_type<FaceCompliance>, body, ports, springs);
-      return System(std::in_place_type<FullStiffness>, body, ports, springs);
+        return Structure(std::in_place_type<StaticStructure>, body, ports, springs);
+      return Structure(std::in_place_type<FullStiffness>, body, ports, springs);
     }
 
-    std::vector<ConnectorSettings> plate_connectors(const FrictionPlate &plate)
+    std::vector<LeverProperties> properties_of_levers(const Scene &scene)
     {
-      if (plate.type == PlateType::none)
-        return {};
-      std::vector<ConnectorSettings> result;
-      for (const double middle : plate.sensors)
-        result.push_back({ ConnectorType::sensor, middle, plate.sensor_length, plate.sensor_stiffness });
-      result.push_back({ ConnectorType::guide, plate.guide, plate.sensor_length, plate.guide_stiffness });
-      return result;
+      if (number_of_levers(scene) == 1)
+        return { lever_properties(scene) };
+      return { properties_of_lever(scene, 0), properties_of_lever(scene, 1) };
     }
   } // namespace
 
-  ContactPenalties contact_penalties(const FrictionFace<2> &face, const ContactSettings &settings, const double layer_thickness,
-                                     const std::optional<double> &over_layer)
-  {
-    const double automatic = over_layer && settings.enforcement == Enforcement::penalty
-                                 ? *over_layer * face.young_modulus / std::max(face.depth, layer_thickness)
-                                 : automatic_penalty(face, settings.enforcement, layer_thickness);
-    const double normal    = settings.penalty.value_or(automatic);
-    return { normal, settings.tangential_penalty.value_or(normal) };
-  }
-
-  ContactPenalties contact_penalties(const ElasticBody<2> &body, const ContactSettings &settings, const double layer_thickness,
-                                     const std::optional<double> &over_layer)
-  {
-    const auto lever = contact_penalties(body.friction_face(), settings, layer_thickness, over_layer);
-    if (!has_elastic_cylinder(body))
-      return lever;
-    const auto cylinder = contact_penalties(body.cylinder_face(), settings, 0., over_layer);
-    return { std::min(lever.normal, cylinder.normal), std::min(lever.tangential, cylinder.tangential) };
-  }
-
-  LeverProperties lever_properties(const Scene &scene)
-  {
-    LeverProperties result;
-    result.body.degree   = scene.mesh.degree;
-    result.body.plane    = scene.analysis.plane;
-    result.body.material = scene.lever.material;
-    result.body.width    = scene.lever.width;
-    const ElasticConstants metal{ scene.lever.young_modulus, scene.lever.poisson_ratio };
-    result.body.constants  = { { material_id::lever, metal },
-                               { material_id::web, metal },
-                               { material_id::plate, { scene.plate.young_modulus, scene.plate.poisson_ratio } },
-                               { material_id::layer, { scene.layer.young_modulus, scene.layer.poisson_ratio } } };
-    result.body.widths     = { { material_id::web, scene.frame.web } };
-    result.body.connectors = plate_connectors(scene.plate);
-
-    if (scene.cylinder.type != CylinderType::rigid)
-      result.body.constants[material_id::cylinder] = { scene.cylinder.young_modulus, scene.cylinder.poisson_ratio };
-    result.body.curved = scene.cylinder.type != CylinderType::rigid;
-
-    // Half a spacing off, the direction of a contact narrower than it is wrong by 1/8000 at most.
-    result.body.point_spacing = scene.geometry.cylinder_radius / 4000.;
-
-    const Geometry geometry = scene.geometry;
-    result.obstacle         = cylinder(geometry);
-    result.centre           = [geometry](double x, double theta) { return cylinder_centre(geometry, x, theta); };
-    result.radius           = geometry.cylinder_radius;
-    result.ideal_theta      = [geometry](double x) { return kinematics(geometry, x).theta; };
-    const auto &law         = scene.spring.behaviour.law;
-    result.spring           = { law.is_linear() ? MomentLaw(scene.spring.stiffness) : law, kinematics(geometry, 0.).theta,
-                      geometry.pivot_distance };
-    if (scene.support.type == SupportType::sprung)
-      result.support_stiffness = scene.support.stiffness;
-    result.friction         = scene.friction;
-    result.contact          = scene.contact;
-    result.solution         = scene.analysis.solution;
-    result.layer_thickness  = scene.layer.thickness;
-    result.interface_offset = geometry.interface_offset;
-    result.geometry         = geometry;
-    return result;
-  }
-
-  LeverModel::LeverModel(const Triangulation<2> &triangulation, LeverProperties lever)
+  LeverModel::Lever::Lever(const ElasticBody<2> &body, const PortLayout &ports, LeverProperties lever)
       : properties(std::move(lever))
-      , body(triangulation, properties.body)
-      , ports(static_ports(body, properties))
       , contact(body, contact_properties(body, properties, ports))
       , multipliers(body.friction_face())
-      , system(make_system(body, properties, ports))
-      , excess(ports, properties.spring.law)
   {
+  }
+
+  LeverModel::LeverModel(const Triangulation<2> &triangulation, LeverProperties properties)
+      : LeverModel(triangulation, std::vector<LeverProperties>{ std::move(properties) }, false)
+  {
+  }
+
+  LeverModel::LeverModel(const Triangulation<2> &triangulation, const Scene &scene)
+      : LeverModel(triangulation, properties_of_levers(scene), swings(scene))
+  {
+  }
+
+  LeverModel::LeverModel(const Triangulation<2> &triangulation, std::vector<LeverProperties> properties, const bool swings)
+      : body(triangulation, properties.front().body)
+      , ports(static_ports(body, properties.front(), static_cast<unsigned int>(properties.size())))
+      , structure(make_structure(body, properties.front(), ports))
+      , excess(ports, properties.front().spring.law, swings, 0.)
+      , joint_is_free(swings)
+  {
+    for (auto &of_lever : properties)
+      levers.emplace_back(body, ports, std::move(of_lever));
   }
 
   State LeverModel::initial_state(const DrivePoint &drive) const
   {
-    const double theta = properties.ideal_theta(drive.x);
     State state;
     state.drive = drive;
-    state.coordinates.reinit(std::visit([](const auto &s) { return s.n_coordinates(); }, system));
-    state.coordinates[rotation()] = theta - properties.spring.rest;
+    state.coordinates.reinit(std::visit([](const auto &s) { return s.n_coordinates(); }, structure));
+    for (unsigned int i = 0; i < levers.size(); ++i)
+      state.coordinates[rotation(i)] = levers[i].properties.ideal_theta(drive.x) - levers[i].properties.spring.rest;
     return state;
   }
 
-  void LeverModel::predict(State &trial, const State &accepted) const
+  State LeverModel::begin_step(const State &accepted, const DrivePoint &end)
   {
+    State trial    = accepted;
+    trial.drive    = end;
     const double u = support_displacement(accepted);
-    trial.coordinates[rotation()] += properties.ideal_theta(trial.drive.x - u) - properties.ideal_theta(accepted.drive.x - u);
+    for (unsigned int i = 0; i < levers.size(); ++i)
+    {
+      const auto &ideal = levers[i].properties.ideal_theta;
+      trial.coordinates[rotation(i)] += ideal(end.x - u) - ideal(accepted.drive.x - u);
+    }
+    start        = accepted.drive;
+    begin_forces = accepted.forces;
+    begin        = port_displacements(accepted);
+    if (auto *const linear = std::get_if<StaticStructure>(&structure))
+    {
+      linear->enter(reachable(trial));
+      linear->set_faces(begin_forces, begin);
+      linear->set_faces(begin_forces, trial.coordinates);
+    }
+    return trial;
   }
 
-  Unbalance LeverModel::evaluate(const State &trial, const State &accepted, const FrictionMode mode)
+  Vector<double> LeverModel::port_displacements(const State &state) const
   {
-    evaluate_contact(trial, accepted, mode);
-    return unbalance(trial, excess.add_forces(contact.forces(), { { turn(trial), 0. } }));
+    return std::visit([&](const auto &s) -> Vector<double> { return s.port_displacements(state.coordinates); }, structure);
   }
 
-  Unbalance LeverModel::evaluate(const State &trial, const State &accepted, const FrictionMode mode, const MomentExcess &spring)
+  /// Ports within reach of the contacts in a step that ends near `trial`, and those of the forces it begins with.
+  PortSelection LeverModel::reachable(const State &trial)
   {
-    evaluate_contact(trial, accepted, mode);
-    return unbalance(trial, forces_with(spring));
+    std::vector<unsigned int> result = begin_forces.ports;
+    const double begin_x             = start.x - (ports.sprung ? begin[ports.support()] : 0.);
+    const double x                   = trial.drive.x - support_displacement(trial);
+    for (unsigned int i = 0; i < levers.size(); ++i)
+    {
+      const auto &properties = levers[i].properties;
+      const double theta     = properties.spring.rest + turns(trial)[i];
+      const double travel =
+          properties.centre(x, theta).xi - properties.centre(begin_x, properties.spring.rest + begin[ports.rotation(i)]).xi;
+      for (const unsigned int port : levers[i].contact.reachable_ports(x, theta, std::abs(travel)))
+        result.push_back(joined_port(ports, i, port));
+    }
+    std::sort(result.begin(), result.end());
+    result.erase(std::unique(result.begin(), result.end()), result.end());
+    return result;
   }
 
-  void LeverModel::evaluate_contact(const State &trial, const State &accepted, const FrictionMode mode)
+  Unbalance LeverModel::evaluate(State &trial, const FrictionMode mode)
   {
-    const double duration = trial.drive.time - accepted.drive.time;
-    begin                 = trial.contact;
-    auto terms            = static_terms(properties.friction, properties.geometry, accepted.drive, trial.drive, mode);
-    terms.augmented       = properties.contact.enforcement == Enforcement::augmented_lagrangian;
-    std::visit(
-        [&](const auto &s)
-        {
-          const Kinematic from{ s.port_displacements(accepted.coordinates), {}, {} };
-          const auto &to = s.port_displacements(trial.coordinates);
-          contact.evaluate(PortStep{ accepted.drive, begin, trial.drive, from, to, {}, StepWeights{ duration, 0., 0., 0., 0. } },
-                           terms);
-        },
-        system);
+    evaluate_contacts(trial, mode);
+    forces         = &excess.add_forces(on_ports, turns(trial));
+    trial.forces   = { forces->ports, forces->values };
+    double overlap = 0.;
+    for (const auto &lever : levers)
+      overlap = std::max(overlap, lever.contact.overlap());
+    return { std::visit([&](auto &s) { return s.unbalance(trial.coordinates, *forces); }, structure), overlap };
   }
 
-  Unbalance LeverModel::unbalance(const State &trial, const PortForces &loads)
+  void LeverModel::evaluate_contacts(State &trial, const FrictionMode mode)
   {
-    forces = &loads;
-    return { std::visit([&](auto &s) { return s.unbalance(trial.coordinates, loads); }, system), contact.overlap() };
+    const auto end = port_displacements(trial);
+    std::vector<const PortForces *> of_levers;
+    bool within_reach = true;
+    for (unsigned int i = 0; i < levers.size(); ++i)
+    {
+      auto &lever     = levers[i];
+      lever.memory    = memory_of_lever(i, n_face_points(), trial.contact);
+      auto terms      = static_terms(lever.properties.friction, lever.properties.geometry, start, trial.drive, mode);
+      terms.augmented = lever.properties.contact.enforcement == Enforcement::augmented_lagrangian;
+      const Kinematic from{ ports_of_lever(ports, i, begin), {}, {} };
+      const StepWeights weights{ trial.drive.time - start.time, 0., 0., 0., 0. };
+      lever.contact.evaluate(PortStep{ start, lever.memory, trial.drive, from, ports_of_lever(ports, i, end), {}, weights },
+                             terms);
+      of_levers.push_back(&lever.contact.forces());
+      within_reach = within_reach && lever.contact.within_reach();
+    }
+    if (!within_reach)
+      return widen_reach(trial, mode);
+    on_ports = joined_forces(ports, of_levers);
   }
 
-  const PortForces &LeverModel::forces_with(const MomentExcess &spring)
+  /// Evaluates again with more ports, which begin with what the forces there make of them.
+  void LeverModel::widen_reach(State &trial, const FrictionMode mode)
   {
-    extend(contact.forces(), { ports.rotation() }, with_moment);
-    const unsigned int hub = place_of(ports.rotation(), with_moment.ports);
-    with_moment.values[hub] -= spring.moment;
-    with_moment.tangent(hub, hub) -= spring.stiffness;
-    return with_moment;
+    for (auto &lever : levers)
+      lever.contact.widen_reach();
+    auto &linear       = std::get<StaticStructure>(structure);
+    const auto entered = linear.enter(reachable(trial));
+    linear.set_faces(begin_forces, begin);
+    for (const unsigned int port : entered)
+      trial.coordinates[port] = begin[port];
+    evaluate_contacts(trial, mode);
   }
 
   Vector<double> LeverModel::correction()
   {
-    return std::visit([&](auto &s) { return s.correction(*forces); }, system);
+    return std::visit([&](auto &s) { return s.correction(*forces); }, structure);
   }
 
-  Vector<double> LeverModel::moment_response()
+  unsigned int LeverModel::rotation(const unsigned int lever) const
   {
-    return std::visit([&](auto &s) { return s.moment_response(*forces); }, system);
+    return std::visit([&](const auto &s) { return s.coordinate(ports.rotation(lever)); }, structure);
   }
 
-  /// The coordinates end with hub and support.
-  unsigned int LeverModel::rotation() const
+  OfLevers LeverModel::turns(const State &state) const
   {
-    const unsigned int n = std::visit([](const auto &s) { return s.n_coordinates(); }, system);
-    return n - (ports.size() - ports.rotation());
-  }
-
-  double LeverModel::turn(const State &state) const
-  {
-    return state.coordinates[rotation()];
+    OfLevers result{};
+    for (unsigned int i = 0; i < levers.size(); ++i)
+      result[i] = state.coordinates[rotation(i)];
+    return result;
   }
 
   /// u along x [mm].
   double LeverModel::support_displacement(const State &state) const
   {
-    return ports.sprung ? state.coordinates[rotation() + 1] : 0.;
+    return ports.sprung ? std::visit([&](const auto &s) { return state.coordinates[s.coordinate(ports.support())]; }, structure)
+                        : 0.;
   }
 
   double LeverModel::movement(const Vector<double> &correction) const
   {
     Vector<double> in_lengths = correction;
-    in_lengths[rotation()] *= properties.spring.arm;
-    return in_lengths.linfty_norm();
+    for (unsigned int i = 0; i < levers.size(); ++i)
+      in_lengths[rotation(i)] *= levers[i].properties.spring.arm;
+    return std::visit([&](const auto &s) { return s.largest(in_lengths); }, structure);
   }
 
   double LeverModel::length_scale() const
   {
-    return properties.spring.arm;
+    return levers.front().properties.spring.arm;
   }
 
   double LeverModel::penetration() const
   {
-    return properties.contact.enforcement == Enforcement::penalty
-               ? contact.penetration()
-               : multipliers.largest_change(contact.points(), begin) / contact.penalties().normal;
+    double largest = 0.;
+    for (const auto &lever : levers)
+      largest = std::max(largest, lever.properties.contact.enforcement == Enforcement::penalty
+                                      ? lever.contact.penetration()
+                                      : lever.multipliers.largest_change(lever.contact.points(), lever.memory) /
+                                            lever.contact.penalties().normal);
+    return largest;
   }
 
   std::string LeverModel::objection(const State &trial) const
   {
+    for (unsigned int i = 0; i < levers.size(); ++i)
+      if (const auto found = objection(levers[i], trial.drive); !found.empty())
+        return (i == 0 ? "" : "of the pair's second lever, ") + found;
+    return {};
+  }
+
+  std::string LeverModel::objection(const Lever &lever, const DrivePoint &drive) const
+  {
     Row row;
-    observe_resultants(contact.view(), row);
+    observe_resultants(lever.contact.view(), row);
     const double s    = row[Column::s];
-    const double mu_e = row[Column::mu] * properties.interface_offset;
-    if (direction_of(trial.drive.v) < 0 && row[Column::F] < 0. && s <= mu_e)
+    const double mu_e = row[Column::mu] * lever.properties.interface_offset;
+    if (direction_of(drive.v) < 0 && row[Column::F] < 0. && s <= mu_e)
       return "the lever locks: moving back, s = " + rounded_text(s) + " mm <= mu e = " + rounded_text(mu_e) + " mm";
 
-    if (const auto beyond = contact.objection(); !beyond.empty())
+    if (const auto beyond = lever.contact.objection(); !beyond.empty())
       return beyond;
 
     // A linear material knows no limit of its own.
-    const double pressure = contact.overlap() * contact.penalties().normal;
+    const double pressure = lever.contact.overlap() * lever.contact.penalties().normal;
     const double limit    = largest_strain * body.friction_face().young_modulus;
-    if (properties.body.material == MaterialModel::linear && pressure > limit)
+    if (lever.properties.body.material == MaterialModel::linear && pressure > limit)
       return "the pressure on the friction face exceeds " + rounded_text(limit) + " MPa, half of its Young's modulus";
     return {};
   }
 
+  std::vector<ContactMemory> LeverModel::joined(const std::function<std::vector<ContactMemory>(const Lever &)> &memory) const
+  {
+    if (levers.size() == 1)
+      return memory(levers[0]);
+    return joined_memory(n_face_points(), { { memory(levers[0]), memory(levers[1]) } });
+  }
+
   void LeverModel::augment(State &trial) const
   {
-    trial.contact = multipliers.augmented(contact.points());
+    trial.contact = joined([](const Lever &lever) { return lever.multipliers.augmented(lever.contact.points()); });
   }
 
   std::vector<ContactMemory> LeverModel::memory() const
   {
-    return properties.contact.enforcement == Enforcement::augmented_lagrangian ? multipliers.augmented(contact.points())
-                                                                               : contact.memory();
+    return joined(
+        [](const Lever &lever)
+        {
+          return lever.properties.contact.enforcement == Enforcement::augmented_lagrangian
+                     ? lever.multipliers.augmented(lever.contact.points())
+                     : lever.contact.memory();
+        });
   }
 
   void LeverModel::observe(const State &trial, Row &row) const
   {
-    const double theta         = properties.spring.rest + turn(trial);
-    const double u             = support_displacement(trial);
-    row[Column::theta]         = theta;
-    row[Column::spring_energy] = properties.spring.law.energy(turn(trial));
+    observe(0, trial, row);
+    if (levers.size() == 1)
+      return;
+    Row second;
+    second[Column::friction_work] = 0.;
+    second[Column::drive_work]    = 0.;
+    observe(1, trial, second);
+    row.add_second_lever(second);
+    if (joint_is_free)
+      row[Column::spring_energy] = 2. * levers[0].properties.spring.law.energy(0.5 * (turns(trial)[0] + turns(trial)[1]));
+  }
+
+  void LeverModel::observe(const unsigned int index, const State &trial, Row &row) const
+  {
+    const auto &[properties, contact, multipliers, memory] = levers[index];
+    const double turn                                      = turns(trial)[index];
+    const double theta                                     = properties.spring.rest + turn;
+    const double u                                         = support_displacement(trial);
+    row[Column::theta]                                     = theta;
+    row[Column::spring_energy]                             = properties.spring.law.energy(turn);
     observe_face(contact.view(), properties.layer_thickness, row);
     row[Column::centre_offset]        = row[Column::s] - properties.centre(trial.drive.x - u, theta).xi;
     row[Column::Q]                    = row[Column::P] * std::sin(theta) + row[Column::F] * std::cos(theta);
     row[Column::support_displacement] = u;
-    row[Column::Q_support]            = row[Column::Q];
-    row[Column::support_energy]       = 0.;
-    if (properties.support_stiffness)
-    {
-      row[Column::Q_support]      = *properties.support_stiffness * u;
-      row[Column::support_energy] = 0.5 * *properties.support_stiffness * u * u;
-    }
-    row[Column::elastic_energy] += cylinder_energy();
+    const double support              = properties.support_stiffness.value_or(0.);
+    row[Column::Q_support]            = ports.sprung ? support * u : row[Column::Q];
+    row[Column::support_energy]       = 0.5 * support * u * u;
+    row[Column::elastic_energy] += cylinder_energy(contact);
     if (properties.body.material != MaterialModel::linear)
-      row[Column::elastic_energy] = body.energy(body_displacement(trial));
+      row[Column::elastic_energy] = body.energy(body_displacements(trial)[index]);
     if (!body.connectors().empty())
-      row.sensor_forces = std::visit([&](const auto &s) { return s.sensor_forces(trial.coordinates, contact.forces()); }, system);
+      row.sensor_forces =
+          std::visit([&](const auto &s) { return s.sensor_forces(index, trial.coordinates, trial.forces); }, structure);
   }
 
   /// Of a linear one: half the work of its forces [mJ].
-  double LeverModel::cylinder_energy() const
+  double LeverModel::cylinder_energy(const FaceContact &contact) const
   {
     const auto first = 2 * static_cast<unsigned int>(body.friction_face().nodes.size());
     const auto &on   = contact.forces();
@@ -347,12 +353,13 @@ namespace sprag
 
   FaceState LeverModel::face_state(const State &trial) const
   {
-    return sprag::face_state(contact.view(), trial.drive);
+    const auto of_lever = [&](const Lever &lever) { return sprag::face_state(lever.contact.view(), trial.drive); };
+    return levers.size() == 1 ? of_lever(levers[0]) : joined_faces(of_lever(levers[0]), of_lever(levers[1]));
   }
 
   const ContactPenalties &LeverModel::penalties() const
   {
-    return contact.penalties();
+    return levers.front().contact.penalties();
   }
 
   const ElasticBody<2> &LeverModel::elastic_body() const
@@ -360,15 +367,12 @@ namespace sprag
     return body;
   }
 
-  Vector<double> LeverModel::body_displacement(const State &state) const
+  std::vector<Vector<double>> LeverModel::body_displacements(const State &state) const
   {
-    return std::visit([&](const auto &s) { return s.body_displacement(state.coordinates, contact.forces()); }, system);
-  }
-
-  std::function<Vector<double>()> LeverModel::recovery(const State &state) const
-  {
-    const PortForces loads{ contact.forces().ports, contact.forces().values, dealii::FullMatrix<double>() };
-    return [this, loads, coordinates = state.coordinates]
-    { return std::visit([&](const auto &s) { return s.body_displacement(coordinates, loads); }, system); };
+    std::vector<Vector<double>> result;
+    for (unsigned int i = 0; i < levers.size(); ++i)
+      result.push_back(
+          std::visit([&](const auto &s) { return s.body_displacement(i, state.coordinates, state.forces); }, structure));
+    return result;
   }
 } // namespace sprag

@@ -8,17 +8,25 @@ namespace sprag
   struct PortSprings
   {
     double rotation = 0.; ///< k [N mm/rad], > 0
-    double support  = 0.; ///< k_f [N/mm], > 0; counts on a sprung support
+    double support  = 0.; ///< k_f a lever [N/mm], > 0; counts on a sprung support
     double arm      = 0.; ///< length that turns a rotation into a movement [mm], > 0
   };
 
-  /// Degrees of freedom of the ports of the faces: two a node of the friction face, then of an elastic cylinder's face.
-  inline std::vector<unsigned int> surface_dofs(const ElasticBody<2> &body)
+  /// Degrees of freedom of the ports of a face: two a node.
+  inline std::vector<unsigned int> face_dofs(const FrictionFace<2> &face)
   {
     std::vector<unsigned int> result;
-    for (const auto *const face : { &body.friction_face(), &body.cylinder_face() })
-      for (const auto &node : face->nodes)
-        result.insert(result.end(), node.dofs.begin(), node.dofs.end());
+    for (const auto &node : face.nodes)
+      result.insert(result.end(), node.dofs.begin(), node.dofs.end());
+    return result;
+  }
+
+  /// Those of the friction face, then of an elastic cylinder's face.
+  inline std::vector<unsigned int> surface_dofs(const ElasticBody<2> &body)
+  {
+    auto result         = face_dofs(body.friction_face());
+    const auto cylinder = face_dofs(body.cylinder_face());
+    result.insert(result.end(), cylinder.begin(), cylinder.end());
     return result;
   }
 } // namespace sprag

@@ -1,0 +1,53 @@
+#include "fe/statics/contact_penalties.h"
+
+#include <algorithm>
+
+namespace sprag
+{
+  namespace
+  {
+    /// Over E/depth of the layer. The overlap is then a tenth of the layer's compression, which moves P by 0.03 % and the largest
+    /// pressure by 3 %.
+    constexpr double penalty_factor = 12.;
+
+    /// Leaves 0.25 % of the largest pressure where the cells are as fine as that takes.
+    constexpr double largest_penalty_factor = 200.;
+
+    /// Over E/length of the cells, of degree 2. Much stiffer penalties make a contact narrower than the cells, which then tilts
+    /// with each of them. Linear cells meet a circle with their chords, whose pressures would show.
+    constexpr double penalty_over_cells = 12.5;
+
+    double automatic_penalty(const FrictionFace<2> &face, const Enforcement enforcement, const double layer_thickness)
+    {
+      const double by_layer = penalty_factor * face.young_modulus / std::max(face.depth, layer_thickness);
+      if (face.edges.front().nodes.size() == 2)
+        return by_layer;
+      const auto shorter    = [](const FacePatch &a, const FacePatch &b) { return a.length < b.length; };
+      const double length   = std::min_element(face.patches.begin(), face.patches.end(), shorter)->length;
+      const double by_cells = std::max(by_layer, penalty_over_cells * face.young_modulus / length);
+      if (enforcement == Enforcement::augmented_lagrangian)
+        return by_cells;
+      return std::min(by_cells, largest_penalty_factor / penalty_factor * by_layer);
+    }
+  } // namespace
+
+  ContactPenalties contact_penalties(const FrictionFace<2> &face, const ContactSettings &settings, const double layer_thickness,
+                                     const std::optional<double> &over_layer)
+  {
+    const double automatic = over_layer && settings.enforcement == Enforcement::penalty
+                                 ? *over_layer * face.young_modulus / std::max(face.depth, layer_thickness)
+                                 : automatic_penalty(face, settings.enforcement, layer_thickness);
+    const double normal    = settings.penalty.value_or(automatic);
+    return { normal, settings.tangential_penalty.value_or(normal) };
+  }
+
+  ContactPenalties contact_penalties(const ElasticBody<2> &body, const ContactSettings &settings, const double layer_thickness,
+                                     const std::optional<double> &over_layer)
+  {
+    const auto lever = contact_penalties(body.friction_face(), settings, layer_thickness, over_layer);
+    if (body.cylinder_face().patches.empty())
+      return lever;
+    const auto cylinder = contact_penalties(body.cylinder_face(), settings, 0., over_layer);
+    return { std::min(lever.normal, cylinder.normal), std::min(lever.tangential, cylinder.tangential) };
+  }
+} // namespace sprag

@@ -1,0 +1,71 @@
+#include "fe/statics/lever_properties.h"
+
+#include "scene/closed_form.h"
+#include "scene/mirrored_pair.h"
+#include "scene/pair_closed_form.h"
+
+namespace sprag
+{
+  namespace
+  {
+    std::vector<ConnectorSettings> plate_connectors(const FrictionPlate &plate)
+    {
+      if (plate.type == PlateType::none)
+        return {};
+      std::vector<ConnectorSettings> result;
+      for (const double middle : plate.sensors)
+        result.push_back({ ConnectorType::sensor, middle, plate.sensor_length, plate.sensor_stiffness });
+      result.push_back({ ConnectorType::guide, plate.guide, plate.sensor_length, plate.guide_stiffness });
+      return result;
+    }
+  } // namespace
+
+  LeverProperties lever_properties(const Scene &scene)
+  {
+    LeverProperties result;
+    result.body.degree   = scene.mesh.degree;
+    result.body.plane    = scene.analysis.plane;
+    result.body.material = scene.lever.material;
+    result.body.width    = scene.lever.width;
+    const ElasticConstants metal{ scene.lever.young_modulus, scene.lever.poisson_ratio };
+    result.body.constants  = { { material_id::lever, metal },
+                               { material_id::web, metal },
+                               { material_id::plate, { scene.plate.young_modulus, scene.plate.poisson_ratio } },
+                               { material_id::layer, { scene.layer.young_modulus, scene.layer.poisson_ratio } } };
+    result.body.widths     = { { material_id::web, scene.frame.web } };
+    result.body.connectors = plate_connectors(scene.plate);
+
+    if (scene.cylinder.type != CylinderType::rigid)
+      result.body.constants[material_id::cylinder] = { scene.cylinder.young_modulus, scene.cylinder.poisson_ratio };
+    result.body.curved = scene.cylinder.type != CylinderType::rigid;
+
+    // Half a spacing off, the direction of a contact narrower than it is wrong by 1/8000 at most.
+    result.body.point_spacing = scene.geometry.cylinder_radius / 4000.;
+
+    const Geometry geometry = scene.geometry;
+    result.obstacle         = cylinder(geometry);
+    result.centre           = [geometry](double x, double theta) { return cylinder_centre(geometry, x, theta); };
+    result.radius           = geometry.cylinder_radius;
+    result.ideal_theta      = [geometry](double x) { return kinematics(geometry, x).theta; };
+    const auto &law         = scene.spring.behaviour.law;
+    result.spring           = { law.is_linear() ? MomentLaw(scene.spring.stiffness) : law, kinematics(geometry, 0.).theta,
+                      geometry.pivot_distance };
+    if (scene.support.type == SupportType::sprung)
+      result.support_stiffness = scene.support.stiffness;
+    result.friction         = scene.friction;
+    result.contact          = scene.contact;
+    result.solution         = scene.analysis.solution;
+    result.layer_thickness  = scene.layer.thickness;
+    result.interface_offset = geometry.interface_offset;
+    result.geometry         = geometry;
+    return result;
+  }
+
+  LeverProperties properties_of_lever(const Scene &scene, const unsigned int lever)
+  {
+    LeverProperties result = lever_properties(scene_of_lever(scene, lever));
+    result.spring.rest     = rest_inclination(scene);
+    result.ideal_theta     = [scene, lever](const double x) { return pair_inclinations(scene, x)[lever]; };
+    return result;
+  }
+} // namespace sprag

@@ -1,0 +1,44 @@
+#pragma once
+
+#include "fe/body/body_properties.h"
+#include "fe/contact/face_contact_point.h"
+#include "laws/moment_law.h"
+#include "scene/scene.h"
+
+#include <functional>
+#include <optional>
+
+namespace sprag
+{
+  /// The rotational spring at the hub.
+  struct HubSpring
+  {
+    MomentLaw law;
+    double rest = 0.; ///< inclination without moment [rad]
+    double arm  = 1.; ///< length that turns a rotation into a movement [mm], > 0
+  };
+
+  /// Everything that makes a meshed lever but its mesh.
+  struct LeverProperties
+  {
+    BodyProperties body;
+    Obstacle obstacle;
+    std::function<double(double)> ideal_theta;        ///< inclination that first guesses follow, over x [rad]
+    std::function<LeverPoint(double, double)> centre; ///< of the obstacle over x and theta
+    double radius = 0.; ///< R of an elastic obstacle, 0 if it turns with the lever, see FacePair [mm]
+    HubSpring spring;
+    std::optional<double> support_stiffness; ///< k_f of a sprung support [N/mm], > 0; none: it is rigid
+    FrictionLaw friction;
+    ContactSettings contact;
+    std::optional<double> penalty_factor; ///< of an automatic penalty, see contact_penalties()
+    Solution solution       = Solution::automatic;
+    double layer_thickness  = 0.;     ///< [mm]
+    double interface_offset = 0.;     ///< e [mm]
+    std::optional<Geometry> geometry; ///< of the damper, see static_terms(); none: another body on another path
+  };
+
+  LeverProperties lever_properties(const Scene &scene);
+
+  /// Properties of a lever of a full pair, in its own (for the second: mirrored) axes.
+  LeverProperties properties_of_lever(const Scene &scene, unsigned int lever);
+} // namespace sprag

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "model/port_forces.h"
+#include "model/port_layout.h"
+
+namespace sprag
+{
+  // The contact of each lever numbers the ports as of a single lever: its own, and the support's where it is sprung.
+
+  /// A lever's part of displacements of all ports, or nothing of nothing.
+  dealii::Vector<double> ports_of_lever(const PortLayout &layout, unsigned int lever, const dealii::Vector<double> &of_all);
+
+  /// Port of all of a port of a lever's contact.
+  unsigned int joined_port(const PortLayout &layout, unsigned int lever, unsigned int port);
+
+  /// Forces of the contacts of the levers, in their order, as forces on all ports.
+  PortForces joined_forces(const PortLayout &layout, const std::vector<const PortForces *> &of_levers);
+
+  /// Where the ports of a lever's contact forces stand among joined ones.
+  std::vector<unsigned int> joined_places(const PortLayout &layout, unsigned int lever, const PortForces &of_lever,
+                                          const PortForces &joined);
+} // namespace sprag
