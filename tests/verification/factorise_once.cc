@@ -1,4 +1,5 @@
 #include "analysis/statics/newton.h"
+#include "fe/mesh/mesh.h"
 #include "fe/statics/lever_model.h"
 #include "mpi_environment.h"
 #include "scenes.h"

@@ -137,7 +137,7 @@ TEST_P(PairOfLevers, PushTheCylinderAsideAsTheClosedFormSays)
   if (scene.pair.cylinder_offset != 0. || scene.pair.friction_ratio != 1.)
     EXPECT_GT(pushed, 0.3 * deviation);
   else
-    EXPECT_EQ(largest(rows, [](const Row &row) { return row.lateral_force(); }), 0.);
+    EXPECT_LT(largest(rows, [](const Row &row) { return row.lateral_force(); }), 1e-8); // N, of 17; round-off
 }
 
 // Taken about the pivots from the resultants at the centres of pressure, as far as their directions are those of the hub: F of

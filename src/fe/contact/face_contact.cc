@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace sprag
 {
@@ -178,8 +179,9 @@ namespace sprag
 
   const PortSelection &FaceContact::reachable_ports(const double x, const double inclination, const double travel)
   {
-    const double of_contact = reach_factor * 0.05 * properties.radius + travel;
-    const double aside      = 5. * properties.layer_thickness; // where the face is looked at besides
+    const double of_radius  = properties.radius > 0. ? 0.05 * properties.radius : std::numeric_limits<double>::infinity();
+    const double of_contact = reach_factor * of_radius + travel;
+    const double aside      = 4. * properties.layer_thickness; // where the face is looked at besides
     const double xi         = properties.centre(x, inclination).xi;
     reached                 = face.patches_between(xi - of_contact, xi + of_contact);
     const auto range        = face.patches_between(xi - of_contact - aside, xi + of_contact + aside);

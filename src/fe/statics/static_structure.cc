@@ -57,9 +57,17 @@ namespace sprag
 
   PortSelection StaticStructure::enter(const PortSelection &wanted)
   {
-    if (std::includes(window.begin(), window.end(), wanted.begin(), wanted.end()))
-      return {};
-    const PortSelection left = std::move(window);
+    PortSelection entered;
+    std::set_difference(wanted.begin(), wanted.end(), selected.begin(), selected.end(), std::back_inserter(entered));
+    if (!std::includes(window.begin(), window.end(), wanted.begin(), wanted.end()))
+      move_window(wanted);
+    selected = wanted;
+    places   = places_of(wanted);
+    return entered;
+  }
+
+  void StaticStructure::move_window(const PortSelection &wanted)
+  {
     window.clear();
     std::vector<std::pair<Section, PortSelection>> parts;
     for (unsigned int lever = 0; lever < ports.levers; ++lever)
@@ -80,7 +88,6 @@ namespace sprag
       window.push_back(ports.support());
 
     const auto size = static_cast<unsigned int>(window.size());
-    all             = all_ports(size);
     mismatch.reinit(size);
     compliance.reinit(size, size);
     for (const auto &[section, tiles] : parts)
@@ -92,10 +99,6 @@ namespace sprag
       set_spring(ports.rotation(lever), springs.rotation);
     if (ports.sprung)
       set_spring(ports.support(), ports.levers * springs.support);
-
-    PortSelection entered;
-    std::set_difference(window.begin(), window.end(), left.begin(), left.end(), std::back_inserter(entered));
-    return entered;
   }
 
   std::array<StaticStructure::Section, 2> StaticStructure::sections_of(const unsigned int lever) const
@@ -116,18 +119,20 @@ namespace sprag
   void StaticStructure::set_faces(const PortLoads &forces, Vector<double> &coordinates) const
   {
     Vector<double> displacements(mismatch.size());
-    add_response(compliance, places_of(forces.ports), forces.values, all, displacements);
-    for (const unsigned int place : all)
+    add_response(compliance, places_of(forces.ports), forces.values, places, displacements);
+    for (const unsigned int place : places)
       if (ports.is_surface(window[place]))
         coordinates[window[place]] = displacements[place];
   }
 
   double StaticStructure::unbalance(const Vector<double> &coordinates, const PortForces &forces)
   {
-    for (const unsigned int place : all)
+    for (const unsigned int place : places)
       mismatch[place] = -coordinates[window[place]];
-    add_response(compliance, places_of(forces.ports), forces.values, all, mismatch);
-    double result = mismatch.norm_sqr();
+    add_response(compliance, places_of(forces.ports), forces.values, places, mismatch);
+    double result = 0.;
+    for (const unsigned int place : places)
+      result += mismatch[place] * mismatch[place];
     for (unsigned int lever = 0; lever < ports.levers; ++lever)
     {
       const double turn = mismatch[place_of(ports.rotation(lever), window)];
@@ -138,9 +143,10 @@ namespace sprag
 
   Vector<double> StaticStructure::correction(const PortForces &forces) const
   {
-    const auto in_window = port_correction(compliance, { places_of(forces.ports), forces.values, forces.tangent }, all, mismatch);
+    const auto in_window =
+        port_correction(compliance, { places_of(forces.ports), forces.values, forces.tangent }, places, mismatch);
     Vector<double> result(n_coordinates());
-    for (const unsigned int place : all)
+    for (const unsigned int place : places)
       result[window[place]] = in_window[place];
     return result;
   }
@@ -148,7 +154,7 @@ namespace sprag
   double StaticStructure::largest(const Vector<double> &coordinates) const
   {
     double result = 0.;
-    for (const unsigned int port : window)
+    for (const unsigned int port : selected)
       result = std::max(result, std::abs(coordinates[port]));
     return result;
   }

@@ -12,8 +12,8 @@ namespace sprag
   /// Linear levers on linear springs in statics, one or both of a pair, which are alike: factorised once and seen through their
   /// ports, z = G f(z). The compliance G is dense on the faces of a lever and diagonal on hubs and support, which do not move a
   /// body in its own axes. Only ports with forces carry tangents, so that a Newton correction is a dense solve of those, and the
-  /// iterates are those of the full system. Coordinates: displacements of all ports, of which only those within a window are
-  /// looked at.
+  /// iterates are those of the full system. Coordinates: displacements of all ports, of which only those that were entered
+  /// last are looked at.
   class StaticStructure
   {
   public:
@@ -27,20 +27,20 @@ namespace sprag
 
     const dealii::Vector<double> &port_displacements(const dealii::Vector<double> &coordinates) const;
 
-    /// Moves the window, so that it holds the given ports, increasing, and all of hubs and support. Returns those that were not
-    /// in it before.
+    /// Looks at the given ports from now on, which increase and hold those of hubs and support. Returns those that it did not look
+    /// at before.
     PortSelection enter(const PortSelection &ports);
 
-    /// Sets the displacements of the faces within the window to G f. The forces must be within it.
+    /// Sets the displacements of the faces' ports to G f, where it looks at them as at those of the forces.
     void set_faces(const PortLoads &forces, dealii::Vector<double> &coordinates) const;
 
-    /// Norm of G f - z within the window, as a displacement [mm].
+    /// Norm of G f - z, as a displacement [mm].
     double unbalance(const dealii::Vector<double> &coordinates, const PortForces &forces);
 
-    /// Correction at the last unbalance(), 0 outside of the window. Throws AnalysisError if the tangent is singular.
+    /// Correction at the last unbalance(), 0 on ports it does not look at. Throws AnalysisError if the tangent is singular.
     dealii::Vector<double> correction(const PortForces &forces) const;
 
-    /// Absolute value of the largest coordinate within the window.
+    /// Absolute value of the largest coordinate that it looks at.
     double largest(const dealii::Vector<double> &coordinates) const;
 
     /// Displacement of the whole body of a lever under forces on the ports, by one back-substitution.
@@ -62,6 +62,7 @@ namespace sprag
 
     void find_sensor_rows();
     std::array<Section, 2> sections_of(unsigned int lever) const;
+    void move_window(const PortSelection &wanted);
     dealii::Vector<double> forces_on_faces(unsigned int lever, const PortLoads &forces) const;
     PortSelection places_of(const std::vector<unsigned int> &of_ports) const;
 
@@ -73,10 +74,11 @@ namespace sprag
     std::array<SurfaceCompliance, 2> faces; ///< of friction face and cylinder's face
     dealii::FullMatrix<double> sensor_rows; ///< force of a sensor by unit forces on a lever's ports
 
-    // The window.
+    // The compliance is known in a window of whole tiles, a place for each of its ports.
     PortSelection window;
-    PortSelection all;                     ///< places in the window
-    dealii::FullMatrix<double> compliance; ///< by places
-    dealii::Vector<double> mismatch;       ///< G f - z, by places
+    dealii::FullMatrix<double> compliance;
+    dealii::Vector<double> mismatch; ///< G f - z
+    PortSelection selected;          ///< ports it looks at
+    PortSelection places;            ///< of them
   };
 } // namespace sprag

@@ -1,6 +1,7 @@
 #include "fe/statics/surface_compliance.h"
 
 #include <algorithm>
+#include <numeric>
 #include <set>
 
 namespace sprag
@@ -21,9 +22,16 @@ namespace sprag
       port_of_dof[dof_of_port[port]] = port;
   }
 
-  unsigned int SurfaceCompliance::ports_of(const unsigned int tile) const
+  unsigned int SurfaceCompliance::n_ports_of(const unsigned int tile) const
   {
     return std::min(tile_size, static_cast<unsigned int>(dof_of_port.size()) - tile * tile_size);
+  }
+
+  PortSelection SurfaceCompliance::ports_of(const unsigned int tile) const
+  {
+    PortSelection result(n_ports_of(tile));
+    std::iota(result.begin(), result.end(), tile * tile_size);
+    return result;
   }
 
   PortSelection SurfaceCompliance::whole_tiles(const PortSelection &ports) const
@@ -33,15 +41,17 @@ namespace sprag
       touched.insert(port / tile_size);
     PortSelection result;
     for (const unsigned int tile : touched)
-      for (unsigned int i = 0; i < ports_of(tile); ++i)
-        result.push_back(tile * tile_size + i);
+    {
+      const auto of_tile = ports_of(tile);
+      result.insert(result.end(), of_tile.begin(), of_tile.end());
+    }
     return result;
   }
 
   void SurfaceCompliance::copy(const PortSelection &whole_tiles, const unsigned int first, FullMatrix<double> &matrix)
   {
     std::vector<unsigned int> begins; // of the tiles among the ports
-    for (unsigned int i = 0; i < whole_tiles.size(); i += ports_of(whole_tiles[i] / tile_size))
+    for (unsigned int i = 0; i < whole_tiles.size(); i += n_ports_of(whole_tiles[i] / tile_size))
       begins.push_back(i);
     const auto tile_at = [&](const unsigned int begin) { return whole_tiles[begin] / tile_size; };
     std::vector<Tile> missing;
@@ -62,34 +72,44 @@ namespace sprag
         }
   }
 
+  double &SurfaceCompliance::entry(const unsigned int row, const unsigned int column)
+  {
+    const Tile tile(row / tile_size, column / tile_size);
+    return tile.first < tile.second ? entry(column, row) : tiles.at(tile)(row % tile_size, column % tile_size);
+  }
+
   void SurfaceCompliance::find(const std::vector<Tile> &wanted)
   {
-    std::map<unsigned int, std::vector<unsigned int>> entries; // columns of the rows, degrees of freedom
+    // A row costs much, an entry little: the rows are those of ports that are new.
+    std::map<unsigned int, PortSelection> columns; // by the tile of the rows, in the order of the degrees of freedom
     for (const auto &[first, second] : wanted)
     {
-      // A row costs much, an entry little: the rows are those of ports that are new.
-      const bool first_is_new  = tiles.count({ first, first }) == 0;
-      const auto [row, column] = first_is_new ? Tile{ first, second } : Tile{ second, first };
-      for (unsigned int i = 0; i < ports_of(row); ++i)
-        for (unsigned int j = 0; j < ports_of(column); ++j)
-          entries[dof_of_port[row * tile_size + i]].push_back(dof_of_port[column * tile_size + j]);
+      const bool first_is_new = tiles.count({ first, first }) == 0;
+      const auto of_columns   = ports_of(first_is_new ? second : first);
+      auto &of_rows           = columns[first_is_new ? first : second];
+      of_rows.insert(of_rows.end(), of_columns.begin(), of_columns.end());
     }
-    for (const auto &tile : wanted)
-      tiles[tile].reinit(ports_of(tile.first), ports_of(tile.second));
-    for (auto &[row, columns] : entries)
-      std::sort(columns.begin(), columns.end());
+    for (const auto &[first, second] : wanted)
+      tiles[{ first, second }].reinit(n_ports_of(first), n_ports_of(second));
+
+    std::map<unsigned int, std::vector<unsigned int>> entries; // degrees of freedom
+    for (auto &[tile, ports] : columns)
+    {
+      std::sort(ports.begin(), ports.end(),
+                [&](const unsigned int a, const unsigned int b) { return dof_of_port[a] < dof_of_port[b]; });
+      std::vector<unsigned int> dofs;
+      for (const unsigned int port : ports)
+        dofs.push_back(dof_of_port[port]);
+      for (const unsigned int row : ports_of(tile))
+        entries[dof_of_port[row]] = dofs;
+    }
     const auto values = factors.entries_of_inverse(entries);
     auto value        = values.begin();
-    for (const auto &[row_dof, columns] : entries)
+    for (const auto &of_row : entries)
     {
-      const unsigned int row = port_of_dof.at(row_dof);
-      for (const unsigned int column_dof : columns)
-      {
-        const unsigned int column  = port_of_dof.at(column_dof);
-        const bool is_kept         = row / tile_size >= column / tile_size;
-        const auto [first, second] = is_kept ? std::pair(row, column) : std::pair(column, row);
-        tiles.at({ first / tile_size, second / tile_size })(first % tile_size, second % tile_size) = *value++;
-      }
+      const unsigned int row = port_of_dof.at(of_row.first);
+      for (const unsigned int column : columns.at(row / tile_size))
+        entry(row, column) = *value++;
     }
   }
 } // namespace sprag

@@ -26,7 +26,9 @@ namespace sprag
   private:
     using Tile = std::pair<unsigned int, unsigned int>; ///< of rows and columns, first >= second
 
-    unsigned int ports_of(unsigned int tile) const;
+    unsigned int n_ports_of(unsigned int tile) const;
+    PortSelection ports_of(unsigned int tile) const;
+    double &entry(unsigned int row, unsigned int column);
     void find(const std::vector<Tile> &wanted);
 
     const Mumps &factors;
