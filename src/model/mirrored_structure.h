@@ -69,12 +69,13 @@ namespace sprag
 
     dealii::Vector<double> port_positions(const Motion &motion) const
     {
-      return joined(parts[0]->port_positions(part_of(motion, 0)), parts[1]->port_positions(part_of(motion, 1)));
+      return port_positions(motion, all_ports(layout.size()));
     }
 
-    dealii::Vector<double> port_positions(const Motion &motion, const PortSelection &) const
+    dealii::Vector<double> port_positions(const Motion &motion, const PortSelection &selected) const
     {
-      return port_positions(motion);
+      const auto local = of_a_lever(selected);
+      return joined(parts[0]->port_positions(part_of(motion, 0), local), parts[1]->port_positions(part_of(motion, 1), local));
     }
 
     PortState port_state(const Motion &motion, const unsigned int port) const
@@ -98,10 +99,10 @@ namespace sprag
                joined(mirroring.acceleration, opposite.acceleration) };
     }
 
-    dealii::Vector<double> free_ports(const Motion &accepted, const PortSelection &) const
+    dealii::Vector<double> free_ports(const Motion &accepted, const PortSelection &selected) const
     {
-      const auto all = all_ports(layout.of_a_lever() + (layout.sprung ? 1 : 0));
-      return joined(parts[0]->free_ports(part_of(accepted, 0), all), parts[1]->free_ports(part_of(accepted, 1), all));
+      const auto local = of_a_lever(selected);
+      return joined(parts[0]->free_ports(part_of(accepted, 0), local), parts[1]->free_ports(part_of(accepted, 1), local));
     }
 
     Motion advance(const Motion &accepted, const PortForces &forces, const DrivePoint &to) const
@@ -174,6 +175,17 @@ namespace sprag
     static double half_root()
     {
       return std::sqrt(0.5);
+    }
+
+    /// Ports of a lever that stand for some of the pair's.
+    PortSelection of_a_lever(const PortSelection &selected) const
+    {
+      PortSelection result;
+      for (const unsigned int port : selected)
+        result.push_back(port == layout.support() ? local_support() : port % layout.of_a_lever());
+      std::sort(result.begin(), result.end());
+      result.erase(std::unique(result.begin(), result.end()), result.end());
+      return result;
     }
 
     unsigned int local_support() const

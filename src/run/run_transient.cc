@@ -154,8 +154,8 @@ namespace sprag
     FieldRecorder::Displacements recovery(const MeshedDynamics &lever, const Motion &motion, const unsigned int levers)
     {
       Motion kept;
-      kept.coordinates.position = motion.coordinates.position;
-      kept.face_force           = motion.face_force;
+      kept.coordinates = motion.coordinates;
+      kept.face_force  = motion.face_force;
       return [&lever, kept, levers]
       {
         std::vector<dealii::Vector<double>> result;

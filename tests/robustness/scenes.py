@@ -82,6 +82,13 @@ class ScenesTest(unittest.TestCase):
                 done = sprag(scene, "--validate")
                 self.assertEqual((done.returncode, done.stderr), (0, ""))
 
+    def test_a_pair_of_meshed_levers_writes_its_fields_in_time(self):
+        for model in ("condensed", "finite element"):
+            changes = {"Analysis/Model": model, "Mesh/Face size": 4, "Drive/Start": 59, "Drive/Stroke": 60, "Condensed/Cache": "none"}
+            run = sprag(SOURCE / "params/pair-reversal-a.prm", "--output", self.output, "--overwrite", "--quiet", *(word for name, value in changes.items() for word in ("--set", f"{name}={value}")))
+            self.assertEqual((run.returncode, run.stderr), (0, ""), model)
+            self.assertGreater(len(list(self.output.glob("fields*"))), 0)
+
     def test_table_1(self):
         values = {"model-a": ("56", "45.6", "185.5", "0", "7.40e4"), "model-b": ("21.1", "0", "193.9", "0", "6.41e4")}
         names = ("Cylinder radius", "Interface offset", "Pivot distance", "Pivot height")
