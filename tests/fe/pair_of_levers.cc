@@ -100,6 +100,18 @@ TEST(PairOfLevers, CorrectionIsNewtons)
     }
 }
 
+TEST(PairOfLevers, CorrectionIsNewtonsOnASprungSupport)
+{
+  for (const auto solution : { Solution::automatic, Solution::general })
+  {
+    Scene scene             = paired(coarse_scene(), SpringJoint::free, 0.3, 0.8);
+    scene.analysis.solution = solution;
+    scene.support.type      = SupportType::sprung;
+    scene.support.stiffness = 10.;
+    expect_consistent_tangent(scene);
+  }
+}
+
 TEST(PairOfLevers, CorrectionIsNewtonsOnAnElasticCylinder)
 {
   expect_consistent_tangent(on_solid_cylinder(paired(coarse_scene(), SpringJoint::free, 0.3, 0.8), 200., 0.5));

@@ -100,6 +100,25 @@ TEST(MirroredPair, WithoutOffsetIsASingleLeverTwice)
   }
 }
 
+// The frame carries both levers, on twice the stiffness of one's; what they push it with moves it, however it is shared.
+TEST(MirroredPair, ThatDiffersIsCarriedByItsSprungFrame)
+{
+  Scene scene             = paired(coarse_scene(), SpringJoint::free, 0.3, 0.8);
+  scene.support.type      = SupportType::sprung;
+  scene.support.stiffness = 50.;
+  const auto rows         = run_scene(scene);
+  double unequal          = 0.;
+  for (const Row &row : rows)
+  {
+    const double second = row.of_second_lever(Column::Q);
+    EXPECT_NEAR(2. * scene.support.stiffness * row[Column::support_displacement], row[Column::Q] + second, 1e-8);
+    unequal = std::max(unequal, std::abs(row[Column::Q] - second));
+  }
+  EXPECT_GT(unequal, 0.1); // N
+  const Row &last = rows.back();
+  EXPECT_NEAR(last[Column::drive_work], last[Column::friction_work], 2e-3 * last[Column::friction_work]);
+}
+
 // A cylinder off the middle presses on the first lever from the start; nothing has been rubbed then.
 TEST(MirroredPair, ACylinderOffTheMiddleIsPutBetweenTheLeversWithoutFriction)
 {
