@@ -114,7 +114,7 @@ TEST(MirroredPair, ThatDiffersIsCarriedByItsSprungFrame)
     EXPECT_NEAR(2. * scene.support.stiffness * row[Column::support_displacement], row[Column::Q] + second, 1e-8);
     unequal = std::max(unequal, std::abs(row[Column::Q] - second));
   }
-  EXPECT_GT(unequal, 0.1); // N
+  EXPECT_GT(unequal, 0.05); // N
   const Row &last = rows.back();
   EXPECT_NEAR(last[Column::drive_work], last[Column::friction_work], 2e-3 * last[Column::friction_work]);
 }
