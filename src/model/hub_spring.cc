@@ -127,9 +127,9 @@ namespace sprag
     return !is_active() ? others : with(others, of_step(begin, end, weights));
   }
 
-  const PortForces &HubSpringExcess::add_forces(const PortForces &others, const OfLevers &turns)
+  const PortForces &HubSpringExcess::add_forces(const PortForces &others, const OfLevers &turns, const bool swing_is_held)
   {
-    return !is_active() ? others : with(others, at(turns, !others.ports.empty()));
+    return !is_active() ? others : with(others, at(turns, swing_is_held));
   }
 
   void HubSpringExcess::add_work(const OfLevers &begin, const OfLevers &end, const StepWeights &weights, StepWork &work) const

@@ -23,9 +23,9 @@ namespace sprag
     const PortForces &add_forces(const PortForces &others, const OfLevers &begin, const OfLevers &end,
                                  const StepWeights &weights);
 
-    /// `others` with the forces at turns of the hubs added. Without others nothing holds the swing of joined springs; the tangent
-    /// then leaves it where it is.
-    const PortForces &add_forces(const PortForces &others, const OfLevers &turns);
+    /// `others` with the forces at turns of the hubs added. Where nothing else holds the swing of joined springs, the tangent is
+    /// that of springs which leave it where it is.
+    const PortForces &add_forces(const PortForces &others, const OfLevers &turns, bool swing_is_held = true);
 
     /// Adds the algorithmic dissipation of the step.
     void add_work(const OfLevers &begin, const OfLevers &end, const StepWeights &weights, StepWork &work) const;

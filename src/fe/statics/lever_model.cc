@@ -148,7 +148,7 @@ namespace sprag
   Unbalance LeverModel::evaluate(State &trial, const FrictionMode mode)
   {
     evaluate_contacts(trial, mode);
-    forces         = &excess.add_forces(on_ports, turns(trial));
+    forces         = &excess.add_forces(on_ports, turns(trial), !on_ports.ports.empty());
     trial.forces   = { forces->ports, forces->values };
     double overlap = 0.;
     for (const auto &lever : levers)

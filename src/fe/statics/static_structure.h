@@ -27,8 +27,8 @@ namespace sprag
 
     const dealii::Vector<double> &port_displacements(const dealii::Vector<double> &coordinates) const;
 
-    /// Looks at the given ports from now on, which increase and hold those of hubs and support. Returns those that it did not look
-    /// at before.
+    /// Looks at the given ports from now on, which increase and hold those of hubs and support. Returns those that it did not
+    /// look at before.
     PortSelection enter(const PortSelection &ports);
 
     /// Sets the displacements of the faces' ports to G f, where it looks at them as at those of the forces.
