@@ -10,7 +10,7 @@ from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.colors import LogNorm, Normalize
 
 from frames import PARTS, WAYS, chosen_frame, number, pose, read_frame, rest_inclination
-from results import NotAResult, read_result
+from results import NotAResult, read_result, script
 from style import COLOURS, MILLIMETRE, TWO_COLUMNS, plt, use_print_style
 
 # What each choice of --part shows in colour.
@@ -380,20 +380,16 @@ def default_name(options):
     return "-".join(filter(None, ("fields", f"x{options.x:g}" if options.x is not None else None, options.way, part)))
 
 
+@script
 def main(arguments=None):
     options = read_arguments(arguments)
     use_print_style()
-    try:
-        result = read_result(options.folder)
-        figure = fields(result, options.x, options.way, options.magnify, options.part, options.magnify_contact)
-        path = options.output or options.folder / f"{default_name(options)}.png"
-        path.parent.mkdir(parents=True, exist_ok=True)
-        figure.savefig(path, dpi=300)
-        print(path)
-    except (NotAResult, OSError) as error:
-        print(f"fields.py: {error}", file=sys.stderr)
-        return 2
-    return 0
+    result = read_result(options.folder)
+    figure = fields(result, options.x, options.way, options.magnify, options.part, options.magnify_contact)
+    path = options.output or options.folder / f"{default_name(options)}.png"
+    path.parent.mkdir(parents=True, exist_ok=True)
+    figure.savefig(path, dpi=300)
+    print(path)
 
 
 if __name__ == "__main__":

@@ -10,7 +10,7 @@ from matplotlib.collections import LineCollection, PolyCollection
 
 import plot
 from frames import number, pose, read_frame
-from results import NotAResult, read_result
+from results import NotAResult, read_result, script
 
 import matplotlib.pyplot as plt  # isort: skip (plot chooses what draws)
 
@@ -208,6 +208,7 @@ def figure_of(mesh):
     return figure
 
 
+@script
 def main(arguments=None):
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("meshes", nargs="+", type=Path, metavar="DIR|FILE.msh")
@@ -216,17 +217,12 @@ def main(arguments=None):
     if options.output and len(options.meshes) > 1:
         parser.error("--output goes with one mesh only")
     plot.use_print_style()
-    try:
-        for path in options.meshes:
-            mesh = of_folder(path) if path.is_dir() else of_msh(path)
-            default = path / "mesh.png" if path.is_dir() else path.with_suffix(".png")
-            figure = figure_of(mesh)
-            figure.savefig(options.output or default, dpi=DPI)
-            plt.close(figure)
-    except (NotAResult, OSError) as error:
-        print(f"mesh.py: {error}", file=sys.stderr)
-        return 2
-    return 0
+    for path in options.meshes:
+        mesh = of_folder(path) if path.is_dir() else of_msh(path)
+        default = path / "mesh.png" if path.is_dir() else path.with_suffix(".png")
+        figure = figure_of(mesh)
+        figure.savefig(options.output or default, dpi=DPI)
+        plt.close(figure)
 
 
 if __name__ == "__main__":

@@ -13,7 +13,7 @@ from fields import fields
 from frames import written_frames
 from map import is_map, stability_map
 from pair import has_pair, pair_of_levers
-from results import NotAResult, read_result
+from results import NotAResult, read_result, script
 from sensors import has_sensors, sensor_forces
 from sprag_slip import is_sprag_slip, sprag_slip_pictures
 from style import COLOURS, MARKERS, MILLIMETRE, ONE_COLUMN, TWO_COLUMNS  # noqa: F401  (for figures.py and mesh.py)
@@ -339,20 +339,16 @@ def read_arguments(arguments):
     return options
 
 
+@script
 def main(arguments=None):
     options = read_arguments(arguments)
     use_print_style()
-    try:
-        results = [read_result(folder) for folder in options.folders]
-        if options.only:
-            check_steps(results)
-            save({options.only.stem: comparison(results)}, options.only.parent, (options.only.suffix[1:],))
-        else:
-            save(draw(results), options.output, options.format)
-    except (NotAResult, OSError) as error:
-        print(f"plot.py: {error}", file=sys.stderr)
-        return 2
-    return 0
+    results = [read_result(folder) for folder in options.folders]
+    if options.only:
+        check_steps(results)
+        save({options.only.stem: comparison(results)}, options.only.parent, (options.only.suffix[1:],))
+    else:
+        save(draw(results), options.output, options.format)
 
 
 if __name__ == "__main__":

@@ -1,8 +1,10 @@
 """Reads result.h5 as written by sprag, finished or not."""
 
 from dataclasses import dataclass, field
+from functools import wraps
 from pathlib import Path
 import re
+import sys
 import time
 from typing import Optional
 
@@ -15,6 +17,21 @@ KNOWN = ("table", "face", "summary", "meta")
 
 class NotAResult(Exception):
     """The folder holds no result of sprag; the text says which and why."""
+
+
+def script(main):
+    """The exit code of what a script does: 0, or 2 with one line on stderr where a result or file cannot be read or written."""
+
+    @wraps(main)
+    def with_exit_code(arguments=None):
+        try:
+            main(arguments)
+        except (NotAResult, OSError) as error:
+            print(f"{Path(main.__code__.co_filename).name}: {error}", file=sys.stderr)
+            return 2
+        return 0
+
+    return with_exit_code
 
 
 @dataclass

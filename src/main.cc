@@ -56,9 +56,8 @@ namespace
     app.add_flag("--quiet", arguments.quiet, "Print errors only");
     app.add_option("--jobs", arguments.jobs, "Processes that work on a map; default: one a core")->check(CLI::PositiveNumber);
     app.set_version_flag("--version", std::string("sprag " SPRAG_VERSION));
-    app.footer(
-        "Exit status: 0 success, 1 the analysis failed or was interrupted (finished steps are kept), 2 bad input (nothing is "
-        "written).");
+    app.footer("Exit status: 0 success, 1 the analysis failed or was interrupted (finished steps are kept), 2 bad input (nothing "
+               "is written).");
   }
 
   std::string folder_of(const Arguments &arguments, const sprag::Scene &scene)

@@ -67,7 +67,7 @@ namespace sprag
     std::string line;
     for (unsigned int number = 1; std::getline(input, line); ++number)
     {
-      line = trimmed(line.substr(0, line.find('#')));
+      line = trim(line.substr(0, line.find('#')));
       if (line.empty())
         continue;
       if (const auto row = two_numbers(line))

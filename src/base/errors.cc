@@ -1,20 +1,11 @@
 #include "base/errors.h"
 
+#include <boost/algorithm/string/join.hpp>
+
 namespace sprag
 {
-  namespace
-  {
-    std::string joined(const std::vector<std::string> &messages)
-    {
-      std::string text;
-      for (const auto &message : messages)
-        text += (text.empty() ? "" : "\n") + message;
-      return text;
-    }
-  } // namespace
-
   InputError::InputError(std::vector<std::string> all_messages)
-      : std::runtime_error(joined(all_messages))
+      : std::runtime_error(boost::algorithm::join(all_messages, "\n"))
       , messages(std::move(all_messages))
   {
   }

@@ -36,15 +36,14 @@ namespace sprag
     }
 
     /// What a wish for an end has led to so far.
-    class Ending
+    struct Ending
     {
-    public:
-      Ending(const pid_t working_process, const int signal, const double seconds)
-          : process(working_process)
-          , last_signal(signal)
-          , patience(seconds)
-      {
-      }
+      const pid_t process;
+      const int last_signal;
+      const std::chrono::duration<double> patience;
+      unsigned int wishes    = 0;
+      bool insisted          = false;
+      Clock::time_point sent = {};
 
       void ask()
       {
@@ -61,12 +60,6 @@ namespace sprag
           insist();
       }
 
-      bool asked() const
-      {
-        return wishes > 0;
-      }
-
-    private:
       void insist()
       {
         send(insisted ? SIGKILL : last_signal);
@@ -78,13 +71,6 @@ namespace sprag
         ::kill(process, signal);
         sent = Clock::now();
       }
-
-      const pid_t process;
-      const int last_signal;
-      const std::chrono::duration<double> patience;
-      unsigned int wishes = 0;
-      bool insisted       = false;
-      Clock::time_point sent;
     };
   } // namespace
 
@@ -104,14 +90,14 @@ namespace sprag
       ::sigprocmask(SIG_SETMASK, &before, nullptr);
       return {};
     }
-    Ending ending(child, last_signal, patience);
+    Ending ending{ child, last_signal, std::chrono::duration<double>(patience) };
     int status = 0;
     while (::waitpid(child, &status, WNOHANG) == 0)
       if (next_signal(signals) != 0)
         ending.ask();
       else
         ending.go_on();
-    return WorkEnd{ WIFEXITED(status) ? WEXITSTATUS(status) : 0, WIFSIGNALED(status) ? WTERMSIG(status) : 0, ending.asked() };
+    return WorkEnd{ WIFEXITED(status) ? WEXITSTATUS(status) : 0, WIFSIGNALED(status) ? WTERMSIG(status) : 0, ending.wishes > 0 };
   }
 
   bool under_mpi()

@@ -24,8 +24,7 @@ namespace sprag::hdf5
       H5Eset_auto2(H5E_DEFAULT, function, data);
     }
 
-    SilencedHdf5(const SilencedHdf5 &)            = delete;
-    SilencedHdf5 &operator=(const SilencedHdf5 &) = delete;
+    SilencedHdf5 &operator=(SilencedHdf5 &&) = delete;
 
   private:
     H5E_auto2_t function = nullptr;

@@ -30,13 +30,13 @@ namespace sprag
       {
         ++line;
         first = joined.empty() ? line : first;
-        joined += trimmed(text);
+        joined += trim(text);
         if (!joined.empty() && joined.back() == '\\' && !input.eof())
         {
           joined.back() = ' ';
           continue;
         }
-        const std::string statement = trimmed(joined.substr(0, joined.find('#')));
+        const std::string statement = trim(joined.substr(0, joined.find('#')));
         if (!statement.empty())
           result.push_back({ first, statement });
         joined.clear();
@@ -60,7 +60,7 @@ namespace sprag
       const bool same              = first_word.size() == keyword.size() &&
                         std::equal(keyword.begin(), keyword.end(), first_word.begin(),
                                    [](const char a, const char b) { return a == std::tolower(static_cast<unsigned char>(b)); });
-      return same ? std::make_optional(trimmed(text.substr(keyword.size()))) : std::nullopt;
+      return same ? std::make_optional(trim(text.substr(keyword.size()))) : std::nullopt;
     }
 
     /// By its full name.
@@ -73,25 +73,16 @@ namespace sprag
       return slash == std::string::npos ? declared.end() : std::find_if(declared.begin(), declared.end(), meant);
     }
 
-    class Reader
+    struct Reader
     {
-    public:
-      Reader(const std::vector<Parameter> &known, Settings &target)
-          : declared(known)
-          , settings(target)
-      {
-      }
+      const std::vector<Parameter> &declared;
+      Settings &settings;
+      std::optional<std::string> section = {}; ///< none outside; the declared one meant where the name is misspelt
+      bool section_known                 = false;
+      std::string section_place          = {};
 
       void read_file();
       void read_override(const std::string &text);
-
-    private:
-      const std::vector<Parameter> &declared;
-      Settings &settings;
-      std::optional<std::string> section; ///< none outside; the declared one meant where the name is misspelt
-      bool section_known = false;
-      std::string section_place;
-
       void read_all(std::istream &input);
       void unusable(const std::string &rule);
       void mistake(const std::string &place, const std::string &what, const std::string &rule);
@@ -184,7 +175,7 @@ namespace sprag
       if (equals == std::string::npos)
         return mistake(place, "set " + text, "must have the form set Name = value");
       const std::string name  = single_spaced(text.substr(0, equals));
-      const std::string value = trimmed(text.substr(equals + 1));
+      const std::string value = trim(text.substr(equals + 1));
       if (!section)
         unknown_name(place, name, value);
       else if (section_known)
@@ -199,7 +190,7 @@ namespace sprag
         return mistake("--set", text, "must have the form Section/Name=value");
       const std::string given_section = single_spaced(text.substr(0, slash));
       const std::string name          = single_spaced(text.substr(slash + 1, equals - slash - 1));
-      const std::string value         = trimmed(text.substr(equals + 1));
+      const std::string value         = trim(text.substr(equals + 1));
       const auto meant                = section_meant(given_section);
       if (!meant || *meant != given_section)
         mistake("--set", given_section + "/" + name + " = " + value, "no such section" + did_you_mean(meant));
@@ -283,7 +274,7 @@ namespace sprag
   {
     Settings settings;
     settings.file = file;
-    Reader reader(declared, settings);
+    Reader reader{ declared, settings };
     reader.read_file();
     for (const auto &text : overrides)
       reader.read_override(text);
@@ -297,7 +288,7 @@ namespace sprag
     settings.file = file;
     for (const auto &[name, value] : values)
       settings.given[name] = { file, value };
-    Reader reader(declared, settings);
+    Reader reader{ declared, settings };
     for (const auto &override_given : overrides)
       reader.read_override(override_given);
     return settings;

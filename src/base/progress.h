@@ -45,8 +45,7 @@ namespace sprag
     /// Ends the line, whatever became of the run.
     ~Progress();
 
-    Progress(const Progress &)            = delete;
-    Progress &operator=(const Progress &) = delete;
+    Progress &operator=(Progress &&) = delete;
 
     void update(double done, const ProgressFields &fields);
 

@@ -2,6 +2,8 @@
 
 #include "base/text.h"
 
+#include <boost/algorithm/string/join.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -33,7 +35,7 @@ namespace sprag
       std::vector<std::string> parts;
       std::istringstream stream(text);
       for (std::string part; std::getline(stream, part, ',');)
-        parts.push_back(trimmed(part));
+        parts.push_back(trim(part));
       return parts;
     }
 
@@ -101,12 +103,7 @@ namespace sprag
     case Rule::Kind::numbers:
       return "numbers" + description(rule.interval) + ", separated by commas";
     case Rule::Kind::choice:
-    {
-      std::string text = "one of ";
-      for (const auto &choice : rule.choices)
-        text += (&choice == &rule.choices.front() ? "" : " | ") + choice;
-      return text;
-    }
+      return "one of " + boost::algorithm::join(rule.choices, " | ");
     case Rule::Kind::file:
       return "a file";
     case Rule::Kind::text:

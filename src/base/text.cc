@@ -37,15 +37,6 @@ namespace sprag
     }
   } // namespace
 
-  std::string trimmed(const std::string &text)
-  {
-    const char *const white = " \t\r\n\v\f";
-    const auto begin        = text.find_first_not_of(white);
-    if (begin == std::string::npos)
-      return "";
-    return text.substr(begin, text.find_last_not_of(white) - begin + 1);
-  }
-
   std::string number_text(const double value)
   {
     std::array<char, 32> buffer;
@@ -60,9 +51,14 @@ namespace sprag
     return buffer.data();
   }
 
+  std::string mm(const double length)
+  {
+    return rounded_text(length) + " mm";
+  }
+
   std::optional<LeadingNumber> leading_number(const std::string &text)
   {
-    const std::string all = trimmed(text);
+    const std::string all = trim(text);
     // from_chars, unlike strtod, heeds no locale, but knows no plus sign either.
     const std::size_t sign = all.size() > 1 && all[0] == '+' && all[1] != '-' ? 1 : 0;
     const char *const end  = all.data() + all.size();
@@ -70,7 +66,7 @@ namespace sprag
     const auto result      = std::from_chars(all.data() + sign, end, value);
     if (result.ec != std::errc() || !std::isfinite(value))
       return std::nullopt;
-    return LeadingNumber{ value, trimmed(std::string(result.ptr, end)) };
+    return LeadingNumber{ value, trim(std::string(result.ptr, end)) };
   }
 
   std::optional<std::string> with_decimal_point(const std::string &text)
@@ -80,10 +76,10 @@ namespace sprag
     { return rest.size() > 1 && rest[0] == ',' && std::isdigit(static_cast<unsigned char>(rest[1])); };
     if (!whole || !is_part(whole->rest))
       return std::nullopt;
-    std::string pointed        = trimmed(text);
+    std::string pointed        = trim(text);
     pointed[pointed.find(',')] = '.';
     const auto meant           = leading_number(pointed);
-    return trimmed(pointed.substr(0, pointed.size() - meant->rest.size()));
+    return trim(pointed.substr(0, pointed.size() - meant->rest.size()));
   }
 
   std::optional<std::string> nearest(const std::string &name, const std::vector<std::string> &candidates)

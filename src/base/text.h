@@ -1,13 +1,14 @@
 #pragma once
 
+#include <deal.II/base/utilities.h>
+
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace sprag
 {
-  /// Without white space at both ends.
-  std::string trimmed(const std::string &text);
+  using dealii::Utilities::trim; // takes off white space at both ends
 
   /// The shortest decimal form that reads back as the same number.
   std::string number_text(double value);
@@ -15,11 +16,14 @@ namespace sprag
   /// At most six significant digits, for a reader's eye.
   std::string rounded_text(double value);
 
+  /// "12.5 mm", rounded.
+  std::string mm(double length);
+
   /// A number at the beginning of a text and what stands behind it.
   struct LeadingNumber
   {
     double value;
-    std::string rest; ///< trimmed; empty where the text is a number alone
+    std::string rest; ///< without white space at its ends; empty where the text is a number alone
   };
 
   /// None where the text does not begin with a finite decimal number.

@@ -34,11 +34,6 @@ namespace sprag
   {
   }
 
-  Timer &DynamicsMaker::timer()
-  {
-    return time;
-  }
-
   Dynamics DynamicsMaker::make(const Scene &scene)
   {
     Dynamics result;

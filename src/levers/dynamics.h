@@ -45,7 +45,10 @@ namespace sprag
     Dynamics make(const Scene &scene);
 
     /// Measures the wall and CPU time spent on meshes and models.
-    dealii::TimerOutput &timer();
+    dealii::TimerOutput &timer()
+    {
+      return time;
+    }
 
   private:
     const bool store;

@@ -58,21 +58,4 @@ namespace sprag
     result.slip_curvature[3][2] += R / r * across_x;
     return result;
   }
-
-  ContactKinematics<3> circle_contact(const Geometry &geometry, const LeverPoint &point, const double x, const double theta)
-  {
-    const auto moving = moving_circle_contact(geometry, point, x, theta);
-    ContactKinematics<3> result{ moving.gap, {}, {}, moving.slip, {}, {} };
-    for (unsigned int i = 0; i < 3; ++i)
-    {
-      result.gap_row[i]  = moving.gap_row[i];
-      result.slip_row[i] = moving.slip_row[i];
-      for (unsigned int j = 0; j < 3; ++j)
-      {
-        result.gap_curvature[i][j]  = moving.gap_curvature[i][j];
-        result.slip_curvature[i][j] = moving.slip_curvature[i][j];
-      }
-    }
-    return result;
-  }
 } // namespace sprag

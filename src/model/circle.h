@@ -16,12 +16,6 @@ namespace sprag
   /// Centre (x, 0) of the cylinder in lever axes [mm].
   LeverPoint cylinder_centre(const Geometry &geometry, double x, double theta);
 
-  /// A point of the lever against the rigid circle that translates with x and does not rotate. Coordinates: displacement of the
-  /// point along xi and eta, rotation theta. With r the vector from centre to point and beta its angle from eta towards xi:
-  ///   gap = |r| - R,   slip = R (beta - theta),
-  /// the arc along which the circle has passed the point, so large sliding and large rotation are exact.
-  ContactKinematics<3> circle_contact(const Geometry &geometry, const LeverPoint &point, double x, double theta);
-
   /// The circle at a position x and a rotation theta, for many points.
   struct PlacedCircle
   {
@@ -34,8 +28,11 @@ namespace sprag
 
   PlacedCircle placed_circle(const Geometry &geometry, double x, double theta);
 
-  /// The same with the circle's position x as a fourth coordinate: minus the force on it is the x-force of the circle on the
-  /// lever.
+  /// A point of the lever against the rigid circle, which does not rotate. Coordinates: displacement of the point along xi and
+  /// eta, rotation theta, position x of the circle: minus the force on x is the x-force of the circle on the lever. With r the
+  /// vector from centre to point and beta its angle from eta towards xi:
+  ///   gap = |r| - R,   slip = R (beta - theta),
+  /// the arc along which the circle has passed the point, so large sliding and large rotation are exact.
   ContactKinematics<4> moving_circle_contact(const PlacedCircle &circle, const LeverPoint &point);
   ContactKinematics<4> moving_circle_contact(const Geometry &geometry, const LeverPoint &point, double x, double theta);
 } // namespace sprag

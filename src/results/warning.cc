@@ -26,11 +26,6 @@ namespace sprag
     }
   } // namespace
 
-  void append(Warnings &warnings, const Warnings &more)
-  {
-    warnings.insert(warnings.end(), more.begin(), more.end());
-  }
-
   std::string text_of(const Warnings &warnings)
   {
     std::string result;

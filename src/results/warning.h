@@ -1,7 +1,8 @@
 #pragma once
 
+#include "base/append.h"
+
 #include <string>
-#include <vector>
 
 namespace sprag
 {
@@ -16,9 +17,6 @@ namespace sprag
   };
 
   using Warnings = std::vector<Warning>;
-
-  /// Adds more of them.
-  void append(Warnings &warnings, const Warnings &more);
 
   /// All of them for people, a paragraph each in lines of at most 100 characters; empty without.
   std::string text_of(const Warnings &warnings);

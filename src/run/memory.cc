@@ -156,7 +156,7 @@ namespace sprag
       throw InputError("Drive/Cycles and " +
                        std::string(scene.analysis.type == AnalysisType::transient ? "Time/Step" : "Analysis/Step") + " make " +
                        rounded_text(expected_rows(scene)) + " rows" + has + "Try fewer cycles or longer steps");
-    throw InputError("Mesh/Face size = " + rounded_text(scene.mesh.face_size) + " mm" + has +
+    throw InputError("Mesh/Face size = " + mm(scene.mesh.face_size) + has +
                      (processes > 1 ? "Try a larger one, or fewer processes (--jobs)" : "Try a larger one"));
   }
 } // namespace sprag

@@ -69,7 +69,7 @@ namespace sprag
 
     std::string remedy(const Scene &scene, const double width)
     {
-      return "Try a Mesh/Face size of at most " + rounded_text(width / enough_elements(scene.mesh.degree)) + " mm" +
+      return "Try a Mesh/Face size of at most " + mm(width / enough_elements(scene.mesh.degree)) +
              (scene.mesh.degree == 1 ? " or Mesh/Degree = 2." : ".");
     }
 
@@ -105,8 +105,8 @@ namespace sprag
     const double enough   = enough_elements(scene.mesh.degree);
     if (elements < enough)
       return { { "coarse_contact",
-                 "Where its pressure is largest, at x = " + rounded_text((*peak.row)[Column::x]) + " mm, the contact is " +
-                     rounded_text(peak.width) + " mm wide, " + rounded_text(elements) + " times Mesh/Face size.",
+                 "Where its pressure is largest, at x = " + mm((*peak.row)[Column::x]) + ", the contact is " + mm(peak.width) +
+                     " wide, " + rounded_text(elements) + " times Mesh/Face size.",
                  "The largest pressure may be wrong by " +
                      rounded_text(std::ceil(100. * expected_pressure_error(elements, scene.mesh.degree))) +
                      " %; P, Q and theta are not.",
@@ -115,8 +115,8 @@ namespace sprag
     if (!(narrow > 0.) || narrow >= enough * scene.mesh.face_size)
       return {};
     return { { "coarse_contact",
-               "Over more than " + rounded_text(100. * admitted_share) + " % of its way the contact is at most " +
-                   rounded_text(narrow) + " mm wide, " + rounded_text(narrow / scene.mesh.face_size) + " times Mesh/Face size.",
+               "Over more than " + rounded_text(100. * admitted_share) + " % of its way the contact is at most " + mm(narrow) +
+                   " wide, " + rounded_text(narrow / scene.mesh.face_size) + " times Mesh/Face size.",
                "Where it is as narrow as that the pressure may be wrong by " +
                    rounded_text(std::ceil(100. * expected_pressure_error(narrow / scene.mesh.face_size, scene.mesh.degree))) +
                    " % or more; the largest of the run, P, Q and theta are not.",

@@ -38,11 +38,6 @@ namespace sprag
       return rounded_text(std::round(1000. * share) / 10.) + " %";
     }
 
-    std::string mm(const double length)
-    {
-      return rounded_text(length) + " mm";
-    }
-
     std::string way(const Row &row)
     {
       return row[Column::v] < 0. ? "backward" : "forward";
@@ -68,10 +63,8 @@ namespace sprag
                              "Cylinder and friction face overlap by " + mm(overlap) + ' ' + place(*deepest) + ", " +
                                  per_cent(overlap / thickness) + " of the layer's thickness; admitted are " +
                                  per_cent(largest_overlap_of_layer) + '.',
-                             "The lever is opened by that much less than the cylinder asks for: P, "
-                             "Q, work and theta are too small, "
-                             "and pressures and contact width are those of a soft spring, not of "
-                             "the layer.",
+                             "The lever is opened by that much less than the cylinder asks for: P, Q, work and theta are too "
+                             "small, and pressures and contact width are those of a soft spring, not of the layer.",
                              remedy });
       const double at_peak  = peak[Column::penetration];
       const double approach = at_peak + peak[Column::indentation];
@@ -80,9 +73,8 @@ namespace sprag
                              "The overlap of " + mm(at_peak) + ' ' + place(peak) + ", where P is largest, is " +
                                  per_cent(at_peak / approach) + " of the approach of cylinder and lever; admitted are " +
                                  per_cent(largest_overlap_of_approach) + '.',
-                             "The contact is softer than its layer: contact width too large, the "
-                             "largest pressure too small, in time "
-                             "the frequency of ringing too low.",
+                             "The contact is softer than its layer: contact width too large, the largest pressure too small, in "
+                             "time the frequency of ringing too low.",
                              remedy });
     }
 
@@ -93,17 +85,14 @@ namespace sprag
       if (!(slip > largest_elastic_slip * width))
         return;
       const std::string share = per_cent(slip / width);
-      warnings.push_back({ "soft_tangential_penalty",
-                           "The elastic slip of " + mm(slip) + ' ' + place(peak) + " is " + share +
-                               " of the contact's width, over " +
-                               "which a point of the lever slips while it is touched; admitted "
-                               "are " +
-                               per_cent(largest_elastic_slip) + '.',
-                           "Points leave the contact before friction has built up: F, Q and the "
-                           "work of friction are too small by up "
-                           "to that share, P off where friction presses the lever on.",
-                           "Leave Contact/Tangential penalty at auto, or make it " +
-                               rounded_text(std::ceil(100. * slip / width)) + " times as large." });
+      warnings.push_back(
+          { "soft_tangential_penalty",
+            "The elastic slip of " + mm(slip) + ' ' + place(peak) + " is " + share + " of the contact's width, over " +
+                "which a point of the lever slips while it is touched; admitted are " + per_cent(largest_elastic_slip) + '.',
+            "Points leave the contact before friction has built up: F, Q and the work of friction are too small by up to that "
+            "share, P off where friction presses the lever on.",
+            "Leave Contact/Tangential penalty at auto, or make it " + rounded_text(std::ceil(100. * slip / width)) +
+                " times as large." });
     }
 
     double finite(const double value)
@@ -131,16 +120,13 @@ namespace sprag
       const double s = (*worst)[Column::s];
       const double arm =
           std::isfinite(s) ? s : kinematics(scene.geometry, std::min((*worst)[Column::x], scene.drive.maximum())).s;
-      warnings.push_back({ "large_deflection",
-                           "The lever bends by about " + mm(ratio * arm) + ' ' + place(*worst) + ", " + per_cent(ratio) +
-                               " of the distance from the pivot; linear theory is "
-                               "meant for no more than " +
-                               per_cent(largest_deflection) + '.',
-                           "P and Q are off by about as large a share (a lever of 1 "
-                           "mm bent by 2.4 % has 2.1 % too much P), more "
-                           "close to jamming.",
-                           "Use a thicker lever, or Lever/Material = neo-Hookean "
-                           "with Analysis/Plane = strain without inertia." });
+      warnings.push_back(
+          { "large_deflection",
+            "The lever bends by about " + mm(ratio * arm) + ' ' + place(*worst) + ", " + per_cent(ratio) +
+                " of the distance from the pivot; linear theory is meant for no more than " + per_cent(largest_deflection) + '.',
+            "P and Q are off by about as large a share (a lever of 1 mm bent by 2.4 % has 2.1 % too much P), more close to "
+            "jamming.",
+            "Use a thicker lever, or Lever/Material = neo-Hookean with Analysis/Plane = strain without inertia." });
     }
 
     void add_strain(const Scene &scene, const std::vector<Row> &rows, Warnings &warnings)
@@ -155,12 +141,10 @@ namespace sprag
                              "The friction layer is compressed by " + mm((*worst)[Column::indentation]) + ' ' + place(*worst) +
                                  ", " + per_cent(strain) + " of its thickness; linear theory is meant for no more than " +
                                  per_cent(largest_strain) + '.',
-                             "Pressure, contact width and compression are off by about as large a "
-                             "share; P and Q by the change of the "
-                             "lever's turn alone.",
-                             "Use a stiffer or thicker layer or less force, or Lever/Material = "
-                             "neo-Hookean with Analysis/Plane = "
-                             "strain without inertia." });
+                             "Pressure, contact width and compression are off by about as large a share; P and Q by the change "
+                             "of the lever's turn alone.",
+                             "Use a stiffer or thicker layer or less force, or Lever/Material = neo-Hookean with Analysis/Plane "
+                             "= strain without inertia." });
     }
 
     void add_pressure(const Scene &scene, const std::vector<Row> &rows, const Row &peak, Warnings &warnings)
@@ -206,8 +190,7 @@ namespace sprag
                                " of the work, with steps of up to " + mm(std::abs((*longest)[Column::step])) + "; admitted are " +
                                per_cent(largest_open_energy) + '.',
                            "The works loop_area and friction_work are off by some ten times that share; P and Q are not.",
-                           "Set Analysis/Step to a quarter of that length; if the gap remains, "
-                           "refine Mesh/Face size." });
+                           "Set Analysis/Step to a quarter of that length; if the gap remains, refine Mesh/Face size." });
     }
   } // namespace
 

@@ -13,6 +13,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <iostream>
+#include <map>
 
 namespace sprag
 {
@@ -59,26 +60,17 @@ namespace sprag
 
     void carry_out(const Scene &scene, const RunOptions &options, Warnings &warnings)
     {
-      switch (scene.analysis.type)
-      {
-      case AnalysisType::quasi_static:
-        return run_quasi_static_scene(scene, options, warnings);
-      case AnalysisType::slope:
-        return run_slope(scene, options, warnings);
-      case AnalysisType::transient:
-        return run_transient_scene(scene, options, warnings);
-      case AnalysisType::contact_law:
-        return run_contact_law(scene, options, warnings);
-      case AnalysisType::modal:
-      case AnalysisType::stability:
-        return run_vibrations(scene, options, warnings);
-      case AnalysisType::map:
-        return run_map(scene, options, warnings);
-      case AnalysisType::sprag_slip:
-        return run_sprag_slip(scene, options, warnings);
-      case AnalysisType::calibration:
-        return run_calibration(scene, options, warnings);
-      }
+      using Run                                     = void (*)(const Scene &, const RunOptions &, Warnings &);
+      static const std::map<AnalysisType, Run> runs = { { AnalysisType::quasi_static, run_quasi_static_scene },
+                                                        { AnalysisType::slope, run_slope },
+                                                        { AnalysisType::transient, run_transient_scene },
+                                                        { AnalysisType::contact_law, run_contact_law },
+                                                        { AnalysisType::modal, run_vibrations },
+                                                        { AnalysisType::stability, run_vibrations },
+                                                        { AnalysisType::map, run_map },
+                                                        { AnalysisType::sprag_slip, run_sprag_slip },
+                                                        { AnalysisType::calibration, run_calibration } };
+      runs.at(scene.analysis.type)(scene, options, warnings);
     }
 
     /// Warnings and, in the last line, their number; by the first process alone.

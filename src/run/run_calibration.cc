@@ -70,16 +70,6 @@ namespace sprag
       add_frequencies("contact_frequency_", "in contact, without friction", found.contact_frequencies, entries);
       return entries;
     }
-
-    std::vector<ColumnInfo> columns()
-    {
-      return { { "x", "mm", "position of the cylinder" },
-               { "direction", "1", "1 forward, -1 backward" },
-               { "P", "N", "normal force of the meshed lever in steady sliding" },
-               { "P_beam", "N", "of the calibrated beam" },
-               { "Q", "N", "x-force of the meshed lever in steady sliding" },
-               { "Q_beam", "N", "of the calibrated beam" } };
-    }
   } // namespace
 
   void run_calibration(const Scene &scene, const RunOptions &options, Warnings &warnings)
@@ -92,7 +82,13 @@ namespace sprag
     const auto beam       = variant(scene, joined(joined(parts.overrides, reduced.overrides), { in_time }));
     const auto found      = compare(prepared(calibrated), prepared(beam));
 
-    ResultWriter writer(scene, options, timer, columns());
+    ResultWriter writer(scene, options, timer,
+                        { { "x", "mm", "position of the cylinder" },
+                          { "direction", "1", "1 forward, -1 backward" },
+                          { "P", "N", "normal force of the meshed lever in steady sliding" },
+                          { "P_beam", "N", "of the calibrated beam" },
+                          { "Q", "N", "x-force of the meshed lever in steady sliding" },
+                          { "Q_beam", "N", "of the calibrated beam" } });
     write_scene(options.folder + "/calibrated.prm", "Calibrated parts, in time, condensed", calibrated);
     write_scene(options.folder + "/beam.prm", "The beam calibrated by their mesh, in time", beam);
     for (const auto &point : found.sliding)

@@ -21,15 +21,6 @@ namespace sprag
                  "of P by the overlap that the indentation's penalty leaves, relative" },
                { "largest_P", law.points.back().P, "N", "up to which the law was fitted" } };
     }
-
-    std::vector<ColumnInfo> columns()
-    {
-      return { { "P", "N", "normal force" },
-               { "approach", "mm", "overlap of the cylinder with the undeformed lever" },
-               { "bending", "mm", "deflection of the Euler-Bernoulli lever at the contact" },
-               { "local", "mm", "approach less bending: what the contact law has to give" },
-               { "P_fitted", "N", "P of the fitted law at the local approach" } };
-    }
   } // namespace
 
   void run_contact_law(const Scene &scene, const RunOptions &options, Warnings &warnings)
@@ -37,7 +28,12 @@ namespace sprag
     auto timer = phase_timer();
     require_writable(options.folder);
     const auto law = indent(scene);
-    ResultWriter writer(scene, options, timer, columns());
+    ResultWriter writer(scene, options, timer,
+                        { { "P", "N", "normal force" },
+                          { "approach", "mm", "overlap of the cylinder with the undeformed lever" },
+                          { "bending", "mm", "deflection of the Euler-Bernoulli lever at the contact" },
+                          { "local", "mm", "approach less bending: what the contact law has to give" },
+                          { "P_fitted", "N", "P of the fitted law at the local approach" } });
     for (const auto &point : law.points)
       writer.append(std::vector<double>{ point.P, point.approach, point.bending, point.local(),
                                          law.fit.stiffness * std::pow(point.local(), law.fit.exponent) });

@@ -26,13 +26,10 @@ namespace sprag
     }
 
     /// A line at the beginning of each round and how far it has come.
-    class MapProgress
+    struct MapProgress
     {
-    public:
-      explicit MapProgress(const bool is_quiet)
-          : style(progress_style(is_quiet))
-      {
-      }
+      const ProgressStyle style;
+      std::optional<Progress> bar = {};
 
       void say(const std::string &text)
       {
@@ -47,26 +44,12 @@ namespace sprag
           bar.emplace(std::cerr, style, static_cast<double>(wanted));
         bar->update(static_cast<double>(done), {});
       }
-
-      void finish()
-      {
-        bar.reset();
-      }
-
-    private:
-      const ProgressStyle style;
-      std::optional<Progress> bar;
     };
 
     struct StabilityMap
     {
-      explicit StabilityMap(const MapSettings &settings)
-          : grid(settings.first.points, settings.second.points, settings.coarsest)
-      {
-      }
-
       MapGrid grid;
-      std::vector<BoundaryPoint> boundary;
+      std::vector<BoundaryPoint> boundary = {};
     };
 
     /// Leaves what there is in `map` when it throws.
@@ -228,7 +211,7 @@ namespace sprag
   void run_map(const Scene &scene, const RunOptions &options, Warnings &warnings)
   {
     const auto begin = std::chrono::steady_clock::now();
-    MapProgress progress(options.quiet || !is_first_rank());
+    MapProgress progress{ progress_style(options.quiet || !is_first_rank()) };
     std::optional<MapJournal> journal;
     on_first_rank(
         [&]
@@ -239,11 +222,11 @@ namespace sprag
         });
     MapTeam team(scene, journal ? &*journal : nullptr,
                  [&](const std::size_t done, const std::size_t wanted) { progress.judged(done, wanted); });
-    StabilityMap map(scene.map);
+    StabilityMap map{ MapGrid(scene.map.first.points, scene.map.second.points, scene.map.coarsest) };
     finish_in_any_case([&] { judge_all(scene, team, progress, map); },
                        [&](const std::string &status)
                        {
-                         progress.finish();
+                         progress.bar.reset();
                          const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
                          const auto meta                             = cost_of_map(team, seconds.count());
                          on_first_rank([&] { write_map(scene, options, map, team, status, meta, warnings); });

@@ -24,14 +24,14 @@ namespace sprag
     constexpr double shown_periods       = 50.;    ///< of that vibration
 
     /// Writes some of the rows as they come and keeps the last ones.
-    class Rows
+    struct Rows
     {
-    public:
-      Rows(ResultWriter &of_run, const HeldSlide &held)
-          : writer(of_run)
-          , slide(held)
-      {
-      }
+      ResultWriter &writer;
+      const HeldSlide &slide;
+      unsigned long every = 1, count = 0;
+      std::size_t kept     = 0;
+      std::deque<Row> last = {};
+      Row largest          = {}; ///< the one with the largest P
 
       /// From now on every n-th row is written; the last `number` are kept.
       void begin(const unsigned long every_nth, const std::size_t number)
@@ -46,8 +46,8 @@ namespace sprag
       {
         row[Column::P_quasi_static] = slide.forces.P;
         row[Column::Q_quasi_static] = slide.forces.Q;
-        if (!(row[Column::P] <= highest[Column::P]))
-          highest = row;
+        if (!(row[Column::P] <= largest[Column::P]))
+          largest = row;
         if (kept > 0)
           last.push_back(row);
         if (last.size() > kept)
@@ -60,12 +60,6 @@ namespace sprag
           writer.append(row);
       }
 
-      /// The one with the largest P.
-      const Row &largest() const
-      {
-        return highest;
-      }
-
       /// Writes the rows kept and returns the first one's time, NaN if there are none [s].
       double write_last()
       {
@@ -75,21 +69,13 @@ namespace sprag
         last.clear();
         return begin;
       }
-
-    private:
-      ResultWriter &writer;
-      const HeldSlide &slide;
-      unsigned long every = 1, count = 0;
-      std::size_t kept = 0;
-      std::deque<Row> last;
-      Row highest;
     };
 
     void require_slide(const SpragSlip &found, const double x)
     {
       if (found.slide.kind == SlideKind::jammed)
-        throw AnalysisError("no slide in contact that could be perturbed at x = " + rounded_text(x) +
-                            " mm. Try another Stability/Position or a smaller friction coefficient.");
+        throw AnalysisError("no slide in contact that could be perturbed at x = " + mm(x) +
+                            ". Try another Stability/Position or a smaller friction coefficient.");
     }
 
     /// Whether friction at this speed is the same in the eigenvalue and in time, see FrictionDelay.
@@ -99,22 +85,19 @@ namespace sprag
     }
 
     /// Growth, vibration and continuation, one after the other; what is finished stands in `found` whatever happens.
-    class Study
+    struct Study
     {
-    public:
-      Study(const Scene &scene_, DynamicModel &model_, ResultWriter &writer, Progress &progress_, SpragSlip &found_,
-            Warnings &warnings_)
-          : scene(scene_)
-          , settings(scene_.sprag_slip)
-          , model(model_)
-          , progress(progress_)
-          , found(found_)
-          , warnings(warnings_)
-          , rows(writer, *found_.slide.slide)
-          , dt(step_of(watched_mode(found_.slide), settings))
-          , run(model, dt)
-      {
-      }
+      const Scene &scene;
+      DynamicModel &model;
+      ResultWriter &writer;
+      Progress &progress;
+      SpragSlip &found;
+      Warnings &warnings;
+      const SpragSlipSettings &settings = scene.sprag_slip;
+      Rows rows                         = { writer, *found.slide.slide };
+      const double dt                   = step_of(watched_mode(found.slide), settings);
+      HeldRun run                       = HeldRun(model, dt);
+      double done                       = 0.;
 
       void carry_out()
       {
@@ -132,18 +115,6 @@ namespace sprag
         }
         sum_up();
       }
-
-    private:
-      const Scene &scene;
-      const SpragSlipSettings &settings;
-      DynamicModel &model;
-      Progress &progress;
-      SpragSlip &found;
-      Warnings &warnings;
-      Rows rows;
-      const double dt;
-      HeldRun run;
-      double done = 0.;
 
       void measure()
       {
@@ -202,8 +173,7 @@ namespace sprag
       {
         found.ledger = run.ledger();
         found.steps  = run.steps();
-        for (const Warning &warning : row_warnings(scene, { rows.largest() }))
-          warnings.push_back(warning);
+        append(warnings, row_warnings(scene, { rows.largest }));
       }
     };
 
@@ -232,7 +202,7 @@ namespace sprag
           found.slide      = judge(dynamics.model(), drive, scene.stability.modes);
           require_slide(found, drive.x);
           found.exact = linearised_exactly(held.friction, found.slide.slide->speed);
-          Study(scene, dynamics.model(), writer, progress, found, warnings).carry_out();
+          Study{ scene, dynamics.model(), writer, progress, found, warnings }.carry_out();
           check_ledger(scene, found.ledger);
         },
         [&](const std::string &status)

@@ -102,8 +102,7 @@ namespace sprag
       auto &model                = dynamics.model();
       const auto slide           = timed(maker, [&] { return model.hold(held_drive(undamped), friction); });
       if (!slide)
-        throw AnalysisError("no equilibrium at x = " + rounded_text(held_drive(undamped).x) +
-                            " mm. Try another Stability/Position.");
+        throw AnalysisError("no equilibrium at x = " + mm(held_drive(undamped).x) + ". Try another Stability/Position.");
       const bool in_contact = scene.stability.contact != HeldContact::open;
       const auto found      = timed(maker, [&] { return model.vibrations(*slide, in_contact, scene.stability.modes); });
       const auto modes      = reported(found, scene.stability.modes);

@@ -68,7 +68,7 @@ namespace sprag
         return;
       warnings.push_back(
           { "near_locking",
-            "Moving back at x = " + rounded_text(found.x) + " mm the friction coefficient " + rounded_text(found.mu) +
+            "Moving back at x = " + mm(found.x) + " the friction coefficient " + rounded_text(found.mu) +
                 " is close to s/e = " + rounded_text(found.s / scene.geometry.interface_offset) +
                 ", at which a rigid lever locks: dP/dmu mu/P = mu e/(s - mu e) = " + rounded_text(found.value) + ", more than " +
                 rounded_text(largest_amplification) + ".",
@@ -99,10 +99,10 @@ namespace sprag
         return;
       warnings.push_back(
           { "leaf_beyond_yield",
-            "Turned by " + rounded_text(turn) + " rad at x = " + rounded_text(x) + " mm a leaf of " +
-                rounded_text(leaf.thickness) + " mm thickness and " + rounded_text(leaf.length) + " mm length is strained by " +
-                rounded_text(100. * strain) + " % in its clamp (" + rounded_text(strain * leaf.young_modulus) +
-                " MPa); more than " + rounded_text(100. * largest_leaf_strain) + " % few spring steels bear for long.",
+            "Turned by " + rounded_text(turn) + " rad at x = " + mm(x) + " a leaf of " + mm(leaf.thickness) + " thickness and " +
+                mm(leaf.length) + " length is strained by " + rounded_text(100. * strain) + " % in its clamp (" +
+                rounded_text(strain * leaf.young_modulus) + " MPa); more than " + rounded_text(100. * largest_leaf_strain) +
+                " % few spring steels bear for long.",
             "The leaf is modelled as elastic: a real one yields or breaks, its moment stays behind, and so do P, Q and work.",
             "Use a thinner or longer leaf; Analysis/Type = calibration finds the thickness for a stiffness." });
     }
@@ -120,8 +120,8 @@ namespace sprag
             "Friction layer/Poisson's ratio = " + rounded_text(nu) + " with Analysis/Plane = stress; above " +
                 rounded_text(largest_ratio_of_plane_stress) +
                 " a layer held between two faces, much wider than thick, is more than twice as stiff as plane stress says.",
-            "The layer of " + rounded_text(layer.thickness) + " mm thickness and " + rounded_text(scene.lever.width) +
-                " mm width is too soft, by up to a factor of " + rounded_text(ratio) +
+            "The layer of " + mm(layer.thickness) + " thickness and " + mm(scene.lever.width) +
+                " width is too soft, by up to a factor of " + rounded_text(ratio) +
                 ": compression and contact width come out too large, the largest pressure too small; P, Q and theta hardly "
                 "change.",
             "Set Analysis/Plane = strain." });

@@ -16,9 +16,9 @@ namespace sprag
 
     void leaf(Section section, LeafSpring &settings)
     {
-      section.number("Length", settings.length, above(0.), "mm", "From its clamp in the hub to the spring joint, at rest");
-      section.number("Thickness", settings.thickness, above(0.), "mm", "In the plane");
-      section.number("Width", settings.width, above(0.), "mm", "Out of plane");
+      section.length("Length", settings.length, "From its clamp in the hub to the spring joint, at rest");
+      section.length("Thickness", settings.thickness, "In the plane");
+      section.length("Width", settings.width, "Out of plane");
       add_material(section, settings);
       section.choice("Joint", settings.end,
                      { { "clamped", LeafEnd::clamped }, { "pinned", LeafEnd::pinned }, { "guided", LeafEnd::guided } },
@@ -28,33 +28,33 @@ namespace sprag
       section.number("Clamp distance", settings.clamp_distance, at_least(0.), "mm", "From the pivot back to the clamp");
       section.number("Sagitta", settings.sagitta, any_number(), "mm",
                      "Of the unloaded spring, an arc; positive: away from the cylinder; 0: straight");
-      section.number("Room", settings.room, above(0.), "mm", "From the pivot back to the end of the pivot frame");
+      section.length("Room", settings.room, "From the pivot back to the end of the pivot frame");
     }
 
     void lever_frame(Section section, LeverFrameShape &settings)
     {
-      section.number("Tip depth", settings.tip_depth, above(0.), "mm", "Of the arm at its tip; Lever/Depth at its root");
-      section.number("Flange", settings.flange, above(0.), "mm", "Depth of each of the two flanges");
+      section.length("Tip depth", settings.tip_depth, "Of the arm at its tip; Lever/Depth at its root");
+      section.length("Flange", settings.flange, "Depth of each of the two flanges");
       section.number("Web", settings.web, at_least(0.), "mm", "Width of the web in the pockets, out of plane; 0: holes");
       section.integer("Pockets", settings.pockets, { 0., 50. }, "Between flanges, one after another");
-      section.number("Rib", settings.rib, above(0.), "mm", "Length of full width between pockets and at the ends of the arm");
-      section.number("Root", settings.root, above(0.), "mm", "Length along the lever of part 2b, which the pivot carries");
+      section.length("Rib", settings.rib, "Length of full width between pockets and at the ends of the arm");
+      section.length("Root", settings.root, "Length along the lever of part 2b, which the pivot carries");
     }
 
     void friction_plate(Section section, FrictionPlate &settings)
     {
       section.choice("Type", settings.type, { { "none", PlateType::none }, { "on sensors", PlateType::on_sensors } },
                      "Friction layer on the lever, or on a plate of its own held by force sensors");
-      section.number("Begin", settings.begin, above(0.), "mm", "Of plate and layer, from the pivot along the lever");
-      section.number("End", settings.end, above(0.), "mm", "Of plate and layer");
-      section.number("Thickness", settings.thickness, above(0.), "mm", "Of the metal");
-      section.number("Spacer", settings.spacer, above(0.), "mm", "Distance of plate and lever");
+      section.length("Begin", settings.begin, "Of plate and layer, from the pivot along the lever");
+      section.length("End", settings.end, "Of plate and layer");
+      section.length("Thickness", settings.thickness, "Of the metal");
+      section.length("Spacer", settings.spacer, "Distance of plate and lever");
       add_material(section, settings, " of the metal");
       section.numbers("Sensors", settings.sensors, above(0.), "mm",
                       "Middles of the force sensors, from the pivot along the lever");
-      section.number("Sensor length", settings.sensor_length, above(0.), "mm", "Along the lever, over which each presses");
+      section.length("Sensor length", settings.sensor_length, "Along the lever, over which each presses");
       section.number("Sensor stiffness", settings.sensor_stiffness, above(0.), "N/mm", "Of each, normal to the plate");
-      section.number("Guide", settings.guide, above(0.), "mm", "Middle of the linear guide, from the pivot along the lever");
+      section.length("Guide", settings.guide, "Middle of the linear guide, from the pivot along the lever");
       section.number("Guide stiffness", settings.guide_stiffness, above(0.), "N/mm", "Of the guide along the plate");
     }
 
@@ -63,10 +63,9 @@ namespace sprag
       section.choice("Type", settings.type,
                      { { "rigid", CylinderType::rigid }, { "solid", CylinderType::solid }, { "ring", CylinderType::ring } },
                      "A rigid circle, or finite elements on a rigid core or shaft");
-      section.number("Inner radius", settings.inner_radius, above(0.), "mm",
-                     "Of the rigid core of a solid one, of a ring's shaft");
+      section.length("Inner radius", settings.inner_radius, "Of the rigid core of a solid one, of a ring's shaft");
       add_material(section, settings);
-      section.number("Face size", settings.face_size, above(0.), "mm", "Element length where it touches the lever");
+      section.length("Face size", settings.face_size, "Element length where it touches the lever");
     }
 
     void mirrored_pair(Section section, MirroredPair &settings)

@@ -28,23 +28,20 @@ namespace sprag
     }
   } // namespace
 
-  std::vector<Violation> penalty_violations(const Scene &scene)
+  void check_penalty(const Scene &scene, Rules &rules)
   {
-    std::vector<Violation> result;
     const auto add =
         [&](const std::string &parameter, const std::optional<double> &value, const double largest, const std::string &effect)
     {
-      if (value && *value > largest)
-        result.push_back({ parameter,
-                           { "Mesh/Face size", "Friction layer/Thickness", "Friction layer/Young's modulus",
-                             "Lever/Young's modulus", "Friction plate/Young's modulus" },
-                           "must be <= " + rounded_text(largest) + " N/mm3 for this layer and mesh: a stiffer one " + effect +
-                               " lets Newton's method fail; leave it at auto" });
+      rules.need(!value || *value <= largest, parameter,
+                 { "Mesh/Face size", "Friction layer/Thickness", "Friction layer/Young's modulus", "Lever/Young's modulus",
+                   "Friction plate/Young's modulus" },
+                 "must be <= " + rounded_text(largest) + " N/mm3 for this layer and mesh: a stiffer one " + effect +
+                     " lets Newton's method fail; leave it at auto");
     };
     const double largest = largest_penalty(scene);
     add("Contact/Penalty", scene.contact.penalty, largest,
         "moves P by less than 1e-4, lets single points carry the pressure and");
     add("Contact/Tangential penalty", scene.contact.tangential_penalty, 10. * largest, "moves Q by less than 1e-4 and");
-    return result;
   }
 } // namespace sprag

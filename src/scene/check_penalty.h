@@ -5,5 +5,5 @@
 namespace sprag
 {
   /// Penalties given that are stiffer than the friction face of a built-in mesh takes, see params/README.md.
-  std::vector<Violation> penalty_violations(const Scene &scene);
+  void check_penalty(const Scene &scene, Rules &rules);
 } // namespace sprag

@@ -13,23 +13,6 @@ namespace sprag
   {
     using Names = std::vector<std::string>;
 
-    /// Collects the rules that are broken.
-    struct Rules
-    {
-      std::vector<Violation> broken;
-
-      void need(const bool kept, const std::string &parameter, const Names &others, const std::string &rule)
-      {
-        if (!kept)
-          broken.push_back({ parameter, others, rule });
-      }
-    };
-
-    std::string mm(const double length)
-    {
-      return rounded_text(length) + " mm";
-    }
-
     const Names sweep = { "Geometry/Cylinder radius",
                           "Geometry/Interface offset",
                           "Geometry/Pivot distance",
@@ -129,27 +112,23 @@ namespace sprag
     }
   } // namespace
 
-  std::vector<Violation> plate_violations(const Scene &scene, const bool own_mesh)
+  void check_plate(const Scene &scene, const bool own_mesh, Rules &rules)
   {
-    Rules rules;
     if (scene.lever.outline == LeverOutline::frame && !own_mesh)
       frame(scene, rules);
     if (scene.plate.type == PlateType::on_sensors)
       sensors(scene.plate, rules);
     if (scene.plate.type == PlateType::on_sensors && !own_mesh)
       plate(scene, rules);
-    return rules.broken;
   }
 
-  std::vector<Violation> sweep_violations(const Scene &scene)
+  void check_sweep(const Scene &scene, Rules &rules)
   {
-    Rules rules;
     if (scene.lever.outline == LeverOutline::frame)
       root_beside_cylinder(scene, rules);
     if (scene.plate.type == PlateType::on_sensors)
       face_of_plate(scene, rules);
     else if (scene.lever.outline == LeverOutline::frame)
       face_of_frame(scene, rules);
-    return rules.broken;
   }
 } // namespace sprag

@@ -5,7 +5,7 @@
 namespace sprag
 {
   /// Rules between the dimensions of a leaf spring, of an elastic cylinder and of what is calibrated.
-  std::vector<Violation> spring_violations(const Scene &scene);
-  std::vector<Violation> cylinder_violations(const Scene &scene);
-  std::vector<Violation> calibration_violations(const Scene &scene);
+  void check_spring(const Scene &scene, Rules &rules);
+  void check_cylinder(const Scene &scene, Rules &rules);
+  void check_calibration(const Scene &scene, Rules &rules);
 } // namespace sprag

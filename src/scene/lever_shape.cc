@@ -4,20 +4,6 @@
 
 namespace sprag
 {
-  double lever_front(const Scene &scene)
-  {
-    const double bare = scene.geometry.interface_offset + scene.layer.thickness;
-    return scene.plate.type == PlateType::none ? bare : bare + scene.plate.thickness + scene.plate.spacer;
-  }
-
-  double pocket_length(const Scene &scene)
-  {
-    const auto &frame = scene.frame;
-    if (frame.pockets == 0)
-      return 0.;
-    return (scene.lever.length - frame.root - (frame.pockets + 1) * frame.rib) / frame.pockets;
-  }
-
   std::array<double, 2> swept_contact(const Scene &scene)
   {
     return { { kinematics(scene.geometry, scene.drive.maximum()).s, kinematics(scene.geometry, scene.drive.minimum()).s } };

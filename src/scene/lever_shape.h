@@ -14,12 +14,6 @@ namespace sprag
   /// Least metal of the root around it.
   inline constexpr double frame_wall = 5.;
 
-  /// Offset of the lever's metal from the pivot: behind the friction layer, or behind the plate's spacers.
-  double lever_front(const Scene &scene);
-
-  /// Length of each pocket of the lever frame along xi; not positive if they do not fit. 0 without pockets.
-  double pocket_length(const Scene &scene);
-
   /// First and last xi that the contact of a rigid lever sweeps in the drive.
   std::array<double, 2> swept_contact(const Scene &scene);
 

@@ -10,17 +10,15 @@ namespace sprag
 {
   namespace
   {
-    using Violations = std::vector<Violation>;
-
     bool are_alike(const MirroredPair &pair)
     {
       return pair.cylinder_offset == 0. && pair.friction_ratio == 1.;
     }
 
-    void analysis(const Scene &scene, Violations &result)
+    void analysis(const Scene &scene, Rules &rules)
     {
       const auto reject = [&](const std::string &rule) {
-        result.push_back({ "Mirrored pair/Type", { "Analysis/Type", "Analysis/Model", "Contact/Type", "Support/Type" }, rule });
+        rules.need(false, "Mirrored pair/Type", { "Analysis/Type", "Analysis/Model", "Contact/Type", "Support/Type" }, rule);
       };
       const auto type  = scene.analysis.type;
       const auto model = scene.analysis.model;
@@ -34,53 +32,45 @@ namespace sprag
     }
 
     /// Rules where a slide is held.
-    void vibration(const Scene &scene, Violations &result)
+    void vibration(const Scene &scene, Rules &rules)
     {
       const auto &pair = scene.pair;
-      const auto type  = scene.analysis.type;
-      if (scene.analysis.model == ModelType::finite_element && !are_alike(pair))
-        result.push_back(
-            { pair.cylinder_offset != 0. ? "Mirrored pair/Cylinder offset" : "Mirrored pair/Friction ratio",
-              { "Mirrored pair/Type", "Analysis/Type", "Analysis/Model" },
-              "must leave the levers alike where a slide is held with finite elements; Analysis/Model = condensed takes "
-              "levers that differ" });
-      if (type == AnalysisType::modal && scene.stability.contact == HeldContact::open && pair.joint == SpringJoint::free)
-        result.push_back({ "Stability/Contact",
-                           { "Mirrored pair/Type", "Mirrored pair/Joint", "Analysis/Type" },
-                           "must not be open with Mirrored pair/Joint = free: nothing holds levers that swing together" });
+      rules.need(scene.analysis.model != ModelType::finite_element || are_alike(pair),
+                 pair.cylinder_offset != 0. ? "Mirrored pair/Cylinder offset" : "Mirrored pair/Friction ratio",
+                 { "Mirrored pair/Type", "Analysis/Type", "Analysis/Model" },
+                 "must leave the levers alike where a slide is held with finite elements; Analysis/Model = condensed takes "
+                 "levers that differ");
+      rules.need(scene.analysis.type != AnalysisType::modal || scene.stability.contact != HeldContact::open ||
+                     pair.joint != SpringJoint::free,
+                 "Stability/Contact", { "Mirrored pair/Type", "Mirrored pair/Joint", "Analysis/Type" },
+                 "must not be open with Mirrored pair/Joint = free: nothing holds levers that swing together");
     }
 
-    void joint(const Scene &scene, Violations &result)
+    void joint(const Scene &scene, Rules &rules)
     {
-      const auto &pair = scene.pair;
       const auto &leaf = scene.spring.leaf;
-      const bool free  = pair.joint == SpringJoint::free;
+      const bool free  = scene.pair.joint == SpringJoint::free;
       const bool leafs = scene.spring.type == SpringType::leaf;
-      if (free && scene.geometry.pivot_height != 0.)
-        result.push_back({ "Geometry/Pivot height",
-                           { "Mirrored pair/Type", "Mirrored pair/Joint" },
-                           "must be 0 mm with Mirrored pair/Joint = free: the levers swing together about one axis" });
-      if (free && leafs && (leaf.axial == LeafAxial::held || leaf.end == LeafEnd::guided))
-        result.push_back({ leaf.axial == LeafAxial::held ? "Leaf spring/Axial" : "Leaf spring/Joint",
-                           { "Mirrored pair/Type", "Mirrored pair/Joint", "Rotational spring/Type" },
-                           std::string("must be ") + (leaf.axial == LeafAxial::held ? "free" : "clamped or pinned") +
-                               " with Mirrored pair/Joint = free, which nothing but the springs holds" });
-      if (pair.joint_mass > 0. && !leafs)
-        result.push_back({ "Mirrored pair/Joint mass",
-                           { "Rotational spring/Type" },
-                           "must be 0 t with a torsional spring, which has no joint" });
+      const bool held  = leaf.axial == LeafAxial::held;
+      rules.need(!free || scene.geometry.pivot_height == 0., "Geometry/Pivot height",
+                 { "Mirrored pair/Type", "Mirrored pair/Joint" },
+                 "must be 0 mm with Mirrored pair/Joint = free: the levers swing together about one axis");
+      rules.need(!free || !leafs || (!held && leaf.end != LeafEnd::guided), held ? "Leaf spring/Axial" : "Leaf spring/Joint",
+                 { "Mirrored pair/Type", "Mirrored pair/Joint", "Rotational spring/Type" },
+                 std::string("must be ") + (held ? "free" : "clamped or pinned") +
+                     " with Mirrored pair/Joint = free, which nothing but the springs holds");
+      rules.need(scene.pair.joint_mass <= 0. || leafs, "Mirrored pair/Joint mass", { "Rotational spring/Type" },
+                 "must be 0 t with a torsional spring, which has no joint");
     }
 
-    void offset(const Scene &scene, Violations &result)
+    void offset(const Scene &scene, Rules &rules)
     {
       const Geometry &g    = scene.geometry;
       const double most    = g.cylinder_radius - g.interface_offset - g.pivot_height;
       const double largest = 0.5 * most;
-      if (most > 0. && std::abs(scene.pair.cylinder_offset) > largest)
-        result.push_back(
-            { "Mirrored pair/Cylinder offset",
-              { "Mirrored pair/Type", "Geometry/Cylinder radius", "Geometry/Interface offset", "Geometry/Pivot height" },
-              "must be at most (R - e - h)/2 = " + rounded_text(largest) + " mm either way" });
+      rules.need(most <= 0. || std::abs(scene.pair.cylinder_offset) <= largest, "Mirrored pair/Cylinder offset",
+                 { "Mirrored pair/Type", "Geometry/Cylinder radius", "Geometry/Interface offset", "Geometry/Pivot height" },
+                 "must be at most (R - e - h)/2 = " + mm(largest) + " either way");
     }
   } // namespace
 
@@ -134,16 +124,14 @@ namespace sprag
     return result;
   }
 
-  std::vector<Violation> pair_violations(const Scene &scene)
+  void check_pair(const Scene &scene, Rules &rules)
   {
     if (number_of_levers(scene) == 1)
-      return {};
-    Violations result;
-    analysis(scene, result);
+      return;
+    analysis(scene, rules);
     if (holds_slide(scene.analysis.type))
-      vibration(scene, result);
-    joint(scene, result);
-    offset(scene, result);
-    return result;
+      vibration(scene, rules);
+    joint(scene, rules);
+    offset(scene, rules);
   }
 } // namespace sprag

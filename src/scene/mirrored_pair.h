@@ -26,5 +26,5 @@ namespace sprag
   Scene swinging_scene(const Scene &scene);
 
   /// Rules of a full pair.
-  std::vector<Violation> pair_violations(const Scene &scene);
+  void check_pair(const Scene &scene, Rules &rules);
 } // namespace sprag

@@ -9,8 +9,6 @@ namespace sprag
 {
   namespace
   {
-    const double pi = std::acos(-1.);
-
     /// Strokes of equal duration, given by x and its derivatives over the fraction of a stroke's duration.
     class EqualStrokes : public DriveMotion
     {
@@ -149,14 +147,14 @@ namespace sprag
   {
     const auto shape = [](const double fraction)
     {
-      const double sine = std::sin(pi / 2. * fraction);
-      const double rate = fraction < 1. ? pi / 2. * std::sin(pi * fraction) : 0.;
-      return EqualStrokes::Shares{ sine * sine, rate, pi * pi / 2. * std::cos(pi * fraction) };
+      const double sine = std::sin(M_PI / 2. * fraction);
+      const double rate = fraction < 1. ? M_PI / 2. * std::sin(M_PI * fraction) : 0.;
+      return EqualStrokes::Shares{ sine * sine, rate, M_PI * M_PI / 2. * std::cos(M_PI * fraction) };
     };
-    const double duration = pi / 2. * std::abs(stroke - start) / speed;
+    const double duration = M_PI / 2. * std::abs(stroke - start) / speed;
     const auto motion = std::make_shared<EqualStrokes>(DriveProfile::harmonic, strokes(start, stroke, cycles), duration, shape);
     // It is fastest a quarter of a cycle after its start.
-    motion->peak_speed = cycles < 0.25 ? speed * std::sin(2. * pi * cycles) : speed;
+    motion->peak_speed = cycles < 0.25 ? speed * std::sin(2. * M_PI * cycles) : speed;
     return motion;
   }
 } // namespace sprag

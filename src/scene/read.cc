@@ -113,7 +113,7 @@ namespace sprag
       for (const auto &parameter : parameters)
         if (const auto given = settings.given.find(full_name(parameter)); given != settings.given.end())
           parameter.store(given->second.value);
-      input.scene.slope.maximum_inclination = input.maximum_inclination * std::acos(-1.) / 180.;
+      input.scene.slope.maximum_inclination = input.maximum_inclination * M_PI / 180.;
       resolve("Drive/Table", input.drive.table);
       resolve("Friction/Table", input.friction.table);
       resolve("Mesh/File", input.scene.mesh.file);
@@ -151,7 +151,7 @@ namespace sprag
       if (drive.stroke > drive.start)
         input.scene.drive = Drive(drive.profile, drive.start, drive.stroke, drive.speed, drive.cycles, reversal_duration());
       else if (!doubtful("Drive/Stroke") && !doubtful("Drive/Start"))
-        report("Drive/Stroke", "must be more than Start = " + rounded_text(drive.start) + " mm");
+        report("Drive/Stroke", "must be more than Start = " + mm(drive.start));
     }
 
     /// 0 wherever it does not count or does not fit.

@@ -27,6 +27,12 @@ namespace sprag
           [&value](const auto &text) { value = leading_number(text)->value; });
     }
 
+    /// A number > 0 in mm.
+    void length(const std::string &entry, double &value, const std::string &meaning)
+    {
+      number(entry, value, above(0.), "mm", meaning);
+    }
+
     void integer(const std::string &entry, unsigned int &value, const Interval &interval, const std::string &meaning)
     {
       add(entry, std::to_string(value), { Rule::Kind::integer, interval, "", {} }, meaning,

@@ -19,26 +19,25 @@ namespace sprag
                        { "map", AnalysisType::map },
                        { "sprag slip", AnalysisType::sprag_slip },
                        { "calibration", AnalysisType::calibration } },
-                     "Follow the drive without inertia, sweep the representative slope C_Q, follow the drive "
-                     "with inertia, fit the contact of rigid and beam to finite elements, find vibration modes at "
-                     "one x, judge whether the slide there is stable, the same over two parameters, perturb it "
-                     "in time and follow it to its limit cycle, or make parts that have a given k and J and "
-                     "tell the constants of the reduced models");
+                     "Follow the drive without inertia, sweep the representative slope C_Q, follow the drive with inertia, fit "
+                     "the contact of rigid and beam to finite elements, find vibration modes at one x, judge whether the slide "
+                     "there is stable, the same over two parameters, perturb it in time and follow it to its limit cycle, or "
+                     "make parts that have a given k and J and tell the constants of the reduced models");
       section.choice("Model", settings.model,
                      { { "closed form", ModelType::closed_form },
                        { "rigid", ModelType::rigid },
                        { "beam", ModelType::beam },
                        { "condensed", ModelType::condensed },
                        { "finite element", ModelType::finite_element } },
-                     "Rigid lever with ideal contact and without mass (eqs. 4-9), or the deformable lever; with inertia "
-                     "also a rigid lever, a beam, or modes and face shapes of the finite elements");
+                     "Rigid lever with ideal contact and without mass (eqs. 4-9), or the deformable lever; with inertia also a "
+                     "rigid lever, a beam, or modes and face shapes of the finite elements");
       section.integer("Dimension", settings.dimension, { 2., 3. }, "Dimension of the finite elements");
       section.choice("Plane", settings.plane, { { "stress", PlaneState::stress }, { "strain", PlaneState::strain } },
                      "Plane stress or plane strain of lever and friction layer");
       section.choice("Solution", settings.solution, { { "automatic", Solution::automatic }, { "general", Solution::general } },
                      "Factorise once where the material is linear, or in every iteration");
-      section.number("Step", settings.step, above(0.), "mm", "Largest change of x in a step");
-      section.number("Minimum step", settings.minimum_step, above(0.), "mm", "Change of x below which the analysis gives up");
+      section.length("Step", settings.step, "Largest change of x in a step");
+      section.length("Minimum step", settings.minimum_step, "Change of x below which the analysis gives up");
       section.number("Maximum deviation", settings.maximum_deviation, at_least(0.), "",
                      "Largest admissible deviation of P, Q and theta from the closed form; 0 admits any");
       section.number("Maximum energy residual", settings.maximum_residual, at_least(0.), "",
@@ -50,11 +49,10 @@ namespace sprag
 
     void geometry(Section section, Geometry &settings)
     {
-      section.number("Cylinder radius", settings.cylinder_radius, above(0.), "mm", "R, radius of the cylinder");
+      section.length("Cylinder radius", settings.cylinder_radius, "R, radius of the cylinder");
       section.number("Interface offset", settings.interface_offset, at_least(0.), "mm",
                      "e, from the pivot to the friction interface, at right angles to it; less than R");
-      section.number("Pivot distance", settings.pivot_distance, above(0.), "mm",
-                     "l, from the origin to the pivot along x; more than R");
+      section.length("Pivot distance", settings.pivot_distance, "l, from the origin to the pivot along x; more than R");
       section.number("Pivot height", settings.pivot_height, any_number(), "mm",
                      "h, of the pivot above the x-axis; less than R - e");
     }
@@ -66,7 +64,7 @@ namespace sprag
           { { "triangle", DriveProfile::triangle }, { "harmonic", DriveProfile::harmonic }, { "table", DriveProfile::table } },
           "Motion of the cylinder: constant speed, 1 - cos, or a file; a table needs none of the other numbers");
       section.number("Start", settings.start, at_least(0.), "mm", "x at the beginning");
-      section.number("Stroke", settings.stroke, above(0.), "mm", "x at the turning point, met exactly; more than Start");
+      section.length("Stroke", settings.stroke, "x at the turning point, met exactly; more than Start");
       section.number("Speed", settings.speed, above(0.), "mm/s", "v, speed of the triangle or peak speed of the harmonic motion");
       section.number("Cycles", settings.cycles, { 0., 1e5, false, true }, "",
                      "How often from Start to Stroke and back; 0.5 is there only");
@@ -95,9 +93,9 @@ namespace sprag
     {
       section.choice("Outline", settings.outline, { { "bar", LeverOutline::bar }, { "frame", LeverOutline::frame } },
                      "A bar of constant depth on a rigid hub, or the two parts of a lever frame");
-      section.number("Length", settings.length, above(0.), "mm", "From the pivot to the tip");
-      section.number("Depth", settings.depth, above(0.), "mm", "Of the metal, without the friction layer");
-      section.number("Width", settings.width, above(0.), "mm", "Out of plane");
+      section.length("Length", settings.length, "From the pivot to the tip");
+      section.length("Depth", settings.depth, "Of the metal, without the friction layer");
+      section.length("Width", settings.width, "Out of plane");
       add_material(section, settings, " of the metal");
       section.choice("Material", settings.material,
                      { { "linear", MaterialModel::linear }, { "neo-Hookean", MaterialModel::neo_hookean } },
@@ -126,9 +124,9 @@ namespace sprag
     {
       section.number("Thickness", settings.thickness, at_least(0.), "mm", "Of the cork sheet; 0: none");
       add_material(section, settings, " of the layer");
-      section.number_or_auto("Strength", settings.strength, above(0.), "MPa",
-                             "Pressure from which the layer's cells give way, for a warning; auto: 0.04 E of a cork, none for "
-                             "nu > 0.2");
+      section.number_or_auto(
+          "Strength", settings.strength, above(0.), "MPa",
+          "Pressure from which the layer's cells give way, for a warning; auto: 0.04 E of a cork, none for nu > 0.2");
     }
 
     void support(Section section, Support &settings)
@@ -150,13 +148,13 @@ namespace sprag
                              "Pressure over overlap; auto: from mesh and layer, stiffer in time at degree 2");
       section.number_or_auto("Tangential penalty", settings.tangential_penalty, above(0.), "N/mm3",
                              "Friction traction over elastic slip; auto: equal to the normal one");
-      section.number("Penetration tolerance", settings.penetration_tolerance, above(0.), "mm",
+      section.length("Penetration tolerance", settings.penetration_tolerance,
                      "Augmented Lagrangian: change of a multiplier over the penalty at which augmentation ends");
       section.integer("Maximum augmentations", settings.maximum_augmentations, { 1., 1000. },
                       "Of the augmented Lagrangian in a step");
-      section.choice("Type", settings.type, { { "compliant", ContactType::compliant }, { "ideal", ContactType::ideal } },
-                     "Of rigid and beam, as all below: P = k delta^n + c delta', or the lever always on the cylinder "
-                     "(rigid only)");
+      section.choice(
+          "Type", settings.type, { { "compliant", ContactType::compliant }, { "ideal", ContactType::ideal } },
+          "Of rigid and beam, as all below: P = k delta^n + c delta', or the lever always on the cylinder (rigid only)");
       section.number("Stiffness", settings.stiffness, above(0.), "N/mm^n", "k, over the whole width");
       section.number("Exponent", settings.exponent, { 1., 3. }, "", "n");
       section.number("Damping", settings.damping, { 0., 1., true, false }, "",
@@ -199,7 +197,7 @@ namespace sprag
                        { "turning points", FieldOutput::turning_points },
                        { "interval", FieldOutput::interval } },
                      "When fields are written: never, where P is largest and at and behind reversals, or in between too");
-      section.number("Field interval", settings.field_interval, above(0.), "mm", "Travel of x between written fields");
+      section.length("Field interval", settings.field_interval, "Travel of x between written fields");
     }
 
     void slope(Section section, SlopeSettings &settings, double &maximum_inclination)

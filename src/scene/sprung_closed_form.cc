@@ -36,8 +36,7 @@ namespace sprag
     for (unsigned int i = 0; i < 20 && unbalance(to) * first > 0.; ++i)
       to += 2. * first;
     if (!(unbalance(to) * first <= 0.))
-      throw AnalysisError("no position of the pivot frame balances Q at x = " + rounded_text(x) +
-                          " mm. Try a larger Support/Stiffness.");
+      throw AnalysisError("no position of the pivot frame balances Q at x = " + mm(x) + ". Try a larger Support/Stiffness.");
     if (to < from)
       std::swap(from, to);
     boost::uintmax_t iterations = 100;

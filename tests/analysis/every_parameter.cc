@@ -8,13 +8,11 @@
 #include "scene/read.h"
 #include "scene/scene_key.h"
 #include "scene/sections.h"
+#include "support/temporary_folder.h"
 
-#include <filesystem>
-#include <fstream>
 #include <gtest/gtest.h>
 #include <optional>
 #include <set>
-#include <unistd.h>
 
 // Each parameter that the program declares is changed in turn: what is shared between scenes must be what the changed scene makes
 // for itself.
@@ -24,29 +22,6 @@ using namespace sprag;
 namespace
 {
   using Changes = std::vector<std::string>;
-
-  class Folder
-  {
-  public:
-    Folder()
-    {
-      std::filesystem::create_directories(path / "other");
-    }
-    Folder(const Folder &)            = delete;
-    Folder &operator=(const Folder &) = delete;
-    ~Folder()
-    {
-      std::filesystem::remove_all(path);
-    }
-
-    std::string write(const std::string &name, const std::string &text) const
-    {
-      std::ofstream(path / name) << text;
-      return (path / name).string();
-    }
-
-    const std::filesystem::path path = std::filesystem::temp_directory_path() / ("sprag-every-" + std::to_string(::getpid()));
-  };
 
   std::vector<Parameter> declared()
   {
@@ -68,7 +43,7 @@ namespace
   }
 
   /// Values that may do in place of the present one.
-  std::vector<std::string> others(const Parameter &parameter, const std::string &value, const Folder &folder)
+  std::vector<std::string> others(const Parameter &parameter, const std::string &value, const TemporaryFolder &folder)
   {
     using Kind = Rule::Kind;
     std::vector<std::string> result;
@@ -89,7 +64,7 @@ namespace
     case Kind::choice:
       return parameter.rule.choices;
     case Kind::text:
-      return { "none", "Lever/Width", (folder.path / "other").string() };
+      return { "none", "Lever/Width", folder.path };
     case Kind::file:
       break;
     }
@@ -97,7 +72,7 @@ namespace
   }
 
   /// The scene with another value of one parameter, for each that is admitted.
-  std::vector<Scene> changed_scenes(const Scene &scene, const Parameter &parameter, const Folder &folder)
+  std::vector<Scene> changed_scenes(const Scene &scene, const Parameter &parameter, const TemporaryFolder &folder)
   {
     std::vector<Scene> result;
     const auto name  = full_name(parameter);
@@ -152,7 +127,7 @@ namespace
            "Physical Curve(\"friction face\") = {5}; Physical Curve(\"hub\") = {4};\n";
   }
 
-  Scene scene_of(const Folder &folder, const Changes &more)
+  Scene scene_of(const TemporaryFolder &folder, const Changes &more)
   {
     Changes changes = { "Analysis/Type=stability", "Analysis/Model=condensed", "Mesh/Face size=8", "Condensed/Modes=3",
                         "Condensed/Cache=" + (folder.path / "cache").string() };
@@ -161,24 +136,24 @@ namespace
   }
 
   /// The lever of model A, coarse.
-  Scene bar(const Folder &folder)
+  Scene bar(const TemporaryFolder &folder)
   {
     return scene_of(folder, {});
   }
 
-  Scene frame_with_plate(const Folder &folder)
+  Scene frame_with_plate(const TemporaryFolder &folder)
   {
     return scene_of(folder, { "Lever/Outline=frame", "Friction plate/Type=on sensors", "Cylinder/Type=solid",
                               "Cylinder/Face size=4", "Support/Type=sprung", "Lever/Tip mass=1e-5", "Lever/Hub inertia=0.1" });
   }
 
-  Scene pair_on_leaves(const Folder &folder)
+  Scene pair_on_leaves(const TemporaryFolder &folder)
   {
     return scene_of(folder, { "Mirrored pair/Type=full", "Rotational spring/Type=leaf", "Mirrored pair/Joint mass=1e-4",
                               "Lever/Inertia=as built", "Drive/Profile=harmonic", "Friction/Law=Coulomb" });
   }
 
-  Scene from_files(const Folder &folder)
+  Scene from_files(const TemporaryFolder &folder)
   {
     folder.write("depth.geo", "h = 20;\n");
     return scene_of(folder, { "Mesh/File=" + folder.write("lever.geo", mesh_script()), "Drive/Profile=table",
@@ -273,7 +248,7 @@ namespace
   }
 
   /// Changes each parameter, notes the ones that the scene admits and compares what is shared then.
-  void change_each(const Scene &scene, const Folder &folder, const bool compare, std::set<std::string> &admitted)
+  void change_each(const Scene &scene, const TemporaryFolder &folder, const bool compare, std::set<std::string> &admitted)
   {
     const auto key      = scene_key(scene);
     const auto body     = body_key(scene);
@@ -300,14 +275,14 @@ namespace
 
 TEST(EveryParameter, OfABarIsSharedWhereItDoesNotCount)
 {
-  const Folder folder;
+  const TemporaryFolder folder;
   std::set<std::string> admitted;
   change_each(bar(folder), folder, true, admitted);
 }
 
 TEST(EveryParameterSlow, OfAFrameAndOfAPairIsSharedWhereItDoesNotCount)
 {
-  const Folder folder;
+  const TemporaryFolder folder;
   std::set<std::string> admitted;
   change_each(frame_with_plate(folder), folder, true, admitted);
   change_each(pair_on_leaves(folder), folder, true, admitted);
@@ -315,7 +290,7 @@ TEST(EveryParameterSlow, OfAFrameAndOfAPairIsSharedWhereItDoesNotCount)
 
 TEST(EveryParameter, BelongsToTheKeysOfSomeScene)
 {
-  const Folder folder;
+  const TemporaryFolder folder;
   std::set<std::string> admitted;
   const Changes statics = { "Analysis/Type=quasi-static", "Analysis/Model=finite element", "Analysis/Plane=strain" };
   const Changes in_time = { "Analysis/Type=transient", "Analysis/Model=rigid" };
@@ -342,7 +317,7 @@ TEST(EveryParameter, SparedOnesAreDeclared)
 
 TEST(EveryParameter, FilesCountByWhatTheyHold)
 {
-  const Folder folder;
+  const TemporaryFolder folder;
   const Scene scene = from_files(folder);
   const auto key    = scene_key(scene);
   const auto body   = body_key(scene);
@@ -368,7 +343,7 @@ TEST(EveryParameter, FilesCountByWhatTheyHold)
 
 TEST(EveryParameter, AMeshIsMadeAnewWhenItsFileChangesInOneProcess)
 {
-  const Folder folder;
+  const TemporaryFolder folder;
   const Scene scene = from_files(folder);
   DynamicsMaker maker(false);
   const auto before = maker.make(scene).lever;

@@ -1,6 +1,7 @@
 #include "analysis/map/map_journal.h"
 
 #include "base/errors.h"
+#include "support/temporary_folder.h"
 
 #include <cmath>
 #include <cstring>
@@ -8,7 +9,6 @@
 #include <fstream>
 #include <gtest/gtest.h>
 #include <limits>
-#include <unistd.h>
 
 using namespace sprag;
 
@@ -17,19 +17,18 @@ namespace
   class MapJournalTest : public ::testing::Test
   {
   protected:
-    const std::filesystem::path folder = std::filesystem::temp_directory_path() / ("sprag-journal-" + std::to_string(::getpid()));
-    const std::string path             = (folder / "map.journal").string();
-
-    void SetUp() override
-    {
-      std::filesystem::create_directories(folder);
-    }
-
-    void TearDown() override
-    {
-      std::filesystem::remove_all(folder);
-    }
+    const TemporaryFolder folder;
+    const std::string path = folder.path / "map.journal";
   };
+
+  std::vector<std::string> lines_of(const std::string &path)
+  {
+    std::ifstream input(path);
+    std::vector<std::string> lines;
+    for (std::string line; std::getline(input, line);)
+      lines.push_back(line);
+    return lines;
+  }
 
   MapCells some_cells()
   {
@@ -73,14 +72,11 @@ TEST_F(MapJournalTest, DropsATornLineWhereverItIsTornAndGoesOn)
 {
   const auto cells = some_cells();
   MapJournal(path, "a scene").append(cells);
-  const auto whole = std::filesystem::file_size(path);
-  std::ifstream file(path);
-  std::string line, last;
-  while (std::getline(file, line))
-    last = line;
-  auto fewer = cells;
+  const auto whole     = std::filesystem::file_size(path);
+  const auto last_line = lines_of(path).back().size();
+  auto fewer           = cells;
   fewer.erase(std::prev(fewer.end()));
-  for (std::size_t missing = 1; missing <= last.size(); ++missing)
+  for (std::size_t missing = 1; missing <= last_line; ++missing)
   {
     std::filesystem::resize_file(path, whole - missing);
     {
@@ -97,10 +93,7 @@ TEST_F(MapJournalTest, DropsAGarbledLineAndKeepsTheOthers)
 {
   const auto cells = some_cells();
   MapJournal(path, "a scene").append(cells);
-  std::ifstream input(path);
-  std::vector<std::string> lines;
-  for (std::string line; std::getline(input, line);)
-    lines.push_back(line);
+  const auto lines = lines_of(path);
   ASSERT_EQ(lines.size(), cells.size() + 1);
   auto fewer = cells;
   fewer.erase(std::next(fewer.begin()));
@@ -128,12 +121,8 @@ TEST_F(MapJournalTest, DropsAGarbledLineAndKeepsTheOthers)
 
 TEST_F(MapJournalTest, DropsALineOfAnotherScenesJournal)
 {
-  const auto cells = some_cells();
-  MapJournal(path, "another scene").append(cells);
-  std::ifstream input(path);
-  std::string line;
-  std::getline(input, line);
-  std::getline(input, line);
+  MapJournal(path, "another scene").append(some_cells());
+  const auto line = lines_of(path).at(1);
   std::filesystem::remove(path);
   {
     const MapJournal begun(path, "a scene");
@@ -172,5 +161,5 @@ TEST_F(MapJournalTest, BelongsToOneRun)
 
 TEST_F(MapJournalTest, RefusesAFolderThatIsNotThere)
 {
-  EXPECT_THROW(MapJournal((folder / "none" / "map.journal").string(), "a scene"), InputError);
+  EXPECT_THROW(MapJournal(folder.path / "none" / "map.journal", "a scene"), InputError);
 }

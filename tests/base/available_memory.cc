@@ -1,9 +1,8 @@
 #include "base/available_memory.h"
 
-#include <filesystem>
-#include <fstream>
+#include "support/temporary_folder.h"
+
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 using namespace sprag;
 
@@ -14,19 +13,13 @@ namespace
   {
   protected:
     AvailableMemoryTest()
-        : root(std::filesystem::temp_directory_path() / ("sprag-memory-" + std::to_string(::getpid())))
     {
       write("proc/meminfo", "MemTotal:       8000 kB\nMemFree:        10 kB\nMemAvailable:   4000 kB\n");
-    }
-    ~AvailableMemoryTest() override
-    {
-      std::filesystem::remove_all(root);
     }
 
     void write(const std::string &name, const std::string &text) const
     {
-      std::filesystem::create_directories((root / name).parent_path());
-      std::ofstream(root / name) << text;
+      folder.write(name, text);
     }
 
     double bytes() const
@@ -34,7 +27,8 @@ namespace
       return available_memory(root).bytes;
     }
 
-    const std::filesystem::path root;
+    const TemporaryFolder folder;
+    const std::string root = folder.path;
   };
 
   TEST_F(AvailableMemoryTest, MachineWithoutGroups)

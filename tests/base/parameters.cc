@@ -3,6 +3,7 @@
 #include "base/csv.h"
 #include "base/errors.h"
 #include "base/text.h"
+#include "support/written.h"
 
 #include <cmath>
 #include <deal.II/base/parameter_handler.h>
@@ -15,16 +16,6 @@ using namespace sprag;
 
 namespace
 {
-  std::string written(const std::string &text, const std::string &name = "scene.prm")
-  {
-    const auto *const test = testing::UnitTest::GetInstance()->current_test_info();
-    const auto folder      = std::filesystem::path(testing::TempDir()) / "sprag" / test->test_suite_name() / test->name();
-    std::filesystem::create_directories(folder);
-    const auto file = (folder / name).string();
-    std::ofstream(file) << text;
-    return file;
-  }
-
   Rule number(const Interval &interval, const std::string &unit = "")
   {
     return { Rule::Kind::number, interval, unit, {} };
@@ -50,16 +41,7 @@ namespace
   /// The mistakes with the folder of the file left out.
   std::vector<std::string> mistakes(const std::string &text, const std::vector<std::string> &overrides = {})
   {
-    const Settings settings  = read(text, overrides);
-    const std::string folder = std::filesystem::path(settings.file).parent_path().string() + "/";
-    std::vector<std::string> result;
-    for (auto message : settings.mistakes)
-    {
-      for (auto found = message.find(folder); found != std::string::npos; found = message.find(folder))
-        message.erase(found, folder.size());
-      result.push_back(message);
-    }
-    return result;
+    return without_folder(read(text, overrides).mistakes);
   }
 
   using Messages = std::vector<std::string>;

@@ -3,7 +3,6 @@
 6 mm, accepted steps per CPU second, no fields; then model A with 20 mm, whose ringing decays and can be compared. See README.md."""
 
 import argparse
-import sys
 import tempfile
 from pathlib import Path
 

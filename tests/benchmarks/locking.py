@@ -12,7 +12,6 @@ import tempfile
 from pathlib import Path
 
 import h5py
-import numpy as np
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tests" / "verification"))

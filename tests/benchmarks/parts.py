@@ -4,7 +4,6 @@ reversal in time (condensed), no fields. CPU seconds are the least of several ru
 there were such parts, also what model A without them cost there. See README.md."""
 
 import argparse
-import sys
 import tempfile
 from pathlib import Path
 

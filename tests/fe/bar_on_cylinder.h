@@ -2,6 +2,7 @@
 
 #include "bar.h"
 #include "fe/contact/face_contact.h"
+#include "fe/dynamics/lever_ports.h"
 
 #include <cmath>
 
@@ -29,7 +30,7 @@ namespace sprag
   {
     FaceContactProperties result;
     set_cylinder(cylinder_below_bar(), result);
-    result.ports            = { 2 * static_cast<unsigned int>(body.friction_face().nodes.size()), sprung };
+    result.ports            = { number_of_surface_ports(body), sprung };
     result.rest_inclination = rest_inclination;
     result.penalties        = { 240., 120. };
     result.friction         = { CorkOnAluminium{}, FrictionSpeed::sliding, regularisation_speed };

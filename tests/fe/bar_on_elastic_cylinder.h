@@ -1,7 +1,6 @@
 #pragma once
 
 #include "bar_on_cylinder.h"
-#include "fe/dynamics/lever_ports.h"
 #include "fe/mesh/cylinder_mesh.h"
 
 namespace sprag
@@ -37,12 +36,4 @@ namespace sprag
     std::unique_ptr<dealii::Triangulation<2>> triangulation;
     std::unique_ptr<ElasticBody<2>> body;
   };
-
-  inline FaceContactProperties pair_properties_of(const ElasticBody<2> &body, const bool sprung,
-                                                  const double regularisation_speed)
-  {
-    auto result          = properties_of(body, sprung, regularisation_speed);
-    result.ports.surface = number_of_surface_ports(body);
-    return result;
-  }
 } // namespace sprag

@@ -3,6 +3,7 @@
 #include "bar.h"
 #include "mpi_environment.h"
 #include "support/lever_in_time.h"
+#include "support/temporary_folder.h"
 
 #include <chrono>
 #include <fcntl.h>
@@ -50,24 +51,6 @@ namespace
     }
     return structure.port_positions(motion);
   }
-
-  /// A folder that is gone with its owner.
-  class TemporaryFolder
-  {
-  public:
-    TemporaryFolder()
-        : path((std::filesystem::temp_directory_path() / ("sprag-basis-" + std::to_string(::getpid()))).string())
-    {
-    }
-    TemporaryFolder(const TemporaryFolder &)            = delete;
-    TemporaryFolder &operator=(const TemporaryFolder &) = delete;
-    ~TemporaryFolder()
-    {
-      std::filesystem::remove_all(path);
-    }
-
-    const std::string path;
-  };
 
   std::string only_file(const std::string &folder)
   {
@@ -183,12 +166,10 @@ TEST(CondensedBasis, MadeForAnotherSceneIsAnother)
 TEST(CondensedBasis, LeftoversOfKilledProcessesAreRemoved)
 {
   const TemporaryFolder folder;
-  std::filesystem::create_directories(folder.path);
   const auto old     = std::filesystem::file_time_type::clock::now() - std::chrono::minutes(1);
   const auto written = [&](const std::string &name, const bool is_old)
   {
-    const auto path = std::filesystem::path(folder.path) / name;
-    std::ofstream(path) << "half a basis";
+    const std::filesystem::path path = folder.write(name, "half a basis");
     if (is_old)
       std::filesystem::last_write_time(path, old);
     return path;
@@ -239,9 +220,7 @@ TEST(CondensedBasis, DamagedFilesAreMadeAnew)
 TEST(CondensedBasis, WithoutACacheFolderIsMadeAndSaysSo)
 {
   const TemporaryFolder folder;
-  std::filesystem::create_directories(folder.path);
-  const std::string file = folder.path + "/file";
-  std::ofstream(file) << "in the way";
+  const auto file  = folder.write("file", "in the way");
   const auto basis = condensed_basis(*MeshedBar({}), settings_of(3, file));
   EXPECT_FALSE(basis.from_cache);
   EXPECT_NE(basis.message.find(file), std::string::npos);

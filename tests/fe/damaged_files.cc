@@ -4,13 +4,13 @@
 #include "fe/mesh/geometry_script.h"
 
 #include "mpi_environment.h"
+#include "support/temporary_folder.h"
 
 #include <gmsh.h>
 
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 using namespace sprag;
 
@@ -21,16 +21,6 @@ namespace
   class DamagedFiles : public ::testing::Test
   {
   protected:
-    DamagedFiles()
-        : folder(fs::temp_directory_path() / ("sprag-damaged-" + std::to_string(::getpid())))
-    {
-      fs::create_directories(folder);
-    }
-    ~DamagedFiles() override
-    {
-      fs::remove_all(folder);
-    }
-
     static std::string content_of(const fs::path &path)
     {
       std::ifstream stream(path, std::ios::binary);
@@ -57,7 +47,8 @@ namespace
       }
     }
 
-    const fs::path folder;
+    const TemporaryFolder temporary;
+    const fs::path &folder = temporary.path;
   };
 
   MeshGroups strip_groups()

@@ -3,7 +3,7 @@
 #include "bar_on_elastic_cylinder.h"
 #include "base/errors.h"
 #include "mpi_environment.h"
-#include "support/port_differences.h"
+#include "pressed_step.h"
 
 #include <gtest/gtest.h>
 
@@ -12,112 +12,14 @@ using namespace sprag;
 namespace
 {
   using Vector = dealii::Vector<double>;
-
-  /// Displacements of some 0.0002 mm, different at neighbouring nodes, and a small turn; the lever moved down by `depth`.
-  Vector pressed(const ElasticBody<2> &body, const PortLayout &layout, const double depth, const double phase)
-  {
-    Vector ports(layout.size());
-    const auto n_lever = static_cast<unsigned int>(body.friction_face().nodes.size());
-    for (unsigned int i = 0; i < layout.surface; ++i)
-      ports[i] = 2e-4 * std::sin(1.7 * i + phase) - (i % 2 == 1 && i < 2 * n_lever ? depth : 0.);
-    ports[layout.rotation()] = 2e-5 * std::sin(phase);
-    if (layout.sprung)
-      ports[layout.support()] = 1e-3 * std::cos(phase);
-    return ports;
-  }
-
-  /// A step of 1e-4 s from sliding at x = 1 mm to `x`, in which all displacements change by up to 0.0001 mm times `size`.
-  class Step
-  {
-  public:
-    Step(FaceContact &contact, const ElasticBody<2> &body, const PortLayout &layout, const double x, const double size = 1.)
-        : weights(generalised_alpha(0.8, 1e-4))
-        , to{ 1e-4, x, (x - 1.) / 1e-4, 0., 0.002 * size }
-    {
-      accepted.drive = { 0., 1., 100. };
-      begin.position = pressed(body, layout, 0.01 - rest_inclination, 0.3);
-      end            = pressed(body, layout, 0.01 - rest_inclination * x, 0.3 + 0.5 * size);
-      contact.evaluate_sliding({ begin.position, accepted.drive, 100. });
-      accepted.contact = contact.memory();
-    }
-
-    PortStep operator*() const
-    {
-      return { accepted.drive, accepted.contact, to, begin, end, rate, weights };
-    }
-
-    StepWeights weights;
-    DrivePoint to;
-    Motion accepted;
-    Kinematic begin;
-    Vector end;
-    Vector rate;
-  };
 } // namespace
-
-// Covariance of stretch and slip within a facet, some 1e-3 of 1e-3, is not in the tangent.
-TEST(ElasticObstacle, TangentIsTheDerivativeOfTheForces)
-{
-  const MeshedPair bodies;
-  for (const bool sprung : { false, true })
-    for (const double regularisation : { 0., 20. })
-      // Sliding on, sticking, sliding back.
-      for (const double x : { 1.01, 1.0003, 0.99 })
-      {
-        const auto properties = pair_properties_of(*bodies, sprung, regularisation);
-        FaceContact contact(*bodies, properties);
-        Step step(contact, *bodies, properties.ports, x);
-        EXPECT_LE(tangent_error(contact, step.end, [&] { contact.evaluate(*step); }), 1e-5) << sprung << " " << x;
-        EXPECT_GT(contact.forces().ports.size(), 20u);
-      }
-}
-
-TEST(ElasticObstacle, TangentOfSteadySlidingIsTheDerivativeOfTheForces)
-{
-  const MeshedPair bodies;
-  for (const bool sprung : { false, true })
-    for (const double speed : { 100., -100. })
-    {
-      const auto properties = pair_properties_of(*bodies, sprung, 0.);
-      FaceContact contact(*bodies, properties);
-      const Step step(contact, *bodies, properties.ports, 1.01);
-      Vector ports = step.end;
-      EXPECT_LE(tangent_error(contact, ports, [&] { contact.evaluate_sliding({ ports, step.to, speed }); }), 1e-5) << speed;
-    }
-}
-
-// What the ports, the drive and the turn of the cylinder do is stored or dissipated, up to third order in the movement of a step.
-TEST(ElasticObstacle, WorksBalance)
-{
-  const MeshedPair bodies;
-  double last = 0.;
-  for (const double share : { 1., 0.5 })
-  {
-    const auto properties = pair_properties_of(*bodies, true, 0.);
-    FaceContact contact(*bodies, properties);
-    const Step step(contact, *bodies, properties.ports, 1. + 0.05 * share, share);
-    const double before = contact.energy();
-    contact.evaluate(*step);
-    StepWork work;
-    contact.add_work(work);
-    const double of_ports = work_of(contact.forces(), step.begin.position, step.end);
-    const double left     = work.drive - of_ports - (contact.energy() - before) - work.friction - work.algorithmic;
-    EXPECT_GT(work.friction, 0.);
-    EXPECT_LE(std::abs(left), 1e-3 * share * share * work.friction);
-    if (share < 1.)
-    {
-      EXPECT_LE(std::abs(left), 0.25 * last);
-    }
-    last = std::abs(left);
-  }
-}
 
 TEST(ElasticObstacle, ForcesOnLeverAndCylinderAreEqualAndOpposite)
 {
   const MeshedPair bodies;
-  const auto properties = pair_properties_of(*bodies, false, 0.);
+  const auto properties = properties_of(*bodies, false, 0.);
   FaceContact contact(*bodies, properties);
-  const Step step(contact, *bodies, properties.ports, 1.01);
+  const PressedStep step(contact, *bodies, properties.ports, 2e-4, 1.01);
   contact.evaluate(*step);
   const auto n_lever = 2 * static_cast<unsigned int>((*bodies).friction_face().nodes.size());
   dealii::Tensor<1, 2> on_lever, on_cylinder;
@@ -135,7 +37,7 @@ TEST(ElasticObstacle, ForcesOnLeverAndCylinderAreEqualAndOpposite)
 TEST(ElasticObstacle, AnUndeformedCylinderIsARigidOne)
 {
   const MeshedPair bodies;
-  const auto properties = pair_properties_of(*bodies, false, 0.);
+  const auto properties = properties_of(*bodies, false, 0.);
   const MeshedBar bar(bar_on_cylinder());
   const auto rigid_properties = properties_of(*bar, false, 0.);
   FaceContact contact(*bodies, properties);
@@ -164,24 +66,10 @@ TEST(ElasticObstacle, AnUndeformedCylinderIsARigidOne)
   }
 }
 
-TEST(ElasticObstacle, ApartNothingHappens)
-{
-  const MeshedPair bodies;
-  const auto properties = pair_properties_of(*bodies, false, 0.);
-  FaceContact contact(*bodies, properties);
-  Vector ports(properties.ports.size());
-  ports[properties.ports.rotation()] = 0.02;
-  EXPECT_TRUE(contact.touch(ports, { 0., 0., 0. }).empty());
-  EXPECT_TRUE(contact.forces().ports.empty());
-  Vector change(ports.size());
-  change[properties.ports.rotation()] = 1e-6;
-  EXPECT_NEAR(contact.gap_change(change), 12e-6, 1e-6);
-}
-
 TEST(ElasticObstacle, RefusesAContactBeyondTheCylindersFace)
 {
   const MeshedPair bodies;
-  const auto properties = pair_properties_of(*bodies, false, 0.);
+  const auto properties = properties_of(*bodies, false, 0.);
   FaceContact contact(*bodies, properties);
   Vector ports(properties.ports.size());
   const auto n_lever = static_cast<unsigned int>((*bodies).friction_face().nodes.size());

@@ -1,9 +1,9 @@
 #include "fe/contact/face_contact.h"
 
-#include "bar_on_cylinder.h"
+#include "bar_on_elastic_cylinder.h"
 #include "mpi_environment.h"
+#include "pressed_step.h"
 #include "support/port_differences.h"
-#include "support/random_vector.h"
 
 #include <gtest/gtest.h>
 
@@ -13,116 +13,111 @@ namespace
 {
   using Vector = dealii::Vector<double>;
 
-  Vector random_ports(const PortLayout &ports, const unsigned int seed)
+  /// A rigid or an elastic cylinder.
+  class FaceContactOn : public testing::TestWithParam<std::string>
   {
-    Vector result = random_vector(ports.size(), 1e-3, seed);
-    result[ports.rotation()] *= 0.02;
-    return result;
-  }
-
-  /// A step from sliding at 1 mm to `x` in 1e-4 s, everything random but the cylinder pressed in by some 0.01 mm.
-  class Step
-  {
-  public:
-    Step(FaceContact &contact, const PortLayout &ports, const double x, const double size = 1.,
-         const double spectral_radius = 0.8)
-        : weights(generalised_alpha(spectral_radius, 1e-4))
-        , to{ 1e-4, x, (x - 1.) / 1e-4 }
+  protected:
+    FaceContactProperties properties(const bool sprung, const double regularisation_speed) const
     {
-      accepted.drive = { 0., 1., 100. };
-      begin.position = pressed(random_ports(ports, 1), ports, 1.);
-      end            = random_ports(ports, 2);
-      end -= random_ports(ports, 1);
-      end *= size;
-      end += pressed(random_ports(ports, 1), ports, x);
-      contact.evaluate_sliding({ begin.position, accepted.drive, 100. });
-      accepted.contact = contact.memory();
+      return properties_of(body, sprung, regularisation_speed);
     }
 
-    PortStep operator*() const
+    PressedStep step(FaceContact &contact, const PortLayout &ports, const double x, const double share = 1.,
+                     const double spectral_radius = 0.8) const
     {
-      return { accepted.drive, accepted.contact, to, begin, end, rate, weights };
+      return { contact, body, ports, size, x, share, spectral_radius };
     }
 
-  private:
-    /// The face moves down by what the circle goes out of its way.
-    static Vector pressed(Vector ports, const PortLayout &layout, const double x)
-    {
-      for (unsigned int i = 1; i < layout.surface; i += 2)
-        ports[i] -= 0.01 - rest_inclination * x;
-      return ports;
-    }
-
-  public:
-    StepWeights weights;
-    DrivePoint to;
-    Motion accepted;
-    Kinematic begin;
-    Vector end;
-    Vector rate;
+    const MeshedBar bar{ bar_on_cylinder() };
+    const MeshedPair pair;
+    const bool elastic         = GetParam() == "elastic";
+    const ElasticBody<2> &body = elastic ? *pair : *bar;
+    const double size          = elastic ? 2e-4 : 1e-3; ///< of displacements [mm]
+    // Points are 0.05 mm apart and the overlap falls to 0 at a slope of some 0.05: of the points one in some 1e4 changes state by
+    // 1e-7 mm, so that a difference is that of a smooth function. On an elastic cylinder the covariance of stretch and slip
+    // within a facet, some 1e-3 of 1e-3, is not in the tangent.
+    const double tolerance = elastic ? 1e-5 : 1e-6;
   };
 } // namespace
 
-// Points are 0.05 mm apart and the overlap falls to 0 at a slope of some 0.05: of the points one in some 1e4 changes state by
-// 1e-7 mm, so that a difference is that of a smooth function.
-TEST(FaceContact, TangentIsTheDerivativeOfTheForces)
+INSTANTIATE_TEST_SUITE_P(Cylinder, FaceContactOn, testing::Values("rigid", "elastic"),
+                         [](const auto &test) { return test.param; });
+
+TEST_P(FaceContactOn, TangentIsTheDerivativeOfTheForces)
 {
-  const MeshedBar bar(bar_on_cylinder());
   for (const bool sprung : { false, true })
     for (const double regularisation : { 0., 20. })
       // Sliding on, sticking, sliding back.
       for (const double x : { 1.01, 1.0003, 0.99 })
       {
-        const auto properties = properties_of(*bar, sprung, regularisation);
-        FaceContact contact(*bar, properties);
-        Step step(contact, properties.ports, x);
-        EXPECT_LE(tangent_error(contact, step.end, [&] { contact.evaluate(*step); }), 1e-6) << sprung << " " << x;
-        EXPECT_FALSE(contact.forces().ports.empty());
+        const auto given = properties(sprung, regularisation);
+        FaceContact contact(body, given);
+        auto taken = step(contact, given.ports, x);
+        EXPECT_LE(tangent_error(contact, taken.end, [&] { contact.evaluate(*taken); }), tolerance) << sprung << " " << x;
+        EXPECT_GT(contact.forces().ports.size(), elastic ? 20u : 10u);
       }
 }
 
-TEST(FaceContact, TangentOfSteadySlidingIsTheDerivativeOfTheForces)
+TEST_P(FaceContactOn, TangentOfSteadySlidingIsTheDerivativeOfTheForces)
 {
-  const MeshedBar bar(bar_on_cylinder());
   for (const bool sprung : { false, true })
     for (const double speed : { 100., -100. })
     {
-      const auto properties = properties_of(*bar, sprung, 0.);
-      FaceContact contact(*bar, properties);
-      const Step step(contact, properties.ports, 1.01);
-      Vector ports = step.end;
-      EXPECT_LE(tangent_error(contact, ports, [&] { contact.evaluate_sliding({ ports, step.to, speed }); }), 1e-6) << speed;
+      const auto given = properties(sprung, 0.);
+      FaceContact contact(body, given);
+      const auto taken = step(contact, given.ports, 1.01);
+      Vector ports     = taken.end;
+      EXPECT_LE(tangent_error(contact, ports, [&] { contact.evaluate_sliding({ ports, taken.to, speed }); }), tolerance) << speed;
     }
 }
 
-// What the ports and the drive do is stored or dissipated, up to third order in the movement of a step.
+// What the ports, the drive and the turn of the cylinder do is stored or dissipated, up to third order in the movement of a step.
 // With a spectral radius of 0 forces are balanced where the step ends, but are not those of a step without inertia.
-TEST(FaceContact, WorksBalance)
+TEST_P(FaceContactOn, WorksBalance)
 {
-  const MeshedBar bar(bar_on_cylinder());
   for (const double spectral_radius : { 0.8, 0. })
   {
     double last = 0.;
     for (const double share : { 1., 0.5 })
     {
-      const auto properties = properties_of(*bar, true, 0.);
-      FaceContact contact(*bar, properties);
-      const Step step(contact, properties.ports, 1. + 0.05 * share, share, spectral_radius);
+      const auto given = properties(true, 0.);
+      FaceContact contact(body, given);
+      const auto taken    = step(contact, given.ports, 1. + 0.05 * share, share, spectral_radius);
       const double before = contact.energy();
-      contact.evaluate(*step);
+      contact.evaluate(*taken);
       StepWork work;
       contact.add_work(work);
-      const double of_ports = work_of(contact.forces(), step.begin.position, step.end);
+      const double of_ports = work_of(contact.forces(), taken.begin.position, taken.end);
       const double left     = work.drive - of_ports - (contact.energy() - before) - work.friction - work.algorithmic;
       EXPECT_GT(work.friction, 0.);
       EXPECT_LE(std::abs(left), 1e-3 * share * share * work.friction) << spectral_radius;
       if (share < 1.)
       {
-        EXPECT_LE(std::abs(left), 0.2 * last) << spectral_radius;
+        EXPECT_LE(std::abs(left), (elastic ? 0.25 : 0.2) * last) << spectral_radius;
       }
       last = std::abs(left);
     }
   }
+}
+
+TEST_P(FaceContactOn, ApartNothingHappens)
+{
+  const auto given = properties(false, 0.);
+  FaceContact contact(body, given);
+  Vector ports(given.ports.size());
+  ports[given.ports.rotation()] = 0.02;
+  EXPECT_TRUE(contact.touch(ports, { 0., 0., 0. }).empty());
+  EXPECT_TRUE(contact.forces().ports.empty());
+  EXPECT_EQ(contact.energy(), 0.);
+  Row row;
+  contact.observe(row);
+  EXPECT_EQ(row[Column::P], 0.);
+  EXPECT_EQ(row[Column::Q], 0.);
+  EXPECT_EQ(row[Column::contact_width], 0.);
+  // Turned further the gap grows by the arm, some 12 mm.
+  Vector change(ports.size());
+  change[given.ports.rotation()] = 1e-6;
+  EXPECT_NEAR(contact.gap_change(change), 12e-6, 1e-6);
 }
 
 TEST(FaceContact, FindsAllPointsInReach)
@@ -135,7 +130,7 @@ TEST(FaceContact, FindsAllPointsInReach)
     for (const double turn : { 0., -0.01, -0.1, 0.2 })
     {
       const double theta = rest_inclination + turn;
-      const auto ports   = random_ports(properties.ports, 3);
+      const auto ports   = pressed(*bar, properties.ports, 1e-3, 0., 3.);
       const FaceConfiguration at{ &ports, theta, x, cylinder_centre(cylinder_below_bar(), x, theta) };
       RigidObstacle obstacle(face, properties);
       obstacle.enter({ at, at });
@@ -161,7 +156,7 @@ TEST(FaceContact, ForcesOfSlidingAreThoseObserved)
   const MeshedBar bar(bar_on_cylinder());
   const auto properties = properties_of(*bar, false, 0.);
   FaceContact contact(*bar, properties);
-  const Step step(contact, properties.ports, 1.01);
+  const PressedStep step(contact, *bar, properties.ports, 1e-3, 1.01);
   contact.evaluate_sliding({ step.end, step.to, 100. });
   Row row;
   contact.observe(row);
@@ -177,34 +172,13 @@ TEST(FaceContact, ForcesOfSlidingAreThoseObserved)
   EXPECT_DOUBLE_EQ(row[Column::v_rel], 100.);
 }
 
-TEST(FaceContact, ApartNothingHappens)
-{
-  const MeshedBar bar(bar_on_cylinder());
-  const auto properties = properties_of(*bar, false, 0.);
-  FaceContact contact(*bar, properties);
-  Vector ports(properties.ports.size());
-  ports[properties.ports.rotation()] = 0.02;
-  EXPECT_TRUE(contact.touch(ports, { 0., 0., 0. }).empty());
-  EXPECT_TRUE(contact.forces().ports.empty());
-  EXPECT_EQ(contact.energy(), 0.);
-  Row row;
-  contact.observe(row);
-  EXPECT_EQ(row[Column::P], 0.);
-  EXPECT_EQ(row[Column::Q], 0.);
-  EXPECT_EQ(row[Column::contact_width], 0.);
-  // Turned further the gap grows by the arm, some 12 mm.
-  Vector change(ports.size());
-  change[properties.ports.rotation()] = 1e-6;
-  EXPECT_NEAR(contact.gap_change(change), 12e-6, 1e-6);
-}
-
 // A drive that moves the cylinder along the face by dx slips it by dx cos theta.
 TEST(FaceContact, TellsTheMeanSlip)
 {
   const MeshedBar bar(bar_on_cylinder());
   const auto properties = properties_of(*bar, false, 0.);
   FaceContact contact(*bar, properties);
-  const Step step(contact, properties.ports, 1.01);
+  const PressedStep step(contact, *bar, properties.ports, 1e-3, 1.01);
   const auto &ports = step.begin.position;
   EXPECT_NEAR(contact.mean_slip(ports, 1., ports, 1. + 1e-4), 1e-4 * std::cos(rest_inclination), 1e-6);
 }

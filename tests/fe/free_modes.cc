@@ -16,17 +16,10 @@ namespace
 
   constexpr double young_modulus = 70000.;
 
-  /// Slender, its neutral axis through the pivot.
+  /// Slender and without a layer, its neutral axis through the pivot.
   Bar slender_bar()
   {
-    Bar bar;
-    bar.length = 200.;
-    bar.depth  = 4.;
-    bar.offset = -2.;
-    bar.layer  = 0.;
-    bar.n      = 100;
-    bar.m      = 2;
-    return bar;
+    return { 200., -2., 0., 4., 100, 2 };
   }
 
   double mass_of(const Bar &bar)

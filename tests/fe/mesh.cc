@@ -3,43 +3,18 @@
 #include "base/errors.h"
 #include "fe/body/body_properties.h"
 #include "scenes.h"
+#include "support/temporary_folder.h"
 
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <map>
-#include <unistd.h>
 
 using namespace sprag;
 
 namespace
 {
-  /// A folder that is gone with its owner.
-  class TemporaryFolder
-  {
-  public:
-    TemporaryFolder()
-        : path(std::filesystem::temp_directory_path() / ("sprag-test-mesh-" + std::to_string(::getpid())))
-    {
-      std::filesystem::create_directories(path);
-    }
-    TemporaryFolder(const TemporaryFolder &)            = delete;
-    TemporaryFolder &operator=(const TemporaryFolder &) = delete;
-    ~TemporaryFolder()
-    {
-      std::filesystem::remove_all(path);
-    }
-
-    std::string write(const std::string &name, const std::string &text) const
-    {
-      std::ofstream(path / name) << text;
-      return path / name;
-    }
-
-    const std::filesystem::path path;
-  };
-
   Scene coarse_scene(const double offset, const double layer)
   {
     Scene scene                     = model_a();

@@ -9,7 +9,7 @@ using namespace sprag;
 
 namespace
 {
-  constexpr unsigned int n = 3;
+  constexpr unsigned int n = 4;
   using Coordinates        = dealii::Tensor<1, n>;
 
   const Geometry geometry = { 56., 45.6, 185.5, 4. };
@@ -34,7 +34,7 @@ namespace
     ContactKinematics<n> kinematics(const Coordinates &q = {}) const
     {
       const auto point = point_at(gap);
-      return circle_contact(geometry, { point.xi + q[0], point.eta + q[1] }, x, theta + q[2]);
+      return moving_circle_contact(geometry, { point.xi + q[0], point.eta + q[1] }, x + q[3], theta + q[2]);
     }
 
     StepResponse<n> response(const Coordinates &q = {}, const FrictionMode mode = FrictionMode::cone) const

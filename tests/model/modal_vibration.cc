@@ -133,7 +133,9 @@ TEST(ModalVibration, ItsVectorsBelongToItsEigenvalues)
   auto forces           = no_forces({ 0, 1 });
   forces.friction(0, 1) = 1.;
   forces.friction(1, 0) = -2.;
-  for (const auto &mode : modal_vibrations(data, forces))
+  const auto modes      = modal_vibrations(data, forces);
+  ASSERT_EQ(modes.size(), 2u);
+  for (const auto &mode : modes)
   {
     const Complex q[2]   = { { mode.coordinates[0][0], mode.coordinates[1][0] },
                              { mode.coordinates[0][1], mode.coordinates[1][1] } };

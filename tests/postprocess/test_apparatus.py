@@ -1,19 +1,18 @@
 """Pictures of force sensors and of calibrations; run with /usr/bin/python3."""
 
-import subprocess
 import sys
-import tempfile
 import unittest
 from pathlib import Path
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "postprocess"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 
+from pictures import PictureTest, draw  # noqa: E402
 import calibration  # noqa: E402
 import sensors  # noqa: E402
 from results import read_result  # noqa: E402
-from test_plot import FOLDER, fill_run, finish, make_transient, new_file, put  # noqa: E402
+from test_plot import fill_run, finish, make_run, make_transient, new_file, put  # noqa: E402
 
 SHARES = np.array((0.1, 0.4, 0.3, 0.2))
 
@@ -59,18 +58,7 @@ def make_calibration(folder):
     return read_result(folder)
 
 
-class ApparatusTest(unittest.TestCase):
-    def setUp(self):
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        self.folder = Path(temporary.name)
-
-    def expect_picture(self, name):
-        command = ["/usr/bin/python3", FOLDER / "plot.py", self.folder / "a"]
-        done = subprocess.run(command, capture_output=True, text=True, check=False)
-        self.assertEqual((done.returncode, done.stderr), (0, ""))
-        self.assertGreater((self.folder / "a" / f"{name}.png").stat().st_size, 20000)
-
+class ApparatusTest(PictureTest):
     def test_sensors_over_x(self):
         result = make_static(self.folder / "a")
         panels = sensors.sensor_forces(result).axes
@@ -85,7 +73,7 @@ class ApparatusTest(unittest.TestCase):
         each = panels[2]
         names = [line.get_label() for line in each.lines if line.get_label().startswith("sensor")]
         self.assertEqual(names, ["sensor 1", "sensor 2", "sensor 3", "sensor 4"])
-        self.expect_picture("sensors")
+        self.expect_picture(draw("plot.py", self.folder / "a"), "sensors")
 
     def test_sensors_over_time_with_the_reversal(self):
         result = make_dynamic(self.folder / "a")
@@ -94,12 +82,10 @@ class ApparatusTest(unittest.TestCase):
         np.testing.assert_array_equal(panels[0].lines[0].get_xdata(), result.table["time"])
         near = panels[1].lines[0].get_xdata()
         self.assertAlmostEqual(near[0], -3, delta=0.1)  # ms
-        self.expect_picture("sensors")
+        self.expect_picture(draw("plot.py", self.folder / "a"), "sensors")
 
     def test_no_sensors_no_picture(self):
-        file = new_file(self.folder / "a")
-        fill_run(file, np.arange(0.0, 11))
-        finish(file)
+        make_run(self.folder / "a")
         self.assertFalse(sensors.has_sensors(read_result(self.folder / "a")))
 
     def test_ten_sensors_in_their_order(self):
@@ -118,7 +104,7 @@ class ApparatusTest(unittest.TestCase):
         heights = sorted(patch.get_height() for patch in bars.patches)
         self.assertEqual(heights, sorted(value for pair in FREQUENCIES.values() for value in pair))
         self.assertIn("-2 %", " ".join(text.get_text() for text in bars.texts))
-        self.expect_picture("calibration")
+        self.expect_picture(draw("plot.py", self.folder / "a"), "calibration")
 
 
 if __name__ == "__main__":

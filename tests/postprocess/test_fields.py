@@ -1,21 +1,19 @@
 """fields.py and mesh.py on small frames of the shape FieldFrames writes; run with /usr/bin/python3."""
 
-import subprocess
 import sys
-import tempfile
 import unittest
 from pathlib import Path
 
 import h5py
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "postprocess"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 
+from pictures import PictureTest, draw  # noqa: E402
 import fields  # noqa: E402
 import frames  # noqa: E402
-import mesh  # noqa: E402
 from results import NotAResult, read_result  # noqa: E402
-from test_plot import FOLDER, finish, new_file, put  # noqa: E402
+from test_plot import finish, new_file, put  # noqa: E402
 
 NUMBERS = {name: number for number, name in frames.PARTS.items()}
 RADIUS, OFFSET, DISTANCE, HEIGHT, THICKNESS = 20.0, 15.0, 100.0, 2.0, 1.0
@@ -206,19 +204,14 @@ def make_run(folder, blocks, written=WRITTEN, wanted="interval"):
     return read_result(folder)
 
 
-class TemporaryFolder(unittest.TestCase):
-    def setUp(self):
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        self.folder = Path(temporary.name)
-
+class FrameTest(PictureTest):
     def refusal(self, *arguments, **options):
         with self.assertRaises(NotAResult) as caught:
             frames.chosen_frame(*arguments, **options)
         return str(caught.exception)
 
 
-class ChoiceTest(TemporaryFolder):
+class ChoiceTest(FrameTest):
     def test_nearest_frame_of_the_direction(self):
         result = make_run(self.folder / "a", lever_blocks())
         for x, way, row in ((None, None, 40), (28, "forward", 30), (28, "backward", 50), (12, None, 10), (24, "backward", 60)):
@@ -236,7 +229,7 @@ class ChoiceTest(TemporaryFolder):
         self.assertIn("Output/Fields must not be none", self.refusal(result))
 
 
-class PlaceTest(TemporaryFolder):
+class PlaceTest(FrameTest):
     def scenery(self, blocks, x=30, part="all"):
         result = make_run(self.folder / "a", blocks)
         return fields.Scenery(result, frames.chosen_frame(result, x, "forward"), part)
@@ -322,14 +315,7 @@ class PlaceTest(TemporaryFolder):
         self.assertGreater(2.5 * fields.automatic_magnification(scenery), expected)
 
 
-class PictureTest(TemporaryFolder):
-    def draw(self, program, *arguments):
-        return subprocess.run(["/usr/bin/python3", FOLDER / program, *arguments], capture_output=True, text=True, check=False)
-
-    def expect_picture(self, done, path):
-        self.assertEqual((done.returncode, done.stderr), (0, ""))
-        self.assertGreater(path.stat().st_size, 20000)
-
+class DrawTest(PictureTest):
     def test_picture_shows_pressure_and_circle_at_the_chosen_x(self):
         result = make_run(self.folder / "a", lever_blocks())
         figure = fields.fields(result, 20, "backward", magnify=50)
@@ -345,9 +331,9 @@ class PictureTest(TemporaryFolder):
     def test_every_part_of_the_apparatus(self):
         make_run(self.folder / "a", apparatus_blocks() + leaf_blocks())
         for part in ("all", "lever", "plate", "cylinder", "leaf"):
-            name = "fields-x30" + ("" if part == "all" else f"-{part}") + ".png"
-            done = self.draw("fields.py", self.folder / "a", "--x", "30", "--part", part)
-            self.expect_picture(done, self.folder / "a" / name)
+            name = "fields-x30" + ("" if part == "all" else f"-{part}")
+            done = draw("fields.py", self.folder / "a", "--x", "30", "--part", part)
+            self.expect_picture(done, name)
 
     def test_refusals(self):
         make_run(self.folder / "a", lever_blocks())
@@ -355,18 +341,18 @@ class PictureTest(TemporaryFolder):
             (("--part", "plate"), "there are lever"),
             (("--x", "70"), "forward x = 10, 20, 30, 40 mm"),
         ):
-            done = self.draw("fields.py", self.folder / "a", *arguments)
+            done = draw("fields.py", self.folder / "a", *arguments)
             self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1), done.stderr)
             self.assertIn(words, done.stderr)
 
     def test_plot_draws_the_frame_of_the_largest_x(self):
         make_run(self.folder / "a", lever_blocks())
-        self.expect_picture(self.draw("plot.py", self.folder / "a"), self.folder / "a" / "fields.png")
+        self.expect_picture(draw("plot.py", self.folder / "a"), "fields")
 
     def test_frame_that_cannot_be_read_leaves_the_other_pictures(self):
         make_run(self.folder / "a", lever_blocks())
         (self.folder / "a" / "fields-0003.h5").write_text("half")
-        done = self.draw("plot.py", self.folder / "a")
+        done = draw("plot.py", self.folder / "a")
         self.assertEqual(done.returncode, 0)
         self.assertIn("fields-0003.h5", done.stderr)
         self.assertTrue((self.folder / "a" / "forces-over-x.png").is_file())

@@ -1,17 +1,15 @@
 """Pictures of maps on small files of the shape sprag writes; run with /usr/bin/python3."""
 
-import subprocess
 import sys
-import tempfile
 import unittest
 from pathlib import Path
 
 import h5py
 import numpy as np
 
-FOLDER = Path(__file__).resolve().parents[2] / "postprocess"
-sys.path.insert(0, str(FOLDER))
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 
+from pictures import PictureTest, draw  # noqa: E402
 import map as stability  # noqa: E402
 import results  # noqa: E402
 
@@ -53,12 +51,7 @@ def make_map(folder, first="Friction/Factor", second="Lever/Depth"):
     return folder
 
 
-class MapTest(unittest.TestCase):
-    def setUp(self):
-        temporary = tempfile.TemporaryDirectory(prefix="sprag-test-")
-        self.addCleanup(temporary.cleanup)
-        self.folder = Path(temporary.name)
-
+class MapTest(PictureTest):
     def test_lines_join_points_of_neighbouring_sides(self):
         result = results.read_result(make_map(self.folder / "run"))
         self.assertTrue(stability.is_map(result))
@@ -85,9 +78,7 @@ class MapTest(unittest.TestCase):
         geometry = ("Geometry/Interface offset", "Geometry/Pivot height")
         for number, names in enumerate((("Friction/Factor", "Lever/Depth"), geometry)):
             run = make_map(self.folder / str(number), *names)
-            done = subprocess.run(
-                [sys.executable, FOLDER / "plot.py", run, "--format", "png,pdf"], capture_output=True, text=True, check=False
-            )
+            done = draw("plot.py", run, "--format", "png,pdf")
             self.assertEqual((done.returncode, done.stderr), (0, ""))
             self.assertEqual(done.stdout.splitlines(), [str(run / "map.png"), str(run / "map.pdf")])
             self.assertGreater((run / "map.png").stat().st_size, 10000)

@@ -1,15 +1,14 @@
 """mesh.py on small meshes; run with /usr/bin/python3."""
 
-import subprocess
 import sys
-import tempfile
 import unittest
 from pathlib import Path
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "postprocess"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 
+from pictures import PictureTest, draw  # noqa: E402
 import mesh  # noqa: E402
 import test_fields  # noqa: E402
 from results import NotAResult  # noqa: E402
@@ -85,12 +84,7 @@ $EndElements
 """
 
 
-class MeshTest(unittest.TestCase):
-    def setUp(self):
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        self.folder = Path(temporary.name)
-
+class MeshTest(PictureTest):
     def test_parts_and_curves_of_a_file(self):
         for text in (VERSION_2, VERSION_4):
             path = self.folder / "own.msh"
@@ -122,8 +116,7 @@ class MeshTest(unittest.TestCase):
     def test_pictures(self):
         test_fields.make_run(self.folder / "a", test_fields.apparatus_blocks())
         (self.folder / "own.msh").write_text(VERSION_2)
-        command = ["/usr/bin/python3", test_fields.FOLDER / "mesh.py", self.folder / "a", self.folder / "own.msh"]
-        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        done = draw("mesh.py", self.folder / "a", self.folder / "own.msh")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         for path in (self.folder / "a" / "mesh.png", self.folder / "own.png"):
             self.assertGreater(path.stat().st_size, 5000)

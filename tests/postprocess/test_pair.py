@@ -1,18 +1,17 @@
 """Pictures of full mirrored pairs; run with /usr/bin/python3."""
 
-import subprocess
 import sys
-import tempfile
 import unittest
 from pathlib import Path
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "postprocess"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 
+from pictures import PictureTest, draw  # noqa: E402
 import pair  # noqa: E402
 from results import read_result  # noqa: E402
-from test_plot import FOLDER, fill_run, finish, make_transient, new_file, put  # noqa: E402
+from test_plot import fill_run, finish, make_run, make_transient, new_file, put  # noqa: E402
 
 
 def add_second_lever(file):
@@ -44,18 +43,7 @@ def curve(axes, name):
     return next(line for line in axes.lines if line.get_label() == name)
 
 
-class PairTest(unittest.TestCase):
-    def setUp(self):
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        self.folder = Path(temporary.name)
-
-    def expect_picture(self):
-        command = ["/usr/bin/python3", FOLDER / "plot.py", self.folder / "a"]
-        done = subprocess.run(command, capture_output=True, text=True, check=False)
-        self.assertEqual((done.returncode, done.stderr), (0, ""))
-        self.assertGreater((self.folder / "a" / "pair.png").stat().st_size, 20000)
-
+class PairTest(PictureTest):
     def test_over_x_each_way(self):
         result = make_static(self.folder / "a")
         panels = pair.pair_of_levers(result).axes
@@ -68,7 +56,7 @@ class PairTest(unittest.TestCase):
             np.testing.assert_array_equal(curve(F, "second lever").get_ydata(), result.table["F_2"][rows])
             np.testing.assert_array_equal(swing.lines[0].get_ydata(), result.table["swing"][rows])
             np.testing.assert_array_equal(lateral.lines[0].get_ydata(), result.table["lateral_force"][rows])
-        self.expect_picture()
+        self.expect_picture(draw("plot.py", self.folder / "a"), "pair")
 
     def test_over_time_with_inertia_and_near_the_reversal(self):
         result = make_dynamic(self.folder / "a")
@@ -79,12 +67,10 @@ class PairTest(unittest.TestCase):
         self.assertLess(len(near), len(result.table["time"]))
         self.assertLess(near[0], 0)
         self.assertGreater(near[-1], 0)
-        self.expect_picture()
+        self.expect_picture(draw("plot.py", self.folder / "a"), "pair")
 
     def test_no_second_lever_no_picture(self):
-        file = new_file(self.folder / "a")
-        fill_run(file, np.arange(0.0, 11))
-        finish(file)
+        make_run(self.folder / "a")
         self.assertFalse(pair.has_pair(read_result(self.folder / "a")))
 
 

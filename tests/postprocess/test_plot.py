@@ -7,12 +7,10 @@ from pathlib import Path
 import h5py
 import numpy as np
 
-FOLDER = Path(__file__).resolve().parents[2] / "postprocess"
-sys.path.insert(0, str(FOLDER))
-sys.path.insert(0, str(FOLDER.parent / "tests" / "support"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 
-import results  # noqa: E402
 from pictures import PictureTest  # noqa: E402
+import results  # noqa: E402
 
 
 def put(group, name, values, unit):

@@ -7,14 +7,12 @@ from pathlib import Path
 import h5py
 import numpy as np
 
-FOLDER = Path(__file__).resolve().parents[2] / "postprocess"
-sys.path.insert(0, str(FOLDER))
-sys.path.insert(0, str(FOLDER.parent / "tests" / "support"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 
+from pictures import PictureTest  # noqa: E402
 import results  # noqa: E402
 import sprag_slip  # noqa: E402
 import vibration  # noqa: E402
-from pictures import PictureTest  # noqa: E402
 from style import plt  # noqa: E402
 
 FEEDS = [f"growth_by_{name}" for name, _ in vibration.FEEDS]

@@ -1,31 +1,20 @@
 #include "results/field_files.h"
 
+#include "support/temporary_folder.h"
+
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <iterator>
 #include <set>
-#include <unistd.h>
 
 using namespace sprag;
 
 namespace
 {
-  /// Empty, and gone with its owner.
   class FieldFilesTest : public testing::Test
   {
   protected:
-    FieldFilesTest()
-        : folder(std::filesystem::temp_directory_path() / ("sprag-test-fields-" + std::to_string(::getpid())))
-    {
-      std::filesystem::remove_all(folder);
-      std::filesystem::create_directories(folder);
-    }
-    ~FieldFilesTest() override
-    {
-      std::filesystem::remove_all(folder);
-    }
-
     std::set<std::string> names() const
     {
       std::set<std::string> result;
@@ -40,7 +29,8 @@ namespace
       return { std::istreambuf_iterator<char>(stream), {} };
     }
 
-    const std::filesystem::path folder;
+    const TemporaryFolder temporary;
+    const std::filesystem::path &folder = temporary.path;
   };
 
   FieldMesh square()

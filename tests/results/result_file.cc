@@ -1,6 +1,8 @@
 #include "results/result_file.h"
 
 #include "base/errors.h"
+#include "support/row_of.h"
+#include "support/temporary_folder.h"
 
 #include <array>
 #include <csignal>
@@ -19,22 +21,9 @@ namespace
 {
   const FacePoints three_points = { { 10., 20., 30. }, { 1., 2., 1. } };
 
-  /// A folder of its own for every test, removed afterwards.
   class ResultFileTest : public testing::Test
   {
   protected:
-    ResultFileTest()
-        : folder(std::filesystem::temp_directory_path() /
-                 ("sprag-" + std::to_string(getpid()) + testing::UnitTest::GetInstance()->current_test_info()->name()))
-    {
-      std::filesystem::create_directories(folder);
-    }
-
-    ~ResultFileTest() override
-    {
-      std::filesystem::remove_all(folder);
-    }
-
     std::string path() const
     {
       return (folder / "result.h5").string();
@@ -58,16 +47,13 @@ namespace
       return output;
     }
 
-    std::filesystem::path folder;
+    const TemporaryFolder temporary;
+    const std::filesystem::path &folder = temporary.path;
   };
 
   Row row(const double time)
   {
-    Row values;
-    values[Column::time] = time;
-    values[Column::x]    = 112. * time;
-    values[Column::Q]    = -2. * time;
-    return values;
+    return row_of({ { Column::time, time }, { Column::x, 112. * time }, { Column::Q, -2. * time } });
   }
 
   FaceState face_state(const double time)

@@ -1,12 +1,10 @@
 """The program from outside: what it refuses, what a failed or killed run leaves behind, its options. Run with /usr/bin/python3;
 environment: SPRAG, the program, and SPRAG_SOURCE, the sources."""
 
-import os
 import shutil
 import signal
 import subprocess
 import sys
-import time
 import unittest
 from pathlib import Path
 
@@ -14,11 +12,7 @@ import h5py
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
-from folders import FolderTest  # noqa: E402
-
-SOURCE = Path(os.environ.get("SPRAG_SOURCE", Path(__file__).resolve().parents[2]))
-SPRAG = os.environ.get("SPRAG", str(SOURCE / "build" / "sprag"))
-TIMEOUT = 120  # seconds: a run that hangs is a failed test
+from runs import RunTest, sprag  # noqa: E402
 
 CLOSED_FORM = "subsection Analysis\n  set Model = closed form\nend\n"
 COARSE = ("--set", "Mesh/Face size=4", "--set", "Analysis/Step=5")
@@ -34,23 +28,18 @@ HUB = 'Physical Curve("hub") = {Abs(area[3])};\n'
 FACE = 'Physical Curve("friction face") = {line[1]};\n'
 
 
-def sprag(*arguments, **options):
-    command = [SPRAG, *map(str, arguments)]
-    return subprocess.run(
-        command, capture_output=True, text=True, check=False, timeout=TIMEOUT, stdin=subprocess.DEVNULL, **options
-    )
-
-
 def tree(folder):
     """Path -> content of everything below a folder."""
     return {path: path.read_bytes() if path.is_file() else None for path in sorted(folder.rglob("*"))}
 
 
-class ProgramTest(FolderTest):
-    def setUp(self):
-        super().setUp()
-        self.output = self.folder / "output"
+def section(name, **settings):
+    """Lines of a section, and what is said about each: {name with _ for blanks: (value, texts or None)}."""
+    entries = [(f"  set {setting.replace('_', ' ')} = {value}", texts) for setting, (value, texts) in settings.items()]
+    return [(f"subsection {name}", None), *entries, ("end", None)]
 
+
+class ProgramTest(RunTest):
     def write(self, text, name="scene.prm"):
         path = self.folder / name
         path.write_text(text)
@@ -91,26 +80,17 @@ class BadScene(ProgramTest):
     """Mistakes that reading the scene finds."""
 
     def test_all_mistakes_at_once(self):
+        offset = ("45.6 mm", ["Geometry/Interface offset = 45.6 mm", "leave out 'mm'"])
         self.refused_lines(
             [
-                ("subsection Rotational spring", None),
-                ("  set Stifness = 1", ["Rotational spring/Stifness", "did you mean 'Stiffness'"]),
-                ("end", None),
+                *section("Rotational spring", Stifness=("1", ["Rotational spring/Stifness", "did you mean 'Stiffness'"])),
                 ("subsection Geometri", ["did you mean 'Geometry'"]),
                 ("  set Cylinder radius = 56", None),
                 ("end", None),
                 ("nonsense", []),
-                ("subsection Geometry", None),
-                ("  set Interface offset = 45.6 mm", ["Geometry/Interface offset = 45.6 mm", "leave out 'mm'"]),
-                ("  set Pivot hight = 0", ["'Pivot height'"]),
-                ("end", None),
-                ("subsection Drive", None),
-                ("  set Profile = harmonical", ["Drive/Profile = harmonical", "'harmonic'"]),
-                ("end", None),
-                ("subsection Friction", None),
-                ("  set Law = table", None),
-                ("  set Table = missing.csv", ["Friction/Table", "missing.csv"]),
-                ("end", None),
+                *section("Geometry", Interface_offset=offset, Pivot_hight=("0", ["'Pivot height'"])),
+                *section("Drive", Profile=("harmonical", ["Drive/Profile = harmonical", "'harmonic'"])),
+                *section("Friction", Law=("table", None), Table=("missing.csv", ["Friction/Table", "missing.csv"])),
                 ("subsection Mesh", ["end"]),
                 ("  set File = missing.geo", ["Mesh/File", "missing.geo", "cannot be read"]),
             ],
@@ -120,38 +100,21 @@ class BadScene(ProgramTest):
         )
 
     def test_no_possible_number(self):
-        self.refused_lines(
-            [
-                ("subsection Geometry", None),
-                ("  set Cylinder radius = -56", ["Geometry/Cylinder radius = -56", "> 0"]),
-                ("  set Interface offset = nan", ["Geometry/Interface offset"]),
-                ("  set Pivot distance = inf", ["Geometry/Pivot distance"]),
-                ("  set Pivot height = 0x10", ["Geometry/Pivot height"]),
-                ("end", None),
-                ("subsection Drive", None),
-                ("  set Stroke = 1e999", ["Drive/Stroke"]),
-                ("  set Speed = 5,5", ["Drive/Speed"]),
-                ("  set Cycles =", ["Drive/Cycles"]),
-                ("end", None),
-            ]
+        geometry = section(
+            "Geometry",
+            Cylinder_radius=("-56", ["Geometry/Cylinder radius = -56", "> 0"]),
+            Interface_offset=("nan", ["Geometry/Interface offset"]),
+            Pivot_distance=("inf", ["Geometry/Pivot distance"]),
+            Pivot_height=("0x10", ["Geometry/Pivot height"]),
         )
+        drive = dict(Stroke=("1e999", ["Drive/Stroke"]), Speed=("5,5", ["Drive/Speed"]), Cycles=("", ["Drive/Cycles"]))
+        self.refused_lines(geometry + section("Drive", **drive))
 
     def test_contradictions(self):
-        self.refused_lines(
-            [
-                ("subsection Geometry", None),
-                ("  set Interface offset = 57", ["Geometry/Interface offset = 57", "R = 56 mm"]),
-                ("end", None),
-                ("subsection Lever", None),
-                ("  set Material = neo-Hookean", ["Lever/Material", "Analysis/Plane = strain"]),
-                ("end", None),
-                ("subsection Drive", None),
-                ("  set Profile = table", None),
-                ("  set Table =", ["Drive/Table", "must name a file"]),
-                ("end", None),
-            ],
-            older=True,
-        )
+        geometry = section("Geometry", Interface_offset=("57", ["Geometry/Interface offset = 57", "R = 56 mm"]))
+        lever = section("Lever", Material=("neo-Hookean", ["Lever/Material", "Analysis/Plane = strain"]))
+        drive = section("Drive", Profile=("table", None), Table=("", ["Drive/Table", "must name a file"]))
+        self.refused_lines(geometry + lever + drive, older=True)
 
     def test_stroke_that_reaches_the_pivot(self):
         for options in (["Analysis/Model=finite element"], ["Analysis/Model=closed form", "--validate"]):
@@ -181,7 +144,6 @@ class BadScene(ProgramTest):
                     self.assertIn(f"scene.prm{start}/Table = ", message)
                     self.assertIn(name, message)
 
-
     def table(self, text, section="Friction", choice="Law", header=""):
         self.write(header + text, "own.csv")
         return self.write(f"subsection {section}\n  set {choice} = table\n  set Table = own.csv\nend\n")
@@ -190,17 +152,9 @@ class BadScene(ProgramTest):
         says = ["Friction/Coefficient = 0,73", "decimal point", "'0.73'"]
         changes = ("--set", "Friction/Law=Coulomb", "--set", "Friction/Coefficient=0,73")
         self.refused(self.write(""), *changes, says=says, mistakes=1)
-        self.refused_lines(
-            [
-                ("subsection Geometry", None),
-                ("  set Interface offset = 45,6 mm", ["decimal point", "'45.6'"]),
-                ("end", None),
-                ("subsection Support", None),
-                ("  set Type = sprung", None),
-                ("  set Mass = 2,5e-3", ["decimal point", "'2.5e-3'"]),
-                ("end", None),
-            ]
-        )
+        offset = section("Geometry", Interface_offset=("45,6 mm", ["decimal point", "'45.6'"]))
+        mass = section("Support", Type=("sprung", None), Mass=("2,5e-3", ["decimal point", "'2.5e-3'"]))
+        self.refused_lines(offset + mass)
 
     def test_decimal_commas_in_tables(self):
         for text in ("0;0,3\n10,5;0,5\n20;0,7\n30;0,9\n", "0,0 0,3\n10,5\t0,5\n20,0 0,7\n30,0 0,9\n"):
@@ -345,42 +299,11 @@ class FailedRun(ProgramTest):
 class RunGoingOn(ProgramTest):
     """The result file while its run goes on and after the run was killed."""
 
-    def start(self):
-        scene = self.write("")
-        options = ("--set", "Mesh/Face size=4", "--set", "Analysis/Step=0.005", "--set", "Output/Fields=none")
-        process = subprocess.Popen(
-            [SPRAG, scene, *options, "--output", self.output, "--quiet"], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE
-        )
-        self.addCleanup(process.stderr.close)
-        self.addCleanup(process.wait)
-        self.addCleanup(process.kill)
-        return process
-
-    def rows(self):
-        """x of the rows there are; none where the file is not there yet."""
-        try:
-            with h5py.File(self.output / "result.h5", "r", swmr=True) as file:
-                columns = [file["table"][name][:] for name in ("time", "x", "Q")]
-        except OSError:
-            return np.empty(0)
-        length = min(map(len, columns))
-        for values in columns:
-            self.assertTrue(np.isfinite(values[:length]).all())
-        return columns[1][:length]
-
-    def wait_for(self, process, number):
-        deadline = time.monotonic() + TIMEOUT
-        while time.monotonic() < deadline:
-            self.assertIsNone(process.poll(), "the run ended too early to be watched")
-            if len(rows := self.rows()) >= number:
-                return rows
-            time.sleep(0.02)
-        return self.fail(f"fewer than {number} rows after {TIMEOUT} s")
-
     def test_reading_along_and_killed(self):
-        process = self.start()
-        first = self.wait_for(process, 3)
-        second = self.wait_for(process, len(first) + 50)
+        long = ("--set", "Mesh/Face size=4", "--set", "Analysis/Step=0.005", "--set", "Output/Fields=none")
+        process = self.start(self.write(""), *long, "--output", self.output, "--quiet")
+        first = self.wait_for_rows(process, 3)
+        second = self.wait_for_rows(process, len(first) + 50)
         self.assertTrue((second[: len(first)] == first).all())
         process.send_signal(signal.SIGKILL)
         process.wait()

@@ -5,7 +5,6 @@ import os
 import resource
 import shutil
 import signal
-import subprocess
 import sys
 import tempfile
 import time
@@ -15,58 +14,31 @@ from pathlib import Path
 import h5py
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from runs import SOURCE, TIMEOUT, RunTest, sprag  # noqa: E402
 
-from folders import FolderTest  # noqa: E402
-
-SOURCE = Path(os.environ.get("SPRAG_SOURCE", Path(__file__).resolve().parents[2]))
-SPRAG = os.environ.get("SPRAG", str(SOURCE / "build" / "sprag"))
 MODEL_A = SOURCE / "params" / "model-a.prm"
-TIMEOUT = 120  # seconds: a run that hangs is a failed test
 
 CLOSED_FORM = ("--set", "Analysis/Model=closed form")
 COARSE = ("--set", "Mesh/Face size=4", "--set", "Analysis/Step=5")
 LONG = ("--set", "Mesh/Face size=4", "--set", "Analysis/Step=0.005", "--set", "Output/Fields=none")
 # The compliance of the friction face takes some seconds in one piece.
-FINE = ("--set", "Mesh/Face size=0.06", "--set", "Output/Fields=none")
+FINE = ("--set", "Mesh/Face size=0.03", "--set", "Output/Fields=none")
 
 
 def mesh_files():
     return set(Path(tempfile.gettempdir()).glob("sprag-*.msh"))
 
 
-class EndsTest(FolderTest):
-    def setUp(self):
-        super().setUp()
-        self.output = self.folder / "output"
-
+class EndsTest(RunTest):
     def command(self, *options):
-        return [SPRAG, str(MODEL_A), "--output", str(self.output), "--quiet", *map(str, options)]
+        return MODEL_A, "--output", self.output, "--quiet", *options
 
     def run_to_end(self, *options, **settings):
-        return subprocess.run(
-            self.command(*options), capture_output=True, text=True, check=False, timeout=TIMEOUT, stdin=subprocess.DEVNULL, **settings
-        )
-
-    def start(self, *options):
-        process = subprocess.Popen(self.command(*options), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-        self.addCleanup(process.communicate)
-        self.addCleanup(process.kill)
-        return process
-
-    def rows(self):
-        try:
-            with h5py.File(self.output / "result.h5", "r", swmr=True) as file:
-                return len(file["table/x"])
-        except (OSError, KeyError):
-            return 0
+        return sprag(*self.command(*options), **settings)
 
     def start_with_rows(self, number, *options):
-        process = self.start(*LONG, *options)
-        end = time.monotonic() + TIMEOUT
-        while self.rows() < number:
-            self.assertIsNone(process.poll(), "ended too early")
-            self.assertLess(time.monotonic(), end)
-            time.sleep(0.02)
+        process = self.start(*self.command(*LONG, *options))
+        self.wait_for_rows(process, number)
         return process
 
     def failed(self, process, text):
@@ -91,16 +63,16 @@ class EndsTest(FolderTest):
 
     def start_working(self, seconds, *options):
         """A run whose working process has had so much CPU time."""
-        process = self.start(*options)
-        end = time.monotonic() + TIMEOUT
-        while time.monotonic() < end:
-            self.assertIsNone(process.poll(), "ended too early")
+        process = self.start(*self.command(*options))
+
+        def has_worked():
             if worker := self.working_process(process):
                 used = Path(f"/proc/{worker}/stat").read_text().rpartition(")")[2].split()[11:13]
                 if sum(map(int, used)) > seconds * os.sysconf("SC_CLK_TCK"):
                     return process
-            time.sleep(0.01)
-        return self.fail("does not start")
+            return None
+
+        return self.wait_until(process, has_worked)
 
 
 class Interrupted(EndsTest):

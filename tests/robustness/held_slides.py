@@ -7,13 +7,8 @@ import unittest
 import h5py
 import numpy as np
 
-from bad_input import COARSE, SOURCE, ProgramTest, sprag
-
-
-def section(name, **settings):
-    """Lines of a section, and what is said about each: {name with _ for blanks: (value, texts or None)}."""
-    entries = [(f"  set {setting.replace('_', ' ')} = {value}", texts) for setting, (value, texts) in settings.items()]
-    return [(f"subsection {name}", None), *entries, ("end", None)]
+from bad_input import COARSE, ProgramTest, section
+from runs import SOURCE, sprag
 
 
 class BadSlide(ProgramTest):

@@ -4,18 +4,15 @@ others. Run with /usr/bin/python3; environment: SPRAG, the program, and SPRAG_SO
 import os
 import shutil
 import signal
-import subprocess
-import tempfile
-import time
+import sys
 import unittest
 from pathlib import Path
 
 import h5py
 import numpy as np
 
-SOURCE = Path(os.environ.get("SPRAG_SOURCE", Path(__file__).resolve().parents[2]))
-SPRAG = os.environ.get("SPRAG", str(SOURCE / "build" / "sprag"))
-TIMEOUT = 120  # seconds: a run that hangs is a failed test
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from runs import SOURCE, TIMEOUT, RunTest, sprag  # noqa: E402
 
 SCENE = SOURCE / "params" / "map-friction-depth-a.prm"
 # Every point of the grid: long enough, some 1700 cells, to be killed on the way.
@@ -24,10 +21,6 @@ LONG = ("--set", "Map/Coarsest=1", "--set", "Map/First points=41", "--set", "Map
 MEDIUM = ("--set", "Map/Coarsest=1", "--set", "Map/First points=26", "--set", "Map/Second points=26", "--set", "Map/Bisections=0")
 SHORT = ("--set", "Map/Coarsest=4", "--set", "Map/First points=9", "--set", "Map/Second points=9", "--set", "Map/Bisections=1")
 MESHED = (*SHORT, "--set", "Analysis/Model=condensed", "--set", "Mesh/Face size=4", "--set", "Map/Second points=5")
-
-
-def command(output, *options, scene=SCENE):
-    return [SPRAG, str(scene), "--output", str(output), *map(str, options)]
 
 
 def numbers(output):
@@ -41,16 +34,11 @@ def status(output):
         return file["summary/status"].asstr()[()]
 
 
-class MapTest(unittest.TestCase):
-    def setUp(self):
-        temporary = tempfile.TemporaryDirectory(prefix="sprag-test-")
-        self.addCleanup(temporary.cleanup)
-        self.folder = Path(temporary.name)
-
+class MapTest(RunTest):
     def completed(self, name, *options):
         """Runs a map to its end: its folder and what it said on standard error."""
         output = self.folder / name
-        done = subprocess.run(command(output, *options), capture_output=True, text=True, check=False, timeout=TIMEOUT)
+        done = sprag(SCENE, "--output", output, *options)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(status(output), "completed")
         self.assertFalse((output / "map.journal").exists())
@@ -58,15 +46,9 @@ class MapTest(unittest.TestCase):
 
     def started(self, output, cells, *options):
         """A running map that has `cells` in its journal."""
-        process = subprocess.Popen(command(output, *options), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-        self.addCleanup(process.communicate)
-        self.addCleanup(process.kill)
+        process = self.start(SCENE, "--output", output, *options)
         journal = output / "map.journal"
-        end = time.monotonic() + TIMEOUT
-        while not journal.exists() or len(journal.read_bytes().splitlines()) < cells + 1:
-            self.assertIsNone(process.poll(), "ended before it could be killed")
-            self.assertLess(time.monotonic(), end)
-            time.sleep(0.02)
+        self.wait_until(process, lambda: journal.exists() and len(journal.read_bytes().splitlines()) > cells or None)
         return process
 
     def kill_all(self, process, output):
@@ -103,8 +85,7 @@ class MapTest(unittest.TestCase):
 
     def test_changed_friction_table_begins_anew(self):
         self.friction_table(0.4)
-        output = self.folder / "output"
-        process = self.started(output, 100, *self.with_table())
+        process = self.started(self.output, 100, *self.with_table())
         process.kill()
         process.wait(TIMEOUT)
         times = os.stat(self.folder / "mu.csv")
@@ -113,12 +94,11 @@ class MapTest(unittest.TestCase):
         _, said = self.completed("output", *self.with_table())
         self.assertIn("another scene", said)
         fresh, _ = self.completed("fresh", *self.with_table())
-        self.assertEqual(numbers(output), numbers(fresh))
+        self.assertEqual(numbers(self.output), numbers(fresh))
 
     def test_friction_table_changed_on_the_way_ends_the_map(self):
         self.friction_table(0.4)
-        output = self.folder / "output"
-        process = self.started(output, 100, *self.with_table(), "--quiet")
+        process = self.started(self.output, 100, *self.with_table(), "--quiet")
         self.friction_table(0.6)
         said = process.communicate(timeout=TIMEOUT)
         self.assertEqual(process.returncode, 1)
@@ -126,21 +106,20 @@ class MapTest(unittest.TestCase):
         self.friction_table(0.4)
         self.completed("output", *self.with_table())
         fresh, _ = self.completed("fresh", *self.with_table())
-        self.assertEqual(numbers(output), numbers(fresh))
+        self.assertEqual(numbers(self.output), numbers(fresh))
 
     def test_garbled_lines_are_judged_again(self):
-        output = self.folder / "output"
-        process = self.started(output, 200, *MEDIUM, "--jobs", 1)
+        process = self.started(self.output, 200, *MEDIUM, "--jobs", 1)
         process.kill()
         process.wait(TIMEOUT)
-        lines = (output / "map.journal").read_text().split("\n")
+        lines = (self.output / "map.journal").read_text().split("\n")
         lines[50] = lines[50].replace("0x1.", "0x1.8", 1)
         lines[60] = lines[60][:-3]
-        (output / "map.journal").write_text("\n".join(lines))
+        (self.output / "map.journal").write_text("\n".join(lines))
         _, said = self.completed("output", *MEDIUM, "--quiet")
         self.assertRegex(said, r"map.journal: damaged lines dropped, their cells are judged again: [23]\n")
         whole, _ = self.completed("whole", *MEDIUM)
-        self.assertEqual(numbers(output), numbers(whole))
+        self.assertEqual(numbers(self.output), numbers(whole))
 
     def test_any_number_of_processes(self):
         one, _ = self.completed("one", *SHORT, "--jobs", 1)
@@ -176,14 +155,13 @@ class MapTest(unittest.TestCase):
                     self.assertTrue((output / "map.journal").exists())
 
     def test_another_scene_begins_anew(self):
-        output = self.folder / "output"
-        process = self.started(output, 100, *LONG, "--jobs", 1)
+        process = self.started(self.output, 100, *LONG, "--jobs", 1)
         process.kill()
         process.wait(TIMEOUT)
         _, said = self.completed("output", *SHORT)
         self.assertIn("another scene", said)
         fresh, _ = self.completed("fresh", *SHORT)
-        self.assertEqual(numbers(output), numbers(fresh))
+        self.assertEqual(numbers(self.output), numbers(fresh))
 
     def test_an_older_result_stays_until_the_map_is_written(self):
         output, _ = self.completed("output", *SHORT)
@@ -197,9 +175,7 @@ class MapTest(unittest.TestCase):
         for option in ("Map/Coarsest=3", "Map/First parameter=Lever/Depht", "Map/First from=1.2"):
             with self.subTest(option=option):
                 output = self.folder / "refused"
-                done = subprocess.run(
-                    command(output, "--set", option, "--jobs", 2), capture_output=True, text=True, check=False, timeout=TIMEOUT
-                )
+                done = sprag(SCENE, "--output", output, "--set", option, "--jobs", 2)
                 self.assertEqual((done.returncode, done.stdout), (2, ""))
                 self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
                 self.assertFalse(output.exists())

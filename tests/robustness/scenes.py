@@ -1,18 +1,17 @@
 """Every scene of params/ is accepted, runs on a coarse mesh and writes its columns. Run with /usr/bin/python3; environment:
 SPRAG, the program, and SPRAG_SOURCE, the sources."""
 
-import os
 import re
-import subprocess
-import tempfile
+import sys
 import unittest
 from pathlib import Path
 
 import h5py
 import numpy as np
 
-SOURCE = Path(os.environ.get("SPRAG_SOURCE", Path(__file__).resolve().parents[2]))
-SPRAG = os.environ.get("SPRAG", str(SOURCE / "build" / "sprag"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from runs import SOURCE, RunTest, sprag  # noqa: E402
+
 SCENES = sorted((SOURCE / "params").glob("*.prm"))
 
 # Long ones are cut down: what they are there for is kept.
@@ -52,10 +51,6 @@ SWEEPS = {
 }
 
 
-def sprag(*arguments):
-    return subprocess.run([SPRAG, *map(str, arguments)], capture_output=True, text=True, check=False, timeout=120)
-
-
 def columns_of_the_program():
     """Names of the columns that every table has, in the order of src/results/columns.cc."""
     text = (SOURCE / "src/results/columns.cc").read_text(encoding="utf-8").partition("add_sensors")[0]
@@ -67,12 +62,7 @@ def parameter(text, section, name):
     return found.group(1).strip()
 
 
-class ScenesTest(unittest.TestCase):
-    def setUp(self):
-        temporary = tempfile.TemporaryDirectory(prefix="sprag-test-")
-        self.addCleanup(temporary.cleanup)
-        self.output = Path(temporary.name) / "output"
-
+class ScenesTest(RunTest):
     def test_there_are_scenes(self):
         self.assertLessEqual({"model-a", "model-b"}, {path.stem for path in SCENES})
 

@@ -1,17 +1,15 @@
 """Each warning is provoked by a command line, printed, stored and counted; the table of warnings in params/README.md is that of the
 program. Run with /usr/bin/python3; environment: SPRAG, the program, and SPRAG_SOURCE, the sources."""
 
-import os
 import re
-import subprocess
-import tempfile
+import sys
 import unittest
 from pathlib import Path
 
 import h5py
 
-SOURCE = Path(os.environ.get("SPRAG_SOURCE", Path(__file__).resolve().parents[2]))
-SPRAG = os.environ.get("SPRAG", str(SOURCE / "build" / "sprag"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from runs import SOURCE, RunTest, sprag  # noqa: E402
 
 STRAIN = "Analysis/Plane=strain"
 FORWARD = ("Drive/Cycles=0.5", "Output/Fields=none", "Analysis/Step=2")
@@ -37,11 +35,8 @@ PROVOKED = {
 }
 
 
-def sprag(scene, options, *arguments):
-    command = [SPRAG, SOURCE / "params" / f"{scene}.prm", *arguments]
-    for option in options:
-        command += ["--set", option]
-    return subprocess.run(list(map(str, command)), capture_output=True, text=True, check=False, timeout=120)
+def run(scene, options, *arguments):
+    return sprag(SOURCE / "params" / f"{scene}.prm", *arguments, *(word for option in options for word in ("--set", option)))
 
 
 def counted(names):
@@ -50,12 +45,7 @@ def counted(names):
     return f"{len(names)} warning{'s' if len(names) > 1 else ''}: {', '.join(names)}"
 
 
-class WarnedRunsTest(unittest.TestCase):
-    def setUp(self):
-        temporary = tempfile.TemporaryDirectory(prefix="sprag-test-")
-        self.addCleanup(temporary.cleanup)
-        self.output = Path(temporary.name) / "output"
-
+class WarnedRunsTest(RunTest):
     def stored(self, output=None):
         with h5py.File((output or self.output) / "result.h5", "r") as file:
             group = file["warnings"]
@@ -65,7 +55,7 @@ class WarnedRunsTest(unittest.TestCase):
         for case, (scene, options, names) in PROVOKED.items():
             with self.subTest(case=case):
                 output = self.output / case.replace(" ", "-")
-                done = sprag(scene, options, "--output", output)
+                done = run(scene, options, "--output", output)
                 self.assertEqual(done.returncode, 0, done.stderr)
                 self.assertEqual(re.findall(r"^Warning: (\w+)$", done.stdout, re.MULTILINE), names)
                 self.assertEqual(done.stdout.splitlines()[-1], "completed, " + counted(names))
@@ -79,18 +69,18 @@ class WarnedRunsTest(unittest.TestCase):
 
     def test_error_fails_the_run_after_everything_is_written(self):
         scene, options, names = PROVOKED["near locking"]
-        done = sprag(scene, (*options, "Analysis/Warnings=error"), "--output", self.output)
+        done = run(scene, (*options, "Analysis/Warnings=error"), "--output", self.output)
         self.assertEqual(done.returncode, 1)
         self.assertEqual(done.stdout.splitlines()[-1], "completed, " + counted(names))
         self.assertRegex(done.stderr.splitlines()[-1], r"^sprag: Analysis/Warnings = error: 2 warnings: near_locking, pressure_beyond_strength. The first says: \w")
         self.assertEqual(list(self.stored()), names)
         with h5py.File(self.output / "result.h5", "r") as file:
             self.assertEqual(file["summary/status"].asstr()[()], "completed")
-        self.assertEqual(sprag("closed-form-a", ("Analysis/Warnings=error",), "--output", self.output, "--overwrite").returncode, 0)
+        self.assertEqual(run("closed-form-a", ("Analysis/Warnings=error",), "--output", self.output, "--overwrite").returncode, 0)
 
     def test_quiet_prints_none_and_stores_them(self):
         scene, options, names = PROVOKED["near locking"]
-        done = sprag(scene, options, "--output", self.output, "--quiet")
+        done = run(scene, options, "--output", self.output, "--quiet")
         self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
         self.assertEqual(list(self.stored()), names)
 
@@ -98,10 +88,10 @@ class WarnedRunsTest(unittest.TestCase):
         for case in ("near locking", "other device", "incompressible in plane stress"):
             scene, options, names = PROVOKED[case]
             names = names[:1]  # the pressure follows from the run
-            done = sprag(scene, options, "--validate")
+            done = run(scene, options, "--validate")
             self.assertEqual(done.returncode, 0, done.stderr)
             self.assertTrue(done.stdout.endswith(f"{scene}.prm: valid, {counted(names)}\n"), done.stdout)
-            self.assertEqual(sprag(scene, (*options, "Analysis/Warnings=error"), "--validate").returncode, 1)
+            self.assertEqual(run(scene, (*options, "Analysis/Warnings=error"), "--validate").returncode, 1)
         self.assertFalse(self.output.exists())
 
     def test_every_analysis_counts_them(self):
@@ -111,7 +101,7 @@ class WarnedRunsTest(unittest.TestCase):
             with self.subTest(scene=scene):
                 output = self.output / scene
                 options = (*cut, "Geometry/Cylinder radius=55", "Geometry/Interface offset=45")
-                done = sprag(scene, options, "--output", output)
+                done = run(scene, options, "--output", output)
                 self.assertEqual(done.returncode, 0, done.stderr)
                 names = re.findall(r"^Warning: (\w+)$", done.stdout, re.MULTILINE)
                 self.assertEqual(done.stdout.splitlines()[-1], "completed, " + counted(names))
@@ -121,7 +111,7 @@ class WarnedRunsTest(unittest.TestCase):
 
     def test_a_failed_run_tells_them_too(self):
         options = ("Friction layer/Strength=0.01", "Analysis/Maximum deviation=1e-9", *FORWARD)
-        done = sprag("model-a", options, "--output", self.output)
+        done = run("model-a", options, "--output", self.output)
         self.assertEqual(done.returncode, 1)
         self.assertIn("Maximum deviation", done.stderr)
         self.assertEqual(done.stdout.splitlines()[-1], "failed, 1 warning: pressure_beyond_strength")

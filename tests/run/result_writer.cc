@@ -3,8 +3,8 @@
 #include "mpi_environment.h"
 #include "results/hdf5.h"
 #include "scenes.h"
+#include "support/temporary_folder.h"
 
-#include <filesystem>
 #include <gtest/gtest.h>
 
 using namespace sprag;
@@ -12,18 +12,12 @@ using namespace sprag;
 namespace
 {
   const std::vector<ColumnInfo> columns = { { "x", "mm", "position" } };
-
-  std::string new_folder()
-  {
-    std::string name = (std::filesystem::temp_directory_path() / "sprag-test-XXXXXX").string();
-    EXPECT_NE(::mkdtemp(name.data()), nullptr);
-    return name + "/run";
-  }
 } // namespace
 
 TEST(ResultWriter, AddsStatusAndWhatEveryRunTells)
 {
-  const std::string folder = new_folder();
+  const TemporaryFolder temporary;
+  const std::string folder = temporary.path / "run";
   auto timer               = phase_timer();
   ResultWriter writer(model_a(), { folder, true }, timer, columns);
   writer.append(std::vector<double>{ 1. });
@@ -34,7 +28,6 @@ TEST(ResultWriter, AddsStatusAndWhatEveryRunTells)
   const auto file = hdf5::open_file(folder + "/result.h5");
   EXPECT_EQ(hdf5::read_text(file, "summary/status"), "stopped");
   EXPECT_EQ(hdf5::read_text(file, "meta/version"), SPRAG_VERSION);
-  std::filesystem::remove_all(std::filesystem::path(folder).parent_path());
 }
 
 TEST(FinishInAnyCase, TellsHowTheStepsEndedAndPassesAFailureOn)

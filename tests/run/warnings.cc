@@ -2,6 +2,7 @@
 #include "run/scene_warnings.h"
 #include "scene/closed_form.h"
 #include "scenes.h"
+#include "support/row_of.h"
 
 #include <algorithm>
 #include <cmath>
@@ -27,36 +28,31 @@ namespace
   /// Model A at x = 65 mm backward with the default mesh.
   Row usual_row()
   {
-    Row row;
-    row[Column::x]                 = 65.;
-    row[Column::v]                 = -112.;
-    row[Column::s]                 = 120.;
-    row[Column::P]                 = 25.4;
-    row[Column::F]                 = -18.5;
-    row[Column::theta]             = 0.0993;
-    row[Column::theta_closed_form] = 0.0995;
-    row[Column::contact_width]     = 2.5;
-    row[Column::penetration]       = 0.0014;
-    row[Column::indentation]       = 0.0164;
-    row[Column::elastic_slip]      = 0.001;
-    row[Column::largest_pressure]  = 0.34;
-    row[Column::step]              = 1.;
-    row[Column::drive_work]        = 100.;
-    row[Column::friction_work]     = 60.;
-    row[Column::spring_energy]     = 39.;
-    row[Column::elastic_energy]    = 1.;
-    return row;
+    return row_of({ { Column::x, 65. },
+                    { Column::v, -112. },
+                    { Column::s, 120. },
+                    { Column::P, 25.4 },
+                    { Column::F, -18.5 },
+                    { Column::theta, 0.0993 },
+                    { Column::theta_closed_form, 0.0995 },
+                    { Column::contact_width, 2.5 },
+                    { Column::penetration, 0.0014 },
+                    { Column::indentation, 0.0164 },
+                    { Column::elastic_slip, 0.001 },
+                    { Column::largest_pressure, 0.34 },
+                    { Column::step, 1. },
+                    { Column::drive_work, 100. },
+                    { Column::friction_work, 60. },
+                    { Column::spring_energy, 39. },
+                    { Column::elastic_energy, 1. } });
   }
 
   Row first_row()
   {
-    Row row                     = usual_row();
-    row[Column::x]              = 0.;
-    row[Column::P]              = 0.;
-    row[Column::drive_work]     = 0.;
-    row[Column::friction_work]  = 0.;
-    row[Column::spring_energy]  = 0.;
-    row[Column::elastic_energy] = 0.;
+    Row row = usual_row();
+    for (const auto column :
+         { Column::x, Column::P, Column::drive_work, Column::friction_work, Column::spring_energy, Column::elastic_energy })
+      row[column] = 0.;
     return row;
   }
 
@@ -65,6 +61,29 @@ namespace
     Row row     = usual_row();
     row[column] = value;
     return names(row_warnings(scene, { first_row(), row }));
+  }
+
+  /// The row has no warning with `admitted` in that column, and that one with `beyond`.
+  void expect_bound(const Column column, const double admitted, const double beyond, const std::string &name)
+  {
+    EXPECT_EQ(names_with(column, admitted), Names{});
+    EXPECT_EQ(names_with(column, beyond), Names{ name });
+  }
+
+  /// The scene has no warning with `admitted` for that number of its, and that one with `beyond`, which stays.
+  void expect_bound(const Scene &scene, double &number, const double admitted, const double beyond, const std::string &name)
+  {
+    number = admitted;
+    EXPECT_EQ(names(scene_warnings(scene)), Names{});
+    number = beyond;
+    EXPECT_EQ(names(scene_warnings(scene)), Names{ name });
+  }
+
+  Scene at_finite_strain()
+  {
+    Scene scene          = model_a();
+    scene.lever.material = MaterialModel::neo_hookean;
+    return scene;
   }
 
   Scene near_locking(const double gap)
@@ -84,8 +103,7 @@ TEST(RowWarnings, ModelAHasNone)
 
 TEST(RowWarnings, OverlapAgainstApproachAndLayer)
 {
-  EXPECT_EQ(names_with(Column::penetration, 0.19 / 0.81 * 0.0164), Names{});
-  EXPECT_EQ(names_with(Column::penetration, 0.21 / 0.79 * 0.0164), Names{ "soft_penalty" });
+  expect_bound(Column::penetration, 0.19 / 0.81 * 0.0164, 0.21 / 0.79 * 0.0164, "soft_penalty");
   EXPECT_EQ(names_with(Column::penetration, 0.11), (Names{ "overlap_of_layer", "soft_penalty" }));
   Scene thick           = model_a();
   thick.layer.thickness = 2.;
@@ -101,19 +119,15 @@ TEST(RowWarnings, CoarseContact)
 
 TEST(RowWarnings, ElasticSlipAgainstContactWidth)
 {
-  EXPECT_EQ(names_with(Column::elastic_slip, 0.019 * 2.5), Names{});
-  EXPECT_EQ(names_with(Column::elastic_slip, 0.021 * 2.5), Names{ "soft_tangential_penalty" });
+  expect_bound(Column::elastic_slip, 0.019 * 2.5, 0.021 * 2.5, "soft_tangential_penalty");
 }
 
 TEST(RowWarnings, DeflectionInLinearTheory)
 {
   // Compression and overlap take (0.0164 + 0.0014)/120 = 0.00015 of the difference.
   const double exact = usual_row()[Column::theta_closed_form];
-  EXPECT_EQ(names_with(Column::theta, exact - 0.0201), Names{});
-  EXPECT_EQ(names_with(Column::theta, exact - 0.0202), Names{ "large_deflection" });
-  Scene finite          = model_a();
-  finite.lever.material = MaterialModel::neo_hookean;
-  EXPECT_EQ(names_with(Column::theta, exact - 0.021, finite), Names{});
+  expect_bound(Column::theta, exact - 0.0201, exact - 0.0202, "large_deflection");
+  EXPECT_EQ(names_with(Column::theta, exact - 0.021, at_finite_strain()), Names{});
   // A lever that has left the cylinder turns freely.
   Row free            = usual_row();
   free[Column::theta] = exact + 0.05;
@@ -123,18 +137,14 @@ TEST(RowWarnings, DeflectionInLinearTheory)
 
 TEST(RowWarnings, CompressionInLinearTheory)
 {
-  EXPECT_EQ(names_with(Column::indentation, 0.099), Names{});
-  EXPECT_EQ(names_with(Column::indentation, 0.101), Names{ "large_strain" });
-  Scene finite          = model_a();
-  finite.lever.material = MaterialModel::neo_hookean;
-  EXPECT_EQ(names_with(Column::indentation, 0.101, finite), Names{});
+  expect_bound(Column::indentation, 0.099, 0.101, "large_strain");
+  EXPECT_EQ(names_with(Column::indentation, 0.101, at_finite_strain()), Names{});
 }
 
 TEST(RowWarnings, PressureBeyondStrength)
 {
-  Scene scene = model_a();
-  EXPECT_EQ(names_with(Column::largest_pressure, 0.79, scene), Names{});
-  EXPECT_EQ(names_with(Column::largest_pressure, 0.81, scene), Names{ "pressure_beyond_strength" });
+  expect_bound(Column::largest_pressure, 0.79, 0.81, "pressure_beyond_strength");
+  Scene scene          = model_a();
   scene.layer.strength = 0.3;
   EXPECT_EQ(names_with(Column::largest_pressure, 0.31, scene), Names{ "pressure_beyond_strength" });
   // Without a face the pressure is estimated, 0.34 MPa.
@@ -167,8 +177,7 @@ TEST(RowWarnings, PressureOfAnElasticFoundation)
 
 TEST(RowWarnings, LongStepsLeaveEnergyOpen)
 {
-  EXPECT_EQ(names_with(Column::friction_work, 60.25), Names{});
-  EXPECT_EQ(names_with(Column::friction_work, 60.26), Names{ "long_steps" });
+  expect_bound(Column::friction_work, 60.25, 60.26, "long_steps");
   Scene in_time         = model_a();
   in_time.analysis.type = AnalysisType::transient;
   EXPECT_EQ(names_with(Column::friction_work, 61.1, in_time), Names{});
@@ -259,12 +268,9 @@ TEST(SceneWarnings, NearLockingTellsTheSensitivityOfTheClosedForm)
 TEST(SceneWarnings, StrainOfALeaf)
 {
   // 2 t/L times a turn of 0.0303 rad: 0.4 % from 6.6 mm on.
-  Scene scene                 = model_a();
-  scene.spring.type           = SpringType::leaf;
-  scene.spring.leaf.thickness = 6.5;
-  EXPECT_EQ(names(scene_warnings(scene)), Names{});
-  scene.spring.leaf.thickness = 6.8;
-  EXPECT_EQ(names(scene_warnings(scene)), Names{ "leaf_beyond_yield" });
+  Scene scene       = model_a();
+  scene.spring.type = SpringType::leaf;
+  expect_bound(scene, scene.spring.leaf.thickness, 6.5, 6.8, "leaf_beyond_yield");
   scene.spring.leaf.end = LeafEnd::pinned;
   EXPECT_EQ(names(scene_warnings(scene)), Names{});
   scene.spring.leaf.clamp_distance = 40.;
@@ -273,11 +279,8 @@ TEST(SceneWarnings, StrainOfALeaf)
 
 TEST(SceneWarnings, PlaneStressOfALayer)
 {
-  Scene scene               = model_a();
-  scene.layer.poisson_ratio = 0.41;
-  EXPECT_EQ(names(scene_warnings(scene)), Names{});
-  scene.layer.poisson_ratio = 0.42;
-  EXPECT_EQ(names(scene_warnings(scene)), Names{ "plane_stress_of_layer" });
+  Scene scene = model_a();
+  expect_bound(scene, scene.layer.poisson_ratio, 0.41, 0.42, "plane_stress_of_layer");
   Scene other          = scene;
   other.analysis.plane = PlaneState::strain;
   EXPECT_EQ(names(scene_warnings(other)), Names{});

@@ -8,17 +8,11 @@ namespace
 {
   const Messages frame = { "Lever/Outline=frame" };
   const Messages plate = { "Friction plate/Type=on sensors" };
-
-  void expect_refused(const Messages &scene, const Messages &wrong, const std::string &message)
-  {
-    EXPECT_EQ(mistakes_of(scene, wrong), (Messages{ "--set: " + message }));
-  }
 } // namespace
 
 TEST(CheckPlate, DefaultsFitModelsAAndB)
 {
-  const Messages model_b = { "Geometry/Cylinder radius=21.1", "Geometry/Interface offset=0", "Geometry/Pivot distance=193.9" };
-  for (const Messages &model : { Messages{}, model_b })
+  for (const Messages &model : { Messages{}, geometry_of_b })
     for (const Messages &parts : { frame, plate, Messages{ frame[0], plate[0] } })
       EXPECT_EQ(mistakes_of(parts, model), Messages{});
 }

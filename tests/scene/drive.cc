@@ -161,6 +161,7 @@ TEST(Drive, DirectionIsThatOfTheStrokeWhateverTheTurn)
   int way = 1;
   EXPECT_EQ(drive.at(0., Drive::Side::after).v, 0.);
   EXPECT_EQ(direction_of(drive.at(0., Drive::Side::after).v), 1);
+  EXPECT_EQ(drive.reversals().size(), 12u);
   for (const double turn : drive.reversals())
   {
     EXPECT_EQ(drive.at(turn, Drive::Side::before).v, 0.);

@@ -2,9 +2,8 @@
 
 #include "base/errors.h"
 #include "scene/read.h"
+#include "support/written.h"
 
-#include <filesystem>
-#include <fstream>
 #include <gtest/gtest.h>
 #include <string>
 #include <vector>
@@ -15,40 +14,18 @@ namespace sprag
 
   using Messages = std::vector<std::string>;
 
-  inline std::filesystem::path folder()
-  {
-    const auto *const test = testing::UnitTest::GetInstance()->current_test_info();
-    const auto result      = std::filesystem::path(testing::TempDir()) / "sprag" / test->test_suite_name() / test->name();
-    std::filesystem::create_directories(result);
-    return result;
-  }
-
-  inline std::string written(const std::string &text, const std::string &name = "scene.prm")
-  {
-    const auto file = (folder() / name).string();
-    std::ofstream(file) << text;
-    return file;
-  }
-
   /// What is wrong with a scene, the folder of its file left out.
   inline Messages mistakes(const std::string &text, const Messages &overrides = {})
   {
-    const std::string prefix = folder().string() + "/";
-    Messages result;
     try
     {
       read_scene(written(text), overrides);
     }
     catch (const InputError &error)
     {
-      for (auto message : error.messages)
-      {
-        for (auto found = message.find(prefix); found != std::string::npos; found = message.find(prefix))
-          message.erase(found, prefix.size());
-        result.push_back(message);
-      }
+      return without_folder(error.messages);
     }
-    return result;
+    return {};
   }
 
   /// Of the defaults with these overrides.
@@ -62,6 +39,15 @@ namespace sprag
     overrides.insert(overrides.end(), more.begin(), more.end());
     return mistakes_of(overrides);
   }
+
+  inline void expect_refused(const Messages &scene, const Messages &wrong, const std::string &message)
+  {
+    EXPECT_EQ(mistakes_of(scene, wrong), (Messages{ "--set: " + message }));
+  }
+
+  /// Geometry of model B.
+  inline const Messages geometry_of_b = { "Geometry/Cylinder radius=21.1", "Geometry/Interface offset=0",
+                                          "Geometry/Pivot distance=193.9" };
 
   inline Messages transient(const std::string &model)
   {

@@ -12,17 +12,11 @@ namespace
   const Messages in_time  = { "Mirrored pair/Type=full", "Analysis/Type=transient", "Analysis/Model=beam" };
   const Messages leaf     = { "Mirrored pair/Type=full", "Rotational spring/Type=leaf" };
   const std::string scene = "scene.prm: Mirrored pair/Type = full: ";
-
-  void expect_refused(const Messages &with, const Messages &wrong, const std::string &message)
-  {
-    EXPECT_EQ(mistakes_of(with, wrong), (Messages{ "--set: " + message }));
-  }
 } // namespace
 
 TEST(MirroredPair, ModelsAAndBMayBeFull)
 {
-  const Messages model_b = { "Geometry/Cylinder radius=21.1", "Geometry/Interface offset=0", "Geometry/Pivot distance=193.9" };
-  for (const Messages &model : { Messages{}, model_b })
+  for (const Messages &model : { Messages{}, geometry_of_b })
     for (const Messages &pair : { full, held, in_time, leaf })
       EXPECT_EQ(mistakes_of(pair, model), Messages{});
   EXPECT_EQ(mistakes_of({ "Mirrored pair/Cylinder offset=40" }), Messages{}) << "counts in a full pair alone";

@@ -1,11 +1,17 @@
-"""What tests of the scripts that draw share."""
+"""What tests of the scripts that draw share; puts those scripts on the path."""
 
 import subprocess
+import sys
 from pathlib import Path
 
 from folders import FolderTest
 
-PLOT = Path(__file__).resolve().parents[2] / "postprocess" / "plot.py"
+FOLDER = Path(__file__).resolve().parents[2] / "postprocess"
+sys.path.insert(0, str(FOLDER))
+
+
+def draw(script, *arguments):
+    return subprocess.run(["/usr/bin/python3", FOLDER / script, *arguments], capture_output=True, text=True, check=False)
 
 
 class PictureTest(FolderTest):
@@ -16,8 +22,12 @@ class PictureTest(FolderTest):
         self.pictures = self.folder / "pictures"
 
     def plot(self, *arguments):
-        command = ["/usr/bin/python3", PLOT, "--output", self.pictures, *arguments]
-        return subprocess.run(command, capture_output=True, text=True, check=False)
+        return draw("plot.py", "--output", self.pictures, *arguments)
+
+    def expect_picture(self, done, name):
+        """In the folder of the result a."""
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertGreater((self.folder / "a" / f"{name}.png").stat().st_size, 20000)
 
     def expect_pictures(self, done, names):
         self.assertEqual((done.returncode, done.stderr), (0, ""))

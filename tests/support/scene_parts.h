@@ -4,6 +4,12 @@
 
 namespace sprag
 {
+  inline Scene with_drive(Scene scene, const Drive &drive)
+  {
+    scene.drive = drive;
+    return scene;
+  }
+
   /// A full pair of levers.
   inline Scene paired(Scene scene, const SpringJoint joint, const double offset = 0., const double friction_ratio = 1.)
   {
@@ -24,7 +30,7 @@ namespace sprag
   }
 
   /// With the pivot frame on a spring [N/mm].
-  inline Scene on_sprung_support(Scene scene, const double stiffness)
+  inline Scene on_sprung_support(Scene scene, const double stiffness = Support().stiffness)
   {
     scene.support.type      = SupportType::sprung;
     scene.support.stiffness = stiffness;

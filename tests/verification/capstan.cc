@@ -11,7 +11,6 @@ using namespace sprag;
 
 namespace
 {
-  constexpr double pi        = 3.14159265358979323846;
   constexpr double radius    = 50.; ///< of the drum [mm]
   constexpr double thickness = 0.2; ///< of the band [mm]
   constexpr double leg       = 10.; ///< from the drum to where each end is held [mm]
@@ -21,7 +20,7 @@ namespace
   void make_band(dealii::Triangulation<2> &triangulation)
   {
     constexpr unsigned int around = 160, along_leg = 10;
-    const double half = 0.5 * pi * radius;
+    const double half = 0.5 * M_PI * radius;
     std::vector<std::vector<double>> sizes(2);
     sizes[0].assign(along_leg, leg / along_leg);
     sizes[0].insert(sizes[0].end(), around, 2. * half / around);
@@ -105,7 +104,7 @@ TEST(Capstan, TensionGrowsWithTheAngleOfWrap)
   for (double x = 1.02; x < 2.01; x += 0.02)
     state = step_to(model, state, x, properties.contact);
   const auto [tight, slack] = tensions(model, state);
-  const double expected     = std::exp(mu * pi * radius / (radius + 0.5 * thickness));
-  std::printf("%.4f N over %.4f N: %.5f, thin band %.5f\n", tight, slack, tight / slack, std::exp(mu * pi));
+  const double expected     = std::exp(mu * M_PI * radius / (radius + 0.5 * thickness));
+  std::printf("%.4f N over %.4f N: %.5f, thin band %.5f\n", tight, slack, tight / slack, std::exp(mu * M_PI));
   EXPECT_NEAR(tight / slack, expected, 0.005 * expected);
 }

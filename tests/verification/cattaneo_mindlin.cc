@@ -7,7 +7,6 @@ using namespace sprag;
 
 namespace
 {
-  constexpr double pi          = 3.14159265358979323846;
   constexpr double radius      = 20.;
   constexpr double coefficient = 0.4;
   constexpr double penalty     = 4e4;
@@ -117,8 +116,8 @@ namespace
     double last = 1.;
     for (const auto &outcome : outcomes)
     {
-      const double a     = std::sqrt(4. * outcome.P * radius / (pi * modulus));
-      const double p0    = 2. * outcome.P / (pi * a);
+      const double a     = std::sqrt(4. * outcome.P * radius / (M_PI * modulus));
+      const double p0    = 2. * outcome.P / (M_PI * a);
       const double share = outcome.Q / (coefficient * outcome.P);
       const double c     = a * std::sqrt(1. - share);
       const double found = stick_half_width(outcome.face, coefficient);

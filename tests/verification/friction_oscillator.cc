@@ -1,5 +1,4 @@
 #include "analysis/transient/energy_ledger.h"
-#include "model/modal_structure.h"
 #include "verification/point_at_port.h"
 
 #include <algorithm>
@@ -25,10 +24,6 @@ namespace
   class Floor : public PointAtPort
   {
   public:
-    static constexpr bool uses_rates       = false;
-    static constexpr bool stands_for_layer = false;
-    static constexpr unsigned int levers   = 1;
-
     explicit Floor(const FrictionLaw &friction_law)
         : law(friction_law)
     {
@@ -36,36 +31,18 @@ namespace
 
     void evaluate(const PortStep &step)
     {
-      memory_before         = step.memory.front();
-      const double slip     = step.end[0] - step.begin.position[0];
-      friction              = end_friction(memory_before.history(), holding, slip, normal, law, step.weights.dt);
-      const double delay    = step.weights.delay();
-      const double change   = friction.traction - memory_before.traction;
-      at_port.values[0]     = -0.5 * (memory_before.traction + friction.traction) - delay * change;
-      at_port.tangent(0, 0) = -(0.5 + delay) * friction.d_slip;
-      duration              = step.weights.dt;
-      work                  = { 0., friction.dissipated, 0., delay * change * slip, friction.creep };
-    }
-
-    std::vector<ContactMemory> memory() const
-    {
-      ContactMemory result;
-      result.traction   = friction.traction;
-      result.slip_speed = friction.slip_speed;
-      result.step       = duration;
-      return { result };
-    }
-
-    void add_work(StepWork &sum) const
-    {
-      sum.friction += work.friction;
-      sum.algorithmic += work.algorithmic;
-      sum.creep += work.creep;
-    }
-
-    double energy() const
-    {
-      return friction.energy;
+      const auto &before      = step.memory.front();
+      const double slip       = step.end[0] - step.begin.position[0];
+      const auto friction     = end_friction(before.history(), holding, slip, normal, law, step.weights.dt);
+      const double delay      = step.weights.delay();
+      const double change     = friction.traction - before.traction;
+      at_port.values[0]       = -0.5 * (before.traction + friction.traction) - delay * change;
+      at_port.tangent(0, 0)   = -(0.5 + delay) * friction.d_slip;
+      memory_after.traction   = friction.traction;
+      memory_after.slip_speed = friction.slip_speed;
+      memory_after.step       = step.weights.dt;
+      work                    = { 0., friction.dissipated, 0., delay * change * slip, friction.creep };
+      stored                  = friction.energy;
     }
 
     /// Of the spring in stick at the cone [mm].
@@ -74,31 +51,18 @@ namespace
       return mu * normal / holding;
     }
 
-    void observe(Row &) const
-    {
-    }
-
   private:
-    const FrictionLaw law;
-    ContactMemory memory_before;
-    EndFriction friction{};
-    double duration = 0.;
-    StepWork work;
+    FrictionLaw law;
   };
 
-  /// The only port is the one that levers turn at.
-  std::unique_ptr<DynamicModel> make_oscillator(const FrictionLaw &law)
+  DynamicLever<ModalStructure, Floor> make_oscillator(const FrictionLaw &law)
   {
     ModalData data;
-    data.ports     = { 0, false };
     data.stiffness = { spring / mass };
     data.damping.reinit(1, 1);
     data.shapes.reinit(1, 1);
     data.shapes(0, 0) = 1. / std::sqrt(mass);
-    LeverFrame frame{ { Geometry{} }, data.ports, 0., {}, 0., 0., dealii::Vector<double>(1) };
-    frame.lengths = 1.;
-    return std::make_unique<DynamicLever<ModalStructure, Floor>>(std::make_unique<ModalStructure>(data),
-                                                                 std::make_unique<Floor>(law), frame);
+    return with_point_at_port(data, Floor(law));
   }
 
   double position(const Motion &motion)
@@ -117,24 +81,24 @@ namespace
 
   Course oscillate(const FrictionLaw &law, const double spectral_radius, const double time)
   {
-    const auto model                   = make_oscillator(law);
-    Motion motion                      = model->initial_motion({ 0., 0., 0., 0. });
+    auto model                         = make_oscillator(law);
+    Motion motion                      = model.initial_motion({ 0., 0., 0., 0. });
     motion.coordinates.position[0]     = release * std::sqrt(mass);
     motion.coordinates.acceleration[0] = -spring / mass * motion.coordinates.position[0];
 
     Course result;
-    EnergyLedger ledger(model->stored_energy(motion));
+    EnergyLedger ledger(model.stored_energy(motion));
     double peak = 0.;
     for (unsigned int i = 1; i * dt <= time; ++i)
     {
-      auto outcome = model->step(motion, { i * dt, 0., 0., 0. }, generalised_alpha(spectral_radius, dt));
+      auto outcome = model.step(motion, { i * dt, 0., 0., 0. }, generalised_alpha(spectral_radius, dt));
       EXPECT_TRUE(outcome.motion);
       if (!outcome.motion)
         break;
       const double before = position(motion);
       motion              = std::move(*outcome.motion);
       const double x      = position(motion);
-      ledger.add(i * dt, model->stored_energy(motion), outcome.work);
+      ledger.add(i * dt, model.stored_energy(motion), outcome.work);
       result.work.friction += outcome.work.friction;
       result.work.creep += outcome.work.creep;
       result.x.push_back(x);

@@ -7,7 +7,6 @@ using namespace sprag;
 
 namespace
 {
-  constexpr double pi = 3.14159265358979323846;
 
   struct Outcome
   {
@@ -44,8 +43,8 @@ namespace
   /// `ripple`: pressure between nodes besides [MPa].
   void expect_half_planes(const Outcome &outcome, const double modulus, const double radius, const double ripple)
   {
-    const double a  = std::sqrt(4. * outcome.load * radius / (pi * modulus));
-    const double p0 = 2. * outcome.load / (pi * a);
+    const double a  = std::sqrt(4. * outcome.load * radius / (M_PI * modulus));
+    const double p0 = 2. * outcome.load / (M_PI * a);
     EXPECT_GT(a, 0.8);
     EXPECT_LT(a, 1.1);
     EXPECT_NEAR(outcome.half_width, a, 0.0125 * a);

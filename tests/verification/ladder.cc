@@ -25,7 +25,7 @@ namespace
   /// From x to the reversal at 65 mm and back.
   Scene around_the_reversal(const Scene &scene, const double x)
   {
-    return driven_by(scene, Drive(DriveProfile::triangle, x, 65., 112., 1., 5e-3));
+    return with_drive(scene, Drive(DriveProfile::triangle, x, 65., 112., 1., 5e-3));
   }
 
   Scene with_face_size(Scene scene, const double size)
@@ -137,7 +137,7 @@ TEST(Ladder, MeshedLeversKeepTheLedgerOfAReversal)
   {
     auto scene = around_the_reversal(thin_a(ModelType::condensed), 62.);
     if (sprung)
-      scene = with_sprung_support(scene);
+      scene = on_sprung_support(scene);
     EXPECT_LT(run_meshed_in_time(scene).report.ledger.share(), 1e-3) << sprung;
   }
 }

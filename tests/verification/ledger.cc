@@ -12,7 +12,7 @@ namespace
   /// Smooth start from rest at x = 0, then 112 mm/s up to x = 60.
   Scene forward_stroke(const ModelType model)
   {
-    return driven_by(in_time(model_a(), model), Drive(DriveProfile::triangle, 0., 60., 112., 0.5, 5e-3));
+    return with_drive(in_time(model_a(), model), Drive(DriveProfile::triangle, 0., 60., 112., 0.5, 5e-3));
   }
 
   double stored_energy(const Row &row)

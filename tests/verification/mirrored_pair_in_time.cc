@@ -79,7 +79,7 @@ TEST(MirroredPairInTime, LedgerClosesForLeversThatDiffer)
   for (const auto model : { ModelType::beam, ModelType::condensed })
     for (const auto joint : { SpringJoint::free, SpringJoint::held })
     {
-      auto scene                 = paired(with_sprung_support(around_a_reversal(in_time(model_a(), model))), joint);
+      auto scene                 = paired(on_sprung_support(around_a_reversal(in_time(model_a(), model))), joint);
       scene.pair.cylinder_offset = 0.3;
       scene.pair.friction_ratio  = 0.7;
       const auto run             = run_any_in_time(with_fixed_step(with_spectral_radius(scene, 1.), 5e-5));

@@ -185,7 +185,9 @@ TEST(Patch, HydrostaticPressureBalancesAcrossACurvedInterface)
   // All nodes of six edges each, two coordinates, without corners.
   EXPECT_EQ(n_checked, 2u * 2u * 11u);
 
-  for (const auto &multiplier : FaceMultipliers(body.friction_face()).augmented(contact.points()))
+  const auto multipliers = FaceMultipliers(body.friction_face()).augmented(contact.points());
+  EXPECT_EQ(multipliers.size(), contact.points().size());
+  for (const auto &multiplier : multipliers)
   {
     EXPECT_NEAR(multiplier.normal_multiplier, pressure, 1e-8);
     EXPECT_NEAR(multiplier.traction, 0., 1e-12);

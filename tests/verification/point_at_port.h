@@ -1,6 +1,7 @@
 #pragma once
 
 #include "model/dynamic_lever.h"
+#include "model/modal_structure.h"
 
 namespace sprag
 {
@@ -8,6 +9,10 @@ namespace sprag
   class PointAtPort
   {
   public:
+    static constexpr bool uses_rates       = false;
+    static constexpr bool stands_for_layer = false;
+    static constexpr unsigned int levers   = 1;
+
     PointAtPort()
     {
       at_port.ports = all;
@@ -60,11 +65,43 @@ namespace sprag
     {
       return {};
     }
+    std::vector<ContactMemory> memory() const
+    {
+      return { memory_after };
+    }
+    void add_work(StepWork &sum) const
+    {
+      sum.friction += work.friction;
+      sum.damping += work.damping;
+      sum.algorithmic += work.algorithmic;
+      sum.creep += work.creep;
+    }
+    double energy() const
+    {
+      return stored;
+    }
+    void observe(Row &) const
+    {
+    }
 
   protected:
+    // At the end of the step.
     PortForces at_port;
+    ContactMemory memory_after;
+    StepWork work;
+    double stored = 0.;
 
   private:
     const PortSelection all = { 0 };
   };
+
+  /// A structure with that contact at its only port, the one that levers turn at.
+  template <class Contact>
+  DynamicLever<ModalStructure, Contact> with_point_at_port(ModalData structure, const Contact &contact)
+  {
+    structure.ports = { 0, false };
+    LeverFrame frame{ { Geometry{} }, structure.ports, 0., {}, 0., 0., dealii::Vector<double>(1) };
+    frame.lengths = 1.;
+    return { std::make_unique<ModalStructure>(structure), std::make_unique<Contact>(contact), frame };
+  }
 } // namespace sprag

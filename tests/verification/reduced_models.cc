@@ -43,7 +43,7 @@ namespace
   /// From steady sliding at x = 45 over the reversal at 65 and back.
   Scene around_the_reversal(const Scene &scene)
   {
-    return driven_by(scene, Drive(DriveProfile::triangle, 45., 65., 112., 1., 5e-3));
+    return with_drive(scene, Drive(DriveProfile::triangle, 45., 65., 112., 1., 5e-3));
   }
 
   Scene aluminium_lever(const Scene &scene)
@@ -137,7 +137,7 @@ TEST(Friction, MovesPAndQAsTheMomentBalanceSays)
     const auto rows_with = [&](const double mu)
     {
       return run_in_time(
-                 driven_by(with_coulomb(in_time(model_a(), model), mu), Drive(DriveProfile::triangle, 10., 65., 112., 1., 5e-3)))
+                 with_drive(with_coulomb(in_time(model_a(), model), mu), Drive(DriveProfile::triangle, 10., 65., 112., 1., 5e-3)))
           .rows;
     };
     const auto all  = rows_with(0.73);
@@ -191,7 +191,7 @@ TEST(TimeTolerance, BoundsTheErrorOfPOfALeverThatRings)
 {
   for (const auto &paper : { model_a(), model_b() })
   {
-    Scene scene          = driven_by(aluminium_lever(paper), Drive(DriveProfile::triangle, 60., 65., 112., 1., 5e-3));
+    Scene scene          = with_drive(aluminium_lever(paper), Drive(DriveProfile::triangle, 60., 65., 112., 1., 5e-3));
     const auto reference = run_in_time(with_spectral_radius(with_fixed_step(scene, 2e-6), 1.)).rows;
     for (const double tolerance : { scene.time.tolerance, 1e-3 })
     {

@@ -6,6 +6,7 @@
 #include "mpi_environment.h"
 #include "run/report.h"
 #include "scenes.h"
+#include "support/scene_parts.h"
 
 #include <cmath>
 #include <vector>
@@ -49,12 +50,6 @@ namespace sprag
   inline Scene with_augmented_lagrangian(Scene scene)
   {
     scene.contact.enforcement = Enforcement::augmented_lagrangian;
-    return scene;
-  }
-
-  inline Scene with_drive(Scene scene, const Drive &drive)
-  {
-    scene.drive = drive;
     return scene;
   }
 

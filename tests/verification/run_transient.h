@@ -4,6 +4,7 @@
 #include "model/reduced_lever.h"
 #include "scene/contact_reference.h"
 #include "scenes.h"
+#include "support/scene_parts.h"
 
 #include <memory>
 #include <vector>
@@ -56,24 +57,12 @@ namespace sprag
     return scene;
   }
 
-  inline Scene with_sprung_support(Scene scene)
-  {
-    scene.support.type = SupportType::sprung;
-    return scene;
-  }
-
   /// No damping but friction's, which stays as it is.
   inline Scene undamped(Scene scene)
   {
     scene.lever.modal_damping = 0.;
     scene.contact.damping     = 0.;
     scene.support.damping     = 0.;
-    return scene;
-  }
-
-  inline Scene driven_by(Scene scene, const Drive &drive)
-  {
-    scene.drive = drive;
     return scene;
   }
 

@@ -27,7 +27,7 @@ namespace
 
   Scene resting(const ModelType model, const Drive &drive)
   {
-    return coarse(driven_by(in_time(model_a(), model), drive));
+    return coarse(with_drive(in_time(model_a(), model), drive));
   }
 
   // Friction of mu at rest, as left by sliding there; the drive sets in so gently that nothing rings.
@@ -64,7 +64,7 @@ TEST(StartAtRest, FurtherOnIsEquilibriumOfMeshedLevers)
 
 TEST(StartAtRest, FurtherOnIsEquilibriumOfAPairOnASprungSupport)
 {
-  Scene scene     = with_sprung_support(resting(ModelType::beam, resting_drives()[0]));
+  Scene scene     = on_sprung_support(resting(ModelType::beam, resting_drives()[0]));
   scene.pair.type = PairType::full;
   expect_calm_start(scene);
 }

@@ -53,41 +53,30 @@ namespace
 } // namespace
 
 // Problem 13. The reference errs by (1024/32768)^2 of the finer run's error, 0.1 %; terms of fourth order by (omega dt)^2 of the
-// contact, 290 Hz, in steps of 0.2 ms: a tenth, the more so as the contact is damped heavily.
-TEST(TimeOrder, OfARigidLeverIsTwoWhateverTheSpectralRadius)
+// contact, 290 Hz, in steps of 0.2 ms: a tenth, the more so as the contact is damped heavily. Without algorithmic dissipation
+// long steps keep the shortest bending waves of a beam ringing in P: there steps of 0.1 ms are needed, in which what is left of
+// that ringing still falls faster than the error, of 1e-8.
+TEST(TimeOrder, IsTwoWhateverTheSpectralRadius)
 {
-  for (const auto &paper : { with_coulomb(model_a(), 0.73), model_a() })
-  {
-    const Scene scene    = smooth_scene(paper, ModelType::rigid);
-    const auto reference = rows_of(scene, finest, 1.);
-    for (const double radius : { 1., 0.8, 0. })
+  for (const auto model : { ModelType::rigid, ModelType::beam })
+    for (const auto &paper : { with_coulomb(model_a(), 0.73), model_a() })
     {
-      const auto found = orders(scene, reference, 512, radius);
-      EXPECT_NEAR(found.P, 2., 0.1) << radius;
-      EXPECT_NEAR(found.theta, 2., 0.1) << radius;
-      RecordProperty("P_" + std::to_string(radius), std::to_string(found.P));
-    }
-  }
-}
-
-// Without algorithmic dissipation long steps keep the shortest bending waves ringing in P: there steps of 0.1 ms are needed, in
-// which what is left of that ringing still falls faster than the error, of 1e-8.
-TEST(TimeOrder, OfABeamIsTwoWhateverTheSpectralRadius)
-{
-  for (const auto &paper : { with_coulomb(model_a(), 0.73), model_a() })
-  {
-    const Scene scene    = smooth_scene(paper, ModelType::beam);
-    const auto reference = rows_of(scene, finest, 1.);
-    for (const double radius : { 1., 0.8, 0. })
-    {
-      const auto found = orders(scene, reference, 512, radius);
-      EXPECT_NEAR(found.theta, 2., 0.1) << radius;
-      if (radius < 1.)
+      const bool rings     = model == ModelType::beam;
+      const Scene scene    = smooth_scene(paper, model);
+      const auto reference = rows_of(scene, finest, 1.);
+      for (const double radius : { 1., 0.8, 0. })
       {
-        EXPECT_NEAR(found.P, 2., 0.1) << radius;
+        const auto found = orders(scene, reference, 512, radius);
+        EXPECT_NEAR(found.theta, 2., 0.1) << radius << rings;
+        if (radius < 1. || !rings)
+        {
+          EXPECT_NEAR(found.P, 2., 0.1) << radius << rings;
+        }
+        RecordProperty((rings ? "beam_P_" : "rigid_P_") + std::to_string(radius), std::to_string(found.P));
       }
-      RecordProperty("P_" + std::to_string(radius), std::to_string(found.P));
+      if (rings)
+      {
+        EXPECT_GT(orders(scene, reference, 2048, 1.).P, 1.8);
+      }
     }
-    EXPECT_GT(orders(scene, reference, 2048, 1.).P, 1.8);
-  }
 }

@@ -65,6 +65,7 @@ TEST(ForceControlledWedge, CarriesTheNormalForceOfStatics)
 TEST(ForceControlledWedge, AugmentationEndsAtOnceAndRemovesTheOverlap)
 {
   const auto rows = loaded(wedge(Enforcement::augmented_lagrangian, coefficient), 0.1);
+  ASSERT_GT(rows.back()[Column::x], 0.);
   for (const Row &row : rows)
     if (row[Column::x] > 0.)
     {

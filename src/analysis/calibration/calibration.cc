@@ -31,7 +31,7 @@ namespace sprag
       if (least > 0. || most < 0.)
         throw InputError(scene.name + ".prm: Calibration/Stiffness = " + rounded_text(target) +
                          " N mm/rad cannot be reached: leaf springs of this length, " + rounded_text(thinnest) + " to " +
-                         rounded_text(thickest) + " mm thick, have " + rounded_text(target * std::exp(least)) + " to " +
+                         mm(thickest) + " thick, have " + rounded_text(target * std::exp(least)) + " to " +
                          rounded_text(target * std::exp(most)));
       const auto close             = [](const double a, const double b) { return b - a < 1e-11; };
       boost::uintmax_t most_solves = 60;

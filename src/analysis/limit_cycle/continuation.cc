@@ -141,11 +141,6 @@ namespace sprag
     go_back(done);
   }
 
-  const std::vector<ContinuationPoint> &Continuation::points() const
-  {
-    return visited;
-  }
-
   double Continuation::stability_limit(double stable, double unstable)
   {
     while (std::abs(stable - unstable) > limit_accuracy)

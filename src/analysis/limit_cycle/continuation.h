@@ -47,7 +47,10 @@ namespace sprag
     void go(const SlideStability &slide, const Settled &start, double turn, const std::function<void()> &done);
 
     /// The points visited so far, from the start to the turn.
-    const std::vector<ContinuationPoint> &points() const;
+    const std::vector<ContinuationPoint> &points() const
+    {
+      return visited;
+    }
 
     /// The longest interval in which a stable slide and a vibration were both found, up to where the slide loses its stability to
     /// within 1e-3 mm, and to the last x at which the vibration was found; none if there is no such x.

@@ -1,7 +1,5 @@
 #include "analysis/limit_cycle/limit_cycle.h"
 
-#include "base/choices.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -142,11 +140,7 @@ namespace sprag
 
   std::string settling_name(const Settling settling)
   {
-    static const Choices<Settling> settlings = { { "slide", Settling::slide },
-                                                 { "cycle", Settling::cycle },
-                                                 { "irregular", Settling::irregular },
-                                                 { "undecided", Settling::undecided } };
-    return word_for(settlings, settling);
+    return std::vector<std::string>{ "slide", "cycle", "irregular", "undecided" }.at(static_cast<std::size_t>(settling));
   }
 
   Settled settle(HeldRun &run, const HeldSlide &slide, const SettlingTimes &times, const RowSink &sink)

@@ -22,14 +22,13 @@ namespace sprag
     }
 
     /// Says when the signal has grown or decayed by a factor, from its sizes half a period long.
-    class AmplitudeWatch
+    struct AmplitudeWatch
     {
-    public:
-      AmplitudeWatch(const double half_period, const double factor)
-          : length(half_period)
-          , aim(factor)
-      {
-      }
+      const double half_period;
+      const double aim; ///< the factor
+      double end   = 0.;
+      double size  = 0.;
+      double first = 0.;
 
       bool reached(const Sample &sample)
       {
@@ -38,20 +37,13 @@ namespace sprag
           return false;
         if (end == 0.)
           end = sample.time;
-        end += length;
+        end += half_period;
         if (first == 0.)
           first = size;
         const double ratio = size / first;
         size               = 0.;
         return aim > 1. ? ratio >= aim : ratio <= aim;
       }
-
-    private:
-      const double length;
-      const double aim;
-      double end   = 0.;
-      double size  = 0.;
-      double first = 0.;
     };
 
     std::vector<Sample> sizes_of(const std::vector<Sample> &signal, const bool oscillating)
@@ -126,7 +118,7 @@ namespace sprag
     run.begin(model.perturbed(slide, mode, at_start * slide.overlap));
     const auto path    = held_path(run.drive(), slide);
     const double begin = run.drive().time;
-    AmplitudeWatch watch(0.5 * period, at_end / at_start);
+    AmplitudeWatch watch{ 0.5 * period, at_end / at_start };
     std::vector<Sample> signal;
     for (double time = 0.; !growth.reached && growth.slid && time < settings.longest_growth;)
     {

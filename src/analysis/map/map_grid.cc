@@ -133,11 +133,6 @@ namespace sprag
     return kind[index(i, j)];
   }
 
-  std::array<unsigned int, 2> MapGrid::points() const
-  {
-    return n;
-  }
-
   std::vector<double> MapGrid::interpolated(const std::vector<double> &values) const
   {
     std::vector<double> result(values.size(), std::numeric_limits<double>::quiet_NaN());
@@ -211,10 +206,5 @@ namespace sprag
       coordinate(bracket.site, bracket.along) += (in_low_half ? -0.5 : 0.5) * bracket.width;
     }
     --left;
-  }
-
-  std::vector<BoundaryPoint> BoundarySearch::points() const
-  {
-    return brackets;
   }
 } // namespace sprag

@@ -47,7 +47,10 @@ namespace sprag
     /// Kinds at a point of the grid, forward and backward; the point must be known.
     const MapKinds &kinds(unsigned int i, unsigned int j) const;
 
-    std::array<unsigned int, 2> points() const;
+    std::array<unsigned int, 2> points() const
+    {
+      return n;
+    }
 
     /// Values at all points, the second parameter running fastest, from `values` at the known ones: bilinear over the smallest
     /// quad around. Where a corner of that is NaN or not known, NaN.
@@ -108,7 +111,10 @@ namespace sprag
     /// Takes one bisection; all wanted sites must be known.
     void learn(const KnownKinds &known);
 
-    std::vector<BoundaryPoint> points() const;
+    std::vector<BoundaryPoint> points() const
+    {
+      return brackets;
+    }
 
   private:
     std::vector<BoundaryPoint> brackets;

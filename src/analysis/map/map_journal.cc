@@ -139,21 +139,6 @@ namespace sprag
       write("\n");
   }
 
-  const MapCells &MapJournal::cells() const
-  {
-    return found;
-  }
-
-  bool MapJournal::dropped() const
-  {
-    return other_scene;
-  }
-
-  std::size_t MapJournal::damaged_lines() const
-  {
-    return damaged;
-  }
-
   void MapJournal::append(const MapCells &more)
   {
     std::string text;

@@ -19,17 +19,25 @@ namespace sprag
     MapJournal(const std::string &path, const std::string &scene);
     ~MapJournal();
 
-    MapJournal(const MapJournal &)            = delete;
-    MapJournal &operator=(const MapJournal &) = delete;
+    MapJournal &operator=(MapJournal &&) = delete;
 
     /// Cells found in the file.
-    const MapCells &cells() const;
+    const MapCells &cells() const
+    {
+      return found;
+    }
 
     /// Returns whether the file held cells of another scene, which were dropped.
-    bool dropped() const;
+    bool dropped() const
+    {
+      return other_scene;
+    }
 
     /// Returns the number of lines that were not as they had been written.
-    std::size_t damaged_lines() const;
+    std::size_t damaged_lines() const
+    {
+      return damaged;
+    }
 
     /// Hands the lines to the operating system. Throws AnalysisError if they cannot be written.
     void append(const MapCells &more);

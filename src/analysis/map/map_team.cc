@@ -157,24 +157,4 @@ namespace sprag
       known_kinds.insert({ site, cell.kinds() });
     }
   }
-
-  const MapCells &MapTeam::cells() const
-  {
-    return known;
-  }
-
-  const KnownKinds &MapTeam::kinds() const
-  {
-    return known_kinds;
-  }
-
-  std::size_t MapTeam::taken_over() const
-  {
-    return from_journal;
-  }
-
-  CellJudge &MapTeam::cell_judge()
-  {
-    return own_judge;
-  }
 } // namespace sprag

@@ -19,13 +19,25 @@ namespace sprag
     /// the map began or the journal cannot be written; cells finished until then are kept.
     void judge(const std::vector<MapSite> &sites);
 
-    const MapCells &cells() const;
-    const KnownKinds &kinds() const;
+    const MapCells &cells() const
+    {
+      return known;
+    }
+    const KnownKinds &kinds() const
+    {
+      return known_kinds;
+    }
 
     /// Cells that were in the journal.
-    std::size_t taken_over() const;
+    std::size_t taken_over() const
+    {
+      return from_journal;
+    }
 
-    CellJudge &cell_judge();
+    CellJudge &cell_judge()
+    {
+      return own_judge;
+    }
 
   private:
     const Scene scene;

@@ -3,6 +3,7 @@
 #include "base/errors.h"
 #include "base/text.h"
 #include "model/reduced_lever.h"
+#include "scene/analysis_use.h"
 #include "scene/closed_form.h"
 #include "scene/held_slide.h"
 
@@ -52,12 +53,6 @@ namespace sprag
       for (unsigned int i = 0; i <= samples; ++i)
         for (const double sign : { 1., -1. })
           visit({ 0., drive.minimum() + (drive.maximum() - drive.minimum()) * i / samples, sign * drive.peak_speed(), 0. });
-    }
-
-    bool holds_slides(const AnalysisType type)
-    {
-      return type == AnalysisType::modal || type == AnalysisType::stability || type == AnalysisType::map ||
-             type == AnalysisType::sprag_slip || type == AnalysisType::calibration;
     }
 
     /// The scene as a beam moving at x with a constant mu; none where it has no equilibrium, or not a unique one.
@@ -117,7 +112,7 @@ namespace sprag
         margin = here;
       begins = false;
     };
-    if (holds_slides(scene.analysis.type))
+    if (holds_slide(scene.analysis.type) || scene.analysis.type == AnalysisType::calibration)
       visit_held(scene.drive, visit);
     else
       follow(scene.drive, visit);
@@ -129,9 +124,8 @@ namespace sprag
   std::string jamming_text(const JammingMargin &margin)
   {
     std::string text = "Jamming:      closest moving " + std::string(direction_of(margin.v) < 0 ? "back" : "forward") +
-                       " at x = " + rounded_text(margin.x) + " mm, " + rounded_text(std::abs(margin.v)) +
-                       " mm/s: s = " + rounded_text(margin.s) + " mm, mu e = " + rounded_text(margin.mu_e) + " mm, margin " +
-                       rounded_text(margin.margin()) + "; a rigid lever locks at " +
+                       " at x = " + mm(margin.x) + ", " + rounded_text(std::abs(margin.v)) + " mm/s: s = " + mm(margin.s) +
+                       ", mu e = " + mm(margin.mu_e) + ", margin " + rounded_text(margin.margin()) + "; a rigid lever locks at " +
                        (std::isfinite(margin.critical_mu) ? "mu = " + rounded_text(margin.critical_mu) : "no mu");
     if (margin.flexible)
       text += "; margin of the flexible one " + rounded_text(*margin.flexible);

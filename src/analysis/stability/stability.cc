@@ -1,6 +1,5 @@
 #include "analysis/stability/stability.h"
 
-#include "base/choices.h"
 #include "model/mirroring.h"
 #include "scene/held_slide.h"
 
@@ -24,11 +23,7 @@ namespace sprag
 
   std::string kind_name(const SlideKind kind)
   {
-    static const Choices<SlideKind> kinds = { { "stable", SlideKind::stable },
-                                              { "flutter", SlideKind::flutter },
-                                              { "divergence", SlideKind::divergence },
-                                              { "jammed", SlideKind::jammed } };
-    return word_for(kinds, kind);
+    return std::vector<std::string>{ "stable", "flutter", "divergence", "jammed" }.at(static_cast<std::size_t>(kind));
   }
 
   const Eigenmode &SlideStability::worst_mode() const

@@ -82,9 +82,4 @@ namespace sprag
     row[Column::energy_residual]  = residual();
     row[Column::creep]            = sum.creep;
   }
-
-  const LedgerReport &EnergyLedger::report() const
-  {
-    return found;
-  }
 } // namespace sprag

@@ -34,7 +34,10 @@ namespace sprag
 
     double residual() const;
 
-    const LedgerReport &report() const;
+    const LedgerReport &report() const
+    {
+      return found;
+    }
 
   private:
     const StoredEnergy start;

@@ -142,7 +142,7 @@ namespace sprag
                                         });
     const double limit = longest_step(*worst, time.spectral_radius);
     return { { "hidden_vibration",
-               "The slide at x = " + rounded_text(worst->x) + " mm vibrates by itself at " + rounded_text(worst->frequency) +
+               "The slide at x = " + mm(worst->x) + " vibrates by itself at " + rounded_text(worst->frequency) +
                    " Hz, growing by " + rounded_text(worst->growth_rate) + " 1/s, and Time/Step = " + rounded_text(time.step) +
                    " s damps that by more than a tenth of its growth: steps of up to " + rounded_text(limit) + " s do not.",
                "P, Q and their peaks lack that vibration: the run models none above " +

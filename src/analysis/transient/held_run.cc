@@ -75,11 +75,6 @@ namespace sprag
     account.emplace(now.energy);
   }
 
-  void HeldRun::use_spectral_radius(const double radius)
-  {
-    spectral_radius = radius;
-  }
-
   const Row &HeldRun::step(const DrivePath &path)
   {
     if (interrupted())
@@ -119,24 +114,9 @@ namespace sprag
     return outcome.iterations + first + advance(path, 0.5 * duration, halvings + 1);
   }
 
-  const RunState &HeldRun::state() const
-  {
-    return now;
-  }
-
   const DrivePoint &HeldRun::drive() const
   {
     return now.motion.drive;
-  }
-
-  double HeldRun::time_step() const
-  {
-    return dt;
-  }
-
-  unsigned long HeldRun::steps() const
-  {
-    return count;
   }
 
   bool HeldRun::slides(const double speed) const

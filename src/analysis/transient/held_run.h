@@ -39,17 +39,29 @@ namespace sprag
     /// Takes up a former state of this run, its time apart; the ledger begins anew.
     void resume(const RunState &state);
 
-    const RunState &state() const;
+    const RunState &state() const
+    {
+      return now;
+    }
 
     /// Spectral radius of the steps from now on, 0 ... 1; at first 1.
-    void use_spectral_radius(double radius);
+    void use_spectral_radius(const double radius)
+    {
+      spectral_radius = radius;
+    }
 
     /// Goes on by dt and returns the row there. Throws AnalysisError where there is no solution, or when the run is interrupted.
     const Row &step(const DrivePath &path);
 
     const DrivePoint &drive() const;
-    double time_step() const;
-    unsigned long steps() const;
+    double time_step() const
+    {
+      return dt;
+    }
+    unsigned long steps() const
+    {
+      return count;
+    }
 
     /// Returns whether every point in contact now slides the way of `speed`.
     bool slides(double speed) const;

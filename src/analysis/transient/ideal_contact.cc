@@ -12,16 +12,12 @@ namespace sprag
 {
   namespace
   {
-    class IdealContact
+    struct IdealContact
     {
-    public:
-      IdealContact(const Scene &the_scene, const double moment_of_inertia)
-          : scene(the_scene)
-          , inertia(moment_of_inertia)
-          , rest(kinematics(the_scene.geometry, 0.).theta)
-          , spring(moment_law(the_scene.spring))
-      {
-      }
+      const Scene &scene;
+      const double inertia; ///< moment of [t mm^2]
+      const double rest      = kinematics(scene.geometry, 0.).theta;
+      const MomentLaw spring = moment_law(scene.spring);
 
       /// Columns at a point of the drive.
       Row row(const DrivePoint &point) const
@@ -68,12 +64,6 @@ namespace sprag
           result[column] = 0.;
         return result;
       }
-
-    private:
-      const Scene &scene;
-      const double inertia;
-      const double rest;
-      const MomentLaw spring;
     };
 
     StoredEnergy stored(const Row &row)
@@ -103,8 +93,8 @@ namespace sprag
       if (row[Column::P] >= 0.)
         return;
       throw AnalysisError("the contact would have to pull: P = " + rounded_text(row[Column::P]) +
-                          " N at t = " + rounded_text(row[Column::time]) + " s, x = " + rounded_text(row[Column::x]) +
-                          " mm. An ideal contact cannot open: use Contact/Type = compliant or a longer Drive/Reversal duration.");
+                          " N at t = " + rounded_text(row[Column::time]) + " s, x = " + mm(row[Column::x]) +
+                          ". An ideal contact cannot open: use Contact/Type = compliant or a longer Drive/Reversal duration.");
     }
   } // namespace
 
@@ -112,7 +102,7 @@ namespace sprag
   {
     const auto &drive     = scene.drive;
     const auto &reversals = drive.reversals();
-    const IdealContact lever(scene, inertia);
+    const IdealContact lever{ scene, inertia };
     StepClock clock(drive, scene.time.step, 0);
 
     double time = 0.;

@@ -1,7 +1,6 @@
 #include "analysis/transient/oscillation.h"
 
 #include "analysis/transient/ringing.h"
-#include "base/choices.h"
 #include "base/text.h"
 #include "results/row_statistics.h"
 
@@ -294,10 +293,8 @@ namespace sprag
 
   std::string verdict_name(const Verdict verdict)
   {
-    static const Choices<Verdict> verdicts = { { "vibrates", Verdict::vibrates }, { "elements pass", Verdict::passing },
-                                               { "grows", Verdict::grows },       { "decays", Verdict::decays },
-                                               { "rings", Verdict::rings },       { "unknown", Verdict::unknown } };
-    return word_for(verdicts, verdict);
+    return std::vector<std::string>{ "unknown", "vibrates", "elements pass", "grows", "decays", "rings" }.at(
+        static_cast<std::size_t>(verdict));
   }
 
   Warnings element_passing_warnings(const std::vector<Oscillation> &oscillations, const double face_size)
@@ -307,8 +304,8 @@ namespace sprag
     if (found == oscillations.end())
       return {};
     return { { "element_passing",
-               "After the reversal at x = " + rounded_text(found->x) + " mm P rings at " + rounded_text(found->frequency) +
-                   " Hz, and elements of Mesh/Face size = " + rounded_text(face_size) + " mm, or halves of them, pass at " +
+               "After the reversal at x = " + mm(found->x) + " P rings at " + rounded_text(found->frequency) +
+                   " Hz, and elements of Mesh/Face size = " + mm(face_size) + ", or halves of them, pass at " +
                    rounded_text(found->passing_frequency) + " Hz.",
                "That frequency, its growth rate and what is left of P at the end belong to the mesh, not to the lever.",
                "Use Mesh/Degree = 2, a smaller Mesh/Face size or Contact/Penalty = auto." } };
@@ -343,12 +340,11 @@ namespace sprag
       const std::string excess =
           " over Q_quasi_static in its direction up to the end of the window, relative to its largest size there";
 
-      entries.push_back(
-          { of + "verdict", verdict_name(found.verdict), "",
-            "vibrates (rms over 8 % of the largest P_quasi_static in the window, contact open for over 1 % of the time), "
-            "elements pass (what lasts is the mesh's), decays (rms_end up to 1.2 % of that P, or 0.1 % of the run's, contact "
-            "never open), grows "
-            "(growth_rate > 0, rms_end over that), rings (none of these) or unknown (no rows in the window)" });
+      entries.push_back({ of + "verdict", verdict_name(found.verdict), "",
+                          "vibrates (rms over 8 % of the largest P_quasi_static in the window, contact open for over 1 % of the "
+                          "time), elements pass (what lasts is the mesh's), decays (rms_end up to 1.2 % of that P, or 0.1 % of "
+                          "the run's, contact never open), grows (growth_rate > 0, rms_end over that), rings (none of these) or "
+                          "unknown (no rows in the window)" });
       add_number("time", found.time, "s", "time of the turning point");
       add_number("x", found.x, "mm", "position of the turning point");
       add_number("frequency", found.frequency, "Hz", "dominant in P" + window + "; NaN without oscillation");

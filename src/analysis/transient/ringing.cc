@@ -17,8 +17,6 @@ namespace sprag
   {
     using Complex = std::complex<double>;
 
-    const double pi = std::acos(-1.);
-
     constexpr double fewest_periods  = 2.;  ///< in a signal, for a frequency
     constexpr std::size_t padding    = 4;   ///< points of the spectrum per sample, at least
     constexpr double weakest_peak    = 0.1; ///< of a sinusoid, relative to the whole spectrum; side lobes stay below 0.03
@@ -64,7 +62,7 @@ namespace sprag
       for (std::size_t length = 2; length <= n; length *= 2)
         for (std::size_t i = 0; i < length / 2; ++i)
         {
-          const Complex turn = std::polar(1., -2. * pi * static_cast<double>(i) / static_cast<double>(length));
+          const Complex turn = std::polar(1., -2. * M_PI * static_cast<double>(i) / static_cast<double>(length));
           for (std::size_t start = i; start < n; start += length)
           {
             const Complex odd          = turn * values[start + length / 2];
@@ -83,7 +81,7 @@ namespace sprag
         padded *= 2;
       std::vector<Complex> values(padded);
       for (std::size_t i = 0; i < n; ++i)
-        values[i] = signal.values[i] * std::pow(std::sin(pi * (static_cast<double>(i) + 0.5) / static_cast<double>(n)), 2);
+        values[i] = signal.values[i] * std::pow(std::sin(M_PI * (static_cast<double>(i) + 0.5) / static_cast<double>(n)), 2);
       fourier_transform(values);
       std::vector<double> magnitudes;
       for (std::size_t i = 0; i <= padded / 2; ++i)
@@ -139,14 +137,10 @@ namespace sprag
 
     /// exp(growth t) (a cos(omega t) + b sin(omega t)) + c + d t, t from 0 to 1 over the signal. The unknowns are a, b, c, d,
     /// omega and growth in this order.
-    class Fit
+    struct Fit
     {
-    public:
-      Fit(const Signal &signal_, const double omega, const double growth)
-          : signal(signal_)
-          , parameters{ { 0., 0., 0., 0., omega, growth } }
-      {
-      }
+      const Signal &signal;
+      Vector parameters;
 
       /// One step of Gauss-Newton; its change of omega, nothing if it cannot be done.
       std::optional<double> improve()
@@ -182,11 +176,6 @@ namespace sprag
         return change[4];
       }
 
-      double omega() const
-      {
-        return parameters[4];
-      }
-
       Signal without_drift() const
       {
         Signal result = signal;
@@ -194,10 +183,6 @@ namespace sprag
           result.values[i] -= parameters[2] + parameters[3] * time(i);
         return result;
       }
-
-    private:
-      const Signal &signal;
-      Vector parameters;
 
       double time(const std::size_t i) const
       {
@@ -229,17 +214,17 @@ namespace sprag
     Refined refined(const Signal &signal, const double frequency, const double growth)
     {
       const double length = static_cast<double>(signal.values.size()) * signal.step;
-      const double start  = 2. * pi * frequency * length;
-      Fit fit(signal, start, growth * length);
+      const double start  = 2. * M_PI * frequency * length;
+      Fit fit{ signal, { { 0., 0., 0., 0., start, growth * length } } };
       for (unsigned int i = 0; i < max_steps; ++i)
       {
         const auto change = fit.improve();
-        if (!change || !(std::abs(fit.omega() - start) < 2. * pi))
+        if (!change || !(std::abs(fit.parameters[4] - start) < 2. * M_PI))
           return { frequency, without_trend(signal) };
         if (i > 0 && std::abs(*change) < 1e-9 * start)
           break;
       }
-      return { fit.omega() / (2. * pi * length), fit.without_drift() };
+      return { fit.parameters[4] / (2. * M_PI * length), fit.without_drift() };
     }
   } // namespace
 

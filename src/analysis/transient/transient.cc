@@ -105,13 +105,11 @@ namespace sprag
     };
 
     /// Decides on steps by their local error.
-    class StepControl
+    struct StepControl
     {
-    public:
-      explicit StepControl(const TransientSettings &transient_settings)
-          : settings(transient_settings)
-      {
-      }
+      const TransientSettings &settings;
+      double error       = 0.;
+      unsigned int small = 0; ///< errors in a row
 
       bool accepts(const StepOutcome &outcome, const bool shortest)
       {
@@ -129,22 +127,12 @@ namespace sprag
         return settings.time.tolerance > 0. && small >= small_errors;
       }
 
-      void lengthened()
-      {
-        small = 0;
-      }
-
-    private:
       /// Errors of steps go with dt^3 and that of the run with dt^2; for the ringing of models A and B their sizes are as
       /// follows.
       double local_tolerance() const
       {
         return std::pow(0.5 * settings.time.tolerance, 1.5);
       }
-
-      const TransientSettings &settings;
-      double error       = 0.;
-      unsigned int small = 0;
     };
 
     StepClock make_clock(const Drive &drive, const TransientSettings &settings)
@@ -209,7 +197,7 @@ namespace sprag
     sink(motion, first);
 
     TransientReport report;
-    StepControl control(settings);
+    StepControl control{ settings };
     StepClock clock = make_clock(drive, settings);
     while (!clock.finished())
     {
@@ -232,7 +220,7 @@ namespace sprag
       clock.advance();
       const bool recovers = settings.time.tolerance == 0. && attempt.rejected == 0;
       if ((control.wants_longer() || recovers) && clock.grow())
-        control.lengthened();
+        control.small = 0;
     }
     return report;
   }

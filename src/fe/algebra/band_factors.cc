@@ -19,11 +19,6 @@ namespace sprag
     return static_cast<std::size_t>(i) * (bandwidth + 1) + (j - i);
   }
 
-  std::vector<double> &BandFactors::entries()
-  {
-    return rows;
-  }
-
   unsigned int BandFactors::factorise()
   {
     unsigned int negative = 0;

@@ -19,7 +19,10 @@ namespace sprag
     /// Where in entries() (i, j) is.
     std::size_t position(unsigned int i, unsigned int j) const;
 
-    std::vector<double> &entries();
+    std::vector<double> &entries()
+    {
+      return rows;
+    }
 
     /// Replaces the entries. Returns how many pivots are negative: 0 if and only if the matrix is positive definite. Throws
     /// AnalysisError if one is 0 or no number.

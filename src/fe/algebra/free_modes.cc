@@ -43,8 +43,7 @@ namespace sprag
           invert_at_zero();
         check(EPSSolve(eps));
       }
-      Eigensolver(const Eigensolver &)            = delete;
-      Eigensolver &operator=(const Eigensolver &) = delete;
+      Eigensolver &operator=(Eigensolver &&) = delete;
       ~Eigensolver()
       {
         EPSDestroy(&eps);

@@ -18,8 +18,7 @@ namespace sprag
       if (MatGetRowIJ(matrix, 0, PETSC_FALSE, PETSC_FALSE, &n, &begin, &column, &found) != 0 || found == PETSC_FALSE)
         throw AnalysisError("the rows of a matrix cannot be read");
     }
-    MatrixRows(const MatrixRows &)            = delete;
-    MatrixRows &operator=(const MatrixRows &) = delete;
+    MatrixRows &operator=(MatrixRows &&) = delete;
     ~MatrixRows()
     {
       PetscBool found = PETSC_FALSE;
@@ -45,8 +44,7 @@ namespace sprag
       if (MatSeqAIJGetArray(matrix, &entries) != 0)
         throw AnalysisError("the entries of a matrix cannot be read");
     }
-    MatrixValues(const MatrixValues &)            = delete;
-    MatrixValues &operator=(const MatrixValues &) = delete;
+    MatrixValues &operator=(MatrixValues &&) = delete;
     ~MatrixValues()
     {
       MatSeqAIJRestoreArray(matrix, &entries);

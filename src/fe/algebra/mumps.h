@@ -24,8 +24,7 @@ namespace sprag
   {
   public:
     explicit Mumps(MatrixKind kind = MatrixKind::general);
-    Mumps(const Mumps &)            = delete;
-    Mumps &operator=(const Mumps &) = delete;
+    Mumps &operator=(Mumps &&) = delete;
     ~Mumps();
 
     /// Factorises; the ordering is kept for matrices of the same pattern.

@@ -119,7 +119,7 @@ namespace sprag
     std::string name_of(const ConnectorSettings &settings)
     {
       const std::string what = settings.type == ConnectorType::sensor ? "force sensor" : "linear guide";
-      return "the " + what + " at xi = " + rounded_text(settings.middle) + " mm, " + rounded_text(settings.length) + " mm long";
+      return "the " + what + " at xi = " + mm(settings.middle) + ", " + mm(settings.length) + " long";
     }
 
     template <int dim>

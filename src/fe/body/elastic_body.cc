@@ -50,30 +50,6 @@ namespace sprag
   }
 
   template <int dim>
-  unsigned int ElasticBody<dim>::n_dofs() const
-  {
-    return dof_handler.n_dofs();
-  }
-
-  template <int dim>
-  const FrictionFace<dim> &ElasticBody<dim>::friction_face() const
-  {
-    return face;
-  }
-
-  template <int dim>
-  const FrictionFace<dim> &ElasticBody<dim>::cylinder_face() const
-  {
-    return face_of_cylinder;
-  }
-
-  template <int dim>
-  const std::vector<Connector> &ElasticBody<dim>::connectors() const
-  {
-    return springs;
-  }
-
-  template <int dim>
   std::vector<Connector> ElasticBody<dim>::sensors() const
   {
     std::vector<Connector> result;
@@ -81,36 +57,6 @@ namespace sprag
       if (spring.type == ConnectorType::sensor)
         result.push_back(spring);
     return result;
-  }
-
-  template <int dim>
-  const Mapping<dim> &ElasticBody<dim>::cell_mapping() const
-  {
-    return mapping;
-  }
-
-  template <int dim>
-  const AffineConstraints<double> &ElasticBody<dim>::held() const
-  {
-    return constraints;
-  }
-
-  template <int dim>
-  const DoFHandler<dim> &ElasticBody<dim>::dofs() const
-  {
-    return dof_handler;
-  }
-
-  template <int dim>
-  bool ElasticBody<dim>::is_held(const unsigned int dof) const
-  {
-    return constraints.is_constrained(dof);
-  }
-
-  template <int dim>
-  const BodyProperties &ElasticBody<dim>::body_properties() const
-  {
-    return properties;
   }
 
   template <int dim>

@@ -31,26 +31,43 @@ namespace sprag
 
     /// The triangulation is kept by reference and must outlive the body.
     ElasticBody(const dealii::Triangulation<dim> &triangulation, BodyProperties properties, const Constrain &constrain = {});
-    ElasticBody(const ElasticBody &)            = delete;
-    ElasticBody &operator=(const ElasticBody &) = delete;
+    ElasticBody &operator=(ElasticBody &&) = delete;
 
-    unsigned int n_dofs() const;
+    unsigned int n_dofs() const
+    {
+      return dof_handler.n_dofs();
+    }
 
-    const FrictionFace<dim> &friction_face() const;
+    const FrictionFace<dim> &friction_face() const
+    {
+      return face;
+    }
 
     /// Where an elastic cylinder can touch the friction face; empty without one.
-    const FrictionFace<dim> &cylinder_face() const;
+    const FrictionFace<dim> &cylinder_face() const
+    {
+      return face_of_cylinder;
+    }
 
     /// Springs between friction plate and lever, part of stiffness and energy.
-    const std::vector<Connector> &connectors() const;
+    const std::vector<Connector> &connectors() const
+    {
+      return springs;
+    }
 
     /// Those of them that are force sensors.
     std::vector<Connector> sensors() const;
 
-    const dealii::Mapping<dim> &cell_mapping() const;
+    const dealii::Mapping<dim> &cell_mapping() const
+    {
+      return mapping;
+    }
 
     /// Which degrees of freedom are held or follow others.
-    const dealii::AffineConstraints<double> &held() const;
+    const dealii::AffineConstraints<double> &held() const
+    {
+      return constraints;
+    }
 
     /// Gives a matrix room for the stiffness.
     void reinit(dealii::PETScWrappers::SparseMatrix &matrix) const;
@@ -65,12 +82,21 @@ namespace sprag
     /// Mass [t] and moment of inertia about the origin of the axes [t mm^2] at the given density [t/mm^3], hub included.
     std::array<double, 2> mass_and_inertia(double density) const;
 
-    const BodyProperties &body_properties() const;
+    const BodyProperties &body_properties() const
+    {
+      return properties;
+    }
 
-    const dealii::DoFHandler<dim> &dofs() const;
+    const dealii::DoFHandler<dim> &dofs() const
+    {
+      return dof_handler;
+    }
 
     /// Whether the hub holds a degree of freedom.
-    bool is_held(unsigned int dof) const;
+    bool is_held(const unsigned int dof) const
+    {
+      return constraints.is_constrained(dof);
+    }
 
   private:
     void find_constraints(const Constrain &constrain);

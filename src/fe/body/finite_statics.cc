@@ -85,11 +85,6 @@ namespace sprag
         });
   }
 
-  unsigned int FiniteStatics::n_coordinates() const
-  {
-    return n;
-  }
-
   void FiniteStatics::reduce(const Matrix &of_body, Matrix &reduced) const
   {
     const MatrixRows rows(of_body);
@@ -156,11 +151,6 @@ namespace sprag
                         " iterations");
   }
 
-  const Vector<double> &FiniteStatics::forces() const
-  {
-    return internal;
-  }
-
   Vector<double> FiniteStatics::stiffness_product(const Vector<double> &displacement) const
   {
     const MatrixRows rows(tangent);
@@ -189,10 +179,5 @@ namespace sprag
   bool FiniteStatics::is_stable() const
   {
     return negative_pivots == 0;
-  }
-
-  const Matrix &FiniteStatics::stiffness() const
-  {
-    return tangent;
   }
 } // namespace sprag

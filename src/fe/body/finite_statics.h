@@ -15,7 +15,10 @@ namespace sprag
     /// line is empty is held at a given displacement, one with entries follows others, the rest are the coordinates.
     FiniteStatics(const ElasticBody<2> &body, const dealii::AffineConstraints<double> &held);
 
-    unsigned int n_coordinates() const;
+    unsigned int n_coordinates() const
+    {
+      return n;
+    }
 
     /// Brings `displacement` of all degrees of freedom into equilibrium with dead `loads` [N] on them, the held ones as they are
     /// given. Those that follow others must begin so. Throws AnalysisError where the iteration finds none.
@@ -24,7 +27,10 @@ namespace sprag
     // Of all degrees of freedom at the displacement last balanced.
 
     /// Internal forces [N]; those of held ones are what holds them.
-    const dealii::Vector<double> &forces() const;
+    const dealii::Vector<double> &forces() const
+    {
+      return internal;
+    }
 
     /// How displacements change with those of held ones (others in `of_held` count for nothing) and with the loads.
     dealii::Vector<double> response(const dealii::Vector<double> &of_held, const dealii::Vector<double> &of_loads) const;
@@ -36,7 +42,10 @@ namespace sprag
     bool is_stable() const;
 
     /// The tangent stiffness of the body, without regard to what holds it.
-    const dealii::PETScWrappers::SparseMatrix &stiffness() const;
+    const dealii::PETScWrappers::SparseMatrix &stiffness() const
+    {
+      return tangent;
+    }
 
     /// A matrix of the body, on the coordinates.
     void reduce(const dealii::PETScWrappers::SparseMatrix &of_body, dealii::PETScWrappers::SparseMatrix &reduced) const;

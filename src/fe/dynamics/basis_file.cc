@@ -55,8 +55,7 @@ namespace sprag
           , is_held(file >= 0 && ::flock(file, LOCK_EX | LOCK_NB) == 0)
       {
       }
-      Lock(const Lock &)            = delete;
-      Lock &operator=(const Lock &) = delete;
+      Lock &operator=(Lock &&) = delete;
       ~Lock()
       {
         if (file >= 0)

@@ -9,9 +9,7 @@ namespace sprag
   /// Of the first-order problem: displacements, velocities and the tractions of friction's delays.
   struct SparseState
   {
-    dealii::Vector<double> q;
-    dealii::Vector<double> rate;
-    dealii::Vector<double> traction;
+    dealii::Vector<double> q, rate, traction;
 
     void add(double factor, const SparseState &other);
     void scale(double factor);

@@ -27,11 +27,6 @@ namespace sprag
       momentum = { { matrices.momentum[1], matrices.momentum[0] } };
   }
 
-  const PortLayout &LeverPorts::layout() const
-  {
-    return ports;
-  }
-
   unsigned int LeverPorts::n_coordinates() const
   {
     return n_lever + (ports.sprung ? 1 : 0);

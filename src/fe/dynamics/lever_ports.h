@@ -18,7 +18,10 @@ namespace sprag
   public:
     LeverPorts(const ElasticBody<2> &body, const InertialMatrices<2> &matrices, bool sprung);
 
-    const PortLayout &layout() const;
+    const PortLayout &layout() const
+    {
+      return ports;
+    }
 
     /// Number of coordinates, the support's included.
     unsigned int n_coordinates() const;

@@ -95,19 +95,9 @@ namespace sprag
     }
   }
 
-  const std::vector<BodyFields::Node> &BodyFields::nodes() const
-  {
-    return all_nodes;
-  }
-
   unsigned int BodyFields::nodes_per_cell() const
   {
     return places.size();
-  }
-
-  const std::vector<unsigned int> &BodyFields::quadrilaterals() const
-  {
-    return quads;
   }
 
   std::vector<NodalField> BodyFields::at(const Vector<double> &displacement) const

@@ -34,13 +34,19 @@ namespace sprag
       bool at_hub; ///< whether its cell touches what is held: there the stress of linear elasticity is singular
     };
 
-    const std::vector<Node> &nodes() const;
+    const std::vector<Node> &nodes() const
+    {
+      return all_nodes;
+    }
 
     /// Cell by cell, so many each.
     unsigned int nodes_per_cell() const;
 
     /// Four nodes each.
-    const std::vector<unsigned int> &quadrilaterals() const;
+    const std::vector<unsigned int> &quadrilaterals() const
+    {
+      return quads;
+    }
 
     std::vector<NodalField> at(const dealii::Vector<double> &displacement) const;
 

@@ -13,11 +13,6 @@ namespace sprag
   {
   }
 
-  const BodyFields &LeafShapes::fields() const
-  {
-    return of_body;
-  }
-
   std::optional<dealii::Vector<double>> LeafShapes::displacement(const double turn)
   {
     const double least = 1e-9; // moves no point by more than a picture could show

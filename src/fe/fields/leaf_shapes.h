@@ -14,7 +14,10 @@ namespace sprag
   public:
     explicit LeafShapes(const Scene &scene);
 
-    const BodyFields &fields() const;
+    const BodyFields &fields() const
+    {
+      return of_body;
+    }
 
     /// Displacement at a turn from rest [rad], the hub's rotation included; none where no equilibrium is found: a picture less
     /// must not end a run.

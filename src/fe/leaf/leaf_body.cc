@@ -154,16 +154,6 @@ namespace sprag
     return constraints;
   }
 
-  const ElasticBody<2> &LeafBody::body() const
-  {
-    return elastic;
-  }
-
-  const FiniteStatics &LeafBody::statics() const
-  {
-    return finite_statics;
-  }
-
   LeafBody::State LeafBody::rest()
   {
     return state(0., Vector<double>(elastic.n_dofs()));
@@ -213,10 +203,9 @@ namespace sprag
       {
         step *= 0.5;
         if (!(std::abs(step) > smallest_step))
-          throw AnalysisError(
-              "the leaf spring finds no equilibrium when the hub turns by more than " + rounded_text(at.turn) +
-              " rad: it buckles or snaps through there. Try a smaller 'Leaf spring/Sagitta' or one of the other sign, or "
-              "'Leaf spring/Axial' = free");
+          throw AnalysisError("the leaf spring finds no equilibrium when the hub turns by more than " + rounded_text(at.turn) +
+                              " rad: it buckles or snaps through there. Try a smaller 'Leaf spring/Sagitta' or one of the other "
+                              "sign, or 'Leaf spring/Axial' = free");
       }
     }
     return result;

@@ -19,7 +19,10 @@ namespace sprag
     LeafBody(const LeafSpring &leaf, PlaneState plane, const LeafElements &elements);
 
     /// For FieldFrames. Holds no degree of freedom itself.
-    const ElasticBody<2> &body() const;
+    const ElasticBody<2> &body() const
+    {
+      return elastic;
+    }
 
     /// In equilibrium at a turn of the hub.
     struct State
@@ -41,7 +44,10 @@ namespace sprag
     std::vector<State> steps(const State &from, double turn);
 
     /// Of the last state.
-    const FiniteStatics &statics() const;
+    const FiniteStatics &statics() const
+    {
+      return finite_statics;
+    }
 
   private:
     /// A degree of freedom of the clamp.

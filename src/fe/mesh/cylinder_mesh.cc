@@ -34,9 +34,8 @@ namespace sprag
         mistakes.push_back("Mesh/Degree = " + std::to_string(scene.mesh.degree) +
                            ": an elastic cylinder (Cylinder/Type) needs elements of degree 2, which follow its surface");
       if (scene.cylinder.inner_radius >= scene.geometry.cylinder_radius)
-        mistakes.push_back("Cylinder/Inner radius = " + rounded_text(scene.cylinder.inner_radius) +
-                           " mm must be smaller than the cylinder's radius R = " + rounded_text(scene.geometry.cylinder_radius) +
-                           " mm");
+        mistakes.push_back("Cylinder/Inner radius = " + mm(scene.cylinder.inner_radius) +
+                           " must be smaller than the cylinder's radius R = " + mm(scene.geometry.cylinder_radius));
       if (!mistakes.empty())
         throw InputError(mistakes);
     }

@@ -48,8 +48,7 @@ namespace sprag
           argv.push_back(argument.data());
         gmsh::initialize(static_cast<int>(argv.size()), argv.data(), false);
       }
-      GmshSession(const GmshSession &)            = delete;
-      GmshSession &operator=(const GmshSession &) = delete;
+      GmshSession &operator=(GmshSession &&) = delete;
       ~GmshSession()
       {
         gmsh::finalize();
@@ -128,8 +127,8 @@ namespace sprag
           farthest = positions[i];
       }
       if (std::abs(farthest) > 1e-9 * size)
-        throw InputError(file + ": has a node at z = " + rounded_text(farthest) +
-                         " mm: the lever is modelled in its plane, x along it and y away from the cylinder; z must be 0");
+        throw InputError(file + ": has a node at z = " + mm(farthest) +
+                         ": the lever is modelled in its plane, x along it and y away from the cylinder; z must be 0");
     }
 
     std::vector<std::string> arguments_of(const std::vector<std::pair<std::string, double>> &constants)

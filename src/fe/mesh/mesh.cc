@@ -158,13 +158,12 @@ namespace sprag
       std::vector<std::string> mistakes;
       if (extent.lower[1] < e - small || extent.upper[1] > e + small)
         mistakes.push_back(file + ": the curve 'friction face' lies " + rounded_text(extent.lower[1]) + " to " +
-                           rounded_text(extent.upper[1]) +
-                           " mm off the pivot, but Geometry/Interface offset = " + rounded_text(e));
+                           mm(extent.upper[1]) + " off the pivot, but Geometry/Interface offset = " + rounded_text(e));
       const auto [first, last] = swept_contact(scene);
       if (extent.lower[0] > first || extent.upper[0] < last)
         mistakes.push_back(file + ": the curve 'friction face' spans " + rounded_text(extent.lower[0]) + " to " +
-                           rounded_text(extent.upper[0]) + " mm from the pivot, but the contact sweeps " + rounded_text(first) +
-                           " to " + rounded_text(last) + " mm");
+                           mm(extent.upper[0]) + " from the pivot, but the contact sweeps " + rounded_text(first) + " to " +
+                           mm(last));
       if (!mistakes.empty())
         throw InputError(mistakes);
     }

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "results/columns.h"
+
+#include <utility>
+
+namespace sprag
+{
+  /// A row with these values alone.
+  inline Row row_of(const std::vector<std::pair<Column, double>> &values)
+  {
+    Row row;
+    for (const auto &[column, value] : values)
+      row[column] = value;
+    return row;
+  }
+} // namespace sprag

@@ -1,0 +1,60 @@
+"""What tests of the program from outside share. Environment: SPRAG, the program, and SPRAG_SOURCE, the sources."""
+
+import os
+import subprocess
+import time
+from pathlib import Path
+
+import h5py
+import numpy as np
+from folders import FolderTest
+
+SOURCE = Path(os.environ.get("SPRAG_SOURCE", Path(__file__).resolve().parents[2]))
+SPRAG = os.environ.get("SPRAG", str(SOURCE / "build" / "sprag"))
+TIMEOUT = 120  # seconds: a run that hangs is a failed test
+
+
+def sprag(*arguments, **options):
+    command = [SPRAG, *map(str, arguments)]
+    return subprocess.run(
+        command, capture_output=True, text=True, check=False, timeout=TIMEOUT, stdin=subprocess.DEVNULL, **options
+    )
+
+
+class RunTest(FolderTest):
+    """Has a folder for what a run writes, which is not there yet."""
+
+    def setUp(self):
+        super().setUp()
+        self.output = self.folder / "output"
+
+    def start(self, *arguments):
+        process = subprocess.Popen([SPRAG, *map(str, arguments)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.addCleanup(process.communicate)
+        self.addCleanup(process.kill)
+        return process
+
+    def wait_until(self, process, condition):
+        """While the process goes on: what `condition` gives once that is not None."""
+        end = time.monotonic() + TIMEOUT
+        while time.monotonic() < end:
+            self.assertIsNone(process.poll(), "the run ended too early to be watched")
+            if (found := condition()) is not None:
+                return found
+            time.sleep(0.01)
+        return self.fail(f"still waiting after {TIMEOUT} s")
+
+    def rows(self):
+        """x of the rows that the result file has so far, which are whole."""
+        try:
+            with h5py.File(self.output / "result.h5", "r", swmr=True) as file:
+                columns = [file["table"][name][:] for name in ("time", "x", "Q")]
+        except (OSError, KeyError):
+            return []
+        length = min(map(len, columns))
+        for values in columns:
+            self.assertTrue(np.isfinite(values[:length]).all())
+        return columns[1][:length]
+
+    def wait_for_rows(self, process, number):
+        return self.wait_until(process, lambda: rows if len(rows := self.rows()) >= number else None)
