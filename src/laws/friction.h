@@ -38,7 +38,8 @@ namespace sprag
 
     FrictionValue value(double speed) const;
 
-    const std::vector<double> &speeds() const;
+    /// See next_friction_knot(): the rows, and where the cubics between them turn the other way.
+    const std::vector<double> &knots() const;
 
   private:
     class Interpolant;
@@ -63,6 +64,6 @@ namespace sprag
   /// mu and dmu/d|v| at a sliding speed |v| >= 0 [mm/s]. mu(0) is the cone in stick.
   FrictionValue friction_coefficient(const FrictionLaw &law, double speed);
 
-  /// Speeds [mm/s], ascending, between which mu is one polynomial of degree 3 or less.
-  const std::vector<double> &friction_knots(const FrictionLaw &law);
+  /// The next of the speeds beyond `speed` [mm/s] between which dmu/d|v| is monotone; infinity where there is none.
+  double next_friction_knot(const FrictionLaw &law, double speed);
 } // namespace sprag
