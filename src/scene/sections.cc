@@ -72,7 +72,8 @@ namespace sprag
                      "How often from Start to Stroke and back; 0.5 is there only");
       section.number("Reversal duration", settings.reversal, at_least(0.), "s",
                      "T, transient triangle only: from Speed to the opposite Speed, and from rest to Speed where Start = 0");
-      section.file("Table", settings.table, "File with the columns time [s] and x [mm], relative to the folder of this one");
+      section.only_with("Profile", "table")
+          .file("Table", settings.table, "File with the columns time [s] and x [mm], relative to the folder of this one");
     }
 
     void friction(Section section, FrictionSettings &settings)
@@ -82,8 +83,10 @@ namespace sprag
                        { "cork on aluminium", FrictionChoice::cork_on_aluminium },
                        { "table", FrictionChoice::table } },
                      "Friction coefficient: constant, eqs. 13-15, or from a file");
-      section.number("Coefficient", settings.coefficient, at_least(0.), "", "mu of the Coulomb law");
-      section.file("Table", settings.table, "File with the columns speed [mm/s] and mu [-], relative to the folder of this one");
+      section.only_with("Law", "Coulomb")
+          .number("Coefficient", settings.coulomb.coefficient, at_least(0.), "", "mu of the Coulomb law");
+      section.only_with("Law", "table")
+          .file("Table", settings.table, "File with the columns speed [mm/s] and mu [-], relative to the folder of this one");
       section.choice("Speed", settings.speed, { { "sliding", FrictionSpeed::sliding }, { "drive", FrictionSpeed::drive } },
                      "Speed that mu depends on: of sliding, or the drive's (the paper's choice)");
       section.number("Factor", settings.factor, at_least(0.), "", "Times mu of whichever law");

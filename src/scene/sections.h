@@ -31,8 +31,8 @@ namespace sprag
   /// Friction as given in text.
   struct FrictionSettings
   {
-    FrictionChoice law          = FrictionChoice::cork_on_aluminium;
-    double coefficient          = CoulombFriction().coefficient;
+    FrictionChoice law = FrictionChoice::cork_on_aluminium;
+    CoulombFriction coulomb;
     FrictionSpeed speed         = FrictionSpeed::sliding;
     double regularisation_speed = 0.;
     double factor               = 1.;
