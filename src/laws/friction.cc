@@ -5,6 +5,7 @@
 #include "base/text.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace sprag
@@ -80,6 +81,14 @@ namespace sprag
       return { 1.076, 0. };
     }
 
+    FrictionValue value_of(const StribeckFriction &law, const double speed)
+    {
+      const double u    = speed / law.speed;
+      const double fall = (law.at_rest - law.kinetic) * std::exp(-std::pow(u, law.exponent));
+      return { law.kinetic + fall + law.viscous * speed,
+               law.viscous - fall * law.exponent * std::pow(u, law.exponent - 1.) / law.speed };
+    }
+
     FrictionValue value_of(const TabulatedFriction &law, const double speed)
     {
       return law.value(speed);
@@ -97,6 +106,13 @@ namespace sprag
       if (speed < 200.)
         return 200.;
       return speed < 750. ? 750. : no_knot;
+    }
+
+    /// The exponential's inflexion.
+    double knot_after(const double speed, const StribeckFriction &law)
+    {
+      const double steepest = law.speed * std::pow(1. - 1. / law.exponent, 1. / law.exponent);
+      return speed < steepest ? steepest : no_knot;
     }
 
     double knot_after(const double speed, const TabulatedFriction &law)

@@ -28,6 +28,17 @@ namespace sprag
   {
   };
 
+  /// Falls from rest with the speed v of slip, and grows with it again where viscous:
+  ///   mu = kinetic + (at_rest - kinetic) exp(-(v / speed)^exponent) + viscous v
+  struct StribeckFriction
+  {
+    double at_rest  = 0.9; ///< >= 0
+    double kinetic  = 0.6; ///< >= 0
+    double speed    = 30.; ///< over which mu falls [mm/s]; > 0
+    double exponent = 1.;  ///< 1: steepest at rest, 2: level there; >= 1
+    double viscous  = 0.;  ///< [s/mm]; >= 0
+  };
+
   /// mu over speed from a file, joined by a monotone cubic (PCHIP) and constant beyond its ends.
   class TabulatedFriction
   {
@@ -55,10 +66,10 @@ namespace sprag
 
   struct FrictionLaw
   {
-    std::variant<CoulombFriction, CorkOnAluminium, TabulatedFriction> law = CorkOnAluminium{};
-    FrictionSpeed speed                                                   = FrictionSpeed::sliding;
-    double regularisation_speed                                           = 0.; ///< [mm/s]; 0: stick is resolved
-    double factor                                                         = 1.; ///< times mu of the law, >= 0
+    std::variant<CoulombFriction, CorkOnAluminium, StribeckFriction, TabulatedFriction> law = CorkOnAluminium{};
+    FrictionSpeed speed                                                                     = FrictionSpeed::sliding;
+    double regularisation_speed = 0.; ///< [mm/s]; 0: stick is resolved
+    double factor               = 1.; ///< times mu of the law, >= 0
   };
 
   /// mu and dmu/d|v| at a sliding speed |v| >= 0 [mm/s]. mu(0) is the cone in stick.

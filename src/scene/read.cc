@@ -187,6 +187,9 @@ namespace sprag
       case FrictionChoice::cork_on_aluminium:
         law.law = CorkOnAluminium{};
         break;
+      case FrictionChoice::stribeck:
+        law.law = friction.stribeck;
+        break;
       case FrictionChoice::table:
         use_table("Friction/Table", friction.table, { "speed", "mu" },
                   [&law](const auto &table) { law.law = TabulatedFriction(table.first, table.second); });

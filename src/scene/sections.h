@@ -25,6 +25,7 @@ namespace sprag
   {
     coulomb,
     cork_on_aluminium,
+    stribeck,
     table
   };
 
@@ -33,6 +34,7 @@ namespace sprag
   {
     FrictionChoice law = FrictionChoice::cork_on_aluminium;
     CoulombFriction coulomb;
+    StribeckFriction stribeck;
     FrictionSpeed speed         = FrictionSpeed::sliding;
     double regularisation_speed = 0.;
     double factor               = 1.;
