@@ -21,6 +21,8 @@ namespace sprag
     Rule rule;
     std::string meaning;                            ///< with the symbol it has in the paper
     std::function<void(const std::string &)> store; ///< takes a value that keeps the rule
+    std::string choice = {}; ///< full name of the choice that it counts with alone; empty: it always counts
+    std::string chosen = {}; ///< there
   };
 
   /// "Section/Name".

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <utility>
 
 namespace sprag
 {
@@ -35,49 +34,39 @@ namespace sprag
       double upper;
     };
 
-    /// Zeros between 0 and 1 of the parabola through values at 0, 1/2 and 1, ascending; 1 for each that is not there.
-    std::pair<double, double> zeros_of_parabola(const double begin, const double middle, const double end)
-    {
-      const double square   = 2. * (begin - 2. * middle + end);
-      const double linear   = 4. * middle - 3. * begin - end;
-      const double root     = std::sqrt(linear * linear - 4. * square * begin);
-      const double half_sum = -0.5 * (linear + std::copysign(root, linear));
-      const auto inside     = [](const double zero) { return zero > 0. && zero < 1. ? zero : 1.; };
-      const double first    = inside(half_sum / square);
-      const double second   = inside(begin / half_sum);
-      return std::minmax({ first, second });
-    }
-
-    /// Where the excess, positive at `lower`, first falls to zero between two knots, over which it is one cubic: monotone up to
-    /// and from where its derivative vanishes.
+    /// Where the excess, positive at `lower`, first falls to zero between two knots, over which its derivative is monotone: it
+    /// changes its sign once in the bracket. Between two positive ends it may do so on both sides of a minimum.
     std::optional<Bracket> first_fall(const Excess &excess, const double lower, const double upper)
     {
-      const double length     = upper - lower;
-      const double middle     = excess.derivative(lower + 0.5 * length);
-      const auto [turn, back] = zeros_of_parabola(excess.derivative(lower), middle, excess.derivative(upper));
-      double begin            = lower;
-      for (const double end : { lower + turn * length, lower + back * length, upper })
+      if (excess(upper) <= 0.)
+        return Bracket{ lower, upper };
+      if (excess.derivative(lower) >= 0. || excess.derivative(std::nextafter(upper, lower)) <= 0.)
+        return {};
+      double falling = lower;
+      double rising  = upper;
+      // To the root of round-off, over which a minimum is flat.
+      for (unsigned int i = 0; i < 30; ++i)
       {
-        if (excess(end) <= 0.)
-          return Bracket{ begin, end };
-        begin = end;
+        const double middle = 0.5 * (falling + rising);
+        if (excess(middle) <= 0.)
+          return Bracket{ lower, middle };
+        (excess.derivative(middle) < 0. ? falling : rising) = middle;
       }
       return {};
     }
 
-    /// Around the lowest speed of slip, the excess being monotone between.
+    /// Around the lowest speed of slip.
     Bracket bracket_of_slip(const Excess &excess)
     {
       const double fastest = excess.trial / excess.resistance;
       double lower         = 0.;
-      for (const double knot : friction_knots(excess.law))
+      for (double knot = next_friction_knot(excess.law, 0.); knot < fastest; knot = next_friction_knot(excess.law, knot))
       {
-        const double upper = std::min(knot, fastest);
-        if (const auto found = first_fall(excess, lower, upper))
+        if (const auto found = first_fall(excess, lower, knot))
           return *found;
-        lower = upper;
+        lower = knot;
       }
-      return { lower, fastest };
+      return first_fall(excess, lower, fastest).value_or(Bracket{ lower, fastest });
     }
 
     /// Newton's method kept inside the bracket.

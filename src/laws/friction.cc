@@ -5,6 +5,8 @@
 #include "base/text.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace sprag
 {
@@ -13,11 +15,20 @@ namespace sprag
   public:
     Interpolant(const std::vector<double> &x, const std::vector<double> &y)
         : MonotoneCubic(x, y)
-        , speeds(x)
+        , knots({ x.front() })
     {
+      for (std::size_t i = 1; i < x.size(); ++i)
+      {
+        const double length = x[i] - x[i - 1];
+        const double begin = derivative(x[i - 1]), end = derivative(x[i]), chord = (y[i] - y[i - 1]) / length;
+        const double share = (2. * begin + end - 3. * chord) / (3. * (begin + end - 2. * chord));
+        if (share > 0. && share < 1.)
+          knots.push_back(x[i - 1] + share * length);
+        knots.push_back(x[i]);
+      }
     }
 
-    const std::vector<double> speeds;
+    std::vector<double> knots;
   };
 
   namespace
@@ -49,9 +60,9 @@ namespace sprag
     return { interpolant->value(speed), interpolant->derivative(speed) };
   }
 
-  const std::vector<double> &TabulatedFriction::speeds() const
+  const std::vector<double> &TabulatedFriction::knots() const
   {
-    return interpolant->speeds;
+    return interpolant->knots;
   }
 
   namespace
@@ -70,26 +81,44 @@ namespace sprag
       return { 1.076, 0. };
     }
 
+    FrictionValue value_of(const StribeckFriction &law, const double speed)
+    {
+      const double u    = speed / law.speed;
+      const double fall = (law.at_rest - law.kinetic) * std::exp(-std::pow(u, law.exponent));
+      return { law.kinetic + fall + law.viscous * speed,
+               law.viscous - fall * law.exponent * std::pow(u, law.exponent - 1.) / law.speed };
+    }
+
     FrictionValue value_of(const TabulatedFriction &law, const double speed)
     {
       return law.value(speed);
     }
 
-    const std::vector<double> &knots_of(const CoulombFriction & /*law*/)
+    constexpr double no_knot = std::numeric_limits<double>::infinity();
+
+    double knot_after(const double /*speed*/, const CoulombFriction & /*law*/)
     {
-      static const std::vector<double> none;
-      return none;
+      return no_knot;
     }
 
-    const std::vector<double> &knots_of(const CorkOnAluminium & /*law*/)
+    double knot_after(const double speed, const CorkOnAluminium & /*law*/)
     {
-      static const std::vector<double> ends = { 200., 750. };
-      return ends;
+      if (speed < 200.)
+        return 200.;
+      return speed < 750. ? 750. : no_knot;
     }
 
-    const std::vector<double> &knots_of(const TabulatedFriction &law)
+    /// The exponential's inflexion.
+    double knot_after(const double speed, const StribeckFriction &law)
     {
-      return law.speeds();
+      const double steepest = law.speed * std::pow(1. - 1. / law.exponent, 1. / law.exponent);
+      return speed < steepest ? steepest : no_knot;
+    }
+
+    double knot_after(const double speed, const TabulatedFriction &law)
+    {
+      const auto next = std::upper_bound(law.knots().begin(), law.knots().end(), speed);
+      return next != law.knots().end() ? *next : no_knot;
     }
   } // namespace
 
@@ -99,8 +128,8 @@ namespace sprag
     return { law.factor * value.coefficient, law.factor * value.derivative };
   }
 
-  const std::vector<double> &friction_knots(const FrictionLaw &law)
+  double next_friction_knot(const FrictionLaw &law, const double speed)
   {
-    return std::visit([](const auto &choice) -> const std::vector<double> & { return knots_of(choice); }, law.law);
+    return std::visit([speed](const auto &choice) { return knot_after(speed, choice); }, law.law);
   }
 } // namespace sprag

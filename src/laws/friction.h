@@ -28,6 +28,17 @@ namespace sprag
   {
   };
 
+  /// Falls from rest with the speed v of slip, and grows with it again where viscous:
+  ///   mu = kinetic + (at_rest - kinetic) exp(-(v / speed)^exponent) + viscous v
+  struct StribeckFriction
+  {
+    double at_rest  = 0.9; ///< >= 0
+    double kinetic  = 0.6; ///< >= 0
+    double speed    = 30.; ///< over which mu falls [mm/s]; > 0
+    double exponent = 1.;  ///< 1: steepest at rest, 2: level there; >= 1
+    double viscous  = 0.;  ///< [s/mm]; >= 0
+  };
+
   /// mu over speed from a file, joined by a monotone cubic (PCHIP) and constant beyond its ends.
   class TabulatedFriction
   {
@@ -38,7 +49,8 @@ namespace sprag
 
     FrictionValue value(double speed) const;
 
-    const std::vector<double> &speeds() const;
+    /// See next_friction_knot(): the rows, and where the cubics between them turn the other way.
+    const std::vector<double> &knots() const;
 
   private:
     class Interpolant;
@@ -54,15 +66,15 @@ namespace sprag
 
   struct FrictionLaw
   {
-    std::variant<CoulombFriction, CorkOnAluminium, TabulatedFriction> law = CorkOnAluminium{};
-    FrictionSpeed speed                                                   = FrictionSpeed::sliding;
-    double regularisation_speed                                           = 0.; ///< [mm/s]; 0: stick is resolved
-    double factor                                                         = 1.; ///< times mu of the law, >= 0
+    std::variant<CoulombFriction, CorkOnAluminium, StribeckFriction, TabulatedFriction> law = CorkOnAluminium{};
+    FrictionSpeed speed                                                                     = FrictionSpeed::sliding;
+    double regularisation_speed = 0.; ///< [mm/s]; 0: stick is resolved
+    double factor               = 1.; ///< times mu of the law, >= 0
   };
 
   /// mu and dmu/d|v| at a sliding speed |v| >= 0 [mm/s]. mu(0) is the cone in stick.
   FrictionValue friction_coefficient(const FrictionLaw &law, double speed);
 
-  /// Speeds [mm/s], ascending, between which mu is one polynomial of degree 3 or less.
-  const std::vector<double> &friction_knots(const FrictionLaw &law);
+  /// The next of the speeds beyond `speed` [mm/s] between which dmu/d|v| is monotone; infinity where there is none.
+  double next_friction_knot(const FrictionLaw &law, double speed);
 } // namespace sprag

@@ -11,7 +11,6 @@
 #include "model/linearisation.h"
 #include "model/port_newton.h"
 #include "model/port_step.h"
-#include "model/port_vectors.h"
 #include "model/steady_slides.h"
 #include "scene/closed_form.h"
 
@@ -171,7 +170,7 @@ namespace sprag
 
     Motion perturbed(const HeldSlide &slide, const Eigenmode &eigenmode, const double amplitude) override
     {
-      contact->evaluate_sliding(sliding_state(slide, TangentPart::all));
+      contact->evaluate_sliding(sliding_state(slide));
       const std::complex<double> size = amplitude / largest_gap_change(*contact, eigenmode.ports);
       Motion motion                   = slide.motion;
       add_mode(size, eigenmode.mode, motion);
@@ -179,7 +178,7 @@ namespace sprag
       dealii::Vector<double> rates(ports.size());
       add_real_part(size, eigenmode.ports, ports);
       add_real_part(size * eigenmode.mode.eigenvalue, eigenmode.ports, rates);
-      contact->evaluate_sliding(SlidingState{ ports, slide.drive, slide.speed, &rates, slide.friction, TangentPart::all });
+      contact->evaluate_sliding(SlidingState{ ports, slide.drive, slide.speed, &rates, slide.friction });
       motion.contact = contact->memory();
       return motion;
     }
@@ -302,7 +301,7 @@ namespace sprag
 
     bool overlaps(const dealii::Vector<double> &ports, const DrivePoint &drive)
     {
-      contact->evaluate_sliding(SlidingState{ ports, drive, 1., nullptr, ContactFriction::none, TangentPart::all });
+      contact->evaluate_sliding(SlidingState{ ports, drive, 1., nullptr, ContactFriction::none });
       return contact->overlap() > 1e-9 * frame.geometries.front().cylinder_radius;
     }
 
@@ -322,52 +321,28 @@ namespace sprag
       return { row[Column::P], row[Column::Q] };
     }
 
-    static SlidingState sliding_state(const HeldSlide &slide, const TangentPart part)
+    static SlidingState sliding_state(const HeldSlide &slide)
     {
-      return { slide.ports, slide.drive, slide.speed, nullptr, slide.friction, part };
+      return { slide.ports, slide.drive, slide.speed, nullptr, slide.friction };
     }
 
-    /// The contact's forces about a held slide, and the coupling with a sprung support.
+    /// The contact's forces about a held slide, those of the hub's spring and the coupling with a sprung support.
     PortPerturbation perturbation(const HeldSlide &slide, const bool in_contact)
     {
-      const auto theta = inclinations(turns_of(frame.ports, slide.ports));
+      const auto turns_of_slide = turns_of(frame.ports, slide.ports);
+      const auto theta          = inclinations(turns_of_slide);
       sprag::reachable_ports(*contact, slide.drive.x, theta);
-      PortPerturbation result;
-      const auto part = [&](const TangentPart wanted) -> const PortForces &
-      {
-        contact->evaluate_sliding(sliding_state(slide, wanted));
-        return contact->forces();
-      };
-      if (in_contact)
-        result.ports = part(TangentPart::all).ports;
-      const auto loaded = result.ports;
+      const auto of_contact = in_contact ? contact->linearise(sliding_state(slide)) : PortPerturbation();
+      auto ports            = of_contact.ports;
       for (const auto &others : { coupling.coupled_ports(), hub_spring.loaded_ports() })
-        result.ports.insert(result.ports.end(), others.begin(), others.end());
-      std::sort(result.ports.begin(), result.ports.end());
-      result.ports.erase(std::unique(result.ports.begin(), result.ports.end()), result.ports.end());
-      const auto n = static_cast<unsigned int>(result.ports.size());
-      for (auto *const matrix :
-           { &result.pressure, &result.friction, &result.pressure_rate, &result.friction_rate, &result.inertia })
-        matrix->reinit(n, n);
-      if (in_contact)
-      {
-        const auto tangent = [&](const TangentPart wanted)
-        {
-          PortForces on_all;
-          extend(part(wanted), result.ports, on_all);
-          return on_all.tangent;
-        };
-        result.pressure      = tangent(TangentPart::pressure);
-        result.friction      = tangent(TangentPart::friction);
-        result.pressure_rate = tangent(TangentPart::pressure_rate);
-        result.friction_rate = tangent(TangentPart::friction_rate);
-        for (const auto &delay : contact->friction_delays())
-          result.delays.push_back({ delay.time, spread(delay.force, loaded, result.ports),
-                                    spread(delay.stiffness_row, loaded, result.ports),
-                                    spread(delay.rate_row, loaded, result.ports) });
-      }
+        ports.insert(ports.end(), others.begin(), others.end());
+      std::sort(ports.begin(), ports.end());
+      ports.erase(std::unique(ports.begin(), ports.end()), ports.end());
+
+      PortPerturbation result(std::move(ports));
+      result.add(of_contact);
       coupling.add_inertia(result.ports, theta, result.inertia);
-      hub_spring.add_stiffness(result.ports, turns_of(frame.ports, slide.ports), result.pressure);
+      hub_spring.add_stiffness(result.ports, turns_of_slide, result.pressure);
       return result;
     }
 

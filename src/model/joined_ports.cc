@@ -39,7 +39,9 @@ namespace sprag
     for (unsigned int lever = 0; lever < of_levers.size(); ++lever)
     {
       const auto &of_lever = *of_levers[lever];
-      const auto places    = joined_places(layout, lever, of_lever, result);
+      std::vector<unsigned int> places;
+      for (const unsigned int port : of_lever.ports)
+        places.push_back(place_of(joined_port(layout, lever, port), result.ports));
       for (unsigned int a = 0; a < places.size(); ++a)
       {
         result.values[places[a]] += of_lever.values[a];
@@ -47,15 +49,6 @@ namespace sprag
           result.tangent(places[a], places[b]) += of_lever.tangent(a, b);
       }
     }
-    return result;
-  }
-
-  std::vector<unsigned int> joined_places(const PortLayout &layout, const unsigned int lever, const PortForces &of_lever,
-                                          const PortForces &joined)
-  {
-    std::vector<unsigned int> result;
-    for (const unsigned int port : of_lever.ports)
-      result.push_back(place_of(joined_port(layout, lever, port), joined.ports));
     return result;
   }
 } // namespace sprag

@@ -15,8 +15,4 @@ namespace sprag
 
   /// Forces of the contacts of the levers, in their order, as forces on all ports.
   PortForces joined_forces(const PortLayout &layout, const std::vector<const PortForces *> &of_levers);
-
-  /// Where the ports of a lever's contact forces stand among joined ones.
-  std::vector<unsigned int> joined_places(const PortLayout &layout, unsigned int lever, const PortForces &of_lever,
-                                          const PortForces &joined);
 } // namespace sprag

@@ -1,5 +1,7 @@
 #include "model/linearisation.h"
 
+#include "model/port_forces.h"
+
 namespace sprag
 {
   using dealii::FullMatrix;
@@ -22,13 +24,6 @@ namespace sprag
           matrix(i, j) -= column[i] * row[j];
     }
 
-    void add_product(const Complex factor, const FullMatrix<double> &matrix, const ComplexAmplitudes &z, ComplexAmplitudes &sum)
-    {
-      for (unsigned int i = 0; i < matrix.m(); ++i)
-        for (unsigned int j = 0; j < matrix.n(); ++j)
-          sum[i] += factor * matrix(i, j) * z[j];
-    }
-
     Complex product(const dealii::Vector<double> &row, const ComplexAmplitudes &z)
     {
       Complex result;
@@ -36,7 +31,52 @@ namespace sprag
         result += row[i] * z[i];
       return result;
     }
+
+    void add_product(const Complex factor, const FullMatrix<double> &matrix, const ComplexAmplitudes &z, ComplexAmplitudes &sum)
+    {
+      for (unsigned int i = 0; i < matrix.m(); ++i)
+      {
+        Complex of_row;
+        for (unsigned int j = 0; j < matrix.n(); ++j)
+          of_row += matrix(i, j) * z[j];
+        sum[i] += factor * of_row;
+      }
+    }
+
+    /// Entries at places among `size`.
+    dealii::Vector<double> spread(const dealii::Vector<double> &row, const std::vector<unsigned int> &places,
+                                  const unsigned int size)
+    {
+      dealii::Vector<double> result(size);
+      for (unsigned int i = 0; i < places.size(); ++i)
+        result[places[i]] = row[i];
+      return result;
+    }
   } // namespace
+
+  PortPerturbation::PortPerturbation(std::vector<unsigned int> on_ports)
+      : ports(std::move(on_ports))
+  {
+    const auto n = static_cast<unsigned int>(ports.size());
+    for (auto *const matrix : { &pressure, &friction, &pressure_rate, &friction_rate, &inertia })
+      matrix->reinit(n, n);
+  }
+
+  void PortPerturbation::add(const PortPerturbation &other)
+  {
+    std::vector<unsigned int> places;
+    for (const unsigned int port : other.ports)
+      places.push_back(place_of(port, ports));
+    for (const auto matrix : { &PortPerturbation::pressure, &PortPerturbation::friction, &PortPerturbation::pressure_rate,
+                               &PortPerturbation::friction_rate, &PortPerturbation::inertia })
+      for (unsigned int i = 0; i < places.size(); ++i)
+        for (unsigned int j = 0; j < places.size(); ++j)
+          (this->*matrix)(places[i], places[j]) += (other.*matrix)(i, j);
+    const auto n = static_cast<unsigned int>(ports.size());
+    for (const auto &delay : other.delays)
+      delays.push_back({ delay.time, spread(delay.force, places, n), spread(delay.stiffness_row, places, n),
+                         spread(delay.rate_row, places, n) });
+  }
 
   FullMatrix<double> PortPerturbation::stiffness() const
   {

@@ -9,17 +9,6 @@ namespace sprag
   /// Of some ports.
   using ComplexAmplitudes = std::vector<std::complex<double>>;
 
-  /// Which part of the contact's tangent is wanted. By displacements: of the pressure, with the change of its direction, and of
-  /// friction; by velocities: of contact damping, and of friction, as pressure and mu follow the velocities.
-  enum class TangentPart
-  {
-    all, ///< by displacements
-    pressure,
-    friction,
-    pressure_rate,
-    friction_rate
-  };
-
   /// A contact whose points all slide at one speed, at given displacements of the ports.
   struct SlidingState
   {
@@ -28,7 +17,6 @@ namespace sprag
     double speed;                                  ///< of the cylinder's surface along the lever [mm/s], != 0
     const dealii::Vector<double> *rates = nullptr; ///< of the ports, which add to the slip; none: at rest
     ContactFriction friction            = ContactFriction::sliding;
-    TangentPart part                    = TangentPart::all;
   };
 
   /// Displacements of points along the lever, in lever axes [mm].
@@ -53,8 +41,18 @@ namespace sprag
 
   /// Forces f on some ports by a small perturbation z(t) of them, about a held slide, delays of friction apart:
   ///   f = (pressure + friction) z + (pressure_rate + friction_rate) z' - inertia z''
+  /// By displacements: of the pressure, with the change of its direction, and of friction; by velocities: of contact damping, and
+  /// of friction, as pressure and mu follow the velocities.
   struct PortPerturbation
   {
+    PortPerturbation() = default;
+
+    /// Without forces.
+    explicit PortPerturbation(std::vector<unsigned int> ports);
+
+    /// Adds forces on some of these ports, in any order.
+    void add(const PortPerturbation &other);
+
     std::vector<unsigned int> ports; ///< increasing
     dealii::FullMatrix<double> pressure;
     dealii::FullMatrix<double> friction;

@@ -45,29 +45,27 @@ namespace sprag
 
     void evaluate_sliding(const SlidingState &state)
     {
+      of_levers(state, [&](const unsigned int lever, const SlidingState &own) { contact[lever]->evaluate_sliding(own); });
+    }
+
+    PortPerturbation linearise(const SlidingState &state)
+    {
+      std::array<PortPerturbation, 2> own;
+      of_levers(state,
+                [&](const unsigned int lever, const SlidingState &sliding) { own[lever] = contact[lever]->linearise(sliding); });
+      PortPerturbation result(joined.ports);
       for (unsigned int lever = 0; lever < levers; ++lever)
       {
-        const auto ports = ports_of(lever, state.ports);
-        const auto rates = state.rates != nullptr ? ports_of(lever, *state.rates) : dealii::Vector<double>();
-        contact[lever]->evaluate_sliding(SlidingState{ ports, state.drive, state.speed, state.rates != nullptr ? &rates : nullptr,
-                                                       state.friction, state.part });
+        for (auto &port : own[lever].ports)
+          port = joined_port(layout, lever, port);
+        result.add(own[lever]);
       }
-      join_forces();
+      return result;
     }
 
     const PortForces &forces() const
     {
       return joined;
-    }
-
-    std::vector<FrictionDelay> friction_delays() const
-    {
-      std::vector<FrictionDelay> result;
-      for (unsigned int lever = 0; lever < levers; ++lever)
-        for (const auto &delay : contact[lever]->friction_delays())
-          result.push_back({ delay.time, joined_row(lever, delay.force), joined_row(lever, delay.stiffness_row),
-                             joined_row(lever, delay.rate_row) });
-      return result;
     }
 
     const PortSelection &reachable_ports(const double x, const OfLevers &theta)
@@ -164,18 +162,23 @@ namespace sprag
       return ports_of_lever(layout, lever, of_pair);
     }
 
+    /// Evaluates both contacts, each at its own ports.
+    template <class Evaluate>
+    void of_levers(const SlidingState &state, const Evaluate &evaluate)
+    {
+      for (unsigned int lever = 0; lever < levers; ++lever)
+      {
+        const auto ports = ports_of(lever, state.ports);
+        const auto rates = state.rates != nullptr ? ports_of(lever, *state.rates) : dealii::Vector<double>();
+        evaluate(lever,
+                 SlidingState{ ports, state.drive, state.speed, state.rates != nullptr ? &rates : nullptr, state.friction });
+      }
+      join_forces();
+    }
+
     void join_forces()
     {
       joined = joined_forces(layout, { &contact[0]->forces(), &contact[1]->forces() });
-    }
-
-    dealii::Vector<double> joined_row(const unsigned int lever, const dealii::Vector<double> &row) const
-    {
-      const auto places = joined_places(layout, lever, contact[lever]->forces(), joined);
-      dealii::Vector<double> result(static_cast<unsigned int>(joined.ports.size()));
-      for (unsigned int a = 0; a < places.size(); ++a)
-        result[places[a]] = row[a];
-      return result;
     }
   };
 } // namespace sprag

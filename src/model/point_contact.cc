@@ -88,47 +88,51 @@ namespace sprag
     const double stretched     = law.regularisation_speed > 0. ? 0. : response.traction;
     response.energy            = normal.energy + 0.5 * stretched * stretched / properties.tangential;
     response.force             = response.pressure * end.gap_row - response.traction * end.slip_row;
-    response.tangent           = sliding_tangent(state.part, state.friction);
+    response.tangent           = pressure_tangent() + friction_tangent(state.friction);
     work                       = {};
     sum_forces(response.force, response.tangent);
   }
 
-  PointContact::LocalMatrix PointContact::sliding_tangent(const TangentPart part, const ContactFriction friction) const
+  PointContact::LocalMatrix PointContact::pressure_tangent() const
   {
-    switch (part)
-    {
-    case TangentPart::all:
-      return sliding_tangent(TangentPart::pressure, friction) + sliding_tangent(TangentPart::friction, friction);
-    case TangentPart::pressure:
-      return outer_product(end.gap_row, d_pressure) + response.pressure * end.gap_curvature;
-    case TangentPart::friction:
-      if (friction == ContactFriction::stuck)
-        return -properties.tangential * outer_product(end.slip_row, end.slip_row);
-      return -sliding.coefficient * outer_product(end.slip_row, d_pressure) - response.traction * end.slip_curvature;
-    case TangentPart::pressure_rate:
-      return outer_product(end.gap_row, d_pressure_rate);
-    case TangentPart::friction_rate:
-      return -sliding.coefficient * outer_product(end.slip_row, d_pressure_rate) -
-             sliding.derivative * response.pressure * outer_product(end.slip_row, end.slip_row);
-    }
-    return {};
+    return outer_product(end.gap_row, d_pressure) + response.pressure * end.gap_curvature;
   }
 
-  std::vector<FrictionDelay> PointContact::friction_delays() const
+  PointContact::LocalMatrix PointContact::friction_tangent(const ContactFriction friction) const
+  {
+    if (friction == ContactFriction::stuck)
+      return -properties.tangential * outer_product(end.slip_row, end.slip_row);
+    return -sliding.coefficient * outer_product(end.slip_row, d_pressure) - response.traction * end.slip_curvature;
+  }
+
+  PortPerturbation PointContact::linearise(const SlidingState &state)
+  {
+    evaluate_sliding(state);
+    const auto places           = local_ports();
+    const Local d_traction_rate = sliding.coefficient * d_pressure_rate + sliding.derivative * response.pressure * end.slip_row;
+    PortPerturbation result(summed.ports);
+    result.pressure      = on_ports(places, pressure_tangent());
+    result.friction      = on_ports(places, friction_tangent(state.friction));
+    result.pressure_rate = on_ports(places, outer_product(end.gap_row, d_pressure_rate));
+    result.friction_rate = on_ports(places, -1. * outer_product(end.slip_row, d_traction_rate));
+    result.delays        = friction_delays(places, d_traction_rate);
+    return result;
+  }
+
+  std::vector<FrictionDelay> PointContact::friction_delays(const std::vector<LocalPort> &places,
+                                                           const Local &d_traction_rate) const
   {
     const double time = sliding.derivative * response.pressure / properties.tangential;
     if (!sticks || !(time > 0.))
       return {};
-    const auto places = local_ports();
     const auto n_used = static_cast<unsigned int>(places.size());
     FrictionDelay delay{ time, Vector<double>(n_used), Vector<double>(n_used), Vector<double>(n_used) };
-    const Local by_rate = sliding.coefficient * d_pressure_rate + sliding.derivative * response.pressure * end.slip_row;
     for (unsigned int i = 0; i < n_used; ++i)
     {
       const auto &[local, port, sign] = places[i];
       delay.force[i]                  = -sign * end.slip_row[local];
       delay.stiffness_row[i]          = sign * sliding.coefficient * d_pressure[local];
-      delay.rate_row[i]               = sign * by_rate[local];
+      delay.rate_row[i]               = sign * d_traction_rate[local];
     }
     return { delay };
   }
@@ -145,21 +149,27 @@ namespace sprag
     return result;
   }
 
+  FullMatrix<double> PointContact::on_ports(const std::vector<LocalPort> &places, const LocalMatrix &matrix)
+  {
+    const auto used = static_cast<unsigned int>(places.size());
+    FullMatrix<double> result(used, used);
+    for (unsigned int i = 0; i < used; ++i)
+      for (unsigned int j = 0; j < used; ++j)
+        result(i, j) = places[i].sign * places[j].sign * matrix[places[i].local][places[j].local];
+    return result;
+  }
+
   void PointContact::sum_forces(const Local &force, const LocalMatrix &tangent)
   {
     const auto places = local_ports();
-    const auto used   = static_cast<unsigned int>(places.size());
     summed.ports.clear();
-    summed.values.reinit(used);
-    summed.tangent.reinit(used, used);
-    for (unsigned int i = 0; i < used; ++i)
+    summed.values.reinit(static_cast<unsigned int>(places.size()));
+    for (unsigned int i = 0; i < places.size(); ++i)
     {
-      const auto &row = places[i];
-      summed.ports.push_back(row.port);
-      summed.values[i] = row.sign * force[row.local];
-      for (unsigned int j = 0; j < used; ++j)
-        summed.tangent(i, j) = row.sign * places[j].sign * tangent[row.local][places[j].local];
+      summed.ports.push_back(places[i].port);
+      summed.values[i] = places[i].sign * force[places[i].local];
     }
+    summed.tangent = on_ports(places, tangent);
   }
 
   const PortForces &PointContact::forces() const

@@ -36,10 +36,11 @@ namespace sprag
 
     void evaluate(const PortStep &step);
     void evaluate_sliding(const SlidingState &state);
-    const PortForces &forces() const;
 
-    /// Delays of friction at the last evaluate_sliding(), on the ports of forces().
-    std::vector<FrictionDelay> friction_delays() const;
+    /// Evaluates as well; on the ports of forces().
+    PortPerturbation linearise(const SlidingState &state);
+
+    const PortForces &forces() const;
 
     /// Ports that a contact at that drive position may reach: all.
     const PortSelection &reachable_ports(double x, double theta);
@@ -92,7 +93,8 @@ namespace sprag
     Configuration configure(const Local &q) const;
     StepKinematics<n> step_kinematics(const PortStep &step, const Local &end_rates);
     void sum_forces(const Local &force, const LocalMatrix &tangent);
-    LocalMatrix sliding_tangent(TangentPart part, ContactFriction friction) const;
+    LocalMatrix pressure_tangent() const;
+    LocalMatrix friction_tangent(ContactFriction friction) const;
 
     /// A local coordinate that is a port, and the sign between them.
     struct LocalPort
@@ -102,6 +104,8 @@ namespace sprag
       double sign;
     };
     std::vector<LocalPort> local_ports() const;
+    std::vector<FrictionDelay> friction_delays(const std::vector<LocalPort> &places, const Local &d_traction_rate) const;
+    static dealii::FullMatrix<double> on_ports(const std::vector<LocalPort> &places, const LocalMatrix &matrix);
 
     const PointContactProperties properties;
     unsigned int window = 0; ///< node before the first local one

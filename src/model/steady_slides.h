@@ -7,7 +7,6 @@
 #include "model/linearisation.h"
 #include "model/port_newton.h"
 #include "model/port_step.h"
-#include "model/port_vectors.h"
 #include "scene/closed_form.h"
 
 namespace sprag
@@ -68,7 +67,7 @@ namespace sprag
       const double speed  = ratio * sliding_speed(frame.geometries.front(), drive.x, drive.v);
       const auto evaluate = [&](const dealii::Vector<double> &ports) -> const PortForces &
       {
-        contact.evaluate_sliding(SlidingState{ ports, drive, speed, nullptr, friction, TangentPart::all });
+        contact.evaluate_sliding(SlidingState{ ports, drive, speed, nullptr, friction });
         return hub_spring.add_forces(contact.forces(), turns_of(frame.ports, ports));
       };
       const auto solved = solve_ports(

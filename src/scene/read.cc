@@ -66,7 +66,8 @@ namespace sprag
       void check_ranges();
       void check_range(const std::string &parameter, const ParameterRange &range);
       void check_unused();
-      void refuse_unused(const std::string &parameter, const std::string &choice, const std::string &needed);
+      const Parameter &declared(const std::string &name) const;
+      bool counts(const Parameter &parameter) const;
       double reversal_duration();
       void use_table(const std::string &parameter, const std::string &file, const ColumnNames &names,
                      const std::function<void(const TwoColumns &)> &use);
@@ -181,10 +182,13 @@ namespace sprag
       switch (friction.law)
       {
       case FrictionChoice::coulomb:
-        law.law = CoulombFriction{ friction.coefficient };
+        law.law = friction.coulomb;
         break;
       case FrictionChoice::cork_on_aluminium:
         law.law = CorkOnAluminium{};
+        break;
+      case FrictionChoice::stribeck:
+        law.law = friction.stribeck;
         break;
       case FrictionChoice::table:
         use_table("Friction/Table", friction.table, { "speed", "mu" },
@@ -250,9 +254,9 @@ namespace sprag
         }
       if (meant == nullptr)
         return report(parameter, range.name + " is no parameter with a number" + did_you_mean(nearest(range.name, names)));
-      const bool of_other_law = input.friction.law != FrictionChoice::coulomb && !doubtful("Friction/Law");
-      if (range.name == "Friction/Coefficient" && of_other_law)
-        return report(parameter, range.name + " counts only with Friction/Law = Coulomb; Friction/Factor multiplies any law");
+      if (!counts(*meant))
+        return report(parameter, range.name + " counts only with " + meant->choice + " = " + meant->chosen +
+                                     (meant->section == "Friction" ? "; Friction/Factor multiplies any law" : ""));
       for (const double value : { range.from, range.to })
         if (const auto broken = violation(meant->rule, number_text(value)))
           return report(parameter, range.name + " = " + number_text(value) + " " + *broken);
@@ -260,29 +264,36 @@ namespace sprag
         report(parameter, range.name + " must have a range, not " + number_text(range.from) + " alone");
     }
 
-    void SceneReader::check_unused()
+    const Parameter &SceneReader::declared(const std::string &name) const
     {
-      if (input.friction.law != FrictionChoice::coulomb)
-        refuse_unused("Friction/Coefficient", "Friction/Law", "Coulomb");
-      if (input.friction.law != FrictionChoice::table)
-        refuse_unused("Friction/Table", "Friction/Law", "table");
-      if (input.drive.profile != DriveProfile::table)
-        refuse_unused("Drive/Table", "Drive/Profile", "table");
+      return *std::find_if(parameters.begin(), parameters.end(),
+                           [&](const auto &candidate) { return full_name(candidate) == name; });
+    }
+
+    bool SceneReader::counts(const Parameter &parameter) const
+    {
+      if (parameter.choice.empty() || doubtful(parameter.choice))
+        return true;
+      const auto chosen = settings.given.find(parameter.choice);
+      return (chosen != settings.given.end() ? chosen->second.value : declared(parameter.choice).default_value) ==
+             parameter.chosen;
     }
 
     /// A default beside a choice given in the same place passes: so do the printed parameters.
-    void SceneReader::refuse_unused(const std::string &parameter, const std::string &choice, const std::string &needed)
+    void SceneReader::check_unused()
     {
-      const auto given = settings.given.find(parameter);
-      if (given == settings.given.end() || given->second.value.empty() || doubtful(parameter) || doubtful(choice))
-        return;
-      const auto declared       = std::find_if(parameters.begin(), parameters.end(),
-                                               [&](const auto &candidate) { return full_name(candidate) == parameter; });
-      const auto chosen         = settings.given.find(choice);
-      const auto by_option      = [](const Setting &setting) { return setting.place == "--set"; };
-      const bool chosen_as_well = chosen != settings.given.end() && (by_option(chosen->second) || !by_option(given->second));
-      if (given->second.value != declared->default_value || !chosen_as_well)
-        report(parameter, "counts only with " + choice + " = " + needed);
+      for (const auto &parameter : parameters)
+      {
+        const auto name  = full_name(parameter);
+        const auto given = settings.given.find(name);
+        if (counts(parameter) || given == settings.given.end() || given->second.value.empty() || doubtful(name))
+          continue;
+        const auto chosen         = settings.given.find(parameter.choice);
+        const auto by_option      = [](const Setting &setting) { return setting.place == "--set"; };
+        const bool chosen_as_well = chosen != settings.given.end() && (by_option(chosen->second) || !by_option(given->second));
+        if (given->second.value != parameter.default_value || !chosen_as_well)
+          report(name, "counts only with " + parameter.choice + " = " + parameter.chosen);
+      }
     }
 
     void SceneReader::check()

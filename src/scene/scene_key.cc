@@ -18,6 +18,16 @@ namespace sprag
       return names;
     }
 
+    /// All parameters of these sections, and some more.
+    std::vector<std::string> all_of(const std::set<std::string> &sections, std::vector<std::string> more = {})
+    {
+      SceneSettings settings;
+      for (const auto &parameter : scene_parameters(settings))
+        if (sections.count(parameter.section) == 1)
+          more.push_back(full_name(parameter));
+      return more;
+    }
+
     std::string value_as_read(const std::string &name, const Scene &scene)
     {
       if (!scene.parameters)
@@ -92,9 +102,7 @@ namespace sprag
         { "Analysis/Type", "Analysis/Solution", "Analysis/Step", "Analysis/Minimum step", "Analysis/Maximum deviation",
           "Analysis/Maximum energy residual" } },
       { "the drive counts by its ends, which belong to the key", { "Drive/Speed", "Drive/Cycles", "Drive/Reversal duration" } },
-      { "friction acts on the face",
-        { "Friction/Law", "Friction/Coefficient", "Friction/Table", "Friction/Speed", "Friction/Factor",
-          "Friction/Regularisation speed", "Mirrored pair/Friction ratio" } },
+      { "friction acts on the face", all_of({ "Friction" }, { "Mirrored pair/Friction ratio" }) },
       { "of rigid and beam alone", { "Lever/Neutral axis offset", "Contact/Type", "Contact/Stiffness", "Contact/Exponent" } },
       { "damping is added to mass and stiffness",
         { "Lever/Modal damping", "Lever/Mass damping", "Lever/Stiffness damping", "Contact/Damping" } },
@@ -106,31 +114,7 @@ namespace sprag
       { "steps in time", { "Time/Step", "Time/Tolerance", "Time/Spectral radius" } },
       { "where bases are kept", { "Condensed/Cache" } },
       { "what is written", { "Output/Fields", "Output/Field interval" } },
-      { "which slide is judged and what else is tried",
-        { "Stability/Position",
-          "Stability/Direction",
-          "Stability/Modes",
-          "Stability/Damping",
-          "Stability/Contact",
-          "Stability/Critical",
-          "Stability/Roles",
-          "Map/First parameter",
-          "Map/First from",
-          "Map/First to",
-          "Map/First points",
-          "Map/Second parameter",
-          "Map/Second from",
-          "Map/Second to",
-          "Map/Second points",
-          "Map/Coarsest",
-          "Map/Bisections",
-          "Sprag slip/Initial amplitude",
-          "Sprag slip/Final amplitude",
-          "Sprag slip/Steps per period",
-          "Sprag slip/Longest growth",
-          "Sprag slip/Settling time",
-          "Sprag slip/Continuation",
-          "Sprag slip/Turn" } },
+      { "which slide is judged and what else is tried", all_of({ "Stability", "Map", "Sprag slip" }) },
     };
     return all;
   }

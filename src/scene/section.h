@@ -20,6 +20,15 @@ namespace sprag
     {
     }
 
+    /// For parameters that count only with a choice in this section.
+    Section only_with(const std::string &entry, const std::string &word) const
+    {
+      Section result       = *this;
+      result.choice_needed = name + "/" + entry;
+      result.word_needed   = word;
+      return result;
+    }
+
     void number(const std::string &entry, double &value, const Interval &interval, const std::string &unit,
                 const std::string &meaning)
     {
@@ -81,11 +90,13 @@ namespace sprag
   private:
     std::vector<Parameter> &parameters;
     const std::string name;
+    std::string choice_needed;
+    std::string word_needed;
 
     void add(const std::string &entry, const std::string &value, const Rule &rule, const std::string &meaning,
              const std::function<void(const std::string &)> &store)
     {
-      parameters.push_back({ name, entry, value, rule, meaning, store });
+      parameters.push_back({ name, entry, value, rule, meaning, store, choice_needed, word_needed });
     }
   };
 

@@ -70,7 +70,8 @@ namespace sprag
                      "How often from Start to Stroke and back; 0.5 is there only");
       section.number("Reversal duration", settings.reversal, at_least(0.), "s",
                      "T, transient triangle only: from Speed to the opposite Speed, and from rest to Speed where Start = 0");
-      section.file("Table", settings.table, "File with the columns time [s] and x [mm], relative to the folder of this one");
+      section.only_with("Profile", "table")
+          .file("Table", settings.table, "File with the columns time [s] and x [mm], relative to the folder of this one");
     }
 
     void friction(Section section, FrictionSettings &settings)
@@ -78,10 +79,21 @@ namespace sprag
       section.choice("Law", settings.law,
                      { { "Coulomb", FrictionChoice::coulomb },
                        { "cork on aluminium", FrictionChoice::cork_on_aluminium },
+                       { "Stribeck", FrictionChoice::stribeck },
                        { "table", FrictionChoice::table } },
-                     "Friction coefficient: constant, eqs. 13-15, or from a file");
-      section.number("Coefficient", settings.coefficient, at_least(0.), "", "mu of the Coulomb law");
-      section.file("Table", settings.table, "File with the columns speed [mm/s] and mu [-], relative to the folder of this one");
+                     "Friction coefficient: constant, eqs. 13-15, falling from rest, or from a file");
+      section.only_with("Law", "Coulomb")
+          .number("Coefficient", settings.coulomb.coefficient, at_least(0.), "", "mu of the Coulomb law");
+      auto stribeck = section.only_with("Law", "Stribeck");
+      stribeck.number("Static coefficient", settings.stribeck.at_rest, at_least(0.), "", "mu_s at rest");
+      stribeck.number("Kinetic coefficient", settings.stribeck.kinetic, at_least(0.), "", "mu_k");
+      stribeck.number("Stribeck speed", settings.stribeck.speed, above(0.), "mm/s",
+                      "v_s, over which mu = mu_k + (mu_s - mu_k) exp(-(v/v_s)^delta) + c v falls");
+      stribeck.number("Stribeck exponent", settings.stribeck.exponent, at_least(1.), "",
+                      "delta: 1 steepest at rest, 2 level there");
+      stribeck.number("Viscous coefficient", settings.stribeck.viscous, at_least(0.), "s/mm", "c, growth of mu with speed");
+      section.only_with("Law", "table")
+          .file("Table", settings.table, "File with the columns speed [mm/s] and mu [-], relative to the folder of this one");
       section.choice("Speed", settings.speed, { { "sliding", FrictionSpeed::sliding }, { "drive", FrictionSpeed::drive } },
                      "Speed that mu depends on: of sliding, or the drive's (the paper's choice)");
       section.number("Factor", settings.factor, at_least(0.), "", "Times mu of whichever law");

@@ -25,14 +25,16 @@ namespace sprag
   {
     coulomb,
     cork_on_aluminium,
+    stribeck,
     table
   };
 
   /// Friction as given in text.
   struct FrictionSettings
   {
-    FrictionChoice law          = FrictionChoice::cork_on_aluminium;
-    double coefficient          = CoulombFriction().coefficient;
+    FrictionChoice law = FrictionChoice::cork_on_aluminium;
+    CoulombFriction coulomb;
+    StribeckFriction stribeck;
     FrictionSpeed speed         = FrictionSpeed::sliding;
     double regularisation_speed = 0.;
     double factor               = 1.;

@@ -293,7 +293,7 @@ TEST(EveryParameter, BelongsToTheKeysOfSomeScene)
   const TemporaryFolder folder;
   std::set<std::string> admitted;
   const Changes statics = { "Analysis/Type=quasi-static", "Analysis/Model=finite element", "Analysis/Plane=strain" };
-  const Changes in_time = { "Analysis/Type=transient", "Analysis/Model=rigid" };
+  const Changes in_time = { "Analysis/Type=transient", "Analysis/Model=rigid", "Friction/Law=Stribeck" };
   for (const Scene &scene :
        { bar(folder), frame_with_plate(folder), pair_on_leaves(folder), scene_of(folder, statics), scene_of(folder, in_time) })
     change_each(scene, folder, false, admitted);

@@ -14,6 +14,15 @@ namespace
   using Vector = dealii::Vector<double>;
 } // namespace
 
+// Where the cylinder's edges meet, what their kink times the gap moves is left out: 1e-9 of the tangent.
+TEST(ElasticObstacle, PartsAddUpToTheTangentAndPressureIsSymmetric)
+{
+  const MeshedPair bodies;
+  const auto properties = properties_of(*bodies, true, 0.);
+  FaceContact contact(*bodies, properties);
+  expect_parts_of_tangent(contact, pressed(*bodies, properties.ports, 2e-4, 1., 0.3), 1e-8);
+}
+
 TEST(ElasticObstacle, ForcesOnLeverAndCylinderAreEqualAndOpposite)
 {
   const MeshedPair bodies;

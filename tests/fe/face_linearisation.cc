@@ -2,6 +2,7 @@
 
 #include "bar_on_cylinder.h"
 #include "mpi_environment.h"
+#include "support/port_differences.h"
 
 #include <gtest/gtest.h>
 
@@ -42,15 +43,12 @@ TEST(FaceLinearisation, RatesAreTheDerivativeOfTheForcesByVelocities)
         const Vector ports = pressed(properties.ports, 0.01);
         const DrivePoint drive{ 0., 0., speed, 0. };
         const auto with_rates = [&](const Vector &rates) {
-          return forces_of(contact, { ports, drive, speed, &rates, ContactFriction::sliding, TangentPart::all });
+          return forces_of(contact, { ports, drive, speed, &rates, ContactFriction::sliding });
         };
-        const auto part = [&](const TangentPart wanted) {
-          return forces_of(contact, { ports, drive, speed, nullptr, ContactFriction::sliding, wanted });
-        };
-        const PortForces exact = part(TangentPart::friction_rate);
+        const auto exact = contact.linearise({ ports, drive, speed });
         ASSERT_FALSE(exact.ports.empty());
-        EXPECT_EQ(part(TangentPart::pressure_rate).tangent.linfty_norm(), 0.);
-        const double largest = exact.tangent.linfty_norm();
+        EXPECT_EQ(exact.pressure_rate.linfty_norm(), 0.);
+        const double largest = exact.friction_rate.linfty_norm();
         EXPECT_GT(largest, 1e-4);
         for (unsigned int j = 0; j < exact.ports.size(); ++j)
         {
@@ -61,7 +59,7 @@ TEST(FaceLinearisation, RatesAreTheDerivativeOfTheForcesByVelocities)
           rates *= -1.;
           const auto left = with_rates(rates).values;
           for (unsigned int i = 0; i < exact.ports.size(); ++i)
-            EXPECT_NEAR(exact.tangent(i, j), (right[i] - left[i]) / (2. * h), 1e-6 * largest) << sprung << i << " " << j;
+            EXPECT_NEAR(exact.friction_rate(i, j), (right[i] - left[i]) / (2. * h), 1e-6 * largest) << sprung << i << " " << j;
         }
       }
 }
@@ -77,17 +75,8 @@ TEST(FaceLinearisation, FrictionThatGrowsWithSpeedIsDelayedAsInSteps)
       {
         const auto properties = properties_of(*bar, sprung, 0.);
         FaceContact contact(*bar, properties);
-        const Vector at = pressed(properties.ports, 0.01);
-        PortPerturbation linear;
-        const auto part = [&](const TangentPart wanted) {
-          return forces_of(contact, { at, { 0., 0., speed, 0. }, speed, nullptr, ContactFriction::sliding, wanted }).tangent;
-        };
-        linear.pressure      = part(TangentPart::pressure);
-        linear.friction      = part(TangentPart::friction);
-        linear.pressure_rate = part(TangentPart::pressure_rate);
-        linear.friction_rate = part(TangentPart::friction_rate);
-        linear.ports         = contact.forces().ports;
-        linear.delays        = contact.friction_delays();
+        const Vector at   = pressed(properties.ports, 0.01);
+        const auto linear = contact.linearise({ at, { 0., 0., speed, 0. }, speed });
         ASSERT_GT(linear.delays.size(), 10u);
         Motion accepted;
         accepted.contact = contact.memory();
@@ -136,7 +125,7 @@ TEST(FaceLinearisation, StuckIsTheTangentOfAStepInStick)
     FaceContact contact(*bar, properties);
     const Vector ports = pressed(properties.ports, 0.01);
     const DrivePoint drive{ 0., 0., 0., 0. };
-    const auto linear = forces_of(contact, { ports, drive, 100., nullptr, ContactFriction::stuck, TangentPart::all });
+    const auto linear = forces_of(contact, { ports, drive, 100., nullptr, ContactFriction::stuck });
     const Vector rest(ports.size());
     const StepWeights weights{ 1e-5, 0., 0., 0.25, 0.5 };
     Motion accepted;
@@ -157,7 +146,14 @@ TEST(FaceLinearisation, IsNothingOutOfContact)
   FaceContact contact(*bar, properties);
   const Vector ports = pressed(properties.ports, -0.1);
   const DrivePoint drive{ 0., 0., 100., 0. };
-  for (const auto part :
-       { TangentPart::all, TangentPart::pressure, TangentPart::friction, TangentPart::pressure_rate, TangentPart::friction_rate })
-    EXPECT_TRUE(forces_of(contact, { ports, drive, 100., nullptr, ContactFriction::sliding, part }).ports.empty());
+  EXPECT_TRUE(forces_of(contact, { ports, drive, 100. }).ports.empty());
+  EXPECT_TRUE(contact.linearise({ ports, drive, 100. }).ports.empty());
+}
+
+TEST(FaceLinearisation, PartsAddUpToTheTangentAndPressureIsSymmetric)
+{
+  const MeshedBar bar(bar_on_cylinder());
+  const auto properties = properties_of(*bar, true, 0.);
+  FaceContact contact(*bar, properties);
+  expect_parts_of_tangent(contact, pressed(properties.ports, 0.01), 1e-14);
 }

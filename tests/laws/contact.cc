@@ -239,7 +239,10 @@ TEST(FrictionTraction, OfSeveralAnswersTheFirstOfAScanIsTaken)
 {
   constexpr double width = 1e-3;
   constexpr double range = 1000.; // beyond it mu is constant
-  for (const auto &law : { cork, falling, drop })
+  const auto stribeck    = [](const double exponent, const double viscous) {
+    return FrictionLaw{ StribeckFriction{ 0.9, 0.4, 20., exponent, viscous } };
+  };
+  for (const auto &law : { cork, falling, drop, stribeck(1., 0.), stribeck(1.5, 0.), stribeck(2., 1e-5), stribeck(5., 0.) })
     for (const double resistance : { 1e-6, 1e-3, 5e-3, 1e-2, 2e-2, 0.1 })
       for (const double share : { 1e-6, 1e-3, 0.01, 0.03, 0.1, 0.2, 0.3, 1. })
       {

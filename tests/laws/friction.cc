@@ -2,6 +2,7 @@
 
 #include "base/errors.h"
 
+#include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
 
@@ -54,8 +55,53 @@ TEST(Friction, CorkOnAluminiumHardlyJumpsAtItsJoints)
   EXPECT_NEAR(std::abs(jump(750.)), 1.9e-4, 1e-5);
 }
 
+TEST(Friction, StribeckFallsFromRestAndGrowsAgainWithSpeed)
+{
+  const auto law = law_of(StribeckFriction{ 0.9, 0.6, 30., 2., 1e-3 });
+  EXPECT_DOUBLE_EQ(friction_coefficient(law, 0.).coefficient, 0.9);
+  EXPECT_DOUBLE_EQ(friction_coefficient(law, 0.).derivative, 1e-3);
+  EXPECT_DOUBLE_EQ(friction_coefficient(law, 30.).coefficient, 0.6 + 0.3 / std::exp(1.) + 0.03);
+  EXPECT_DOUBLE_EQ(friction_coefficient(law, 1e4).coefficient, 0.6 + 10.);
+  EXPECT_DOUBLE_EQ(friction_coefficient(law_of(StribeckFriction{ 0.9, 0.6, 30., 1., 0. }), 0.).derivative, -0.01);
+}
+
+TEST(Friction, SlopesAreMonotoneBetweenKnots)
+{
+  for (const auto &law : { law_of(CoulombFriction{}), law_of(CorkOnAluminium{}), law_of(measured),
+                           law_of(StribeckFriction{ 0.9, 0.6, 30., 1., 1e-3 }), law_of(StribeckFriction{ 0.9, 0.6, 30., 1.3 }),
+                           law_of(StribeckFriction{ 0.4, 0.7, 50., 2. }), law_of(StribeckFriction{ 0.9, 0.6, 30., 6. }) })
+  {
+    double from = 0.;
+    while (from < 900.)
+    {
+      const double to = std::min(900., next_friction_knot(law, from));
+      ASSERT_GT(to, from);
+      constexpr unsigned int n = 200;
+      double rise = 0., fall = 0., last = 0.;
+      for (unsigned int i = 1; i < n; ++i)
+      {
+        const double slope = friction_coefficient(law, from + (to - from) * i / n).derivative;
+        if (i > 1)
+          (slope > last ? rise : fall) += std::abs(slope - last);
+        last = slope;
+      }
+      EXPECT_LT(std::min(rise, fall), 1e-12) << "from " << from << " to " << to;
+      from = to;
+    }
+  }
+}
+
 TEST(Friction, DerivativesAgreeWithFiniteDifferences)
 {
+  // Of an exponential over 30 mm/s differences err by h^2/6 times a third derivative below 3e-4, and by round-off 1e-16/h.
+  for (const double exponent : { 1., 1.5, 2., 4. })
+    for (const double speed : { 2., 10., 30., 60., 300. })
+    {
+      const auto law = law_of(StribeckFriction{ 0.9, 0.6, 30., exponent, 1e-3 });
+      const double h = 1e-3;
+      const auto mu  = [&](const double v) { return friction_coefficient(law, v).coefficient; };
+      EXPECT_NEAR(friction_coefficient(law, speed).derivative, (mu(speed + h) - mu(speed - h)) / (2. * h), 1e-10) << speed;
+    }
   for (const double speed : { 1., 112., 199., 201., 500., 749., 751. })
     expect_derivative(law_of(CorkOnAluminium{}), speed);
   for (const double speed : { 5., 11., 60., 150., 250., 399., 700., 900. })

@@ -109,19 +109,24 @@ namespace
     return result;
   }
 
-  PortForces forces(const Slide &slide, const Vector &ports, const TangentPart part, const Vector *rates = nullptr,
+  PortForces forces(const Slide &slide, const Vector &ports, const Vector *rates = nullptr,
                     const ContactFriction friction = ContactFriction::sliding)
   {
     PointContact contact(slide.contact);
-    contact.evaluate_sliding({ ports, slide.drive(), slide.speed(), rates, friction, part });
+    contact.evaluate_sliding({ ports, slide.drive(), slide.speed(), rates, friction });
     return contact.forces();
   }
 
-  Full sum(const PortForces &a, const PortForces &b)
+  PortPerturbation linearised(const Slide &slide, const Vector &ports, const ContactFriction friction = ContactFriction::sliding)
   {
-    Full result = a.tangent;
-    result.add(1., b.tangent);
-    return result;
+    return PointContact(slide.contact).linearise({ ports, slide.drive(), slide.speed(), nullptr, friction });
+  }
+
+  double distance(const Full &a, const Full &b)
+  {
+    Full difference = a;
+    difference.add(-1., b);
+    return difference.frobenius_norm();
   }
 
   /// Central differences; `width` [mm or mm/s] at the contact.
@@ -152,13 +157,14 @@ TEST(Linearisation, PressureAndFrictionAreTheDerivativeOfTheForcesByDisplacement
   for (const auto &slide : slides(0.05))
   {
     const Vector at = slide.position(overlap);
-    const Full both = sum(forces(slide, at, TangentPart::pressure), forces(slide, at, TangentPart::friction));
+    const Full both = linearised(slide, at).stiffness();
+    EXPECT_EQ(distance(both, forces(slide, at).tangent), 0.) << slide.name;
     expect_derivative(
         slide, both,
         [&](Vector change)
         {
           change += at;
-          return forces(slide, change, TangentPart::all);
+          return forces(slide, change);
         },
         2e-6, 1e-3);
   }
@@ -171,10 +177,10 @@ TEST(Linearisation, RatesAreTheDerivativeOfTheForcesByVelocities)
   for (const auto &slide : slides(0.05))
   {
     const Vector at = slide.position(overlap);
-    const Full both = sum(forces(slide, at, TangentPart::pressure_rate), forces(slide, at, TangentPart::friction_rate));
+    const Full both = linearised(slide, at).damping();
     EXPECT_GT(both.linfty_norm(), 0.01);
     expect_derivative(
-        slide, both, [&](const Vector &rates) { return forces(slide, at, TangentPart::all, &rates); }, 1e-2, 1e-7);
+        slide, both, [&](const Vector &rates) { return forces(slide, at, &rates); }, 1e-2, 1e-7);
   }
 }
 
@@ -191,17 +197,10 @@ TEST(Linearisation, FrictionThatGrowsWithSpeedIsDelayedAsInSteps)
         continue;
       const Vector at = slide.position(overlap);
       PointContact contact(slide.contact);
-      contact.evaluate_sliding({ at, slide.drive(), slide.speed() });
+      const auto linear = contact.linearise({ at, slide.drive(), slide.speed() });
       Motion accepted;
       accepted.drive   = { 0., place, 0., 0. };
       accepted.contact = contact.memory();
-      PortPerturbation linear;
-      linear.ports         = contact.forces().ports;
-      linear.delays        = contact.friction_delays();
-      linear.pressure      = forces(slide, at, TangentPart::pressure).tangent;
-      linear.friction      = forces(slide, at, TangentPart::friction).tangent;
-      linear.pressure_rate = forces(slide, at, TangentPart::pressure_rate).tangent;
-      linear.friction_rate = forces(slide, at, TangentPart::friction_rate).tangent;
       ASSERT_EQ(linear.delays.size(), std::holds_alternative<CorkOnAluminium>(slide.contact.friction.law) ? 1u : 0u);
 
       Full exact = linear.immediate_stiffness();
@@ -236,20 +235,19 @@ TEST(Linearisation, PartsByPressureAreSymmetricAndFrictionIsNot)
 {
   for (const auto &slide : slides(0.05))
   {
-    const Vector at        = slide.position(overlap);
-    const auto skewness_of = [&](const TangentPart part)
+    const auto linear      = linearised(slide, slide.position(overlap));
+    const auto skewness_of = [&](const Full &matrix)
     {
-      const Full matrix = forces(slide, at, part).tangent;
-      Full skew         = matrix;
+      Full skew = matrix;
       skew.Tadd(-1., matrix);
       return skew.frobenius_norm() / matrix.frobenius_norm();
     };
-    EXPECT_LT(skewness_of(TangentPart::pressure), 1e-14) << slide.name;
-    EXPECT_LT(skewness_of(TangentPart::pressure_rate), 1e-14) << slide.name;
+    EXPECT_LT(skewness_of(linear.pressure), 1e-14) << slide.name;
+    EXPECT_LT(skewness_of(linear.pressure_rate), 1e-14) << slide.name;
     // A rigid lever on a rigid support has one port. With the axis at the pivot bending and rotation slip as little.
     if (slide.contact.ports.size() > 1)
     {
-      EXPECT_GT(skewness_of(TangentPart::friction), 1e-3) << slide.name;
+      EXPECT_GT(skewness_of(linear.friction), 1e-3) << slide.name;
     }
   }
 }
@@ -262,8 +260,7 @@ TEST(Linearisation, StuckIsTheTangentOfAStepInStick)
     if (slide.contact.friction.regularisation_speed > 0.)
       continue;
     const Vector at   = slide.position(overlap);
-    const Full linear = sum(forces(slide, at, TangentPart::pressure, nullptr, ContactFriction::stuck),
-                            forces(slide, at, TangentPart::friction, nullptr, ContactFriction::stuck));
+    const Full linear = linearised(slide, at, ContactFriction::stuck).stiffness();
     const StepWeights weights{ 1e-5, 0., 0., 0.25, 0.5 };
     const Vector rest(at.size());
     Motion accepted;
@@ -271,9 +268,7 @@ TEST(Linearisation, StuckIsTheTangentOfAStepInStick)
     accepted.contact = { ContactMemory{} };
     PointContact contact(slide.contact);
     contact.evaluate(PortStep{ accepted.drive, accepted.contact, accepted.drive, { at, rest, rest }, at, rest, weights });
-    Full difference = contact.forces().tangent;
-    difference.add(-1., linear);
-    EXPECT_LT(difference.frobenius_norm(), 1e-12 * linear.frobenius_norm()) << slide.name;
+    EXPECT_LT(distance(contact.forces().tangent, linear), 1e-12 * linear.frobenius_norm()) << slide.name;
   }
 }
 
@@ -283,13 +278,13 @@ TEST(Linearisation, IsNothingOutOfContact)
   {
     const Vector at = slide.position(-overlap);
     for (const auto friction : { ContactFriction::sliding, ContactFriction::none })
-      for (const auto part : { TangentPart::all, TangentPart::pressure, TangentPart::friction, TangentPart::pressure_rate,
-                               TangentPart::friction_rate })
-      {
-        const auto open = forces(slide, at, part, nullptr, friction);
-        EXPECT_EQ(open.values.linfty_norm(), 0.) << slide.name;
-        EXPECT_EQ(open.tangent.linfty_norm(), 0.) << slide.name;
-      }
+    {
+      EXPECT_EQ(forces(slide, at, nullptr, friction).values.linfty_norm(), 0.) << slide.name;
+      const auto open = linearised(slide, at, friction);
+      for (const auto *const part : { &open.pressure, &open.friction, &open.pressure_rate, &open.friction_rate })
+        EXPECT_EQ(part->linfty_norm(), 0.) << slide.name;
+      EXPECT_TRUE(open.delays.empty()) << slide.name;
+    }
   }
 }
 

@@ -336,8 +336,10 @@ TEST(ReadScene, ParametersThatWouldNotCountAreRefused)
   EXPECT_EQ(mistakes("subsection Friction\n set Coefficient = 0.73\nend\n"),
             (Messages{ "scene.prm:2: Friction/Coefficient = 0.73: counts only with Friction/Law = Coulomb" }));
   EXPECT_EQ(mistakes_of({ "Friction/Table=mu.csv", "Drive/Table=x.csv" }),
-            (Messages{ "--set: Friction/Table = mu.csv: counts only with Friction/Law = table",
-                       "--set: Drive/Table = x.csv: counts only with Drive/Profile = table" }));
+            (Messages{ "--set: Drive/Table = x.csv: counts only with Drive/Profile = table",
+                       "--set: Friction/Table = mu.csv: counts only with Friction/Law = table" }));
+  EXPECT_EQ(mistakes_of({ "Friction/Law=Coulomb", "Friction/Stribeck speed=20" }),
+            (Messages{ "--set: Friction/Stribeck speed = 20: counts only with Friction/Law = Stribeck" }));
   // As printed.
   EXPECT_TRUE(mistakes("subsection Friction\n set Law = cork on aluminium\n set Coefficient = 0.73\nend\n").empty());
 }

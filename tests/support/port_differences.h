@@ -1,5 +1,6 @@
 #pragma once
 
+#include "model/linearisation.h"
 #include "model/port_forces.h"
 
 #include <algorithm>
@@ -50,5 +51,30 @@ namespace sprag
     }
     evaluate();
     return error / largest;
+  }
+
+  /// That the parts of a slide's tangent, summed apart, are what Newton's method is given, and that the pressure's is symmetric,
+  /// up to a share of the tangent.
+  template <class Contact>
+  void expect_parts_of_tangent(Contact &contact, const dealii::Vector<double> &ports, const double skewness)
+  {
+    const DrivePoint drive{ 0., 0., 100., 0. };
+    for (const auto friction : { ContactFriction::sliding, ContactFriction::none, ContactFriction::stuck })
+    {
+      const SlidingState state{ ports, drive, 100., nullptr, friction };
+      contact.evaluate_sliding(state);
+      const auto tangent   = contact.forces().tangent;
+      const auto linear    = contact.linearise(state);
+      const double largest = tangent.frobenius_norm();
+      auto rest            = tangent;
+      rest.add(-1., linear.stiffness());
+      EXPECT_LT(rest.frobenius_norm(), 1e-14 * largest);
+      rest = linear.pressure;
+      rest.Tadd(-1., linear.pressure);
+      EXPECT_LT(rest.frobenius_norm(), skewness * largest);
+      EXPECT_EQ(linear.friction.frobenius_norm() > 1e-3 * largest, friction != ContactFriction::none);
+      EXPECT_EQ(linear.friction_rate.frobenius_norm() > 0., friction == ContactFriction::sliding);
+      EXPECT_EQ(linear.delays.empty(), friction != ContactFriction::sliding);
+    }
   }
 } // namespace sprag

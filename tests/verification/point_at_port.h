@@ -49,7 +49,7 @@ namespace sprag
     {
       return 0.;
     }
-    std::vector<FrictionDelay> friction_delays() const
+    PortPerturbation linearise(const SlidingState &)
     {
       return {};
     }

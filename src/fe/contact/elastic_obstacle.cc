@@ -172,7 +172,9 @@ namespace sprag
       coordinates = pair.coordinates(patch, { &facets_at_begin(patch), &end.of, &of_balance.of });
     }
     values.reinit(coordinates.size());
-    tangent.reinit(coordinates.size(), coordinates.size());
+    for (auto *const matrix : { &tangent, &friction.by_displacement, &friction.by_velocity })
+      matrix->reinit(coordinates.size(), coordinates.size());
+    friction.delays.clear();
     force_row.reinit(coordinates.size());
     if (!places.balanced_at_end())
     {
@@ -300,11 +302,18 @@ namespace sprag
     state.end_force  = on_lever(state.pressure, -state.traction, end_rows);
     add_force(facet.weight, state.pressure, -state.traction, end_rows);
     add_product(facet.weight * of.normal, end_rows.gap, end_rows.gap, tangent);
-    add_product(facet.weight * of.coupled, end_rows.slip, end_rows.gap, tangent);
-    add_product(facet.weight * of.tangential, end_rows.slip, end_rows.slip, tangent);
-    add_product(facet.weight * of.by_speed * sliding.speed, end_rows.slip, end_rows.stretch, tangent);
-    add_curvature(end.of, facet, end.at, coordinates, R, facet.weight * of.gap_curvature, facet.weight * of.slip_gradient,
-                  tangent);
+    force_row.equ(of.coupled, end_rows.gap);
+    force_row.add(of.stuck, end_rows.slip, of.by_speed * sliding.speed, end_rows.stretch);
+    add_product(facet.weight, end_rows.slip, force_row, sums.in_parts ? friction.by_displacement : tangent);
+    const double normal     = facet.weight * state.pressure;
+    const double tangential = -facet.weight * state.traction;
+    if (!sums.in_parts)
+      return add_curvature(end.of, facet, end.at, coordinates, R, normal, tangential, tangent);
+    add_curvature(end.of, facet, end.at, coordinates, R, normal, 0., tangent);
+    add_curvature(end.of, facet, end.at, coordinates, R, 0., tangential, friction.by_displacement);
+    add_product(facet.weight * of.by_speed, end_rows.slip, end_rows.slip, friction.by_velocity);
+    if (of.delay > 0.)
+      friction.delays.push_back(delay_of(of, sliding.speed, rows_on_ports(facet)));
   }
 
   void ElasticObstacle::add_force(const double weight, const double normal, const double along_slip, const FacetRows &rows)
@@ -339,9 +348,7 @@ namespace sprag
   void ElasticObstacle::leave(ContactSums &sums)
   {
     if (touched)
-      sums.loaded.push_back(forces_on_ports(
-          ports(), [&](const unsigned int i) { return values[i]; },
-          [&](const unsigned int i, const unsigned int j) { return tangent(i, j); }));
+      add_patch(ports(), values, tangent, friction, sums);
   }
 
   FacePointRows ElasticObstacle::rows(const FacePointState &state)
@@ -349,6 +356,12 @@ namespace sprag
     touch();
     const auto &facet = facet_at_end(state.index);
     find_rows(end.of, facet, end.at, coordinates, properties.radius, end_rows);
+    return rows_on_ports(facet);
+  }
+
+  /// Of those found last.
+  FacePointRows ElasticObstacle::rows_on_ports(const Facet &facet) const
+  {
     const auto of_patch = ports();
     const auto n        = static_cast<unsigned int>(of_patch.size());
     FacePointRows result{ facet.weight, {}, Vector<double>(n), Vector<double>(n), Vector<double>(n) };

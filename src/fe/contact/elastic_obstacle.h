@@ -53,6 +53,7 @@ namespace sprag
     void add_force(double weight, double normal, double along_slip, const FacetRows &rows);
     dealii::Tensor<1, 4> on_lever(double normal, double along_slip, const FacetRows &rows) const;
     std::vector<FaceCoordinate> ports() const;
+    FacePointRows rows_on_ports(const Facet &facet) const;
     dealii::Vector<double> change(const dealii::Vector<double> &from, const dealii::Vector<double> &to) const;
 
     const FacePatches &face;
@@ -84,5 +85,6 @@ namespace sprag
     dealii::Vector<double> movement;  ///< in the step
     dealii::Vector<double> values;
     dealii::FullMatrix<double> tangent;
+    FrictionParts<dealii::FullMatrix<double>> friction;
   };
 } // namespace sprag

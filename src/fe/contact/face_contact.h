@@ -40,10 +40,10 @@ namespace sprag
 
     void evaluate_sliding(const SlidingState &state);
 
-    const PortForces &forces() const;
+    /// Evaluates as well; on the ports of forces(). Friction delays at each point in contact.
+    PortPerturbation linearise(const SlidingState &state);
 
-    /// Delays of friction at the points in contact, at the last evaluate_sliding(), on the ports of forces().
-    std::vector<FrictionDelay> friction_delays() const;
+    const PortForces &forces() const;
 
     /// Ports near the cylinder at x from the pivot frame's origin and inclination theta, far beyond the contact's width and where
     /// it may have been `travel` before [mm].
@@ -104,9 +104,8 @@ namespace sprag
     template <class ObstacleBelow>
     void step_patch(ObstacleBelow &below, unsigned int patch, const FaceStep &step);
     template <class ObstacleBelow>
-    void slide_patch(ObstacleBelow &below, unsigned int patch, const SlidingState &sliding);
-    template <class ObstacleBelow>
-    std::optional<FrictionDelay> delay_of(ObstacleBelow &below, const FacePointState &state) const;
+    void slide_patch(ObstacleBelow &below, unsigned int patch, const SlidingState &sliding, const FrictionLaw &law);
+    void slide(const SlidingState &sliding, bool in_parts);
     void enter(const StepPlaces &places) const;
     FacePatches::Range near() const;
     FacePointState &add_state(unsigned int patch, unsigned int point);
@@ -125,8 +124,6 @@ namespace sprag
     double step_duration = 0.;
     ContactSums sums;
     std::vector<FacePointState> states;
-    FrictionLaw sliding_law;      ///< of evaluate_sliding(), none but then
-    double speed_of_sliding = 0.; ///< of the cylinder
     PortForces summed;
     std::vector<unsigned int> place_of_port; ///< among those summed
     PortSelection reachable;

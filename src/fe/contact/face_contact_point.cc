@@ -5,32 +5,6 @@
 
 namespace sprag
 {
-  namespace
-  {
-    SlidingTangent tangent(const TangentPart part, const ContactFriction friction, const ContactPenalties &penalty,
-                           const SlidingFriction &share, const double pressure)
-    {
-      SlidingTangent result;
-      const bool all = part == TangentPart::all;
-      if (all || part == TangentPart::pressure)
-      {
-        result.normal        = -penalty.normal;
-        result.gap_curvature = pressure;
-      }
-      if ((all || part == TangentPart::friction) && friction == ContactFriction::stuck)
-        result.tangential = -penalty.tangential;
-      else if (all || part == TangentPart::friction)
-      {
-        result.coupled       = share.coefficient * penalty.normal;
-        result.slip_gradient = -share.coefficient * pressure;
-        result.by_speed      = -share.derivative * pressure;
-      }
-      if (part == TangentPart::friction_rate)
-        result.tangential = -share.derivative * pressure;
-      return result;
-    }
-  } // namespace
-
   Obstacle cylinder(const Geometry &geometry)
   {
     return [geometry](const double x, const double theta)
@@ -89,6 +63,23 @@ namespace sprag
     const double elastic    = law.regularisation_speed > 0. ? 0. : 0.5 * state.traction * state.traction / penalty.tangential;
     sums.stored += weight * (0.5 * penalty.normal * state.gap * state.gap + elastic);
     sums.compression = std::max(sums.compression, -state.gap);
-    return tangent(sliding.part, sliding.friction, penalty, share, state.pressure);
+
+    SlidingTangent of;
+    of.normal   = -penalty.normal;
+    of.coupled  = share.coefficient * penalty.normal;
+    of.stuck    = sliding.friction == ContactFriction::stuck ? -penalty.tangential : 0.;
+    of.by_speed = -share.derivative * state.pressure;
+    of.delay    = law.regularisation_speed > 0. ? 0. : std::max(0., -of.by_speed / penalty.tangential);
+    return of;
+  }
+
+  FrictionDelay delay_of(const SlidingTangent &of, const double speed, const FacePointRows &rows)
+  {
+    FrictionDelay result{ of.delay, rows.slip, rows.gap, rows.slip };
+    result.force *= -rows.weight;
+    result.stiffness_row *= -of.coupled;
+    result.stiffness_row.add(-of.by_speed * speed, rows.stretch);
+    result.rate_row *= -of.by_speed;
+    return result;
   }
 } // namespace sprag

@@ -106,6 +106,15 @@ namespace sprag
     dealii::FullMatrix<double> tangent;
   };
 
+  /// What friction has in the tangent of a patch that slides steadily, where it is wanted apart; see PortPerturbation.
+  template <class Matrix>
+  struct FrictionParts
+  {
+    Matrix by_displacement;
+    Matrix by_velocity;
+    std::vector<FrictionDelay> delays; ///< on the ports of the patch
+  };
+
   /// A coordinate of a patch that is a port.
   struct FaceCoordinate
   {
@@ -114,20 +123,15 @@ namespace sprag
     double sign; ///< of the coordinate along the port
   };
 
-  /// From values and tangent over the coordinates of a patch.
-  template <class Values, class Tangent>
-  PatchForces forces_on_ports(const std::vector<FaceCoordinate> &coordinates, const Values &values, const Tangent &tangent)
+  /// From a matrix over the coordinates of a patch.
+  template <class Matrix>
+  dealii::FullMatrix<double> matrix_on_ports(const std::vector<FaceCoordinate> &coordinates, const Matrix &matrix)
   {
     const auto n = static_cast<unsigned int>(coordinates.size());
-    PatchForces result{ {}, dealii::Vector<double>(n), dealii::FullMatrix<double>(n, n) };
+    dealii::FullMatrix<double> result(n, n);
     for (unsigned int i = 0; i < n; ++i)
-    {
-      const auto &row = coordinates[i];
-      result.ports.push_back(row.port);
-      result.values[i] = row.sign * values(row.index);
       for (unsigned int j = 0; j < n; ++j)
-        result.tangent(i, j) = row.sign * coordinates[j].sign * tangent(row.index, coordinates[j].index);
-    }
+        result(i, j) = coordinates[i].sign * coordinates[j].sign * matrix[coordinates[i].index][coordinates[j].index];
     return result;
   }
 
@@ -150,7 +154,33 @@ namespace sprag
     bool beyond_face         = false; ///< whether the contact reaches the end of what can be touched
     StepWork work;
     std::vector<PatchForces> loaded;
+    bool in_parts = false;               ///< whether steady sliding gives its tangent in parts
+    std::vector<PortPerturbation> parts; ///< of the patches loaded
   };
+
+  /// Adds the forces of a patch, from values and tangent over its coordinates: of pressure alone where it is wanted in parts.
+  template <class Values, class Matrix>
+  void add_patch(const std::vector<FaceCoordinate> &coordinates, const Values &values, const Matrix &tangent,
+                 const FrictionParts<Matrix> &friction, ContactSums &sums)
+  {
+    PatchForces forces;
+    forces.values.reinit(static_cast<unsigned int>(coordinates.size()));
+    for (unsigned int i = 0; i < coordinates.size(); ++i)
+    {
+      forces.ports.push_back(coordinates[i].port);
+      forces.values[i] = coordinates[i].sign * values[coordinates[i].index];
+    }
+    forces.tangent = matrix_on_ports(coordinates, tangent);
+    if (sums.in_parts)
+    {
+      auto &parts         = sums.parts.emplace_back(forces.ports);
+      parts.pressure      = forces.tangent;
+      parts.friction      = matrix_on_ports(coordinates, friction.by_displacement);
+      parts.friction_rate = matrix_on_ports(coordinates, friction.by_velocity);
+      parts.delays        = friction.delays;
+    }
+    sums.loaded.push_back(std::move(forces));
+  }
 
   /// Where a step begins and ends, and at which share of it forces are balanced.
   struct StepPlaces
@@ -207,20 +237,24 @@ namespace sprag
     sums.work.creep = std::max(sums.work.creep, response.creep);
   }
 
-  /// Derivative of the forces per area p G - t S of steady sliding, G and S the rows of gap and slip:
-  ///   normal G G + coupled S G + tangential S S + gap_curvature dG/dq + slip_gradient dS/dq + by_speed S dv/dq,
+  /// Derivatives of the forces per area p G - t S of steady sliding, G and S the rows of gap and slip:
+  ///   pressure       normal G G + pressure dG/dq
+  ///   friction       S (coupled G + stuck S + by_speed dv/dq) - traction dS/dq
+  ///   friction_rate  by_speed S S
   /// v what the slip speed is at ports at rest.
   struct SlidingTangent
   {
-    double normal        = 0.;
-    double coupled       = 0.;
-    double tangential    = 0.;
-    double gap_curvature = 0.;
-    double slip_gradient = 0.;
-    double by_speed      = 0.;
+    double normal   = 0.;
+    double coupled  = 0.;
+    double stuck    = 0.;
+    double by_speed = 0.;
+    double delay    = 0.; ///< of what goes with coupled and by_speed, 0 where there is none [s]
   };
 
-  /// Sets tractions from the state's gap < 0 and slip and adds them to the sums; returns the part of the tangent asked for.
+  /// Sets tractions from the state's gap < 0 and slip and adds them to the sums.
   SlidingTangent slide(const FaceContactProperties &properties, const FrictionLaw &law, const SlidingState &sliding,
                        double weight, FacePointState &state, ContactSums &sums);
+
+  /// Of a point with these rows.
+  FrictionDelay delay_of(const SlidingTangent &of, double speed, const FacePointRows &rows);
 } // namespace sprag

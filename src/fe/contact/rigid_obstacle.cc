@@ -65,8 +65,9 @@ namespace sprag
     at_end         = FacePatches::nodal(face.patches()[patch], *places.end.displacement);
     begin_of_patch = places.moves() ? &begin_of(patch) : nullptr;
     touched        = false;
-    std::fill_n(values, n_local, 0.);
-    std::fill_n(&tangents[0][0], n_local * n_local, 0.);
+    values         = {};
+    tangent        = {};
+    friction       = {};
   }
 
   bool RigidObstacle::place(FacePointState &state)
@@ -162,7 +163,8 @@ namespace sprag
     const double by_slope = shift.d_slope * response.d_shift;
     if (by_slope != 0.)
       response.tangent -= by_slope * outer_product(placed.slip_row, placed.slip_curvature * direction);
-    add(point, response.force, response.tangent);
+    add_force(point, response.force);
+    add_tangent(point, response.tangent, tangent);
     if (by_slope != 0.)
       add_slope(point, by_slope);
   }
@@ -176,11 +178,11 @@ namespace sprag
       {
         const double change       = point.weight * traction_by_slope * slip_row[e] * point.slopes[b];
         const unsigned int column = 2 * b + e;
-        tangents[theta_index][column] -= slip_row[2] * change;
-        tangents[x_index][column] -= slip_row[3] * change;
+        tangent[theta_index][column] -= slip_row[2] * change;
+        tangent[x_index][column] -= slip_row[3] * change;
         for (unsigned int a = 0; a < FacePatches::max_nodes; ++a)
           for (unsigned int d = 0; d < 2; ++d)
-            tangents[2 * a + d][column] -= point.shapes[a] * slip_row[d] * change;
+            tangent[2 * a + d][column] -= point.shapes[a] * slip_row[d] * change;
       }
   }
 
@@ -198,40 +200,50 @@ namespace sprag
                            placed.slip_row[2] * (*sliding.rates)[at.rotation()] -
                            (at.sprung ? placed.slip_row[3] * (*sliding.rates)[at.support()] : 0.);
     }
-    const auto of      = sprag::slide(properties, law, sliding, point.weight, state, sums);
-    state.end_force    = state.pressure * placed.gap_row - state.traction * placed.slip_row;
-    const auto tangent = of.normal * outer_product(placed.gap_row, placed.gap_row) +
-                         of.coupled * outer_product(placed.slip_row, placed.gap_row) +
-                         of.tangential * outer_product(placed.slip_row, placed.slip_row) +
-                         of.gap_curvature * placed.gap_curvature + of.slip_gradient * placed.slip_curvature;
-    add(point, state.end_force, tangent);
+    const auto of   = sprag::slide(properties, law, sliding, point.weight, state, sums);
+    state.end_force = state.pressure * placed.gap_row - state.traction * placed.slip_row;
+    add_force(point, state.end_force);
+    const auto pressure    = of.normal * outer_product(placed.gap_row, placed.gap_row) + state.pressure * placed.gap_curvature;
+    const auto by_friction = outer_product(placed.slip_row, of.coupled * placed.gap_row + of.stuck * placed.slip_row) -
+                             state.traction * placed.slip_curvature;
+    if (!sums.in_parts)
+      return add_tangent(point, pressure + by_friction, tangent);
+    add_tangent(point, pressure, tangent);
+    add_tangent(point, by_friction, friction.by_displacement);
+    add_tangent(point, of.by_speed * outer_product(placed.slip_row, placed.slip_row), friction.by_velocity);
+    if (of.delay > 0.)
+      friction.delays.push_back(delay_of(of, sliding.speed, rows(state)));
   }
 
-  void RigidObstacle::add(const FacePatches::Point &point, const Tensor<1, 4> &force, const Tensor<2, 4> &tangent)
+  void RigidObstacle::add_force(const FacePatches::Point &point, const Tensor<1, 4> &force)
   {
-    touched                           = true;
+    touched = true;
+    values[theta_index] += point.weight * force[2];
+    values[x_index] += point.weight * force[3];
+    for (unsigned int i = 0; i < 2 * face.patches()[patch].n_nodes; ++i)
+      values[i] += point.weight * point.shapes[i / 2] * force[i % 2];
+  }
+
+  void RigidObstacle::add_tangent(const FacePatches::Point &point, const Tensor<2, 4> &of_point, LocalMatrix &sum) const
+  {
     const unsigned int n_nodes        = face.patches()[patch].n_nodes;
     constexpr unsigned int rest[2][2] = { { 2, theta_index }, { 3, x_index } };
     for (const auto &[i, row] : rest)
-    {
-      values[row] += point.weight * force[i];
       for (const auto &[j, column] : rest)
-        tangents[row][column] += point.weight * tangent[i][j];
-    }
+        sum[row][column] += point.weight * of_point[i][j];
     for (unsigned int a = 0; a < n_nodes; ++a)
       for (unsigned int d = 0; d < 2; ++d)
       {
         const unsigned int row = 2 * a + d;
         const double weight    = point.weight * point.shapes[a];
-        values[row] += weight * force[d];
         for (const auto &[j, column] : rest)
         {
-          tangents[row][column] += weight * tangent[d][j];
-          tangents[column][row] += weight * tangent[j][d];
+          sum[row][column] += weight * of_point[d][j];
+          sum[column][row] += weight * of_point[j][d];
         }
         for (unsigned int b = 0; b < n_nodes; ++b)
           for (unsigned int e = 0; e < 2; ++e)
-            tangents[row][2 * b + e] += weight * point.shapes[b] * tangent[d][e];
+            sum[row][2 * b + e] += weight * point.shapes[b] * of_point[d][e];
       }
   }
 
@@ -251,9 +263,7 @@ namespace sprag
   void RigidObstacle::leave(ContactSums &sums)
   {
     if (touched)
-      sums.loaded.push_back(forces_on_ports(
-          ports(), [&](const unsigned int i) { return values[i]; },
-          [&](const unsigned int i, const unsigned int j) { return tangents[i][j]; }));
+      add_patch(ports(), values, tangent, friction, sums);
   }
 
   FacePointRows RigidObstacle::rows(const FacePointState &state) const

@@ -50,6 +50,7 @@ namespace sprag
     static constexpr unsigned int n_local     = 2 * FacePatches::max_nodes + 2;
     static constexpr unsigned int theta_index = 2 * FacePatches::max_nodes;
     static constexpr unsigned int x_index     = theta_index + 1;
+    using LocalMatrix                         = dealii::Tensor<2, n_local>;
 
     /// A point where a step begins.
     struct BeginPoint
@@ -65,7 +66,8 @@ namespace sprag
     const BeginPoint &at_begin(unsigned int point) const;
     StepKinematics<4> over_step(const FacePointState &state, double slip_change) const;
     void add_slope(const FacePatches::Point &point, double traction_by_slope);
-    void add(const FacePatches::Point &point, const dealii::Tensor<1, 4> &force, const dealii::Tensor<2, 4> &tangent);
+    void add_force(const FacePatches::Point &point, const dealii::Tensor<1, 4> &force);
+    void add_tangent(const FacePatches::Point &point, const dealii::Tensor<2, 4> &of_point, LocalMatrix &sum) const;
     std::vector<FaceCoordinate> ports() const;
 
     const FacePatches &face;
@@ -87,7 +89,8 @@ namespace sprag
     // Of the patch.
     const std::vector<BeginPoint> *begin_of_patch = nullptr; ///< none where beginning and end are one
     bool touched                                  = false;
-    double values[n_local]{};
-    double tangents[n_local][n_local]{};
+    dealii::Tensor<1, n_local> values;
+    LocalMatrix tangent;
+    FrictionParts<LocalMatrix> friction;
   };
 } // namespace sprag
