@@ -4,6 +4,7 @@
 #include "base/errors.h"
 #include "mpi_environment.h"
 #include "pressed_step.h"
+#include "support/port_differences.h"
 
 #include <gtest/gtest.h>
 
