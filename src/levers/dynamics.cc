@@ -51,7 +51,7 @@ namespace sprag
         make_mesh(scene, lever->triangulation);
       }
       const Timer::Scope scope(time, "basis");
-      lever->body = std::make_unique<const ElasticBody<2>>(lever->triangulation, body_properties(scene));
+      lever->body = std::make_unique<const Body>(lever->triangulation, body_properties(scene));
       if (condensed)
         lever->condensed = make_condensed_basis(scene, *lever->body, store);
       else

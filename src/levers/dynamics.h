@@ -12,8 +12,8 @@ namespace sprag
   /// A meshed lever at rest, to be shared by models that differ in friction, damping, drive and contact.
   struct MeshedLever
   {
-    dealii::Triangulation<2> triangulation;
-    std::unique_ptr<const ElasticBody<2>> body;
+    Mesh triangulation;
+    std::unique_ptr<const Body> body;
     FiniteElementBasis elements; ///< of the finite element model
     CondensedBases condensed;    ///< of the condensed one
   };

@@ -19,17 +19,17 @@ namespace sprag
   {
     Scene built         = scene;
     built.lever.inertia = InertiaSource::as_built;
-    dealii::Triangulation<2> triangulation;
+    Mesh triangulation;
     make_mesh(built, triangulation);
-    const ElasticBody<2> body(triangulation, lever_properties(built).body);
+    const Body body(triangulation, lever_properties(built).body);
     return mesh_inertia(built, body);
   }
 
   MeshedConstants meshed_constants(const Scene &scene)
   {
-    dealii::Triangulation<2> triangulation;
+    Mesh triangulation;
     make_mesh(scene, triangulation);
-    const ElasticBody<2> body(triangulation, lever_properties(scene).body);
+    const Body body(triangulation, lever_properties(scene).body);
     const double room     = 0.1 * scene.geometry.cylinder_radius;
     const double nearest  = kinematics(scene.geometry, scene.drive.maximum()).s - room;
     const double farthest = kinematics(scene.geometry, scene.drive.minimum()).s + room;

@@ -8,7 +8,7 @@ namespace sprag
 {
   StaticLever make_lever_in_hard_contact(const Scene &scene)
   {
-    StaticLever result{ std::make_unique<dealii::Triangulation<2>>(), nullptr };
+    StaticLever result{ std::make_unique<Mesh>(), nullptr };
     make_mesh(scene, *result.mesh);
     auto properties           = lever_properties(scene);
     properties.penalty_factor = penalty_over_layer::indentation;

@@ -1,9 +1,8 @@
 #pragma once
 
+#include "fe/body/dimension.h"
 #include "model/model.h"
 #include "scene/scene.h"
-
-#include <deal.II/grid/tria.h>
 
 #include <memory>
 
@@ -12,7 +11,7 @@ namespace sprag
   /// A meshed lever without inertia and the mesh that it stands on.
   struct StaticLever
   {
-    std::unique_ptr<dealii::Triangulation<2>> mesh;
+    std::unique_ptr<Mesh> mesh;
     std::unique_ptr<Model> model;
   };
 

@@ -16,7 +16,7 @@ namespace sprag
     constexpr double no_contact  = 1e-3; ///< P over the largest one so far
 
     /// Middle of the lever where its free part begins.
-    dealii::Point<2> section_at_hub(const BodyFields &fields)
+    MeshPoint section_at_hub(const BodyFields &fields)
     {
       double begin = std::numeric_limits<double>::max();
       for (const auto &node : fields.nodes())
@@ -41,8 +41,7 @@ namespace sprag
     }
   } // namespace
 
-  FieldRecorder::FieldRecorder(const Scene &of_scene, const ElasticBody<2> &body, const std::optional<std::string> &folder,
-                               Timer &of_run)
+  FieldRecorder::FieldRecorder(const Scene &of_scene, const Body &body, const std::optional<std::string> &folder, Timer &of_run)
       : scene(of_scene)
       , timer(of_run)
       , fields(body)

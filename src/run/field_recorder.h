@@ -27,8 +27,7 @@ namespace sprag
     using Displacements = std::function<std::vector<dealii::Vector<double>>()>;
 
     /// Scene and body must outlive it. No folder: peaks alone.
-    FieldRecorder(const Scene &scene, const ElasticBody<2> &body, const std::optional<std::string> &folder,
-                  dealii::TimerOutput &timer);
+    FieldRecorder(const Scene &scene, const Body &body, const std::optional<std::string> &folder, dealii::TimerOutput &timer);
 
     /// Looks at an accepted step and returns whether it was written as a frame. `keep` makes what finds its fields later.
     bool record(const Row &row, const FaceState &face, const std::function<Displacements()> &keep);
@@ -66,7 +65,7 @@ namespace sprag
     const BodyFields fields;
     StressPeaks peaks;
     std::optional<FieldFrames> frames;
-    dealii::Point<2> hub_section; ///< where the bending moment is taken, in lever axes
+    MeshPoint hub_section; ///< where the bending moment is taken, in lever axes
 
     double travelled  = 0.; ///< by the cylinder [mm]
     double last_frame = 0.; ///< travel there

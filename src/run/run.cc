@@ -23,7 +23,7 @@ namespace sprag
     {
       if (!needs_mesh(scene))
         return;
-      dealii::Triangulation<2> triangulation;
+      Mesh triangulation;
       make_mesh(scene, triangulation);
     }
 

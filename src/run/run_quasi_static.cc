@@ -106,7 +106,7 @@ namespace sprag
     {
       auto timer = phase_timer();
       require_writable(options.folder);
-      dealii::Triangulation<2> triangulation;
+      Mesh triangulation;
       {
         const Timer::Scope scope(timer, "mesh");
         make_mesh(scene, triangulation);

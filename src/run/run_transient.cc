@@ -113,7 +113,7 @@ namespace sprag
                    });
     }
 
-    std::vector<Entry> meshed_entries(const MeshedDynamics &lever, const ElasticBody<2> &body)
+    std::vector<Entry> meshed_entries(const MeshedDynamics &lever, const Body &body)
     {
       std::vector<Entry> entries = {
         { "degrees_of_freedom", static_cast<double>(body.n_dofs()), "1", "displacements, those of the hub included" },
@@ -135,7 +135,7 @@ namespace sprag
       return entries;
     }
 
-    void announce(const Scene &scene, const MeshedDynamics &lever, const ElasticBody<2> &body, const RunOptions &options)
+    void announce(const Scene &scene, const MeshedDynamics &lever, const Body &body, const RunOptions &options)
     {
       announce(scene, options);
       if (options.quiet)

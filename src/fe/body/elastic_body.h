@@ -1,6 +1,7 @@
 #pragma once
 
 #include "fe/body/connectors.h"
+#include "fe/body/dimension.h"
 #include "fe/body/friction_face.h"
 
 #include <deal.II/base/point.h>

@@ -1,8 +1,7 @@
 #pragma once
 
+#include "fe/body/dimension.h"
 #include "scene/scene.h"
-
-#include <deal.II/grid/tria.h>
 
 namespace sprag
 {
@@ -13,5 +12,5 @@ namespace sprag
   /// a friction plate on sensors surface "plate" and curves "sensor plate" and "sensor lever". Ids as in body_properties.h.
   /// An elastic cylinder is added, see add_cylinder().
   /// Throws InputError naming the file and what is missing or wrong in it.
-  void make_mesh(const Scene &scene, dealii::Triangulation<2> &triangulation);
+  void make_mesh(const Scene &scene, Mesh &triangulation);
 } // namespace sprag
