@@ -149,6 +149,7 @@ FIGURES = {
     **{name: drawn(name, "forces-over-x") for name in ("stiff-a", "stiff-b")},
     # In time.
     "support-a": lambda run: plot.reversal(run("support-a")),
+    "stribeck-a": lambda run: plot.forces_over_time([run("stribeck-a")]),
     "reversal-a": lambda run: plot.reversal(run("reversal-a")),
     "energy-a": lambda run: plot.energy(run("reversal-a")),
     "sprag-slip-a": lambda run: plot.reversal(run("sprag-slip-a")),
