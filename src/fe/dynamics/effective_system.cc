@@ -2,6 +2,9 @@
 
 #include <deal.II/lac/lapack_full_matrix.h>
 
+#include <algorithm>
+#include <iterator>
+
 namespace sprag
 {
   using namespace dealii;
@@ -62,17 +65,47 @@ namespace sprag
     return result;
   }
 
+  namespace
+  {
+    /// Responses to single forces that are worth their memory. More forces than that are solved for together.
+    constexpr std::size_t most_responses = 128;
+  } // namespace
+
+  Vector<double> EffectiveSystem::response(const PortLoads &forces) const
+  {
+    Vector<double> load(ports.n_coordinates());
+    for (unsigned int a = 0; a < forces.ports.size(); ++a)
+      ports.add_force(forces.ports[a], forces.values[a], load);
+    return solve(Vector<double>(load.begin(), load.begin() + matrices.coordinates.size()));
+  }
+
   const Vector<double> &EffectiveSystem::response(const unsigned int port) const
   {
-    constexpr std::size_t kept = 128;
-    const auto found           = responses.find(port);
-    if (found != responses.end())
-      return found->second;
-    if (responses.size() >= kept)
-      responses.clear();
-    Vector<double> force(ports.n_coordinates());
-    ports.add_force(port, 1., force);
-    return responses[port] = solve(Vector<double>(force.begin(), force.begin() + matrices.coordinates.size()));
+    const auto [found, is_new] = responses.try_emplace(port);
+    if (is_new)
+    {
+      PortLoads unit{ { port }, Vector<double>(1) };
+      unit.values[0] = 1.;
+      found->second  = response(unit);
+    }
+    return found->second;
+  }
+
+  void EffectiveSystem::add_response(const PortLoads &forces, Vector<double> &position) const
+  {
+    const auto add = [&](const double factor, const Vector<double> &part)
+    {
+      for (unsigned int i = 0; i < part.size(); ++i)
+        position[i] += part[i] * factor;
+    };
+    if (forces.ports.size() > most_responses)
+      return add(1., response(forces));
+    if (responses.size() >= most_responses)
+      for (auto known = responses.begin(); known != responses.end();)
+        known = std::binary_search(forces.ports.begin(), forces.ports.end(), known->first) ? std::next(known)
+                                                                                           : responses.erase(known);
+    for (unsigned int a = 0; a < forces.ports.size(); ++a)
+      add(forces.values[a], response(forces.ports[a]));
   }
 
   FullMatrix<double> EffectiveSystem::port_compliance(const double of_support) const

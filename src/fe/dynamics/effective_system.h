@@ -2,6 +2,7 @@
 
 #include "fe/algebra/mumps.h"
 #include "fe/dynamics/lever_ports.h"
+#include "model/port_forces.h"
 
 #include <map>
 
@@ -29,10 +30,13 @@ namespace sprag
     /// Right-hand side and solution without the support.
     dealii::Vector<double> solve(const dealii::Vector<double> &right_hand_side) const;
 
-    /// Displacement of all coordinates by a unit force on a port, the support's excepted.
-    const dealii::Vector<double> &response(unsigned int port) const;
+    /// Adds the displacement of all coordinates by forces on ports, the support's excepted, increasing. Responses to single
+    /// forces are kept while forces act there; so many that they are not worth it are solved for together.
+    void add_response(const PortLoads &forces, dealii::Vector<double> &position) const;
 
   private:
+    dealii::Vector<double> response(const PortLoads &forces) const;
+    const dealii::Vector<double> &response(unsigned int port) const;
     void find_low_rank(double weight_of_damping);
     void subtract_low_rank(dealii::FullMatrix<double> &compliance) const;
 

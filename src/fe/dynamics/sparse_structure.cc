@@ -154,18 +154,14 @@ namespace sprag
   void SparseStructure::add_responses(const Step &step, const PortForces &forces, const double of_support,
                                       Vector<double> &position) const
   {
-    for (unsigned int a = 0; a < forces.ports.size(); ++a)
-    {
-      const double force = forces.values[a];
-      if (constants.sprung && forces.ports[a] == ports().support())
-        position[n_lever] += of_support * force;
-      else
-      {
-        const auto &response = step.system->response(forces.ports[a]);
-        for (unsigned int i = 0; i < n_lever; ++i)
-          position[i] += response[i] * force;
-      }
-    }
+    // The support's port is the last.
+    const bool on_support = constants.sprung && !forces.ports.empty() && forces.ports.back() == ports().support();
+    const auto n          = static_cast<unsigned int>(forces.ports.size()) - (on_support ? 1 : 0);
+    step.system->add_response(
+        { { forces.ports.begin(), forces.ports.begin() + n }, Vector<double>(forces.values.begin(), forces.values.begin() + n) },
+        position);
+    if (on_support)
+      position[n_lever] += of_support * forces.values[n];
   }
 
   Motion SparseStructure::deform(const PortForces &forces) const
