@@ -14,17 +14,15 @@ namespace sprag
       model.evaluate(trial, FrictionMode::stick);
       trial.coordinates += model.correction();
     }
-    dealii::Vector<double> coordinates = trial.coordinates;
-    double overlap                     = 0.;
-    const auto evaluate                = [&](const dealii::Vector<double> &at)
+    double overlap      = 0.;
+    const auto evaluate = [&](const dealii::Vector<double> & /*coordinates of trial*/)
     {
-      trial.coordinates    = at;
       const auto unbalance = model.evaluate(trial, FrictionMode::cone);
       overlap              = unbalance.overlap;
       return unbalance.norm;
     };
     return solve_by_newton(
-        coordinates, round_off * model.length_scale(), evaluate, [&] { return model.correction(); },
+        trial.coordinates, round_off * model.length_scale(), evaluate, [&] { return model.correction(); },
         [&](const dealii::Vector<double> &change) { return model.movement(change); }, [&] { return overlap; });
   }
 

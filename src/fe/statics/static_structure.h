@@ -31,7 +31,7 @@ namespace sprag
     /// look at before.
     PortSelection enter(const PortSelection &ports);
 
-    /// Sets the displacements of the faces' ports to G f, where it looks at them as at those of the forces.
+    /// Sets the displacements of those ports of the faces that it looks at to G f. It must look at the ports of the forces.
     void set_faces(const PortLoads &forces, dealii::Vector<double> &coordinates) const;
 
     /// Norm of G f - z, as a displacement [mm].
