@@ -13,15 +13,18 @@ namespace sprag
 {
   /// Both levers of a mirrored pair as two structures of one lever each: of the motion in which they mirror each other, and of
   /// that in which the second does the opposite, each at 1/sqrt(2) of its size for both. So a pair costs twice a lever, not more.
-  /// A sprung support moves with the first alone. Motions hold the coordinates of the first structure and then of the second.
-  /// Structure: see SparseStructure.
+  /// A sprung support moves with the first alone. Coordinates and static forces are those of the first structure and then those
+  /// of the second, on a sprung support with a coordinate of the second that stays 0. Structure: see ModalStructure.
   template <class Structure>
   class MirroredStructure
   {
   public:
-    MirroredStructure(std::unique_ptr<Structure> mirroring, std::unique_ptr<Structure> opposite)
+    static constexpr unsigned int levers = 2;
+
+    /// `alike`: whether both structures answer alike, so that levers feel nothing of each other.
+    MirroredStructure(std::unique_ptr<Structure> mirroring, std::unique_ptr<Structure> opposite, const bool alike_)
         : parts{ { std::move(mirroring), std::move(opposite) } }
-        , n_coordinates(parts[0]->rest().coordinates.position.size())
+        , alike(alike_)
         , layout(parts[0]->ports())
     {
       layout.levers = 2;
@@ -41,25 +44,23 @@ namespace sprag
     {
       for (const auto &part : parts)
         part->use_statics();
-      join_compliance(statics);
-      current = &statics;
+      joined_for = {};
+      join_compliance();
     }
 
     void use_step(const StepWeights &weights)
     {
       for (const auto &part : parts)
         part->use_step(weights);
-      if (joined_for.dt != weights.dt || joined_for.alpha_f != weights.alpha_f)
-      {
-        join_compliance(of_step);
-        joined_for = weights;
-      }
-      current = &of_step;
+      if (joined_for.dt == weights.dt && joined_for.alpha_f == weights.alpha_f)
+        return;
+      joined_for = weights;
+      join_compliance();
     }
 
-    const dealii::FullMatrix<double> &compliance() const
+    const PortCompliance &compliance() const
     {
-      return *current;
+      return joined_compliance;
     }
 
     Motion deform(const PortForces &forces) const
@@ -69,7 +70,7 @@ namespace sprag
 
     dealii::Vector<double> port_positions(const Motion &motion) const
     {
-      return port_positions(motion, all_ports(layout.size()));
+      return joined(parts[0]->port_positions(part_of(motion, 0)), parts[1]->port_positions(part_of(motion, 1)));
     }
 
     dealii::Vector<double> port_positions(const Motion &motion, const PortSelection &selected) const
@@ -137,14 +138,19 @@ namespace sprag
                     parts[1]->port_error(part_of(begin, 1), part_of(end, 1)));
     }
 
-    /// The lowest of both motions. The forces must mirror as the levers do, so that they do not couple them.
+    /// Those of both motions. Forces that do not mirror as the levers do couple them, which must be small structures then.
     std::vector<StructureMode> vibrations(const PortPerturbation &forces, const unsigned int number)
     {
+      const auto [of_both, n_first] = of_motions(forces);
       std::vector<StructureMode> result;
-      for (unsigned int part = 0; part < 2; ++part)
-        for (auto &mode : parts[part]->vibrations(perturbation_of_part(forces, part), number))
-          if (part == 0 || !is_of_support_alone(mode))
+      if (Structure::is_small && couples(of_both, n_first))
+        result = vibrations_of_both(of_both);
+      else
+        for (unsigned int part = 0; part < 2; ++part)
+          for (auto &mode : parts[part]->vibrations(of_motion(forces, of_both, n_first, part), number))
             result.push_back(of_pair(std::move(mode), part));
+      result.erase(std::remove_if(result.begin(), result.end(), [&](const auto &mode) { return is_of_idle_support(mode); }),
+                   result.end());
       std::sort(result.begin(), result.end(),
                 [](const auto &a, const auto &b) { return std::abs(a.eigenvalue) < std::abs(b.eigenvalue); });
       return result;
@@ -155,22 +161,28 @@ namespace sprag
       return parts[0]->damping_form(part_of(velocities, 0)) + parts[1]->damping_form(part_of(velocities, 1));
     }
 
-    dealii::Vector<double> elastic_displacement(const Motion &motion, const unsigned int lever) const
+    /// A lever's part of what a function finds for a motion of either structure.
+    template <class Find>
+    dealii::Vector<double> of_lever(const Motion &motion, const unsigned int lever, const Find &find) const
     {
-      auto result = parts[0]->elastic_displacement(part_of(motion, 0));
-      result.add(lever == 0 ? 1. : -1., parts[1]->elastic_displacement(part_of(motion, 1)));
+      auto result = find(0, part_of(motion, 0));
+      result.add(lever == 0 ? 1. : -1., find(1, part_of(motion, 1)));
       result *= half_root();
       return result;
     }
 
+    dealii::Vector<double> elastic_displacement(const Motion &motion, const unsigned int lever) const
+    {
+      return of_lever(motion, lever,
+                      [&](const unsigned int part, const Motion &of) { return parts[part]->elastic_displacement(of); });
+    }
+
   private:
     const std::array<std::unique_ptr<Structure>, 2> parts;
-    const unsigned int n_coordinates; ///< of a part
+    const bool alike;
     PortLayout layout;
-    dealii::FullMatrix<double> statics;
-    dealii::FullMatrix<double> of_step;
-    StepWeights joined_for{}; ///< of which it is
-    const dealii::FullMatrix<double> *current = nullptr;
+    StepWeights joined_for{}; ///< step of the compliance; of dt = 0 in statics
+    PortCompliance joined_compliance;
 
     static double half_root()
     {
@@ -180,11 +192,14 @@ namespace sprag
     /// Ports of a lever that stand for some of the pair's.
     PortSelection of_a_lever(const PortSelection &selected) const
     {
-      PortSelection result;
-      for (const unsigned int port : selected)
-        result.push_back(port == layout.support() ? local_support() : port % layout.of_a_lever());
-      std::sort(result.begin(), result.end());
-      result.erase(std::unique(result.begin(), result.end()), result.end());
+      const auto second = std::lower_bound(selected.begin(), selected.end(), layout.first(1));
+      const auto beyond = std::lower_bound(second, selected.end(), layout.support());
+      PortSelection of_second, result;
+      std::transform(second, beyond, std::back_inserter(of_second),
+                     [&](const unsigned int port) { return port - layout.first(1); });
+      std::set_union(selected.begin(), second, of_second.begin(), of_second.end(), std::back_inserter(result));
+      if (beyond != selected.end())
+        result.push_back(local_support());
       return result;
     }
 
@@ -193,35 +208,39 @@ namespace sprag
       return layout.of_a_lever();
     }
 
-    Motion part_of(const Motion &motion, const unsigned int part) const
+    static dealii::Vector<double> half(const dealii::Vector<double> &whole, const unsigned int part)
     {
-      const auto half = [&](const dealii::Vector<double> &whole)
-      {
-        dealii::Vector<double> result(n_coordinates);
-        std::copy_n(whole.begin() + part * n_coordinates, n_coordinates, result.begin());
-        return result;
-      };
-      Motion result;
-      result.drive       = motion.drive;
-      result.coordinates = { half(motion.coordinates.position), half(motion.coordinates.velocity),
-                             half(motion.coordinates.acceleration) };
+      const unsigned int n = whole.size() / 2;
+      return dealii::Vector<double>(whole.begin() + part * n, whole.begin() + (part + 1) * n);
+    }
+
+    /// Vectors of both structures, one after the other.
+    static dealii::Vector<double> stacked(const dealii::Vector<double> &first, const dealii::Vector<double> &second)
+    {
+      dealii::Vector<double> result(first.size() + second.size());
+      std::copy(first.begin(), first.end(), result.begin());
+      std::copy(second.begin(), second.end(), result.begin() + first.size());
       return result;
     }
 
-    Motion joined(const Motion &mirroring, const Motion &opposite) const
+    static Motion part_of(const Motion &motion, const unsigned int part)
     {
-      const auto whole = [&](const dealii::Vector<double> &first, const dealii::Vector<double> &second)
-      {
-        dealii::Vector<double> result(2 * n_coordinates);
-        std::copy(first.begin(), first.end(), result.begin());
-        std::copy(second.begin(), second.end(), result.begin() + n_coordinates);
-        return result;
-      };
+      const auto &q = motion.coordinates;
+      Motion result;
+      result.drive       = motion.drive;
+      result.coordinates = { half(q.position, part), half(q.velocity, part), half(q.acceleration, part) };
+      result.face_force  = half(motion.face_force, part);
+      return result;
+    }
+
+    static Motion joined(const Motion &mirroring, const Motion &opposite)
+    {
       const auto &a = mirroring.coordinates;
       const auto &b = opposite.coordinates;
       Motion result;
-      result.coordinates = { whole(a.position, b.position), whole(a.velocity, b.velocity),
-                             whole(a.acceleration, b.acceleration) };
+      result.coordinates = { stacked(a.position, b.position), stacked(a.velocity, b.velocity),
+                             stacked(a.acceleration, b.acceleration) };
+      result.face_force  = stacked(mirroring.face_force, opposite.face_force);
       return result;
     }
 
@@ -241,88 +260,138 @@ namespace sprag
 
     PortForces of_part(const PortForces &forces, const unsigned int part) const
     {
-      std::vector<unsigned int> ports;
-      dealii::Vector<double> dense(local_support() + 1);
+      PortForces result;
+      result.ports = of_a_lever(forces.ports);
+      if (part == 1 && !result.ports.empty() && result.ports.back() == local_support())
+        result.ports.pop_back();
+      result.values.reinit(static_cast<unsigned int>(result.ports.size()));
       for (unsigned int a = 0; a < forces.ports.size(); ++a)
       {
-        const bool on_support = forces.ports[a] == layout.support();
-        if (on_support && part == 1)
-          continue;
-        const unsigned int local = on_support ? local_support() : forces.ports[a] % layout.of_a_lever();
-        const bool of_second     = !on_support && forces.ports[a] >= layout.first(1);
-        dense[local] += (of_second && part == 1 ? -half_root() : half_root()) * forces.values[a];
-        ports.push_back(local);
+        const unsigned int port  = forces.ports[a];
+        const bool is_support    = port == layout.support();
+        const bool of_second     = !is_support && port >= layout.first(1);
+        const unsigned int local = is_support ? local_support() : port % layout.of_a_lever();
+        if (!is_support || part == 0)
+          result.values[place_of(local, result.ports)] +=
+              (of_second && part == 1 ? -half_root() : half_root()) * forces.values[a];
       }
-      std::sort(ports.begin(), ports.end());
-      ports.erase(std::unique(ports.begin(), ports.end()), ports.end());
-      PortForces result;
-      result.values.reinit(static_cast<unsigned int>(ports.size()));
-      for (unsigned int a = 0; a < ports.size(); ++a)
-        result.values[a] = dense[ports[a]];
-      result.ports = std::move(ports);
       return result;
     }
 
-    void join_compliance(dealii::FullMatrix<double> &result) const
+    void join_compliance()
     {
       const auto &mirroring = parts[0]->compliance();
-      const auto &opposite  = parts[1]->compliance();
-      const unsigned int n  = layout.of_a_lever();
-      result.reinit(layout.size(), layout.size());
+      joined_compliance     = {};
+      if (alike)
+        for (unsigned int lever = 0; lever < 2; ++lever)
+          joined_compliance.append(mirroring.blocks().front().matrix);
+      else
+        joined_compliance.append(of_coupled_levers(mirroring, parts[1]->compliance()));
+      if (layout.sprung)
+        joined_compliance.append(0.5 * mirroring(local_support(), local_support()));
+    }
+
+    dealii::FullMatrix<double> of_coupled_levers(const PortCompliance &mirroring, const PortCompliance &opposite) const
+    {
+      const unsigned int n = layout.of_a_lever();
+      const auto &a        = *mirroring.blocks().front().matrix;
+      const auto &b        = *opposite.blocks().front().matrix;
+      dealii::FullMatrix<double> result(2 * n);
       for (unsigned int i = 0; i < n; ++i)
         for (unsigned int j = 0; j < n; ++j)
         {
-          result(i, j) = result(n + i, n + j) = 0.5 * (mirroring(i, j) + opposite(i, j));
-          result(i, n + j) = result(n + i, j) = 0.5 * (mirroring(i, j) - opposite(i, j));
+          result(i, j) = result(n + i, n + j) = 0.5 * (a(i, j) + b(i, j));
+          result(i, n + j) = result(n + i, j) = 0.5 * (a(i, j) - b(i, j));
         }
-      if (!layout.sprung)
-        return;
-      for (unsigned int i = 0; i < n; ++i)
-        for (const unsigned int port : { i, n + i })
-          result(port, layout.support()) = result(layout.support(), port) = 0.5 * mirroring(i, n);
-      result(layout.support(), layout.support()) = 0.5 * mirroring(n, n);
-    }
-
-    /// The first lever's rows, its own columns and the second's with the sign it has in the motion.
-    PortPerturbation perturbation_of_part(const PortPerturbation &forces, const unsigned int part) const
-    {
-      std::vector<unsigned int> rows;
-      PortPerturbation result;
-      for (unsigned int a = 0; a < forces.ports.size(); ++a)
-      {
-        const bool on_support = forces.ports[a] == layout.support();
-        if (forces.ports[a] >= layout.first(1) && !(on_support && part == 0))
-          continue;
-        rows.push_back(a);
-        result.ports.push_back(on_support ? local_support() : forces.ports[a]);
-      }
-      for (const auto matrix : { &PortPerturbation::pressure, &PortPerturbation::friction, &PortPerturbation::pressure_rate,
-                                 &PortPerturbation::friction_rate, &PortPerturbation::inertia })
-        result.*matrix = matrix_of_part(forces.ports, rows, forces.*matrix, part == 0 ? 1. : -1.);
-      for (const auto &delay : forces.delays)
-        if (is_of_first(forces.ports, delay))
-          result.delays.push_back(
-              { delay.time, entries(rows, delay.force), entries(rows, delay.stiffness_row), entries(rows, delay.rate_row) });
       return result;
     }
 
-    dealii::FullMatrix<double> matrix_of_part(const std::vector<unsigned int> &ports, const std::vector<unsigned int> &rows,
-                                              const dealii::FullMatrix<double> &of_pair, const double side) const
+    /// Forces on the ports of both structures, those of the second counted on from the first's, and how many are on the first.
+    std::pair<PortPerturbation, unsigned int> of_motions(const PortPerturbation &forces) const
     {
-      const auto n = static_cast<unsigned int>(rows.size());
-      dealii::FullMatrix<double> result(n, n);
-      for (unsigned int a = 0; a < n; ++a)
-        for (unsigned int b = 0; b < n; ++b)
+      if (forces.ports.empty())
+        return { forces, 0 };
+      const auto local           = of_a_lever(forces.ports);
+      const auto n_first         = static_cast<unsigned int>(local.size());
+      const bool on_support      = layout.sprung && n_first > 0 && local.back() == local_support();
+      const unsigned int n_ports = parts[0]->ports().size();
+      PortPerturbation result;
+      result.ports = local;
+      for (const unsigned int port : local)
+        if (!on_support || port != local_support())
+          result.ports.push_back(n_ports + port);
+
+      dealii::FullMatrix<double> from(forces.ports.size(), result.ports.size()); // displacements of the ports by the structures'
+      for (unsigned int a = 0; a < forces.ports.size(); ++a)
+      {
+        const bool is_support = forces.ports[a] == layout.support();
+        const unsigned int at = place_of(is_support ? local_support() : forces.ports[a] % layout.of_a_lever(), local);
+        from(a, at)           = half_root();
+        if (!is_support)
+          from(a, n_first + at) = forces.ports[a] < layout.first(1) ? half_root() : -half_root();
+      }
+      const auto n = static_cast<unsigned int>(result.ports.size());
+      for (const auto matrix : { &PortPerturbation::pressure, &PortPerturbation::friction, &PortPerturbation::pressure_rate,
+                                 &PortPerturbation::friction_rate, &PortPerturbation::inertia })
+      {
+        (result.*matrix).reinit(n, n);
+        (result.*matrix).triple_product(forces.*matrix, from, from, true, false);
+      }
+      const auto transformed = [&](const dealii::Vector<double> &row)
+      {
+        dealii::Vector<double> of_structures(n);
+        from.Tvmult(of_structures, row);
+        return of_structures;
+      };
+      for (const auto &delay : forces.delays)
+        result.delays.push_back(
+            { delay.time, transformed(delay.force), transformed(delay.stiffness_row), transformed(delay.rate_row) });
+      return { result, n_first };
+    }
+
+    /// Whether forces on one structure follow displacements of the other, by more than round-off.
+    static bool couples(const PortPerturbation &of_both, const unsigned int n_first)
+    {
+      constexpr double round_off = 1e-7;
+      double within = 0., between = 0.;
+      const auto stiffness = of_both.stiffness();
+      for (unsigned int a = 0; a < stiffness.m(); ++a)
+        for (unsigned int b = 0; b < stiffness.n(); ++b)
         {
-          const unsigned int port = ports[rows[b]];
-          const bool on_support   = port == layout.support();
-          result(a, b)            = of_pair(rows[a], rows[b]);
-          if (on_support)
-            result(a, b) *= ports[rows[a]] == layout.support() ? 0.5 : 1.;
-          else if (const unsigned int partner = place_of(layout.first(1) + port, ports);
-                   ports[rows[a]] != layout.support() && partner < ports.size() && ports[partner] == layout.first(1) + port)
-            result(a, b) += side * of_pair(rows[a], partner);
+          double &largest = (a < n_first) == (b < n_first) ? within : between;
+          largest         = std::max(largest, std::abs(stiffness(a, b)));
         }
+      return between > round_off * within;
+    }
+
+    /// Forces on one of the structures, where they mirror as the levers do.
+    PortPerturbation of_motion(const PortPerturbation &forces, const PortPerturbation &of_both, const unsigned int n_first,
+                               const unsigned int part) const
+    {
+      const unsigned int begin   = part == 0 ? 0 : n_first;
+      const unsigned int end     = part == 0 ? n_first : static_cast<unsigned int>(of_both.ports.size());
+      const unsigned int n_ports = parts[0]->ports().size();
+      PortPerturbation result;
+      for (unsigned int a = begin; a < end; ++a)
+        result.ports.push_back(of_both.ports[a] % n_ports);
+      if (result.ports.empty())
+        return result;
+      for (const auto matrix : { &PortPerturbation::pressure, &PortPerturbation::friction, &PortPerturbation::pressure_rate,
+                                 &PortPerturbation::friction_rate, &PortPerturbation::inertia })
+      {
+        (result.*matrix).reinit(end - begin, end - begin);
+        (result.*matrix).fill(of_both.*matrix, 0, 0, begin, begin);
+      }
+      // A delay of the first lever stands for that and the second lever's, each at 1/sqrt(2).
+      const auto of_part = [&](const dealii::Vector<double> &row)
+      {
+        dealii::Vector<double> values(row.begin() + begin, row.begin() + end);
+        values /= half_root();
+        return values;
+      };
+      for (unsigned int i = 0; i < forces.delays.size(); ++i)
+        if (const auto &delay = of_both.delays[i]; is_of_first(forces.ports, forces.delays[i]))
+          result.delays.push_back({ delay.time, of_part(delay.force), of_part(delay.stiffness_row), of_part(delay.rate_row) });
       return result;
     }
 
@@ -334,36 +403,38 @@ namespace sprag
       return false;
     }
 
-    static dealii::Vector<double> entries(const std::vector<unsigned int> &rows, const dealii::Vector<double> &values)
+    std::vector<StructureMode> vibrations_of_both([[maybe_unused]] const PortPerturbation &of_both) const
     {
-      dealii::Vector<double> result(static_cast<unsigned int>(rows.size()));
-      for (unsigned int a = 0; a < rows.size(); ++a)
-        result[a] = values[rows[a]];
-      return result;
+      if constexpr (Structure::is_small)
+        return parts[0]->vibrations_with(*parts[1], of_both);
+      return {};
     }
 
-    /// Of the structure that moves no support, but has its coordinate.
-    bool is_of_support_alone(const StructureMode &mode) const
+    /// Whether a mode is that of the support's coordinate in the second structure, which nothing moves.
+    bool is_of_idle_support(const StructureMode &mode) const
     {
       if (!layout.sprung)
         return false;
       double size = 0., of_support = 0.;
       for (const auto &part : mode.coordinates)
       {
-        const double last = part[n_coordinates - 1];
         size += part.norm_sqr();
-        of_support += last * last;
+        of_support += part[part.size() - 1] * part[part.size() - 1];
       }
       return of_support > 0.999 * size;
     }
 
-    StructureMode of_pair(StructureMode mode, const unsigned int part) const
+    static StructureMode of_pair(StructureMode mode, const unsigned int part)
     {
-      for (auto &coordinates : mode.coordinates)
+      const auto in_place = [&](dealii::Vector<double> &values)
       {
-        dealii::Vector<double> whole(2 * n_coordinates);
-        std::copy(coordinates.begin(), coordinates.end(), whole.begin() + part * n_coordinates);
-        coordinates = whole;
+        const dealii::Vector<double> nothing(values.size());
+        values = part == 0 ? stacked(values, nothing) : stacked(nothing, values);
+      };
+      for (unsigned int i = 0; i < 2; ++i)
+      {
+        in_place(mode.coordinates[i]);
+        in_place(mode.face_force[i]);
       }
       return mode;
     }

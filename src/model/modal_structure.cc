@@ -45,13 +45,20 @@ namespace sprag
       return forces;
     }
 
-    double quadratic_form(const FullMatrix<double> &matrix, const Vector<double> &sparse)
+    /// Places of the entries that are not 0.
+    std::vector<unsigned int> filled_places(const Vector<double> &sparse)
     {
-      std::vector<unsigned int> filled;
+      std::vector<unsigned int> result;
       for (unsigned int i = 0; i < sparse.size(); ++i)
         if (sparse[i] != 0.)
-          filled.push_back(i);
-      double sum = 0.;
+          result.push_back(i);
+      return result;
+    }
+
+    double quadratic_form(const FullMatrix<double> &matrix, const Vector<double> &sparse)
+    {
+      const auto filled = filled_places(sparse);
+      double sum        = 0.;
       for (const unsigned int i : filled)
         for (const unsigned int j : filled)
           sum += sparse[i] * matrix(i, j) * sparse[j];
@@ -95,15 +102,21 @@ namespace sprag
     return motion;
   }
 
-  FullMatrix<double> ModalStructure::port_compliance(const FullMatrix<double> &inverse, const double share_of_static) const
+  PortCompliance ModalStructure::port_compliance(const FullMatrix<double> &inverse, const double share_of_static) const
   {
-    FullMatrix<double> half(data.shapes.m(), data.shapes.n());
-    FullMatrix<double> result(data.shapes.m(), data.shapes.m());
+    FullMatrix<double> half(n_ports(), n_modes());
+    FullMatrix<double> of_all(n_ports());
     data.shapes.mmult(half, inverse);
-    half.mTmult(result, data.shapes);
+    half.mTmult(of_all, data.shapes);
+    FullMatrix<double> of_lever(data.ports.of_a_lever());
+    of_lever.fill(of_all);
     for (unsigned int i = 0; i < data.face_compliance.m(); ++i)
       for (unsigned int j = 0; j < data.face_compliance.n(); ++j)
-        result(i, j) += share_of_static * data.face_compliance(i, j);
+        of_lever(i, j) += share_of_static * data.face_compliance(i, j);
+    PortCompliance result;
+    result.append(std::move(of_lever));
+    if (data.ports.sprung)
+      result.append(of_all(data.ports.support(), data.ports.support()));
     return result;
   }
 
@@ -145,7 +158,7 @@ namespace sprag
     current = &(steps[weights.dt] = make_step(weights));
   }
 
-  const FullMatrix<double> &ModalStructure::compliance() const
+  const PortCompliance &ModalStructure::compliance() const
   {
     return current->compliance;
   }
@@ -174,29 +187,32 @@ namespace sprag
     return port_positions(motion, all_ports(n_ports()));
   }
 
+  double ModalStructure::port_position(const Motion &motion, const std::vector<unsigned int> &loaded,
+                                       const unsigned int port) const
+  {
+    const auto &q             = motion.coordinates.position;
+    const double *const shape = &data.shapes(port, 0);
+    double sum                = 0.;
+    for (unsigned int i = 0; i < q.size(); ++i)
+      sum += shape[i] * q[i];
+    if (port < motion.face_force.size())
+      for (const unsigned int i : loaded)
+        sum += data.face_compliance(port, i) * motion.face_force[i];
+    return sum;
+  }
+
   Vector<double> ModalStructure::port_positions(const Motion &motion, const PortSelection &selected) const
   {
+    const auto loaded = filled_places(motion.face_force);
     Vector<double> result(n_ports());
-    const auto &q = motion.coordinates.position;
     for (const unsigned int port : selected)
-    {
-      const double *const shape = &data.shapes(port, 0);
-      double sum                = 0.;
-      for (unsigned int i = 0; i < q.size(); ++i)
-        sum += shape[i] * q[i];
-      result[port] = sum;
-    }
-    for (unsigned int i = 0; i < motion.face_force.size(); ++i)
-      if (const double force = motion.face_force[i]; force != 0.)
-        for (const unsigned int port : selected)
-          if (port < motion.face_force.size())
-            result[port] += data.face_compliance(i, port) * force;
+      result[port] = port_position(motion, loaded, port);
     return result;
   }
 
   PortState ModalStructure::port_state(const Motion &motion, const unsigned int port) const
   {
-    PortState state{ port_positions(motion, { port })[port], 0. };
+    PortState state{ port_position(motion, filled_places(motion.face_force), port), 0. };
     for (unsigned int i = 0; i < n_modes(); ++i)
       state.velocity += data.shapes(port, i) * motion.coordinates.velocity[i];
     return state;
@@ -283,11 +299,8 @@ namespace sprag
     for (unsigned int i = 0; i < n_modes(); ++i)
       (i == data.support ? energy.support : energy.elastic) += 0.5 * data.stiffness[i] * q.position[i] * q.position[i];
     energy.elastic += 0.5 * quadratic_form(data.face_compliance, motion.face_force);
-    for (unsigned int lever = 0; lever < data.ports.levers; ++lever)
-    {
-      const double rotation = port_state(motion, data.ports.rotation(lever)).position;
-      energy.spring += 0.5 * data.spring_stiffness * rotation * rotation;
-    }
+    const double rotation = port_state(motion, data.ports.rotation()).position;
+    energy.spring         = 0.5 * data.spring_stiffness * rotation * rotation;
     energy.elastic -= energy.spring;
     return energy;
   }
@@ -295,6 +308,48 @@ namespace sprag
   std::vector<StructureMode> ModalStructure::vibrations(const PortPerturbation &forces, const unsigned int /*number*/) const
   {
     return modal_vibrations(data, forces);
+  }
+
+  namespace
+  {
+    /// Two levers as one, whose ports, modes and static shapes follow each other.
+    ModalData stacked(const ModalData &first, const ModalData &second)
+    {
+      ModalData both          = first;
+      const std::size_t modes = first.shapes.n();
+      const std::size_t ports = first.shapes.m();
+      both.stiffness.insert(both.stiffness.end(), second.stiffness.begin(), second.stiffness.end());
+      both.shapes.reinit(ports + second.shapes.m(), modes + second.shapes.n());
+      both.damping.reinit(both.shapes.n(), both.shapes.n());
+      both.shapes.fill(first.shapes);
+      both.shapes.fill(second.shapes, ports, modes);
+      both.damping.fill(first.damping);
+      both.damping.fill(second.damping, modes, modes);
+      if (first.face_compliance.m() > 0)
+      {
+        both.face_compliance.reinit(ports + second.face_compliance.m(), ports + second.face_compliance.m());
+        both.face_compliance.fill(first.face_compliance);
+        both.face_compliance.fill(second.face_compliance, ports, ports);
+      }
+      return both;
+    }
+  } // namespace
+
+  std::vector<StructureMode> ModalStructure::vibrations_with(const ModalStructure &other, const PortPerturbation &forces) const
+  {
+    auto modes                 = modal_vibrations(stacked(data, other.data), forces);
+    const std::size_t of_this  = data.face_compliance.m();
+    const std::size_t of_other = other.data.face_compliance.m();
+    for (auto &mode : modes)
+      for (auto &force : mode.face_force)
+      {
+        Vector<double> joined(static_cast<unsigned int>(of_this + of_other));
+        std::copy_n(force.begin(), of_this, joined.begin());
+        if (of_other > 0)
+          std::copy_n(force.begin() + n_ports(), of_other, joined.begin() + of_this);
+        force = joined;
+      }
+    return modes;
   }
 
   double ModalStructure::damping_form(const Motion &velocities) const

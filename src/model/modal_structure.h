@@ -10,8 +10,9 @@
 
 namespace sprag
 {
-  /// A linear lever, or a pair of them, in the coordinates of its free vibration (mass 1 each): all modes of a beam, or some of a
-  /// mesh together with the static shapes of what the others would do. A sprung support is one more mode.
+  /// A linear lever in the coordinates of its free vibration (mass 1 each): all modes of a beam, or some of a mesh together with
+  /// the static shapes of what the others would do. A sprung support is one more mode, of which the lever feels nothing but
+  /// through the forces on its ports.
   struct ModalData
   {
     PortLayout ports;
@@ -22,13 +23,16 @@ namespace sprag
         face_compliance;           ///< static shapes: of the ports to the last rotation's [mm/N], symmetric; empty without
     double relaxation       = 0.;  ///< damping of the static shapes, over their stiffness [s]
     double spring_stiffness = 0.;  ///< of the rotation [N mm/rad], part of `stiffness` already
-    unsigned int support    = -1u; ///< mode that is the support's; -1u without
+    unsigned int support    = -1u; ///< mode that is the support's, the last; -1u without
   };
 
   /// Answers of a ModalData to forces on its ports, static or in steps of the generalised-alpha method.
   class ModalStructure
   {
   public:
+    static constexpr unsigned int levers = 1;
+    static constexpr bool is_small       = true; ///< vibrations of two can be found together
+
     explicit ModalStructure(ModalData data);
 
     const PortLayout &ports() const;
@@ -39,7 +43,7 @@ namespace sprag
     /// Makes the compliance that of statics, or of a step.
     void use_statics();
     void use_step(const StepWeights &weights);
-    const dealii::FullMatrix<double> &compliance() const;
+    const PortCompliance &compliance() const;
 
     /// Motion and displacements of the ports at rest under forces, after use_statics().
     Motion deform(const PortForces &forces) const;
@@ -70,6 +74,10 @@ namespace sprag
     /// Vibrations under linear forces on the ports, all of them.
     std::vector<StructureMode> vibrations(const PortPerturbation &forces, unsigned int number) const;
 
+    /// The same of this and another structure under forces that couple them. The other's ports are counted from the number of
+    /// this one's on, and its coordinates and static forces follow this one's.
+    std::vector<StructureMode> vibrations_with(const ModalStructure &other, const PortPerturbation &forces) const;
+
     /// v^T C v with the motion's positions as velocities v: twice the power that damping takes.
     double damping_form(const Motion &velocities) const;
 
@@ -79,13 +87,14 @@ namespace sprag
     struct Step
     {
       StepWeights weights{};
-      dealii::FullMatrix<double> inverse;    ///< of the effective matrix
-      dealii::FullMatrix<double> compliance; ///< of the ports
+      dealii::FullMatrix<double> inverse; ///< of the effective matrix
+      PortCompliance compliance;
     };
 
     unsigned int n_ports() const;
+    double port_position(const Motion &motion, const std::vector<unsigned int> &loaded, unsigned int port) const;
     Step make_step(const StepWeights &weights) const;
-    dealii::FullMatrix<double> port_compliance(const dealii::FullMatrix<double> &inverse, double share_of_static) const;
+    PortCompliance port_compliance(const dealii::FullMatrix<double> &inverse, double share_of_static) const;
     dealii::Vector<double> modal_forces(const PortForces &forces) const;
     double static_weight(const StepWeights &w) const;
 

@@ -13,23 +13,132 @@ namespace sprag
 
   namespace
   {
-    /// 1 - G df/dz.
-    LAPACKFullMatrix<double> port_matrix(const FullMatrix<double> &compliance, const std::vector<unsigned int> &ports,
-                                         const FullMatrix<double> &tangent)
+    using Places = std::pair<unsigned int, unsigned int>; // the first, and beyond the last
+
+    /// Where the ports of a block stand among increasing ones.
+    Places places_in(const PortCompliance::Block &block, const std::vector<unsigned int> &ports)
     {
-      const auto n = static_cast<unsigned int>(ports.size());
-      FullMatrix<double> loaded(n, n);
-      for (unsigned int i = 0; i < n; ++i)
-        for (unsigned int j = 0; j < n; ++j)
-          loaded(i, j) = compliance(ports[i], ports[j]);
-      FullMatrix<double> product(n, n);
-      loaded.mmult(product, tangent);
-      LAPACKFullMatrix<double> matrix(n);
-      for (unsigned int i = 0; i < n; ++i)
-        for (unsigned int j = 0; j < n; ++j)
-          matrix(i, j) = (i == j ? 1. : 0.) - product(i, j);
-      return matrix;
+      return { place_of(block.begin, ports), place_of(block.end(), ports) };
     }
+
+    /// M = 1 - G df/dz on some of the ports. Forces on a block of ports follow its own displacements and few others, say the turn
+    /// of a joint. So M is factorised block by block, D, and what stands beside the blocks, in few columns C, enters by Woodbury:
+    ///   M = D + E,   x = D^-1 (b - E x_C),   (1 + (D^-1 E)_C) x_C = (D^-1 b)_C.
+    class PortMatrix
+    {
+    public:
+      PortMatrix(const PortCompliance &compliance, const std::vector<unsigned int> &ports, const FullMatrix<double> &tangent)
+      {
+        for (const auto &block : compliance.blocks())
+          if (const auto places = places_in(block, ports); places.first < places.second)
+            blocks.push_back({ places, LAPACKFullMatrix<double>(places.second - places.first), LAPACKFullMatrix<double>() });
+        find_columns(tangent);
+        auto part = blocks.begin();
+        for (const auto &block : compliance.blocks())
+          if (part != blocks.end() && places_in(block, ports) == part->places)
+            factorise(*block.matrix, block.begin, ports, tangent, *part++);
+        if (columns.empty())
+          return;
+        of_columns.reinit(static_cast<unsigned int>(columns.size()));
+        for (unsigned int j = 0; j < columns.size(); ++j)
+          for (unsigned int k = 0; k < columns.size(); ++k)
+            of_columns(j, k) = (j == k ? 1. : 0.) + answer(columns[j], k);
+        of_columns.compute_lu_factorization();
+      }
+
+      void solve(Vector<double> &values) const
+      {
+        for (const auto &[places, matrix, answers] : blocks)
+        {
+          Vector<double> of_block(values.begin() + places.first, values.begin() + places.second);
+          matrix.solve(of_block);
+          std::copy(of_block.begin(), of_block.end(), values.begin() + places.first);
+        }
+        if (columns.empty())
+          return;
+        Vector<double> of_others(static_cast<unsigned int>(columns.size()));
+        for (unsigned int k = 0; k < columns.size(); ++k)
+          of_others[k] = values[columns[k]];
+        of_columns.solve(of_others);
+        for (const auto &[places, matrix, answers] : blocks)
+          for (unsigned int i = places.first; i < places.second; ++i)
+            for (unsigned int k = 0; k < columns.size(); ++k)
+              values[i] -= answers(i - places.first, k) * of_others[k];
+      }
+
+      double determinant() const
+      {
+        double result = columns.empty() ? 1. : of_columns.determinant();
+        for (const auto &block : blocks)
+          result *= block.matrix.determinant();
+        return result;
+      }
+
+    private:
+      struct Block
+      {
+        Places places;
+        LAPACKFullMatrix<double> matrix;
+        LAPACKFullMatrix<double> answers; ///< D^-1 E, a column for each of C
+      };
+
+      std::vector<Block> blocks;
+      std::vector<unsigned int> columns; ///< C
+      LAPACKFullMatrix<double> of_columns;
+
+      static bool holds(const Places &places, const unsigned int i)
+      {
+        return places.first <= i && i < places.second;
+      }
+
+      void find_columns(const FullMatrix<double> &tangent)
+      {
+        if (blocks.size() > 1)
+          for (const auto &[places, matrix, answers] : blocks)
+            for (unsigned int column = places.first; column < places.second; ++column)
+              for (unsigned int i = 0; i < tangent.m(); ++i)
+                if (!holds(places, i) && tangent(i, column) != 0.)
+                {
+                  columns.push_back(column);
+                  break;
+                }
+      }
+
+      void factorise(const FullMatrix<double> &compliance, const unsigned int begin, const std::vector<unsigned int> &ports,
+                     const FullMatrix<double> &tangent, Block &block) const
+      {
+        const auto [first, last] = block.places;
+        const unsigned int n     = last - first;
+        FullMatrix<double> loaded(n), of_block(n), product(n);
+        of_block.fill(tangent, 0, 0, first, first);
+        for (unsigned int i = 0; i < n; ++i)
+          for (unsigned int j = 0; j < n; ++j)
+            loaded(i, j) = compliance(ports[first + i] - begin, ports[first + j] - begin);
+        loaded.mmult(product, of_block);
+        for (unsigned int i = 0; i < n; ++i)
+          for (unsigned int j = 0; j < n; ++j)
+            block.matrix(i, j) = (i == j ? 1. : 0.) - product(i, j);
+        block.matrix.compute_lu_factorization();
+        if (columns.empty())
+          return;
+        block.answers.reinit(n, static_cast<unsigned int>(columns.size()));
+        for (unsigned int k = 0; k < columns.size(); ++k)
+          if (!holds(block.places, columns[k]))
+            for (unsigned int a = 0; a < n; ++a)
+              if (const double force = tangent(first + a, columns[k]); force != 0.)
+                for (unsigned int i = 0; i < n; ++i)
+                  block.answers(i, k) -= loaded(i, a) * force;
+        block.matrix.solve(block.answers);
+      }
+
+      /// Of D^-1 E.
+      double answer(const unsigned int row, const unsigned int k) const
+      {
+        const auto block =
+            std::find_if(blocks.begin(), blocks.end(), [&](const auto &candidate) { return holds(candidate.places, row); });
+        return block->answers(row - block->places.first, k);
+      }
+    };
   } // namespace
 
   unsigned int place_of(const unsigned int port, const std::vector<unsigned int> &ports)
@@ -55,30 +164,24 @@ namespace sprag
     }
   }
 
-  double port_determinant(const FullMatrix<double> &compliance, const std::vector<unsigned int> &ports,
+  double port_determinant(const PortCompliance &compliance, const std::vector<unsigned int> &ports,
                           const FullMatrix<double> &tangent)
   {
-    if (ports.empty())
-      return 1.;
-    auto matrix = port_matrix(compliance, ports, tangent);
-    matrix.compute_lu_factorization();
-    return matrix.determinant();
+    return PortMatrix(compliance, ports, tangent).determinant();
   }
 
-  Vector<double> port_reaction(const FullMatrix<double> &compliance, const std::vector<unsigned int> &ports,
+  Vector<double> port_reaction(const PortCompliance &compliance, const std::vector<unsigned int> &ports,
                                const FullMatrix<double> &tangent, const Vector<double> &displacements)
   {
-    auto matrix           = port_matrix(compliance, ports, tangent);
     Vector<double> change = displacements;
     try
     {
-      matrix.compute_lu_factorization();
+      PortMatrix(compliance, ports, tangent).solve(change);
     }
     catch (const ExceptionBase &)
     {
       throw AnalysisError("the tangent of the contact is singular");
     }
-    matrix.solve(change);
     Vector<double> forces(change.size());
     tangent.vmult(forces, change);
     return forces;
@@ -91,20 +194,28 @@ namespace sprag
     return result;
   }
 
-  void add_response(const FullMatrix<double> &compliance, const std::vector<unsigned int> &ports, const Vector<double> &forces,
+  void add_response(const PortCompliance &compliance, const std::vector<unsigned int> &ports, const Vector<double> &forces,
                     const PortSelection &selected, Vector<double> &displacements)
   {
-    for (unsigned int a = 0; a < ports.size(); ++a)
+    for (const auto &block : compliance.blocks())
     {
-      const double force  = forces[a];
-      const double *row   = &compliance(ports[a], 0);
-      double *const begin = displacements.begin();
-      for (const unsigned int i : selected)
-        begin[i] += row[i] * force;
+      const auto [first, last] = places_in(block, ports);
+      const auto [begin, end]  = places_in(block, selected);
+      double *const of_block   = displacements.begin() + block.begin;
+      for (unsigned int a = first; a < last; ++a)
+      {
+        const double force      = forces[a];
+        const double *const row = &(*block.matrix)(ports[a] - block.begin, 0);
+        for (unsigned int k = begin; k < end; ++k)
+        {
+          const unsigned int i = selected[k] - block.begin;
+          of_block[i] += row[i] * force;
+        }
+      }
     }
   }
 
-  Vector<double> port_correction(const FullMatrix<double> &compliance, const PortForces &forces, const PortSelection &selected,
+  Vector<double> port_correction(const PortCompliance &compliance, const PortForces &forces, const PortSelection &selected,
                                  const Vector<double> &mismatch)
   {
     // (1 - G df/dz) dz = mismatch on the loaded ports; the others follow from the change of the forces.

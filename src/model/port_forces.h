@@ -1,9 +1,8 @@
 #pragma once
 
-#include <deal.II/lac/full_matrix.h>
-#include <deal.II/lac/vector.h>
+#include "model/port_compliance.h"
 
-#include <vector>
+#include <deal.II/lac/vector.h>
 
 namespace sprag
 {
@@ -39,19 +38,19 @@ namespace sprag
 
   /// Forces f = A (1 - G A)^-1 z on some of the ports, with the tangent A = df/dz, that answer to displacements z of them which
   /// those forces have not changed yet.
-  dealii::Vector<double> port_reaction(const dealii::FullMatrix<double> &compliance, const std::vector<unsigned int> &ports,
+  dealii::Vector<double> port_reaction(const PortCompliance &compliance, const std::vector<unsigned int> &ports,
                                        const dealii::FullMatrix<double> &tangent, const dealii::Vector<double> &displacements);
 
   /// det(1 - G df/dz) on some of the ports.
-  double port_determinant(const dealii::FullMatrix<double> &compliance, const std::vector<unsigned int> &ports,
+  double port_determinant(const PortCompliance &compliance, const std::vector<unsigned int> &ports,
                           const dealii::FullMatrix<double> &tangent);
 
-  /// Adds G f to the displacements of the selected ports. G is symmetric.
-  void add_response(const dealii::FullMatrix<double> &compliance, const std::vector<unsigned int> &ports,
+  /// Adds G f to the displacements of the selected ports.
+  void add_response(const PortCompliance &compliance, const std::vector<unsigned int> &ports,
                     const dealii::Vector<double> &forces, const PortSelection &selected, dealii::Vector<double> &displacements);
 
   /// Newton's correction of z on the selected ports where mismatch = z_free + G f - z there; they contain those of the forces.
   /// Throws AnalysisError if the tangent is singular.
-  dealii::Vector<double> port_correction(const dealii::FullMatrix<double> &compliance, const PortForces &forces,
+  dealii::Vector<double> port_correction(const PortCompliance &compliance, const PortForces &forces,
                                          const PortSelection &selected, const dealii::Vector<double> &mismatch);
 } // namespace sprag

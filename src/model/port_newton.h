@@ -18,7 +18,7 @@ namespace sprag
   /// forces, `overlap()` is the size of the contact's deformation at the last evaluation [mm], `lengths` what a unit of each port
   /// moves.
   template <class Forces, class Overlap>
-  PortSolution solve_ports(const dealii::FullMatrix<double> &compliance, const dealii::Vector<double> &free,
+  PortSolution solve_ports(const PortCompliance &compliance, const dealii::Vector<double> &free,
                            const dealii::Vector<double> &lengths, const PortSelection &selected, const Forces &forces_at,
                            const Overlap &overlap, dealii::Vector<double> &z)
   {

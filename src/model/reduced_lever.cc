@@ -1,8 +1,6 @@
 #include "model/reduced_lever.h"
 
-#include "model/dynamic_lever.h"
-#include "model/mirrored_contact.h"
-#include "model/mirrored_modes.h"
+#include "model/assemble_lever.h"
 #include "model/point_contact.h"
 #include "scene/contact_reference.h"
 #include "scene/mirrored_pair.h"
@@ -11,12 +9,6 @@ namespace sprag
 {
   namespace
   {
-    ModalData modes_of(const Scene &scene, const BeamMesh &mesh)
-    {
-      const auto lever = beam_modes(scene, mesh);
-      return number_of_levers(scene) == 1 ? lever : mirrored_modes(lever, beam_modes(swinging_scene(scene), mesh));
-    }
-
     std::unique_ptr<PointContact> contact_of(const Scene &scene, const BeamMesh &mesh, PortLayout ports, const unsigned int lever)
     {
       const auto reference = contact_reference(scene);
@@ -38,21 +30,21 @@ namespace sprag
 
   std::unique_ptr<DynamicModel> make_reduced_lever(const Scene &scene, const unsigned int elements)
   {
-    const BeamMesh mesh    = { scene.analysis.model == ModelType::beam ? elements : 0, scene.lever.length };
-    auto structure         = std::make_unique<ModalStructure>(modes_of(scene, mesh));
-    const PortLayout ports = structure->ports();
-
-    LeverFrame frame = lever_frame(scene, ports, carried_mass(scene));
-    for (unsigned int lever = 0; lever < ports.levers; ++lever)
-      for (unsigned int slope = 1; slope < mesh.ports(); slope += 2)
-        frame.lengths[ports.first(lever) + slope] = mesh.element_length();
-    auto contact = contact_of(scene, mesh, ports, 0);
-    if (ports.levers == 1)
-      return std::make_unique<DynamicLever<ModalStructure, PointContact>>(std::move(structure), std::move(contact),
-                                                                          std::move(frame));
-    using Pair = MirroredContact<PointContact>;
-    std::array<std::unique_ptr<PointContact>, 2> contacts{ { std::move(contact), contact_of(scene, mesh, ports, 1) } };
-    return std::make_unique<DynamicLever<ModalStructure, Pair>>(
-        std::move(structure), std::make_unique<Pair>(std::move(contacts), ports, 1), std::move(frame));
+    const BeamMesh mesh  = { scene.analysis.model == ModelType::beam ? elements : 0, scene.lever.length };
+    const auto assembled = [&](auto structure)
+    {
+      const PortLayout ports = structure->ports();
+      LeverFrame frame       = lever_frame(scene, ports, carried_mass(scene));
+      for (unsigned int lever = 0; lever < ports.levers; ++lever)
+        for (unsigned int slope = 1; slope < mesh.ports(); slope += 2)
+          frame.lengths[ports.first(lever) + slope] = mesh.element_length();
+      const auto contact = [&](const unsigned int lever) { return contact_of(scene, mesh, ports, lever); };
+      return assemble_lever(std::move(structure), std::move(frame), contact, 1);
+    };
+    const auto of_lever = [&](const Scene &of) { return std::make_unique<ModalStructure>(beam_modes(of, mesh)); };
+    if (number_of_levers(scene) == 1)
+      return assembled(of_lever(scene));
+    return assembled(std::make_unique<MirroredStructure<ModalStructure>>(of_lever(scene), of_lever(swinging_scene(scene)),
+                                                                         !swings_otherwise(scene)));
   }
 } // namespace sprag

@@ -113,6 +113,11 @@ namespace sprag
     return scene.pair.type == PairType::full && scene.pair.joint == SpringJoint::free;
   }
 
+  bool swings_otherwise(const Scene &scene)
+  {
+    return swings(scene) && scene.spring.swing;
+  }
+
   Scene swinging_scene(const Scene &scene)
   {
     Scene result = scene;

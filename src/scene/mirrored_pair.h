@@ -21,6 +21,10 @@ namespace sprag
   /// Whether the levers of a full pair swing together without a moment of their springs.
   bool swings(const Scene &scene);
 
+  /// Whether that is another motion of springs and joint, with inertia of its own, than the one in which the levers mirror each
+  /// other.
+  bool swings_otherwise(const Scene &scene);
+
   /// The scene of a lever while both swing together: with the inertia of leaf springs and joint in that motion, and the stiffness
   /// of the spring as it is, which the joint takes back.
   Scene swinging_scene(const Scene &scene);

@@ -184,7 +184,7 @@ namespace sprag
     {
       const ModalDamping none;
       const EffectiveSystem statics(matrices, ports, none, { 0., 1., 0., spring_stiffness }, 0.);
-      const auto whole     = statics.port_compliance(0.);
+      const auto whole     = statics.port_compliance();
       const unsigned int n = ports.layout().rotation() + 1;
       const auto m         = static_cast<unsigned int>(basis.stiffness.size());
       FullMatrix<double> at_face(n, m), scaled(n, m);

@@ -1,10 +1,7 @@
 #include "fe/dynamics/dynamic_face_lever.h"
 
 #include "fe/statics/contact_penalties.h"
-#include "model/dynamic_lever.h"
-#include "model/mirrored_contact.h"
-#include "model/mirrored_modes.h"
-#include "model/mirrored_structure.h"
+#include "model/assemble_lever.h"
 #include "scene/mirrored_pair.h"
 #include "scene/scene_key.h"
 
@@ -80,19 +77,8 @@ namespace sprag
       const PortLayout ports = structure->ports();
       const auto contact     = [&](const unsigned int lever)
       { return std::make_unique<FaceContact>(body, contact_of(scene, ports, facts.penalties, lever)); };
-      auto frame = lever_frame(scene, ports, facts.lever_mass);
-      if (ports.levers == 1)
-        return std::make_unique<DynamicLever<Structure, FaceContact>>(std::move(structure), contact(0), std::move(frame));
-      using Pair    = MirroredContact<FaceContact>;
-      auto contacts = std::make_unique<Pair>(std::array<std::unique_ptr<FaceContact>, 2>{ { contact(0), contact(1) } }, ports,
-                                             static_cast<unsigned int>(body.friction_face().points.size()));
-      return std::make_unique<DynamicLever<Structure, Pair>>(std::move(structure), std::move(contacts), std::move(frame));
-    }
-
-    /// Whether a pair has a basis of its own for levers that swing together.
-    bool swings_otherwise(const Scene &scene)
-    {
-      return swings(scene) && scene.spring.swing;
+      return assemble_lever(std::move(structure), lever_frame(scene, ports, facts.lever_mass), contact,
+                            static_cast<unsigned int>(body.friction_face().points.size()));
     }
   } // namespace
 
@@ -147,8 +133,8 @@ namespace sprag
     if (number_of_levers(scene) == 1)
       complete(structure(basis));
     else
-      complete(std::make_unique<MirroredStructure<SparseStructure>>(structure(basis),
-                                                                    structure(basis.swinging ? *basis.swinging : basis)));
+      complete(std::make_unique<MirroredStructure<SparseStructure>>(
+          structure(basis), structure(basis.swinging ? *basis.swinging : basis), basis.swinging == nullptr));
     return result;
   }
 
@@ -158,14 +144,10 @@ namespace sprag
     const auto &basis    = bases.lever;
     const auto &swinging = bases.swinging ? bases.swinging : bases.lever;
     const auto constants = constants_of(scene, relaxation, basis->lever_mass);
-    auto modes           = modal_data(*basis, constants);
-    if (number_of_levers(scene) == 2)
-      modes = mirrored_modes(modes, modal_data(*swinging, constants));
-    const auto ports = modes.ports;
-    auto structure   = std::make_unique<ModalStructure>(std::move(modes));
+    const auto structure = [&](const CondensedBasis &of) { return std::make_unique<ModalStructure>(modal_data(of, constants)); };
 
     MeshedDynamics result    = facts(scene, body, basis->stiffness);
-    result.n_coordinates     = structure->n_modes();
+    result.n_coordinates     = number_of_levers(scene) * static_cast<unsigned int>(basis->stiffness.size()) + constants.sprung;
     result.density_factor    = basis->density_factor;
     result.lever_mass        = basis->lever_mass;
     result.moment_of_inertia = basis->moment_of_inertia;
@@ -183,21 +165,25 @@ namespace sprag
         return (*made)(motion);
       };
     };
-    if (ports.levers == 1)
+    if (number_of_levers(scene) == 1)
+    {
       result.elastic_displacement = [of_lever = displacement(scene, basis)](const Motion &motion, unsigned int) mutable
       { return of_lever(motion); };
+      result.model = assemble(scene, body, structure(*basis), result);
+    }
     else
+    {
+      auto pair = std::make_unique<MirroredStructure<ModalStructure>>(structure(*basis), structure(*swinging), !bases.swinging);
       result.elastic_displacement =
-          [ports, of_first = displacement(scene, basis),
-           of_second = displacement(swinging_scene(scene), swinging)](const Motion &motion, const unsigned int lever) mutable
+          [of = pair.get(), mirroring = displacement(scene, basis),
+           opposite = displacement(swinging_scene(scene), swinging)](const Motion &motion, const unsigned int lever) mutable
       {
-        const auto parts = mirrored_motions(ports, motion);
-        auto total       = of_first(parts[0]);
-        total.add(lever == 0 ? 1. : -1., of_second(parts[1]));
-        total *= std::sqrt(0.5);
-        return total;
+        return of->of_lever(motion, lever,
+                            [&](const unsigned int part, const Motion &of_part)
+                            { return part == 0 ? mirroring(of_part) : opposite(of_part); });
       };
-    result.model = assemble(scene, body, std::move(structure), result);
+      result.model = assemble(scene, body, std::move(pair), result);
+    }
     return result;
   }
 } // namespace sprag

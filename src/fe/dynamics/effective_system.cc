@@ -108,7 +108,7 @@ namespace sprag
       add(forces.values[a], response(forces.ports[a]));
   }
 
-  FullMatrix<double> EffectiveSystem::port_compliance(const double of_support) const
+  FullMatrix<double> EffectiveSystem::port_compliance() const
   {
     const auto &layout = ports.layout();
     Mumps condensing;
@@ -117,7 +117,7 @@ namespace sprag
     FullMatrix<double> of_face = condensing.factorise_with_schur_complement(matrix, ports.face_coordinates());
     invert(of_face);
     ports.transform(of_face);
-    FullMatrix<double> result(layout.size(), layout.size());
+    FullMatrix<double> result(layout.of_a_lever(), layout.of_a_lever());
     for (unsigned int i = 0; i < of_face.m(); ++i)
       for (unsigned int j = 0; j < of_face.m(); ++j)
         result(ports.port_of_face(i), ports.port_of_face(j)) = 0.5 * (of_face(i, j) + of_face(j, i));
@@ -128,7 +128,6 @@ namespace sprag
     {
       append(layout.momentum_eta(), result);
       append(layout.momentum_xi(), result);
-      result(layout.support(), layout.support()) = of_support;
     }
     return result;
   }

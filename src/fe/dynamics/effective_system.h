@@ -24,8 +24,8 @@ namespace sprag
     EffectiveSystem(const InertialMatrices<2> &matrices, const LeverPorts &ports, const ModalDamping &damping,
                     const InertialMatrices<2>::Weights &weights, double weight_of_damping);
 
-    /// Compliance of all ports, that of the support given.
-    dealii::FullMatrix<double> port_compliance(double of_support) const;
+    /// Compliance of the lever's ports.
+    dealii::FullMatrix<double> port_compliance() const;
 
     /// Right-hand side and solution without the support.
     dealii::Vector<double> solve(const dealii::Vector<double> &right_hand_side) const;

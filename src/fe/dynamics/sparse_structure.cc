@@ -95,7 +95,7 @@ namespace sprag
       statics         = std::make_unique<Step>();
       statics->system = std::make_unique<EffectiveSystem>(
           *matrices, lever_ports, damping, InertialMatrices<2>::Weights{ 0., 1., 0., constants.spring_stiffness }, 0.);
-      statics->compliance = statics->system->port_compliance(constants.sprung ? 1. / constants.support_stiffness : 0.);
+      statics->compliance = port_compliance(*statics->system, constants.support_stiffness);
     }
     current = statics.get();
   }
@@ -109,7 +109,7 @@ namespace sprag
                                                     w.damping() * constants.relaxation,
                                                     w.stiffness() * constants.spring_stiffness };
     step->system     = std::make_unique<EffectiveSystem>(*matrices, lever_ports, damping, of_matrices, w.damping());
-    step->compliance = step->system->port_compliance(constants.sprung ? 1. / effective_support(w) : 0.);
+    step->compliance = port_compliance(*step->system, effective_support(w));
     return step;
   }
 
@@ -129,7 +129,16 @@ namespace sprag
     current = steps.back().get();
   }
 
-  const FullMatrix<double> &SparseStructure::compliance() const
+  PortCompliance SparseStructure::port_compliance(const EffectiveSystem &system, const double support_stiffness) const
+  {
+    PortCompliance result;
+    result.append(system.port_compliance());
+    if (constants.sprung)
+      result.append(1. / support_stiffness);
+    return result;
+  }
+
+  const PortCompliance &SparseStructure::compliance() const
   {
     return current->compliance;
   }

@@ -29,6 +29,9 @@ namespace sprag
   class SparseStructure
   {
   public:
+    static constexpr unsigned int levers = 1;
+    static constexpr bool is_small       = false; ///< see ModalStructure
+
     /// `modes` are those of the free lever on its spring; all but the first are damped. The matrices are kept.
     SparseStructure(const ElasticBody<2> &body, std::shared_ptr<const InertialMatrices<2>> matrices, const FreeModes &modes,
                     const LeverDynamics &constants);
@@ -41,7 +44,7 @@ namespace sprag
     /// Makes the compliance that of statics, or of a step.
     void use_statics();
     void use_step(const StepWeights &weights);
-    const dealii::FullMatrix<double> &compliance() const;
+    const PortCompliance &compliance() const;
 
     /// Motion at rest under forces, after use_statics().
     Motion deform(const PortForces &forces) const;
@@ -91,13 +94,14 @@ namespace sprag
     {
       StepWeights weights{};
       std::unique_ptr<const EffectiveSystem> system;
-      dealii::FullMatrix<double> compliance;
+      PortCompliance compliance;
     };
 
     /// Known of the last two motions asked for.
     const Products &products(const Motion &motion) const;
     Products make_products(const Motion &motion) const;
     std::unique_ptr<Step> make_step(const StepWeights &weights) const;
+    PortCompliance port_compliance(const EffectiveSystem &system, double support_stiffness) const;
     double effective_support(const StepWeights &w) const;
     double free_support(const Kinematic &start, const StepWeights &w) const;
     dealii::Vector<double> load_of_motion(const Kinematic &start, const Products &of, const StepWeights &w) const;

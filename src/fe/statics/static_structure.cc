@@ -69,7 +69,12 @@ namespace sprag
   void StaticStructure::move_window(const PortSelection &wanted)
   {
     window.clear();
-    std::vector<std::pair<Section, PortSelection>> parts;
+    compliance            = {};
+    const auto add_spring = [&](const unsigned int port, const double stiffness)
+    {
+      window.push_back(port);
+      compliance.append(1. / stiffness);
+    };
     for (unsigned int lever = 0; lever < ports.levers; ++lever)
     {
       for (const auto &section : sections_of(lever))
@@ -78,27 +83,17 @@ namespace sprag
         const auto end   = std::lower_bound(begin, wanted.end(), section.end);
         PortSelection of_face;
         std::transform(begin, end, std::back_inserter(of_face), [&](const unsigned int port) { return port - section.begin; });
-        parts.emplace_back(section, faces[section.face].whole_tiles(of_face));
-        for (const unsigned int place : parts.back().second)
+        const auto tiles = faces[section.face].whole_tiles(of_face);
+        for (const unsigned int place : tiles)
           window.push_back(section.begin + place);
+        if (!tiles.empty())
+          compliance.append(faces[section.face].among(tiles));
       }
-      window.push_back(ports.rotation(lever));
+      add_spring(ports.rotation(lever), springs.rotation);
     }
     if (ports.sprung)
-      window.push_back(ports.support());
-
-    const auto size = static_cast<unsigned int>(window.size());
-    mismatch.reinit(size);
-    compliance.reinit(size, size);
-    for (const auto &[section, tiles] : parts)
-      if (!tiles.empty())
-        faces[section.face].copy(tiles, place_of(section.begin + tiles.front(), window), compliance);
-    const auto set_spring = [&](const unsigned int port, const double stiffness)
-    { compliance(place_of(port, window), place_of(port, window)) = 1. / stiffness; };
-    for (unsigned int lever = 0; lever < ports.levers; ++lever)
-      set_spring(ports.rotation(lever), springs.rotation);
-    if (ports.sprung)
-      set_spring(ports.support(), ports.levers * springs.support);
+      add_spring(ports.support(), ports.levers * springs.support);
+    mismatch.reinit(compliance.size());
   }
 
   std::array<StaticStructure::Section, 2> StaticStructure::sections_of(const unsigned int lever) const

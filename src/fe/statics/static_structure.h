@@ -76,7 +76,7 @@ namespace sprag
 
     // The compliance is known in a window of whole tiles, a place for each of its ports.
     PortSelection window;
-    dealii::FullMatrix<double> compliance;
+    PortCompliance compliance;       ///< of the places
     dealii::Vector<double> mismatch; ///< G f - z
     PortSelection selected;          ///< ports it looks at
     PortSelection places;            ///< of them

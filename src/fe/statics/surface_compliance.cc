@@ -48,7 +48,7 @@ namespace sprag
     return result;
   }
 
-  void SurfaceCompliance::copy(const PortSelection &whole_tiles, const unsigned int first, FullMatrix<double> &matrix)
+  FullMatrix<double> SurfaceCompliance::among(const PortSelection &whole_tiles)
   {
     std::vector<unsigned int> begins; // of the tiles among the ports
     for (unsigned int i = 0; i < whole_tiles.size(); i += n_ports_of(whole_tiles[i] / tile_size))
@@ -61,6 +61,7 @@ namespace sprag
           missing.emplace_back(tile_at(row), tile_at(column));
     if (!missing.empty())
       find(missing);
+    FullMatrix<double> matrix(static_cast<unsigned int>(whole_tiles.size()));
     for (const unsigned int row : begins)
       for (const unsigned int column : begins)
         if (column <= row)
@@ -68,8 +69,9 @@ namespace sprag
           const auto &tile = tiles.at({ tile_at(row), tile_at(column) });
           for (unsigned int i = 0; i < tile.m(); ++i)
             for (unsigned int j = 0; j < tile.n(); ++j)
-              matrix(first + row + i, first + column + j) = matrix(first + column + j, first + row + i) = tile(i, j);
+              matrix(row + i, column + j) = matrix(column + j, row + i) = tile(i, j);
         }
+    return matrix;
   }
 
   double &SurfaceCompliance::entry(const unsigned int row, const unsigned int column)

@@ -20,8 +20,8 @@ namespace sprag
     /// The tiles that hold the given ports of the face, as increasing ports.
     PortSelection whole_tiles(const PortSelection &ports) const;
 
-    /// Writes the compliance between some ports, whole tiles, into a matrix from row and column `first` on.
-    void copy(const PortSelection &whole_tiles, unsigned int first, dealii::FullMatrix<double> &matrix);
+    /// The compliance between some ports, which make up whole tiles.
+    dealii::FullMatrix<double> among(const PortSelection &whole_tiles);
 
   private:
     using Tile = std::pair<unsigned int, unsigned int>; ///< of rows and columns, first >= second
