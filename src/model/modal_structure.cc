@@ -205,6 +205,8 @@ namespace sprag
   {
     const auto loaded = filled_places(motion.face_force);
     Vector<double> result(n_ports());
+    if (loaded.empty() && motion.coordinates.position.all_zero())
+      return result;
     for (const unsigned int port : selected)
       result[port] = port_position(motion, loaded, port);
     return result;

@@ -1,0 +1,126 @@
+#include "model/port_forces.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+using namespace sprag;
+using Vector = dealii::Vector<double>;
+using Matrix = dealii::FullMatrix<double>;
+
+namespace
+{
+  std::mt19937 generator(7);
+
+  double any()
+  {
+    return std::uniform_real_distribution<double>(-1., 1.)(generator);
+  }
+
+  Matrix symmetric(const unsigned int n)
+  {
+    Matrix result(n);
+    for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int j = 0; j <= i; ++j)
+        result(i, j) = result(j, i) = any();
+    return result;
+  }
+
+  /// Two alike blocks of four ports and one of a single port.
+  PortCompliance of_two_levers_and_support()
+  {
+    PortCompliance result;
+    const auto lever = std::make_shared<const Matrix>(symmetric(4));
+    result.append(lever);
+    result.append(lever);
+    result.append(0.7);
+    return result;
+  }
+
+  const PortSelection all = all_ports(9);
+
+  /// On ports of both levers and the support, each lever's by its own displacements and, if coupled, by those of port 3, 7 and 8.
+  PortForces forces(const bool coupled)
+  {
+    PortForces result;
+    result.ports = { 0, 1, 3, 5, 7, 8 };
+    result.values.reinit(6);
+    result.tangent.reinit(6, 6);
+    const auto lever = [&](const unsigned int a) { return result.ports[a] / 4; };
+    for (unsigned int a = 0; a < 6; ++a)
+    {
+      result.values[a] = any();
+      for (unsigned int b = 0; b < 6; ++b)
+        if (lever(a) == lever(b) || (coupled && (b == 2 || b >= 4)))
+          result.tangent(a, b) = any();
+    }
+    return result;
+  }
+} // namespace
+
+TEST(PortForces, PortsOfDifferentBlocksFeelNothingOfEachOther)
+{
+  const auto compliance = of_two_levers_and_support();
+  ASSERT_EQ(compliance.size(), 9u);
+  const auto f = forces(true);
+  Vector z(9);
+  add_response(compliance, f.ports, f.values, all, z);
+  for (unsigned int i = 0; i < 9; ++i)
+  {
+    double expected = 0.;
+    for (unsigned int a = 0; a < f.ports.size(); ++a)
+      expected += compliance(i, f.ports[a]) * f.values[a];
+    EXPECT_NEAR(z[i], expected, 1e-15) << i;
+  }
+  EXPECT_EQ(compliance(0, 4), 0.);
+  EXPECT_EQ(compliance(1, 2), compliance(5, 6));
+}
+
+// dz = mismatch + G (df/dz) dz, whatever the levers feel of each other through the forces.
+TEST(PortForces, CorrectionSolvesTheLinearisedEquations)
+{
+  const auto compliance = of_two_levers_and_support();
+  for (const bool coupled : { false, true })
+  {
+    const auto f = forces(coupled);
+    Vector mismatch(9);
+    for (auto &value : mismatch)
+      value = any();
+    const auto change = port_correction(compliance, f, all, mismatch);
+    Vector change_of_forces(6), at_forces(6);
+    for (unsigned int a = 0; a < 6; ++a)
+      at_forces[a] = change[f.ports[a]];
+    f.tangent.vmult(change_of_forces, at_forces);
+    Vector expected = mismatch;
+    add_response(compliance, f.ports, change_of_forces, all, expected);
+    expected -= change;
+    EXPECT_LE(expected.linfty_norm(), 1e-12 * change.linfty_norm()) << coupled;
+  }
+}
+
+TEST(PortForces, DeterminantIsThatOfTheWholeMatrix)
+{
+  const auto compliance = of_two_levers_and_support();
+  for (const bool coupled : { false, true })
+  {
+    const auto f = forces(coupled);
+    Matrix whole(6);
+    for (unsigned int a = 0; a < 6; ++a)
+      for (unsigned int b = 0; b < 6; ++b)
+      {
+        whole(a, b) = a == b ? 1. : 0.;
+        for (unsigned int c = 0; c < 6; ++c)
+          whole(a, b) -= compliance(f.ports[a], f.ports[c]) * f.tangent(c, b);
+      }
+    // By elimination.
+    double expected = 1.;
+    for (unsigned int k = 0; k < 6; ++k)
+    {
+      expected *= whole(k, k);
+      for (unsigned int i = k + 1; i < 6; ++i)
+        for (unsigned int j = 6; j-- > k;)
+          whole(i, j) -= whole(i, k) / whole(k, k) * whole(k, j);
+    }
+    EXPECT_NEAR(port_determinant(compliance, f.ports, f.tangent), expected, 1e-11 * std::abs(expected)) << coupled;
+  }
+}
