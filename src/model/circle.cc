@@ -30,7 +30,7 @@ namespace sprag
     const LeverPoint c = circle.centre;
     const double r_1   = point.xi - c.xi;
     const double r_2   = point.eta - c.eta;
-    const double r     = std::hypot(r_1, r_2);
+    const double r     = std::sqrt(r_1 * r_1 + r_2 * r_2);
 
     // N = (sin beta, cos beta), T = (cos beta, -sin beta), as rows over (u_xi, u_eta, theta, x); dc/dtheta = (c_2, -c_1),
     // dc/dx = (-cos theta, sin theta).
