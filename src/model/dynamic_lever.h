@@ -313,7 +313,7 @@ namespace sprag
       return completed(structure->deform(*forces), drive, *forces);
     }
 
-    /// Of the contact's last evaluation.
+    /// Forces on the first lever at the last evaluation of the contact.
     SlidingForces observed_forces() const
     {
       Row row;
@@ -346,7 +346,7 @@ namespace sprag
       return result;
     }
 
-    /// See HeldSlide.
+    /// The determinant that HeldSlide describes.
     double uniqueness(const HeldSlide &slide)
     {
       structure->use_statics();
@@ -363,7 +363,7 @@ namespace sprag
       return completed(structure->deform(*forces), drive, *forces);
     }
 
-    /// With what the structure does not know: drive, memory of the contact and its forces.
+    /// Adds to a motion what the structure does not know: drive, memory of the contact and its forces.
     Motion completed(Motion motion, const DrivePoint &drive, const PortForces &forces) const
     {
       motion.drive   = drive;

@@ -13,7 +13,7 @@
 
 namespace sprag
 {
-  /// Where a model is in time. The analysis owns it: a step makes a new one, which is kept only when it is accepted.
+  /// The state of a model in time. The analysis owns it: a step makes a new one, which is kept only when it is accepted.
   struct Motion
   {
     DrivePoint drive;
@@ -88,9 +88,9 @@ namespace sprag
   public:
     virtual ~DynamicModel() = default;
 
-    /// Where the drive moves in steady sliding at its x and v, with velocities and accelerations; where it rests, touching at
-    /// x = 0, further on in equilibrium with friction as left by sliding there forward, slowly. Throws AnalysisError if there is
-    /// no such equilibrium.
+    /// The motion that a run begins with. If the drive moves, the lever slides steadily at its x and v, with velocities and
+    /// accelerations. If it rests, the lever touches it without force at x = 0; further on it is in equilibrium with the friction
+    /// that sliding there forward, slowly, has left. Throws AnalysisError if there is no such equilibrium.
     virtual Motion initial_motion(const DrivePoint &drive) = 0;
 
     /// One step of the time integration from an accepted motion. Throws AnalysisError if a factorisation fails.

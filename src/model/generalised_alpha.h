@@ -34,7 +34,7 @@ namespace sprag
     {
       return gamma / (beta * dt);
     }
-    /// How much later than the middle of the step forces count, over dt: 0 for a spectral radius of 1.
+    /// Forces count by this share of dt later than the middle of the step; 0 for a spectral radius of 1.
     double delay() const
     {
       return 0.5 - alpha_f;

@@ -9,7 +9,7 @@
 
 namespace sprag
 {
-  /// What of an eigenmode follows from the structure's own energies.
+  /// Quadratic forms of an eigenmode phi that follow from the structure's own energies.
   struct ModeForms
   {
     double mass    = 0.; ///< phi^H M phi

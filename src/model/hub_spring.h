@@ -6,8 +6,8 @@
 
 namespace sprag
 {
-  /// What the moment of the rotational springs exceeds k phi of each hub by, k the law's linear stiffness, as forces on the ports
-  /// of the hubs' rotations; k phi belongs to the structure. A linear spring of each lever's own does nothing and costs nothing.
+  /// The rotational springs' moments in excess of k phi of each hub, k the law's linear stiffness, as forces on the ports of the
+  /// hubs' rotations; k phi belongs to the structure. A linear spring of each lever's own does nothing and costs nothing.
   ///
   /// The springs of a mirrored pair whose joint nothing else carries take up what both levers open, energy
   /// 2 W((phi_1 + phi_2)/2) with W that of the law, and swing with them: of the stiffness against swinging,

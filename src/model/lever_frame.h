@@ -7,7 +7,7 @@
 
 namespace sprag
 {
-  /// What a lever, or a mirrored pair, shares with the scene it stands in.
+  /// Constants that a lever, or a mirrored pair, has from the scene it stands in.
   struct LeverFrame
   {
     std::vector<Geometry> geometries; ///< of each lever, the cylinder's offset in them
@@ -21,7 +21,8 @@ namespace sprag
     bool joined             = false; ///< the springs of a pair by a joint that nothing else carries
   };
 
-  /// With lengths 1 but for the hubs' rotations. `lever_mass` [t], of one lever, moves with a sprung support.
+  /// The frame of a scene, with lengths 1 but for the hubs' rotations. `lever_mass` [t], of one lever, moves with a sprung
+  /// support.
   LeverFrame lever_frame(const Scene &scene, const PortLayout &ports, double lever_mass);
 
   /// c_f [N s/mm]: Support/Damping of critical of the frame with the lever on k_f.

@@ -6,7 +6,7 @@
 
 namespace sprag
 {
-  /// Of some ports.
+  /// Complex amplitudes of some ports.
   using ComplexAmplitudes = std::vector<std::complex<double>>;
 
   /// A contact whose points all slide at one speed, at given displacements of the ports.
@@ -41,13 +41,14 @@ namespace sprag
 
   /// Forces f on some ports by a small perturbation z(t) of them, about a held slide, delays of friction apart:
   ///   f = (pressure + friction) z + (pressure_rate + friction_rate) z' - inertia z''
-  /// By displacements: of the pressure, with the change of its direction, and of friction; by velocities: of contact damping, and
-  /// of friction, as pressure and mu follow the velocities.
+  /// `pressure` and `friction` are derivatives by displacements, of the pressure with the change of its direction and of
+  /// friction. `pressure_rate` and `friction_rate` are derivatives by velocities, of contact damping and of friction, whose
+  /// pressure and mu follow the velocities.
   struct PortPerturbation
   {
     PortPerturbation() = default;
 
-    /// Without forces.
+    /// A perturbation without forces.
     explicit PortPerturbation(std::vector<unsigned int> ports);
 
     /// Adds forces on some of these ports, in any order.
@@ -71,7 +72,7 @@ namespace sprag
     /// Complex forces by z exp(lambda t).
     ComplexAmplitudes forces(std::complex<double> lambda, const ComplexAmplitudes &z) const;
 
-    /// What friction's delays add to those without: by the displacements, and by the velocities.
+    /// Forces that friction's delays add to those without, by the displacements and by the velocities.
     struct DelayedForces
     {
       ComplexAmplitudes by_displacement;

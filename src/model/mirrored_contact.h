@@ -123,7 +123,7 @@ namespace sprag
       return contact[lever]->gap_change(ports_of(lever, change_of_ports));
     }
 
-    /// Of the first lever.
+    /// Mean slip of the first lever [mm].
     double mean_slip(const dealii::Vector<double> &from, const double from_x, const dealii::Vector<double> &to,
                      const double to_x) const
     {
@@ -140,7 +140,7 @@ namespace sprag
       return contact[lever]->surface_shape(ports_of(lever, displacements));
     }
 
-    /// Of either lever.
+    /// Points of the face of either lever.
     FacePoints face_points() const
     {
       return contact[0]->face_points();

@@ -129,7 +129,7 @@ namespace sprag
                                    parts[1]->port_error(part_of(begin, 1), part_of(end, 1)));
     }
 
-    /// Those of both motions. Forces that do not mirror as the levers do couple them, which must be small structures then.
+    /// Vibrations of both motions. Forces that do not mirror as the levers do couple them, which must be small structures then.
     std::vector<StructureMode> vibrations(const PortPerturbation &forces, const unsigned int number)
     {
       const auto both = of_pair.on_both(forces);
@@ -224,7 +224,7 @@ namespace sprag
       return {};
     }
 
-    /// Whether a mode is that of the support's coordinate in the second structure, which nothing moves.
+    /// The second structure's coordinate of the support, which nothing moves, is a mode that the pair does not have.
     bool is_of_idle_support(const StructureMode &mode) const
     {
       if (!ports().sprung)

@@ -37,7 +37,7 @@ namespace sprag
 
     const PortLayout &ports() const;
 
-    /// At rest without force.
+    /// The motion at rest without force.
     Motion rest() const;
 
     /// Makes the compliance that of statics, or of a step.
@@ -74,7 +74,7 @@ namespace sprag
     /// Vibrations under linear forces on the ports, all of them.
     std::vector<StructureMode> vibrations(const PortPerturbation &forces, unsigned int number) const;
 
-    /// The same of this and another structure under forces that couple them. The other's ports are counted from the number of
+    /// Vibrations of this and another structure under forces that couple them. The other's ports are counted from the number of
     /// this one's on, and its coordinates and static forces follow this one's.
     std::vector<StructureMode> vibrations_with(const ModalStructure &other, const PortPerturbation &forces) const;
 

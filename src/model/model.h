@@ -13,7 +13,7 @@
 
 namespace sprag
 {
-  /// Where a model is. The analysis owns it: a step works on a copy that is kept only when it is accepted.
+  /// The state of a model without inertia. The analysis owns it: a step works on a copy that is kept only when it is accepted.
   struct State
   {
     DrivePoint drive;
@@ -57,7 +57,7 @@ namespace sprag
     /// Largest overlap of body and obstacle, or what of it the next augmentation removes [mm].
     virtual double penetration() const = 0;
 
-    /// Why the state of the last evaluation, though balanced, is beyond what the model can tell; empty if it is not.
+    /// Tells why the state of the last evaluation, though balanced, is beyond what the model can tell; empty if it is not.
     virtual std::string objection(const State &trial) const = 0;
 
     /// Multipliers of the next augmentation from the tractions of the last evaluation.

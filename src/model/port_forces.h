@@ -17,7 +17,7 @@ namespace sprag
     dealii::FullMatrix<double> tangent;
   };
 
-  /// Where a port stands, or would stand, among increasing ones.
+  /// The place where a port stands, or would stand, among increasing ones.
   unsigned int place_of(unsigned int port, const std::vector<unsigned int> &ports);
 
   /// Forces as they are on their own ports and others, increasing, where they are 0.

@@ -4,13 +4,13 @@
 
 namespace sprag
 {
-  /// Of each lever; the second counts in a mirrored pair alone.
+  /// A value for each lever; the second counts in a mirrored pair alone.
   using OfLevers = std::array<double, 2>;
 
   /// Ports of a lever: first those of its friction face or axis in lever axes, then the compressions of its force sensors, which
   /// are only read, then the hub's rotation from the spring's rest and on a sprung support, in time, the lever's momentum
-  /// coordinates.
-  /// Those of a mirrored pair's second lever follow, each in its own axes, and last the displacement of a sprung support.
+  /// coordinates. A mirrored pair's second lever has the same ports after those, in its own axes. The displacement of a sprung
+  /// support is the last.
   struct PortLayout
   {
     unsigned int surface = 0; ///< number of ports of a lever's face
@@ -54,13 +54,13 @@ namespace sprag
       return support() + (sprung ? 1 : 0);
     }
 
-    /// Of a port that is not the support's.
+    /// The lever, 0 or 1, of a port that is not the support's.
     unsigned int lever_of(const unsigned int port) const
     {
       return port / of_a_lever();
     }
 
-    /// Of the face of either lever.
+    /// Whether a port is one of the face of either lever.
     bool is_surface(const unsigned int port) const
     {
       return port < support() && port % of_a_lever() < surface;

@@ -9,7 +9,7 @@
 
 namespace sprag
 {
-  /// What friction does where a slide is held.
+  /// How friction acts where a slide is held.
   enum class ContactFriction
   {
     sliding,
@@ -40,7 +40,7 @@ namespace sprag
     double structure_damping = 0.; ///< of lever, layer and support
   };
 
-  /// Where a mode's potential energy is; adds up to 1.
+  /// Parts of a mode's potential energy; they add up to 1.
   struct EnergyShares
   {
     double rotation = 0.; ///< in the rotational spring
@@ -57,7 +57,7 @@ namespace sprag
     GrowthShares growth;
     EnergyShares energy;
 
-    /// Of a pair: 1 where the levers mirror each other, -1 where the second does the opposite and both swing the same way.
+    /// In a pair 1 where the levers mirror each other, -1 where the second does the opposite and both swing the same way.
     double mirroring = std::numeric_limits<double>::quiet_NaN();
   };
 

@@ -13,7 +13,7 @@ namespace sprag
   /// Folder for stored bases: the given one or, if empty, `sprag` in the user's cache folder.
   std::string cache_folder(const std::string &given);
 
-  /// What was stored under `key`; none if there is no such file or it is damaged.
+  /// The arrays that were stored under `key`; none if there is no such file or it is damaged.
   std::optional<StoredArrays> load_arrays(const std::string &folder, const std::string &key);
 
   /// Removes what processes that ended in the middle of storing have left in a folder: files that none keeps locked and that are

@@ -39,10 +39,10 @@ namespace sprag
   /// Looks for the basis in the cache, else makes and stores it.
   CondensedBasis condensed_basis(const ElasticBody<2> &body, const BasisSettings &settings);
 
-  /// The same without a cache.
+  /// Makes the basis without a cache.
   CondensedBasis make_basis(const ElasticBody<2> &body, const BasisSettings &settings);
 
-  /// With damping and support.
+  /// The basis as the modes of a structure, with damping and support.
   ModalData modal_data(const CondensedBasis &basis, const LeverDynamics &constants);
 
   /// Elastic displacement of all degrees of freedom of a motion in a condensed basis.

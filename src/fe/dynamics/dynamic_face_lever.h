@@ -31,7 +31,8 @@ namespace sprag
     std::string message;           ///< why the basis was not stored; empty if it was
   };
 
-  /// What of a meshed lever neither friction nor damping nor drive touch, to be shared by models of one body.
+  /// The part of a meshed lever with all degrees of freedom that friction, damping and drive leave as it is: models of one body
+  /// share it.
   struct FiniteElementBasis
   {
     std::shared_ptr<const InertialMatrices<2>> matrices;
@@ -39,7 +40,7 @@ namespace sprag
     std::shared_ptr<const FiniteElementBasis> swinging; ///< of a pair's levers that swing together, where it is another
   };
 
-  /// The same of the condensed model.
+  /// The part of a condensed lever that models of one body share.
   struct CondensedBases
   {
     std::shared_ptr<const CondensedBasis> lever;
@@ -51,7 +52,7 @@ namespace sprag
 
   FiniteElementBasis make_finite_element_basis(const Scene &scene, const ElasticBody<2> &body);
 
-  /// From the scene's cache if it is there; made, and stored there if `store`, if not.
+  /// Takes the bases from the scene's cache if they are there. If not, makes them and, if `store`, stores them there.
   CondensedBases make_condensed_basis(const Scene &scene, const ElasticBody<2> &body, bool store);
 
   /// All degrees of freedom. `relaxation`: damping over stiffness of the friction layer [s]. The body must outlive the model.

@@ -20,15 +20,16 @@ namespace sprag
     /// `attached`: number of further coordinates, before the rotation, which move no node.
     explicit TotalCoordinates(const ElasticBody<dim> &body, unsigned int attached = 0);
 
-    /// How many, the rotation included.
+    /// Number of coordinates, the rotation included.
     unsigned int size() const;
 
+    /// Index of the rotation.
     unsigned int rotation() const;
 
-    /// The i-th of the attached ones.
+    /// Index of the i-th attached coordinate.
     unsigned int attached(unsigned int i) const;
 
-    /// What moves a degree of freedom of the body: a coordinate, and by how much a unit of it does.
+    /// The coordinate that moves a degree of freedom of the body, and by how much a unit of it does.
     struct Mover
     {
       unsigned int coordinate;
@@ -56,7 +57,7 @@ namespace sprag
     unsigned int n_attached = 0;
   };
 
-  /// What a lever weighs. A hub in the mesh is massless.
+  /// Masses of a lever. A hub in the mesh is massless.
   struct LeverInertia
   {
     std::map<dealii::types::material_id, double> densities; ///< before scaling [t/mm^3]

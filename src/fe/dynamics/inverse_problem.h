@@ -6,7 +6,7 @@
 
 namespace sprag
 {
-  /// Of the first-order problem: displacements, velocities and the tractions of friction's delays.
+  /// State of the first-order problem: displacements, velocities and the tractions of friction's delays.
   struct SparseState
   {
     dealii::Vector<double> q, rate, traction;

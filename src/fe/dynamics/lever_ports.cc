@@ -79,9 +79,9 @@ namespace sprag
     return result;
   }
 
-  unsigned int LeverPorts::port_of_face(const unsigned int coordinate) const
+  unsigned int LeverPorts::port_of_face(const unsigned int i) const
   {
-    return coordinate < ports.surface ? coordinate : ports.rotation();
+    return i < ports.surface ? i : ports.rotation();
   }
 
   void LeverPorts::transform(FullMatrix<double> &compliance) const

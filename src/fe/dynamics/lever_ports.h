@@ -7,7 +7,7 @@
 
 namespace sprag
 {
-  /// Two a node: of the friction face, then of an elastic cylinder's face.
+  /// Number of the ports of the friction face and of an elastic cylinder's face, two a node.
   unsigned int number_of_surface_ports(const ElasticBody<2> &body);
 
   /// Ports of a meshed lever in total coordinates: elastic displacements of those nodes (two entries a node), compressions of
@@ -31,13 +31,13 @@ namespace sprag
     /// Adds what a force on a port is on the coordinates.
     void add_force(unsigned int port, double force, dealii::Vector<double> &forces) const;
 
-    /// Coordinates of the face and the rotation, on which a compliance can be found.
+    /// Coordinates of the faces' nodes and the rotation, on which a compliance can be found.
     std::vector<unsigned int> face_coordinates() const;
 
-    /// Their ports, in the same order.
-    unsigned int port_of_face(unsigned int coordinate) const;
+    /// The port of the i-th of those coordinates.
+    unsigned int port_of_face(unsigned int i) const;
 
-    /// From the compliance of those to that of the ports of face and rotation.
+    /// Turns the compliance of those coordinates into that of their ports.
     void transform(dealii::FullMatrix<double> &compliance) const;
 
   private:

@@ -38,7 +38,7 @@ namespace sprag
 
     const PortLayout &ports() const;
 
-    /// At rest without force.
+    /// The motion at rest without force.
     Motion rest() const;
 
     /// Makes the compliance that of statics, or of a step.

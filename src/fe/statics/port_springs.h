@@ -21,7 +21,7 @@ namespace sprag
     return result;
   }
 
-  /// Those of the friction face, then of an elastic cylinder's face.
+  /// Degrees of freedom of the ports of the friction face, then of an elastic cylinder's face.
   inline std::vector<unsigned int> surface_dofs(const ElasticBody<2> &body)
   {
     auto result         = face_dofs(body.friction_face());

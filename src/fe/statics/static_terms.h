@@ -4,8 +4,9 @@
 
 namespace sprag
 {
-  /// What a step without inertia adds to the contact. `geometry`: of the damper, for speeds of sliding as of a rigid lever at the
-  /// end of the step, see FaceStep; none: its means. In the cone mode nothing has been rubbed yet where no time has passed.
+  /// The terms that a step without inertia adds to the contact. With the damper's `geometry` friction takes the speeds of sliding
+  /// of a rigid lever at the end of the step, see FaceStep, without it their means over the step. In the cone mode nothing has
+  /// been rubbed yet where no time has passed.
   StaticTerms static_terms(const FrictionLaw &friction, const std::optional<Geometry> &geometry, const DrivePoint &begin,
                            const DrivePoint &end, FrictionMode mode);
 } // namespace sprag
