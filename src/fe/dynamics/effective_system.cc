@@ -3,7 +3,6 @@
 #include <deal.II/lac/lapack_full_matrix.h>
 
 #include <algorithm>
-#include <iterator>
 
 namespace sprag
 {
@@ -27,6 +26,7 @@ namespace sprag
       , ports(ports_)
       , damping(damping_)
       , weights(weights_)
+      , factors(MatrixKind::positive_definite)
   {
     PETScWrappers::SparseMatrix matrix;
     matrices.sum(weights, matrix);
@@ -63,49 +63,6 @@ namespace sprag
     for (unsigned int i = 0; i < n; ++i)
       result.add(-amounts[i], damped[i]);
     return result;
-  }
-
-  namespace
-  {
-    /// Responses to single forces that are worth their memory. More forces than that are solved for together.
-    constexpr std::size_t most_responses = 128;
-  } // namespace
-
-  Vector<double> EffectiveSystem::response(const PortLoads &forces) const
-  {
-    Vector<double> load(ports.n_coordinates());
-    for (unsigned int a = 0; a < forces.ports.size(); ++a)
-      ports.add_force(forces.ports[a], forces.values[a], load);
-    return solve(Vector<double>(load.begin(), load.begin() + matrices.coordinates.size()));
-  }
-
-  const Vector<double> &EffectiveSystem::response(const unsigned int port) const
-  {
-    const auto [found, is_new] = responses.try_emplace(port);
-    if (is_new)
-    {
-      PortLoads unit{ { port }, Vector<double>(1) };
-      unit.values[0] = 1.;
-      found->second  = response(unit);
-    }
-    return found->second;
-  }
-
-  void EffectiveSystem::add_response(const PortLoads &forces, Vector<double> &position) const
-  {
-    const auto add = [&](const double factor, const Vector<double> &part)
-    {
-      for (unsigned int i = 0; i < part.size(); ++i)
-        position[i] += part[i] * factor;
-    };
-    if (forces.ports.size() > most_responses)
-      return add(1., response(forces));
-    if (responses.size() >= most_responses)
-      for (auto known = responses.begin(); known != responses.end();)
-        known = std::binary_search(forces.ports.begin(), forces.ports.end(), known->first) ? std::next(known)
-                                                                                           : responses.erase(known);
-    for (unsigned int a = 0; a < forces.ports.size(); ++a)
-      add(forces.values[a], response(forces.ports[a]));
   }
 
   FullMatrix<double> EffectiveSystem::port_compliance() const
@@ -158,7 +115,8 @@ namespace sprag
   {
     const auto &layout = ports.layout();
     Vector<double> with_support(ports.n_coordinates());
-    const auto &of_lever = response(port);
+    ports.add_force(port, 1., with_support);
+    const auto of_lever = solve(Vector<double>(with_support.begin(), with_support.begin() + matrices.coordinates.size()));
     std::copy(of_lever.begin(), of_lever.end(), with_support.begin());
     const auto displacements = ports.displacements(with_support);
     for (unsigned int i = 0; i < layout.support(); ++i)
