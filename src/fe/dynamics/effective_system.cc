@@ -3,6 +3,7 @@
 #include <deal.II/lac/lapack_full_matrix.h>
 
 #include <algorithm>
+#include <iterator>
 
 namespace sprag
 {
@@ -65,6 +66,55 @@ namespace sprag
     return result;
   }
 
+  namespace
+  {
+    // Forces on the same ports step after step are answered fastest by responses to single forces; so many that they are not
+    // worth their memory, or ever new ones as a contact moves over a fine face, by one solution for all. Each step earns the
+    // right to one solution for a single force, so that both together cost at most twice the better of them.
+    constexpr unsigned int most_responses = 128;
+  } // namespace
+
+  Vector<double> EffectiveSystem::response(const PortLoads &forces) const
+  {
+    Vector<double> load(ports.n_coordinates());
+    for (unsigned int a = 0; a < forces.ports.size(); ++a)
+      ports.add_force(forces.ports[a], forces.values[a], load);
+    return solve(Vector<double>(load.begin(), load.begin() + matrices.coordinates.size()));
+  }
+
+  const Vector<double> &EffectiveSystem::response(const unsigned int port) const
+  {
+    const auto [found, is_new] = responses.try_emplace(port);
+    if (is_new)
+    {
+      PortLoads unit{ { port }, Vector<double>(1) };
+      unit.values[0] = 1.;
+      found->second  = response(unit);
+    }
+    return found->second;
+  }
+
+  void EffectiveSystem::add_response(const PortLoads &forces, Vector<double> &position) const
+  {
+    const auto add = [&](const double factor, const Vector<double> &part)
+    {
+      for (unsigned int i = 0; i < part.size(); ++i)
+        position[i] += part[i] * factor;
+    };
+    const auto unknown = static_cast<unsigned int>(std::count_if(
+        forces.ports.begin(), forces.ports.end(), [&](const unsigned int port) { return responses.count(port) == 0; }));
+    credit             = std::min(credit + 1, most_responses);
+    if (unknown > credit)
+      return add(1., response(forces));
+    credit -= unknown;
+    if (responses.size() + unknown > most_responses)
+      for (auto known = responses.begin(); known != responses.end();)
+        known = std::binary_search(forces.ports.begin(), forces.ports.end(), known->first) ? std::next(known)
+                                                                                           : responses.erase(known);
+    for (unsigned int a = 0; a < forces.ports.size(); ++a)
+      add(forces.values[a], response(forces.ports[a]));
+  }
+
   FullMatrix<double> EffectiveSystem::port_compliance() const
   {
     const auto &layout = ports.layout();
@@ -115,8 +165,7 @@ namespace sprag
   {
     const auto &layout = ports.layout();
     Vector<double> with_support(ports.n_coordinates());
-    ports.add_force(port, 1., with_support);
-    const auto of_lever = solve(Vector<double>(with_support.begin(), with_support.begin() + matrices.coordinates.size()));
+    const auto &of_lever = response(port);
     std::copy(of_lever.begin(), of_lever.end(), with_support.begin());
     const auto displacements = ports.displacements(with_support);
     for (unsigned int i = 0; i < layout.support(); ++i)

@@ -4,6 +4,8 @@
 #include "fe/dynamics/lever_ports.h"
 #include "model/port_forces.h"
 
+#include <map>
+
 namespace sprag
 {
   /// Damping of single modes as forces against them: the sum of factor (M phi) (M phi)^T.
@@ -13,7 +15,8 @@ namespace sprag
     std::vector<double> factors;                    ///< 2 zeta omega [1/s], > 0
   };
 
-  /// Inverse of a weighted sum of a lever's matrices and of its modal damping, the support left out. Kept as factors.
+  /// Inverse of a weighted sum of a lever's matrices and of its modal damping, the support left out. Kept as factors; what a
+  /// force on a port does to all coordinates is found once.
   class EffectiveSystem
   {
   public:
@@ -27,7 +30,13 @@ namespace sprag
     /// Right-hand side and solution without the support.
     dealii::Vector<double> solve(const dealii::Vector<double> &right_hand_side) const;
 
+    /// Adds the displacement of all coordinates by forces on ports, the support's excepted, increasing. Responses to single
+    /// forces are kept where they are worth it.
+    void add_response(const PortLoads &forces, dealii::Vector<double> &position) const;
+
   private:
+    dealii::Vector<double> response(const PortLoads &forces) const;
+    const dealii::Vector<double> &response(unsigned int port) const;
     void find_low_rank(double weight_of_damping);
     void subtract_low_rank(dealii::FullMatrix<double> &compliance) const;
 
@@ -39,7 +48,9 @@ namespace sprag
     const ModalDamping &damping;
     const InertialMatrices<2>::Weights weights;
     Mumps factors;
-    std::vector<dealii::Vector<double>> damped; ///< S^-1 M phi, S without modal damping
-    dealii::FullMatrix<double> low_rank;        ///< (D^-1 + (M phi)^T S^-1 M phi)^-1
+    std::vector<dealii::Vector<double>> damped;                       ///< S^-1 M phi, S without modal damping
+    dealii::FullMatrix<double> low_rank;                              ///< (D^-1 + (M phi)^T S^-1 M phi)^-1
+    mutable std::map<unsigned int, dealii::Vector<double>> responses; ///< by port
+    mutable unsigned int credit = 0;                                  ///< responses that may be found now
   };
 } // namespace sprag

@@ -160,40 +160,41 @@ namespace sprag
     return load / effective_support(w);
   }
 
-  Vector<double> SparseStructure::load(const PortForces &forces) const
+  void SparseStructure::add_responses(const Step &step, const PortForces &forces, const double of_support,
+                                      Vector<double> &position) const
   {
-    Vector<double> result(lever_ports.n_coordinates());
-    for (unsigned int a = 0; a < forces.ports.size(); ++a)
-      lever_ports.add_force(forces.ports[a], forces.values[a], result);
-    return result;
-  }
-
-  void SparseStructure::add_response(const EffectiveSystem &system, const Vector<double> &load, const double support_stiffness,
-                                     Vector<double> &position) const
-  {
-    const auto of_lever = system.solve(Vector<double>(load.begin(), load.begin() + n_lever));
-    for (unsigned int i = 0; i < n_lever; ++i)
-      position[i] += of_lever[i];
-    if (constants.sprung)
-      position[n_lever] += load[n_lever] / support_stiffness;
+    // The support's port is the last.
+    const bool on_support = constants.sprung && !forces.ports.empty() && forces.ports.back() == ports().support();
+    const auto n          = static_cast<unsigned int>(forces.ports.size()) - (on_support ? 1 : 0);
+    step.system->add_response(
+        { { forces.ports.begin(), forces.ports.begin() + n }, Vector<double>(forces.values.begin(), forces.values.begin() + n) },
+        position);
+    if (on_support)
+      position[n_lever] += of_support * forces.values[n];
   }
 
   Motion SparseStructure::deform(const PortForces &forces) const
   {
-    const auto all = load(forces);
+    Vector<double> load(lever_ports.n_coordinates());
+    for (unsigned int a = 0; a < forces.ports.size(); ++a)
+      lever_ports.add_force(forces.ports[a], forces.values[a], load);
     // The rotational spring is soft beside the lever: what the first solution leaves out of balance is solved for again.
     constexpr unsigned int corrections = 2;
     Motion motion                      = rest();
     auto &q                            = motion.coordinates.position;
-    Vector<double> left                = all;
-    Vector<double> product(left.size());
+    Vector<double> left                = load;
+    Vector<double> product(load.size());
     for (unsigned int i = 0; i <= corrections; ++i)
     {
-      add_response(*statics->system, left, constants.support_stiffness, q);
+      const auto of_lever = statics->system->solve(Vector<double>(left.begin(), left.begin() + n_lever));
+      for (unsigned int j = 0; j < n_lever; ++j)
+        q[j] += of_lever[j];
       stiffness_product(q, product);
-      left = all;
+      left = load;
       left -= product;
     }
+    if (constants.sprung)
+      q[n_lever] = load[n_lever] / constants.support_stiffness;
     return motion;
   }
 
@@ -280,7 +281,7 @@ namespace sprag
     Motion motion;
     motion.drive            = to;
     Vector<double> position = free_motion;
-    add_response(*current->system, load(forces), effective_support(w), position);
+    add_responses(*current, forces, constants.sprung ? 1. / effective_support(w) : 0., position);
     motion.coordinates = unaccelerated(accepted.coordinates, w);
     set_position(motion.coordinates, position, w);
     return motion;

@@ -115,11 +115,8 @@ namespace sprag
 
     void add_support_work(const Kinematic &q_0, const Kinematic &q_1, const StepWeights &w, StepWork &work) const;
 
-    dealii::Vector<double> load(const PortForces &forces) const;
-
-    /// Adds the displacements by a load on all coordinates, the support's with its own stiffness.
-    void add_response(const EffectiveSystem &system, const dealii::Vector<double> &load, double support_stiffness,
-                      dealii::Vector<double> &position) const;
+    /// Adds the lever's movement under forces on the ports, and the support's with compliance `of_support`.
+    void add_responses(const Step &step, const PortForces &forces, double of_support, dealii::Vector<double> &position) const;
 
     const std::shared_ptr<const InertialMatrices<2>> matrices;
     const LeverDynamics constants;
