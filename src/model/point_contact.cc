@@ -21,22 +21,16 @@ namespace sprag
     const Local q_1    = coordinates(step.end, step.to.x);
     const Local change = q_1 - q_0;
     const double share = step.weights.stiffness();
+    const double delay = step.weights.delay();
     const auto balance = configure(share * q_1 + (1. - share) * q_0);
     end                = configure(q_1);
 
-    StepKinematics<n> k;
-    k.gap_begin       = gap(q_0);
-    k.gap_end         = end.gap;
-    k.gap_row_end     = end.gap_row;
-    k.gap_row         = balance.gap_row;
-    k.gap_curvature   = share * balance.gap_curvature;
-    k.gap_bend        = change * (balance.gap_curvature * change);
-    k.slip_row        = balance.slip_row;
-    k.slip_curvature  = share * balance.slip_curvature;
-    k.slip_bend       = change * (balance.slip_curvature * change);
-    k.slip_change     = balance.slip_row * change - step.weights.delay() * k.slip_bend;
-    k.slip_change_row = balance.slip_row + change * k.slip_curvature -
-                        step.weights.delay() * (balance.slip_curvature * change + change * balance.slip_curvature);
+    auto k = step_to(end, end.slip);
+    set_balance(balance, share, change, k);
+    k.gap_begin          = gap(q_0);
+    k.slip_change[0]     = balance.slip_row * change - delay * k.slip_bend[0];
+    k.slip_change_row[0] = balance.slip_row + change * k.slip_curvature[0] -
+                           delay * (balance.slip_curvature * change + change * balance.slip_curvature);
     k.gap_rate_end = end.gap_row * end_rates;
     k.gap_rate_row = step.weights.rate() * end.gap_row + end.gap_curvature * end_rates;
     return k;
@@ -48,7 +42,7 @@ namespace sprag
     const Local end_rates = rates(step.end_rate, step.to.v);
     const double surface  = step.to.surface - step.from.surface;
     auto kinematics       = step_kinematics(step, end_rates);
-    kinematics.slip_change += surface;
+    kinematics.slip_change[0] += surface;
     StepContactLaw law;
     law.normal            = properties.normal;
     law.damping           = properties.damping;
@@ -57,7 +51,7 @@ namespace sprag
     law.weights           = step.weights;
     response              = step_response(kinematics, step.memory.front(), law);
     slip_rate             = end.slip_row * end_rates + surface / step.weights.dt;
-    const double of_drive = -response.force[x_index] * (step.to.x - step.from.x) + response.mean_traction * surface;
+    const double of_drive = -response.force[x_index] * (step.to.x - step.from.x) + response.mean_traction[0] * surface;
     work                  = { of_drive, response.friction, response.damping, response.algorithmic, response.creep };
     sum_forces(response.force, response.tangent);
   }
@@ -77,19 +71,19 @@ namespace sprag
     d_pressure         = (1. + dashpot.d_normal) * normal.d_end * end.gap_row;
     d_pressure_rate    = dashpot.d_rate * end.gap_row;
 
-    response                   = {};
-    response.mu                = std::abs(sliding.coefficient);
-    response.pressure          = normal.end + dashpot.force;
-    response.traction          = sliding.coefficient * response.pressure;
-    response.slipping          = slides;
-    response.memory.traction   = response.traction;
-    response.memory.damping    = dashpot.force;
-    response.memory.slip_speed = state.speed;
-    const double stretched     = law.regularisation_speed > 0. ? 0. : response.traction;
-    response.energy            = normal.energy + 0.5 * stretched * stretched / properties.tangential;
-    response.force             = response.pressure * end.gap_row - response.traction * end.slip_row;
-    response.tangent           = pressure_tangent() + friction_tangent(state.friction);
-    work                       = {};
+    response                      = {};
+    response.mu                   = std::abs(sliding.coefficient);
+    response.pressure             = normal.end + dashpot.force;
+    response.traction[0]          = sliding.coefficient * response.pressure;
+    response.slipping             = slides;
+    response.memory.traction      = response.traction;
+    response.memory.damping       = dashpot.force;
+    response.memory.slip_speed[0] = state.speed;
+    const double stretched        = law.regularisation_speed > 0. ? 0. : response.traction[0];
+    response.energy               = normal.energy + 0.5 * stretched * stretched / properties.tangential;
+    response.force                = response.pressure * end.gap_row - response.traction[0] * end.slip_row;
+    response.tangent              = pressure_tangent() + friction_tangent(state.friction);
+    work                          = {};
     sum_forces(response.force, response.tangent);
   }
 
@@ -102,7 +96,7 @@ namespace sprag
   {
     if (friction == ContactFriction::stuck)
       return -properties.tangential * outer_product(end.slip_row, end.slip_row);
-    return -sliding.coefficient * outer_product(end.slip_row, d_pressure) - response.traction * end.slip_curvature;
+    return -sliding.coefficient * outer_product(end.slip_row, d_pressure) - response.traction[0] * end.slip_curvature;
   }
 
   PortPerturbation PointContact::linearise(const SlidingState &state)
@@ -225,13 +219,13 @@ namespace sprag
 
   void PointContact::observe(Row &row) const
   {
-    const auto force                = response.pressure * end.gap_at_point - response.traction * end.slip_at_point;
+    const auto force                = response.pressure * end.gap_at_point - response.traction[0] * end.slip_at_point;
     row[Column::P]                  = force[1];
     row[Column::F]                  = -force[0];
     row[Column::Q]                  = -force[3];
     row[Column::normal_resultant]   = response.pressure;
-    row[Column::friction_resultant] = response.traction;
-    row[Column::friction_power]     = response.traction * slip_rate;
+    row[Column::friction_resultant] = response.traction[0];
+    row[Column::friction_power]     = response.traction[0] * slip_rate;
     row[Column::indentation]        = overlap();
     row[Column::penetration]        = 0.;
     row[Column::active_points]      = end.gap < 0. ? 1. : 0.;
@@ -241,7 +235,7 @@ namespace sprag
       row[Column::s]              = end.along;
       row[Column::mu]             = response.mu;
       row[Column::v_rel]          = slip_rate;
-      row[Column::cone_violation] = std::max(0., std::abs(response.traction) / (response.mu * response.pressure) - 1.);
+      row[Column::cone_violation] = std::max(0., response.traction.norm() / (response.mu * response.pressure) - 1.);
     }
   }
 

@@ -68,17 +68,13 @@ namespace sprag
     using Local                               = dealii::Tensor<1, n>;
     using LocalMatrix                         = dealii::Tensor<2, n>;
 
-    /// The closest point at one configuration.
-    struct Configuration
+    /// The closest point at one configuration. Its slip row is that of the material point, of no slip coordinate; the curvature
+    /// is that row's derivative as the contact point moves with the configuration.
+    struct Configuration : ContactKinematics<n>
     {
-      double along = 0.; ///< its position along the lever, deformed
-      double gap   = 0.;
+      double along = 0.;                 ///< its position along the lever, deformed
       dealii::Tensor<1, 4> gap_at_point; ///< rows in (u_xi, u_eta, theta, x) of the point
       dealii::Tensor<1, 4> slip_at_point;
-      Local gap_row;
-      LocalMatrix gap_curvature;
-      Local slip_row;             ///< of the material point
-      LocalMatrix slip_curvature; ///< derivative of slip_row as the contact point moves with the configuration
     };
 
     /// The bent surface at a material coordinate, with derivatives along it.

@@ -124,7 +124,7 @@ TEST(FaceContact, FindsAllPointsInReach)
 {
   const MeshedBar bar(bar_on_cylinder());
   const auto properties = properties_of(*bar, false, 0.);
-  const FacePatches face((*bar).friction_face());
+  const FacePatches<2> face((*bar).friction_face());
   const double R = cylinder_below_bar().cylinder_radius;
   for (const double x : { -6., -3., 0., 3., 6. })
     for (const double turn : { 0., -0.01, -0.1, 0.2 })
@@ -132,18 +132,18 @@ TEST(FaceContact, FindsAllPointsInReach)
       const double theta = rest_inclination + turn;
       const auto ports   = pressed(*bar, properties.ports, 1e-3, 0., 3.);
       const FaceConfiguration at{ &ports, theta, x, cylinder_centre(cylinder_below_bar(), x, theta) };
-      RigidObstacle obstacle(face, properties);
+      RigidObstacle obstacle((*bar).friction_face(), face, properties);
       obstacle.enter({ at, at });
-      const auto range = obstacle.near();
-      ASSERT_LT(range.begin, range.end);
+      const auto near = obstacle.near();
+      ASSERT_FALSE(near.empty());
       double inside  = 1e9;
       double outside = 1e9;
       for (unsigned int p = 0; p < face.patches().size(); ++p)
         for (unsigned int q = face.patches()[p].begin; q < face.patches()[p].end; ++q)
         {
-          const auto position = FacePatches::position(face.points()[q], FacePatches::nodal(face.patches()[p], ports));
-          const double gap    = std::hypot(position.xi - at.centre.xi, position.eta - at.centre.eta) - R;
-          double &least       = p >= range.begin && p < range.end ? inside : outside;
+          const auto position = FacePatches<2>::position(face.points()[q], FacePatches<2>::nodal(face.patches()[p], ports));
+          const double gap    = std::hypot(position[0] - at.centre.xi, position[1] - at.centre.eta) - R;
+          double &least       = std::binary_search(near.begin(), near.end(), p) ? inside : outside;
           least               = std::min(least, gap);
         }
       EXPECT_GT(outside, 0.) << x << " " << turn;

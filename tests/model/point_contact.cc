@@ -31,7 +31,7 @@ namespace
     FrictionLaw friction;
     double overlap_begin = 0.01; ///< [mm]
     double overlap_end   = 0.0102;
-    ContactMemory memory = { 0., 14., 0., 110., step_length };
+    ContactMemory memory = { 0., Slip({ 14. }), 0., Slip({ 110. }), step_length };
     double x             = 44.3;
     double direction     = 1.;
 
@@ -287,7 +287,7 @@ TEST(PointContact, TangentOfAStepInStickIsTheDerivativeOfTheForce)
 {
   for (auto lever : levers(cork))
   {
-    lever.memory = { 0., -3., 0., 0., step_length };
+    lever.memory = { 0., Slip({ -3. }), 0., Slip(), step_length };
     Stepped stepped(lever);
     expect_tangent(lever, stepped.end, [&](const Vector &z) { return stepped.forces(z); });
     Row row;
@@ -318,7 +318,7 @@ TEST(PointContact, TangentOfAStepThatOpensOrClosesIsTheDerivativeOfTheForce)
     {
       lever.overlap_begin = opens ? 0.003 : -0.003;
       lever.overlap_end   = opens ? -0.004 : 0.004;
-      lever.memory        = opens ? ContactMemory{ 0., 4., 0., 110., step_length } : ContactMemory{};
+      lever.memory        = opens ? ContactMemory{ 0., Slip({ 4. }), 0., Slip({ 110. }), step_length } : ContactMemory{};
       Stepped stepped(lever);
       expect_tangent(lever, stepped.end, [&](const Vector &z) { return stepped.forces(z); });
     }
@@ -345,7 +345,7 @@ TEST(PointContact, DriveGivesWhatLeverTakesAndContactStoresOrDissipates)
   PointContact contact(lever.properties());
   contact.touch(from, lever.drive(0.));
   const double begin_energy = mean_normal_force(lever.normal, -contact.overlap(), -contact.overlap()).energy +
-                              0.5 * lever.memory.traction * lever.memory.traction / 1000.;
+                              0.5 * lever.memory.traction.norm_square() / 1000.;
 
   // What a share of the way from one place to the other leaves open.
   const auto open = [&](const double share)

@@ -31,13 +31,13 @@ namespace
 
     void evaluate(const PortStep &step)
     {
-      const auto &before      = step.memory.front();
-      const double slip       = step.end[0] - step.begin.position[0];
+      const auto &before = step.memory.front();
+      const Slip slip({ step.end[0] - step.begin.position[0] });
       const auto friction     = end_friction(before.history(), holding, slip, normal, law, step.weights.dt);
       const double delay      = step.weights.delay();
-      const double change     = friction.traction - before.traction;
-      at_port.values[0]       = -0.5 * (before.traction + friction.traction) - delay * change;
-      at_port.tangent(0, 0)   = -(0.5 + delay) * friction.d_slip;
+      const auto change       = friction.traction - before.traction;
+      at_port.values[0]       = -(0.5 * (before.traction + friction.traction) + delay * change)[0];
+      at_port.tangent(0, 0)   = -(0.5 + delay) * friction.d_slip[0][0];
       memory_after.traction   = friction.traction;
       memory_after.slip_speed = friction.slip_speed;
       memory_after.step       = step.weights.dt;
@@ -102,7 +102,7 @@ namespace
       result.work.friction += outcome.work.friction;
       result.work.creep += outcome.work.creep;
       result.x.push_back(x);
-      result.traction.push_back(motion.contact.front().traction);
+      result.traction.push_back(motion.contact.front().traction[0]);
       // Between two crossings of 0.
       if (before * x < 0.)
       {

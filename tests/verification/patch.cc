@@ -190,6 +190,6 @@ TEST(Patch, HydrostaticPressureBalancesAcrossACurvedInterface)
   for (const auto &multiplier : multipliers)
   {
     EXPECT_NEAR(multiplier.normal_multiplier, pressure, 1e-8);
-    EXPECT_NEAR(multiplier.traction, 0., 1e-12);
+    EXPECT_NEAR(multiplier.traction[0], 0., 1e-12);
   }
 }

@@ -16,7 +16,7 @@ namespace sprag
     }
   } // namespace
 
-  ElasticObstacle::ElasticObstacle(const FrictionFace<2> &lever, const FrictionFace<2> &cylinder, const FacePatches &face_,
+  ElasticObstacle::ElasticObstacle(const FrictionFace<2> &lever, const FrictionFace<2> &cylinder, const FacePatches<2> &face_,
                                    const FaceContactProperties &properties_)
       : face(face_)
       , properties(properties_)
@@ -36,10 +36,18 @@ namespace sprag
       enter_balance();
   }
 
-  FacePatches::Range ElasticObstacle::near() const
+  FacePatches<2>::Indices ElasticObstacle::near() const
   {
-    const auto at_last = pair.near(end.at);
-    return places.balanced_at_end() ? at_last : FacePatches::united(at_last, near_begin);
+    const auto at_last = near(end.at);
+    return places.balanced_at_end() ? at_last : united(at_last, near_begin);
+  }
+
+  FacePatches<2>::Indices ElasticObstacle::near(const PairConfiguration &at) const
+  {
+    const LeverPoint centre = at.at.centre;
+    PairPlace place;
+    return face.find_near(face.patch_at({ centre.xi, centre.eta }),
+                          [&](const unsigned int of) { return pair.reach(of, at, place); });
   }
 
   double ElasticObstacle::first_slip(const FaceConfiguration &at) const
@@ -55,7 +63,7 @@ namespace sprag
     of_begin.first_slip         = first_slip(at);
     known_begin                 = *at.displacement;
     of_begin.at.at.displacement = &known_begin;
-    near_begin                  = pair.near(of_begin.at);
+    near_begin                  = near(of_begin.at);
     begin_facets.clear();
   }
 
@@ -80,7 +88,7 @@ namespace sprag
   {
     patch   = of_face;
     first   = face.patches()[patch].begin;
-    nodal   = FacePatches::nodal(face.patches()[patch], *places.end.displacement);
+    nodal   = FacePatches<2>::nodal(face.patches()[patch], *places.end.displacement);
     touched = false;
     pair.find_facets(patch, end.at, end.of);
   }
@@ -90,10 +98,10 @@ namespace sprag
     return end.of.facets[point - first];
   }
 
-  bool ElasticObstacle::place(FacePointState &state) const
+  bool ElasticObstacle::place(FacePointState<2> &state) const
   {
     const auto &facet = facet_at_end(state.index);
-    state.position    = FacePatches::position(face.points()[state.index], nodal);
+    state.position    = FacePatches<2>::position(face.points()[state.index], nodal);
     state.gap         = facet.gap;
     return facet.opposed;
   }
@@ -111,8 +119,8 @@ namespace sprag
     if (facet.opposed)
       return facet.arc + of_first;
     const auto &of      = face.patches()[face.patch_of_point(point)];
-    const auto position = FacePatches::position(face.points()[point], FacePatches::nodal(of, *at.displacement));
-    return properties.obstacle(at.x, at.theta)(position).slip;
+    const auto position = FacePatches<2>::position(face.points()[point], FacePatches<2>::nodal(of, *at.displacement));
+    return properties.obstacle(at.x, at.theta)({ position[0], position[1] }).slip;
   }
 
   double ElasticObstacle::slip_at_begin(const unsigned int point)
@@ -127,7 +135,7 @@ namespace sprag
     return slip_coordinate(facet_at_end(point), places.end, end.first_slip, point);
   }
 
-  double ElasticObstacle::slip(const FacePointState &state)
+  double ElasticObstacle::slip(const FacePointState<2> &state)
   {
     if (!places.moves())
       return 0.;
@@ -194,7 +202,7 @@ namespace sprag
     return result;
   }
 
-  void ElasticObstacle::step(FacePointState &state, const ContactMemory &memory, const FaceStep &step, ContactSums &sums)
+  void ElasticObstacle::step(FacePointState<2> &state, const ContactMemory &memory, const FaceStep &step, ContactSums &sums)
   {
     touch();
     const double R    = properties.radius;
@@ -222,25 +230,26 @@ namespace sprag
     auto over_step         = step_to(kinematics, 0.);
     if (!at_end)
     {
-      const auto bent     = bends(side.of, force, side.at, coordinates, R, movement);
-      over_step.gap_begin = begin->gap;
-      over_step.gap_bend  = bent.gap;
-      over_step.slip_bend = bent.slip;
+      const auto bent        = bends(side.of, force, side.at, coordinates, R, movement);
+      over_step.gap_begin    = begin->gap;
+      over_step.gap_bend     = bent.gap;
+      over_step.slip_bend[0] = bent.slip;
     }
     SlipShift shift;
     if (step.travel != 0.)
       shift = slip_shift(face, state.index, slope(state.index), step, [this](const unsigned int q) { return slip_at_begin(q); });
-    over_step.slip_shift = stretch * shift.slip + shift.elastic;
-    const auto response  = step_response(over_step, memory, step.law);
+    over_step.slip_shift[0] = stretch * shift.slip + shift.elastic;
+    const auto response     = step_response(over_step, memory, step.law);
 
     record(response, step, memory, stretch * (run + shift.slip), force.weight, stretch * step.surface_run, state, sums);
     sums.beyond_face = sums.beyond_face || (at_end_of_face && response.pressure > 0.);
-    state.end_force  = on_lever(response.pressure, -response.traction, end_rows);
+    state.end_force  = on_lever(response.pressure, -response.traction[0], end_rows);
     add_force(force.weight, response.force[0], response.force[1], rows);
     sums.force_on_obstacle +=
         force.weight * (response.force[0] * rows.gap[coordinates.x()] + response.force[1] * rows.slip[coordinates.x()]);
-    if (shift.d_slope * response.d_shift != 0.)
-      add_shift(last, state.index, shift, response.d_shift);
+    const double d_shift = response.d_shift[0][0];
+    if (shift.d_slope * d_shift != 0.)
+      add_shift(last, state.index, shift, d_shift);
     add_tangent(response, force, stretch, run, share);
   }
 
@@ -283,30 +292,30 @@ namespace sprag
                 tangent);
   }
 
-  void ElasticObstacle::slide(FacePointState &state, const SlidingState &sliding, const FrictionLaw &law, ContactSums &sums)
+  void ElasticObstacle::slide(FacePointState<2> &state, const SlidingState &sliding, const FrictionLaw &law, ContactSums &sums)
   {
     touch();
     const double R    = properties.radius;
     const auto &facet = facet_at_end(state.index);
     find_rows(end.of, facet, end.at, coordinates, R, end_rows);
-    state.slip_change = facet.stretch * sliding.speed;
+    state.slip_change[0] = facet.stretch * sliding.speed;
     if (sliding.rates != nullptr)
     {
       auto rates                 = change(Vector<double>(sliding.rates->size()), *sliding.rates);
       rates[coordinates.theta()] = (*sliding.rates)[properties.ports.rotation()];
       rates[coordinates.x()]     = properties.ports.sprung ? -(*sliding.rates)[properties.ports.support()] : 0.;
-      state.slip_change += end_rows.slip * rates;
+      state.slip_change[0] += end_rows.slip * rates;
     }
     sums.beyond_face = sums.beyond_face || at_end_of_face;
     const auto of    = sprag::slide(properties, law, sliding, facet.weight, state, sums);
-    state.end_force  = on_lever(state.pressure, -state.traction, end_rows);
-    add_force(facet.weight, state.pressure, -state.traction, end_rows);
+    state.end_force  = on_lever(state.pressure, -state.traction[0], end_rows);
+    add_force(facet.weight, state.pressure, -state.traction[0], end_rows);
     add_product(facet.weight * of.normal, end_rows.gap, end_rows.gap, tangent);
     force_row.equ(of.coupled, end_rows.gap);
     force_row.add(of.stuck, end_rows.slip, of.by_speed * sliding.speed, end_rows.stretch);
     add_product(facet.weight, end_rows.slip, force_row, sums.in_parts ? friction.by_displacement : tangent);
     const double normal     = facet.weight * state.pressure;
-    const double tangential = -facet.weight * state.traction;
+    const double tangential = -facet.weight * state.traction[0];
     if (!sums.in_parts)
       return add_curvature(end.of, facet, end.at, coordinates, R, normal, tangential, tangent);
     add_curvature(end.of, facet, end.at, coordinates, R, normal, 0., tangent);
@@ -351,7 +360,7 @@ namespace sprag
       add_patch(ports(), values, tangent, friction, sums);
   }
 
-  FacePointRows ElasticObstacle::rows(const FacePointState &state)
+  FacePointRows ElasticObstacle::rows(const FacePointState<2> &state)
   {
     touch();
     const auto &facet = facet_at_end(state.index);

@@ -14,19 +14,19 @@ namespace sprag
   {
   public:
     /// All must outlive the obstacle; `face` are the lever's patches.
-    ElasticObstacle(const FrictionFace<2> &lever, const FrictionFace<2> &cylinder, const FacePatches &face,
+    ElasticObstacle(const FrictionFace<2> &lever, const FrictionFace<2> &cylinder, const FacePatches<2> &face,
                     const FaceContactProperties &properties);
 
     void enter(const StepPlaces &places);
-    FacePatches::Range near() const;
+    FacePatches<2>::Indices near() const;
     void enter(unsigned int patch);
-    bool place(FacePointState &state) const;
+    bool place(FacePointState<2> &state) const;
     double gap_at_begin(unsigned int point);
-    void step(FacePointState &state, const ContactMemory &memory, const FaceStep &step, ContactSums &sums);
-    void slide(FacePointState &state, const SlidingState &sliding, const FrictionLaw &law, ContactSums &sums);
+    void step(FacePointState<2> &state, const ContactMemory &memory, const FaceStep &step, ContactSums &sums);
+    void slide(FacePointState<2> &state, const SlidingState &sliding, const FrictionLaw &law, ContactSums &sums);
     void leave(ContactSums &sums);
-    FacePointRows rows(const FacePointState &state);
-    double slip(const FacePointState &state);
+    FacePointRows rows(const FacePointState<2> &state);
+    double slip(const FacePointState<2> &state);
 
   private:
     struct Side
@@ -37,6 +37,7 @@ namespace sprag
     };
 
     double first_slip(const FaceConfiguration &at) const;
+    FacePatches<2>::Indices near(const PairConfiguration &at) const;
     void enter_begin(const FaceConfiguration &at);
     void enter_balance();
     const PatchFacets &facets_at_begin(unsigned int of_patch);
@@ -56,7 +57,7 @@ namespace sprag
     FacePointRows rows_on_ports(const Facet &facet) const;
     dealii::Vector<double> change(const dealii::Vector<double> &from, const dealii::Vector<double> &to) const;
 
-    const FacePatches &face;
+    const FacePatches<2> &face;
     const FaceContactProperties &properties;
     const FacePair pair;
     const LeverPoint first_node; ///< of the cylinder's face, about its centre
@@ -70,13 +71,13 @@ namespace sprag
     // Where the step begins, the same in all its iterations.
     Side of_begin;
     dealii::Vector<double> known_begin;
-    FacePatches::Range near_begin{ 0, 0 };
+    FacePatches<2>::Indices near_begin;
     std::map<unsigned int, PatchFacets> begin_facets; ///< by patches
 
     // Of the patch.
     unsigned int patch = 0;
-    unsigned int first = 0;     ///< of its points
-    FacePatches::Nodal nodal{}; ///< its displacements at the end
+    unsigned int first = 0;        ///< of its points
+    FacePatches<2>::Nodal nodal{}; ///< its displacements at the end
     bool touched        = false;
     bool at_end_of_face = false;
     PairCoordinates coordinates;

@@ -14,12 +14,12 @@ namespace sprag
 
   namespace
   {
-    std::variant<RigidObstacle, ElasticObstacle> make_obstacle(const ElasticBody<2> &body, const FacePatches &face,
+    std::variant<RigidObstacle, ElasticObstacle> make_obstacle(const ElasticBody<2> &body, const FacePatches<2> &face,
                                                                const FaceContactProperties &properties)
     {
       using Obstacles = std::variant<RigidObstacle, ElasticObstacle>;
       if (body.cylinder_face().patches.empty())
-        return Obstacles(std::in_place_type<RigidObstacle>, face, properties);
+        return Obstacles(std::in_place_type<RigidObstacle>, body.friction_face(), face, properties);
       return Obstacles(std::in_place_type<ElasticObstacle>, body.friction_face(), body.cylinder_face(), face, properties);
     }
   } // namespace
@@ -38,7 +38,7 @@ namespace sprag
     std::visit([&](auto &below) { below.enter(places); }, obstacle);
   }
 
-  FacePatches::Range FaceContact::near() const
+  FacePatches<2>::Indices FaceContact::near() const
   {
     return std::visit([](const auto &below) { return below.near(); }, obstacle);
   }
@@ -91,11 +91,11 @@ namespace sprag
     }
     enter({ configuration(step.begin.position, step.from.x), configuration(step.end, step.to.x), step.weights.stiffness(),
             statics.has_value() });
-    const auto range = near_step(step.memory, of_contact.law.balance);
+    const auto patches = near_step(step.memory, of_contact.law.balance);
     std::visit(
         [&](auto &below)
         {
-          for (unsigned int patch = range.begin; patch < range.end; ++patch)
+          for (const unsigned int patch : patches)
             step_patch(below, patch, of_contact);
         },
         obstacle);
@@ -104,19 +104,22 @@ namespace sprag
   }
 
   /// A mean over the step counts what was in contact when it began.
-  FacePatches::Range FaceContact::near_step(const std::vector<ContactMemory> &memory, const ForceBalance balance)
+  FacePatches<2>::Indices FaceContact::near_step(const std::vector<ContactMemory> &memory, const ForceBalance balance)
   {
-    auto range = near();
-    if (!memory.empty() && balance == ForceBalance::mean)
-      range = FacePatches::united(range, face.patches_of_points(memory.front().point, memory.back().point));
-    return clip(range);
+    if (balance == ForceBalance::end)
+      return clip(near());
+    FacePatches<2>::Indices remembered;
+    for (const auto &entry : memory)
+      if (remembered.empty() || entry.point >= face.patches()[remembered.back()].end)
+        remembered.push_back(face.patch_of_point(entry.point));
+    return clip(united(near(), remembered));
   }
 
-  FacePointState &FaceContact::add_state(const unsigned int patch, const unsigned int point)
+  FacePointState<2> &FaceContact::add_state(const unsigned int patch, const unsigned int point)
   {
-    FacePointState &state = states.emplace_back();
-    state.index           = point;
-    state.patch           = patch;
+    FacePointState<2> &state = states.emplace_back();
+    state.index              = point;
+    state.patch              = patch;
     return state;
   }
 
@@ -179,16 +182,21 @@ namespace sprag
 
   const PortSelection &FaceContact::reachable_ports(const double x, const double inclination, const double travel)
   {
-    const double of_radius  = properties.radius > 0. ? 0.05 * properties.radius : std::numeric_limits<double>::infinity();
-    const double of_contact = reach_factor * of_radius + travel;
-    const double aside      = 4. * properties.layer_thickness; // where the face is looked at besides
-    const double xi         = properties.centre(x, inclination).xi;
-    reached                 = face.patches_between(xi - of_contact, xi + of_contact);
-    const auto range        = face.patches_between(xi - of_contact - aside, xi + of_contact + aside);
-    if (reachable.empty() || range.begin != looked_at.begin || range.end != looked_at.end)
+    const double of_radius    = properties.radius > 0. ? 0.05 * properties.radius : std::numeric_limits<double>::infinity();
+    const double of_contact   = reach_factor * of_radius + travel;
+    const double aside        = 4. * properties.layer_thickness; // where the face is looked at besides
+    const double xi           = properties.centre(x, inclination).xi;
+    const auto patches_within = [&](const double distance)
     {
-      looked_at = range;
-      reachable = face.displacements_of(range);
+      constexpr double infinity = std::numeric_limits<double>::max();
+      return face.patches_in({ { { xi - distance, -infinity }, { xi + distance, infinity } } });
+    };
+    reached      = patches_within(of_contact);
+    auto patches = patches_within(of_contact + aside);
+    if (reachable.empty() || patches != looked_at)
+    {
+      looked_at = std::move(patches);
+      reachable = face.displacements_of(looked_at);
       for (auto port = 2 * static_cast<unsigned int>(body.friction_face().nodes.size()); port < properties.ports.size(); ++port)
         reachable.push_back(port);
     }
@@ -196,10 +204,14 @@ namespace sprag
   }
 
   /// Without a call of reachable_ports() all can be reached.
-  FacePatches::Range FaceContact::clip(const FacePatches::Range &range)
+  FacePatches<2>::Indices FaceContact::clip(FacePatches<2>::Indices near)
   {
-    clipped = !reachable.empty() && (range.begin < reached.begin || range.end > reached.end);
-    return clipped ? FacePatches::Range{ std::max(range.begin, reached.begin), std::min(range.end, reached.end) } : range;
+    clipped = !reachable.empty() && !std::includes(reached.begin(), reached.end(), near.begin(), near.end());
+    if (!clipped)
+      return near;
+    FacePatches<2>::Indices result;
+    std::set_intersection(near.begin(), near.end(), reached.begin(), reached.end(), std::back_inserter(result));
+    return result;
   }
 
   bool FaceContact::within_reach() const
@@ -241,11 +253,11 @@ namespace sprag
     clear(ports, drive.x, 0.);
     const auto at = configuration(displacement, drive.x);
     enter({ at, at });
-    const auto range = near();
+    const auto patches = near();
     std::visit(
         [&](auto &below)
         {
-          for (unsigned int patch = range.begin; patch < range.end; ++patch)
+          for (const unsigned int patch : patches)
           {
             below.enter(patch);
             for (unsigned int q = face.patches()[patch].begin; q < face.patches()[patch].end; ++q)
@@ -283,7 +295,7 @@ namespace sprag
     return largest;
   }
 
-  const std::vector<FacePointState> &FaceContact::points() const
+  const std::vector<FacePointState<2>> &FaceContact::points() const
   {
     return states;
   }
@@ -301,13 +313,13 @@ namespace sprag
   /// Among `states`: of the points under pressure the one in the middle, else the closest.
   unsigned int FaceContact::middle_of_contact() const
   {
-    const auto is_closed = [](const FacePointState &state) { return state.pressure > 0.; };
+    const auto is_closed = [](const FacePointState<2> &state) { return state.pressure > 0.; };
     const auto first     = std::find_if(states.begin(), states.end(), is_closed);
     const auto last      = std::find_if(states.rbegin(), states.rend(), is_closed);
     if (first != states.end())
       return static_cast<unsigned int>(((first - states.begin()) + (states.rend() - last - 1)) / 2);
     const auto closest = std::min_element(states.begin(), states.end(),
-                                          [](const FacePointState &a, const FacePointState &b) { return a.gap < b.gap; });
+                                          [](const FacePointState<2> &a, const FacePointState<2> &b) { return a.gap < b.gap; });
     return static_cast<unsigned int>(closest - states.begin());
   }
 

@@ -75,7 +75,7 @@ namespace sprag
     double penetration() const;
 
     /// Of the patches near the obstacle, by increasing point; those elsewhere are open.
-    const std::vector<FacePointState> &points() const;
+    const std::vector<FacePointState<2>> &points() const;
 
     /// Displacements of the ports at the last evaluation.
     const dealii::Vector<double> &displacements() const;
@@ -100,22 +100,22 @@ namespace sprag
   private:
     FaceConfiguration configuration(const dealii::Vector<double> &ports, double x) const;
     void clear(const dealii::Vector<double> &ports, double x, double duration);
-    FacePatches::Range near_step(const std::vector<ContactMemory> &memory, ForceBalance balance);
+    FacePatches<2>::Indices near_step(const std::vector<ContactMemory> &memory, ForceBalance balance);
     template <class ObstacleBelow>
     void step_patch(ObstacleBelow &below, unsigned int patch, const FaceStep &step);
     template <class ObstacleBelow>
     void slide_patch(ObstacleBelow &below, unsigned int patch, const SlidingState &sliding, const FrictionLaw &law);
     void slide(const SlidingState &sliding, bool in_parts);
     void enter(const StepPlaces &places) const;
-    FacePatches::Range near() const;
-    FacePointState &add_state(unsigned int patch, unsigned int point);
+    FacePatches<2>::Indices near() const;
+    FacePointState<2> &add_state(unsigned int patch, unsigned int point);
     void sum_forces();
-    FacePatches::Range clip(const FacePatches::Range &range);
+    FacePatches<2>::Indices clip(FacePatches<2>::Indices near);
     unsigned int middle_of_contact() const;
 
     const ElasticBody<2> &body;
     const FaceContactProperties properties;
-    const FacePatches face;
+    const FacePatches<2> face;
     mutable std::variant<RigidObstacle, ElasticObstacle> obstacle; ///< looks at one patch after the other
 
     // Of the last evaluation.
@@ -123,12 +123,12 @@ namespace sprag
     double last_x        = 0.;           ///< of the drive
     double step_duration = 0.;
     ContactSums sums;
-    std::vector<FacePointState> states;
+    std::vector<FacePointState<2>> states;
     PortForces summed;
     std::vector<unsigned int> place_of_port; ///< among those summed
     PortSelection reachable;
-    FacePatches::Range reached{ 0, 0 };   ///< patches that the contact may touch
-    FacePatches::Range looked_at{ 0, 0 }; ///< patches of `reachable`
+    FacePatches<2>::Indices reached;   ///< patches that the contact may touch
+    FacePatches<2>::Indices looked_at; ///< patches of `reachable`
     double reach_factor = 1.;
     bool clipped        = false;
   };

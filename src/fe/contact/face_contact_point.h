@@ -42,22 +42,18 @@ namespace sprag
   /// Sets obstacle, centre and radius to it.
   void set_cylinder(const Geometry &geometry, FaceContactProperties &properties);
 
-  /// What an evaluation found at a point of the friction face.
-  struct FacePointState
+  /// What an evaluation found at a point of the friction face, with its tractions at the end.
+  template <int dim>
+  struct FacePointState : PointTraction<dim - 1>
   {
     unsigned int index = 0; ///< in FrictionFace::points
     unsigned int patch = 0;
-    LeverPoint position{}; ///< deformed, lever axes
+    dealii::Point<dim> position; ///< deformed, lever axes
     double gap            = 0.;
-    double trial_pressure = 0.; ///< lambda - eps g at the end: the pressure where positive [MPa]
-    double slip_change    = 0.; ///< in the step; without inertia as far as it would be at the speed of its end [mm]
-    double elastic_slip   = 0.; ///< of the tangential penalty [mm]
-    double pressure       = 0.; ///< at the end
-    double traction       = 0.;
-    double mu             = 0.;
-    bool slipping         = false;
-    dealii::Tensor<1, 4> end_force; ///< on the lever per area: along xi, along eta, about the pivot, and along x on the drive
-    ContactMemory memory;
+    double trial_pressure = 0.;             ///< lambda - eps g at the end: the pressure where positive [MPa]
+    dealii::Tensor<1, dim - 1> slip_change; ///< in the step; without inertia as far as it would be at the speed of its end [mm]
+    double elastic_slip = 0.;               ///< of the tangential penalty [mm]
+    dealii::Tensor<1, dim + 2> end_force;   ///< on the lever per area along its axes, about the pivot, and along x on the drive
   };
 
   /// A step of the contact.
@@ -95,7 +91,7 @@ namespace sprag
 
   /// `slope`: of the slip coordinate along the face at the end of the step. `slip_at_begin`: slip coordinate of any point where
   /// the step begins. No shift where the contact came from beyond the face.
-  SlipShift slip_shift(const FacePatches &face, unsigned int point, double slope, const FaceStep &step,
+  SlipShift slip_shift(const FacePatches<2> &face, unsigned int point, double slope, const FaceStep &step,
                        const std::function<double(unsigned int)> &slip_at_begin);
 
   /// Forces and their tangent on some ports.
@@ -219,19 +215,16 @@ namespace sprag
   /// point.
   template <int n>
   void record(const StepResponse<n> &response, const FaceStep &step, const ContactMemory &begin, const double slip_change,
-              const double weight, const double run, FacePointState &state, ContactSums &sums)
+              const double weight, const double run, FacePointState<2> &state, ContactSums &sums)
   {
-    state.slip_change  = slip_change * step.speed_ratio;
-    state.elastic_slip = std::abs(response.traction - (step.augmented ? begin.traction : 0.)) / step.law.tangential;
-    state.pressure     = response.pressure;
-    state.traction     = response.traction;
-    state.mu           = response.mu;
-    state.slipping     = response.slipping;
-    state.memory       = response.memory;
-    state.memory.point = state.index;
+    static_cast<PointTraction<1> &>(state) = response;
+
+    state.memory.point   = state.index;
+    state.slip_change[0] = slip_change * step.speed_ratio;
+    state.elastic_slip   = (response.traction - (step.augmented ? begin.traction : Slip())).norm() / step.law.tangential;
 
     sums.stored += weight * response.energy;
-    sums.work.drive += weight * response.mean_traction * run;
+    sums.work.drive += weight * response.mean_traction[0] * run;
     sums.work.friction += weight * response.friction;
     sums.work.algorithmic += weight * response.algorithmic;
     sums.work.creep = std::max(sums.work.creep, response.creep);
@@ -253,7 +246,7 @@ namespace sprag
 
   /// Sets tractions from the state's gap < 0 and slip and adds them to the sums.
   SlidingTangent slide(const FaceContactProperties &properties, const FrictionLaw &law, const SlidingState &sliding,
-                       double weight, FacePointState &state, ContactSums &sums);
+                       double weight, FacePointState<2> &state, ContactSums &sums);
 
   /// Of a point with these rows.
   FrictionDelay delay_of(const SlidingTangent &of, double speed, const FacePointRows &rows);

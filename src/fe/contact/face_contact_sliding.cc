@@ -16,12 +16,12 @@ namespace sprag
     sums.in_parts = in_parts;
     const auto at = configuration(displacement, sliding.drive.x);
     enter({ at, at });
-    const auto range = clip(near());
-    const auto law   = friction_of_step(properties.friction, sliding.drive.v);
+    const auto patches = clip(near());
+    const auto law     = friction_of_step(properties.friction, sliding.drive.v);
     std::visit(
         [&](auto &below)
         {
-          for (unsigned int patch = range.begin; patch < range.end; ++patch)
+          for (const unsigned int patch : patches)
             slide_patch(below, patch, sliding, law);
         },
         obstacle);
@@ -38,7 +38,7 @@ namespace sprag
       auto &state = add_state(patch, q);
       below.place(state);
       state.trial_pressure = -properties.penalties.normal * state.gap;
-      state.slip_change    = sliding.speed;
+      state.slip_change[0] = sliding.speed;
       if (state.gap < 0.)
         below.slide(state, sliding, law, sums);
     }

@@ -21,7 +21,7 @@ namespace sprag
       {
         while (ends_before(*patch, point.index))
           ++patch;
-        samples.xi.push_back(point.position.xi);
+        samples.xi.push_back(point.position[0]);
         samples.weight.push_back(face.points[point.index].weight);
         samples.pressure.push_back(point.pressure);
         samples.trial.push_back(point.trial_pressure);
@@ -33,12 +33,12 @@ namespace sprag
     }
 
     /// Length under pressure, the edges where the trial pressure, linear between the points, changes sign [mm].
-    double contact_width(const std::vector<FacePointState> &points)
+    double contact_width(const std::vector<FacePointState<2>> &points)
     {
       double width = 0.;
       for (std::size_t q = 0; q + 1 < points.size(); ++q)
       {
-        const double length = points[q + 1].position.xi - points[q].position.xi;
+        const double length = points[q + 1].position[0] - points[q].position[0];
         const double left   = points[q].trial_pressure;
         const double right  = points[q + 1].trial_pressure;
         if (left > 0. && right > 0.)
@@ -79,13 +79,13 @@ namespace sprag
       return deflection(contact, centre) - 0.5 * (deflection(contact, centre - aside) + deflection(contact, centre + aside));
     }
 
-    double cone_violation(const std::vector<FacePointState> &points)
+    double cone_violation(const std::vector<FacePointState<2>> &points)
     {
       double excess = 0.;
       double peak   = 0.;
       for (const auto &point : points)
       {
-        excess = std::max(excess, std::abs(point.traction) - point.mu * point.pressure);
+        excess = std::max(excess, point.traction.norm() - point.mu * point.pressure);
         peak   = std::max(peak, point.mu * point.pressure);
       }
       return peak > 0. ? excess / peak : 0.;
@@ -99,11 +99,11 @@ namespace sprag
     };
 
     /// Of every point; those without pressure take it from one beside them.
-    std::vector<PointFriction> frictions(const std::vector<FacePointState> &points)
+    std::vector<PointFriction> frictions(const std::vector<FacePointState<2>> &points)
     {
-      const auto is_closed   = [](const FacePointState &point) { return point.pressure > 0.; };
-      const auto friction_of = [](const FacePointState &point) {
-        return PointFriction{ point.traction / point.pressure, point.mu };
+      const auto is_closed   = [](const FacePointState<2> &point) { return point.pressure > 0.; };
+      const auto friction_of = [](const FacePointState<2> &point) {
+        return PointFriction{ point.traction[0] / point.pressure, point.mu };
       };
       const auto first = std::find_if(points.begin(), points.end(), is_closed);
       auto friction    = first == points.end() ? PointFriction() : friction_of(*first);
@@ -128,7 +128,7 @@ namespace sprag
       for (std::size_t i = 0; i < friction.size(); ++i)
       {
         result.push_back(friction[i].ratio * pressure[i]);
-        lacking += area(i) * (contact.points[i].traction - result.back());
+        lacking += area(i) * (contact.points[i].traction[0] - result.back());
       }
       const auto way = [&](const std::size_t i) { return std::copysign(friction[i].mu * pressure[i], lacking) - result[i]; };
       double whole   = 0.;
@@ -171,13 +171,13 @@ namespace sprag
         sums.F -= area * share * point.end_force[0];
         sums.P += area * share * point.end_force[1];
         const auto moved  = displacement(contact, point.index);
-        const double rate = dt > 0. ? point.slip_change / dt : 0.;
+        const double rate = dt > 0. ? point.slip_change[0] / dt : 0.;
         sums.normal += normal;
-        sums.friction += area * point.traction;
-        sums.position += normal * point.position.xi;
+        sums.friction += area * point.traction[0];
+        sums.position += normal * point.position[0];
         sums.speed += normal * rate;
         sums.mu += normal * point.mu;
-        sums.power += area * point.traction * rate;
+        sums.power += area * point.traction[0] * rate;
         sums.energy += 0.5 * area * (point.end_force[0] * moved[0] + point.end_force[1] * moved[1]);
         sums.active += 1.;
         sums.elastic_slip = std::max(sums.elastic_slip, point.elastic_slip);

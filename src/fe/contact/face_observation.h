@@ -11,7 +11,7 @@ namespace sprag
   struct FaceView
   {
     const ElasticBody<2> &body;
-    const std::vector<FacePointState> &points;        ///< near the obstacle, increasing
+    const std::vector<FacePointState<2>> &points;     ///< near the obstacle, increasing
     const dealii::Vector<double> &nodal_displacement; ///< two entries a face node, others may follow
     double duration;                                  ///< of the step; 0: no slip speed [s]
     double penetration;                               ///< [mm]
