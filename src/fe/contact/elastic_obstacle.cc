@@ -44,9 +44,8 @@ namespace sprag
 
   FacePatches<2>::Indices ElasticObstacle::near(const PairConfiguration &at) const
   {
-    const LeverPoint centre = at.at.centre;
     PairPlace place;
-    return face.find_near(face.patch_at({ centre.xi, centre.eta }),
+    return face.find_near({ at.at.centre.xi, at.at.centre.eta },
                           [&](const unsigned int of) { return pair.reach(of, at, place); });
   }
 

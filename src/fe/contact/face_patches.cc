@@ -143,17 +143,24 @@ namespace sprag
     return static_cast<unsigned int>(found - all_patches.begin());
   }
 
+  /// The closest patch of the undeformed face, or one beside it where the centre has hardly moved: a search of the tree costs as
+  /// much as the contact of some points.
   template <int dim>
-  unsigned int FacePatches<dim>::patch_at(const dealii::Point<dim> &place) const
+  unsigned int FacePatches<dim>::patch_below(const dealii::Point<dim> &centre) const
   {
-    return tree->found(boost::geometry::index::nearest(place, 1)).front();
+    if (known_patch >= all_patches.size() || centre.distance(known_centre) > all_patches[known_patch].length)
+    {
+      known_centre = centre;
+      known_patch  = tree->found(boost::geometry::index::nearest(centre, 1)).front();
+    }
+    return known_patch;
   }
 
   template <int dim>
   std::vector<unsigned int> FacePatches<dim>::patches_in(const dealii::BoundingBox<dim> &box) const
   {
     const auto found = tree->found(boost::geometry::index::intersects(box));
-    return found.empty() ? Indices{ patch_at(box.center()) } : found;
+    return found.empty() ? tree->found(boost::geometry::index::nearest(box.center(), 1)) : found;
   }
 
   template <int dim>

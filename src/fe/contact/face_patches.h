@@ -63,13 +63,11 @@ namespace sprag
     /// Patches of the undeformed face that reach into a box, at least the one closest to its centre.
     Indices patches_in(const dealii::BoundingBox<dim> &box) const;
 
-    /// The patch of the undeformed face that is closest to a place.
-    unsigned int patch_at(const dealii::Point<dim> &place) const;
-
-    /// Patches whose distance from a convex body is negative, at least the closest one: on each part of the face downhill, from
-    /// the patch `start` on its part, then to all sides, as beyond the first patch out of reach the distance only grows.
+    /// Patches whose distance from a convex body is negative, at least the closest one. On each part of the face they are sought
+    /// downhill, first from below the body's `centre`, then to all sides, as beyond the first patch out of reach the distance
+    /// only grows.
     template <class Distance>
-    Indices find_near(unsigned int start, const Distance &distance) const;
+    Indices find_near(const dealii::Point<dim> &centre, const Distance &distance) const;
 
     /// Indices of the displacements of the nodes of some patches, increasing.
     std::vector<unsigned int> displacements_of(const Indices &some) const;
@@ -78,6 +76,7 @@ namespace sprag
 
   private:
     struct Tree;
+    unsigned int patch_below(const dealii::Point<dim> &centre) const;
     void find_neighbours();
 
     std::vector<Patch> all_patches;
@@ -85,6 +84,8 @@ namespace sprag
     std::unique_ptr<const Tree> tree;
     std::vector<Indices> neighbours; ///< of the patches: those that touch them
     Indices other_starts;            ///< of a face of several parts that do not touch: a patch of each
+    mutable dealii::Point<dim> known_centre;
+    mutable unsigned int known_patch = dealii::numbers::invalid_unsigned_int; ///< below it
   };
 
   inline std::vector<unsigned int> united(const std::vector<unsigned int> &a, const std::vector<unsigned int> &b)
@@ -97,11 +98,11 @@ namespace sprag
 
   template <int dim>
   template <class Distance>
-  std::vector<unsigned int> FacePatches<dim>::find_near(const unsigned int start, const Distance &distance) const
+  std::vector<unsigned int> FacePatches<dim>::find_near(const dealii::Point<dim> &centre, const Distance &distance) const
   {
     Indices found;
     std::vector<bool> seen(all_patches.size());
-    unsigned int closest = start;
+    unsigned int closest = 0;
     double least         = std::numeric_limits<double>::infinity();
     const auto search    = [&](unsigned int patch)
     {
@@ -134,7 +135,7 @@ namespace sprag
               found.push_back(next);
           }
     };
-    search(start);
+    search(patch_below(centre));
     for (const unsigned int patch : other_starts)
       search(patch);
     if (found.empty())

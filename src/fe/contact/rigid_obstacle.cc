@@ -82,7 +82,7 @@ namespace sprag
       const auto contact = obstacle(place_of(first));
       return contact.gap + std::min(0., contact.gap_row[0] * along[0] + contact.gap_row[1] * along[1]) - 0.02 * chosen.length;
     };
-    return face.find_near(face.patch_at({ at.centre.xi, at.centre.eta }), reach);
+    return face.find_near({ at.centre.xi, at.centre.eta }, reach);
   }
 
   void RigidObstacle::enter(const unsigned int of_face)
