@@ -9,9 +9,22 @@ namespace sprag
 {
   namespace
   {
+    /// An evaluation and the face that it is of.
+    struct FaceView
+    {
+      const FrictionFace<2> &face;
+      const FaceEvaluation &found;
+      const std::vector<FacePointState<2>> &points;
+    };
+
+    FaceView view_of(const ElasticBody<2> &body, const FaceEvaluation &found)
+    {
+      return { body.friction_face(), found, found.points };
+    }
+
     RecoveredPressure recovered(const FaceView &contact)
     {
-      const auto &face = contact.body.friction_face();
+      const auto &face = contact.face;
       PressureSamples samples;
       const auto ends_before = [](const FacePatch &patch, const unsigned int point) { return patch.end <= point; };
       auto patch             = face.patches.begin();
@@ -53,16 +66,16 @@ namespace sprag
     dealii::Tensor<1, 2> displacement(const FaceView &contact, const unsigned int point)
     {
       dealii::Tensor<1, 2> result;
-      for (const auto &[node, shape] : contact.body.friction_face().points[point].nodes)
+      for (const auto &[node, shape] : contact.face.points[point].nodes)
         for (unsigned int d = 0; d < 2; ++d)
-          result[d] += shape * contact.nodal_displacement[2 * node + d];
+          result[d] += shape * contact.found.displacement[2 * node + d];
       return result;
     }
 
     /// Displacement along eta at xi, linear between the points [mm].
     double deflection(const FaceView &contact, const double xi)
     {
-      const auto &points   = contact.body.friction_face().points;
+      const auto &points   = contact.face.points;
       const auto is_before = [](const auto &point, const double value) { return point.position[0] < value; };
       const auto after     = std::lower_bound(points.begin() + 1, points.end() - 1, xi, is_before);
       const auto before    = after - 1;
@@ -122,7 +135,7 @@ namespace sprag
     std::vector<double> recovered_traction(const FaceView &contact, const std::vector<double> &pressure)
     {
       const auto friction = frictions(contact.points);
-      const auto area = [&](const std::size_t i) { return contact.body.friction_face().points[contact.points[i].index].weight; };
+      const auto area     = [&](const std::size_t i) { return contact.face.points[contact.points[i].index].weight; };
       std::vector<double> result;
       double lacking = 0.;
       for (std::size_t i = 0; i < friction.size(); ++i)
@@ -144,7 +157,7 @@ namespace sprag
     double share_of_free_nodes(const FaceView &contact, const unsigned int point)
     {
       double share = 0.;
-      for (const auto &node : contact.body.friction_face().points[point].nodes)
+      for (const auto &node : contact.face.points[point].nodes)
         share += node.second;
       return share;
     }
@@ -160,12 +173,12 @@ namespace sprag
     Sums sum(const FaceView &contact)
     {
       Sums sums;
-      const double dt = contact.duration;
+      const double dt = contact.found.duration;
       for (const auto &point : contact.points)
       {
         if (!(point.trial_pressure > 0.))
           continue;
-        const double area   = contact.body.friction_face().points[point.index].weight;
+        const double area   = contact.face.points[point.index].weight;
         const double normal = area * point.pressure;
         const double share  = share_of_free_nodes(contact, point.index);
         sums.F -= area * share * point.end_force[0];
@@ -186,21 +199,23 @@ namespace sprag
     }
   } // namespace
 
-  void observe_face(const FaceView &contact, const double layer_thickness, Row &row)
+  void observe_face(const ElasticBody<2> &body, const FaceEvaluation &found, const double layer_thickness, Row &row)
   {
+    const auto contact            = view_of(body, found);
     const auto recovery           = recovered(contact);
     row[Column::contact_width]    = recovery.is_fitted ? recovery.width : contact_width(contact.points);
     row[Column::largest_pressure] = recovery.largest;
     if (recovery.largest > 0.)
       row[Column::largest_pressure_xi] = recovery.place;
     row[Column::indentation] = 0.;
-    observe_resultants(contact, row);
+    observe_resultants(body, found, row);
     if (row[Column::normal_resultant] > 0.)
       row[Column::indentation] = indentation(contact, row[Column::s], row[Column::contact_width], layer_thickness);
   }
 
-  void observe_resultants(const FaceView &contact, Row &row)
+  void observe_resultants(const ElasticBody<2> &body, const FaceEvaluation &found, Row &row)
   {
+    const auto contact              = view_of(body, found);
     const Sums sums                 = sum(contact);
     row[Column::normal_resultant]   = sums.normal;
     row[Column::friction_resultant] = sums.friction;
@@ -208,7 +223,7 @@ namespace sprag
     row[Column::elastic_energy]     = sums.energy;
     row[Column::active_points]      = sums.active;
     row[Column::elastic_slip]       = sums.elastic_slip;
-    row[Column::penetration]        = contact.penetration;
+    row[Column::penetration]        = contact.found.penetration();
     row[Column::cone_violation]     = cone_violation(contact.points);
     row[Column::P]                  = sums.P;
     row[Column::F]                  = sums.F;
@@ -216,7 +231,7 @@ namespace sprag
     {
       row[Column::s]  = sums.position / sums.normal;
       row[Column::mu] = sums.mu / sums.normal;
-      if (contact.duration > 0.)
+      if (contact.found.duration > 0.)
         row[Column::v_rel] = sums.speed / sums.normal;
     }
   }
@@ -232,12 +247,13 @@ namespace sprag
     return result;
   }
 
-  FaceState face_state(const FaceView &contact, const DrivePoint &drive)
+  FaceState face_state(const ElasticBody<2> &body, const FaceEvaluation &found, const DrivePoint &drive)
   {
+    const auto contact = view_of(body, found);
     FaceState result;
     result.time         = drive.time;
     result.x            = drive.x;
-    const std::size_t n = contact.body.friction_face().points.size();
+    const std::size_t n = contact.face.points.size();
     result.pressure.resize(n);
     result.traction.resize(n);
     const auto recovery = recovered(contact);
