@@ -110,6 +110,17 @@ namespace sprag
     double creep       = 0.; ///< slip below the regularisation speed [mm]
   };
 
+  /// Sets tractions at the end of a step.
+  template <class Friction, int slips>
+  void set_tractions(const double pressure, const Friction &friction, PointTraction<slips> &result)
+  {
+    result.pressure        = pressure;
+    result.traction        = friction.traction;
+    result.mu              = friction.mu;
+    result.slipping        = friction.slipping;
+    result.memory.traction = friction.traction;
+  }
+
   /// Sets the force of a step and its derivative: from a pressure and its derivative by the coordinates, and from a traction and
   /// its derivatives by the change of slip and by a pressure, that one with a derivative `pressure_row`.
   template <int n, int slips>
@@ -149,12 +160,8 @@ namespace sprag
     const auto d_pressure = normal.derivative * point.gap_row_end;
     set_force(point, normal.pressure, d_pressure, friction.traction, law.tangential * friction.d_trial, friction.d_pressure,
               d_pressure, response);
-    response.pressure        = normal.pressure;
-    response.traction        = friction.traction;
-    response.mu              = friction.mu;
-    response.slipping        = friction.slipping;
-    response.d_shift         = friction.d_shift;
-    response.memory.traction = friction.traction;
+    set_tractions(normal.pressure, friction, response);
+    response.d_shift = friction.d_shift;
     return response;
   }
 
@@ -188,11 +195,7 @@ namespace sprag
 
     set_force(point, pressure, d_pressure, traction, share * friction.d_slip, share * friction.d_pressure, d_end + d_dashpot,
               response);
-    response.pressure          = normal.end + dashpot.force;
-    response.traction          = friction.traction;
-    response.mu                = friction.mu;
-    response.slipping          = friction.slipping;
-    response.memory.traction   = friction.traction;
+    set_tractions(normal.end + dashpot.force, friction, response);
     response.memory.damping    = dashpot.force;
     response.memory.slip_speed = friction.slip_speed;
     response.memory.step       = law.weights.dt;

@@ -107,70 +107,44 @@ namespace sprag
   PortPerturbation PointContact::linearise(const SlidingState &state, Evaluation &found) const
   {
     evaluate_sliding(state, found);
-    const auto places           = local_ports(found.window);
+    const auto places           = ports(found.window);
     const Local d_traction_rate = found.sliding.coefficient * found.d_pressure_rate +
                                   found.sliding.derivative * found.response.pressure * found.end.slip_row;
     PortPerturbation result(found.forces.ports);
-    result.pressure      = on_ports(places, pressure_tangent(found));
-    result.friction      = on_ports(places, friction_tangent(state.friction, found));
-    result.pressure_rate = on_ports(places, outer_product(found.end.gap_row, found.d_pressure_rate));
-    result.friction_rate = on_ports(places, -1. * outer_product(found.end.slip_row, d_traction_rate));
+    result.pressure      = matrix_on_ports(places, pressure_tangent(found));
+    result.friction      = matrix_on_ports(places, friction_tangent(state.friction, found));
+    result.pressure_rate = matrix_on_ports(places, outer_product(found.end.gap_row, found.d_pressure_rate));
+    result.friction_rate = matrix_on_ports(places, -1. * outer_product(found.end.slip_row, d_traction_rate));
     result.delays        = friction_delays(places, d_traction_rate, found);
     return result;
   }
 
-  std::vector<FrictionDelay> PointContact::friction_delays(const std::vector<LocalPort> &places, const Local &d_traction_rate,
+  std::vector<FrictionDelay> PointContact::friction_delays(const PortCoordinates &places, const Local &d_traction_rate,
                                                            const Evaluation &found) const
   {
     const double time = found.sliding.derivative * found.response.pressure / properties.tangential;
     if (!found.sticks || !(time > 0.))
       return {};
-    const auto n_used = static_cast<unsigned int>(places.size());
-    FrictionDelay delay{ time, Vector<double>(n_used), Vector<double>(n_used), Vector<double>(n_used) };
-    for (unsigned int i = 0; i < n_used; ++i)
-    {
-      const auto &[local, port, sign] = places[i];
-      delay.force[i]                  = -sign * found.end.slip_row[local];
-      delay.stiffness_row[i]          = sign * found.sliding.coefficient * found.d_pressure[local];
-      delay.rate_row[i]               = sign * d_traction_rate[local];
-    }
-    return { delay };
+    return { { time, row_on_ports(places, -1. * found.end.slip_row),
+               row_on_ports(places, found.sliding.coefficient * found.d_pressure), row_on_ports(places, d_traction_rate) } };
   }
 
-  std::vector<PointContact::LocalPort> PointContact::local_ports(const unsigned int window) const
+  /// Local coordinates that are ports.
+  PortCoordinates PointContact::ports(const unsigned int window) const
   {
-    std::vector<LocalPort> result;
+    PortCoordinates result;
     for (unsigned int i = 0; i < n_nodal && properties.mesh.elements > 0; ++i)
       if (window + i / 2 > 0)
         result.push_back({ i, 2 * window + i - 2, 1. });
-    result.push_back({ theta_index, properties.ports.rotation(), 1. });
-    if (properties.ports.sprung)
-      result.push_back({ x_index, properties.ports.support(), -1. });
-    return result;
-  }
-
-  FullMatrix<double> PointContact::on_ports(const std::vector<LocalPort> &places, const LocalMatrix &matrix)
-  {
-    const auto used = static_cast<unsigned int>(places.size());
-    FullMatrix<double> result(used, used);
-    for (unsigned int i = 0; i < used; ++i)
-      for (unsigned int j = 0; j < used; ++j)
-        result(i, j) = places[i].sign * places[j].sign * matrix[places[i].local][places[j].local];
+    add_frame(properties.ports, theta_index, x_index, result);
     return result;
   }
 
   void PointContact::sum_forces(Evaluation &found) const
   {
-    const auto places = local_ports(found.window);
-    auto &forces      = found.forces;
-    forces.ports.clear();
-    forces.values.reinit(static_cast<unsigned int>(places.size()));
-    for (unsigned int i = 0; i < places.size(); ++i)
-    {
-      forces.ports.push_back(places[i].port);
-      forces.values[i] = places[i].sign * found.response.force[places[i].local];
-    }
-    forces.tangent = on_ports(places, found.response.tangent);
+    const auto places = ports(found.window);
+    found.forces      = { ports_of(places), row_on_ports(places, found.response.force),
+                          matrix_on_ports(places, found.response.tangent) };
   }
 
   const PortSelection &PointContact::reachable_ports(double, const OfLevers &) const

@@ -4,6 +4,7 @@
 #include "model/circle.h"
 #include "model/contact_step.h"
 #include "model/linearisation.h"
+#include "model/port_coordinates.h"
 #include "model/port_step.h"
 
 #include <algorithm>
@@ -141,17 +142,9 @@ namespace sprag
     static LocalMatrix pressure_tangent(const Evaluation &found);
     LocalMatrix friction_tangent(ContactFriction friction, const Evaluation &found) const;
 
-    /// A local coordinate that is a port, and the sign between them.
-    struct LocalPort
-    {
-      unsigned int local;
-      unsigned int port;
-      double sign;
-    };
-    std::vector<LocalPort> local_ports(unsigned int window) const;
-    std::vector<FrictionDelay> friction_delays(const std::vector<LocalPort> &places, const Local &d_traction_rate,
+    PortCoordinates ports(unsigned int window) const;
+    std::vector<FrictionDelay> friction_delays(const PortCoordinates &places, const Local &d_traction_rate,
                                                const Evaluation &found) const;
-    static dealii::FullMatrix<double> on_ports(const std::vector<LocalPort> &places, const LocalMatrix &matrix);
 
     const PointContactProperties properties;
     const PortSelection all;

@@ -147,16 +147,16 @@ TEST(FaceContact, FindsAllPointsInReach)
       ASSERT_FALSE(near.empty());
       double inside  = 1e9;
       double outside = 1e9;
-      for (unsigned int p = 0; p < face.patches().size(); ++p)
-        for (unsigned int q = face.patches()[p].begin; q < face.patches()[p].end; ++q)
+      for (unsigned int p = 0; p < face.patches.size(); ++p)
+        for (unsigned int q = face.patches[p].begin; q < face.patches[p].end; ++q)
         {
-          const auto position = FacePatches<2>::position(face.points()[q], FacePatches<2>::nodal(face.patches()[p], ports));
+          const auto position = FacePatches<2>::position(face.points[q], FacePatches<2>::nodal(face.patches[p], ports));
           const double gap    = std::hypot(position[0] - at.centre.xi, position[1] - at.centre.eta) - R;
           double &least       = std::binary_search(near.begin(), near.end(), p) ? inside : outside;
           least               = std::min(least, gap);
         }
       EXPECT_GT(outside, 0.) << x << " " << turn;
-      EXPECT_LE(inside, outside + 0.02 * face.patches().front().length) << x << " " << turn;
+      EXPECT_LE(inside, outside + 0.02 * face.patches.front().length) << x << " " << turn;
     }
 }
 

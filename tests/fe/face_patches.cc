@@ -59,8 +59,8 @@ TEST(FacePatches, NearASphereAreThoseOfASearchOfAll)
       const dealii::Point<3> middle(centre, 9.5, 4.2);
       const auto gap = [&](const unsigned int patch)
       {
-        const auto nodal = FacePatches<3>::nodal(face.patches()[patch], displacement);
-        return FacePatches<3>::position(face.points()[patch], nodal).distance(middle) - 10.;
+        const auto nodal = FacePatches<3>::nodal(face.patches[patch], displacement);
+        return FacePatches<3>::position(face.points[patch], nodal).distance(middle) - 10.;
       };
       std::vector<unsigned int> expected;
       unsigned int closest = 0;

@@ -86,8 +86,8 @@ namespace sprag
   void ElasticObstacle::enter(const unsigned int of_face)
   {
     patch   = of_face;
-    first   = face.patches()[patch].begin;
-    nodal   = FacePatches<2>::nodal(face.patches()[patch], *places.end.displacement);
+    first   = face.patches[patch].begin;
+    nodal   = FacePatches<2>::nodal(face.patches[patch], *places.end.displacement);
     touched = false;
     pair.find_facets(patch, end.at, end.of);
   }
@@ -100,7 +100,7 @@ namespace sprag
   bool ElasticObstacle::place(FacePointState<2> &state) const
   {
     const auto &facet = facet_at_end(state.index);
-    state.position    = FacePatches<2>::position(face.points()[state.index], nodal);
+    state.position    = FacePatches<2>::position(face.points[state.index], nodal);
     state.gap         = facet.gap;
     return facet.opposed;
   }
@@ -117,8 +117,8 @@ namespace sprag
   {
     if (facet.opposed)
       return facet.arc + of_first;
-    const auto &of      = face.patches()[face.patch_of_point(point)];
-    const auto position = FacePatches<2>::position(face.points()[point], FacePatches<2>::nodal(of, *at.displacement));
+    const auto &of      = face.patches[face.patch_of_point(point)];
+    const auto position = FacePatches<2>::position(face.points[point], FacePatches<2>::nodal(of, *at.displacement));
     return properties.obstacle(at.x, at.theta)({ position[0], position[1] }).slip;
   }
 
@@ -126,7 +126,7 @@ namespace sprag
   {
     const unsigned int of_patch = face.patch_of_point(point);
     const auto &facets          = facets_at_begin(of_patch).facets;
-    return slip_coordinate(facets[point - face.patches()[of_patch].begin], of_begin.at.at, of_begin.first_slip, point);
+    return slip_coordinate(facets[point - face.patches[of_patch].begin], of_begin.at.at, of_begin.first_slip, point);
   }
 
   double ElasticObstacle::slip_at_end(const unsigned int point) const
@@ -145,14 +145,14 @@ namespace sprag
   /// The facets of the patch beside one, of whose slips the slope is the difference.
   std::array<unsigned int, 2> ElasticObstacle::neighbours(const unsigned int point) const
   {
-    const auto &of = face.patches()[patch];
+    const auto &of = face.patches[patch];
     return { { std::max(point, of.begin + 1) - 1, std::min(point + 1, of.end - 1) } };
   }
 
   /// Along the undeformed face, which the facets of a patch share evenly [mm].
   double ElasticObstacle::distance(const unsigned int from, const unsigned int to) const
   {
-    const auto &of = face.patches()[patch];
+    const auto &of = face.patches[patch];
     return of.length * (to - from) / (of.end - of.begin);
   }
 
@@ -243,7 +243,7 @@ namespace sprag
     record(response, step, memory, stretch * (run + shift.slip), force.weight, stretch * step.surface_run, state, sums);
     sums.beyond_face = sums.beyond_face || (at_end_of_face && response.pressure > 0.);
     state.end_force  = on_lever(response.pressure, -response.traction[0], end_rows);
-    add_force(force.weight, response.force[0], response.force[1], rows);
+    values.add(force.weight * response.force[0], rows.gap, force.weight * response.force[1], rows.slip);
     sums.force_on_obstacle +=
         force.weight * (response.force[0] * rows.gap[coordinates.x()] + response.force[1] * rows.slip[coordinates.x()]);
     const double d_shift = response.d_shift[0][0];
@@ -305,16 +305,16 @@ namespace sprag
       rates[coordinates.x()]     = properties.ports.sprung ? -(*sliding.rates)[properties.ports.support()] : 0.;
       state.slip_change[0] += end_rows.slip * rates;
     }
-    sums.beyond_face = sums.beyond_face || at_end_of_face;
-    const auto of    = sprag::slide(properties, law, sliding, facet.weight, state, sums);
-    state.end_force  = on_lever(state.pressure, -state.traction[0], end_rows);
-    add_force(facet.weight, state.pressure, -state.traction[0], end_rows);
+    sums.beyond_face        = sums.beyond_face || at_end_of_face;
+    const auto of           = sprag::slide(properties, law, sliding, facet.weight, state, sums);
+    state.end_force         = on_lever(state.pressure, -state.traction[0], end_rows);
+    const double normal     = facet.weight * state.pressure;
+    const double tangential = -facet.weight * state.traction[0];
+    values.add(normal, end_rows.gap, tangential, end_rows.slip);
     add_product(facet.weight * of.normal, end_rows.gap, end_rows.gap, tangent);
     force_row.equ(of.coupled, end_rows.gap);
     force_row.add(of.stuck, end_rows.slip, of.by_speed * sliding.speed, end_rows.stretch);
     add_product(facet.weight, end_rows.slip, force_row, sums.in_parts ? friction.by_displacement : tangent);
-    const double normal     = facet.weight * state.pressure;
-    const double tangential = -facet.weight * state.traction[0];
     if (!sums.in_parts)
       return add_curvature(end.of, facet, end.at, coordinates, R, normal, tangential, tangent);
     add_curvature(end.of, facet, end.at, coordinates, R, normal, 0., tangent);
@@ -322,11 +322,6 @@ namespace sprag
     add_product(facet.weight * of.by_speed, end_rows.slip, end_rows.slip, friction.by_velocity);
     if (of.delay > 0.)
       friction.delays.push_back(delay_of(of, sliding.speed, rows_on_ports(facet)));
-  }
-
-  void ElasticObstacle::add_force(const double weight, const double normal, const double along_slip, const FacetRows &rows)
-  {
-    values.add(weight * normal, rows.gap, weight * along_slip, rows.slip);
   }
 
   Tensor<1, 4> ElasticObstacle::on_lever(const double normal, const double along_slip, const FacetRows &rows) const
@@ -340,16 +335,14 @@ namespace sprag
     return result;
   }
 
-  /// Coordinates of the patch that are ports. The support's moves the obstacle's position back.
-  std::vector<FaceCoordinate> ElasticObstacle::ports() const
+  /// Coordinates of the patch that are ports.
+  PortCoordinates ElasticObstacle::ports() const
   {
-    std::vector<FaceCoordinate> result;
+    PortCoordinates result;
     for (unsigned int i = 0; i < coordinates.theta(); ++i)
       if (const unsigned int node = coordinates.nodes[i / 2]; node != FaceEdge<2>::held)
         result.push_back({ i, 2 * node + i % 2, 1. });
-    result.push_back({ coordinates.theta(), properties.ports.rotation(), 1. });
-    if (properties.ports.sprung)
-      result.push_back({ coordinates.x(), properties.ports.support(), -1. });
+    add_frame(properties.ports, coordinates.theta(), coordinates.x(), result);
     return result;
   }
 
@@ -367,20 +360,11 @@ namespace sprag
     return rows_on_ports(facet);
   }
 
-  /// Of those found last.
+  /// Rows that were found last.
   FacePointRows ElasticObstacle::rows_on_ports(const Facet &facet) const
   {
     const auto of_patch = ports();
-    const auto n        = static_cast<unsigned int>(of_patch.size());
-    FacePointRows result{ facet.weight, {}, Vector<double>(n), Vector<double>(n), Vector<double>(n) };
-    for (unsigned int i = 0; i < n; ++i)
-    {
-      const auto &[coordinate, port, sign] = of_patch[i];
-      result.ports.push_back(port);
-      result.gap[i]     = sign * end_rows.gap[coordinate];
-      result.slip[i]    = sign * end_rows.slip[coordinate];
-      result.stretch[i] = sign * end_rows.stretch[coordinate];
-    }
-    return result;
+    return { facet.weight, ports_of(of_patch), row_on_ports(of_patch, end_rows.gap), row_on_ports(of_patch, end_rows.slip),
+             row_on_ports(of_patch, end_rows.stretch) };
   }
 } // namespace sprag

@@ -51,9 +51,8 @@ namespace sprag
     const Facet &facet_at_end(unsigned int point) const;
     void add_tangent(const StepResponse<2> &response, const Facet &facet, double stretch, double run, double stretch_of_end);
     void add_shift(const Facet &facet, unsigned int point, const SlipShift &shift, double d_shift);
-    void add_force(double weight, double normal, double along_slip, const FacetRows &rows);
     dealii::Tensor<1, 4> on_lever(double normal, double along_slip, const FacetRows &rows) const;
-    std::vector<FaceCoordinate> ports() const;
+    PortCoordinates ports() const;
     FacePointRows rows_on_ports(const Facet &facet) const;
     dealii::Vector<double> change(const dealii::Vector<double> &from, const dealii::Vector<double> &to) const;
 

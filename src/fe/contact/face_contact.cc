@@ -119,7 +119,7 @@ namespace sprag
       return clip(near(), found);
     FacePatches<2>::Indices remembered;
     for (const auto &entry : memory)
-      if (remembered.empty() || entry.point >= face.patches()[remembered.back()].end)
+      if (remembered.empty() || entry.point >= face.patches[remembered.back()].end)
         remembered.push_back(face.patch_of_point(entry.point));
     return clip(united(near(), remembered), found);
   }
@@ -146,8 +146,8 @@ namespace sprag
   {
     const double penalty    = properties.penalties.normal;
     const bool ends_balance = step.law.balance == ForceBalance::end;
-    auto remembered         = first_memory(step.memory, face.patches()[patch].begin);
-    for (unsigned int q = face.patches()[patch].begin; q < face.patches()[patch].end; ++q)
+    auto remembered         = first_memory(step.memory, face.patches[patch].begin);
+    for (unsigned int q = face.patches[patch].begin; q < face.patches[patch].end; ++q)
     {
       auto &state            = add_point(patch, q, found);
       const bool can_touch   = below.place(state);
@@ -190,7 +190,7 @@ namespace sprag
     visit_patches(clip(near(), found),
                   [&](auto &below, const unsigned int patch)
                   {
-                    for (unsigned int q = face.patches()[patch].begin; q < face.patches()[patch].end; ++q)
+                    for (unsigned int q = face.patches[patch].begin; q < face.patches[patch].end; ++q)
                     {
                       auto &state = add_point(patch, q, found);
                       below.place(state);
@@ -276,7 +276,7 @@ namespace sprag
     visit_patches(near(),
                   [&](auto &below, const unsigned int patch)
                   {
-                    for (unsigned int q = face.patches()[patch].begin; q < face.patches()[patch].end; ++q)
+                    for (unsigned int q = face.patches[patch].begin; q < face.patches[patch].end; ++q)
                       below.place(add_point(patch, q, found));
                   });
     sum_forces(found);
@@ -333,7 +333,7 @@ namespace sprag
             {
               if (point.patch != patch)
                 below.enter(patch = point.patch);
-              const double weight = face.points()[point.index].weight * point.pressure;
+              const double weight = face.points[point.index].weight * point.pressure;
               weighted += weight * below.slip(point);
               weights += weight;
             }

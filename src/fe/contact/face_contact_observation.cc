@@ -9,7 +9,7 @@ namespace sprag
     observe_face(body, found, properties.layer_thickness, row);
     row[Column::Q] = 0.;
     for (const auto &point : found.points)
-      row[Column::Q] -= face.points()[point.index].weight * point.end_force[3];
+      row[Column::Q] -= face.points[point.index].weight * point.end_force[3];
   }
 
   SurfaceShape FaceContact::surface_shape(const dealii::Vector<double> &displacements, unsigned int) const

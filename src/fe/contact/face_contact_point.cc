@@ -31,7 +31,7 @@ namespace sprag
   SlipShift slip_shift(const FacePatches<2> &face, const unsigned int point, const double slope, const FaceStep &step,
                        const std::function<double(unsigned int)> &slip_at_begin)
   {
-    const auto &points = face.points();
+    const auto &points = face.points;
     const double xi    = points[point].position[0] - step.travel;
     if (step.travel == 0. || xi < points.front().position[0] || xi > points.back().position[0])
       return {};

@@ -3,7 +3,7 @@
 #include "fe/contact/face_patches.h"
 #include "model/contact_step.h"
 #include "model/linearisation.h"
-#include "model/port_layout.h"
+#include "model/port_coordinates.h"
 
 #include <functional>
 
@@ -94,14 +94,6 @@ namespace sprag
   SlipShift slip_shift(const FacePatches<2> &face, unsigned int point, double slope, const FaceStep &step,
                        const std::function<double(unsigned int)> &slip_at_begin);
 
-  /// Forces and their tangent on some ports.
-  struct PatchForces
-  {
-    std::vector<unsigned int> ports; ///< in any order
-    dealii::Vector<double> values;
-    dealii::FullMatrix<double> tangent;
-  };
-
   /// What friction has in the tangent of a patch that slides steadily, where it is wanted apart; see PortPerturbation.
   template <class Matrix>
   struct FrictionParts
@@ -110,26 +102,6 @@ namespace sprag
     Matrix by_velocity;
     std::vector<FrictionDelay> delays; ///< on the ports of the patch
   };
-
-  /// A coordinate of a patch that is a port.
-  struct FaceCoordinate
-  {
-    unsigned int index;
-    unsigned int port;
-    double sign; ///< of the coordinate along the port
-  };
-
-  /// From a matrix over the coordinates of a patch.
-  template <class Matrix>
-  dealii::FullMatrix<double> matrix_on_ports(const std::vector<FaceCoordinate> &coordinates, const Matrix &matrix)
-  {
-    const auto n = static_cast<unsigned int>(coordinates.size());
-    dealii::FullMatrix<double> result(n, n);
-    for (unsigned int i = 0; i < n; ++i)
-      for (unsigned int j = 0; j < n; ++j)
-        result(i, j) = coordinates[i].sign * coordinates[j].sign * matrix[coordinates[i].index][coordinates[j].index];
-    return result;
-  }
 
   /// Derivatives of a point's gap and slip, and of its slip speed at ports at rest over the cylinder's, by some ports.
   struct FacePointRows
@@ -149,24 +121,17 @@ namespace sprag
     double force_on_obstacle = 0.;    ///< generalised, of the position x, in the step [N]
     bool beyond_face         = false; ///< whether the contact reaches the end of what can be touched
     StepWork work;
-    std::vector<PatchForces> loaded;
+    std::vector<PortForces> loaded;      ///< forces of the patches, ports in any order
     bool in_parts = false;               ///< whether steady sliding gives its tangent in parts
     std::vector<PortPerturbation> parts; ///< of the patches loaded
   };
 
   /// Adds the forces of a patch, from values and tangent over its coordinates: of pressure alone where it is wanted in parts.
   template <class Values, class Matrix>
-  void add_patch(const std::vector<FaceCoordinate> &coordinates, const Values &values, const Matrix &tangent,
+  void add_patch(const PortCoordinates &coordinates, const Values &values, const Matrix &tangent,
                  const FrictionParts<Matrix> &friction, ContactSums &sums)
   {
-    PatchForces forces;
-    forces.values.reinit(static_cast<unsigned int>(coordinates.size()));
-    for (unsigned int i = 0; i < coordinates.size(); ++i)
-    {
-      forces.ports.push_back(coordinates[i].port);
-      forces.values[i] = coordinates[i].sign * values[coordinates[i].index];
-    }
-    forces.tangent = matrix_on_ports(coordinates, tangent);
+    PortForces forces{ ports_of(coordinates), row_on_ports(coordinates, values), matrix_on_ports(coordinates, tangent) };
     if (sums.in_parts)
     {
       auto &parts         = sums.parts.emplace_back(forces.ports);

@@ -26,21 +26,6 @@ namespace sprag
     return result;
   }
 
-  const StepWork &FaceEvaluation::work() const
-  {
-    return sums.work;
-  }
-
-  double FaceEvaluation::energy() const
-  {
-    return sums.stored;
-  }
-
-  double FaceEvaluation::overlap() const
-  {
-    return sums.compression;
-  }
-
   double FaceEvaluation::penetration() const
   {
     double largest = 0.;

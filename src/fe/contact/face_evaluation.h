@@ -1,8 +1,6 @@
 #pragma once
 
 #include "fe/contact/face_contact_point.h"
-#include "model/port_forces.h"
-
 #include <string>
 
 namespace sprag
@@ -24,13 +22,22 @@ namespace sprag
     /// Why the contact goes beyond what can touch; empty if it does not.
     std::string objection() const;
 
-    const StepWork &work() const;
+    const StepWork &work() const
+    {
+      return sums.work;
+    }
 
     /// Energy of the contact springs [N mm].
-    double energy() const;
+    double energy() const
+    {
+      return sums.stored;
+    }
 
     /// Largest compression of the contact springs in the step, with multipliers p / penalty [mm].
-    double overlap() const;
+    double overlap() const
+    {
+      return sums.compression;
+    }
 
     /// Largest overlap of a point and the obstacle [mm].
     double penetration() const;

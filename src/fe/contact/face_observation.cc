@@ -14,13 +14,7 @@ namespace sprag
     {
       const FrictionFace<2> &face;
       const FaceEvaluation &found;
-      const std::vector<FacePointState<2>> &points;
     };
-
-    FaceView view_of(const ElasticBody<2> &body, const FaceEvaluation &found)
-    {
-      return { body.friction_face(), found, found.points };
-    }
 
     RecoveredPressure recovered(const FaceView &contact)
     {
@@ -28,9 +22,9 @@ namespace sprag
       PressureSamples samples;
       const auto ends_before = [](const FacePatch &patch, const unsigned int point) { return patch.end <= point; };
       auto patch             = face.patches.begin();
-      if (!contact.points.empty())
-        patch = std::lower_bound(patch, face.patches.end(), contact.points.front().index, ends_before);
-      for (const auto &point : contact.points)
+      if (!contact.found.points.empty())
+        patch = std::lower_bound(patch, face.patches.end(), contact.found.points.front().index, ends_before);
+      for (const auto &point : contact.found.points)
       {
         while (ends_before(*patch, point.index))
           ++patch;
@@ -134,14 +128,14 @@ namespace sprag
     /// the resultant of the points asks, the same share of the way everywhere.
     std::vector<double> recovered_traction(const FaceView &contact, const std::vector<double> &pressure)
     {
-      const auto friction = frictions(contact.points);
-      const auto area     = [&](const std::size_t i) { return contact.face.points[contact.points[i].index].weight; };
+      const auto friction = frictions(contact.found.points);
+      const auto area     = [&](const std::size_t i) { return contact.face.points[contact.found.points[i].index].weight; };
       std::vector<double> result;
       double lacking = 0.;
       for (std::size_t i = 0; i < friction.size(); ++i)
       {
         result.push_back(friction[i].ratio * pressure[i]);
-        lacking += area(i) * (contact.points[i].traction[0] - result.back());
+        lacking += area(i) * (contact.found.points[i].traction[0] - result.back());
       }
       const auto way = [&](const std::size_t i) { return std::copysign(friction[i].mu * pressure[i], lacking) - result[i]; };
       double whole   = 0.;
@@ -174,7 +168,7 @@ namespace sprag
     {
       Sums sums;
       const double dt = contact.found.duration;
-      for (const auto &point : contact.points)
+      for (const auto &point : contact.found.points)
       {
         if (!(point.trial_pressure > 0.))
           continue;
@@ -201,9 +195,9 @@ namespace sprag
 
   void observe_face(const ElasticBody<2> &body, const FaceEvaluation &found, const double layer_thickness, Row &row)
   {
-    const auto contact            = view_of(body, found);
+    const FaceView contact{ body.friction_face(), found };
     const auto recovery           = recovered(contact);
-    row[Column::contact_width]    = recovery.is_fitted ? recovery.width : contact_width(contact.points);
+    row[Column::contact_width]    = recovery.is_fitted ? recovery.width : contact_width(contact.found.points);
     row[Column::largest_pressure] = recovery.largest;
     if (recovery.largest > 0.)
       row[Column::largest_pressure_xi] = recovery.place;
@@ -215,7 +209,7 @@ namespace sprag
 
   void observe_resultants(const ElasticBody<2> &body, const FaceEvaluation &found, Row &row)
   {
-    const auto contact              = view_of(body, found);
+    const FaceView contact{ body.friction_face(), found };
     const Sums sums                 = sum(contact);
     row[Column::normal_resultant]   = sums.normal;
     row[Column::friction_resultant] = sums.friction;
@@ -224,7 +218,7 @@ namespace sprag
     row[Column::active_points]      = sums.active;
     row[Column::elastic_slip]       = sums.elastic_slip;
     row[Column::penetration]        = contact.found.penetration();
-    row[Column::cone_violation]     = cone_violation(contact.points);
+    row[Column::cone_violation]     = cone_violation(contact.found.points);
     row[Column::P]                  = sums.P;
     row[Column::F]                  = sums.F;
     if (sums.normal > 0.)
@@ -249,7 +243,7 @@ namespace sprag
 
   FaceState face_state(const ElasticBody<2> &body, const FaceEvaluation &found, const DrivePoint &drive)
   {
-    const auto contact = view_of(body, found);
+    const FaceView contact{ body.friction_face(), found };
     FaceState result;
     result.time         = drive.time;
     result.x            = drive.x;
@@ -258,10 +252,10 @@ namespace sprag
     result.traction.resize(n);
     const auto recovery = recovered(contact);
     const auto traction = recovered_traction(contact, recovery.pressure);
-    for (std::size_t i = 0; i < contact.points.size(); ++i)
+    for (std::size_t i = 0; i < contact.found.points.size(); ++i)
     {
-      result.pressure[contact.points[i].index] = recovery.pressure[i];
-      result.traction[contact.points[i].index] = traction[i];
+      result.pressure[contact.found.points[i].index] = recovery.pressure[i];
+      result.traction[contact.found.points[i].index] = traction[i];
     }
     return result;
   }

@@ -45,27 +45,46 @@ namespace sprag
     const decltype(dealii::pack_rtree_of_indices(std::vector<Box>())) tree;
   };
 
+  namespace
+  {
+    template <int dim>
+    auto copied_patches(const FrictionFace<dim> &face)
+    {
+      std::vector<typename FacePatches<dim>::Patch> result;
+      for (const auto &patch : face.patches)
+      {
+        const auto &nodes = face.points[patch.begin].nodes;
+        if (nodes.size() > FacePatches<dim>::max_nodes)
+          throw AnalysisError("contact is limited to elements of degree 2");
+        auto &copy = result.emplace_back();
+        copy       = { patch.begin, patch.end, patch.length, static_cast<unsigned int>(nodes.size()), {} };
+        for (unsigned int a = 0; a < copy.n_nodes; ++a)
+          copy.nodes[a] = nodes[a].first;
+      }
+      return result;
+    }
+
+    template <int dim>
+    auto copied_points(const FrictionFace<dim> &face)
+    {
+      std::vector<typename FacePatches<dim>::Point> result;
+      for (const auto &point : face.points)
+      {
+        auto &copy = result.emplace_back();
+        copy       = { point.position, point.weight, {} };
+        for (unsigned int a = 0; a < point.nodes.size(); ++a)
+          copy.shapes[a] = point.nodes[a].second;
+      }
+      return result;
+    }
+  } // namespace
+
   template <int dim>
   FacePatches<dim>::FacePatches(const FrictionFace<dim> &face)
-      : tree(std::make_unique<Tree>(face))
+      : patches(copied_patches(face))
+      , points(copied_points(face))
+      , tree(std::make_unique<Tree>(face))
   {
-    for (const auto &patch : face.patches)
-    {
-      const auto &nodes = face.points[patch.begin].nodes;
-      Patch copy{ patch.begin, patch.end, patch.length, static_cast<unsigned int>(nodes.size()), {} };
-      if (copy.n_nodes > max_nodes)
-        throw AnalysisError("contact is limited to elements of degree 2");
-      for (unsigned int a = 0; a < copy.n_nodes; ++a)
-        copy.nodes[a] = nodes[a].first;
-      all_patches.push_back(copy);
-    }
-    for (const auto &point : face.points)
-    {
-      Point copy{ point.position, point.weight, {} };
-      for (unsigned int a = 0; a < point.nodes.size(); ++a)
-        copy.shapes[a] = point.nodes[a].second;
-      all_points.push_back(copy);
-    }
     find_neighbours();
   }
 
@@ -104,18 +123,6 @@ namespace sprag
   }
 
   template <int dim>
-  const std::vector<typename FacePatches<dim>::Patch> &FacePatches<dim>::patches() const
-  {
-    return all_patches;
-  }
-
-  template <int dim>
-  const std::vector<typename FacePatches<dim>::Point> &FacePatches<dim>::points() const
-  {
-    return all_points;
-  }
-
-  template <int dim>
   typename FacePatches<dim>::Nodal FacePatches<dim>::nodal(const Patch &patch, const dealii::Vector<double> &displacement)
   {
     Nodal result{};
@@ -139,8 +146,8 @@ namespace sprag
   unsigned int FacePatches<dim>::patch_of_point(const unsigned int point) const
   {
     const auto ends_before = [](const Patch &patch, const unsigned int q) { return patch.end <= q; };
-    const auto found       = std::lower_bound(all_patches.begin(), all_patches.end(), point, ends_before);
-    return static_cast<unsigned int>(found - all_patches.begin());
+    const auto found       = std::lower_bound(patches.begin(), patches.end(), point, ends_before);
+    return static_cast<unsigned int>(found - patches.begin());
   }
 
   /// The closest patch of the undeformed face, or one beside it where the centre has hardly moved: a search of the tree costs as
@@ -148,7 +155,7 @@ namespace sprag
   template <int dim>
   unsigned int FacePatches<dim>::patch_below(const dealii::Point<dim> &centre) const
   {
-    if (known_patch >= all_patches.size() || centre.distance(known_centre) > all_patches[known_patch].length)
+    if (known_patch >= patches.size() || centre.distance(known_centre) > patches[known_patch].length)
     {
       known_centre = centre;
       known_patch  = tree->found(boost::geometry::index::nearest(centre, 1)).front();
@@ -168,9 +175,9 @@ namespace sprag
   {
     std::vector<unsigned int> result;
     for (const unsigned int patch : some)
-      for (unsigned int a = 0; a < all_patches[patch].n_nodes; ++a)
+      for (unsigned int a = 0; a < patches[patch].n_nodes; ++a)
         for (unsigned int d = 0; d < dim; ++d)
-          result.push_back(dim * all_patches[patch].nodes[a] + d);
+          result.push_back(dim * patches[patch].nodes[a] + d);
     std::sort(result.begin(), result.end());
     result.erase(std::unique(result.begin(), result.end()), result.end());
     return result;

@@ -52,8 +52,8 @@ namespace sprag
     explicit FacePatches(const FrictionFace<dim> &face);
     ~FacePatches();
 
-    const std::vector<Patch> &patches() const;
-    const std::vector<Point> &points() const;
+    const std::vector<Patch> patches;
+    const std::vector<Point> points;
 
     /// The patch's part of the displacements.
     using Nodal = std::array<double, dim * max_nodes>;
@@ -79,8 +79,6 @@ namespace sprag
     unsigned int patch_below(const dealii::Point<dim> &centre) const;
     void find_neighbours();
 
-    std::vector<Patch> all_patches;
-    std::vector<Point> all_points;
     std::unique_ptr<const Tree> tree;
     std::vector<Indices> neighbours; ///< of the patches: those that touch them
     Indices other_starts;            ///< of a face of several parts that do not touch: a patch of each
@@ -101,7 +99,7 @@ namespace sprag
   std::vector<unsigned int> FacePatches<dim>::find_near(const dealii::Point<dim> &centre, const Distance &distance) const
   {
     Indices found;
-    std::vector<bool> seen(all_patches.size());
+    std::vector<bool> seen(patches.size());
     unsigned int closest = 0;
     double least         = std::numeric_limits<double>::infinity();
     const auto search    = [&](unsigned int patch)

@@ -21,18 +21,17 @@ namespace sprag
                                const FaceContactProperties &properties_)
       : face(face_)
       , properties(properties_)
-      , slopes(face.points().size())
+      , slopes(face.points.size())
   {
     for (std::size_t k = 0; k < lever.edges.size(); ++k)
     {
-      const auto &of      = face.patches()[k];
+      const auto &of      = face.patches[k];
       const auto &nodes   = lever.edges[k].nodes;
       const double origin = nodes.front().position[0];
       const double length = nodes.back().position[0] - origin;
       for (unsigned int q = of.begin; q < of.end; ++q)
       {
-        const auto shapes =
-            edge_shapes(static_cast<unsigned int>(nodes.size()), (face.points()[q].position[0] - origin) / length);
+        const auto shapes = edge_shapes(static_cast<unsigned int>(nodes.size()), (face.points[q].position[0] - origin) / length);
         for (unsigned int a = 0; a < of.n_nodes; ++a)
           for (std::size_t node = 0; node < nodes.size(); ++node)
             if (nodes[node].index == of.nodes[a])
@@ -75,10 +74,10 @@ namespace sprag
   {
     const auto reach = [&](const unsigned int of_face)
     {
-      const auto &chosen = face.patches()[of_face];
+      const auto &chosen = face.patches[of_face];
       const auto nodal   = FacePatches<2>::nodal(chosen, *at.displacement);
-      const auto first   = FacePatches<2>::position(face.points()[chosen.begin], nodal);
-      const auto along   = FacePatches<2>::position(face.points()[chosen.end - 1], nodal) - first;
+      const auto first   = FacePatches<2>::position(face.points[chosen.begin], nodal);
+      const auto along   = FacePatches<2>::position(face.points[chosen.end - 1], nodal) - first;
       const auto contact = obstacle(place_of(first));
       return contact.gap + std::min(0., contact.gap_row[0] * along[0] + contact.gap_row[1] * along[1]) - 0.02 * chosen.length;
     };
@@ -88,7 +87,7 @@ namespace sprag
   void RigidObstacle::enter(const unsigned int of_face)
   {
     patch          = of_face;
-    at_end         = FacePatches<2>::nodal(face.patches()[patch], *places.end.displacement);
+    at_end         = FacePatches<2>::nodal(face.patches[patch], *places.end.displacement);
     begin_of_patch = places.moves() ? &begin_of(patch) : nullptr;
     touched        = false;
     values         = {};
@@ -98,7 +97,7 @@ namespace sprag
 
   bool RigidObstacle::place(FacePointState<2> &state)
   {
-    state.position = FacePatches<2>::position(face.points()[state.index], at_end);
+    state.position = FacePatches<2>::position(face.points[state.index], at_end);
     placed         = end(place_of(state.position));
     state.gap      = placed.gap;
     return true;
@@ -109,11 +108,11 @@ namespace sprag
     const auto [found, is_new] = begin_points.try_emplace(of_patch);
     if (is_new)
     {
-      const auto &chosen = face.patches()[of_patch];
+      const auto &chosen = face.patches[of_patch];
       const auto nodal   = FacePatches<2>::nodal(chosen, known_begin);
       for (unsigned int q = chosen.begin; q < chosen.end; ++q)
       {
-        const auto position = FacePatches<2>::position(face.points()[q], nodal);
+        const auto position = FacePatches<2>::position(face.points[q], nodal);
         const auto contact  = begin(place_of(position));
         found->second.push_back({ position, contact.gap, contact.slip });
       }
@@ -123,7 +122,7 @@ namespace sprag
 
   const RigidObstacle::BeginPoint &RigidObstacle::at_begin(const unsigned int point) const
   {
-    return (*begin_of_patch)[point - face.patches()[patch].begin];
+    return (*begin_of_patch)[point - face.patches[patch].begin];
   }
 
   double RigidObstacle::gap_at_begin(const unsigned int point) const
@@ -157,7 +156,7 @@ namespace sprag
 
   void RigidObstacle::step(FacePointState<2> &state, const ContactMemory &memory, const FaceStep &step, ContactSums &sums)
   {
-    const auto &point        = face.points()[state.index];
+    const auto &point        = face.points[state.index];
     const double slip_change = (begin_of_patch ? placed.slip - at_begin(state.index).slip : 0.) + step.surface_run;
     auto kinematics_of_step  = over_step(state, slip_change);
     SlipShift shift;
@@ -169,7 +168,7 @@ namespace sprag
                                                     [this](const unsigned int q)
                                                     {
                            const unsigned int of_patch = face.patch_of_point(q);
-                           return begin_of(of_patch)[q - face.patches()[of_patch].begin].slip;
+                           return begin_of(of_patch)[q - face.patches[of_patch].begin].slip;
                          });
       kinematics_of_step.slip_shift[0] = shift.total();
     }
@@ -186,32 +185,25 @@ namespace sprag
       add_slope(state.index, by_slope);
   }
 
-  /// Of a traction that changes with the slope of the slip along the face, as far as the face's direction goes with it.
+  /// Adds what a traction has in the tangent that changes with the slope of the slip along the face, as far as the face's
+  /// direction goes with it.
   void RigidObstacle::add_slope(const unsigned int index, const double traction_by_slope)
   {
-    const auto &point    = face.points()[index];
-    const auto &slip_row = placed.slip_row;
-    for (unsigned int b = 0; b < FacePatches<2>::max_nodes; ++b)
-      for (unsigned int e = 0; e < 2; ++e)
-      {
-        const double change       = point.weight * traction_by_slope * slip_row[e] * slopes[index][b];
-        const unsigned int column = 2 * b + e;
-        tangent[theta_index][column] -= slip_row[2] * change;
-        tangent[x_index][column] -= slip_row[3] * change;
-        for (unsigned int a = 0; a < FacePatches<2>::max_nodes; ++a)
-          for (unsigned int d = 0; d < 2; ++d)
-            tangent[2 * a + d][column] -= point.shapes[a] * slip_row[d] * change;
-      }
+    const auto &point = face.points[index];
+    Local slope;
+    for (unsigned int i = 0; i < theta_index; ++i)
+      slope[i] = point.weight * traction_by_slope * placed.slip_row[i % 2] * slopes[index][i / 2];
+    tangent -= outer_product(spread(point, placed.slip_row), slope);
   }
 
   void RigidObstacle::slide(FacePointState<2> &state, const SlidingState &sliding, const FrictionLaw &law, ContactSums &sums)
   {
-    const auto &point = face.points()[state.index];
+    const auto &point = face.points[state.index];
     double &speed     = state.slip_change[0];
     speed             = sliding.speed;
     if (sliding.rates != nullptr)
     {
-      const auto nodal = FacePatches<2>::nodal(face.patches()[patch], *sliding.rates);
+      const auto nodal = FacePatches<2>::nodal(face.patches[patch], *sliding.rates);
       const auto rate  = FacePatches<2>::position(point, nodal) - point.position;
       const auto &at   = properties.ports;
       speed += placed.slip_row[0] * rate[0] + placed.slip_row[1] * rate[1] +
@@ -233,18 +225,26 @@ namespace sprag
       friction.delays.push_back(delay_of(of, sliding.speed, rows(state)));
   }
 
+  /// A row over the point's coordinates, over those of the patch.
+  RigidObstacle::Local RigidObstacle::spread(const FacePatches<2>::Point &point, const Tensor<1, 4> &row)
+  {
+    Local result;
+    for (unsigned int i = 0; i < theta_index; ++i)
+      result[i] = point.shapes[i / 2] * row[i % 2];
+    result[theta_index] = row[2];
+    result[x_index]     = row[3];
+    return result;
+  }
+
   void RigidObstacle::add_force(const FacePatches<2>::Point &point, const Tensor<1, 4> &force)
   {
     touched = true;
-    values[theta_index] += point.weight * force[2];
-    values[x_index] += point.weight * force[3];
-    for (unsigned int i = 0; i < 2 * face.patches()[patch].n_nodes; ++i)
-      values[i] += point.weight * point.shapes[i / 2] * force[i % 2];
+    values += point.weight * spread(point, force);
   }
 
   void RigidObstacle::add_tangent(const FacePatches<2>::Point &point, const Tensor<2, 4> &of_point, LocalMatrix &sum) const
   {
-    const unsigned int n_nodes        = face.patches()[patch].n_nodes;
+    const unsigned int n_nodes        = face.patches[patch].n_nodes;
     constexpr unsigned int rest[2][2] = { { 2, theta_index }, { 3, x_index } };
     for (const auto &[i, row] : rest)
       for (const auto &[j, column] : rest)
@@ -265,16 +265,14 @@ namespace sprag
       }
   }
 
-  /// Coordinates of the patch that are ports. The support's moves the obstacle's position back.
-  std::vector<FaceCoordinate> RigidObstacle::ports() const
+  /// Coordinates of the patch that are ports.
+  PortCoordinates RigidObstacle::ports() const
   {
-    std::vector<FaceCoordinate> result;
-    const auto &of = face.patches()[patch];
+    PortCoordinates result;
+    const auto &of = face.patches[patch];
     for (unsigned int i = 0; i < 2 * of.n_nodes; ++i)
       result.push_back({ i, 2 * of.nodes[i / 2] + i % 2, 1. });
-    result.push_back({ theta_index, properties.ports.rotation(), 1. });
-    if (properties.ports.sprung)
-      result.push_back({ x_index, properties.ports.support(), -1. });
+    add_frame(properties.ports, theta_index, x_index, result);
     return result;
   }
 
@@ -286,28 +284,18 @@ namespace sprag
 
   FacePointRows RigidObstacle::rows(const FacePointState<2> &state) const
   {
-    const auto &point   = face.points()[state.index];
+    const auto &point   = face.points[state.index];
     const auto contact  = end(place_of(state.position));
     const auto of_patch = ports();
-    const auto n        = static_cast<unsigned int>(of_patch.size());
-    FacePointRows result{ point.weight, {}, Vector<double>(n), Vector<double>(n), Vector<double>(n) };
-    for (unsigned int i = 0; i < n; ++i)
-    {
-      const unsigned int c   = of_patch[i].index;
-      const double factor    = of_patch[i].sign * (c < theta_index ? point.shapes[c / 2] : 1.);
-      const unsigned int row = c < theta_index ? c % 2 : c - theta_index + 2;
-      result.ports.push_back(of_patch[i].port);
-      result.gap[i]  = factor * contact.gap_row[row];
-      result.slip[i] = factor * contact.slip_row[row];
-    }
-    return result;
+    return { point.weight, ports_of(of_patch), row_on_ports(of_patch, spread(point, contact.gap_row)),
+             row_on_ports(of_patch, spread(point, contact.slip_row)), row_on_ports(of_patch, Local()) };
   }
 
   double RigidObstacle::slip(const FacePointState<2> &state) const
   {
     if (!begin_of_patch)
       return 0.;
-    const auto position = FacePatches<2>::position(face.points()[state.index], at_end);
+    const auto position = FacePatches<2>::position(face.points[state.index], at_end);
     return end(place_of(position)).slip - at_begin(state.index).slip;
   }
 } // namespace sprag

@@ -50,6 +50,7 @@ namespace sprag
     static constexpr unsigned int n_local     = 2 * FacePatches<2>::max_nodes + 2;
     static constexpr unsigned int theta_index = 2 * FacePatches<2>::max_nodes;
     static constexpr unsigned int x_index     = theta_index + 1;
+    using Local                               = dealii::Tensor<1, n_local>;
     using LocalMatrix                         = dealii::Tensor<2, n_local>;
 
     /// A point where a step begins.
@@ -69,9 +70,10 @@ namespace sprag
 
     dealii::Tensor<1, 4> direction_of_face(unsigned int point) const;
     void add_slope(unsigned int point, double traction_by_slope);
+    static Local spread(const FacePatches<2>::Point &point, const dealii::Tensor<1, 4> &row);
     void add_force(const FacePatches<2>::Point &point, const dealii::Tensor<1, 4> &force);
     void add_tangent(const FacePatches<2>::Point &point, const dealii::Tensor<2, 4> &of_point, LocalMatrix &sum) const;
-    std::vector<FaceCoordinate> ports() const;
+    PortCoordinates ports() const;
 
     const FacePatches<2> &face;
     const FaceContactProperties &properties;
@@ -93,7 +95,7 @@ namespace sprag
     // Of the patch.
     const std::vector<BeginPoint> *begin_of_patch = nullptr; ///< none where beginning and end are one
     bool touched                                  = false;
-    dealii::Tensor<1, n_local> values;
+    Local values;
     LocalMatrix tangent;
     FrictionParts<LocalMatrix> friction;
   };
