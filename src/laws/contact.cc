@@ -34,8 +34,8 @@ namespace sprag
       double upper;
     };
 
-    /// Where the excess, positive at `lower`, first falls to zero between two knots, over which its derivative is monotone: it
-    /// changes its sign once in the bracket. Between two positive ends it may do so on both sides of a minimum.
+    /// Finds where the excess, positive at `lower`, first falls to zero between two knots, over which its derivative is monotone:
+    /// it changes its sign once in the bracket. Between two positive ends it may do so on both sides of a minimum.
     std::optional<Bracket> first_fall(const Excess &excess, const double lower, const double upper)
     {
       if (excess(upper) <= 0.)
@@ -55,7 +55,7 @@ namespace sprag
       return {};
     }
 
-    /// Around the lowest speed of slip.
+    /// Returns a bracket around the lowest speed of slip.
     Bracket bracket_of_slip(const Excess &excess)
     {
       const double fastest = excess.trial / excess.resistance;

@@ -36,7 +36,7 @@ namespace sprag
 
   EndDamping end_damping(double damping, double normal, double gap, double gap_rate);
 
-  /// What friction remembers from the end of the last step, over the slips of a point.
+  /// The memory of friction from the end of the last step, over the slips of a point.
   template <int slips>
   struct FrictionHistory
   {
@@ -45,6 +45,7 @@ namespace sprag
     double step = 0.;                    ///< its duration [s]
   };
 
+  /// Friction over a step, see end_friction().
   template <int slips>
   struct EndFriction
   {

@@ -8,7 +8,7 @@
 
 namespace sprag
 {
-  /// Absolute value of the largest change of a lever's gap by a small change of the ports.
+  /// Returns the absolute value of the largest change of a lever's gap by a small change of the ports [mm].
   template <class Contact>
   double largest_gap_change(const Contact &contact, const typename Contact::Evaluation &found,
                             const dealii::Vector<double> &change_of_ports)
@@ -19,7 +19,7 @@ namespace sprag
     return largest;
   }
 
-  /// Change of the gap that a complex change of the ports moves most.
+  /// Returns the change of the gap that a complex change of the ports moves most.
   template <class Contact>
   std::complex<double> largest_gap_change(const Contact &contact, const typename Contact::Evaluation &found,
                                           const ComplexVector &change_of_ports)
@@ -35,6 +35,7 @@ namespace sprag
     return largest;
   }
 
+  /// Adds the works of a contact to those of a step.
   inline void add_work(const StepWork &work, StepWork &sum)
   {
     sum.drive += work.drive;

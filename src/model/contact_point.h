@@ -18,7 +18,7 @@ namespace sprag
     dealii::Tensor<2, n> slip_curvature; ///< d2(slip)/dq2
   };
 
-  /// What a contact point remembers. In an accepted state: the values at the end of its step.
+  /// The memory of a contact point. In an accepted state these are the values at the end of its step.
   template <int slips>
   struct PointMemory
   {
@@ -30,7 +30,7 @@ namespace sprag
     dealii::Tensor<1, slips> slip_speed; ///< mean of the last step; 0 in stick and where there was no contact [mm/s]
     double step = 0.;                    ///< duration of the last step if it ended in contact, else 0 [s]
 
-    unsigned int point = 0; ///< of a face, where only points in contact are remembered
+    unsigned int point = 0; ///< index of the point in a face, where only points in contact are remembered
 
     FrictionHistory<slips> history() const
     {

@@ -9,7 +9,7 @@
 
 namespace sprag
 {
-  /// Where in a step the forces of its contact are balanced.
+  /// The place in a step where the forces of its contact are balanced.
   enum class ForceBalance
   {
     mean, ///< in time: between beginning and end, as the time integration does
@@ -95,7 +95,7 @@ namespace sprag
     PointMemory<slips> memory;
   };
 
-  /// What a contact point does in a step: its tractions at the end and its forces.
+  /// The response of a contact point to a step: its tractions at the end and its forces.
   template <int n, int slips = 1>
   struct StepResponse : PointTraction<slips>
   {

@@ -129,7 +129,7 @@ namespace sprag
                row_on_ports(places, found.sliding.coefficient * found.d_pressure), row_on_ports(places, d_traction_rate) } };
   }
 
-  /// Local coordinates that are ports.
+  /// Returns the local coordinates that are ports.
   PortCoordinates PointContact::ports(const unsigned int window) const
   {
     PortCoordinates result;

@@ -53,7 +53,7 @@ namespace sprag
     static constexpr bool stands_for_layer = true; ///< its springs are physical, not penalties
     static constexpr unsigned int levers   = 1;
 
-    /// What an evaluation found.
+    /// The result of an evaluation. The caller keeps it and may use it for the next one.
     class Evaluation
     {
     public:
@@ -94,26 +94,32 @@ namespace sprag
 
     explicit PointContact(PointContactProperties properties);
 
+    /// Evaluates a step in time.
     void evaluate(const PortStep &step, Evaluation &found) const;
+
+    /// Evaluates steady sliding.
     void evaluate_sliding(const SlidingState &state, Evaluation &found) const;
 
-    /// Evaluates as well; on the ports of the forces found.
+    /// Evaluates steady sliding and linearises its forces on their ports.
     PortPerturbation linearise(const SlidingState &state, Evaluation &found) const;
 
-    /// Ports that a contact at that drive position may reach: all.
+    /// Returns the ports that the contact may reach: all.
     const PortSelection &reachable_ports(double x, const OfLevers &theta) const;
     void widen_reach()
     {
     }
+    /// Evaluates the contact at rest without force.
     std::vector<ContactMemory> touch(const dealii::Vector<double> &ports, const DrivePoint &drive, Evaluation &found) const;
+    /// Returns by how much a small change of the ports changes the gap [mm].
     double gap_change(const Evaluation &found, const dealii::Vector<double> &change_of_ports, unsigned int lever = 0) const;
 
-    /// Slip in the middle between two configurations [mm].
+    /// Returns the slip from one configuration to another [mm].
     double mean_slip(const Evaluation &found, const dealii::Vector<double> &from, double from_x, const dealii::Vector<double> &to,
                      double to_x) const;
+    /// Fills the columns of a row that follow from the contact.
     void observe(const Evaluation &found, Row &row, unsigned int lever = 0) const;
 
-    /// Displacements of the ports along the lever.
+    /// Returns the displacements of the lever's surface that go with those of the ports.
     SurfaceShape surface_shape(const dealii::Vector<double> &displacements, unsigned int lever = 0) const;
 
     /// There is no friction face.

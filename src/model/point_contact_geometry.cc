@@ -96,7 +96,7 @@ namespace sprag
 
   namespace
   {
-    /// From the circle's centre to a point.
+    /// Returns the vector from the circle's centre to a point.
     Tensor<1, 2> arm_of(const Tensor<1, 2> &point, const LeverPoint &centre)
     {
       return point - Tensor<1, 2>({ centre.xi, centre.eta });

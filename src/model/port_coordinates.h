@@ -15,7 +15,8 @@ namespace sprag
 
   using PortCoordinates = std::vector<PortCoordinate>;
 
-  /// Adds the hub's rotation and, where the support is sprung, its displacement, which moves the obstacle's position x back.
+  /// Adds the coordinates of the pivot frame: the hub's rotation and, where the support is sprung, its displacement, which moves
+  /// the obstacle's position x back.
   inline void add_frame(const PortLayout &ports, const unsigned int theta_index, const unsigned int x_index,
                         PortCoordinates &result)
   {
@@ -24,6 +25,7 @@ namespace sprag
       result.push_back({ x_index, ports.support(), -1. });
   }
 
+  /// Returns the ports of the coordinates, in their order.
   inline std::vector<unsigned int> ports_of(const PortCoordinates &coordinates)
   {
     std::vector<unsigned int> result;
@@ -32,7 +34,7 @@ namespace sprag
     return result;
   }
 
-  /// What is given over the coordinates, over their ports.
+  /// Returns a row over the coordinates as one over their ports.
   template <class Row>
   dealii::Vector<double> row_on_ports(const PortCoordinates &coordinates, const Row &row)
   {
@@ -42,6 +44,7 @@ namespace sprag
     return result;
   }
 
+  /// Returns a matrix over the coordinates as one over their ports.
   template <class Matrix>
   dealii::FullMatrix<double> matrix_on_ports(const PortCoordinates &coordinates, const Matrix &matrix)
   {

@@ -110,8 +110,8 @@ namespace sprag
     return places.moves() ? facets_at_begin(patch).facets[point - first].gap : facet_at_end(point).gap;
   }
 
-  /// How far the cylinder's undeformed surface has run past a facet, from where its first node without load counts 0 against the
-  /// undeformed body. Beside the cylinder's face that of the undeformed body.
+  /// Returns how far the cylinder's undeformed surface has run past a facet, from where its first node without load counts 0
+  /// against the undeformed body. Beside the cylinder's face that of the undeformed body.
   double ElasticObstacle::slip_coordinate(const Facet &facet, const FaceConfiguration &at, const double of_first,
                                           const unsigned int point) const
   {
@@ -142,28 +142,28 @@ namespace sprag
     return 0.5 * (stretch_at_begin + facet_at_end(state.index).stretch) * (slip_at_end(state.index) - slip_at_begin(state.index));
   }
 
-  /// The facets of the patch beside one, of whose slips the slope is the difference.
+  /// Returns the facets of the patch beside one; the slope is the difference of their slips.
   std::array<unsigned int, 2> ElasticObstacle::neighbours(const unsigned int point) const
   {
     const auto &of = face.patches[patch];
     return { { std::max(point, of.begin + 1) - 1, std::min(point + 1, of.end - 1) } };
   }
 
-  /// Along the undeformed face, which the facets of a patch share evenly [mm].
+  /// Returns the distance of two facets along the undeformed face, which the facets of a patch share evenly [mm].
   double ElasticObstacle::distance(const unsigned int from, const unsigned int to) const
   {
     const auto &of = face.patches[patch];
     return of.length * (to - from) / (of.end - of.begin);
   }
 
-  /// Of the slip along the face [1].
+  /// Returns the slope of the slip along the face [1].
   double ElasticObstacle::slope(const unsigned int point) const
   {
     const auto [before, after] = neighbours(point);
     return before == after ? 1. : (slip_at_end(after) - slip_at_end(before)) / distance(before, after);
   }
 
-  /// Before the first forces of a patch.
+  /// Prepares the sums of a patch before its first forces.
   void ElasticObstacle::touch()
   {
     if (touched)
@@ -191,7 +191,7 @@ namespace sprag
     }
   }
 
-  /// Of the nodes of the patch.
+  /// Returns how the displacements of the patch's nodes change.
   Vector<double> ElasticObstacle::change(const Vector<double> &from, const Vector<double> &to) const
   {
     Vector<double> result(coordinates.size());
@@ -274,7 +274,7 @@ namespace sprag
                   tangent);
   }
 
-  /// How the traction on a facet changes with the slip's shift, by the stretch and by the slip's slope. Turning moves both
+  /// Adds how the traction on a facet changes with the slip's shift, by the stretch and by the slip's slope. Turning moves both
   /// neighbours alike.
   void ElasticObstacle::add_shift(const Facet &facet, const unsigned int point, const SlipShift &shift, const double d_shift)
   {
@@ -335,7 +335,7 @@ namespace sprag
     return result;
   }
 
-  /// Coordinates of the patch that are ports.
+  /// Returns the coordinates of the patch that are ports.
   PortCoordinates ElasticObstacle::ports() const
   {
     PortCoordinates result;
@@ -360,7 +360,7 @@ namespace sprag
     return rows_on_ports(facet);
   }
 
-  /// Rows that were found last.
+  /// Returns the rows that were found last, over ports.
   FacePointRows ElasticObstacle::rows_on_ports(const Facet &facet) const
   {
     const auto of_patch = ports();

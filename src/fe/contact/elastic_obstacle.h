@@ -7,9 +7,9 @@
 
 namespace sprag
 {
-  /// What FaceContact sees of an elastic cylinder below the lever's face, the interface of RigidObstacle. Points of the friction
-  /// face are facets, see FacePair: pressure and traction are those of the facet's mean gap and slip. Ports of the cylinder's
-  /// nodes follow those of the lever's.
+  /// An elastic cylinder below the lever's face, with the interface of RigidObstacle. The points of the friction face are facets,
+  /// see FacePair: pressure and traction are those of the facet's mean gap and slip. The ports of the cylinder's nodes follow
+  /// those of the lever's. Patches and points are indices in `face`.
   class ElasticObstacle
   {
   public:

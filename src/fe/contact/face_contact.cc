@@ -111,7 +111,7 @@ namespace sprag
     found.sums.work.drive -= found.sums.force_on_obstacle * (step.to.x - step.from.x);
   }
 
-  /// A mean over the step counts what was in contact when it began.
+  /// Finds the patches of a step. Where forces are means over the step, those in contact when it began belong to them.
   FacePatches<2>::Indices FaceContact::near_step(const std::vector<ContactMemory> &memory, const ForceBalance balance,
                                                  FaceEvaluation &found) const
   {
@@ -252,7 +252,7 @@ namespace sprag
     return reachable;
   }
 
-  /// Without a call of reachable_ports() all can be reached.
+  /// Leaves out the patches that reachable_ports() was not asked for. Before its first call all can be reached.
   FacePatches<2>::Indices FaceContact::clip(FacePatches<2>::Indices near, FaceEvaluation &found) const
   {
     found.within_reach = reachable.empty() || std::includes(reached.begin(), reached.end(), near.begin(), near.end());
@@ -290,7 +290,7 @@ namespace sprag
 
   namespace
   {
-    /// Of the points under pressure the one in the middle, else the closest.
+    /// Returns the point in the middle of those under pressure, or the closest one if there are none.
     const FacePointState<2> &middle_of_contact(const std::vector<FacePointState<2>> &points)
     {
       const auto is_closed = [](const auto &point) { return point.pressure > 0.; };

@@ -13,7 +13,7 @@
 
 namespace sprag
 {
-  /// What a step without inertia has beside ports, drive and memory. Its forces are those at its end.
+  /// The terms that a step without inertia has beside ports, drive and memory. Its forces are those at its end.
   struct StaticTerms
   {
     FrictionLaw friction; ///< of the step
@@ -40,36 +40,39 @@ namespace sprag
 
     using Evaluation = FaceEvaluation;
 
-    /// Without inertia the step's rates do not count.
+    /// Evaluates a step: in time, or without inertia, where the rates do not count.
     void evaluate(const PortStep &step, FaceEvaluation &found, const std::optional<StaticTerms> &statics = {}) const;
 
+    /// Evaluates steady sliding.
     void evaluate_sliding(const SlidingState &state, FaceEvaluation &found) const;
 
-    /// Evaluates as well; on the ports of the forces found. Friction delays at each point in contact.
+    /// Evaluates steady sliding and linearises its forces on their ports. Friction delays at each point in contact.
     PortPerturbation linearise(const SlidingState &state, FaceEvaluation &found) const;
 
-    /// Ports near the cylinder at x from the pivot frame's origin and inclination theta, far beyond the contact's width and where
-    /// it may have been `travel` before [mm]. Evaluations that follow look at those alone.
+    /// Returns the ports near the cylinder at x from the pivot frame's origin and inclination theta, far beyond the contact's
+    /// width and where it may have been `travel` before [mm]. Evaluations that follow look at those alone.
     const PortSelection &reachable_ports(double x, const OfLevers &theta, double travel = 0.);
 
-    /// Doubles how far they reach from the next call on, where an evaluation was not within them.
+    /// Doubles how far these ports reach, from their next call on. To be called where an evaluation was not within them.
     void widen_reach();
 
-    /// The contact at rest without force.
+    /// Evaluates the contact at rest without force.
     std::vector<ContactMemory> touch(const dealii::Vector<double> &ports, const DrivePoint &drive, FaceEvaluation &found) const;
 
     const ContactPenalties &penalties() const;
 
-    /// Change of the gap in the middle of the contact, or where it is smallest, by a small change of the ports.
+    /// Returns by how much a small change of the ports changes the gap in the middle of the contact, or where it is smallest
+    /// [mm].
     double gap_change(const FaceEvaluation &found, const dealii::Vector<double> &change_of_ports, unsigned int lever = 0) const;
 
-    /// Mean slip of the points in contact, weighted with their pressure, from one configuration to another [mm].
+    /// Returns the mean slip of the points in contact, weighted with their pressure, from one configuration to another [mm].
     double mean_slip(const FaceEvaluation &found, const dealii::Vector<double> &from, double from_x,
                      const dealii::Vector<double> &to, double to_x) const;
 
+    /// Fills the columns of a row that follow from the contact.
     void observe(const FaceEvaluation &found, Row &row, unsigned int lever = 0) const;
 
-    /// Displacements of the face's nodes.
+    /// Returns the displacements of the face's nodes.
     SurfaceShape surface_shape(const dealii::Vector<double> &displacements, unsigned int lever = 0) const;
     FacePoints face_points() const;
     FaceState face_state(const FaceEvaluation &found, const DrivePoint &drive) const;

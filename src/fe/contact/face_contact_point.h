@@ -42,12 +42,12 @@ namespace sprag
   /// Sets obstacle, centre and radius to it.
   void set_cylinder(const Geometry &geometry, FaceContactProperties &properties);
 
-  /// What an evaluation found at a point of the friction face, with its tractions at the end.
+  /// A point of the friction face in an evaluation, with its tractions at the end.
   template <int dim>
   struct FacePointState : PointTraction<dim - 1>
   {
-    unsigned int index = 0; ///< in FrictionFace::points
-    unsigned int patch = 0;
+    unsigned int index = 0;      ///< of the point in FrictionFace::points
+    unsigned int patch = 0;      ///< index in FrictionFace::patches
     dealii::Point<dim> position; ///< deformed, lever axes
     double gap            = 0.;
     double trial_pressure = 0.;             ///< lambda - eps g at the end: the pressure where positive [MPa]
@@ -72,11 +72,11 @@ namespace sprag
     double travel      = 0.; ///< of the contact along the lever in the step [mm]; 0: speeds are means
     double speed_ratio = 1.; ///< sliding speed of a rigid lever at the end over its mean; the law's duration is shorter by it
 
-    /// That of a point that was open is empty.
+    /// Returns the memory of a point of the face, by its index. That of a point that was open is empty.
     ContactMemory memory_of(unsigned int point) const;
   };
 
-  /// By how much more a point would slip in a step at the speed of its end, the ratio of speeds apart [mm].
+  /// The slip that a point would have more in a step at the speed of its end, the ratio of speeds apart [mm].
   struct SlipShift
   {
     double slip    = 0.;
@@ -89,12 +89,13 @@ namespace sprag
     }
   };
 
-  /// `slope`: of the slip coordinate along the face at the end of the step. `slip_at_begin`: slip coordinate of any point where
-  /// the step begins. No shift where the contact came from beyond the face.
+  /// Finds the shift of a point, given by its index in the face. `slope` is that of the slip coordinate along the face at the end
+  /// of the step, `slip_at_begin` tells the slip coordinate of any point, by its index, where the step begins. There is no shift
+  /// where the contact came from beyond the face.
   SlipShift slip_shift(const FacePatches<2> &face, unsigned int point, double slope, const FaceStep &step,
                        const std::function<double(unsigned int)> &slip_at_begin);
 
-  /// What friction has in the tangent of a patch that slides steadily, where it is wanted apart; see PortPerturbation.
+  /// Friction's part of the tangent of a patch that slides steadily, where it is wanted apart; see PortPerturbation.
   template <class Matrix>
   struct FrictionParts
   {
@@ -143,7 +144,7 @@ namespace sprag
     sums.loaded.push_back(std::move(forces));
   }
 
-  /// Where a step begins and ends, and at which share of it forces are balanced.
+  /// The places where a step begins and ends, and the share of it at which forces are balanced.
   struct StepPlaces
   {
     FaceConfiguration begin;
@@ -151,13 +152,13 @@ namespace sprag
     double balance  = 1.;
     bool static_end = false; ///< without inertia: forces are those of the end, whatever was before
 
-    /// Whether beginning and end differ.
+    /// Returns whether beginning and end differ.
     bool moves() const
     {
       return begin.displacement != end.displacement || begin.x != end.x;
     }
 
-    /// Whether the end is all that counts for the forces.
+    /// Returns whether the end is all that counts for the forces.
     bool balanced_at_end() const
     {
       return static_end || !moves();
@@ -169,15 +170,15 @@ namespace sprag
     }
   };
 
-  /// Whether a configuration is another, whose displacements are `displacement`.
+  /// Returns whether a configuration is another, whose displacements are `displacement`.
   inline bool is_same(const FaceConfiguration &at, const FaceConfiguration &other, const dealii::Vector<double> &displacement)
   {
     return at.x == other.x && at.theta == other.theta && displacement.size() == at.displacement->size() &&
            displacement == *at.displacement;
   }
 
-  /// What a point's response to a step is in state and sums, its forces apart. `run` [mm]: of the obstacle's surface at the
-  /// point.
+  /// Records a point's response to a step in its state and the sums, its forces apart. `run` [mm] is how far the obstacle's
+  /// surface runs at the point.
   template <int n>
   void record(const StepResponse<n> &response, const FaceStep &step, const ContactMemory &begin, const double slip_change,
               const double weight, const double run, FacePointState<2> &state, ContactSums &sums)
@@ -213,6 +214,6 @@ namespace sprag
   SlidingTangent slide(const FaceContactProperties &properties, const FrictionLaw &law, const SlidingState &sliding,
                        double weight, FacePointState<2> &state, ContactSums &sums);
 
-  /// Of a point with these rows.
+  /// Returns the delay of friction at a point with these rows.
   FrictionDelay delay_of(const SlidingTangent &of, double speed, const FacePointRows &rows);
 } // namespace sprag

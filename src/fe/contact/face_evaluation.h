@@ -5,7 +5,7 @@
 
 namespace sprag
 {
-  /// What an evaluation of a FaceContact found.
+  /// The result of an evaluation of a FaceContact. The caller keeps it and may use it for the next one.
   struct FaceEvaluation
   {
     dealii::Vector<double> displacement; ///< of the ports
@@ -16,30 +16,31 @@ namespace sprag
     std::vector<FacePointState<2>> points; ///< of the patches near the obstacle, by increasing point; those elsewhere are open
     PortForces forces;
 
-    /// Memory of the points in contact, increasing. Throws AnalysisError where there is an objection().
+    /// Returns the memory of the points in contact, by increasing point. Throws AnalysisError where there is an objection().
     std::vector<ContactMemory> memory() const;
 
-    /// Why the contact goes beyond what can touch; empty if it does not.
+    /// Tells why the contact goes beyond what can touch; empty if it does not.
     std::string objection() const;
 
+    /// Returns the works of the step.
     const StepWork &work() const
     {
       return sums.work;
     }
 
-    /// Energy of the contact springs [N mm].
+    /// Returns the energy of the contact springs [N mm].
     double energy() const
     {
       return sums.stored;
     }
 
-    /// Largest compression of the contact springs in the step, with multipliers p / penalty [mm].
+    /// Returns the largest compression of the contact springs in the step, with multipliers p / penalty [mm].
     double overlap() const
     {
       return sums.compression;
     }
 
-    /// Largest overlap of a point and the obstacle [mm].
+    /// Returns the largest overlap of a point and the obstacle [mm].
     double penetration() const;
   };
 } // namespace sprag

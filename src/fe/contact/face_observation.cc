@@ -98,14 +98,14 @@ namespace sprag
       return peak > 0. ? excess / peak : 0.;
     }
 
-    /// Of a point under pressure.
+    /// Friction at a point under pressure.
     struct PointFriction
     {
       double ratio = 0.; ///< of friction to pressure
       double mu    = 0.;
     };
 
-    /// Of every point; those without pressure take it from one beside them.
+    /// Returns the friction of every point; those without pressure take it from one beside them.
     std::vector<PointFriction> frictions(const std::vector<FacePointState<2>> &points)
     {
       const auto is_closed   = [](const FacePointState<2> &point) { return point.pressure > 0.; };
@@ -124,8 +124,8 @@ namespace sprag
       return result;
     }
 
-    /// What friction the recovered pressure takes along: in the ratio of each point, then as far towards mu p, either way, as
-    /// the resultant of the points asks, the same share of the way everywhere.
+    /// Returns the friction that the recovered pressure takes along: in the ratio of each point, then as far towards mu p, either
+    /// way, as the resultant of the points asks, the same share of the way everywhere.
     std::vector<double> recovered_traction(const FaceView &contact, const std::vector<double> &pressure)
     {
       const auto friction = frictions(contact.found.points);
@@ -147,7 +147,7 @@ namespace sprag
       return result;
     }
 
-    /// What a force on a point leaves on nodes that the hub does not hold.
+    /// Returns the share of a force on a point, by its index, that nodes take which the hub does not hold.
     double share_of_free_nodes(const FaceView &contact, const unsigned int point)
     {
       double share = 0.;

@@ -14,10 +14,10 @@ namespace sprag
   {
     constexpr double gauss_points[] = { 0.5 * (1. - 0.577350269189625764509), 0.5 * (1. + 0.577350269189625764509) };
 
-    /// What round-off leaves of a point at the end of a face, over the face's length.
+    /// The round-off of the place of a point at the end of a face, over the face's length.
     constexpr double round_off = 1e-10;
 
-    /// From the beginning of an edge to a place on it, by 3 Gauss points: exact to the fourth power of its angle.
+    /// Returns the arc from the beginning of an edge to a place on it, by 3 Gauss points: exact to the fourth power of its angle.
     double arc_to(const double place, const EdgeCurve &edge)
     {
       constexpr double off = 0.774596669241483377036;
@@ -133,13 +133,13 @@ namespace sprag
     return (position - at.nodes[vertex * degree]) * at.tangents[vertex];
   }
 
-  /// How far a position lies beside the whole chain, <= 0 above it.
+  /// Returns how far a position lies beside the whole chain, <= 0 above it [mm].
   double FacePair::outside(const Vector2 &position, const PairConfiguration &at) const
   {
     return std::max(-beyond(position, 0, at), beyond(position, static_cast<unsigned int>(chain.size()), at));
   }
 
-  /// To the edge below a position; from one to a neighbour at the near end.
+  /// Moves `place` to the edge below a position; from one edge to a neighbour at the near end.
   void FacePair::go_to(const Vector2 &position, const PairConfiguration &at, PairPlace &place) const
   {
     const unsigned int from = place.edge;
@@ -192,7 +192,7 @@ namespace sprag
     return point;
   }
 
-  /// Where along the lever's edge a vertex of the cylinder lies below it.
+  /// Finds where along the lever's edge a vertex of the cylinder lies below it.
   double FacePair::vertex_above(const unsigned int vertex, const EdgeCurve &curve, const PairConfiguration &at,
                                 const Segment &within) const
   {
@@ -209,7 +209,7 @@ namespace sprag
     return s;
   }
 
-  /// Its weight is the area over the lever's parameter.
+  /// Finds the point of the pair at a place on the lever. Its weight is the area over the lever's parameter.
   PairPoint FacePair::point_above(const LeverEdge &edge, const EdgeCurve &curve, const PairConfiguration &at,
                                   const double place_on_lever, PairPlace &place) const
   {
@@ -230,7 +230,7 @@ namespace sprag
     }
   }
 
-  /// At the vertex beyond the edge in `place`, which is left for the next.
+  /// Adds a cut at the vertex beyond the edge in `place`, which is left for the next.
   void FacePair::add_cut(const LeverEdge &edge, const EdgeCurve &curve, const PairConfiguration &at, const double place_on_lever,
                          PairPlace &place, PatchFacets &result) const
   {

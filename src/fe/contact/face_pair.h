@@ -27,7 +27,7 @@ namespace sprag
     std::array<double, 3> bends{}; ///< second derivatives
   };
 
-  /// Of 2 or 3 nodes in order.
+  /// Returns the polynomials of an edge of 2 or 3 nodes in order at a place from 0 to 1.
   EdgeShapes edge_shapes(unsigned int n_nodes, double place);
 
   /// An edge of 2 or 3 nodes in order as a parabola over 0 ... 1.
@@ -47,7 +47,7 @@ namespace sprag
     }
   };
 
-  /// Where both faces are.
+  /// The places of both faces.
   struct PairConfiguration
   {
     FaceConfiguration at;                       ///< displacements of the lever's nodes, then of the cylinder's
@@ -78,7 +78,7 @@ namespace sprag
     }
   };
 
-  /// Where a node between two edges of the cylinder lies below a facet. What its sides see differs by kinks.
+  /// A place of a facet below which a node between two edges of the cylinder lies. Its two sides differ by kinks.
   struct PairCut
   {
     PairPoint left, right;
@@ -100,7 +100,7 @@ namespace sprag
     unsigned int last_cut  = 0; ///< beyond
   };
 
-  /// Of a patch, in the order of the points of the friction face.
+  /// The facets of a patch, in the order of the points of the friction face.
   struct PatchFacets
   {
     std::vector<Facet> facets;

@@ -12,8 +12,8 @@
 
 namespace sprag
 {
-  /// Where the lever and the cylinder are: displacements of the face nodes (two entries a node, others may follow), rotation of
-  /// the hub and position of the cylinder from the pivot frame's origin.
+  /// The places of the lever and the cylinder: displacements of the face nodes (two entries a node, others may follow), rotation
+  /// of the hub and position of the cylinder from the pivot frame's origin.
   struct FaceConfiguration
   {
     const dealii::Vector<double> *displacement;
@@ -55,23 +55,24 @@ namespace sprag
     const std::vector<Patch> patches;
     const std::vector<Point> points;
 
-    /// The patch's part of the displacements.
+    /// The patch's part of the displacements of the face, dim entries a node.
     using Nodal = std::array<double, dim * max_nodes>;
     static Nodal nodal(const Patch &patch, const dealii::Vector<double> &displacement);
     static dealii::Point<dim> position(const Point &point, const Nodal &displacement);
 
-    /// Patches of the undeformed face that reach into a box, at least the one closest to its centre.
+    /// Returns the patches of the undeformed face that reach into a box, at least the one closest to its centre.
     Indices patches_in(const dealii::BoundingBox<dim> &box) const;
 
-    /// Patches whose distance from a convex body is negative, at least the closest one. On each part of the face they are sought
-    /// downhill, first from below the body's `centre`, then to all sides, as beyond the first patch out of reach the distance
-    /// only grows.
+    /// Returns the patches whose distance from a convex body is negative, at least the closest one. On each part of the face they
+    /// are sought downhill, first from below the body's `centre`, then to all sides, as beyond the first patch out of reach the
+    /// distance only grows.
     template <class Distance>
     Indices find_near(const dealii::Point<dim> &centre, const Distance &distance) const;
 
-    /// Indices of the displacements of the nodes of some patches, increasing.
+    /// Returns the indices of the displacements of the nodes of some patches, increasing.
     std::vector<unsigned int> displacements_of(const Indices &some) const;
 
+    /// Returns the index of the patch that holds a point, by its index.
     unsigned int patch_of_point(unsigned int point) const;
 
   private:

@@ -145,7 +145,7 @@ namespace sprag
     return result;
   }
 
-  /// Derivative of a deformed point's position along the undeformed face.
+  /// Returns the derivative of a deformed point's position along the undeformed face.
   Tensor<1, 4> RigidObstacle::direction_of_face(const unsigned int point) const
   {
     Tensor<1, 4> result({ 1., 0., 0., 0. });
@@ -225,7 +225,7 @@ namespace sprag
       friction.delays.push_back(delay_of(of, sliding.speed, rows(state)));
   }
 
-  /// A row over the point's coordinates, over those of the patch.
+  /// Returns a row over the point's coordinates as one over those of the patch.
   RigidObstacle::Local RigidObstacle::spread(const FacePatches<2>::Point &point, const Tensor<1, 4> &row)
   {
     Local result;
@@ -265,7 +265,7 @@ namespace sprag
       }
   }
 
-  /// Coordinates of the patch that are ports.
+  /// Returns the coordinates of the patch that are ports.
   PortCoordinates RigidObstacle::ports() const
   {
     PortCoordinates result;

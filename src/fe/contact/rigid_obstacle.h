@@ -6,7 +6,8 @@
 
 namespace sprag
 {
-  /// What FaceContact sees of a rigid obstacle below the lever's face. Per point: displacement along xi and eta, rotation,
+  /// A rigid obstacle below the lever's face, in two dimensions. FaceContact enters it with a step, then with one patch after the
+  /// other, by their indices in `face`. A point has four coordinates: its displacement along xi and eta, the rotation, and the
   /// position of the obstacle.
   class RigidObstacle
   {
@@ -28,19 +29,19 @@ namespace sprag
     /// touch it.
     bool place(FacePointState<2> &state);
 
-    /// Gap of a point of the patch at the beginning of the step [mm].
+    /// Returns the gap of a point of the patch, by its index in the face, at the beginning of the step [mm].
     double gap_at_begin(unsigned int point) const;
 
     /// Response of the point placed last to the step, and its forces.
     void step(FacePointState<2> &state, const ContactMemory &memory, const FaceStep &step, ContactSums &sums);
 
-    /// Of the point placed last, in contact, if it slides steadily.
+    /// Forces of the point placed last, in contact, that slides steadily.
     void slide(FacePointState<2> &state, const SlidingState &sliding, const FrictionLaw &law, ContactSums &sums);
 
     /// Adds the forces of the patch, if it has any.
     void leave(ContactSums &sums);
 
-    /// At the end of the step.
+    /// Returns the rows of a point of the patch at the end of the step.
     FacePointRows rows(const FacePointState<2> &state) const;
 
     /// Slip of a point of the patch from one configuration to the other of the step [mm].
