@@ -94,10 +94,13 @@ namespace sprag
   template <int dim>
   void FacePatches<dim>::find_neighbours()
   {
-    const auto &boxes = tree->boxes;
+    constexpr double same = 1e-6; ///< place of two nodes, over the length of a patch
+    const auto &boxes     = tree->boxes;
     for (unsigned int patch = 0; patch < boxes.size(); ++patch)
     {
-      auto touching = tree->found(boost::geometry::index::intersects(boxes[patch]));
+      auto box = boxes[patch];
+      box.extend(same * patches[patch].length);
+      auto touching = tree->found(boost::geometry::index::intersects(box));
       touching.erase(std::find(touching.begin(), touching.end(), patch));
       neighbours.push_back(std::move(touching));
     }
