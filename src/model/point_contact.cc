@@ -26,9 +26,11 @@ namespace sprag
     const auto balance = configure(found.window, share * q_1 + (1. - share) * q_0);
     const auto &end = found.end = configure(found.window, q_1);
 
-    auto k = step_to(end, end.slip);
+    StepKinematics<n> k;
     set_balance(balance, share, change, k);
     k.gap_begin          = gap(found.window, q_0);
+    k.gap_end            = end.gap;
+    k.gap_row_end        = end.gap_row;
     k.slip_change[0]     = balance.slip_row * change - delay * k.slip_bend[0];
     k.slip_change_row[0] = balance.slip_row + change * k.slip_curvature[0] -
                            delay * (balance.slip_curvature * change + change * balance.slip_curvature);
@@ -133,6 +135,7 @@ namespace sprag
   PortCoordinates PointContact::ports(const unsigned int window) const
   {
     PortCoordinates result;
+    result.reserve(n);
     for (unsigned int i = 0; i < n_nodal && properties.mesh.elements > 0; ++i)
       if (window + i / 2 > 0)
         result.push_back({ i, 2 * window + i - 2, 1. });
@@ -143,8 +146,12 @@ namespace sprag
   void PointContact::sum_forces(Evaluation &found) const
   {
     const auto places = ports(found.window);
-    found.forces      = { ports_of(places), row_on_ports(places, found.response.force),
-                          matrix_on_ports(places, found.response.tangent) };
+    auto &forces      = found.forces;
+    forces.values     = row_on_ports(places, found.response.force);
+    forces.tangent    = matrix_on_ports(places, found.response.tangent);
+    forces.ports.clear();
+    for (const auto &place : places)
+      forces.ports.push_back(place.port);
   }
 
   const PortSelection &PointContact::reachable_ports(double, const OfLevers &) const

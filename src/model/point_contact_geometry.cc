@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 namespace sprag
 {
@@ -28,11 +27,13 @@ namespace sprag
 
   struct PointContact::Surface
   {
-    unsigned int nodal = 0;          ///< first local coordinate of the element
-    std::optional<HermiteShapes> by; ///< deflection by its coordinates; none of a rigid lever
-    Tensor<1, 2> point;
-    Tensor<1, 2> tangent; ///< d(point)/dxi
-    Tensor<1, 2> bend;    ///< d2(point)/dxi2
+    unsigned int nodal; ///< first local coordinate of the element
+    double shape[4];    ///< deflection by them, and its derivatives along the lever
+    double slope[4];
+    double curvature[4];
+    LeverPoint point;
+    double tangent[2]; ///< d(point)/dxi
+    double bend[2];    ///< d2(point)/dxi2
   };
 
   /// Two elements around the point across from the circle's centre: the contact stays between their ends for a step.
@@ -68,40 +69,38 @@ namespace sprag
 
   PointContact::Surface PointContact::surface(const unsigned int window, const Local &q, const double xi) const
   {
-    Surface result;
+    Surface result{};
     const auto &mesh = properties.mesh;
     const double e   = properties.geometry.interface_offset;
     const double arm = e - properties.neutral_axis_offset;
     double w[4]      = { 0., 0., 0., 0. };
     if (mesh.elements > 0)
     {
-      const double h    = mesh.element_length();
-      const bool second = xi >= (window + 1) * h;
-      result.nodal      = second ? 2 : 0;
-      result.by.emplace(h, xi / h - window - (second ? 1. : 0.));
+      const double h          = mesh.element_length();
+      const bool second       = xi >= (window + 1) * h;
+      const double s          = xi / h - window - (second ? 1. : 0.);
+      const unsigned int base = second ? 2 : 0;
+      result.nodal            = base;
+      const HermiteShapes of(h, s);
       for (unsigned int a = 0; a < 4; ++a)
       {
-        const double value = q[result.nodal + a];
-        w[0] += result.by->shape[a] * value;
-        w[1] += result.by->slope[a] * value;
-        w[2] += result.by->curvature[a] * value;
-        w[3] += result.by->third[a] * value;
+        const double value  = q[base + a];
+        result.shape[a]     = of.shape[a];
+        result.slope[a]     = of.slope[a];
+        result.curvature[a] = of.curvature[a];
+        w[0] += of.shape[a] * value;
+        w[1] += of.slope[a] * value;
+        w[2] += of.curvature[a] * value;
+        w[3] += of.third[a] * value;
       }
     }
-    result.point   = Tensor<1, 2>({ xi - arm * w[1], e + w[0] });
-    result.tangent = Tensor<1, 2>({ 1. - arm * w[2], w[1] });
-    result.bend    = Tensor<1, 2>({ -arm * w[3], w[2] });
+    result.point      = { xi - arm * w[1], e + w[0] };
+    result.tangent[0] = 1. - arm * w[2];
+    result.tangent[1] = w[1];
+    result.bend[0]    = -arm * w[3];
+    result.bend[1]    = w[2];
     return result;
   }
-
-  namespace
-  {
-    /// Returns the vector from the circle's centre to a point.
-    Tensor<1, 2> arm_of(const Tensor<1, 2> &point, const LeverPoint &centre)
-    {
-      return point - Tensor<1, 2>({ centre.xi, centre.eta });
-    }
-  } // namespace
 
   /// Newton's method for (p - c) . p' = 0 from the point across from the circle's centre.
   double PointContact::closest(const unsigned int window, const Local &q) const
@@ -110,9 +109,12 @@ namespace sprag
     double xi    = c.xi;
     for (unsigned int i = 0; i < 20 && properties.mesh.elements > 0; ++i)
     {
-      const auto at       = surface(window, q, xi);
-      const auto r        = arm_of(at.point, c);
-      const double change = r * at.tangent / (at.tangent * at.tangent + r * at.bend);
+      const auto at      = surface(window, q, xi);
+      const double r[2]  = { at.point.xi - c.xi, at.point.eta - c.eta };
+      const double slope = r[0] * at.tangent[0] + r[1] * at.tangent[1];
+      const double d_slope =
+          at.tangent[0] * at.tangent[0] + at.tangent[1] * at.tangent[1] + r[0] * at.bend[0] + r[1] * at.bend[1];
+      const double change = slope / d_slope;
       xi -= change;
       if (std::abs(change) < 1e-12 * properties.geometry.pivot_distance)
         break;
@@ -122,15 +124,16 @@ namespace sprag
 
   double PointContact::gap(const unsigned int window, const Local &q) const
   {
-    const auto c = cylinder_centre(properties.geometry, q[x_index], q[theta_index]);
-    return arm_of(surface(window, q, closest(window, q)).point, c).norm() - properties.geometry.cylinder_radius;
+    const auto c     = cylinder_centre(properties.geometry, q[x_index], q[theta_index]);
+    const auto point = surface(window, q, closest(window, q)).point;
+    return std::hypot(point.xi - c.xi, point.eta - c.eta) - properties.geometry.cylinder_radius;
   }
 
   PointContact::Configuration PointContact::configure(const unsigned int window, const Local &q) const
   {
     const double xi   = closest(window, q);
     const auto at     = surface(window, q, xi);
-    const auto circle = moving_circle_contact(properties.geometry, { at.point[0], at.point[1] }, q[x_index], q[theta_index]);
+    const auto circle = moving_circle_contact(properties.geometry, at.point, q[x_index], q[theta_index]);
     const double arm  = properties.geometry.interface_offset - properties.neutral_axis_offset;
 
     // How the local coordinates move the material point, and how that changes along the lever.
@@ -143,8 +146,8 @@ namespace sprag
       for (unsigned int a = 0; a < 4; ++a, ++used)
       {
         index[used]  = at.nodal + a;
-        move[used]   = Tensor<1, 4>({ -arm * at.by->slope[a], at.by->shape[a], 0., 0. });
-        change[used] = Tensor<1, 4>({ -arm * at.by->curvature[a], at.by->slope[a], 0., 0. });
+        move[used]   = Tensor<1, 4>({ -arm * at.slope[a], at.shape[a], 0., 0. });
+        change[used] = Tensor<1, 4>({ -arm * at.curvature[a], at.slope[a], 0., 0. });
       }
     index[used]  = theta_index;
     move[used++] = Tensor<1, 4>({ 0., 0., 1., 0. });
@@ -165,7 +168,7 @@ namespace sprag
     }
 
     Configuration result;
-    result.along         = at.point[0];
+    result.along         = at.point.xi;
     result.gap           = circle.gap;
     result.gap_at_point  = circle.gap_row;
     result.slip_at_point = circle.slip_row;
