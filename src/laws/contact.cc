@@ -34,8 +34,8 @@ namespace sprag
       double upper;
     };
 
-    /// Where the excess, positive at `lower`, first falls to zero between two knots, over which its derivative is monotone: it
-    /// changes its sign once in the bracket. Between two positive ends it may do so on both sides of a minimum.
+    /// Finds where the excess, positive at `lower`, first falls to zero between two knots, over which its derivative is monotone:
+    /// it changes its sign once in the bracket. Between two positive ends it may do so on both sides of a minimum.
     std::optional<Bracket> first_fall(const Excess &excess, const double lower, const double upper)
     {
       if (excess(upper) <= 0.)
@@ -55,7 +55,7 @@ namespace sprag
       return {};
     }
 
-    /// Around the lowest speed of slip.
+    /// Returns a bracket around the lowest speed of slip.
     Bracket bracket_of_slip(const Excess &excess)
     {
       const double fastest = excess.trial / excess.resistance;
@@ -95,26 +95,44 @@ namespace sprag
     return trial > 0. ? NormalTraction{ trial, -penalty } : NormalTraction{ 0., 0. };
   }
 
-  FrictionTraction friction_traction(const double trial, const double pressure, const FrictionLaw &law, const double penalty,
-                                     const double dt, const double shift)
+  ConeReturn return_to_cone(const double trial, const double pressure, const FrictionLaw &law, const double penalty,
+                            const double dt, const double shift)
   {
-    const double size  = std::abs(trial);
-    const double mu_0  = friction_coefficient(law, 0.).coefficient;
-    const double sense = std::copysign(1., trial);
-    if (size <= mu_0 * pressure)
+    const double mu_0 = friction_coefficient(law, 0.).coefficient;
+    if (trial <= mu_0 * pressure)
       return { trial, 1., 0., mu_0, false };
 
-    const double shifted = size + sense * penalty * shift;
+    const double shifted = trial + penalty * shift;
     if (shifted <= mu_0 * pressure)
-      return { sense * mu_0 * pressure, 0., sense * mu_0, mu_0, true };
+      return { mu_0 * pressure, 0., mu_0, mu_0, true };
     const double resistance = penalty * dt;
     const auto mu           = friction_coefficient(law, slip_speed({ law, shifted, pressure, resistance }));
-    if (mu.coefficient * pressure > size)
+    if (mu.coefficient * pressure > trial)
       return { trial, 1., 0., mu.coefficient, false };
     const double rate  = mu.derivative * pressure / resistance;
     const double share = rate / (1. + rate);
-    return {
-      sense * mu.coefficient * pressure, share, sense * mu.coefficient / (1. + rate), mu.coefficient, true, penalty * share
-    };
+    return { mu.coefficient * pressure, share, mu.coefficient / (1. + rate), mu.coefficient, true, penalty * share };
   }
+
+  template <int slips>
+  FrictionTraction<slips> friction_traction(const dealii::Tensor<1, slips> &trial, const double pressure, const FrictionLaw &law,
+                                            const double penalty, const double dt, const dealii::Tensor<1, slips> &shift)
+  {
+    const Directed<slips> of(trial);
+    const auto &d    = of.direction;
+    const auto along = return_to_cone(of.size, pressure, law, penalty, dt, shift * d);
+    if (!along.slipping)
+      return { trial, dealii::unit_symmetric_tensor<slips>(), {}, along.mu, false, {} };
+    return { along.traction * d,
+             of.derivative(along.traction, along.d_trial, along.d_shift * shift),
+             along.d_pressure * d,
+             along.mu,
+             true,
+             along.d_shift * outer_product(d, d) };
+  }
+
+  template FrictionTraction<1> friction_traction(const dealii::Tensor<1, 1> &, double, const FrictionLaw &, double, double,
+                                                 const dealii::Tensor<1, 1> &);
+  template FrictionTraction<2> friction_traction(const dealii::Tensor<1, 2> &, double, const FrictionLaw &, double, double,
+                                                 const dealii::Tensor<1, 2> &);
 } // namespace sprag

@@ -2,6 +2,10 @@
 
 #include "laws/friction.h"
 
+#include <deal.II/base/point.h>
+#include <deal.II/base/symmetric_tensor.h>
+#include <deal.II/base/tensor.h>
+
 namespace sprag
 {
   /// Pressure p = max(0, lambda - eps g) of a unilateral contact, gap g [mm] positive when open, multiplier lambda [MPa],
@@ -14,10 +18,39 @@ namespace sprag
 
   NormalTraction normal_traction(double gap, double multiplier, double penalty);
 
-  /// Friction traction after the return to the cone.
-  struct FrictionTraction
+  /// A vector as its size and its direction; that of nothing is along the first axis.
+  template <int n>
+  struct Directed
   {
-    double traction;   ///< t [MPa], signed as the trial traction
+    using Vector = dealii::Tensor<1, n>;
+
+    explicit Directed(const Vector &vector)
+        : size(vector.norm())
+        , direction(vector / size)
+    {
+      if (!(size > 0.))
+        direction = dealii::Point<n>::unit_vector(0);
+    }
+
+    /// Derivative by the vector of `value` times its direction. `by_size` and `by_direction` are derivatives of the value; at
+    /// size 0 it is taken to grow from 0 alike in all directions.
+    dealii::Tensor<2, n> derivative(const double value, const double by_size, const Vector &by_direction) const
+    {
+      const auto along  = outer_product(direction, direction);
+      const auto across = dealii::unit_symmetric_tensor<n>() - along;
+      if (!(size > 0.))
+        return by_size * (along + across);
+      return by_size * along + (value / size) * across + outer_product(direction, across * by_direction) / size;
+    }
+
+    double size;
+    Vector direction;
+  };
+
+  /// Size of the friction traction after the return to the cone.
+  struct ConeReturn
+  {
+    double traction;   ///< t >= 0
     double d_trial;    ///< dt/dt_trial
     double d_pressure; ///< dt/dp
     double mu;         ///< coefficient at the slip speed
@@ -25,13 +58,31 @@ namespace sprag
     double d_shift = 0.; ///< dt/d(shift) [N/mm^3]
   };
 
-  /// Return mapping with the cone of the current pressure. In stick |t_trial| <= mu(0) p and t = t_trial. In slip t and the slip
-  /// speed w are solved together within the step of duration dt > 0 [s], eps > 0 being the tangential penalty [N/mm^3]:
-  ///   |t| = mu(w) p,   w = (|t_trial| - |t|) / (eps dt).
-  /// A decreasing mu(w) may have several solutions: then the one of the largest |t|, the first met when the trial load rises.
-  /// `shift` [mm], signed as the slip: what the slip of a step at the speed of its end is longer than the step's own, so that
-  ///   w = max(0, (|t_trial| - |t|) / eps + shift sgn t_trial) / dt;
-  /// |t| stays within |t_trial|.
-  FrictionTraction friction_traction(double trial, double pressure, const FrictionLaw &law, double penalty, double dt,
-                                     double shift = 0.);
+  /// Return mapping with the cone of the current pressure, of a trial traction >= 0. In stick t_trial <= mu(0) p and t = t_trial.
+  /// In slip t and the slip speed w are solved together within the step of duration dt > 0 [s], eps > 0 being the tangential
+  /// penalty [N/mm^3]:
+  ///   t = mu(w) p,   w = (t_trial - t) / (eps dt).
+  /// A decreasing mu(w) may have several solutions: then the one of the largest t, the first met when the trial load rises.
+  /// `shift` [mm] is by how much the slip of a step at the speed of its end is longer than the step's own, so that
+  ///   w = max(0, (t_trial - t) / eps + shift) / dt;
+  /// t stays below t_trial.
+  ConeReturn return_to_cone(double trial, double pressure, const FrictionLaw &law, double penalty, double dt, double shift = 0.);
+
+  /// Friction traction over the slips of a point, two on a surface and one in a plane, with derivatives.
+  template <int slips>
+  struct FrictionTraction
+  {
+    dealii::Tensor<1, slips> traction;
+    dealii::Tensor<2, slips> d_trial;
+    dealii::Tensor<1, slips> d_pressure;
+    double mu;
+    bool slipping;
+    dealii::Tensor<2, slips> d_shift; ///< [N/mm^3]
+  };
+
+  /// Returns a trial traction to the cone: its size by return_to_cone(), its direction stays. Of `shift` the part in that
+  /// direction counts.
+  template <int slips>
+  FrictionTraction<slips> friction_traction(const dealii::Tensor<1, slips> &trial, double pressure, const FrictionLaw &law,
+                                            double penalty, double dt, const dealii::Tensor<1, slips> &shift = {});
 } // namespace sprag

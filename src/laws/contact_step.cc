@@ -7,6 +7,8 @@
 
 namespace sprag
 {
+  using dealii::Tensor;
+
   namespace
   {
     double force(const NormalLaw &law, const double gap)
@@ -28,78 +30,65 @@ namespace sprag
       return gap < 0. ? -gap * force(law, gap) / (law.exponent + 1.) : 0.;
     }
 
-    /// Speed of slip at the end of a step from the means of this step and the last: w = scale * mean - offset.
+    /// Speed of slip along a direction at the end of a step from the means of this step and the last:
+    ///   w = scale * mean - offset . direction
+    template <int slips>
     struct Extrapolation
     {
-      double scale  = 1.;
-      double offset = 0.;
+      Extrapolation(const FrictionHistory<slips> &history, const Tensor<1, slips> &direction, const double dt)
+      {
+        if (history.step == 0. || history.slip_speed * direction < 0.)
+          return;
+        const double share = dt / (dt + history.step);
+        scale              = 1. + share;
+        offset             = share * history.slip_speed;
+      }
+
+      double scale = 1.;
+      Tensor<1, slips> offset;
     };
 
-    Extrapolation extrapolation(const FrictionHistory &history, const double direction, const double dt)
+    template <int slips>
+    EndFriction<slips> resolved(const FrictionHistory<slips> &history, const double stiffness,
+                                const Tensor<1, slips> &slip_change, const double pressure, const FrictionLaw &law,
+                                const double dt)
     {
-      const double before = history.slip_speed * direction;
-      if (history.step == 0. || before < 0.)
-        return {};
-      const double share = dt / (dt + history.step);
-      return { 1. + share, share * before };
-    }
-
-    EndFriction resolved(const FrictionHistory &history, const double stiffness, const double slip_change, const double pressure,
-                         const FrictionLaw &law, const double dt)
-    {
-      EndFriction result{};
-      const double trial = history.traction + stiffness * slip_change;
-      const double size  = std::abs(trial);
-      const double limit = friction_coefficient(law, 0.).coefficient;
-      result.mu          = limit;
-      if (size <= limit * pressure)
-      {
-        result.traction = trial;
-        result.d_slip   = stiffness;
-      }
-      else
-      {
-        const double direction = std::copysign(1., trial);
-        const auto speed       = extrapolation(history, direction, dt);
-        const double shifted   = size - speed.offset * stiffness * dt / speed.scale;
-        result.slipping        = true;
-        if (shifted <= limit * pressure)
-        {
-          result.traction   = direction * limit * pressure;
-          result.d_pressure = direction * limit;
-        }
-        else
-        {
-          const auto returned = friction_traction(shifted, pressure, law, stiffness, dt / speed.scale);
-          result.traction     = direction * returned.traction;
-          result.d_slip       = stiffness * returned.d_trial;
-          result.d_pressure   = direction * returned.d_pressure;
-          result.mu           = returned.mu;
-        }
-      }
-      const double slipped = slip_change - (result.traction - history.traction) / stiffness;
-      result.slip_speed    = result.slipping ? slipped / dt : 0.;
-      result.energy        = 0.5 * result.traction * result.traction / stiffness;
-      result.dissipated    = 0.5 * (history.traction + result.traction) * slipped;
+      const auto trial = history.traction + stiffness * slip_change;
+      const Extrapolation<slips> speed(history, Directed<slips>(trial).direction, dt);
+      const double duration = dt / speed.scale;
+      const auto returned   = friction_traction(trial, pressure, law, stiffness, duration, -duration * speed.offset);
+      const auto slipped    = slip_change - (returned.traction - history.traction) / stiffness;
+      EndFriction<slips> result;
+      result.traction   = returned.traction;
+      result.d_slip     = stiffness * returned.d_trial;
+      result.d_pressure = returned.d_pressure;
+      result.mu         = returned.mu;
+      result.slipping   = returned.slipping;
+      if (result.slipping)
+        result.slip_speed = slipped / dt;
+      result.energy     = 0.5 * result.traction.norm_square() / stiffness;
+      result.dissipated = 0.5 * (history.traction + result.traction) * slipped;
       return result;
     }
 
-    EndFriction regularised(const FrictionHistory &history, const double slip_change, const double pressure,
-                            const FrictionLaw &law, const double dt)
+    template <int slips>
+    EndFriction<slips> regularised(const FrictionHistory<slips> &history, const Tensor<1, slips> &slip_change,
+                                   const double pressure, const FrictionLaw &law, const double dt)
     {
-      EndFriction result{};
-      const double mean = slip_change / dt;
-      const auto along  = extrapolation(history, std::copysign(1., mean), dt);
-      const double w    = along.scale * mean - std::copysign(along.offset, mean);
+      EndFriction<slips> result;
+      result.slip_speed = slip_change / dt;
+      const Directed<slips> mean(result.slip_speed);
+      const Extrapolation<slips> along(history, mean.direction, dt);
+      const double w    = along.scale * mean.size - along.offset * mean.direction;
       const auto share  = sliding_friction(law, w);
-      result.traction   = share.coefficient * pressure;
-      result.d_slip     = pressure * share.derivative * along.scale / dt;
-      result.d_pressure = share.coefficient;
+      result.d_pressure = share.coefficient * mean.direction;
+      result.traction   = pressure * result.d_pressure;
+      result.d_slip =
+          pressure / dt * mean.derivative(share.coefficient, share.derivative * along.scale, -share.derivative * along.offset);
       result.mu         = friction_coefficient(law, std::abs(w)).coefficient;
       result.slipping   = true;
-      result.slip_speed = mean;
       result.dissipated = 0.5 * (history.traction + result.traction) * slip_change;
-      result.creep      = std::abs(mean) < law.regularisation_speed ? std::abs(slip_change) : 0.;
+      result.creep      = mean.size < law.regularisation_speed ? slip_change.norm() : 0.;
       return result;
     }
   } // namespace
@@ -142,15 +131,22 @@ namespace sprag
     return dashpot >= -normal ? EndDamping{ dashpot, 0., -damping } : EndDamping{ -normal, -1., 0. };
   }
 
-  EndFriction end_friction(const FrictionHistory &history, const double stiffness, const double slip_change,
-                           const double pressure, const FrictionLaw &law, const double dt)
+  template <int slips>
+  EndFriction<slips> end_friction(const FrictionHistory<slips> &history, const double stiffness,
+                                  const Tensor<1, slips> &slip_change, const double pressure, const FrictionLaw &law,
+                                  const double dt)
   {
     if (pressure > 0.)
       return law.regularisation_speed > 0. ? regularised(history, slip_change, pressure, law, dt)
                                            : resolved(history, stiffness, slip_change, pressure, law, dt);
-    EndFriction open{};
-    const double released = law.regularisation_speed > 0. ? 0. : history.traction / stiffness;
-    open.dissipated       = 0.5 * history.traction * (slip_change + released);
+    EndFriction<slips> open;
+    const auto released = law.regularisation_speed > 0. ? Tensor<1, slips>() : history.traction / stiffness;
+    open.dissipated     = 0.5 * history.traction * (slip_change + released);
     return open;
   }
+
+  template EndFriction<1> end_friction(const FrictionHistory<1> &, double, const Tensor<1, 1> &, double, const FrictionLaw &,
+                                       double);
+  template EndFriction<2> end_friction(const FrictionHistory<2> &, double, const Tensor<1, 2> &, double, const FrictionLaw &,
+                                       double);
 } // namespace sprag

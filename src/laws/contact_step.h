@@ -2,6 +2,8 @@
 
 #include "laws/friction.h"
 
+#include <deal.II/base/tensor.h>
+
 namespace sprag
 {
   /// Unilateral spring p = stiffness delta^exponent of the overlap delta = max(0, -gap).
@@ -34,25 +36,28 @@ namespace sprag
 
   EndDamping end_damping(double damping, double normal, double gap, double gap_rate);
 
-  /// What friction remembers from the end of the last step.
+  /// The memory of friction from the end of the last step, over the slips of a point.
+  template <int slips>
   struct FrictionHistory
   {
-    double traction   = 0.;
-    double slip_speed = 0.; ///< mean of the last step, signed; 0 after stick [mm/s]
-    double step       = 0.; ///< its duration [s]
+    dealii::Tensor<1, slips> traction;
+    dealii::Tensor<1, slips> slip_speed; ///< mean of the last step; 0 after stick [mm/s]
+    double step = 0.;                    ///< its duration [s]
   };
 
+  /// Friction over a step, see end_friction().
+  template <int slips>
   struct EndFriction
   {
-    double traction;
-    double d_slip;     ///< derivative by the change of slip
-    double d_pressure; ///< derivative by the pressure at the end
-    double mu;
-    bool slipping;
-    double slip_speed; ///< mean of the step, signed; 0 in stick
-    double energy;     ///< of the tangential spring at the end
-    double dissipated; ///< in the step
-    double creep;      ///< slip below the regularisation speed [mm]
+    dealii::Tensor<1, slips> traction;
+    dealii::Tensor<2, slips> d_slip;     ///< derivative by the change of slip
+    dealii::Tensor<1, slips> d_pressure; ///< derivative by the pressure at the end
+    double mu     = 0.;
+    bool slipping = false;
+    dealii::Tensor<1, slips> slip_speed; ///< mean of the step; 0 in stick
+    double energy     = 0.;              ///< of the tangential spring at the end
+    double dissipated = 0.;              ///< in the step
+    double creep      = 0.;              ///< slip below the regularisation speed [mm]
   };
 
   /// Traction over pressure where a contact slides, and its derivative by the slip speed.
@@ -66,8 +71,11 @@ namespace sprag
   SlidingFriction sliding_friction(const FrictionLaw &law, double speed);
 
   /// Friction at the end of a step of duration dt > 0 [s] in which the contact slips by `slip_change`: stick with a spring of the
-  /// given stiffness > 0, or slip with |t| = mu(w) p, where w is the slip speed at the end, extrapolated from this step and the
-  /// last (second order). With a regularisation speed v_r > 0 there is no stick: t = mu(|w|) p w / sqrt(w^2 + v_r^2).
-  EndFriction end_friction(const FrictionHistory &history, double stiffness, double slip_change, double pressure,
-                           const FrictionLaw &law, double dt);
+  /// given stiffness > 0, or slip with |t| = mu(w) p, where w is the slip speed at the end, extrapolated along t from this step
+  /// and the last (second order). With a regularisation speed v_r > 0 there is no stick: t = mu(|w|) p w / sqrt(w^2 + v_r^2)
+  /// along the mean slip.
+  template <int slips>
+  EndFriction<slips> end_friction(const FrictionHistory<slips> &history, double stiffness,
+                                  const dealii::Tensor<1, slips> &slip_change, double pressure, const FrictionLaw &law,
+                                  double dt);
 } // namespace sprag

@@ -8,7 +8,7 @@ namespace sprag
   {
     using Sample = MomentLaw::Sample;
 
-    /// Between two samples, in t = 0 ... 1.
+    /// The cubic between two samples, in t = 0 ... 1.
     struct Cubic
     {
       double width;
@@ -46,8 +46,8 @@ namespace sprag
       return std::clamp<std::size_t>(index, 1, samples.size() - 1) - 1;
     }
 
-    /// Between samples `inside`(cubic, place on it from 0 to 1, number of the sample before), beyond them `outside`(the last
-    /// sample on that side, turn beyond it, its number); 0 where there are none to go between.
+    /// Returns between samples `inside`(cubic, place on it from 0 to 1, number of the sample before), beyond them `outside`(the
+    /// last sample on that side, turn beyond it, its number); 0 where there are none to go between.
     template <class Inside, class Outside>
     double evaluated(const std::vector<Sample> &samples, const double turn, const Inside &inside, const Outside &outside)
     {

@@ -8,69 +8,40 @@
 
 namespace sprag
 {
-  // What a contact of one lever and that of a pair, see MirroredContact, are asked differently. `lever` is 0, or 1 of a pair.
-
-  /// At x from the pivot frame's origin and inclinations theta.
+  /// Returns the absolute value of the largest change of a lever's gap by a small change of the ports [mm].
   template <class Contact>
-  const PortSelection &reachable_ports(Contact &contact, const double x, const OfLevers &theta)
-  {
-    if constexpr (Contact::levers == 1)
-      return contact.reachable_ports(x, theta.front());
-    else
-      return contact.reachable_ports(x, theta);
-  }
-
-  template <class Contact>
-  double gap_change(const Contact &contact, [[maybe_unused]] const unsigned int lever,
-                    const dealii::Vector<double> &change_of_ports)
-  {
-    if constexpr (Contact::levers == 1)
-      return contact.gap_change(change_of_ports);
-    else
-      return contact.gap_change(change_of_ports, lever);
-  }
-
-  template <class Contact>
-  void observe_contact(const Contact &contact, [[maybe_unused]] const unsigned int lever, Row &row)
-  {
-    if constexpr (Contact::levers == 1)
-      contact.observe(row);
-    else
-      contact.observe(row, lever);
-  }
-
-  template <class Contact>
-  SurfaceShape surface_shape(const Contact &contact, [[maybe_unused]] const unsigned int lever,
-                             const dealii::Vector<double> &ports)
-  {
-    if constexpr (Contact::levers == 1)
-      return contact.surface_shape(ports);
-    else
-      return contact.surface_shape(ports, lever);
-  }
-
-  /// Absolute value of the largest change of a lever's gap by a small change of the ports.
-  template <class Contact>
-  double largest_gap_change(const Contact &contact, const dealii::Vector<double> &change_of_ports)
+  double largest_gap_change(const Contact &contact, const typename Contact::Evaluation &found,
+                            const dealii::Vector<double> &change_of_ports)
   {
     double largest = 0.;
     for (unsigned int lever = 0; lever < Contact::levers; ++lever)
-      largest = std::max(largest, std::abs(gap_change(contact, lever, change_of_ports)));
+      largest = std::max(largest, std::abs(contact.gap_change(found, change_of_ports, lever)));
     return largest;
   }
 
-  /// Change of the gap that a complex change of the ports moves most.
+  /// Returns the change of the gap that a complex change of the ports moves most.
   template <class Contact>
-  std::complex<double> largest_gap_change(const Contact &contact, const ComplexVector &change_of_ports)
+  std::complex<double> largest_gap_change(const Contact &contact, const typename Contact::Evaluation &found,
+                                          const ComplexVector &change_of_ports)
   {
     std::complex<double> largest;
     for (unsigned int lever = 0; lever < Contact::levers; ++lever)
     {
-      const std::complex<double> gap(gap_change(contact, lever, change_of_ports[0]),
-                                     gap_change(contact, lever, change_of_ports[1]));
+      const std::complex<double> gap(contact.gap_change(found, change_of_ports[0], lever),
+                                     contact.gap_change(found, change_of_ports[1], lever));
       if (std::abs(gap) > std::abs(largest))
         largest = gap;
     }
     return largest;
+  }
+
+  /// Adds the works of a contact to those of a step.
+  inline void add_work(const StepWork &work, StepWork &sum)
+  {
+    sum.drive += work.drive;
+    sum.friction += work.friction;
+    sum.damping += work.damping;
+    sum.algorithmic += work.algorithmic;
+    sum.creep += work.creep;
   }
 } // namespace sprag

@@ -6,36 +6,41 @@
 
 namespace sprag
 {
-  /// Geometry of one contact point in n local generalised coordinates q at a given drive position.
+  /// Geometry of one contact point of a plane in n local generalised coordinates q at a given drive position.
   template <int n>
   struct ContactKinematics
   {
-    double gap;                          ///< g [mm], positive when open
+    double gap = 0.;                     ///< g [mm], positive when open
     dealii::Tensor<1, n> gap_row;        ///< dg/dq
     dealii::Tensor<2, n> gap_curvature;  ///< d2g/dq2
-    double slip;                         ///< slip coordinate [mm]: its change is what the obstacle slides along the body
+    double slip = 0.;                    ///< slip coordinate [mm]: its change is what the obstacle slides along the body
     dealii::Tensor<1, n> slip_row;       ///< d(slip)/dq
     dealii::Tensor<2, n> slip_curvature; ///< d2(slip)/dq2
   };
 
-  /// What a contact point remembers. In an accepted state: the values at the end of its step.
-  struct ContactMemory
+  /// The memory of a contact point. In an accepted state these are the values at the end of its step.
+  template <int slips>
+  struct PointMemory
   {
-    double normal_multiplier = 0.; ///< lambda [MPa]; stays 0 in the penalty method
-    double traction          = 0.; ///< friction from which the stick predictor starts [MPa]; 0 while open
+    double normal_multiplier = 0.;     ///< lambda [MPa]; stays 0 in the penalty method
+    dealii::Tensor<1, slips> traction; ///< friction from which the stick predictor starts [MPa]; 0 while open
 
     // Steps in time only.
-    double damping    = 0.; ///< force of the dashpot at the end of the last step, per area at points of a face
-    double slip_speed = 0.; ///< mean of the last step, signed; 0 in stick and where there was no contact [mm/s]
-    double step       = 0.; ///< duration of the last step if it ended in contact, else 0 [s]
+    double damping = 0.;                 ///< force of the dashpot at the end of the last step, per area at points of a face
+    dealii::Tensor<1, slips> slip_speed; ///< mean of the last step; 0 in stick and where there was no contact [mm/s]
+    double step = 0.;                    ///< duration of the last step if it ended in contact, else 0 [s]
 
-    unsigned int point = 0; ///< of a face, where only points in contact are remembered
+    unsigned int point = 0; ///< index of the point in a face, where only points in contact are remembered
 
-    FrictionHistory history() const
+    FrictionHistory<slips> history() const
     {
       return { traction, slip_speed, step };
     }
   };
+
+  // In a plane a point slips one way.
+  using ContactMemory = PointMemory<1>;
+  using Slip          = dealii::Tensor<1, 1>;
 
   enum class FrictionMode
   {

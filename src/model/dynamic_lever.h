@@ -33,7 +33,7 @@ namespace sprag
         , frame(std::move(frame_))
         , coupling(frame.ports, frame.rest_inclination)
         , hub_spring(frame.ports, frame.spring, frame.joined)
-        , slides(*structure, *contact, frame, hub_spring)
+        , slides(*structure, *contact, found, frame, hub_spring)
     {
     }
 
@@ -80,8 +80,8 @@ namespace sprag
           rate = drifted.velocity;
           rate.add(weights.rate(), z, -weights.rate(), drifted.position);
         }
-        contact->evaluate(PortStep{ accepted.drive, accepted.contact, to, begin, z, rate, weights });
-        return hub_spring.add_forces(coupling.add_forces(contact->forces(), begin, z, weights), turned, turns_of(frame.ports, z),
+        contact->evaluate(PortStep{ accepted.drive, accepted.contact, to, begin, z, rate, weights }, found);
+        return hub_spring.add_forces(coupling.add_forces(found.forces, begin, z, weights), turned, turns_of(frame.ports, z),
                                      weights);
       };
 
@@ -90,11 +90,11 @@ namespace sprag
       const auto &last         = accepted.forces;
       add_response(structure->compliance(), last.ports, last.values, near, z);
       const auto solved = solve_ports(
-          structure->compliance(), free, frame.lengths, near, evaluate, [&] { return contact->overlap(); }, z);
+          structure->compliance(), free, frame.lengths, near, evaluate, [&] { return found.overlap(); }, z);
       outcome.iterations = solved.newton.iterations;
       if (!solved.newton.converged)
         return outcome;
-      if (!contact->within_reach())
+      if (!found.within_reach)
       {
         contact->widen_reach();
         return step(accepted, to, weights);
@@ -102,10 +102,10 @@ namespace sprag
 
       Motion motion = completed(structure->advance(accepted, *solved.forces, to), to, *solved.forces);
       structure->add_work(accepted, motion, outcome.work);
-      contact->add_work(outcome.work);
+      add_work(found.work(), outcome.work);
       coupling.add_work(begin, z, weights, outcome.work);
       hub_spring.add_work(turned, turns_of(frame.ports, z), weights, outcome.work);
-      outcome.error  = weights.wants_error ? largest_gap_change(*contact, structure->port_error(accepted, motion)) : 0.;
+      outcome.error  = weights.wants_error ? largest_gap_change(*contact, found, structure->port_error(accepted, motion)) : 0.;
       outcome.motion = std::move(motion);
       return outcome;
     }
@@ -137,7 +137,7 @@ namespace sprag
         auto change = structure->port_positions(structure->deform(*force));
         change -= slides.last_ports();
         const auto counts = [&](const unsigned int port)
-        { return std::abs(frame.lengths[port] * change[port]) > 1e-10 * contact->overlap(); };
+        { return std::abs(frame.lengths[port] * change[port]) > 1e-10 * found.overlap(); };
         if (std::none_of(force->ports.begin(), force->ports.end(), counts))
           break;
         round_off += change;
@@ -151,9 +151,9 @@ namespace sprag
       slide.ports    = slides.last_ports();
       slide.friction = friction;
       slide.speed    = ratio * sliding_speed(frame.geometries.front(), drive.x, drive.v);
-      slide.overlap  = contact->overlap();
+      slide.overlap  = found.overlap();
       Row row;
-      observe_contact(*contact, 0, row);
+      contact->observe(found, row, 0);
       slide.indentation = row[Column::indentation];
       slide.mu          = with_friction ? row[Column::mu] : 0.;
       slide.forces      = { row[Column::P], row[Column::Q] };
@@ -170,16 +170,16 @@ namespace sprag
 
     Motion perturbed(const HeldSlide &slide, const Eigenmode &eigenmode, const double amplitude) override
     {
-      contact->evaluate_sliding(sliding_state(slide));
-      const std::complex<double> size = amplitude / largest_gap_change(*contact, eigenmode.ports);
+      contact->evaluate_sliding(sliding_state(slide), found);
+      const std::complex<double> size = amplitude / largest_gap_change(*contact, found, eigenmode.ports);
       Motion motion                   = slide.motion;
       add_mode(size, eigenmode.mode, motion);
       dealii::Vector<double> ports = slide.ports;
       dealii::Vector<double> rates(ports.size());
       add_real_part(size, eigenmode.ports, ports);
       add_real_part(size * eigenmode.mode.eigenvalue, eigenmode.ports, rates);
-      contact->evaluate_sliding(SlidingState{ ports, slide.drive, slide.speed, &rates, slide.friction });
-      motion.contact = contact->memory();
+      contact->evaluate_sliding(SlidingState{ ports, slide.drive, slide.speed, &rates, slide.friction }, found);
+      motion.contact = found.memory();
       return motion;
     }
 
@@ -189,8 +189,8 @@ namespace sprag
       ModeShape result;
       for (unsigned int lever = 0; lever < frame.ports.levers; ++lever)
       {
-        const auto real      = surface_shape(*contact, lever, mode.ports[0]);
-        const auto imaginary = surface_shape(*contact, lever, mode.ports[1]);
+        const auto real      = contact->surface_shape(mode.ports[0], lever);
+        const auto imaginary = contact->surface_shape(mode.ports[1], lever);
         result.xi            = real.xi;
         result.levers.push_back(
             { { { real.along, imaginary.along } }, { { real.across, imaginary.across } }, port(frame.ports.rotation(lever)) });
@@ -202,9 +202,9 @@ namespace sprag
     StoredEnergy stored_energy(const Motion &motion) const override
     {
       StoredEnergy energy = structure->stored_energy(motion);
-      (Contact::stands_for_layer ? energy.elastic : energy.contact) += contact->energy();
+      (Contact::stands_for_layer ? energy.elastic : energy.contact) += found.energy();
       if (Contact::stands_for_layer)
-        energy.layer = contact->energy();
+        energy.layer = found.energy();
       energy.spring += hub_spring.energy(turns(motion));
       if (frame.ports.sprung)
         energy.kinetic += coupling.kinetic_energy(structure->port_kinematics(motion));
@@ -236,12 +236,13 @@ namespace sprag
 
     FaceState face_state(const Motion &motion) const override
     {
-      return contact->face_state(motion.drive);
+      return contact->face_state(found, motion.drive);
     }
 
   private:
     const std::unique_ptr<Structure> structure;
     const std::unique_ptr<Contact> contact;
+    typename Contact::Evaluation found; ///< of the last step or equilibrium
     const LeverFrame frame;
     FrameCoupling coupling;
     HubSpringExcess hub_spring;
@@ -266,7 +267,7 @@ namespace sprag
       const auto hub          = structure->port_state(motion, frame.ports.rotation(lever));
       row[Column::theta]      = frame.rest_inclination + hub.position;
       row[Column::theta_rate] = hub.velocity;
-      observe_contact(*contact, lever, row);
+      contact->observe(found, row, lever);
       row[Column::centre_offset] = row[Column::s] - cylinder_centre(frame.geometries[lever], x, row[Column::theta]).xi;
       if (frame.ports.sensors == 0)
         return;
@@ -282,7 +283,7 @@ namespace sprag
     const PortSelection &reachable_ports(const Motion &motion) const
     {
       const double u = frame.ports.sprung ? structure->port_state(motion, frame.ports.support()).position : 0.;
-      return sprag::reachable_ports(*contact, motion.drive.x - u, inclinations(turns(motion)));
+      return contact->reachable_ports(motion.drive.x - u, inclinations(turns(motion)));
     }
 
     /// Touching at x = 0. Further on as slowly slid there from x = 0, with friction as in a motion forward and mu at rest.
@@ -295,14 +296,14 @@ namespace sprag
       // A cylinder out of the mirror plane presses on one lever from the beginning.
       if (frame.ports.levers == 2 && overlaps(structure->port_positions(motion), drive))
         return pressed_at_rest(drive, ContactFriction::none);
-      motion.contact = contact->touch(structure->port_positions(motion), drive);
+      motion.contact = contact->touch(structure->port_positions(motion), drive, found);
       return motion;
     }
 
     bool overlaps(const dealii::Vector<double> &ports, const DrivePoint &drive)
     {
-      contact->evaluate_sliding(SlidingState{ ports, drive, 1., nullptr, ContactFriction::none });
-      return contact->overlap() > 1e-9 * frame.geometries.front().cylinder_radius;
+      contact->evaluate_sliding(SlidingState{ ports, drive, 1., nullptr, ContactFriction::none }, found);
+      return found.overlap() > 1e-9 * frame.geometries.front().cylinder_radius;
     }
 
     Motion pressed_at_rest(const DrivePoint &drive, const ContactFriction friction)
@@ -317,7 +318,7 @@ namespace sprag
     SlidingForces observed_forces() const
     {
       Row row;
-      observe_contact(*contact, 0, row);
+      contact->observe(found, row, 0);
       return { row[Column::P], row[Column::Q] };
     }
 
@@ -331,8 +332,8 @@ namespace sprag
     {
       const auto turns_of_slide = turns_of(frame.ports, slide.ports);
       const auto theta          = inclinations(turns_of_slide);
-      sprag::reachable_ports(*contact, slide.drive.x, theta);
-      const auto of_contact = in_contact ? contact->linearise(sliding_state(slide)) : PortPerturbation();
+      contact->reachable_ports(slide.drive.x, theta);
+      const auto of_contact = in_contact ? contact->linearise(sliding_state(slide), found) : PortPerturbation();
       auto ports            = of_contact.ports;
       for (const auto &others : { coupling.coupled_ports(), hub_spring.loaded_ports() })
         ports.insert(ports.end(), others.begin(), others.end());
@@ -367,7 +368,7 @@ namespace sprag
     Motion completed(Motion motion, const DrivePoint &drive, const PortForces &forces) const
     {
       motion.drive   = drive;
-      motion.contact = contact->memory();
+      motion.contact = found.memory();
       motion.forces  = { forces.ports, forces.values };
       return motion;
     }

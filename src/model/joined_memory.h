@@ -10,6 +10,7 @@ namespace sprag
   // Contact memories of both levers of a pair in one list: entries of the second lever are numbered after all of the first's,
   // which has `points` contact points.
 
+  /// Returns the entries of one lever, with the numbers that its points have alone.
   inline std::vector<ContactMemory> memory_of_lever(const unsigned int lever, const unsigned int points,
                                                     const std::vector<ContactMemory> &of_pair)
   {
@@ -23,6 +24,7 @@ namespace sprag
     return result;
   }
 
+  /// Joins the entries of both levers.
   inline std::vector<ContactMemory> joined_memory(const unsigned int points,
                                                   const std::array<std::vector<ContactMemory>, 2> &of_levers)
   {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "model/contact_of_levers.h"
 #include "model/joined_memory.h"
 #include "model/joined_ports.h"
 #include "model/linearisation.h"
@@ -21,6 +22,34 @@ namespace sprag
     static constexpr bool stands_for_layer = Contact::stands_for_layer;
     static constexpr unsigned int levers   = 2;
 
+    /// What an evaluation found.
+    struct Evaluation
+    {
+      std::array<typename Contact::Evaluation, 2> of_lever;
+      PortForces forces;
+      bool within_reach   = true;
+      unsigned int points = 0; ///< of a lever, see joined_memory()
+
+      std::vector<ContactMemory> memory() const
+      {
+        return joined_memory(points, { { of_lever[0].memory(), of_lever[1].memory() } });
+      }
+      StepWork work() const
+      {
+        StepWork result = of_lever[0].work();
+        add_work(of_lever[1].work(), result);
+        return result;
+      }
+      double energy() const
+      {
+        return of_lever[0].energy() + of_lever[1].energy();
+      }
+      double overlap() const
+      {
+        return std::max(of_lever[0].overlap(), of_lever[1].overlap());
+      }
+    };
+
     /// `layout` is the pair's; memories of a contact number fewer than `points`.
     MirroredContact(std::array<std::unique_ptr<Contact>, 2> contacts, const PortLayout &layout_, const unsigned int points_)
         : contact(std::move(contacts))
@@ -29,7 +58,7 @@ namespace sprag
     {
     }
 
-    void evaluate(const PortStep &step)
+    void evaluate(const PortStep &step, Evaluation &found) const
     {
       for (unsigned int lever = 0; lever < levers; ++lever)
       {
@@ -38,22 +67,25 @@ namespace sprag
                                ports_of(lever, step.begin.acceleration) };
         const auto end  = ports_of(lever, step.end);
         const auto rate = ports_of(lever, step.end_rate);
-        contact[lever]->evaluate(PortStep{ step.from, memory, step.to, begin, end, rate, step.weights });
+        contact[lever]->evaluate(PortStep{ step.from, memory, step.to, begin, end, rate, step.weights }, found.of_lever[lever]);
       }
-      join_forces();
+      join(found);
     }
 
-    void evaluate_sliding(const SlidingState &state)
+    void evaluate_sliding(const SlidingState &state, Evaluation &found) const
     {
-      of_levers(state, [&](const unsigned int lever, const SlidingState &own) { contact[lever]->evaluate_sliding(own); });
+      of_levers(state, found,
+                [&](const unsigned int lever, const SlidingState &own)
+                { contact[lever]->evaluate_sliding(own, found.of_lever[lever]); });
     }
 
-    PortPerturbation linearise(const SlidingState &state)
+    PortPerturbation linearise(const SlidingState &state, Evaluation &found) const
     {
       std::array<PortPerturbation, 2> own;
-      of_levers(state,
-                [&](const unsigned int lever, const SlidingState &sliding) { own[lever] = contact[lever]->linearise(sliding); });
-      PortPerturbation result(joined.ports);
+      of_levers(state, found,
+                [&](const unsigned int lever, const SlidingState &sliding)
+                { own[lever] = contact[lever]->linearise(sliding, found.of_lever[lever]); });
+      PortPerturbation result(found.forces.ports);
       for (unsigned int lever = 0; lever < levers; ++lever)
       {
         for (auto &port : own[lever].ports)
@@ -63,26 +95,16 @@ namespace sprag
       return result;
     }
 
-    const PortForces &forces() const
-    {
-      return joined;
-    }
-
     const PortSelection &reachable_ports(const double x, const OfLevers &theta)
     {
       reachable.clear();
       for (unsigned int lever = 0; lever < levers; ++lever)
-        for (const unsigned int port : contact[lever]->reachable_ports(x, theta[lever]))
+        for (const unsigned int port : contact[lever]->reachable_ports(x, { { theta[lever] } }))
           if (port < layout.of_a_lever())
             reachable.push_back(layout.first(lever) + port);
       if (layout.sprung)
         reachable.push_back(layout.support());
       return reachable;
-    }
-
-    bool within_reach() const
-    {
-      return contact[0]->within_reach() && contact[1]->within_reach();
     }
 
     void widen_reach()
@@ -91,48 +113,30 @@ namespace sprag
         of_lever->widen_reach();
     }
 
-    std::vector<ContactMemory> memory() const
+    std::vector<ContactMemory> touch(const dealii::Vector<double> &ports, const DrivePoint &drive, Evaluation &found) const
     {
-      return joined_memory(points, { { contact[0]->memory(), contact[1]->memory() } });
+      std::array<std::vector<ContactMemory>, 2> memory;
+      for (unsigned int lever = 0; lever < levers; ++lever)
+        memory[lever] = contact[lever]->touch(ports_of(lever, ports), drive, found.of_lever[lever]);
+      join(found);
+      return joined_memory(points, memory);
     }
 
-    std::vector<ContactMemory> touch(const dealii::Vector<double> &ports, const DrivePoint &drive)
+    double gap_change(const Evaluation &found, const dealii::Vector<double> &change_of_ports, const unsigned int lever) const
     {
-      return joined_memory(points,
-                           { { contact[0]->touch(ports_of(0, ports), drive), contact[1]->touch(ports_of(1, ports), drive) } });
-    }
-
-    void add_work(StepWork &work) const
-    {
-      for (const auto &of_lever : contact)
-        of_lever->add_work(work);
-    }
-
-    double energy() const
-    {
-      return contact[0]->energy() + contact[1]->energy();
-    }
-
-    double overlap() const
-    {
-      return std::max(contact[0]->overlap(), contact[1]->overlap());
-    }
-
-    double gap_change(const dealii::Vector<double> &change_of_ports, const unsigned int lever) const
-    {
-      return contact[lever]->gap_change(ports_of(lever, change_of_ports));
+      return contact[lever]->gap_change(found.of_lever[lever], ports_of(lever, change_of_ports));
     }
 
     /// Mean slip of the first lever [mm].
-    double mean_slip(const dealii::Vector<double> &from, const double from_x, const dealii::Vector<double> &to,
-                     const double to_x) const
+    double mean_slip(const Evaluation &found, const dealii::Vector<double> &from, const double from_x,
+                     const dealii::Vector<double> &to, const double to_x) const
     {
-      return contact[0]->mean_slip(ports_of(0, from), from_x, ports_of(0, to), to_x);
+      return contact[0]->mean_slip(found.of_lever[0], ports_of(0, from), from_x, ports_of(0, to), to_x);
     }
 
-    void observe(Row &row, const unsigned int lever) const
+    void observe(const Evaluation &found, Row &row, const unsigned int lever) const
     {
-      contact[lever]->observe(row);
+      contact[lever]->observe(found.of_lever[lever], row);
     }
 
     SurfaceShape surface_shape(const dealii::Vector<double> &displacements, const unsigned int lever) const
@@ -145,16 +149,15 @@ namespace sprag
     {
       return contact[0]->face_points();
     }
-    FaceState face_state(const DrivePoint &drive) const
+    FaceState face_state(const Evaluation &found, const DrivePoint &drive) const
     {
-      return joined_faces(contact[0]->face_state(drive), contact[1]->face_state(drive));
+      return joined_faces(contact[0]->face_state(found.of_lever[0], drive), contact[1]->face_state(found.of_lever[1], drive));
     }
 
   private:
     const std::array<std::unique_ptr<Contact>, 2> contact;
     const PortLayout layout;
     const unsigned int points;
-    PortForces joined;
     PortSelection reachable;
 
     dealii::Vector<double> ports_of(const unsigned int lever, const dealii::Vector<double> &of_pair) const
@@ -164,7 +167,7 @@ namespace sprag
 
     /// Evaluates both contacts, each at its own ports.
     template <class Evaluate>
-    void of_levers(const SlidingState &state, const Evaluate &evaluate)
+    void of_levers(const SlidingState &state, Evaluation &found, const Evaluate &evaluate) const
     {
       for (unsigned int lever = 0; lever < levers; ++lever)
       {
@@ -173,12 +176,15 @@ namespace sprag
         evaluate(lever,
                  SlidingState{ ports, state.drive, state.speed, state.rates != nullptr ? &rates : nullptr, state.friction });
       }
-      join_forces();
+      join(found);
     }
 
-    void join_forces()
+    void join(Evaluation &found) const
     {
-      joined = joined_forces(layout, { &contact[0]->forces(), &contact[1]->forces() });
+      const auto &of     = found.of_lever;
+      found.forces       = joined_forces(layout, { &of[0].forces, &of[1].forces });
+      found.within_reach = of[0].within_reach && of[1].within_reach;
+      found.points       = points;
     }
   };
 } // namespace sprag

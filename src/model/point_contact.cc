@@ -15,224 +15,170 @@ namespace sprag
   {
   }
 
-  StepKinematics<PointContact::n> PointContact::step_kinematics(const PortStep &step, const Local &end_rates)
+  StepKinematics<PointContact::n> PointContact::step_kinematics(const PortStep &step, const Local &end_rates,
+                                                                Evaluation &found) const
   {
-    const Local q_0    = coordinates(step.begin.position, step.from.x);
-    const Local q_1    = coordinates(step.end, step.to.x);
+    const Local q_0    = coordinates(found.window, step.begin.position, step.from.x);
+    const Local q_1    = coordinates(found.window, step.end, step.to.x);
     const Local change = q_1 - q_0;
     const double share = step.weights.stiffness();
-    const auto balance = configure(share * q_1 + (1. - share) * q_0);
-    end                = configure(q_1);
+    const double delay = step.weights.delay();
+    const auto balance = configure(found.window, share * q_1 + (1. - share) * q_0);
+    const auto &end = found.end = configure(found.window, q_1);
 
     StepKinematics<n> k;
-    k.gap_begin       = gap(q_0);
-    k.gap_end         = end.gap;
-    k.gap_row_end     = end.gap_row;
-    k.gap_row         = balance.gap_row;
-    k.gap_curvature   = share * balance.gap_curvature;
-    k.gap_bend        = change * (balance.gap_curvature * change);
-    k.slip_row        = balance.slip_row;
-    k.slip_curvature  = share * balance.slip_curvature;
-    k.slip_bend       = change * (balance.slip_curvature * change);
-    k.slip_change     = balance.slip_row * change - step.weights.delay() * k.slip_bend;
-    k.slip_change_row = balance.slip_row + change * k.slip_curvature -
-                        step.weights.delay() * (balance.slip_curvature * change + change * balance.slip_curvature);
+    set_balance(balance, share, change, k);
+    k.gap_begin          = gap(found.window, q_0);
+    k.gap_end            = end.gap;
+    k.gap_row_end        = end.gap_row;
+    k.slip_change[0]     = balance.slip_row * change - delay * k.slip_bend[0];
+    k.slip_change_row[0] = balance.slip_row + change * k.slip_curvature[0] -
+                           delay * (balance.slip_curvature * change + change * balance.slip_curvature);
     k.gap_rate_end = end.gap_row * end_rates;
     k.gap_rate_row = step.weights.rate() * end.gap_row + end.gap_curvature * end_rates;
     return k;
   }
 
-  void PointContact::evaluate(const PortStep &step)
+  void PointContact::evaluate(const PortStep &step, Evaluation &found) const
   {
-    choose_window(step.begin.position, step.from.x);
-    const Local end_rates = rates(step.end_rate, step.to.v);
+    found.window          = window_at(step.begin.position, step.from.x);
+    const Local end_rates = rates(found.window, step.end_rate, step.to.v);
     const double surface  = step.to.surface - step.from.surface;
-    auto kinematics       = step_kinematics(step, end_rates);
-    kinematics.slip_change += surface;
+    auto kinematics       = step_kinematics(step, end_rates, found);
+    kinematics.slip_change[0] += surface;
     StepContactLaw law;
     law.normal            = properties.normal;
     law.damping           = properties.damping;
     law.tangential        = properties.tangential;
     law.friction          = friction_of_step(properties.friction, step.to.v);
     law.weights           = step.weights;
+    auto &response        = found.response;
     response              = step_response(kinematics, step.memory.front(), law);
-    slip_rate             = end.slip_row * end_rates + surface / step.weights.dt;
-    const double of_drive = -response.force[x_index] * (step.to.x - step.from.x) + response.mean_traction * surface;
-    work                  = { of_drive, response.friction, response.damping, response.algorithmic, response.creep };
-    sum_forces(response.force, response.tangent);
+    found.slip_rate       = found.end.slip_row * end_rates + surface / step.weights.dt;
+    const double of_drive = -response.force[x_index] * (step.to.x - step.from.x) + response.mean_traction[0] * surface;
+    found.works           = { of_drive, response.friction, response.damping, response.algorithmic, response.creep };
+    sum_forces(found);
   }
 
-  void PointContact::evaluate_sliding(const SlidingState &state)
+  void PointContact::evaluate_sliding(const SlidingState &state, Evaluation &found) const
   {
     const bool slides = state.friction == ContactFriction::sliding;
-    choose_window(state.ports, state.drive.x);
-    end                = configure(coordinates(state.ports, state.drive.x));
-    const Local rate   = state.rates == nullptr ? Local() : rates(*state.rates, 0.);
-    const auto law     = friction_of_step(properties.friction, state.drive.v);
-    const auto normal  = mean_normal_force(properties.normal, end.gap, end.gap);
-    const auto dashpot = end_damping(properties.damping, normal.end, end.gap, end.gap_row * rate);
-    slip_rate          = state.speed + end.slip_row * rate;
-    sliding            = slides ? sliding_friction(law, slip_rate) : SlidingFriction{};
-    sticks             = slides && law.regularisation_speed == 0.;
-    d_pressure         = (1. + dashpot.d_normal) * normal.d_end * end.gap_row;
-    d_pressure_rate    = dashpot.d_rate * end.gap_row;
+    found.window      = window_at(state.ports, state.drive.x);
+    const auto &end = found.end = configure(found.window, coordinates(found.window, state.ports, state.drive.x));
+    const Local rate            = state.rates == nullptr ? Local() : rates(found.window, *state.rates, 0.);
+    const auto law              = friction_of_step(properties.friction, state.drive.v);
+    const auto normal           = mean_normal_force(properties.normal, end.gap, end.gap);
+    const auto dashpot          = end_damping(properties.damping, normal.end, end.gap, end.gap_row * rate);
+    found.slip_rate             = state.speed + end.slip_row * rate;
+    found.sliding               = slides ? sliding_friction(law, found.slip_rate) : SlidingFriction{};
+    found.sticks                = slides && law.regularisation_speed == 0.;
+    found.d_pressure            = (1. + dashpot.d_normal) * normal.d_end * end.gap_row;
+    found.d_pressure_rate       = dashpot.d_rate * end.gap_row;
 
-    response                   = {};
-    response.mu                = std::abs(sliding.coefficient);
-    response.pressure          = normal.end + dashpot.force;
-    response.traction          = sliding.coefficient * response.pressure;
-    response.slipping          = slides;
-    response.memory.traction   = response.traction;
-    response.memory.damping    = dashpot.force;
-    response.memory.slip_speed = state.speed;
-    const double stretched     = law.regularisation_speed > 0. ? 0. : response.traction;
-    response.energy            = normal.energy + 0.5 * stretched * stretched / properties.tangential;
-    response.force             = response.pressure * end.gap_row - response.traction * end.slip_row;
-    response.tangent           = pressure_tangent() + friction_tangent(state.friction);
-    work                       = {};
-    sum_forces(response.force, response.tangent);
+    auto &response                = found.response;
+    response                      = {};
+    response.mu                   = std::abs(found.sliding.coefficient);
+    response.pressure             = normal.end + dashpot.force;
+    response.traction[0]          = found.sliding.coefficient * response.pressure;
+    response.slipping             = slides;
+    response.memory.traction      = response.traction;
+    response.memory.damping       = dashpot.force;
+    response.memory.slip_speed[0] = state.speed;
+    const double stretched        = law.regularisation_speed > 0. ? 0. : response.traction[0];
+    response.energy               = normal.energy + 0.5 * stretched * stretched / properties.tangential;
+    response.force                = response.pressure * end.gap_row - response.traction[0] * end.slip_row;
+    response.tangent              = pressure_tangent(found) + friction_tangent(state.friction, found);
+    found.works                   = {};
+    sum_forces(found);
   }
 
-  PointContact::LocalMatrix PointContact::pressure_tangent() const
+  PointContact::LocalMatrix PointContact::pressure_tangent(const Evaluation &found)
   {
-    return outer_product(end.gap_row, d_pressure) + response.pressure * end.gap_curvature;
+    return outer_product(found.end.gap_row, found.d_pressure) + found.response.pressure * found.end.gap_curvature;
   }
 
-  PointContact::LocalMatrix PointContact::friction_tangent(const ContactFriction friction) const
+  PointContact::LocalMatrix PointContact::friction_tangent(const ContactFriction friction, const Evaluation &found) const
   {
+    const auto &slip_row = found.end.slip_row;
     if (friction == ContactFriction::stuck)
-      return -properties.tangential * outer_product(end.slip_row, end.slip_row);
-    return -sliding.coefficient * outer_product(end.slip_row, d_pressure) - response.traction * end.slip_curvature;
+      return -properties.tangential * outer_product(slip_row, slip_row);
+    return -found.sliding.coefficient * outer_product(slip_row, found.d_pressure) -
+           found.response.traction[0] * found.end.slip_curvature;
   }
 
-  PortPerturbation PointContact::linearise(const SlidingState &state)
+  PortPerturbation PointContact::linearise(const SlidingState &state, Evaluation &found) const
   {
-    evaluate_sliding(state);
-    const auto places           = local_ports();
-    const Local d_traction_rate = sliding.coefficient * d_pressure_rate + sliding.derivative * response.pressure * end.slip_row;
-    PortPerturbation result(summed.ports);
-    result.pressure      = on_ports(places, pressure_tangent());
-    result.friction      = on_ports(places, friction_tangent(state.friction));
-    result.pressure_rate = on_ports(places, outer_product(end.gap_row, d_pressure_rate));
-    result.friction_rate = on_ports(places, -1. * outer_product(end.slip_row, d_traction_rate));
-    result.delays        = friction_delays(places, d_traction_rate);
+    evaluate_sliding(state, found);
+    const auto places           = ports(found.window);
+    const Local d_traction_rate = found.sliding.coefficient * found.d_pressure_rate +
+                                  found.sliding.derivative * found.response.pressure * found.end.slip_row;
+    PortPerturbation result(found.forces.ports);
+    result.pressure      = matrix_on_ports(places, pressure_tangent(found));
+    result.friction      = matrix_on_ports(places, friction_tangent(state.friction, found));
+    result.pressure_rate = matrix_on_ports(places, outer_product(found.end.gap_row, found.d_pressure_rate));
+    result.friction_rate = matrix_on_ports(places, -1. * outer_product(found.end.slip_row, d_traction_rate));
+    result.delays        = friction_delays(places, d_traction_rate, found);
     return result;
   }
 
-  std::vector<FrictionDelay> PointContact::friction_delays(const std::vector<LocalPort> &places,
-                                                           const Local &d_traction_rate) const
+  std::vector<FrictionDelay> PointContact::friction_delays(const PortCoordinates &places, const Local &d_traction_rate,
+                                                           const Evaluation &found) const
   {
-    const double time = sliding.derivative * response.pressure / properties.tangential;
-    if (!sticks || !(time > 0.))
+    const double time = found.sliding.derivative * found.response.pressure / properties.tangential;
+    if (!found.sticks || !(time > 0.))
       return {};
-    const auto n_used = static_cast<unsigned int>(places.size());
-    FrictionDelay delay{ time, Vector<double>(n_used), Vector<double>(n_used), Vector<double>(n_used) };
-    for (unsigned int i = 0; i < n_used; ++i)
-    {
-      const auto &[local, port, sign] = places[i];
-      delay.force[i]                  = -sign * end.slip_row[local];
-      delay.stiffness_row[i]          = sign * sliding.coefficient * d_pressure[local];
-      delay.rate_row[i]               = sign * d_traction_rate[local];
-    }
-    return { delay };
+    return { { time, row_on_ports(places, -1. * found.end.slip_row),
+               row_on_ports(places, found.sliding.coefficient * found.d_pressure), row_on_ports(places, d_traction_rate) } };
   }
 
-  std::vector<PointContact::LocalPort> PointContact::local_ports() const
+  /// Returns the local coordinates that are ports.
+  PortCoordinates PointContact::ports(const unsigned int window) const
   {
-    std::vector<LocalPort> result;
+    PortCoordinates result;
+    result.reserve(n);
     for (unsigned int i = 0; i < n_nodal && properties.mesh.elements > 0; ++i)
       if (window + i / 2 > 0)
         result.push_back({ i, 2 * window + i - 2, 1. });
-    result.push_back({ theta_index, properties.ports.rotation(), 1. });
-    if (properties.ports.sprung)
-      result.push_back({ x_index, properties.ports.support(), -1. });
+    add_frame(properties.ports, theta_index, x_index, result);
     return result;
   }
 
-  FullMatrix<double> PointContact::on_ports(const std::vector<LocalPort> &places, const LocalMatrix &matrix)
+  void PointContact::sum_forces(Evaluation &found) const
   {
-    const auto used = static_cast<unsigned int>(places.size());
-    FullMatrix<double> result(used, used);
-    for (unsigned int i = 0; i < used; ++i)
-      for (unsigned int j = 0; j < used; ++j)
-        result(i, j) = places[i].sign * places[j].sign * matrix[places[i].local][places[j].local];
-    return result;
+    const auto places = ports(found.window);
+    auto &forces      = found.forces;
+    forces.values     = row_on_ports(places, found.response.force);
+    forces.tangent    = matrix_on_ports(places, found.response.tangent);
+    forces.ports.clear();
+    for (const auto &place : places)
+      forces.ports.push_back(place.port);
   }
 
-  void PointContact::sum_forces(const Local &force, const LocalMatrix &tangent)
-  {
-    const auto places = local_ports();
-    summed.ports.clear();
-    summed.values.reinit(static_cast<unsigned int>(places.size()));
-    for (unsigned int i = 0; i < places.size(); ++i)
-    {
-      summed.ports.push_back(places[i].port);
-      summed.values[i] = places[i].sign * force[places[i].local];
-    }
-    summed.tangent = on_ports(places, tangent);
-  }
-
-  const PortForces &PointContact::forces() const
-  {
-    return summed;
-  }
-
-  const PortSelection &PointContact::reachable_ports(double, double)
+  const PortSelection &PointContact::reachable_ports(double, const OfLevers &) const
   {
     return all;
   }
 
-  bool PointContact::within_reach() const
+  std::vector<ContactMemory> PointContact::touch(const Vector<double> &ports, const DrivePoint &drive, Evaluation &found) const
   {
-    return true;
-  }
-
-  void PointContact::widen_reach()
-  {
-  }
-
-  std::vector<ContactMemory> PointContact::memory() const
-  {
-    return { response.memory };
-  }
-
-  std::vector<ContactMemory> PointContact::touch(const Vector<double> &ports, const DrivePoint &drive)
-  {
-    choose_window(ports, drive.x);
-    end      = configure(coordinates(ports, drive.x));
-    response = {};
+    found.window   = window_at(ports, drive.x);
+    found.end      = configure(found.window, coordinates(found.window, ports, drive.x));
+    found.response = {};
     return { ContactMemory{} };
   }
 
-  void PointContact::add_work(StepWork &sum) const
+  void PointContact::observe(const Evaluation &found, Row &row, unsigned int) const
   {
-    sum.drive += work.drive;
-    sum.friction += work.friction;
-    sum.damping += work.damping;
-    sum.algorithmic += work.algorithmic;
-    sum.creep += work.creep;
-  }
-
-  double PointContact::energy() const
-  {
-    return response.energy;
-  }
-
-  double PointContact::overlap() const
-  {
-    return std::max(0., -end.gap);
-  }
-
-  void PointContact::observe(Row &row) const
-  {
-    const auto force                = response.pressure * end.gap_at_point - response.traction * end.slip_at_point;
+    const auto &end                 = found.end;
+    const auto &response            = found.response;
+    const auto force                = response.pressure * end.gap_at_point - response.traction[0] * end.slip_at_point;
     row[Column::P]                  = force[1];
     row[Column::F]                  = -force[0];
     row[Column::Q]                  = -force[3];
     row[Column::normal_resultant]   = response.pressure;
-    row[Column::friction_resultant] = response.traction;
-    row[Column::friction_power]     = response.traction * slip_rate;
-    row[Column::indentation]        = overlap();
+    row[Column::friction_resultant] = response.traction[0];
+    row[Column::friction_power]     = response.traction[0] * found.slip_rate;
+    row[Column::indentation]        = found.overlap();
     row[Column::penetration]        = 0.;
     row[Column::active_points]      = end.gap < 0. ? 1. : 0.;
     row[Column::elastic_slip]       = 0.;
@@ -240,18 +186,8 @@ namespace sprag
     {
       row[Column::s]              = end.along;
       row[Column::mu]             = response.mu;
-      row[Column::v_rel]          = slip_rate;
-      row[Column::cone_violation] = std::max(0., std::abs(response.traction) / (response.mu * response.pressure) - 1.);
+      row[Column::v_rel]          = found.slip_rate;
+      row[Column::cone_violation] = std::max(0., response.traction.norm() / (response.mu * response.pressure) - 1.);
     }
-  }
-
-  FacePoints PointContact::face_points() const
-  {
-    return {};
-  }
-
-  FaceState PointContact::face_state(const DrivePoint &) const
-  {
-    return {};
   }
 } // namespace sprag

@@ -4,7 +4,10 @@
 #include "model/circle.h"
 #include "model/contact_step.h"
 #include "model/linearisation.h"
+#include "model/port_coordinates.h"
 #include "model/port_step.h"
+
+#include <algorithm>
 
 namespace sprag
 {
@@ -27,38 +30,6 @@ namespace sprag
   /// to where it is closest to the circle's centre.
   class PointContact
   {
-  public:
-    static constexpr bool uses_rates       = true;
-    static constexpr bool stands_for_layer = true; ///< its springs are physical, not penalties
-    static constexpr unsigned int levers   = 1;
-
-    explicit PointContact(PointContactProperties properties);
-
-    void evaluate(const PortStep &step);
-    void evaluate_sliding(const SlidingState &state);
-
-    /// Evaluates as well; on the ports of forces().
-    PortPerturbation linearise(const SlidingState &state);
-
-    const PortForces &forces() const;
-
-    /// Ports that a contact at that drive position may reach: all.
-    const PortSelection &reachable_ports(double x, double theta);
-    bool within_reach() const;
-    void widen_reach();
-    std::vector<ContactMemory> memory() const;
-    std::vector<ContactMemory> touch(const dealii::Vector<double> &ports, const DrivePoint &drive);
-    void add_work(StepWork &work) const;
-    double energy() const;
-    double overlap() const;
-    double gap_change(const dealii::Vector<double> &change_of_ports) const;
-    double mean_slip(const dealii::Vector<double> &from, double from_x, const dealii::Vector<double> &to, double to_x) const;
-    void observe(Row &row) const;
-    /// Displacements of the ports along the lever.
-    SurfaceShape surface_shape(const dealii::Vector<double> &displacements) const;
-    FacePoints face_points() const;
-    FaceState face_state(const DrivePoint &drive) const;
-
   private:
     // Local coordinates: deflection and slope of three nodes in a row, theta, x of the circle from the pivot frame's origin.
     static constexpr unsigned int n           = 8;
@@ -68,58 +39,120 @@ namespace sprag
     using Local                               = dealii::Tensor<1, n>;
     using LocalMatrix                         = dealii::Tensor<2, n>;
 
-    /// The closest point at one configuration.
-    struct Configuration
+    /// The closest point at one configuration. Its slip row is that of the material point, of no slip coordinate; the curvature
+    /// is that row's derivative as the contact point moves with the configuration.
+    struct Configuration : ContactKinematics<n>
     {
-      double along = 0.; ///< its position along the lever, deformed
-      double gap   = 0.;
+      double along = 0.;                 ///< its position along the lever, deformed
       dealii::Tensor<1, 4> gap_at_point; ///< rows in (u_xi, u_eta, theta, x) of the point
       dealii::Tensor<1, 4> slip_at_point;
-      Local gap_row;
-      LocalMatrix gap_curvature;
-      Local slip_row;             ///< of the material point
-      LocalMatrix slip_curvature; ///< derivative of slip_row as the contact point moves with the configuration
     };
 
+  public:
+    static constexpr bool uses_rates       = true;
+    static constexpr bool stands_for_layer = true; ///< its springs are physical, not penalties
+    static constexpr unsigned int levers   = 1;
+
+    /// The result of an evaluation. The caller keeps it and may use it for the next one.
+    class Evaluation
+    {
+    public:
+      static constexpr bool within_reach = true; ///< all ports are
+
+      PortForces forces;
+
+      std::vector<ContactMemory> memory() const
+      {
+        return { response.memory };
+      }
+      const StepWork &work() const
+      {
+        return works;
+      }
+      double energy() const
+      {
+        return response.energy;
+      }
+      double overlap() const
+      {
+        return std::max(0., -end.gap);
+      }
+
+    private:
+      friend class PointContact;
+
+      unsigned int window = 0; ///< node before the first local one
+      Configuration end;
+      StepResponse<n> response;
+      StepWork works;
+      double slip_rate = 0.;   ///< at the end of the step [mm/s]
+      SlidingFriction sliding; ///< in steady sliding
+      Local d_pressure;        ///< dP/dq there
+      Local d_pressure_rate;   ///< dP/dq'
+      bool sticks = false;     ///< whether stick is resolved there, by a spring
+    };
+
+    explicit PointContact(PointContactProperties properties);
+
+    /// Evaluates a step in time.
+    void evaluate(const PortStep &step, Evaluation &found) const;
+
+    /// Evaluates steady sliding.
+    void evaluate_sliding(const SlidingState &state, Evaluation &found) const;
+
+    /// Evaluates steady sliding and linearises its forces on their ports.
+    PortPerturbation linearise(const SlidingState &state, Evaluation &found) const;
+
+    /// Returns the ports that the contact may reach: all.
+    const PortSelection &reachable_ports(double x, const OfLevers &theta) const;
+    void widen_reach()
+    {
+    }
+    /// Evaluates the contact at rest without force.
+    std::vector<ContactMemory> touch(const dealii::Vector<double> &ports, const DrivePoint &drive, Evaluation &found) const;
+    /// Returns by how much a small change of the ports changes the gap [mm].
+    double gap_change(const Evaluation &found, const dealii::Vector<double> &change_of_ports, unsigned int lever = 0) const;
+
+    /// Returns the slip from one configuration to another [mm].
+    double mean_slip(const Evaluation &found, const dealii::Vector<double> &from, double from_x, const dealii::Vector<double> &to,
+                     double to_x) const;
+    /// Fills the columns of a row that follow from the contact.
+    void observe(const Evaluation &found, Row &row, unsigned int lever = 0) const;
+
+    /// Returns the displacements of the lever's surface that go with those of the ports.
+    SurfaceShape surface_shape(const dealii::Vector<double> &displacements, unsigned int lever = 0) const;
+
+    /// There is no friction face.
+    FacePoints face_points() const
+    {
+      return {};
+    }
+    FaceState face_state(const Evaluation &, const DrivePoint &) const
+    {
+      return {};
+    }
+
+  private:
     /// The bent surface at a material coordinate, with derivatives along it.
     struct Surface;
 
-    Local coordinates(const dealii::Vector<double> &ports, double x) const;
-    Local rates(const dealii::Vector<double> &port_rates, double v) const;
-    void choose_window(const dealii::Vector<double> &ports, double x);
-    Surface surface(const Local &q, double xi) const;
-    double closest(const Local &q) const;
-    double gap(const Local &q) const;
-    Configuration configure(const Local &q) const;
-    StepKinematics<n> step_kinematics(const PortStep &step, const Local &end_rates);
-    void sum_forces(const Local &force, const LocalMatrix &tangent);
-    LocalMatrix pressure_tangent() const;
-    LocalMatrix friction_tangent(ContactFriction friction) const;
+    unsigned int window_at(const dealii::Vector<double> &ports, double x) const;
+    Local coordinates(unsigned int window, const dealii::Vector<double> &ports, double x) const;
+    Local rates(unsigned int window, const dealii::Vector<double> &port_rates, double v) const;
+    Surface surface(unsigned int window, const Local &q, double xi) const;
+    double closest(unsigned int window, const Local &q) const;
+    double gap(unsigned int window, const Local &q) const;
+    Configuration configure(unsigned int window, const Local &q) const;
+    StepKinematics<n> step_kinematics(const PortStep &step, const Local &end_rates, Evaluation &found) const;
+    void sum_forces(Evaluation &found) const;
+    static LocalMatrix pressure_tangent(const Evaluation &found);
+    LocalMatrix friction_tangent(ContactFriction friction, const Evaluation &found) const;
 
-    /// A local coordinate that is a port, and the sign between them.
-    struct LocalPort
-    {
-      unsigned int local;
-      unsigned int port;
-      double sign;
-    };
-    std::vector<LocalPort> local_ports() const;
-    std::vector<FrictionDelay> friction_delays(const std::vector<LocalPort> &places, const Local &d_traction_rate) const;
-    static dealii::FullMatrix<double> on_ports(const std::vector<LocalPort> &places, const LocalMatrix &matrix);
+    PortCoordinates ports(unsigned int window) const;
+    std::vector<FrictionDelay> friction_delays(const PortCoordinates &places, const Local &d_traction_rate,
+                                               const Evaluation &found) const;
 
     const PointContactProperties properties;
-    unsigned int window = 0; ///< node before the first local one
-
-    // Of the last evaluation.
-    Configuration end;
-    StepResponse<n> response;
-    StepWork work;
-    double slip_rate = 0.;   ///< at the end of the step [mm/s]
-    SlidingFriction sliding; ///< of evaluate_sliding()
-    Local d_pressure;        ///< dP/dq there
-    Local d_pressure_rate;   ///< dP/dq'
-    bool sticks = false;     ///< whether stick is resolved there, by a spring
-    PortForces summed;
     const PortSelection all;
   };
 } // namespace sprag

@@ -37,25 +37,25 @@ namespace sprag
   };
 
   /// Two elements around the point across from the circle's centre: the contact stays between their ends for a step.
-  void PointContact::choose_window(const Vector<double> &ports, const double x)
+  unsigned int PointContact::window_at(const Vector<double> &ports, const double x) const
   {
     const auto &mesh = properties.mesh;
     if (mesh.elements == 0)
-      return;
-    const Local q       = coordinates(ports, x);
+      return 0;
+    const Local q       = coordinates(0, ports, x);
     const double xi     = cylinder_centre(properties.geometry, q[x_index], q[theta_index]).xi;
     const double before = std::round(xi / mesh.element_length()) - 1.;
-    window              = static_cast<unsigned int>(std::clamp(before, 0., mesh.elements - 2.));
+    return static_cast<unsigned int>(std::clamp(before, 0., mesh.elements - 2.));
   }
 
-  PointContact::Local PointContact::coordinates(const Vector<double> &ports, const double x) const
+  PointContact::Local PointContact::coordinates(const unsigned int window, const Vector<double> &ports, const double x) const
   {
-    Local q = rates(ports, x);
+    Local q = rates(window, ports, x);
     q[theta_index] += properties.rest_inclination;
     return q;
   }
 
-  PointContact::Local PointContact::rates(const Vector<double> &port_rates, const double v) const
+  PointContact::Local PointContact::rates(const unsigned int window, const Vector<double> &port_rates, const double v) const
   {
     Local q;
     if (properties.mesh.elements > 0)
@@ -67,7 +67,7 @@ namespace sprag
     return q;
   }
 
-  PointContact::Surface PointContact::surface(const Local &q, const double xi) const
+  PointContact::Surface PointContact::surface(const unsigned int window, const Local &q, const double xi) const
   {
     Surface result{};
     const auto &mesh = properties.mesh;
@@ -103,13 +103,13 @@ namespace sprag
   }
 
   /// Newton's method for (p - c) . p' = 0 from the point across from the circle's centre.
-  double PointContact::closest(const Local &q) const
+  double PointContact::closest(const unsigned int window, const Local &q) const
   {
     const auto c = cylinder_centre(properties.geometry, q[x_index], q[theta_index]);
     double xi    = c.xi;
     for (unsigned int i = 0; i < 20 && properties.mesh.elements > 0; ++i)
     {
-      const auto at      = surface(q, xi);
+      const auto at      = surface(window, q, xi);
       const double r[2]  = { at.point.xi - c.xi, at.point.eta - c.eta };
       const double slope = r[0] * at.tangent[0] + r[1] * at.tangent[1];
       const double d_slope =
@@ -122,17 +122,17 @@ namespace sprag
     return xi;
   }
 
-  double PointContact::gap(const Local &q) const
+  double PointContact::gap(const unsigned int window, const Local &q) const
   {
     const auto c     = cylinder_centre(properties.geometry, q[x_index], q[theta_index]);
-    const auto point = surface(q, closest(q)).point;
+    const auto point = surface(window, q, closest(window, q)).point;
     return std::hypot(point.xi - c.xi, point.eta - c.eta) - properties.geometry.cylinder_radius;
   }
 
-  PointContact::Configuration PointContact::configure(const Local &q) const
+  PointContact::Configuration PointContact::configure(const unsigned int window, const Local &q) const
   {
-    const double xi   = closest(q);
-    const auto at     = surface(q, xi);
+    const double xi   = closest(window, q);
+    const auto at     = surface(window, q, xi);
     const auto circle = moving_circle_contact(properties.geometry, at.point, q[x_index], q[theta_index]);
     const double arm  = properties.geometry.interface_offset - properties.neutral_axis_offset;
 
@@ -187,20 +187,20 @@ namespace sprag
     return result;
   }
 
-  double PointContact::gap_change(const Vector<double> &change_of_ports) const
+  double PointContact::gap_change(const Evaluation &found, const Vector<double> &change_of_ports, unsigned int) const
   {
-    return end.gap_row * rates(change_of_ports, 0.);
+    return found.end.gap_row * rates(found.window, change_of_ports, 0.);
   }
 
-  double PointContact::mean_slip(const Vector<double> &from, const double from_x, const Vector<double> &to,
-                                 const double to_x) const
+  double PointContact::mean_slip(const Evaluation &found, const Vector<double> &from, const double from_x,
+                                 const Vector<double> &to, const double to_x) const
   {
-    const Local q_0 = coordinates(from, from_x);
-    const Local q_1 = coordinates(to, to_x);
-    return configure(0.5 * (q_0 + q_1)).slip_row * (q_1 - q_0);
+    const Local q_0 = coordinates(found.window, from, from_x);
+    const Local q_1 = coordinates(found.window, to, to_x);
+    return configure(found.window, 0.5 * (q_0 + q_1)).slip_row * (q_1 - q_0);
   }
 
-  SurfaceShape PointContact::surface_shape(const Vector<double> &displacements) const
+  SurfaceShape PointContact::surface_shape(const Vector<double> &displacements, unsigned int) const
   {
     constexpr unsigned int parts = 8;
     const auto &mesh             = properties.mesh;

@@ -4,7 +4,7 @@
 
 namespace sprag
 {
-  /// Port displacements over a step.
+  /// Displacements of the ports over a step, with what the contact needs beside them.
   struct PortStep
   {
     const DrivePoint &from;                   ///< drive at the beginning

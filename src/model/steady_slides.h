@@ -34,23 +34,25 @@ namespace sprag
   {
   public:
     /// All are kept by reference.
-    SteadySlides(Structure &structure_, Contact &contact_, const LeverFrame &frame_, HubSpringExcess &hub_spring_)
+    SteadySlides(Structure &structure_, Contact &contact_, typename Contact::Evaluation &found_, const LeverFrame &frame_,
+                 HubSpringExcess &hub_spring_)
         : structure(structure_)
         , contact(contact_)
+        , found(found_)
         , frame(frame_)
         , hub_spring(hub_spring_)
     {
     }
 
-    /// Finds the equilibrium of steady sliding at a ratio of speeds, see speed_ratio(). Returns its forces, in which the contact
-    /// is left, and null where there is none. `round_off`: displacements that the ports have besides.
+    /// Finds the equilibrium of steady sliding at a ratio of speeds, see speed_ratio(). Returns its forces, for which
+    /// the contact was evaluated last, and null where there is none. `round_off`: displacements that the ports have besides.
     const PortForces *solve(const DrivePoint &drive, const double ratio,
                             const ContactFriction friction          = ContactFriction::sliding,
                             const dealii::Vector<double> *round_off = nullptr)
     {
       structure.use_statics();
       const auto ideal            = ideal_inclinations(drive.x);
-      const auto &near            = sprag::reachable_ports(contact, drive.x, ideal);
+      const auto &near            = contact.reachable_ports(drive.x, ideal);
       dealii::Vector<double> free = structure.port_positions(structure.rest(), near);
       if (round_off != nullptr)
         for (const unsigned int port : near)
@@ -67,14 +69,14 @@ namespace sprag
       const double speed  = ratio * sliding_speed(frame.geometries.front(), drive.x, drive.v);
       const auto evaluate = [&](const dealii::Vector<double> &ports) -> const PortForces &
       {
-        contact.evaluate_sliding(SlidingState{ ports, drive, speed, nullptr, friction });
-        return hub_spring.add_forces(contact.forces(), turns_of(frame.ports, ports));
+        contact.evaluate_sliding(SlidingState{ ports, drive, speed, nullptr, friction }, found);
+        return hub_spring.add_forces(found.forces, turns_of(frame.ports, ports));
       };
       const auto solved = solve_ports(
-          structure.compliance(), free, frame.lengths, near, evaluate, [&] { return contact.overlap(); }, z);
+          structure.compliance(), free, frame.lengths, near, evaluate, [&] { return found.overlap(); }, z);
       if (!solved.newton.converged)
         return nullptr;
-      if (!contact.within_reach())
+      if (!found.within_reach)
       {
         contact.widen_reach();
         return solve(drive, ratio, friction, round_off);
@@ -93,7 +95,7 @@ namespace sprag
       const bool after  = solve(moved(drive, h), 1.) != nullptr;
       if (!before || !after)
         return 1.;
-      const double slip = contact.mean_slip(from, drive.x - h, last_sliding, drive.x + h);
+      const double slip = contact.mean_slip(found, from, drive.x - h, last_sliding, drive.x + h);
       return slip / (2. * h * sliding_speed(frame.geometries.front(), drive.x, 1.));
     }
 
@@ -106,6 +108,7 @@ namespace sprag
   private:
     Structure &structure;
     Contact &contact;
+    typename Contact::Evaluation &found; ///< the model's
     const LeverFrame &frame;
     HubSpringExcess &hub_spring;
     dealii::Vector<double> last_sliding; ///< ports of the last equilibrium, from which the next one starts

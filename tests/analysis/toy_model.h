@@ -32,7 +32,7 @@ namespace sprag
       state.drive = drive;
       state.coordinates.reinit(1);
       state.contact.resize(1);
-      state.contact[0].traction = drive.x; // as a mark
+      state.contact[0].traction[0] = drive.x; // as a mark
       return state;
     }
 
@@ -40,7 +40,7 @@ namespace sprag
     State begin_step(const State &accepted, const DrivePoint &end) override
     {
       from           = accepted.drive.x;
-      history_intact = history_intact && accepted.contact[0].traction == from;
+      history_intact = history_intact && accepted.contact[0].traction[0] == from;
       State trial    = accepted;
       trial.drive    = end;
       return trial;
@@ -50,7 +50,7 @@ namespace sprag
     {
       q              = trial.coordinates[0];
       x              = trial.drive.x;
-      history_intact = history_intact && trial.contact[0].traction == from;
+      history_intact = history_intact && trial.contact[0].traction[0] == from;
       value          = equation(q, x);
       return { std::abs(value.residual), 1. };
     }
@@ -75,7 +75,9 @@ namespace sprag
 
     std::vector<ContactMemory> memory() const override
     {
-      return { { 0., x } };
+      std::vector<ContactMemory> result(1);
+      result[0].traction[0] = x;
+      return result;
     }
 
     void observe(const State & /*trial*/, Row &row) const override

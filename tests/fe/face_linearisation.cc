@@ -22,10 +22,11 @@ namespace
     return result;
   }
 
-  PortForces forces_of(FaceContact &contact, const SlidingState &state)
+  PortForces forces_of(const FaceContact &contact, const SlidingState &state)
   {
-    contact.evaluate_sliding(state);
-    return contact.forces();
+    FaceEvaluation found;
+    contact.evaluate_sliding(state, found);
+    return found.forces;
   }
 } // namespace
 
@@ -40,12 +41,13 @@ TEST(FaceLinearisation, RatesAreTheDerivativeOfTheForcesByVelocities)
       {
         const auto properties = properties_of(*bar, sprung, regularisation);
         FaceContact contact(*bar, properties);
+        FaceEvaluation found;
         const Vector ports = pressed(properties.ports, 0.01);
         const DrivePoint drive{ 0., 0., speed, 0. };
         const auto with_rates = [&](const Vector &rates) {
           return forces_of(contact, { ports, drive, speed, &rates, ContactFriction::sliding });
         };
-        const auto exact = contact.linearise({ ports, drive, speed });
+        const auto exact = contact.linearise({ ports, drive, speed }, found);
         ASSERT_FALSE(exact.ports.empty());
         EXPECT_EQ(exact.pressure_rate.linfty_norm(), 0.);
         const double largest = exact.friction_rate.linfty_norm();
@@ -75,11 +77,12 @@ TEST(FaceLinearisation, FrictionThatGrowsWithSpeedIsDelayedAsInSteps)
       {
         const auto properties = properties_of(*bar, sprung, 0.);
         FaceContact contact(*bar, properties);
+        FaceEvaluation found;
         const Vector at   = pressed(properties.ports, 0.01);
-        const auto linear = contact.linearise({ at, { 0., 0., speed, 0. }, speed });
+        const auto linear = contact.linearise({ at, { 0., 0., speed, 0. }, speed }, found);
         ASSERT_GT(linear.delays.size(), 10u);
         Motion accepted;
-        accepted.contact = contact.memory();
+        accepted.contact = found.memory();
         Full exact       = linear.immediate_stiffness();
         exact.add(1. / dt, linear.immediate_damping());
         double longest = 0.;
@@ -99,8 +102,8 @@ TEST(FaceLinearisation, FrictionThatGrowsWithSpeedIsDelayedAsInSteps)
           Vector end = at, rate(at.size());
           end[port] += by;
           rate[port] = by / dt;
-          contact.evaluate(PortStep{ accepted.drive, accepted.contact, to, begin, end, rate, { dt, 0., 0., 0.25, 0.5 } });
-          return contact.forces();
+          contact.evaluate(PortStep{ accepted.drive, accepted.contact, to, begin, end, rate, { dt, 0., 0., 0.25, 0.5 } }, found);
+          return found.forces;
         };
         const double largest = exact.linfty_norm();
         for (unsigned int j = 0; j < linear.ports.size(); ++j)
@@ -123,6 +126,7 @@ TEST(FaceLinearisation, StuckIsTheTangentOfAStepInStick)
   {
     const auto properties = properties_of(*bar, sprung, 0.);
     FaceContact contact(*bar, properties);
+    FaceEvaluation found;
     const Vector ports = pressed(properties.ports, 0.01);
     const DrivePoint drive{ 0., 0., 0., 0. };
     const auto linear = forces_of(contact, { ports, drive, 100., nullptr, ContactFriction::stuck });
@@ -130,9 +134,9 @@ TEST(FaceLinearisation, StuckIsTheTangentOfAStepInStick)
     const StepWeights weights{ 1e-5, 0., 0., 0.25, 0.5 };
     Motion accepted;
     accepted.drive = drive;
-    contact.evaluate(PortStep{ accepted.drive, accepted.contact, drive, { ports, rest, rest }, ports, rest, weights });
-    ASSERT_EQ(contact.forces().ports, linear.ports);
-    Full difference = contact.forces().tangent;
+    contact.evaluate(PortStep{ accepted.drive, accepted.contact, drive, { ports, rest, rest }, ports, rest, weights }, found);
+    ASSERT_EQ(found.forces.ports, linear.ports);
+    Full difference = found.forces.tangent;
     difference.add(-1., linear.tangent);
     EXPECT_LT(difference.frobenius_norm(), 1e-12 * linear.tangent.frobenius_norm());
     EXPECT_GT(linear.tangent.frobenius_norm(), 1.);
@@ -144,10 +148,11 @@ TEST(FaceLinearisation, IsNothingOutOfContact)
   const MeshedBar bar(bar_on_cylinder());
   const auto properties = properties_of(*bar, true, 0.);
   FaceContact contact(*bar, properties);
+  FaceEvaluation found;
   const Vector ports = pressed(properties.ports, -0.1);
   const DrivePoint drive{ 0., 0., 100., 0. };
   EXPECT_TRUE(forces_of(contact, { ports, drive, 100. }).ports.empty());
-  EXPECT_TRUE(contact.linearise({ ports, drive, 100. }).ports.empty());
+  EXPECT_TRUE(contact.linearise({ ports, drive, 100. }, found).ports.empty());
 }
 
 TEST(FaceLinearisation, PartsAddUpToTheTangentAndPressureIsSymmetric)

@@ -55,6 +55,17 @@ namespace
     return faces.pair.configuration({ &q, q[n], q[n + 1], cylinder_centre(geometry, q[n + 1], q[n]) });
   }
 
+  /// Patches of the lever within reach of the cylinder.
+  std::vector<unsigned int> near(const Faces &faces, const PairConfiguration &at)
+  {
+    PairPlace place;
+    std::vector<unsigned int> result;
+    for (unsigned int patch = 0; patch < faces.lever.patches.size(); ++patch)
+      if (faces.pair.reach(patch, at, place) < 0.)
+        result.push_back(patch);
+    return result;
+  }
+
   /// Index among q of a coordinate of a patch.
   unsigned int index(const Faces &faces, const PairCoordinates &coordinates, const unsigned int i)
   {
@@ -71,11 +82,11 @@ TEST(FacePair, RowsAndCurvaturesAreDerivatives)
   unsigned int crossings = 0;
   for (const double theta : { 0.015, 0.02 })
   {
-    Vector q         = smooth(faces, theta, 0.3);
-    const auto at    = configuration(faces, q);
-    const auto range = faces.pair.near(at);
-    ASSERT_GT(range.end, range.begin + 1);
-    for (unsigned int patch = range.begin; patch < range.end; ++patch)
+    Vector q           = smooth(faces, theta, 0.3);
+    const auto at      = configuration(faces, q);
+    const auto patches = near(faces, at);
+    ASSERT_GT(patches.size(), 1u);
+    for (const unsigned int patch : patches)
     {
       PatchFacets of, other;
       faces.pair.find_facets(patch, at, of);
@@ -160,11 +171,10 @@ namespace
 TEST(FacePair, ForcesAreEqualAndOppositeWithTheirMoments)
 {
   const Faces faces;
-  const Vector q   = smooth(faces, 0.02, 0.3);
-  const auto at    = configuration(faces, q);
-  const auto range = faces.pair.near(at);
-  double deepest   = 0.;
-  for (unsigned int patch = range.begin; patch < range.end; ++patch)
+  const Vector q = smooth(faces, 0.02, 0.3);
+  const auto at  = configuration(faces, q);
+  double deepest = 0.;
+  for (const unsigned int patch : near(faces, at))
   {
     PatchFacets of;
     faces.pair.find_facets(patch, at, of);
@@ -256,10 +266,9 @@ TEST(FacePair, AnUndeformedCylinderIsTheRigidCircle)
   for (unsigned int i = 2 * static_cast<unsigned int>(faces.lever.nodes.size()); i < 2 * faces.n_nodes(); ++i)
     q[i] = 0.;
   const auto at    = configuration(faces, q);
-  const auto range = faces.pair.near(at);
   double first_arc = 0., first_slip = 0.;
   bool is_first = true;
-  for (unsigned int patch = range.begin; patch < range.end; ++patch)
+  for (const unsigned int patch : near(faces, at))
   {
     PatchFacets of;
     faces.pair.find_facets(patch, at, of);

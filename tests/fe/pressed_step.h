@@ -24,16 +24,16 @@ namespace sprag
   class PressedStep
   {
   public:
-    PressedStep(FaceContact &contact, const ElasticBody<2> &body, const PortLayout &layout, const double size, const double x,
-                const double share = 1., const double spectral_radius = 0.8)
+    PressedStep(const FaceContact &contact, const ElasticBody<2> &body, const PortLayout &layout, const double size,
+                const double x, const double share = 1., const double spectral_radius = 0.8)
         : weights(generalised_alpha(spectral_radius, 1e-4))
         , to{ 1e-4, x, (x - 1.) / 1e-4, 0., 0.002 * share }
         , end(pressed(body, layout, size, x, 0.3 + 0.5 * share))
     {
       accepted.drive = { 0., 1., 100. };
       begin.position = pressed(body, layout, size, 1., 0.3);
-      contact.evaluate_sliding({ begin.position, accepted.drive, 100. });
-      accepted.contact = contact.memory();
+      contact.evaluate_sliding({ begin.position, accepted.drive, 100. }, found);
+      accepted.contact = found.memory();
     }
 
     PortStep operator*() const
@@ -44,6 +44,7 @@ namespace sprag
     StepWeights weights;
     DrivePoint to;
     Motion accepted;
+    FaceEvaluation found; ///< where the step begins
     Kinematic begin;
     dealii::Vector<double> end;
     dealii::Vector<double> rate;

@@ -15,6 +15,16 @@ namespace
   const FrictionLaw falling = { TabulatedFriction({ 0., 20., 60., 120., 400. }, { 0.9, 0.85, 0.5, 0.35, 0.3 }),
                                 FrictionSpeed::sliding };
 
+  /// Friction of a point with one slip, in numbers.
+  ConeReturn friction_traction(const double trial, const double pressure, const FrictionLaw &law, const double penalty,
+                               const double dt, const double shift = 0.)
+  {
+    using One           = dealii::Tensor<1, 1>;
+    const auto friction = sprag::friction_traction(One({ trial }), pressure, law, penalty, dt, One({ shift }));
+    return { friction.traction[0], friction.d_trial[0][0], friction.d_pressure[0],
+             friction.mu,          friction.slipping,      friction.d_shift[0][0] };
+  }
+
   /// Trial traction whose slip speed is `speed`: the inverse of the return mapping.
   double trial_of(const double speed, const double pressure, const FrictionLaw &law, const double penalty, const double dt)
   {

@@ -34,11 +34,35 @@ namespace
     return gap < 0. ? law.stiffness * std::pow(-gap, law.exponent) : 0.;
   }
 
+  struct History
+  {
+    double traction   = 0.;
+    double slip_speed = 0.;
+    double step       = 0.;
+  };
+
+  struct Friction
+  {
+    double traction, d_slip, d_pressure, mu, slip_speed, energy, dissipated, creep;
+    bool slipping;
+  };
+
+  /// Friction of a point with one slip, in numbers.
+  Friction end_friction(const History &history, const double stiffness, const double slip_change, const double pressure,
+                        const FrictionLaw &law, const double dt)
+  {
+    using One = dealii::Tensor<1, 1>;
+    const FrictionHistory<1> before{ One({ history.traction }), One({ history.slip_speed }), history.step };
+    const auto friction = sprag::end_friction(before, stiffness, One({ slip_change }), pressure, law, dt);
+    return { friction.traction[0], friction.d_slip[0][0], friction.d_pressure[0], friction.mu,      friction.slip_speed[0],
+             friction.energy,      friction.dissipated,   friction.creep,         friction.slipping };
+  }
+
   constexpr double stiffness = 1000.; ///< in stick [N/mm]
   constexpr double dt        = 5e-5;
   constexpr double pressure  = 20.;
   /// Sliding at 110 mm/s in the last step, of the same duration.
-  const FrictionHistory sliding = { 14., 110., dt };
+  const History sliding = { 14., 110., dt };
 
   double central(const std::function<double(double)> &f, const double at, const double h)
   {
@@ -171,10 +195,10 @@ TEST(EndFriction, SlipsOnTheConeOfItsSpeedAtTheEnd)
   // Speeds of this step and the last extrapolated to its end: a way of its own to the same answer.
   for (const double sign : { 1., -1. })
   {
-    const FrictionHistory history = { sign * 14., sign * 110., 2. * dt };
-    const auto friction           = end_friction(history, stiffness, sign * 5.7e-3, pressure, cork, dt);
-    const double mean             = (sign * 5.7e-3 - (friction.traction - history.traction) / stiffness) / dt;
-    const double at_end           = mean + (mean - history.slip_speed) * dt / (dt + 2. * dt);
+    const History history = { sign * 14., sign * 110., 2. * dt };
+    const auto friction   = end_friction(history, stiffness, sign * 5.7e-3, pressure, cork, dt);
+    const double mean     = (sign * 5.7e-3 - (friction.traction - history.traction) / stiffness) / dt;
+    const double at_end   = mean + (mean - history.slip_speed) * dt / (dt + 2. * dt);
     EXPECT_TRUE(friction.slipping);
     // Round-off of the slip of 6e-3 mm over dt, 2e-14 mm/s, and of the return.
     EXPECT_NEAR(friction.slip_speed, mean, 1e-11);
@@ -207,7 +231,7 @@ TEST(EndFriction, DerivativesAgreeWithFiniteDifferencesInStickAndSlip)
 {
   struct Point
   {
-    FrictionHistory history;
+    History history;
     double slip;
     FrictionLaw law;
   };
@@ -244,7 +268,7 @@ TEST(EndFriction, ClosesItsOwnLedger)
   // Mean traction times slip is what the spring takes up and friction dissipates, exactly.
   for (const auto &law : { coulomb, cork, regularised(cork, 1.), regularised(coulomb, 30.) })
   {
-    FrictionHistory history;
+    History history;
     double before          = 0.;
     const double changes[] = { 1e-3, 4e-3, 6e-3, 5e-3, 1e-3, -2e-3, -0.02, -6e-3, 1e-4, 0.03 };
     const double loads[]   = { 20., 18., 22., 25., 3., 9., 20., 0., 8., 20. };
@@ -262,7 +286,7 @@ TEST(EndFriction, ClosesItsOwnLedger)
 
 TEST(EndFriction, NeverGivesEnergyWhileItSlipsOneWay)
 {
-  FrictionHistory history;
+  History history;
   for (unsigned int i = 0; i < 50; ++i)
   {
     const auto friction = end_friction(history, stiffness, 5e-3 + 2e-3 * std::sin(i), pressure, cork, dt);

@@ -51,13 +51,15 @@ namespace
   /// Pressure 2 MPa from the gap (`multiplier` + 500 N/mm^3 gap) and a slip of `slip` mm in a step of 1 mm at 112 mm/s.
   Case make_case(const double multiplier, const double slip, const double traction, const FrictionLaw &friction)
   {
-    Case result{ (multiplier - 2.) / 500., { multiplier, traction }, {} };
-    result.law.normal     = { 500., 1. };
-    result.law.tangential = 300.;
-    result.law.friction   = friction;
-    result.law.weights.dt = 1. / 112.;
-    result.law.balance    = ForceBalance::end;
-    result.slip_begin     = result.kinematics().slip - slip;
+    Case result{ (multiplier - 2.) / 500., {}, {} };
+    result.memory.normal_multiplier = multiplier;
+    result.memory.traction[0]       = traction;
+    result.law.normal               = { 500., 1. };
+    result.law.tangential           = 300.;
+    result.law.friction             = friction;
+    result.law.weights.dt           = 1. / 112.;
+    result.law.balance              = ForceBalance::end;
+    result.slip_begin               = result.kinematics().slip - slip;
     return result;
   }
 
@@ -90,8 +92,8 @@ TEST(ContactPoint, ForceIsPressureAlongTheGapLessTractionAlongTheSlip)
   const auto kinematics = contact.kinematics();
   const auto response   = contact.response();
   EXPECT_NEAR(response.pressure, 2., 1e-10);
-  EXPECT_NEAR(response.traction, 1.46, 1e-10);
-  EXPECT_NEAR((response.force - response.pressure * kinematics.gap_row + response.traction * kinematics.slip_row).norm(), 0.,
+  EXPECT_NEAR(response.traction[0], 1.46, 1e-10);
+  EXPECT_NEAR((response.force - response.pressure * kinematics.gap_row + response.traction[0] * kinematics.slip_row).norm(), 0.,
               1e-12);
 }
 
@@ -115,7 +117,7 @@ TEST(ContactPoint, OpenPointsCarryNothing)
     contact.gap += 0.0041; // 2 MPa / 500 N/mm^3 and a bit
     const auto response = contact.response();
     EXPECT_EQ(response.pressure, 0.);
-    EXPECT_EQ(response.traction, 0.);
+    EXPECT_EQ(response.traction, Slip());
     EXPECT_FALSE(response.slipping);
     EXPECT_EQ(response.force.norm(), 0.);
     EXPECT_EQ(response.tangent.norm(), 0.);
@@ -127,13 +129,13 @@ TEST(ContactPoint, SlipFromATractionStopsAtTheConeOfThePresentPressure)
   const auto contact  = make_case(0., 0.5, -1., coulomb);
   const auto response = contact.response();
   EXPECT_TRUE(response.slipping);
-  EXPECT_NEAR(response.traction, 0.73 * response.pressure, 1e-12);
+  EXPECT_NEAR(response.traction[0], 0.73 * response.pressure, 1e-12);
 }
 
 TEST(ContactPoint, StickModeIgnoresTheCone)
 {
   const auto contact = make_case(0., 0.9, 0.2, coulomb);
-  EXPECT_NEAR(contact.response({}, FrictionMode::stick).traction, 0.2 + 300. * 0.9, 1e-10);
+  EXPECT_NEAR(contact.response({}, FrictionMode::stick).traction[0], 0.2 + 300. * 0.9, 1e-10);
 }
 
 TEST(ContactPoint, TangentInStickIsTheDerivativeOfTheForce)
@@ -168,4 +170,67 @@ TEST(ContactPoint, TangentInSlipCouplesFrictionToThePressureOneWay)
   // round. The two differ by mu times the penalty but for the curvature's part of pressure / R.
   const auto tangent = make_case(0., 0.9, 0., coulomb).response().tangent;
   EXPECT_NEAR(std::abs(tangent[0][1] - tangent[1][0]), 0.73 * 500., 2. / 56.);
+}
+
+namespace
+{
+  // A point on a surface, three coordinates: a gap that curves and slips that bend with the others.
+  using Place = dealii::Tensor<1, 3>;
+
+  StepKinematics<3, 2> surface_step(const Place &q_0, const Place &q_1)
+  {
+    const auto gap = [](const Place &q) { return q[2] + 0.02 * (q[0] * q[0] + 0.5 * q[1] * q[1]); };
+    StepKinematics<3, 2> step;
+    step.gap_begin     = gap(q_0);
+    step.gap_end       = gap(q_1);
+    step.gap_row_end   = Place({ 0.04 * q_1[0], 0.02 * q_1[1], 1. });
+    const Place middle = 0.5 * (q_0 + q_1);
+    step.gap_row       = Place({ 0.04 * middle[0], 0.02 * middle[1], 1. });
+    // Of the middle, by the end: a half.
+    step.gap_curvature[0][0] = 0.02;
+    step.gap_curvature[1][1] = 0.01;
+    for (unsigned int s = 0; s < 2; ++s)
+    {
+      const auto slip            = [s](const Place &q) { return q[s] + 0.03 * q[1 - s] * q[2]; };
+      step.slip_change[s]        = slip(q_1) - slip(q_0);
+      step.slip_change_row[s][s] = step.slip_row[s][s] = 1.;
+      step.slip_change_row[s][1 - s]                   = 0.03 * q_1[2];
+      step.slip_change_row[s][2]                       = 0.03 * q_1[1 - s];
+      step.slip_row[s][1 - s]                          = 0.03 * middle[2];
+      step.slip_row[s][2]                              = 0.03 * middle[1 - s];
+      step.slip_curvature[s][1 - s][2] = step.slip_curvature[s][2][1 - s] = 0.015;
+    }
+    return step;
+  }
+} // namespace
+
+TEST(ContactPoint, OnASurfaceTheTangentIsTheDerivativeOfTheForce)
+{
+  for (const auto balance : { ForceBalance::mean, ForceBalance::end })
+    for (const auto &friction : { coulomb, cork })
+      for (const double slip : { 1e-4, 0.04, 0.4 })
+      {
+        StepContactLaw law;
+        law.normal     = { 500., 1. };
+        law.tangential = 300.;
+        law.friction   = friction;
+        law.weights    = generalised_alpha(0.8, 2e-3);
+        law.weights.dt = 2e-3;
+        law.balance    = balance;
+        const PointMemory<2> memory{ 0.1, dealii::Tensor<1, 2>({ 0.5, 0.2 }), 0., dealii::Tensor<1, 2>({ 90., 40. }), 1e-3 };
+        const Place from({ 0.1, -0.2, -0.02 });
+        const Place to   = from + Place({ slip, -0.7 * slip, -0.0007 });
+        const auto at    = [&](const Place &q) { return step_response(surface_step(from, q), memory, law); };
+        const auto exact = at(to);
+        EXPECT_EQ(exact.slipping, slip > 1e-3);
+        EXPECT_LE(exact.traction.norm(), exact.mu * exact.pressure * (1. + 1e-12));
+        for (unsigned int j = 0; j < 3; ++j)
+        {
+          Place change;
+          change[j]          = 1e-7;
+          const auto divided = (at(to + change).force - at(to - change).force) / 2e-7;
+          for (unsigned int i = 0; i < 3; ++i)
+            EXPECT_NEAR(exact.tangent[i][j], divided[i], 1e-5 * exact.tangent.norm()) << i << j << ", slip " << slip;
+        }
+      }
 }

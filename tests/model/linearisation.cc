@@ -57,16 +57,17 @@ namespace
       if (contact.ports.sprung)
         z[contact.ports.support()] = 0.02;
       PointContact point(contact);
+      PointContact::Evaluation found;
       Vector turn(z.size());
       turn[contact.ports.rotation()] = 1.;
       z[contact.ports.rotation()]    = kinematics(geometry, place).theta - contact.rest_inclination - 1e-3;
       const double closed            = std::abs(wanted);
       for (unsigned int i = 0; i < 8; ++i)
       {
-        point.touch(z, drive());
-        z[contact.ports.rotation()] += (point.overlap() - closed) / point.gap_change(turn);
+        point.touch(z, drive(), found);
+        z[contact.ports.rotation()] += (found.overlap() - closed) / point.gap_change(found, turn);
       }
-      z[contact.ports.rotation()] += (closed - wanted) / point.gap_change(turn);
+      z[contact.ports.rotation()] += (closed - wanted) / point.gap_change(found, turn);
       return z;
     }
   };
@@ -113,13 +114,15 @@ namespace
                     const ContactFriction friction = ContactFriction::sliding)
   {
     PointContact contact(slide.contact);
-    contact.evaluate_sliding({ ports, slide.drive(), slide.speed(), rates, friction });
-    return contact.forces();
+    PointContact::Evaluation found;
+    contact.evaluate_sliding({ ports, slide.drive(), slide.speed(), rates, friction }, found);
+    return found.forces;
   }
 
   PortPerturbation linearised(const Slide &slide, const Vector &ports, const ContactFriction friction = ContactFriction::sliding)
   {
-    return PointContact(slide.contact).linearise({ ports, slide.drive(), slide.speed(), nullptr, friction });
+    PointContact::Evaluation found;
+    return PointContact(slide.contact).linearise({ ports, slide.drive(), slide.speed(), nullptr, friction }, found);
   }
 
   double distance(const Full &a, const Full &b)
@@ -197,10 +200,11 @@ TEST(Linearisation, FrictionThatGrowsWithSpeedIsDelayedAsInSteps)
         continue;
       const Vector at = slide.position(overlap);
       PointContact contact(slide.contact);
-      const auto linear = contact.linearise({ at, slide.drive(), slide.speed() });
+      PointContact::Evaluation found;
+      const auto linear = contact.linearise({ at, slide.drive(), slide.speed() }, found);
       Motion accepted;
       accepted.drive   = { 0., place, 0., 0. };
-      accepted.contact = contact.memory();
+      accepted.contact = found.memory();
       ASSERT_EQ(linear.delays.size(), std::holds_alternative<CorkOnAluminium>(slide.contact.friction.law) ? 1u : 0u);
 
       Full exact = linear.immediate_stiffness();
@@ -223,8 +227,9 @@ TEST(Linearisation, FrictionThatGrowsWithSpeedIsDelayedAsInSteps)
             Vector end = at, rate = change;
             end += change;
             rate /= dt;
-            contact.evaluate(PortStep{ accepted.drive, accepted.contact, to, begin, end, rate, { dt, 0., 0., 0.25, 0.5 } });
-            return contact.forces();
+            contact.evaluate(PortStep{ accepted.drive, accepted.contact, to, begin, end, rate, { dt, 0., 0., 0.25, 0.5 } },
+                             found);
+            return found.forces;
           },
           2e-7, 2e-3);
     }
@@ -267,8 +272,9 @@ TEST(Linearisation, StuckIsTheTangentOfAStepInStick)
     accepted.drive   = { 0., place, 0., 0. };
     accepted.contact = { ContactMemory{} };
     PointContact contact(slide.contact);
-    contact.evaluate(PortStep{ accepted.drive, accepted.contact, accepted.drive, { at, rest, rest }, at, rest, weights });
-    EXPECT_LT(distance(contact.forces().tangent, linear), 1e-12 * linear.frobenius_norm()) << slide.name;
+    PointContact::Evaluation found;
+    contact.evaluate(PortStep{ accepted.drive, accepted.contact, accepted.drive, { at, rest, rest }, at, rest, weights }, found);
+    EXPECT_LT(distance(found.forces.tangent, linear), 1e-12 * linear.frobenius_norm()) << slide.name;
   }
 }
 

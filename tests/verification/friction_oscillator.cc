@@ -29,26 +29,21 @@ namespace
     {
     }
 
-    void evaluate(const PortStep &step)
+    void evaluate(const PortStep &step, Evaluation &found) const
     {
-      const auto &before      = step.memory.front();
-      const double slip       = step.end[0] - step.begin.position[0];
-      const auto friction     = end_friction(before.history(), holding, slip, normal, law, step.weights.dt);
-      const double delay      = step.weights.delay();
-      const double change     = friction.traction - before.traction;
-      at_port.values[0]       = -0.5 * (before.traction + friction.traction) - delay * change;
-      at_port.tangent(0, 0)   = -(0.5 + delay) * friction.d_slip;
-      memory_after.traction   = friction.traction;
-      memory_after.slip_speed = friction.slip_speed;
-      memory_after.step       = step.weights.dt;
-      work                    = { 0., friction.dissipated, 0., delay * change * slip, friction.creep };
-      stored                  = friction.energy;
-    }
-
-    /// Of the spring in stick at the cone [mm].
-    double overlap() const
-    {
-      return mu * normal / holding;
+      const auto &before = step.memory.front();
+      const Slip slip({ step.end[0] - step.begin.position[0] });
+      const auto friction         = end_friction(before.history(), holding, slip, normal, law, step.weights.dt);
+      const double delay          = step.weights.delay();
+      const auto change           = friction.traction - before.traction;
+      found.forces.values[0]      = -(0.5 * (before.traction + friction.traction) + delay * change)[0];
+      found.forces.tangent(0, 0)  = -(0.5 + delay) * friction.d_slip[0][0];
+      found.remembered.traction   = friction.traction;
+      found.remembered.slip_speed = friction.slip_speed;
+      found.remembered.step       = step.weights.dt;
+      found.works                 = { 0., friction.dissipated, 0., delay * change * slip, friction.creep };
+      found.stored                = friction.energy;
+      found.compressed            = mu * normal / holding; // of the spring in stick at the cone
     }
 
   private:
@@ -102,7 +97,7 @@ namespace
       result.work.friction += outcome.work.friction;
       result.work.creep += outcome.work.creep;
       result.x.push_back(x);
-      result.traction.push_back(motion.contact.front().traction);
+      result.traction.push_back(motion.contact.front().traction[0]);
       // Between two crossings of 0.
       if (before * x < 0.)
       {

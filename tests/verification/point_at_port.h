@@ -13,47 +13,62 @@ namespace sprag
     static constexpr bool stands_for_layer = false;
     static constexpr unsigned int levers   = 1;
 
-    PointAtPort()
+    /// At the end of the step.
+    struct Evaluation
     {
-      at_port.ports = all;
-      at_port.values.reinit(1);
-      at_port.tangent.reinit(1, 1);
-    }
-    double gap_change(const dealii::Vector<double> &) const
+      static constexpr bool within_reach = true;
+
+      PortForces forces{ { 0 }, dealii::Vector<double>(1), dealii::FullMatrix<double>(1, 1) };
+      ContactMemory remembered;
+      StepWork works;
+      double stored     = 0.;
+      double compressed = 0.;
+
+      std::vector<ContactMemory> memory() const
+      {
+        return { remembered };
+      }
+      const StepWork &work() const
+      {
+        return works;
+      }
+      double energy() const
+      {
+        return stored;
+      }
+      double overlap() const
+      {
+        return compressed;
+      }
+    };
+
+    double gap_change(const Evaluation &, const dealii::Vector<double> &, unsigned int) const
     {
       return 0.;
     }
-    const PortForces &forces() const
-    {
-      return at_port;
-    }
-    const PortSelection &reachable_ports(double, double) const
+    const PortSelection &reachable_ports(double, const OfLevers &) const
     {
       return all;
-    }
-    bool within_reach() const
-    {
-      return true;
     }
     void widen_reach()
     {
     }
-    void evaluate_sliding(const SlidingState &)
+    void evaluate_sliding(const SlidingState &, Evaluation &) const
     {
     }
-    std::vector<ContactMemory> touch(const dealii::Vector<double> &, const DrivePoint &)
+    std::vector<ContactMemory> touch(const dealii::Vector<double> &, const DrivePoint &, Evaluation &) const
     {
       return { ContactMemory{} };
     }
-    double mean_slip(const dealii::Vector<double> &, double, const dealii::Vector<double> &, double) const
+    double mean_slip(const Evaluation &, const dealii::Vector<double> &, double, const dealii::Vector<double> &, double) const
     {
       return 0.;
     }
-    PortPerturbation linearise(const SlidingState &)
+    PortPerturbation linearise(const SlidingState &, Evaluation &) const
     {
       return {};
     }
-    SurfaceShape surface_shape(const dealii::Vector<double> &) const
+    SurfaceShape surface_shape(const dealii::Vector<double> &, unsigned int) const
     {
       return {};
     }
@@ -61,35 +76,13 @@ namespace sprag
     {
       return {};
     }
-    FaceState face_state(const DrivePoint &) const
+    FaceState face_state(const Evaluation &, const DrivePoint &) const
     {
       return {};
     }
-    std::vector<ContactMemory> memory() const
-    {
-      return { memory_after };
-    }
-    void add_work(StepWork &sum) const
-    {
-      sum.friction += work.friction;
-      sum.damping += work.damping;
-      sum.algorithmic += work.algorithmic;
-      sum.creep += work.creep;
-    }
-    double energy() const
-    {
-      return stored;
-    }
-    void observe(Row &) const
+    void observe(const Evaluation &, Row &, unsigned int) const
     {
     }
-
-  protected:
-    // At the end of the step.
-    PortForces at_port;
-    ContactMemory memory_after;
-    StepWork work;
-    double stored = 0.;
 
   private:
     const PortSelection all = { 0 };

@@ -101,17 +101,21 @@ namespace sprag
 
     std::vector<ContactMemory> memory() const override
     {
-      return { { properties.enforcement == Enforcement::augmented_lagrangian ? response.pressure : 0., response.traction } };
+      std::vector<ContactMemory> result(1);
+      result[0].traction = response.traction;
+      if (properties.enforcement == Enforcement::augmented_lagrangian)
+        result[0].normal_multiplier = response.pressure;
+      return result;
     }
 
     /// P and F are normal force and friction, Q is the load along the first displacement.
     void observe(const State & /*trial*/, Row &row) const override
     {
       row[Column::P]              = response.pressure;
-      row[Column::F]              = response.traction;
+      row[Column::F]              = response.traction[0];
       row[Column::Q]              = external[0];
       row[Column::penetration]    = penetration();
-      row[Column::friction_power] = response.traction * rate;
+      row[Column::friction_power] = response.traction[0] * rate;
     }
 
   private:

@@ -61,7 +61,7 @@ namespace
   class Wall : public PointAtPort
   {
   public:
-    void evaluate(const PortStep &step)
+    void evaluate(const PortStep &step, Evaluation &found) const
     {
       StepKinematics<1> point{};
       point.gap_begin      = step.begin.position[0];
@@ -69,31 +69,23 @@ namespace
       point.gap_row_end[0] = 1.;
       point.gap_row[0]     = 1.;
       StepContactLaw law;
-      law.normal            = { penalty, 1. };
-      law.tangential        = 1.;
-      law.friction          = { CoulombFriction{ 0. }, FrictionSpeed::sliding };
-      law.weights           = step.weights;
-      const auto response   = step_response(point, step.memory.front(), law);
-      at_port.values[0]     = response.force[0];
-      at_port.tangent(0, 0) = response.tangent[0][0];
-      memory_after          = response.memory;
-      work                  = { 0., response.friction, response.damping, response.algorithmic, 0. };
-      stored                = response.energy;
-      pressure              = response.pressure;
+      law.normal                 = { penalty, 1. };
+      law.tangential             = 1.;
+      law.friction               = { CoulombFriction{ 0. }, FrictionSpeed::sliding };
+      law.weights                = step.weights;
+      const auto response        = step_response(point, step.memory.front(), law);
+      found.forces.values[0]     = response.force[0];
+      found.forces.tangent(0, 0) = response.tangent[0][0];
+      found.remembered           = response.memory;
+      found.works                = { 0., response.friction, response.damping, response.algorithmic, 0. };
+      found.stored               = response.energy;
+      found.compressed           = response.pressure / penalty;
     }
 
-    double overlap() const
+    void observe(const Evaluation &found, Row &row, unsigned int) const
     {
-      return pressure / penalty;
+      row[Column::P] = found.forces.values[0]; // of the step
     }
-
-    void observe(Row &row) const
-    {
-      row[Column::P] = at_port.values[0]; // of the step
-    }
-
-  private:
-    double pressure = 0.;
   };
 
   struct Sample

@@ -122,7 +122,7 @@ namespace sprag
   bool HeldRun::slides(const double speed) const
   {
     for (const auto &point : now.motion.contact)
-      if (point.traction != 0. && point.step > 0. && !(point.slip_speed * speed > 0.))
+      if (point.traction[0] != 0. && point.step > 0. && !(point.slip_speed[0] * speed > 0.))
         return false;
     return true;
   }

@@ -30,18 +30,20 @@ namespace sprag
   }
 
   /// Values at the points of `states` of the function that a traction of theirs is averaged to, an entry per state [MPa].
-  std::vector<double> FaceMultipliers::averaged(const std::vector<FacePointState> &states, double FacePointState::*traction) const
+  template <class Traction>
+  std::vector<Traction> FaceMultipliers::averaged(const std::vector<FacePointState<2>> &states,
+                                                  Traction PointTraction<1>::*traction) const
   {
-    std::vector<double> coefficients(areas.size());
+    std::vector<Traction> coefficients(areas.size());
     for (const auto &state : states)
       if (state.trial_pressure > 0.)
       {
         const auto &share = shares[state.index];
         for (unsigned int i = 0; i < 2; ++i)
           coefficients[share.first + i] +=
-              face.points[state.index].weight * share.values[i] * (state.*traction) / areas[share.first + i];
+              (face.points[state.index].weight * share.values[i] / areas[share.first + i]) * (state.*traction);
       }
-    std::vector<double> result;
+    std::vector<Traction> result;
     for (const auto &state : states)
     {
       const auto &share = shares[state.index];
@@ -50,10 +52,10 @@ namespace sprag
     return result;
   }
 
-  std::vector<ContactMemory> FaceMultipliers::augmented(const std::vector<FacePointState> &states) const
+  std::vector<ContactMemory> FaceMultipliers::augmented(const std::vector<FacePointState<2>> &states) const
   {
-    const auto pressures = averaged(states, &FacePointState::pressure);
-    const auto tractions = averaged(states, &FacePointState::traction);
+    const auto pressures = averaged(states, &FacePointState<2>::pressure);
+    const auto tractions = averaged(states, &FacePointState<2>::traction);
     std::vector<ContactMemory> result(states.size());
     for (std::size_t a = 0; a < states.size(); ++a)
     {
@@ -64,10 +66,10 @@ namespace sprag
     return result;
   }
 
-  double FaceMultipliers::largest_change(const std::vector<FacePointState> &states,
+  double FaceMultipliers::largest_change(const std::vector<FacePointState<2>> &states,
                                          const std::vector<ContactMemory> &memory) const
   {
-    const auto pressures = averaged(states, &FacePointState::pressure);
+    const auto pressures = averaged(states, &FacePointState<2>::pressure);
     double largest       = 0.;
     auto known           = memory.begin();
     for (std::size_t a = 0; a < states.size(); ++a)

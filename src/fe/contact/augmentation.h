@@ -17,13 +17,14 @@ namespace sprag
     explicit FaceMultipliers(const FrictionFace<2> &face);
 
     /// Multipliers of the next augmentation at the points of `states`, from their tractions.
-    std::vector<ContactMemory> augmented(const std::vector<FacePointState> &states) const;
+    std::vector<ContactMemory> augmented(const std::vector<FacePointState<2>> &states) const;
 
     /// Largest change of a pressure multiplier by the next augmentation, from those in `memory` [MPa].
-    double largest_change(const std::vector<FacePointState> &states, const std::vector<ContactMemory> &memory) const;
+    double largest_change(const std::vector<FacePointState<2>> &states, const std::vector<ContactMemory> &memory) const;
 
   private:
-    std::vector<double> averaged(const std::vector<FacePointState> &states, double FacePointState::*traction) const;
+    template <class Traction>
+    std::vector<Traction> averaged(const std::vector<FacePointState<2>> &states, Traction PointTraction<1>::*traction) const;
 
     /// Two hats that share a point.
     struct Share

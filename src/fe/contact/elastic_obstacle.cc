@@ -16,7 +16,7 @@ namespace sprag
     }
   } // namespace
 
-  ElasticObstacle::ElasticObstacle(const FrictionFace<2> &lever, const FrictionFace<2> &cylinder, const FacePatches &face_,
+  ElasticObstacle::ElasticObstacle(const FrictionFace<2> &lever, const FrictionFace<2> &cylinder, const FacePatches<2> &face_,
                                    const FaceContactProperties &properties_)
       : face(face_)
       , properties(properties_)
@@ -36,10 +36,17 @@ namespace sprag
       enter_balance();
   }
 
-  FacePatches::Range ElasticObstacle::near() const
+  FacePatches<2>::Indices ElasticObstacle::near() const
   {
-    const auto at_last = pair.near(end.at);
-    return places.balanced_at_end() ? at_last : FacePatches::united(at_last, near_begin);
+    const auto at_last = near(end.at);
+    return places.balanced_at_end() ? at_last : united(at_last, near_begin);
+  }
+
+  FacePatches<2>::Indices ElasticObstacle::near(const PairConfiguration &at) const
+  {
+    PairPlace place;
+    return face.find_near({ at.at.centre.xi, at.at.centre.eta },
+                          [&](const unsigned int of) { return pair.reach(of, at, place); });
   }
 
   double ElasticObstacle::first_slip(const FaceConfiguration &at) const
@@ -55,7 +62,7 @@ namespace sprag
     of_begin.first_slip         = first_slip(at);
     known_begin                 = *at.displacement;
     of_begin.at.at.displacement = &known_begin;
-    near_begin                  = pair.near(of_begin.at);
+    near_begin                  = near(of_begin.at);
     begin_facets.clear();
   }
 
@@ -79,8 +86,8 @@ namespace sprag
   void ElasticObstacle::enter(const unsigned int of_face)
   {
     patch   = of_face;
-    first   = face.patches()[patch].begin;
-    nodal   = FacePatches::nodal(face.patches()[patch], *places.end.displacement);
+    first   = face.patches[patch].begin;
+    nodal   = FacePatches<2>::nodal(face.patches[patch], *places.end.displacement);
     touched = false;
     pair.find_facets(patch, end.at, end.of);
   }
@@ -90,10 +97,10 @@ namespace sprag
     return end.of.facets[point - first];
   }
 
-  bool ElasticObstacle::place(FacePointState &state) const
+  bool ElasticObstacle::place(FacePointState<2> &state) const
   {
     const auto &facet = facet_at_end(state.index);
-    state.position    = FacePatches::position(face.points()[state.index], nodal);
+    state.position    = FacePatches<2>::position(face.points[state.index], nodal);
     state.gap         = facet.gap;
     return facet.opposed;
   }
@@ -103,23 +110,23 @@ namespace sprag
     return places.moves() ? facets_at_begin(patch).facets[point - first].gap : facet_at_end(point).gap;
   }
 
-  /// How far the cylinder's undeformed surface has run past a facet, from where its first node without load counts 0 against the
-  /// undeformed body. Beside the cylinder's face that of the undeformed body.
+  /// Returns how far the cylinder's undeformed surface has run past a facet, from where its first node without load counts 0
+  /// against the undeformed body. Beside the cylinder's face that of the undeformed body.
   double ElasticObstacle::slip_coordinate(const Facet &facet, const FaceConfiguration &at, const double of_first,
                                           const unsigned int point) const
   {
     if (facet.opposed)
       return facet.arc + of_first;
-    const auto &of      = face.patches()[face.patch_of_point(point)];
-    const auto position = FacePatches::position(face.points()[point], FacePatches::nodal(of, *at.displacement));
-    return properties.obstacle(at.x, at.theta)(position).slip;
+    const auto &of      = face.patches[face.patch_of_point(point)];
+    const auto position = FacePatches<2>::position(face.points[point], FacePatches<2>::nodal(of, *at.displacement));
+    return properties.obstacle(at.x, at.theta)({ position[0], position[1] }).slip;
   }
 
   double ElasticObstacle::slip_at_begin(const unsigned int point)
   {
     const unsigned int of_patch = face.patch_of_point(point);
     const auto &facets          = facets_at_begin(of_patch).facets;
-    return slip_coordinate(facets[point - face.patches()[of_patch].begin], of_begin.at.at, of_begin.first_slip, point);
+    return slip_coordinate(facets[point - face.patches[of_patch].begin], of_begin.at.at, of_begin.first_slip, point);
   }
 
   double ElasticObstacle::slip_at_end(const unsigned int point) const
@@ -127,7 +134,7 @@ namespace sprag
     return slip_coordinate(facet_at_end(point), places.end, end.first_slip, point);
   }
 
-  double ElasticObstacle::slip(const FacePointState &state)
+  double ElasticObstacle::slip(const FacePointState<2> &state)
   {
     if (!places.moves())
       return 0.;
@@ -135,28 +142,28 @@ namespace sprag
     return 0.5 * (stretch_at_begin + facet_at_end(state.index).stretch) * (slip_at_end(state.index) - slip_at_begin(state.index));
   }
 
-  /// The facets of the patch beside one, of whose slips the slope is the difference.
+  /// Returns the facets of the patch beside one; the slope is the difference of their slips.
   std::array<unsigned int, 2> ElasticObstacle::neighbours(const unsigned int point) const
   {
-    const auto &of = face.patches()[patch];
+    const auto &of = face.patches[patch];
     return { { std::max(point, of.begin + 1) - 1, std::min(point + 1, of.end - 1) } };
   }
 
-  /// Along the undeformed face, which the facets of a patch share evenly [mm].
+  /// Returns the distance of two facets along the undeformed face, which the facets of a patch share evenly [mm].
   double ElasticObstacle::distance(const unsigned int from, const unsigned int to) const
   {
-    const auto &of = face.patches()[patch];
+    const auto &of = face.patches[patch];
     return of.length * (to - from) / (of.end - of.begin);
   }
 
-  /// Of the slip along the face [1].
+  /// Returns the slope of the slip along the face [1].
   double ElasticObstacle::slope(const unsigned int point) const
   {
     const auto [before, after] = neighbours(point);
     return before == after ? 1. : (slip_at_end(after) - slip_at_end(before)) / distance(before, after);
   }
 
-  /// Before the first forces of a patch.
+  /// Prepares the sums of a patch before its first forces.
   void ElasticObstacle::touch()
   {
     if (touched)
@@ -184,7 +191,7 @@ namespace sprag
     }
   }
 
-  /// Of the nodes of the patch.
+  /// Returns how the displacements of the patch's nodes change.
   Vector<double> ElasticObstacle::change(const Vector<double> &from, const Vector<double> &to) const
   {
     Vector<double> result(coordinates.size());
@@ -194,7 +201,7 @@ namespace sprag
     return result;
   }
 
-  void ElasticObstacle::step(FacePointState &state, const ContactMemory &memory, const FaceStep &step, ContactSums &sums)
+  void ElasticObstacle::step(FacePointState<2> &state, const ContactMemory &memory, const FaceStep &step, ContactSums &sums)
   {
     touch();
     const double R    = properties.radius;
@@ -222,25 +229,26 @@ namespace sprag
     auto over_step         = step_to(kinematics, 0.);
     if (!at_end)
     {
-      const auto bent     = bends(side.of, force, side.at, coordinates, R, movement);
-      over_step.gap_begin = begin->gap;
-      over_step.gap_bend  = bent.gap;
-      over_step.slip_bend = bent.slip;
+      const auto bent        = bends(side.of, force, side.at, coordinates, R, movement);
+      over_step.gap_begin    = begin->gap;
+      over_step.gap_bend     = bent.gap;
+      over_step.slip_bend[0] = bent.slip;
     }
     SlipShift shift;
     if (step.travel != 0.)
       shift = slip_shift(face, state.index, slope(state.index), step, [this](const unsigned int q) { return slip_at_begin(q); });
-    over_step.slip_shift = stretch * shift.slip + shift.elastic;
-    const auto response  = step_response(over_step, memory, step.law);
+    over_step.slip_shift[0] = stretch * shift.slip + shift.elastic;
+    const auto response     = step_response(over_step, memory, step.law);
 
     record(response, step, memory, stretch * (run + shift.slip), force.weight, stretch * step.surface_run, state, sums);
     sums.beyond_face = sums.beyond_face || (at_end_of_face && response.pressure > 0.);
-    state.end_force  = on_lever(response.pressure, -response.traction, end_rows);
-    add_force(force.weight, response.force[0], response.force[1], rows);
+    state.end_force  = on_lever(response.pressure, -response.traction[0], end_rows);
+    values.add(force.weight * response.force[0], rows.gap, force.weight * response.force[1], rows.slip);
     sums.force_on_obstacle +=
         force.weight * (response.force[0] * rows.gap[coordinates.x()] + response.force[1] * rows.slip[coordinates.x()]);
-    if (shift.d_slope * response.d_shift != 0.)
-      add_shift(last, state.index, shift, response.d_shift);
+    const double d_shift = response.d_shift[0][0];
+    if (shift.d_slope * d_shift != 0.)
+      add_shift(last, state.index, shift, d_shift);
     add_tangent(response, force, stretch, run, share);
   }
 
@@ -266,7 +274,7 @@ namespace sprag
                   tangent);
   }
 
-  /// How the traction on a facet changes with the slip's shift, by the stretch and by the slip's slope. Turning moves both
+  /// Adds how the traction on a facet changes with the slip's shift, by the stretch and by the slip's slope. Turning moves both
   /// neighbours alike.
   void ElasticObstacle::add_shift(const Facet &facet, const unsigned int point, const SlipShift &shift, const double d_shift)
   {
@@ -283,30 +291,30 @@ namespace sprag
                 tangent);
   }
 
-  void ElasticObstacle::slide(FacePointState &state, const SlidingState &sliding, const FrictionLaw &law, ContactSums &sums)
+  void ElasticObstacle::slide(FacePointState<2> &state, const SlidingState &sliding, const FrictionLaw &law, ContactSums &sums)
   {
     touch();
     const double R    = properties.radius;
     const auto &facet = facet_at_end(state.index);
     find_rows(end.of, facet, end.at, coordinates, R, end_rows);
-    state.slip_change = facet.stretch * sliding.speed;
+    state.slip_change[0] = facet.stretch * sliding.speed;
     if (sliding.rates != nullptr)
     {
       auto rates                 = change(Vector<double>(sliding.rates->size()), *sliding.rates);
       rates[coordinates.theta()] = (*sliding.rates)[properties.ports.rotation()];
       rates[coordinates.x()]     = properties.ports.sprung ? -(*sliding.rates)[properties.ports.support()] : 0.;
-      state.slip_change += end_rows.slip * rates;
+      state.slip_change[0] += end_rows.slip * rates;
     }
-    sums.beyond_face = sums.beyond_face || at_end_of_face;
-    const auto of    = sprag::slide(properties, law, sliding, facet.weight, state, sums);
-    state.end_force  = on_lever(state.pressure, -state.traction, end_rows);
-    add_force(facet.weight, state.pressure, -state.traction, end_rows);
+    sums.beyond_face        = sums.beyond_face || at_end_of_face;
+    const auto of           = sprag::slide(properties, law, sliding, facet.weight, state, sums);
+    state.end_force         = on_lever(state.pressure, -state.traction[0], end_rows);
+    const double normal     = facet.weight * state.pressure;
+    const double tangential = -facet.weight * state.traction[0];
+    values.add(normal, end_rows.gap, tangential, end_rows.slip);
     add_product(facet.weight * of.normal, end_rows.gap, end_rows.gap, tangent);
     force_row.equ(of.coupled, end_rows.gap);
     force_row.add(of.stuck, end_rows.slip, of.by_speed * sliding.speed, end_rows.stretch);
     add_product(facet.weight, end_rows.slip, force_row, sums.in_parts ? friction.by_displacement : tangent);
-    const double normal     = facet.weight * state.pressure;
-    const double tangential = -facet.weight * state.traction;
     if (!sums.in_parts)
       return add_curvature(end.of, facet, end.at, coordinates, R, normal, tangential, tangent);
     add_curvature(end.of, facet, end.at, coordinates, R, normal, 0., tangent);
@@ -314,11 +322,6 @@ namespace sprag
     add_product(facet.weight * of.by_speed, end_rows.slip, end_rows.slip, friction.by_velocity);
     if (of.delay > 0.)
       friction.delays.push_back(delay_of(of, sliding.speed, rows_on_ports(facet)));
-  }
-
-  void ElasticObstacle::add_force(const double weight, const double normal, const double along_slip, const FacetRows &rows)
-  {
-    values.add(weight * normal, rows.gap, weight * along_slip, rows.slip);
   }
 
   Tensor<1, 4> ElasticObstacle::on_lever(const double normal, const double along_slip, const FacetRows &rows) const
@@ -332,16 +335,14 @@ namespace sprag
     return result;
   }
 
-  /// Coordinates of the patch that are ports. The support's moves the obstacle's position back.
-  std::vector<FaceCoordinate> ElasticObstacle::ports() const
+  /// Returns the coordinates of the patch that are ports.
+  PortCoordinates ElasticObstacle::ports() const
   {
-    std::vector<FaceCoordinate> result;
+    PortCoordinates result;
     for (unsigned int i = 0; i < coordinates.theta(); ++i)
       if (const unsigned int node = coordinates.nodes[i / 2]; node != FaceEdge<2>::held)
         result.push_back({ i, 2 * node + i % 2, 1. });
-    result.push_back({ coordinates.theta(), properties.ports.rotation(), 1. });
-    if (properties.ports.sprung)
-      result.push_back({ coordinates.x(), properties.ports.support(), -1. });
+    add_frame(properties.ports, coordinates.theta(), coordinates.x(), result);
     return result;
   }
 
@@ -351,7 +352,7 @@ namespace sprag
       add_patch(ports(), values, tangent, friction, sums);
   }
 
-  FacePointRows ElasticObstacle::rows(const FacePointState &state)
+  FacePointRows ElasticObstacle::rows(const FacePointState<2> &state)
   {
     touch();
     const auto &facet = facet_at_end(state.index);
@@ -359,20 +360,11 @@ namespace sprag
     return rows_on_ports(facet);
   }
 
-  /// Of those found last.
+  /// Returns the rows that were found last, over ports.
   FacePointRows ElasticObstacle::rows_on_ports(const Facet &facet) const
   {
     const auto of_patch = ports();
-    const auto n        = static_cast<unsigned int>(of_patch.size());
-    FacePointRows result{ facet.weight, {}, Vector<double>(n), Vector<double>(n), Vector<double>(n) };
-    for (unsigned int i = 0; i < n; ++i)
-    {
-      const auto &[coordinate, port, sign] = of_patch[i];
-      result.ports.push_back(port);
-      result.gap[i]     = sign * end_rows.gap[coordinate];
-      result.slip[i]    = sign * end_rows.slip[coordinate];
-      result.stretch[i] = sign * end_rows.stretch[coordinate];
-    }
-    return result;
+    return { facet.weight, ports_of(of_patch), row_on_ports(of_patch, end_rows.gap), row_on_ports(of_patch, end_rows.slip),
+             row_on_ports(of_patch, end_rows.stretch) };
   }
 } // namespace sprag

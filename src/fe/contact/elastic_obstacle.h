@@ -7,26 +7,26 @@
 
 namespace sprag
 {
-  /// What FaceContact sees of an elastic cylinder below the lever's face, the interface of RigidObstacle. Points of the friction
-  /// face are facets, see FacePair: pressure and traction are those of the facet's mean gap and slip. Ports of the cylinder's
-  /// nodes follow those of the lever's.
+  /// An elastic cylinder below the lever's face, with the interface of RigidObstacle. The points of the friction face are facets,
+  /// see FacePair: pressure and traction are those of the facet's mean gap and slip. The ports of the cylinder's nodes follow
+  /// those of the lever's. Patches and points are indices in `face`.
   class ElasticObstacle
   {
   public:
     /// All must outlive the obstacle; `face` are the lever's patches.
-    ElasticObstacle(const FrictionFace<2> &lever, const FrictionFace<2> &cylinder, const FacePatches &face,
+    ElasticObstacle(const FrictionFace<2> &lever, const FrictionFace<2> &cylinder, const FacePatches<2> &face,
                     const FaceContactProperties &properties);
 
     void enter(const StepPlaces &places);
-    FacePatches::Range near() const;
+    FacePatches<2>::Indices near() const;
     void enter(unsigned int patch);
-    bool place(FacePointState &state) const;
+    bool place(FacePointState<2> &state) const;
     double gap_at_begin(unsigned int point);
-    void step(FacePointState &state, const ContactMemory &memory, const FaceStep &step, ContactSums &sums);
-    void slide(FacePointState &state, const SlidingState &sliding, const FrictionLaw &law, ContactSums &sums);
+    void step(FacePointState<2> &state, const ContactMemory &memory, const FaceStep &step, ContactSums &sums);
+    void slide(FacePointState<2> &state, const SlidingState &sliding, const FrictionLaw &law, ContactSums &sums);
     void leave(ContactSums &sums);
-    FacePointRows rows(const FacePointState &state);
-    double slip(const FacePointState &state);
+    FacePointRows rows(const FacePointState<2> &state);
+    double slip(const FacePointState<2> &state);
 
   private:
     struct Side
@@ -37,6 +37,7 @@ namespace sprag
     };
 
     double first_slip(const FaceConfiguration &at) const;
+    FacePatches<2>::Indices near(const PairConfiguration &at) const;
     void enter_begin(const FaceConfiguration &at);
     void enter_balance();
     const PatchFacets &facets_at_begin(unsigned int of_patch);
@@ -50,13 +51,12 @@ namespace sprag
     const Facet &facet_at_end(unsigned int point) const;
     void add_tangent(const StepResponse<2> &response, const Facet &facet, double stretch, double run, double stretch_of_end);
     void add_shift(const Facet &facet, unsigned int point, const SlipShift &shift, double d_shift);
-    void add_force(double weight, double normal, double along_slip, const FacetRows &rows);
     dealii::Tensor<1, 4> on_lever(double normal, double along_slip, const FacetRows &rows) const;
-    std::vector<FaceCoordinate> ports() const;
+    PortCoordinates ports() const;
     FacePointRows rows_on_ports(const Facet &facet) const;
     dealii::Vector<double> change(const dealii::Vector<double> &from, const dealii::Vector<double> &to) const;
 
-    const FacePatches &face;
+    const FacePatches<2> &face;
     const FaceContactProperties &properties;
     const FacePair pair;
     const LeverPoint first_node; ///< of the cylinder's face, about its centre
@@ -70,13 +70,13 @@ namespace sprag
     // Where the step begins, the same in all its iterations.
     Side of_begin;
     dealii::Vector<double> known_begin;
-    FacePatches::Range near_begin{ 0, 0 };
+    FacePatches<2>::Indices near_begin;
     std::map<unsigned int, PatchFacets> begin_facets; ///< by patches
 
     // Of the patch.
     unsigned int patch = 0;
-    unsigned int first = 0;     ///< of its points
-    FacePatches::Nodal nodal{}; ///< its displacements at the end
+    unsigned int first = 0;        ///< of its points
+    FacePatches<2>::Nodal nodal{}; ///< its displacements at the end
     bool touched        = false;
     bool at_end_of_face = false;
     PairCoordinates coordinates;

@@ -1,7 +1,5 @@
 #include "fe/contact/face_contact.h"
 
-#include "base/errors.h"
-#include "base/text.h"
 #include "laws/friction_of_step.h"
 
 #include <algorithm>
@@ -14,12 +12,12 @@ namespace sprag
 
   namespace
   {
-    std::variant<RigidObstacle, ElasticObstacle> make_obstacle(const ElasticBody<2> &body, const FacePatches &face,
+    std::variant<RigidObstacle, ElasticObstacle> make_obstacle(const ElasticBody<2> &body, const FacePatches<2> &face,
                                                                const FaceContactProperties &properties)
     {
       using Obstacles = std::variant<RigidObstacle, ElasticObstacle>;
       if (body.cylinder_face().patches.empty())
-        return Obstacles(std::in_place_type<RigidObstacle>, face, properties);
+        return Obstacles(std::in_place_type<RigidObstacle>, body.friction_face(), face, properties);
       return Obstacles(std::in_place_type<ElasticObstacle>, body.friction_face(), body.cylinder_face(), face, properties);
     }
   } // namespace
@@ -38,7 +36,7 @@ namespace sprag
     std::visit([&](auto &below) { below.enter(places); }, obstacle);
   }
 
-  FacePatches::Range FaceContact::near() const
+  FacePatches<2>::Indices FaceContact::near() const
   {
     return std::visit([](const auto &below) { return below.near(); }, obstacle);
   }
@@ -50,13 +48,14 @@ namespace sprag
     return { &ports, inclination, relative, properties.centre(relative, inclination) };
   }
 
-  void FaceContact::clear(const Vector<double> &ports, const double x, const double duration)
+  void FaceContact::begin(const Vector<double> &ports, const double x, const double duration, FaceEvaluation &found)
   {
-    displacement  = ports;
-    last_x        = x;
-    step_duration = duration;
-    sums          = {};
-    states.clear();
+    found.displacement = ports;
+    found.x            = x;
+    found.duration     = duration;
+    found.within_reach = true;
+    found.sums         = {};
+    found.points.clear();
   }
 
   namespace
@@ -79,9 +78,24 @@ namespace sprag
     }
   } // namespace
 
-  void FaceContact::evaluate(const PortStep &step, const std::optional<StaticTerms> &statics)
+  template <class OfPatch>
+  void FaceContact::visit_patches(const FacePatches<2>::Indices &patches, const OfPatch &of_patch) const
   {
-    clear(step.end, step.to.x, step.weights.dt);
+    std::visit(
+        [&](auto &below)
+        {
+          for (const unsigned int patch : patches)
+          {
+            below.enter(patch);
+            of_patch(below, patch);
+          }
+        },
+        obstacle);
+  }
+
+  void FaceContact::evaluate(const PortStep &step, FaceEvaluation &found, const std::optional<StaticTerms> &statics) const
+  {
+    begin(step.end, step.to.x, step.weights.dt, found);
     FaceStep of_contact{ law_of_step(properties, step, statics), step.memory, step.to.surface - step.from.surface };
     if (statics)
     {
@@ -91,32 +105,30 @@ namespace sprag
     }
     enter({ configuration(step.begin.position, step.from.x), configuration(step.end, step.to.x), step.weights.stiffness(),
             statics.has_value() });
-    const auto range = near_step(step.memory, of_contact.law.balance);
-    std::visit(
-        [&](auto &below)
-        {
-          for (unsigned int patch = range.begin; patch < range.end; ++patch)
-            step_patch(below, patch, of_contact);
-        },
-        obstacle);
-    sum_forces();
-    sums.work.drive -= sums.force_on_obstacle * (step.to.x - step.from.x);
+    visit_patches(near_step(step.memory, of_contact.law.balance, found),
+                  [&](auto &below, const unsigned int patch) { step_patch(below, patch, of_contact, found); });
+    sum_forces(found);
+    found.sums.work.drive -= found.sums.force_on_obstacle * (step.to.x - step.from.x);
   }
 
-  /// A mean over the step counts what was in contact when it began.
-  FacePatches::Range FaceContact::near_step(const std::vector<ContactMemory> &memory, const ForceBalance balance)
+  /// Finds the patches of a step. Where forces are means over the step, those in contact when it began belong to them.
+  FacePatches<2>::Indices FaceContact::near_step(const std::vector<ContactMemory> &memory, const ForceBalance balance,
+                                                 FaceEvaluation &found) const
   {
-    auto range = near();
-    if (!memory.empty() && balance == ForceBalance::mean)
-      range = FacePatches::united(range, face.patches_of_points(memory.front().point, memory.back().point));
-    return clip(range);
+    if (balance == ForceBalance::end)
+      return clip(near(), found);
+    FacePatches<2>::Indices remembered;
+    for (const auto &entry : memory)
+      if (remembered.empty() || entry.point >= face.patches[remembered.back()].end)
+        remembered.push_back(face.patch_of_point(entry.point));
+    return clip(united(near(), remembered), found);
   }
 
-  FacePointState &FaceContact::add_state(const unsigned int patch, const unsigned int point)
+  FacePointState<2> &FaceContact::add_point(const unsigned int patch, const unsigned int point, FaceEvaluation &found)
   {
-    FacePointState &state = states.emplace_back();
-    state.index           = point;
-    state.patch           = patch;
+    FacePointState<2> &state = found.points.emplace_back();
+    state.index              = point;
+    state.patch              = patch;
     return state;
   }
 
@@ -130,15 +142,14 @@ namespace sprag
   } // namespace
 
   template <class ObstacleBelow>
-  void FaceContact::step_patch(ObstacleBelow &below, const unsigned int patch, const FaceStep &step)
+  void FaceContact::step_patch(ObstacleBelow &below, const unsigned int patch, const FaceStep &step, FaceEvaluation &found) const
   {
     const double penalty    = properties.penalties.normal;
     const bool ends_balance = step.law.balance == ForceBalance::end;
-    below.enter(patch);
-    auto remembered = first_memory(step.memory, face.patches()[patch].begin);
-    for (unsigned int q = face.patches()[patch].begin; q < face.patches()[patch].end; ++q)
+    auto remembered         = first_memory(step.memory, face.patches[patch].begin);
+    for (unsigned int q = face.patches[patch].begin; q < face.patches[patch].end; ++q)
     {
-      auto &state            = add_state(patch, q);
+      auto &state            = add_point(patch, q, found);
       const bool can_touch   = below.place(state);
       const bool has_memory  = remembered != step.memory.end() && remembered->point == q;
       const auto memory      = has_memory ? *remembered++ : ContactMemory{};
@@ -147,17 +158,58 @@ namespace sprag
       const bool stays_open  = ends_balance ? state.trial_pressure <= 0. : state.gap >= 0. && begin_gap >= 0. && !has_memory;
       if (stays_open)
         continue;
-      sums.compression =
-          std::max(sums.compression, ends_balance ? state.trial_pressure / penalty : -std::min(state.gap, begin_gap));
-      below.step(state, memory, step, sums);
+      found.sums.compression =
+          std::max(found.sums.compression, ends_balance ? state.trial_pressure / penalty : -std::min(state.gap, begin_gap));
+      below.step(state, memory, step, found.sums);
     }
-    below.leave(sums);
+    below.leave(found.sums);
   }
 
-  void FaceContact::sum_forces()
+  void FaceContact::evaluate_sliding(const SlidingState &state, FaceEvaluation &found) const
   {
+    slide(state, false, found);
+  }
+
+  PortPerturbation FaceContact::linearise(const SlidingState &state, FaceEvaluation &found) const
+  {
+    slide(state, true, found);
+    PortPerturbation result(found.forces.ports);
+    for (const auto &of_patch : found.sums.parts)
+      result.add(of_patch);
+    found.forces.tangent = result.stiffness();
+    return result;
+  }
+
+  void FaceContact::slide(const SlidingState &sliding, const bool in_parts, FaceEvaluation &found) const
+  {
+    begin(sliding.ports, sliding.drive.x, 1., found); // slip in a second
+    found.sums.in_parts = in_parts;
+    const auto at       = configuration(sliding.ports, sliding.drive.x);
+    enter({ at, at });
+    const auto law = friction_of_step(properties.friction, sliding.drive.v);
+    visit_patches(clip(near(), found),
+                  [&](auto &below, const unsigned int patch)
+                  {
+                    for (unsigned int q = face.patches[patch].begin; q < face.patches[patch].end; ++q)
+                    {
+                      auto &state = add_point(patch, q, found);
+                      below.place(state);
+                      state.trial_pressure = -properties.penalties.normal * state.gap;
+                      state.slip_change[0] = sliding.speed;
+                      if (state.gap < 0.)
+                        below.slide(state, sliding, law, found.sums);
+                    }
+                    below.leave(found.sums);
+                  });
+    sum_forces(found);
+  }
+
+  void FaceContact::sum_forces(FaceEvaluation &found) const
+  {
+    auto &summed       = found.forces;
+    const auto &loaded = found.sums.loaded;
     summed.ports.clear();
-    for (const auto &of_patch : sums.loaded)
+    for (const auto &of_patch : loaded)
       summed.ports.insert(summed.ports.end(), of_patch.ports.begin(), of_patch.ports.end());
     std::sort(summed.ports.begin(), summed.ports.end());
     summed.ports.erase(std::unique(summed.ports.begin(), summed.ports.end()), summed.ports.end());
@@ -167,7 +219,7 @@ namespace sprag
 
     summed.values.reinit(n);
     summed.tangent.reinit(n, n);
-    for (const auto &of_patch : sums.loaded)
+    for (const auto &of_patch : loaded)
       for (unsigned int i = 0; i < of_patch.ports.size(); ++i)
       {
         const unsigned int row = place_of_port[of_patch.ports[i]];
@@ -177,34 +229,38 @@ namespace sprag
       }
   }
 
-  const PortSelection &FaceContact::reachable_ports(const double x, const double inclination, const double travel)
+  const PortSelection &FaceContact::reachable_ports(const double x, const OfLevers &inclinations, const double travel)
   {
-    const double of_radius  = properties.radius > 0. ? 0.05 * properties.radius : std::numeric_limits<double>::infinity();
-    const double of_contact = reach_factor * of_radius + travel;
-    const double aside      = 4. * properties.layer_thickness; // where the face is looked at besides
-    const double xi         = properties.centre(x, inclination).xi;
-    reached                 = face.patches_between(xi - of_contact, xi + of_contact);
-    const auto range        = face.patches_between(xi - of_contact - aside, xi + of_contact + aside);
-    if (reachable.empty() || range.begin != looked_at.begin || range.end != looked_at.end)
+    const double of_radius    = properties.radius > 0. ? 0.05 * properties.radius : std::numeric_limits<double>::infinity();
+    const double of_contact   = reach_factor * of_radius + travel;
+    const double aside        = 4. * properties.layer_thickness; // where the face is looked at besides
+    const double xi           = properties.centre(x, inclinations.front()).xi;
+    const auto patches_within = [&](const double distance)
     {
-      looked_at = range;
-      reachable = face.displacements_of(range);
+      constexpr double infinity = std::numeric_limits<double>::max();
+      return face.patches_in({ { { xi - distance, -infinity }, { xi + distance, infinity } } });
+    };
+    reached      = patches_within(of_contact);
+    auto patches = patches_within(of_contact + aside);
+    if (reachable.empty() || patches != looked_at)
+    {
+      looked_at = std::move(patches);
+      reachable = face.displacements_of(looked_at);
       for (auto port = 2 * static_cast<unsigned int>(body.friction_face().nodes.size()); port < properties.ports.size(); ++port)
         reachable.push_back(port);
     }
     return reachable;
   }
 
-  /// Without a call of reachable_ports() all can be reached.
-  FacePatches::Range FaceContact::clip(const FacePatches::Range &range)
+  /// Leaves out the patches that reachable_ports() was not asked for. Before its first call all can be reached.
+  FacePatches<2>::Indices FaceContact::clip(FacePatches<2>::Indices near, FaceEvaluation &found) const
   {
-    clipped = !reachable.empty() && (range.begin < reached.begin || range.end > reached.end);
-    return clipped ? FacePatches::Range{ std::max(range.begin, reached.begin), std::min(range.end, reached.end) } : range;
-  }
-
-  bool FaceContact::within_reach() const
-  {
-    return !clipped;
+    found.within_reach = reachable.empty() || std::includes(reached.begin(), reached.end(), near.begin(), near.end());
+    if (found.within_reach)
+      return near;
+    FacePatches<2>::Indices result;
+    std::set_intersection(near.begin(), near.end(), reached.begin(), reached.end(), std::back_inserter(result));
+    return result;
   }
 
   void FaceContact::widen_reach()
@@ -212,85 +268,19 @@ namespace sprag
     reach_factor *= 2.;
   }
 
-  const PortForces &FaceContact::forces() const
+  std::vector<ContactMemory> FaceContact::touch(const Vector<double> &ports, const DrivePoint &drive, FaceEvaluation &found) const
   {
-    return summed;
-  }
-
-  std::string FaceContact::objection() const
-  {
-    return sums.beyond_face ? "the contact reaches the end of the cylinder's face" : std::string();
-  }
-
-  std::vector<ContactMemory> FaceContact::memory() const
-  {
-    if (sums.beyond_face)
-      throw AnalysisError("the contact reaches the end of the part of the elastic cylinder's surface that is meshed to touch " +
-                          ("the lever, at x = " + rounded_text(last_x)) +
-                          " mm: the cylinder yields or the lever bends too much. Try a larger Cylinder/Young modulus or a " +
-                          "rigid cylinder.");
-    std::vector<ContactMemory> result;
-    for (const auto &state : states)
-      if (state.pressure > 0.)
-        result.push_back(state.memory);
-    return result;
-  }
-
-  std::vector<ContactMemory> FaceContact::touch(const Vector<double> &ports, const DrivePoint &drive)
-  {
-    clear(ports, drive.x, 0.);
-    const auto at = configuration(displacement, drive.x);
+    begin(ports, drive.x, 0., found);
+    const auto at = configuration(ports, drive.x);
     enter({ at, at });
-    const auto range = near();
-    std::visit(
-        [&](auto &below)
-        {
-          for (unsigned int patch = range.begin; patch < range.end; ++patch)
-          {
-            below.enter(patch);
-            for (unsigned int q = face.patches()[patch].begin; q < face.patches()[patch].end; ++q)
-              below.place(add_state(patch, q));
-          }
-        },
-        obstacle);
-    sum_forces();
+    visit_patches(near(),
+                  [&](auto &below, const unsigned int patch)
+                  {
+                    for (unsigned int q = face.patches[patch].begin; q < face.patches[patch].end; ++q)
+                      below.place(add_point(patch, q, found));
+                  });
+    sum_forces(found);
     return {};
-  }
-
-  void FaceContact::add_work(StepWork &sum) const
-  {
-    sum.drive += sums.work.drive;
-    sum.friction += sums.work.friction;
-    sum.algorithmic += sums.work.algorithmic;
-    sum.creep += sums.work.creep;
-  }
-
-  double FaceContact::energy() const
-  {
-    return sums.stored;
-  }
-
-  double FaceContact::overlap() const
-  {
-    return sums.compression;
-  }
-
-  double FaceContact::penetration() const
-  {
-    double largest = 0.;
-    for (const auto &state : states)
-      largest = std::max(largest, -state.gap);
-    return largest;
-  }
-
-  const std::vector<FacePointState> &FaceContact::points() const
-  {
-    return states;
-  }
-
-  const Vector<double> &FaceContact::displacements() const
-  {
-    return displacement;
   }
 
   const ContactPenalties &FaceContact::penalties() const
@@ -298,39 +288,38 @@ namespace sprag
     return properties.penalties;
   }
 
-  /// Among `states`: of the points under pressure the one in the middle, else the closest.
-  unsigned int FaceContact::middle_of_contact() const
+  namespace
   {
-    const auto is_closed = [](const FacePointState &state) { return state.pressure > 0.; };
-    const auto first     = std::find_if(states.begin(), states.end(), is_closed);
-    const auto last      = std::find_if(states.rbegin(), states.rend(), is_closed);
-    if (first != states.end())
-      return static_cast<unsigned int>(((first - states.begin()) + (states.rend() - last - 1)) / 2);
-    const auto closest = std::min_element(states.begin(), states.end(),
-                                          [](const FacePointState &a, const FacePointState &b) { return a.gap < b.gap; });
-    return static_cast<unsigned int>(closest - states.begin());
-  }
+    /// Returns the point in the middle of those under pressure, or the closest one if there are none.
+    const FacePointState<2> &middle_of_contact(const std::vector<FacePointState<2>> &points)
+    {
+      const auto is_closed = [](const auto &point) { return point.pressure > 0.; };
+      const auto first     = std::find_if(points.begin(), points.end(), is_closed);
+      const auto last      = std::find_if(points.rbegin(), points.rend(), is_closed);
+      if (first != points.end())
+        return points[((first - points.begin()) + (points.rend() - last - 1)) / 2];
+      return *std::min_element(points.begin(), points.end(), [](const auto &a, const auto &b) { return a.gap < b.gap; });
+    }
+  } // namespace
 
-  double FaceContact::gap_change(const Vector<double> &change_of_ports) const
+  double FaceContact::gap_change(const FaceEvaluation &found, const Vector<double> &change_of_ports, unsigned int) const
   {
-    const auto at = configuration(displacement, last_x);
+    const auto at = configuration(found.displacement, found.x);
     enter({ at, at });
-    const auto &state = states[middle_of_contact()];
-    const auto rows   = std::visit(
-        [&](auto &below)
-        {
-          below.enter(state.patch);
-          return below.rows(state);
-        },
-        obstacle);
-    double change = 0.;
-    for (unsigned int i = 0; i < rows.ports.size(); ++i)
-      change += rows.gap[i] * change_of_ports[rows.ports[i]];
+    const auto &point = middle_of_contact(found.points);
+    double change     = 0.;
+    visit_patches({ point.patch },
+                  [&](auto &below, unsigned int)
+                  {
+                    const auto rows = below.rows(point);
+                    for (unsigned int i = 0; i < rows.ports.size(); ++i)
+                      change += rows.gap[i] * change_of_ports[rows.ports[i]];
+                  });
     return change;
   }
 
-  double FaceContact::mean_slip(const Vector<double> &from, const double from_x, const Vector<double> &to,
-                                const double to_x) const
+  double FaceContact::mean_slip(const FaceEvaluation &found, const Vector<double> &from, const double from_x,
+                                const Vector<double> &to, const double to_x) const
   {
     enter({ configuration(from, from_x), configuration(to, to_x) });
     double weighted = 0.;
@@ -339,13 +328,13 @@ namespace sprag
         [&](auto &below)
         {
           unsigned int patch = dealii::numbers::invalid_unsigned_int;
-          for (const auto &state : states)
-            if (state.pressure > 0.)
+          for (const auto &point : found.points)
+            if (point.pressure > 0.)
             {
-              if (state.patch != patch)
-                below.enter(patch = state.patch);
-              const double weight = face.points()[state.index].weight * state.pressure;
-              weighted += weight * below.slip(state);
+              if (point.patch != patch)
+                below.enter(patch = point.patch);
+              const double weight = face.points[point.index].weight * point.pressure;
+              weighted += weight * below.slip(point);
               weights += weight;
             }
         },

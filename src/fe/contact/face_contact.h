@@ -1,16 +1,19 @@
 #pragma once
 
+#include "fe/body/elastic_body.h"
 #include "fe/contact/elastic_obstacle.h"
-#include "fe/contact/face_observation.h"
+#include "fe/contact/face_evaluation.h"
 #include "fe/contact/rigid_obstacle.h"
 #include "model/port_step.h"
+#include "results/columns.h"
+#include "results/result_file.h"
 
 #include <optional>
 #include <variant>
 
 namespace sprag
 {
-  /// What a step without inertia has beside ports, drive and memory. Its forces are those at its end.
+  /// The terms that a step without inertia has beside ports, drive and memory. Its forces are those at its end.
   struct StaticTerms
   {
     FrictionLaw friction; ///< of the step
@@ -35,101 +38,75 @@ namespace sprag
     /// The body must outlive the contact.
     FaceContact(const ElasticBody<2> &body, FaceContactProperties properties);
 
-    /// Without inertia the step's rates do not count.
-    void evaluate(const PortStep &step, const std::optional<StaticTerms> &statics = {});
+    using Evaluation = FaceEvaluation;
 
-    void evaluate_sliding(const SlidingState &state);
+    /// Evaluates a step: in time, or without inertia, where the rates do not count.
+    void evaluate(const PortStep &step, FaceEvaluation &found, const std::optional<StaticTerms> &statics = {}) const;
 
-    /// Evaluates as well; on the ports of forces(). Friction delays at each point in contact.
-    PortPerturbation linearise(const SlidingState &state);
+    /// Evaluates steady sliding.
+    void evaluate_sliding(const SlidingState &state, FaceEvaluation &found) const;
 
-    const PortForces &forces() const;
+    /// Evaluates steady sliding and linearises its forces on their ports. Friction delays at each point in contact.
+    PortPerturbation linearise(const SlidingState &state, FaceEvaluation &found) const;
 
-    /// Ports near the cylinder at x from the pivot frame's origin and inclination theta, far beyond the contact's width and where
-    /// it may have been `travel` before [mm].
-    const PortSelection &reachable_ports(double x, double theta, double travel = 0.);
+    /// Returns the ports near the cylinder at x from the pivot frame's origin and inclination theta, far beyond the contact's
+    /// width and where it may have been `travel` before [mm]. Evaluations that follow look at those alone.
+    const PortSelection &reachable_ports(double x, const OfLevers &theta, double travel = 0.);
 
-    /// Whether the contact of the last evaluation was within them. If not, widen_reach() doubles how far they reach from the next
-    /// call on.
-    bool within_reach() const;
+    /// Doubles how far these ports reach, from their next call on. To be called where an evaluation was not within them.
     void widen_reach();
 
-    /// Of the points in contact, increasing. Throws AnalysisError where there is an objection().
-    std::vector<ContactMemory> memory() const;
-
-    /// Why the contact of the last evaluation goes beyond what can touch; empty if it does not.
-    std::string objection() const;
-
-    /// At rest without force.
-    std::vector<ContactMemory> touch(const dealii::Vector<double> &ports, const DrivePoint &drive);
-
-    void add_work(StepWork &work) const;
-
-    /// Of the contact springs [N mm].
-    double energy() const;
-
-    /// Largest compression of the contact springs in the step, with multipliers p / penalty [mm].
-    double overlap() const;
-
-    /// Largest overlap of a point and the obstacle [mm].
-    double penetration() const;
-
-    /// Of the patches near the obstacle, by increasing point; those elsewhere are open.
-    const std::vector<FacePointState> &points() const;
-
-    /// Displacements of the ports at the last evaluation.
-    const dealii::Vector<double> &displacements() const;
+    /// Evaluates the contact at rest without force.
+    std::vector<ContactMemory> touch(const dealii::Vector<double> &ports, const DrivePoint &drive, FaceEvaluation &found) const;
 
     const ContactPenalties &penalties() const;
 
-    /// The last evaluation as it is observed, valid until the next.
-    FaceView view() const;
+    /// Returns by how much a small change of the ports changes the gap in the middle of the contact, or where it is smallest
+    /// [mm].
+    double gap_change(const FaceEvaluation &found, const dealii::Vector<double> &change_of_ports, unsigned int lever = 0) const;
 
-    /// Change of the gap in the middle of the contact, or where it is smallest, by a small change of the ports.
-    double gap_change(const dealii::Vector<double> &change_of_ports) const;
+    /// Returns the mean slip of the points in contact, weighted with their pressure, from one configuration to another [mm].
+    double mean_slip(const FaceEvaluation &found, const dealii::Vector<double> &from, double from_x,
+                     const dealii::Vector<double> &to, double to_x) const;
 
-    /// Mean slip of the points in contact, weighted with their pressure, from one configuration to another [mm].
-    double mean_slip(const dealii::Vector<double> &from, double from_x, const dealii::Vector<double> &to, double to_x) const;
+    /// Fills the columns of a row that follow from the contact.
+    void observe(const FaceEvaluation &found, Row &row, unsigned int lever = 0) const;
 
-    void observe(Row &row) const;
-    /// Displacements of the face's nodes.
-    SurfaceShape surface_shape(const dealii::Vector<double> &displacements) const;
+    /// Returns the displacements of the face's nodes.
+    SurfaceShape surface_shape(const dealii::Vector<double> &displacements, unsigned int lever = 0) const;
     FacePoints face_points() const;
-    FaceState face_state(const DrivePoint &drive) const;
+    FaceState face_state(const FaceEvaluation &found, const DrivePoint &drive) const;
 
   private:
+    static void begin(const dealii::Vector<double> &ports, double x, double duration, FaceEvaluation &found);
     FaceConfiguration configuration(const dealii::Vector<double> &ports, double x) const;
-    void clear(const dealii::Vector<double> &ports, double x, double duration);
-    FacePatches::Range near_step(const std::vector<ContactMemory> &memory, ForceBalance balance);
+    FacePatches<2>::Indices near_step(const std::vector<ContactMemory> &memory, ForceBalance balance,
+                                      FaceEvaluation &found) const;
+
+    /// Enters patches of the obstacle one after the other and calls `of_patch`(obstacle, patch).
+    template <class OfPatch>
+    void visit_patches(const FacePatches<2>::Indices &patches, const OfPatch &of_patch) const;
+
     template <class ObstacleBelow>
-    void step_patch(ObstacleBelow &below, unsigned int patch, const FaceStep &step);
-    template <class ObstacleBelow>
-    void slide_patch(ObstacleBelow &below, unsigned int patch, const SlidingState &sliding, const FrictionLaw &law);
-    void slide(const SlidingState &sliding, bool in_parts);
+    void step_patch(ObstacleBelow &below, unsigned int patch, const FaceStep &step, FaceEvaluation &found) const;
+    void slide(const SlidingState &sliding, bool in_parts, FaceEvaluation &found) const;
     void enter(const StepPlaces &places) const;
-    FacePatches::Range near() const;
-    FacePointState &add_state(unsigned int patch, unsigned int point);
-    void sum_forces();
-    FacePatches::Range clip(const FacePatches::Range &range);
-    unsigned int middle_of_contact() const;
+    FacePatches<2>::Indices near() const;
+    static FacePointState<2> &add_point(unsigned int patch, unsigned int point, FaceEvaluation &found);
+    void sum_forces(FaceEvaluation &found) const;
+    FacePatches<2>::Indices clip(FacePatches<2>::Indices near, FaceEvaluation &found) const;
 
     const ElasticBody<2> &body;
     const FaceContactProperties properties;
-    const FacePatches face;
-    mutable std::variant<RigidObstacle, ElasticObstacle> obstacle; ///< looks at one patch after the other
+    const FacePatches<2> face;
 
-    // Of the last evaluation.
-    dealii::Vector<double> displacement; ///< of the ports
-    double last_x        = 0.;           ///< of the drive
-    double step_duration = 0.;
-    ContactSums sums;
-    std::vector<FacePointState> states;
-    PortForces summed;
-    std::vector<unsigned int> place_of_port; ///< among those summed
+    // What evaluations work with; nothing of it is a result.
+    mutable std::variant<RigidObstacle, ElasticObstacle> obstacle; ///< looks at one patch after the other
+    mutable std::vector<unsigned int> place_of_port;               ///< among those summed
+
     PortSelection reachable;
-    FacePatches::Range reached{ 0, 0 };   ///< patches that the contact may touch
-    FacePatches::Range looked_at{ 0, 0 }; ///< patches of `reachable`
+    FacePatches<2>::Indices reached;   ///< patches that the contact may touch
+    FacePatches<2>::Indices looked_at; ///< patches of `reachable`
     double reach_factor = 1.;
-    bool clipped        = false;
   };
 } // namespace sprag

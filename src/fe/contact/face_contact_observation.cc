@@ -1,21 +1,18 @@
 #include "fe/contact/face_contact.h"
 
+#include "fe/contact/face_observation.h"
+
 namespace sprag
 {
-  FaceView FaceContact::view() const
+  void FaceContact::observe(const FaceEvaluation &found, Row &row, unsigned int) const
   {
-    return { body, states, displacement, step_duration, penetration() };
-  }
-
-  void FaceContact::observe(Row &row) const
-  {
-    observe_face(view(), properties.layer_thickness, row);
+    observe_face(body, found, properties.layer_thickness, row);
     row[Column::Q] = 0.;
-    for (const auto &state : states)
-      row[Column::Q] -= face.points()[state.index].weight * state.end_force[3];
+    for (const auto &point : found.points)
+      row[Column::Q] -= face.points[point.index].weight * point.end_force[3];
   }
 
-  SurfaceShape FaceContact::surface_shape(const dealii::Vector<double> &displacements) const
+  SurfaceShape FaceContact::surface_shape(const dealii::Vector<double> &displacements, unsigned int) const
   {
     SurfaceShape shape;
     const auto &nodes = body.friction_face().nodes;
@@ -33,8 +30,8 @@ namespace sprag
     return sprag::face_points(body);
   }
 
-  FaceState FaceContact::face_state(const DrivePoint &drive) const
+  FaceState FaceContact::face_state(const FaceEvaluation &found, const DrivePoint &drive) const
   {
-    return sprag::face_state(view(), drive);
+    return sprag::face_state(body, found, drive);
   }
 } // namespace sprag

@@ -28,39 +28,41 @@ namespace sprag
     return found != memory.end() && found->point == point ? *found : ContactMemory{};
   }
 
-  SlipShift slip_shift(const FacePatches &face, const unsigned int point, const double slope, const FaceStep &step,
+  SlipShift slip_shift(const FacePatches<2> &face, const unsigned int point, const double slope, const FaceStep &step,
                        const std::function<double(unsigned int)> &slip_at_begin)
   {
-    const auto &points = face.points();
-    const double xi    = points[point].position.xi - step.travel;
-    if (step.travel == 0. || xi < points.front().position.xi || xi > points.back().position.xi)
+    const auto &points = face.points;
+    const double xi    = points[point].position[0] - step.travel;
+    if (step.travel == 0. || xi < points.front().position[0] || xi > points.back().position[0])
       return {};
-    const auto after       = std::upper_bound(points.begin() + 1, points.end() - 1, xi,
-                                              [](const double value, const FacePatches::Point &at) { return value < at.position.xi; });
-    const auto i           = static_cast<unsigned int>(after - points.begin());
-    const double before    = (after - 1)->position.xi;
-    const double share     = (xi - before) / (after->position.xi - before);
-    const auto between     = [share](const double a, const double b) { return (1. - share) * a + share * b; };
-    const double slip      = slip_at_begin(point) - between(slip_at_begin(i - 1), slip_at_begin(i)) - step.travel * slope;
-    const double unwinding = between(step.memory_of(i - 1).traction, step.memory_of(i).traction) - step.memory_of(point).traction;
+    const auto after    = std::upper_bound(points.begin() + 1, points.end() - 1, xi,
+                                           [](const double value, const auto &at) { return value < at.position[0]; });
+    const auto i        = static_cast<unsigned int>(after - points.begin());
+    const double before = (after - 1)->position[0];
+    const double share  = (xi - before) / (after->position[0] - before);
+    const auto between  = [share](const double a, const double b) { return (1. - share) * a + share * b; };
+    const double slip   = slip_at_begin(point) - between(slip_at_begin(i - 1), slip_at_begin(i)) - step.travel * slope;
+    const double unwinding =
+        between(step.memory_of(i - 1).traction[0], step.memory_of(i).traction[0]) - step.memory_of(point).traction[0];
     return { slip, step.augmented ? 0. : unwinding / step.law.tangential, -step.travel };
   }
 
   SlidingTangent slide(const FaceContactProperties &properties, const FrictionLaw &law, const SlidingState &sliding,
-                       const double weight, FacePointState &state, ContactSums &sums)
+                       const double weight, FacePointState<2> &state, ContactSums &sums)
   {
-    const auto &penalty     = properties.penalties;
-    const bool slides       = sliding.friction == ContactFriction::sliding;
-    const auto share        = slides ? sliding_friction(law, state.slip_change) : SlidingFriction{};
-    state.pressure          = -penalty.normal * state.gap;
-    state.traction          = share.coefficient * state.pressure;
-    state.mu                = slides ? friction_coefficient(law, std::abs(state.slip_change)).coefficient : 0.;
-    state.slipping          = slides;
-    state.memory.traction   = state.traction;
-    state.memory.slip_speed = sliding.speed;
-    state.memory.point      = state.index;
-    state.elastic_slip      = std::abs(state.traction) / penalty.tangential;
-    const double elastic    = law.regularisation_speed > 0. ? 0. : 0.5 * state.traction * state.traction / penalty.tangential;
+    const auto &penalty        = properties.penalties;
+    const bool slides          = sliding.friction == ContactFriction::sliding;
+    const double speed         = state.slip_change[0];
+    const auto share           = slides ? sliding_friction(law, speed) : SlidingFriction{};
+    state.pressure             = -penalty.normal * state.gap;
+    state.traction[0]          = share.coefficient * state.pressure;
+    state.mu                   = slides ? friction_coefficient(law, std::abs(speed)).coefficient : 0.;
+    state.slipping             = slides;
+    state.memory.traction      = state.traction;
+    state.memory.slip_speed[0] = sliding.speed;
+    state.memory.point         = state.index;
+    state.elastic_slip         = state.traction.norm() / penalty.tangential;
+    const double elastic       = law.regularisation_speed > 0. ? 0. : 0.5 * state.traction.norm_square() / penalty.tangential;
     sums.stored += weight * (0.5 * penalty.normal * state.gap * state.gap + elastic);
     sums.compression = std::max(sums.compression, -state.gap);
 

@@ -3,7 +3,7 @@
 #include "fe/contact/face_patches.h"
 #include "model/contact_step.h"
 #include "model/linearisation.h"
-#include "model/port_layout.h"
+#include "model/port_coordinates.h"
 
 #include <functional>
 
@@ -42,22 +42,18 @@ namespace sprag
   /// Sets obstacle, centre and radius to it.
   void set_cylinder(const Geometry &geometry, FaceContactProperties &properties);
 
-  /// What an evaluation found at a point of the friction face.
-  struct FacePointState
+  /// A point of the friction face in an evaluation, with its tractions at the end.
+  template <int dim>
+  struct FacePointState : PointTraction<dim - 1>
   {
-    unsigned int index = 0; ///< in FrictionFace::points
-    unsigned int patch = 0;
-    LeverPoint position{}; ///< deformed, lever axes
+    unsigned int index = 0;      ///< of the point in FrictionFace::points
+    unsigned int patch = 0;      ///< index in FrictionFace::patches
+    dealii::Point<dim> position; ///< deformed, lever axes
     double gap            = 0.;
-    double trial_pressure = 0.; ///< lambda - eps g at the end: the pressure where positive [MPa]
-    double slip_change    = 0.; ///< in the step; without inertia as far as it would be at the speed of its end [mm]
-    double elastic_slip   = 0.; ///< of the tangential penalty [mm]
-    double pressure       = 0.; ///< at the end
-    double traction       = 0.;
-    double mu             = 0.;
-    bool slipping         = false;
-    dealii::Tensor<1, 4> end_force; ///< on the lever per area: along xi, along eta, about the pivot, and along x on the drive
-    ContactMemory memory;
+    double trial_pressure = 0.;             ///< lambda - eps g at the end: the pressure where positive [MPa]
+    dealii::Tensor<1, dim - 1> slip_change; ///< in the step; without inertia as far as it would be at the speed of its end [mm]
+    double elastic_slip = 0.;               ///< of the tangential penalty [mm]
+    dealii::Tensor<1, dim + 2> end_force;   ///< on the lever per area along its axes, about the pivot, and along x on the drive
   };
 
   /// A step of the contact.
@@ -76,11 +72,11 @@ namespace sprag
     double travel      = 0.; ///< of the contact along the lever in the step [mm]; 0: speeds are means
     double speed_ratio = 1.; ///< sliding speed of a rigid lever at the end over its mean; the law's duration is shorter by it
 
-    /// That of a point that was open is empty.
+    /// Returns the memory of a point of the face, by its index. That of a point that was open is empty.
     ContactMemory memory_of(unsigned int point) const;
   };
 
-  /// By how much more a point would slip in a step at the speed of its end, the ratio of speeds apart [mm].
+  /// The slip that a point would have more in a step at the speed of its end, the ratio of speeds apart [mm].
   struct SlipShift
   {
     double slip    = 0.;
@@ -93,20 +89,13 @@ namespace sprag
     }
   };
 
-  /// `slope`: of the slip coordinate along the face at the end of the step. `slip_at_begin`: slip coordinate of any point where
-  /// the step begins. No shift where the contact came from beyond the face.
-  SlipShift slip_shift(const FacePatches &face, unsigned int point, double slope, const FaceStep &step,
+  /// Finds the shift of a point, given by its index in the face. `slope` is that of the slip coordinate along the face at the end
+  /// of the step, `slip_at_begin` tells the slip coordinate of any point, by its index, where the step begins. There is no shift
+  /// where the contact came from beyond the face.
+  SlipShift slip_shift(const FacePatches<2> &face, unsigned int point, double slope, const FaceStep &step,
                        const std::function<double(unsigned int)> &slip_at_begin);
 
-  /// Forces and their tangent on some ports.
-  struct PatchForces
-  {
-    std::vector<unsigned int> ports; ///< in any order
-    dealii::Vector<double> values;
-    dealii::FullMatrix<double> tangent;
-  };
-
-  /// What friction has in the tangent of a patch that slides steadily, where it is wanted apart; see PortPerturbation.
+  /// Friction's part of the tangent of a patch that slides steadily, where it is wanted apart; see PortPerturbation.
   template <class Matrix>
   struct FrictionParts
   {
@@ -114,26 +103,6 @@ namespace sprag
     Matrix by_velocity;
     std::vector<FrictionDelay> delays; ///< on the ports of the patch
   };
-
-  /// A coordinate of a patch that is a port.
-  struct FaceCoordinate
-  {
-    unsigned int index;
-    unsigned int port;
-    double sign; ///< of the coordinate along the port
-  };
-
-  /// From a matrix over the coordinates of a patch.
-  template <class Matrix>
-  dealii::FullMatrix<double> matrix_on_ports(const std::vector<FaceCoordinate> &coordinates, const Matrix &matrix)
-  {
-    const auto n = static_cast<unsigned int>(coordinates.size());
-    dealii::FullMatrix<double> result(n, n);
-    for (unsigned int i = 0; i < n; ++i)
-      for (unsigned int j = 0; j < n; ++j)
-        result(i, j) = coordinates[i].sign * coordinates[j].sign * matrix[coordinates[i].index][coordinates[j].index];
-    return result;
-  }
 
   /// Derivatives of a point's gap and slip, and of its slip speed at ports at rest over the cylinder's, by some ports.
   struct FacePointRows
@@ -153,24 +122,17 @@ namespace sprag
     double force_on_obstacle = 0.;    ///< generalised, of the position x, in the step [N]
     bool beyond_face         = false; ///< whether the contact reaches the end of what can be touched
     StepWork work;
-    std::vector<PatchForces> loaded;
+    std::vector<PortForces> loaded;      ///< forces of the patches, ports in any order
     bool in_parts = false;               ///< whether steady sliding gives its tangent in parts
     std::vector<PortPerturbation> parts; ///< of the patches loaded
   };
 
   /// Adds the forces of a patch, from values and tangent over its coordinates: of pressure alone where it is wanted in parts.
   template <class Values, class Matrix>
-  void add_patch(const std::vector<FaceCoordinate> &coordinates, const Values &values, const Matrix &tangent,
+  void add_patch(const PortCoordinates &coordinates, const Values &values, const Matrix &tangent,
                  const FrictionParts<Matrix> &friction, ContactSums &sums)
   {
-    PatchForces forces;
-    forces.values.reinit(static_cast<unsigned int>(coordinates.size()));
-    for (unsigned int i = 0; i < coordinates.size(); ++i)
-    {
-      forces.ports.push_back(coordinates[i].port);
-      forces.values[i] = coordinates[i].sign * values[coordinates[i].index];
-    }
-    forces.tangent = matrix_on_ports(coordinates, tangent);
+    PortForces forces{ ports_of(coordinates), row_on_ports(coordinates, values), matrix_on_ports(coordinates, tangent) };
     if (sums.in_parts)
     {
       auto &parts         = sums.parts.emplace_back(forces.ports);
@@ -182,7 +144,7 @@ namespace sprag
     sums.loaded.push_back(std::move(forces));
   }
 
-  /// Where a step begins and ends, and at which share of it forces are balanced.
+  /// The places where a step begins and ends, and the share of it at which forces are balanced.
   struct StepPlaces
   {
     FaceConfiguration begin;
@@ -190,13 +152,13 @@ namespace sprag
     double balance  = 1.;
     bool static_end = false; ///< without inertia: forces are those of the end, whatever was before
 
-    /// Whether beginning and end differ.
+    /// Returns whether beginning and end differ.
     bool moves() const
     {
       return begin.displacement != end.displacement || begin.x != end.x;
     }
 
-    /// Whether the end is all that counts for the forces.
+    /// Returns whether the end is all that counts for the forces.
     bool balanced_at_end() const
     {
       return static_end || !moves();
@@ -208,30 +170,27 @@ namespace sprag
     }
   };
 
-  /// Whether a configuration is another, whose displacements are `displacement`.
+  /// Returns whether a configuration is another, whose displacements are `displacement`.
   inline bool is_same(const FaceConfiguration &at, const FaceConfiguration &other, const dealii::Vector<double> &displacement)
   {
     return at.x == other.x && at.theta == other.theta && displacement.size() == at.displacement->size() &&
            displacement == *at.displacement;
   }
 
-  /// What a point's response to a step is in state and sums, its forces apart. `run` [mm]: of the obstacle's surface at the
-  /// point.
+  /// Records a point's response to a step in its state and the sums, its forces apart. `run` [mm] is how far the obstacle's
+  /// surface runs at the point.
   template <int n>
   void record(const StepResponse<n> &response, const FaceStep &step, const ContactMemory &begin, const double slip_change,
-              const double weight, const double run, FacePointState &state, ContactSums &sums)
+              const double weight, const double run, FacePointState<2> &state, ContactSums &sums)
   {
-    state.slip_change  = slip_change * step.speed_ratio;
-    state.elastic_slip = std::abs(response.traction - (step.augmented ? begin.traction : 0.)) / step.law.tangential;
-    state.pressure     = response.pressure;
-    state.traction     = response.traction;
-    state.mu           = response.mu;
-    state.slipping     = response.slipping;
-    state.memory       = response.memory;
-    state.memory.point = state.index;
+    static_cast<PointTraction<1> &>(state) = response;
+
+    state.memory.point   = state.index;
+    state.slip_change[0] = slip_change * step.speed_ratio;
+    state.elastic_slip   = (response.traction - (step.augmented ? begin.traction : Slip())).norm() / step.law.tangential;
 
     sums.stored += weight * response.energy;
-    sums.work.drive += weight * response.mean_traction * run;
+    sums.work.drive += weight * response.mean_traction[0] * run;
     sums.work.friction += weight * response.friction;
     sums.work.algorithmic += weight * response.algorithmic;
     sums.work.creep = std::max(sums.work.creep, response.creep);
@@ -253,8 +212,8 @@ namespace sprag
 
   /// Sets tractions from the state's gap < 0 and slip and adds them to the sums.
   SlidingTangent slide(const FaceContactProperties &properties, const FrictionLaw &law, const SlidingState &sliding,
-                       double weight, FacePointState &state, ContactSums &sums);
+                       double weight, FacePointState<2> &state, ContactSums &sums);
 
-  /// Of a point with these rows.
+  /// Returns the delay of friction at a point with these rows.
   FrictionDelay delay_of(const SlidingTangent &of, double speed, const FacePointRows &rows);
 } // namespace sprag

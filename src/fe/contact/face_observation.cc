@@ -9,19 +9,26 @@ namespace sprag
 {
   namespace
   {
+    /// An evaluation and the face that it is of.
+    struct FaceView
+    {
+      const FrictionFace<2> &face;
+      const FaceEvaluation &found;
+    };
+
     RecoveredPressure recovered(const FaceView &contact)
     {
-      const auto &face = contact.body.friction_face();
+      const auto &face = contact.face;
       PressureSamples samples;
       const auto ends_before = [](const FacePatch &patch, const unsigned int point) { return patch.end <= point; };
       auto patch             = face.patches.begin();
-      if (!contact.points.empty())
-        patch = std::lower_bound(patch, face.patches.end(), contact.points.front().index, ends_before);
-      for (const auto &point : contact.points)
+      if (!contact.found.points.empty())
+        patch = std::lower_bound(patch, face.patches.end(), contact.found.points.front().index, ends_before);
+      for (const auto &point : contact.found.points)
       {
         while (ends_before(*patch, point.index))
           ++patch;
-        samples.xi.push_back(point.position.xi);
+        samples.xi.push_back(point.position[0]);
         samples.weight.push_back(face.points[point.index].weight);
         samples.pressure.push_back(point.pressure);
         samples.trial.push_back(point.trial_pressure);
@@ -33,12 +40,12 @@ namespace sprag
     }
 
     /// Length under pressure, the edges where the trial pressure, linear between the points, changes sign [mm].
-    double contact_width(const std::vector<FacePointState> &points)
+    double contact_width(const std::vector<FacePointState<2>> &points)
     {
       double width = 0.;
       for (std::size_t q = 0; q + 1 < points.size(); ++q)
       {
-        const double length = points[q + 1].position.xi - points[q].position.xi;
+        const double length = points[q + 1].position[0] - points[q].position[0];
         const double left   = points[q].trial_pressure;
         const double right  = points[q + 1].trial_pressure;
         if (left > 0. && right > 0.)
@@ -53,16 +60,16 @@ namespace sprag
     dealii::Tensor<1, 2> displacement(const FaceView &contact, const unsigned int point)
     {
       dealii::Tensor<1, 2> result;
-      for (const auto &[node, shape] : contact.body.friction_face().points[point].nodes)
+      for (const auto &[node, shape] : contact.face.points[point].nodes)
         for (unsigned int d = 0; d < 2; ++d)
-          result[d] += shape * contact.nodal_displacement[2 * node + d];
+          result[d] += shape * contact.found.displacement[2 * node + d];
       return result;
     }
 
     /// Displacement along eta at xi, linear between the points [mm].
     double deflection(const FaceView &contact, const double xi)
     {
-      const auto &points   = contact.body.friction_face().points;
+      const auto &points   = contact.face.points;
       const auto is_before = [](const auto &point, const double value) { return point.position[0] < value; };
       const auto after     = std::lower_bound(points.begin() + 1, points.end() - 1, xi, is_before);
       const auto before    = after - 1;
@@ -79,31 +86,31 @@ namespace sprag
       return deflection(contact, centre) - 0.5 * (deflection(contact, centre - aside) + deflection(contact, centre + aside));
     }
 
-    double cone_violation(const std::vector<FacePointState> &points)
+    double cone_violation(const std::vector<FacePointState<2>> &points)
     {
       double excess = 0.;
       double peak   = 0.;
       for (const auto &point : points)
       {
-        excess = std::max(excess, std::abs(point.traction) - point.mu * point.pressure);
+        excess = std::max(excess, point.traction.norm() - point.mu * point.pressure);
         peak   = std::max(peak, point.mu * point.pressure);
       }
       return peak > 0. ? excess / peak : 0.;
     }
 
-    /// Of a point under pressure.
+    /// Friction at a point under pressure.
     struct PointFriction
     {
       double ratio = 0.; ///< of friction to pressure
       double mu    = 0.;
     };
 
-    /// Of every point; those without pressure take it from one beside them.
-    std::vector<PointFriction> frictions(const std::vector<FacePointState> &points)
+    /// Returns the friction of every point; those without pressure take it from one beside them.
+    std::vector<PointFriction> frictions(const std::vector<FacePointState<2>> &points)
     {
-      const auto is_closed   = [](const FacePointState &point) { return point.pressure > 0.; };
-      const auto friction_of = [](const FacePointState &point) {
-        return PointFriction{ point.traction / point.pressure, point.mu };
+      const auto is_closed   = [](const FacePointState<2> &point) { return point.pressure > 0.; };
+      const auto friction_of = [](const FacePointState<2> &point) {
+        return PointFriction{ point.traction[0] / point.pressure, point.mu };
       };
       const auto first = std::find_if(points.begin(), points.end(), is_closed);
       auto friction    = first == points.end() ? PointFriction() : friction_of(*first);
@@ -117,18 +124,18 @@ namespace sprag
       return result;
     }
 
-    /// What friction the recovered pressure takes along: in the ratio of each point, then as far towards mu p, either way, as
-    /// the resultant of the points asks, the same share of the way everywhere.
+    /// Returns the friction that the recovered pressure takes along: in the ratio of each point, then as far towards mu p, either
+    /// way, as the resultant of the points asks, the same share of the way everywhere.
     std::vector<double> recovered_traction(const FaceView &contact, const std::vector<double> &pressure)
     {
-      const auto friction = frictions(contact.points);
-      const auto area = [&](const std::size_t i) { return contact.body.friction_face().points[contact.points[i].index].weight; };
+      const auto friction = frictions(contact.found.points);
+      const auto area     = [&](const std::size_t i) { return contact.face.points[contact.found.points[i].index].weight; };
       std::vector<double> result;
       double lacking = 0.;
       for (std::size_t i = 0; i < friction.size(); ++i)
       {
         result.push_back(friction[i].ratio * pressure[i]);
-        lacking += area(i) * (contact.points[i].traction - result.back());
+        lacking += area(i) * (contact.found.points[i].traction[0] - result.back());
       }
       const auto way = [&](const std::size_t i) { return std::copysign(friction[i].mu * pressure[i], lacking) - result[i]; };
       double whole   = 0.;
@@ -140,11 +147,11 @@ namespace sprag
       return result;
     }
 
-    /// What a force on a point leaves on nodes that the hub does not hold.
+    /// Returns the share of a force on a point, by its index, that nodes take which the hub does not hold.
     double share_of_free_nodes(const FaceView &contact, const unsigned int point)
     {
       double share = 0.;
-      for (const auto &node : contact.body.friction_face().points[point].nodes)
+      for (const auto &node : contact.face.points[point].nodes)
         share += node.second;
       return share;
     }
@@ -160,24 +167,24 @@ namespace sprag
     Sums sum(const FaceView &contact)
     {
       Sums sums;
-      const double dt = contact.duration;
-      for (const auto &point : contact.points)
+      const double dt = contact.found.duration;
+      for (const auto &point : contact.found.points)
       {
         if (!(point.trial_pressure > 0.))
           continue;
-        const double area   = contact.body.friction_face().points[point.index].weight;
+        const double area   = contact.face.points[point.index].weight;
         const double normal = area * point.pressure;
         const double share  = share_of_free_nodes(contact, point.index);
         sums.F -= area * share * point.end_force[0];
         sums.P += area * share * point.end_force[1];
         const auto moved  = displacement(contact, point.index);
-        const double rate = dt > 0. ? point.slip_change / dt : 0.;
+        const double rate = dt > 0. ? point.slip_change[0] / dt : 0.;
         sums.normal += normal;
-        sums.friction += area * point.traction;
-        sums.position += normal * point.position.xi;
+        sums.friction += area * point.traction[0];
+        sums.position += normal * point.position[0];
         sums.speed += normal * rate;
         sums.mu += normal * point.mu;
-        sums.power += area * point.traction * rate;
+        sums.power += area * point.traction[0] * rate;
         sums.energy += 0.5 * area * (point.end_force[0] * moved[0] + point.end_force[1] * moved[1]);
         sums.active += 1.;
         sums.elastic_slip = std::max(sums.elastic_slip, point.elastic_slip);
@@ -186,21 +193,23 @@ namespace sprag
     }
   } // namespace
 
-  void observe_face(const FaceView &contact, const double layer_thickness, Row &row)
+  void observe_face(const ElasticBody<2> &body, const FaceEvaluation &found, const double layer_thickness, Row &row)
   {
+    const FaceView contact{ body.friction_face(), found };
     const auto recovery           = recovered(contact);
-    row[Column::contact_width]    = recovery.is_fitted ? recovery.width : contact_width(contact.points);
+    row[Column::contact_width]    = recovery.is_fitted ? recovery.width : contact_width(contact.found.points);
     row[Column::largest_pressure] = recovery.largest;
     if (recovery.largest > 0.)
       row[Column::largest_pressure_xi] = recovery.place;
     row[Column::indentation] = 0.;
-    observe_resultants(contact, row);
+    observe_resultants(body, found, row);
     if (row[Column::normal_resultant] > 0.)
       row[Column::indentation] = indentation(contact, row[Column::s], row[Column::contact_width], layer_thickness);
   }
 
-  void observe_resultants(const FaceView &contact, Row &row)
+  void observe_resultants(const ElasticBody<2> &body, const FaceEvaluation &found, Row &row)
   {
+    const FaceView contact{ body.friction_face(), found };
     const Sums sums                 = sum(contact);
     row[Column::normal_resultant]   = sums.normal;
     row[Column::friction_resultant] = sums.friction;
@@ -208,15 +217,15 @@ namespace sprag
     row[Column::elastic_energy]     = sums.energy;
     row[Column::active_points]      = sums.active;
     row[Column::elastic_slip]       = sums.elastic_slip;
-    row[Column::penetration]        = contact.penetration;
-    row[Column::cone_violation]     = cone_violation(contact.points);
+    row[Column::penetration]        = contact.found.penetration();
+    row[Column::cone_violation]     = cone_violation(contact.found.points);
     row[Column::P]                  = sums.P;
     row[Column::F]                  = sums.F;
     if (sums.normal > 0.)
     {
       row[Column::s]  = sums.position / sums.normal;
       row[Column::mu] = sums.mu / sums.normal;
-      if (contact.duration > 0.)
+      if (contact.found.duration > 0.)
         row[Column::v_rel] = sums.speed / sums.normal;
     }
   }
@@ -232,20 +241,21 @@ namespace sprag
     return result;
   }
 
-  FaceState face_state(const FaceView &contact, const DrivePoint &drive)
+  FaceState face_state(const ElasticBody<2> &body, const FaceEvaluation &found, const DrivePoint &drive)
   {
+    const FaceView contact{ body.friction_face(), found };
     FaceState result;
     result.time         = drive.time;
     result.x            = drive.x;
-    const std::size_t n = contact.body.friction_face().points.size();
+    const std::size_t n = contact.face.points.size();
     result.pressure.resize(n);
     result.traction.resize(n);
     const auto recovery = recovered(contact);
     const auto traction = recovered_traction(contact, recovery.pressure);
-    for (std::size_t i = 0; i < contact.points.size(); ++i)
+    for (std::size_t i = 0; i < contact.found.points.size(); ++i)
     {
-      result.pressure[contact.points[i].index] = recovery.pressure[i];
-      result.traction[contact.points[i].index] = traction[i];
+      result.pressure[contact.found.points[i].index] = recovery.pressure[i];
+      result.traction[contact.found.points[i].index] = traction[i];
     }
     return result;
   }

@@ -14,10 +14,10 @@ namespace sprag
   {
     constexpr double gauss_points[] = { 0.5 * (1. - 0.577350269189625764509), 0.5 * (1. + 0.577350269189625764509) };
 
-    /// What round-off leaves of a point at the end of a face, over the face's length.
+    /// The round-off of the place of a point at the end of a face, over the face's length.
     constexpr double round_off = 1e-10;
 
-    /// From the beginning of an edge to a place on it, by 3 Gauss points: exact to the fourth power of its angle.
+    /// Returns the arc from the beginning of an edge to a place on it, by 3 Gauss points: exact to the fourth power of its angle.
     double arc_to(const double place, const EdgeCurve &edge)
     {
       constexpr double off = 0.774596669241483377036;
@@ -133,14 +133,14 @@ namespace sprag
     return (position - at.nodes[vertex * degree]) * at.tangents[vertex];
   }
 
-  /// How far a position lies beside the whole chain, <= 0 above it.
+  /// Returns how far a position lies beside the whole chain, <= 0 above it [mm].
   double FacePair::outside(const Vector2 &position, const PairConfiguration &at) const
   {
     return std::max(-beyond(position, 0, at), beyond(position, static_cast<unsigned int>(chain.size()), at));
   }
 
-  /// To the edge below a position; from one to a neighbour at the near end.
-  void FacePair::go_to(const Vector2 &position, const PairConfiguration &at, Place &place) const
+  /// Moves `place` to the edge below a position; from one edge to a neighbour at the near end.
+  void FacePair::go_to(const Vector2 &position, const PairConfiguration &at, PairPlace &place) const
   {
     const unsigned int from = place.edge;
     while (place.edge + 1 < chain.size() && beyond(position, place.edge + 1, at) > 0.)
@@ -152,7 +152,7 @@ namespace sprag
   }
 
   /// Closest point on the edge at `place`, by Newton's method; the edge goes on beyond its ends where kinks leave a wedge.
-  PairPoint FacePair::project(const Vector2 &position, const PairConfiguration &at, Place &place) const
+  PairPoint FacePair::project(const Vector2 &position, const PairConfiguration &at, PairPlace &place) const
   {
     constexpr unsigned int most_iterations = 30;
     const unsigned int n                   = degree + 1;
@@ -192,7 +192,7 @@ namespace sprag
     return point;
   }
 
-  /// Where along the lever's edge a vertex of the cylinder lies below it.
+  /// Finds where along the lever's edge a vertex of the cylinder lies below it.
   double FacePair::vertex_above(const unsigned int vertex, const EdgeCurve &curve, const PairConfiguration &at,
                                 const Segment &within) const
   {
@@ -209,9 +209,9 @@ namespace sprag
     return s;
   }
 
-  /// Its weight is the area over the lever's parameter.
+  /// Finds the point of the pair at a place on the lever. Its weight is the area over the lever's parameter.
   PairPoint FacePair::point_above(const LeverEdge &edge, const EdgeCurve &curve, const PairConfiguration &at,
-                                  const double place_on_lever, Place &place) const
+                                  const double place_on_lever, PairPlace &place) const
   {
     auto point   = project(curve.position(place_on_lever), at, place);
     point.lever  = edge_shapes(edge.n_nodes, place_on_lever).values;
@@ -220,7 +220,7 @@ namespace sprag
   }
 
   void FacePair::add_segment(const LeverEdge &edge, const EdgeCurve &curve, const PairConfiguration &at, const Segment &segment,
-                             Place &place, PatchFacets &result) const
+                             PairPlace &place, PatchFacets &result) const
   {
     const double length_of_segment = segment.to - segment.from;
     for (const double gauss : gauss_points)
@@ -230,9 +230,9 @@ namespace sprag
     }
   }
 
-  /// At the vertex beyond the edge in `place`, which is left for the next.
+  /// Adds a cut at the vertex beyond the edge in `place`, which is left for the next.
   void FacePair::add_cut(const LeverEdge &edge, const EdgeCurve &curve, const PairConfiguration &at, const double place_on_lever,
-                         Place &place, PatchFacets &result) const
+                         PairPlace &place, PatchFacets &result) const
   {
     PairCut cut;
     cut.left  = point_above(edge, curve, at, place_on_lever, place);
@@ -252,7 +252,7 @@ namespace sprag
     result.points.clear();
     result.cuts.clear();
     Vector2 begin = curve.position(0.);
-    Place place;
+    PairPlace place;
     place.edge = static_cast<unsigned int>(chain.size() / 2);
     for (unsigned int i = 0; i < edge.n_facets; ++i)
     {
@@ -303,8 +303,7 @@ namespace sprag
     facet.stretch = stretch / facet.weight;
   }
 
-  /// Smallest gap at the ends and in the middle of a patch, less a margin for its bending.
-  double FacePair::reach(const unsigned int patch, const PairConfiguration &at, Place &place) const
+  double FacePair::reach(const unsigned int patch, const PairConfiguration &at, PairPlace &place) const
   {
     const auto curve = deformed_curve(lever[patch], *at.at.displacement);
     double smallest  = std::numeric_limits<double>::max();
@@ -320,16 +319,6 @@ namespace sprag
       smallest = std::min(smallest, project(position, at, place).gap);
     }
     return smallest - 0.02 * (curve.position(1.) - curve.origin).norm();
-  }
-
-  FacePatches::Range FacePair::near(const PairConfiguration &at) const
-  {
-    Place place;
-    const auto is_before = [](const LeverEdge &edge, const double xi) { return edge.positions[edge.n_nodes - 1][0] < xi; };
-    const auto under     = std::lower_bound(lever.begin(), lever.end() - 1, at.at.centre.xi, is_before);
-    return FacePatches::find_near(
-        static_cast<unsigned int>(under - lever.begin()), static_cast<unsigned int>(lever.size()),
-        [&](const unsigned int patch) { return reach(patch, at, place); }, [](const unsigned int) { return 0.; });
   }
 
   PairCoordinates FacePair::coordinates(const unsigned int patch, const std::initializer_list<const PatchFacets *> facets) const

@@ -27,7 +27,7 @@ namespace sprag
     std::array<double, 3> bends{}; ///< second derivatives
   };
 
-  /// Of 2 or 3 nodes in order.
+  /// Returns the polynomials of an edge of 2 or 3 nodes in order at a place from 0 to 1.
   EdgeShapes edge_shapes(unsigned int n_nodes, double place);
 
   /// An edge of 2 or 3 nodes in order as a parabola over 0 ... 1.
@@ -47,7 +47,7 @@ namespace sprag
     }
   };
 
-  /// Where both faces are.
+  /// The places of both faces.
   struct PairConfiguration
   {
     FaceConfiguration at;                       ///< displacements of the lever's nodes, then of the cylinder's
@@ -78,7 +78,7 @@ namespace sprag
     }
   };
 
-  /// Where a node between two edges of the cylinder lies below a facet. What its sides see differs by kinks.
+  /// A place of a facet below which a node between two edges of the cylinder lies. Its two sides differ by kinks.
   struct PairCut
   {
     PairPoint left, right;
@@ -100,7 +100,7 @@ namespace sprag
     unsigned int last_cut  = 0; ///< beyond
   };
 
-  /// Of a patch, in the order of the points of the friction face.
+  /// The facets of a patch, in the order of the points of the friction face.
   struct PatchFacets
   {
     std::vector<Facet> facets;
@@ -132,6 +132,13 @@ namespace sprag
     }
   };
 
+  /// A place on the cylinder's face.
+  struct PairPlace
+  {
+    unsigned int edge = 0;
+    double along      = 0.5; ///< 0 ... 1
+  };
+
   class FacePair
   {
   public:
@@ -140,8 +147,9 @@ namespace sprag
 
     PairConfiguration configuration(const FaceConfiguration &at) const;
 
-    /// Patches of the lever's face within reach of the cylinder's, at least the closest one.
-    FacePatches::Range near(const PairConfiguration &at) const;
+    /// Smallest gap at the ends and in the middle of a patch, less a margin for its bending [mm]. `place` is where on the
+    /// cylinder to look first, and then where the patch was found.
+    double reach(unsigned int patch, const PairConfiguration &at, PairPlace &place) const;
 
     void find_facets(unsigned int patch, const PairConfiguration &at, PatchFacets &result) const;
 
@@ -168,12 +176,6 @@ namespace sprag
     {
       double arc = 0.; ///< where it begins
     };
-    /// On the cylinder's face.
-    struct Place
-    {
-      unsigned int edge = 0;
-      double along      = 0.5; ///< 0 ... 1
-    };
     /// Part of a facet above one edge of the cylinder, along the edge of the lever.
     struct Segment
     {
@@ -191,17 +193,16 @@ namespace sprag
     /// Signed distance of a position along xi from a vertex of the chain.
     double beyond(const Vector2 &position, unsigned int vertex, const PairConfiguration &at) const;
     double outside(const Vector2 &position, const PairConfiguration &at) const;
-    void go_to(const Vector2 &position, const PairConfiguration &at, Place &place) const;
-    double reach(unsigned int patch, const PairConfiguration &at, Place &place) const;
+    void go_to(const Vector2 &position, const PairConfiguration &at, PairPlace &place) const;
     double vertex_above(unsigned int vertex, const EdgeCurve &curve, const PairConfiguration &at, const Segment &within) const;
-    PairPoint project(const Vector2 &position, const PairConfiguration &at, Place &place) const;
+    PairPoint project(const Vector2 &position, const PairConfiguration &at, PairPlace &place) const;
     PairPoint point_above(const LeverEdge &edge, const EdgeCurve &curve, const PairConfiguration &at, double place_on_lever,
-                          Place &place) const;
+                          PairPlace &place) const;
     void add_segment(const LeverEdge &edge, const EdgeCurve &curve, const PairConfiguration &at, const Segment &segment,
-                     Place &place, PatchFacets &result) const;
+                     PairPlace &place, PatchFacets &result) const;
 
-    void add_cut(const LeverEdge &edge, const EdgeCurve &curve, const PairConfiguration &at, double place_on_lever, Place &place,
-                 PatchFacets &result) const;
+    void add_cut(const LeverEdge &edge, const EdgeCurve &curve, const PairConfiguration &at, double place_on_lever,
+                 PairPlace &place, PatchFacets &result) const;
 
     std::vector<LeverEdge> lever;
     std::vector<CylinderEdge> chain;

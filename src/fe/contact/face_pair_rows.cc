@@ -84,7 +84,7 @@ namespace sprag
       return p.speed * place_curvature(p, f) + outer_product(f.place, f.speed);
     }
 
-    /// What a Gauss point sees of the coordinates of its patch.
+    /// The coordinates of a patch as a Gauss point sees them.
     class View
     {
     public:
@@ -106,7 +106,7 @@ namespace sprag
           row[at[i]] += factor * values[i];
       }
 
-      /// By columns: those of a form's entries, of which a coordinate sees some.
+      /// Adds a bilinear form by the columns of its entries, of which a coordinate sees some.
       void add(const PairPoint &p, const Bilinear &form, FullMatrix<double> &matrix) const
       {
         std::array<Local, n_forms> columns;
@@ -131,7 +131,7 @@ namespace sprag
         }
       }
 
-      /// What a change of the coordinates is.
+      /// Returns the variation that a change of the coordinates is at the point.
       Form seen(const PairPoint &p, const Vector<double> &change) const
       {
         const auto at = indices(p);
@@ -194,7 +194,7 @@ namespace sprag
         return result;
       }
 
-      /// What a form is in those coordinates.
+      /// Writes a form over those coordinates.
       void spread(const PairPoint &p, const Form &form, Local &result) const
       {
         for (unsigned int a = 0; a < n_nodes; ++a)

@@ -11,8 +11,8 @@ namespace sprag
     dealii::Vector<double> arc;
     dealii::Vector<double> stretch;
 
-    /// What slips: mean of stretch times (d arc - R d theta). The cylinder's material runs through its mesh as the axes turn.
-    /// Minus this times the friction are forces, equal and opposite on both faces with their moments.
+    /// Row of the slip: mean of stretch times (d arc - R d theta). The cylinder's material runs through its mesh as the axes
+    /// turn. Minus this times the friction are forces, equal and opposite on both faces with their moments.
     dealii::Vector<double> slip;
   };
 

@@ -2,130 +2,190 @@
 
 #include "base/errors.h"
 
-#include <algorithm>
+#include <deal.II/numerics/rtree.h>
 
 namespace sprag
 {
-  namespace
+  /// The patches by the boxes around their nodes.
+  template <int dim>
+  struct FacePatches<dim>::Tree
   {
-    /// Derivative along the face of the polynomial that is 1 at one node of an edge and 0 at the others.
-    double slope_of_shape(const FaceEdge<2> &edge, const std::size_t node, const double xi)
+    using Box = dealii::BoundingBox<dim>;
+
+    explicit Tree(const FrictionFace<dim> &face)
+        : boxes(boxes_of(face))
+        , tree(dealii::pack_rtree_of_indices(boxes))
     {
-      const auto at = [&](const std::size_t i) { return edge.nodes[i].position[0]; };
-      double sum    = 0.;
-      for (std::size_t left_out = 0; left_out < edge.nodes.size(); ++left_out)
-      {
-        if (left_out == node)
-          continue;
-        double product = 1. / (at(node) - at(left_out));
-        for (std::size_t i = 0; i < edge.nodes.size(); ++i)
-          if (i != node && i != left_out)
-            product *= (xi - at(i)) / (at(node) - at(i));
-        sum += product;
-      }
-      return sum;
     }
 
-    std::array<double, FacePatches::max_nodes> slopes_of_shapes(const FaceEdge<2> &edge, const FacePatches::Patch &patch,
-                                                                const double xi)
+    static std::vector<Box> boxes_of(const FrictionFace<dim> &face)
     {
-      std::array<double, FacePatches::max_nodes> result{};
-      for (unsigned int a = 0; a < patch.n_nodes; ++a)
-        for (std::size_t node = 0; node < edge.nodes.size(); ++node)
-          if (edge.nodes[node].index == patch.nodes[a])
-            result[a] = slope_of_shape(edge, node, xi);
+      std::vector<Box> result;
+      for (const auto &edge : face.edges)
+      {
+        std::vector<dealii::Point<dim>> nodes;
+        for (const auto &node : edge.nodes)
+          nodes.push_back(node.position);
+        result.emplace_back(nodes);
+      }
+      return result;
+    }
+
+    template <class Predicate>
+    Indices found(const Predicate &predicate) const
+    {
+      Indices result;
+      for (auto box = tree.qbegin(predicate); box != tree.qend(); ++box)
+        result.push_back(static_cast<unsigned int>(*box));
+      std::sort(result.begin(), result.end());
+      return result;
+    }
+
+    const std::vector<Box> boxes;
+    const decltype(dealii::pack_rtree_of_indices(std::vector<Box>())) tree;
+  };
+
+  namespace
+  {
+    template <int dim>
+    auto copied_patches(const FrictionFace<dim> &face)
+    {
+      std::vector<typename FacePatches<dim>::Patch> result;
+      for (const auto &patch : face.patches)
+      {
+        const auto &nodes = face.points[patch.begin].nodes;
+        if (nodes.size() > FacePatches<dim>::max_nodes)
+          throw AnalysisError("contact is limited to elements of degree 2");
+        auto &copy = result.emplace_back();
+        copy       = { patch.begin, patch.end, patch.length, static_cast<unsigned int>(nodes.size()), {} };
+        for (unsigned int a = 0; a < copy.n_nodes; ++a)
+          copy.nodes[a] = nodes[a].first;
+      }
+      return result;
+    }
+
+    template <int dim>
+    auto copied_points(const FrictionFace<dim> &face)
+    {
+      std::vector<typename FacePatches<dim>::Point> result;
+      for (const auto &point : face.points)
+      {
+        auto &copy = result.emplace_back();
+        copy       = { point.position, point.weight, {} };
+        for (unsigned int a = 0; a < point.nodes.size(); ++a)
+          copy.shapes[a] = point.nodes[a].second;
+      }
       return result;
     }
   } // namespace
 
-  FacePatches::FacePatches(const FrictionFace<2> &face)
+  template <int dim>
+  FacePatches<dim>::FacePatches(const FrictionFace<dim> &face)
+      : patches(copied_patches(face))
+      , points(copied_points(face))
+      , tree(std::make_unique<Tree>(face))
   {
-    for (const auto &patch : face.patches)
+    find_neighbours();
+  }
+
+  template <int dim>
+  FacePatches<dim>::~FacePatches() = default;
+
+  template <int dim>
+  void FacePatches<dim>::find_neighbours()
+  {
+    constexpr double same = 1e-6; ///< place of two nodes, over the length of a patch
+    const auto &boxes     = tree->boxes;
+    for (unsigned int patch = 0; patch < boxes.size(); ++patch)
     {
-      const auto &nodes = face.points[patch.begin].nodes;
-      Patch copy{ patch.begin, patch.end, patch.length, static_cast<unsigned int>(nodes.size()), {} };
-      if (copy.n_nodes > max_nodes)
-        throw AnalysisError("contact is limited to elements of degree 2");
-      for (unsigned int a = 0; a < copy.n_nodes; ++a)
-        copy.nodes[a] = nodes[a].first;
-      all_patches.push_back(copy);
+      auto box = boxes[patch];
+      box.extend(same * patches[patch].length);
+      auto touching = tree->found(boost::geometry::index::intersects(box));
+      touching.erase(std::find(touching.begin(), touching.end(), patch));
+      neighbours.push_back(std::move(touching));
     }
-    for (const auto &point : face.points)
+
+    std::vector<bool> reached(boxes.size());
+    for (unsigned int first = 0; first < boxes.size(); ++first)
     {
-      Point copy{ { point.position[0], point.position[1] }, point.weight, {}, {} };
-      for (unsigned int a = 0; a < point.nodes.size(); ++a)
-        copy.shapes[a] = point.nodes[a].second;
-      all_points.push_back(copy);
+      if (reached[first])
+        continue;
+      other_starts.push_back(first);
+      reached[first] = true;
+      Indices part{ first };
+      for (std::size_t i = 0; i < part.size(); ++i)
+        for (const unsigned int patch : neighbours[part[i]])
+          if (!reached[patch])
+          {
+            reached[patch] = true;
+            part.push_back(patch);
+          }
     }
-    for (unsigned int patch = 0; patch < all_patches.size(); ++patch)
-      for (unsigned int q = all_patches[patch].begin; q < all_patches[patch].end; ++q)
-        all_points[q].slopes = slopes_of_shapes(face.edges[patch], all_patches[patch], all_points[q].position.xi);
+    if (other_starts.size() == 1)
+      other_starts.clear();
   }
 
-  const std::vector<FacePatches::Patch> &FacePatches::patches() const
-  {
-    return all_patches;
-  }
-
-  const std::vector<FacePatches::Point> &FacePatches::points() const
-  {
-    return all_points;
-  }
-
-  FacePatches::Nodal FacePatches::nodal(const Patch &patch, const dealii::Vector<double> &displacement)
+  template <int dim>
+  typename FacePatches<dim>::Nodal FacePatches<dim>::nodal(const Patch &patch, const dealii::Vector<double> &displacement)
   {
     Nodal result{};
     for (unsigned int a = 0; a < patch.n_nodes; ++a)
-      for (unsigned int d = 0; d < 2; ++d)
-        result[2 * a + d] = displacement[2 * patch.nodes[a] + d];
+      for (unsigned int d = 0; d < dim; ++d)
+        result[dim * a + d] = displacement[dim * patch.nodes[a] + d];
     return result;
   }
 
-  LeverPoint FacePatches::position(const Point &point, const Nodal &displacement)
+  template <int dim>
+  dealii::Point<dim> FacePatches<dim>::position(const Point &point, const Nodal &displacement)
   {
-    LeverPoint result = point.position;
+    auto result = point.position;
     for (unsigned int a = 0; a < max_nodes; ++a)
-    {
-      result.xi += point.shapes[a] * displacement[2 * a];
-      result.eta += point.shapes[a] * displacement[2 * a + 1];
-    }
+      for (unsigned int d = 0; d < dim; ++d)
+        result[d] += point.shapes[a] * displacement[dim * a + d];
     return result;
   }
 
-  unsigned int FacePatches::patch_of_point(const unsigned int point) const
+  template <int dim>
+  unsigned int FacePatches<dim>::patch_of_point(const unsigned int point) const
   {
     const auto ends_before = [](const Patch &patch, const unsigned int q) { return patch.end <= q; };
-    const auto found       = std::lower_bound(all_patches.begin(), all_patches.end(), point, ends_before);
-    return static_cast<unsigned int>(found - all_patches.begin());
+    const auto found       = std::lower_bound(patches.begin(), patches.end(), point, ends_before);
+    return static_cast<unsigned int>(found - patches.begin());
   }
 
-  unsigned int FacePatches::patch_at(const double xi) const
+  /// The closest patch of the undeformed face, or one beside it where the centre has hardly moved: a search of the tree costs as
+  /// much as the contact of some points.
+  template <int dim>
+  unsigned int FacePatches<dim>::patch_below(const dealii::Point<dim> &centre) const
   {
-    const auto ends_before = [this](const Patch &patch, const double value)
-    { return all_points[patch.end - 1].position.xi < value; };
-    const auto found = std::lower_bound(all_patches.begin(), all_patches.end() - 1, xi, ends_before);
-    return static_cast<unsigned int>(found - all_patches.begin());
+    if (known_patch >= patches.size() || centre.distance(known_centre) > patches[known_patch].length)
+    {
+      known_centre = centre;
+      known_patch  = tree->found(boost::geometry::index::nearest(centre, 1)).front();
+    }
+    return known_patch;
   }
 
-  FacePatches::Range FacePatches::patches_between(const double from, const double to) const
+  template <int dim>
+  std::vector<unsigned int> FacePatches<dim>::patches_in(const dealii::BoundingBox<dim> &box) const
   {
-    return { patch_at(from), patch_at(to) + 1 };
+    const auto found = tree->found(boost::geometry::index::intersects(box));
+    return found.empty() ? tree->found(boost::geometry::index::nearest(box.center(), 1)) : found;
   }
 
-  std::vector<unsigned int> FacePatches::displacements_of(const Range &range) const
+  template <int dim>
+  std::vector<unsigned int> FacePatches<dim>::displacements_of(const Indices &some) const
   {
     std::vector<unsigned int> result;
-    for (unsigned int patch = range.begin; patch < range.end; ++patch)
-      for (unsigned int a = 0; a < all_patches[patch].n_nodes; ++a)
-        for (unsigned int d = 0; d < 2; ++d)
-          result.push_back(2 * all_patches[patch].nodes[a] + d);
+    for (const unsigned int patch : some)
+      for (unsigned int a = 0; a < patches[patch].n_nodes; ++a)
+        for (unsigned int d = 0; d < dim; ++d)
+          result.push_back(dim * patches[patch].nodes[a] + d);
     std::sort(result.begin(), result.end());
     result.erase(std::unique(result.begin(), result.end()), result.end());
     return result;
   }
 
-  FacePatches::Range FacePatches::patches_of_points(const unsigned int first, const unsigned int last) const
-  {
-    return { patch_of_point(first), patch_of_point(last) + 1 };
-  }
+  template class FacePatches<2>;
+  template class FacePatches<3>;
 } // namespace sprag

@@ -3,14 +3,17 @@
 #include "fe/body/friction_face.h"
 #include "model/circle.h"
 
+#include <deal.II/base/bounding_box.h>
 #include <deal.II/lac/vector.h>
 
 #include <algorithm>
+#include <limits>
+#include <memory>
 
 namespace sprag
 {
-  /// Where the lever and the cylinder are: displacements of the face nodes (two entries a node, others may follow), rotation of
-  /// the hub and position of the cylinder from the pivot frame's origin.
+  /// The places of the lever and the cylinder: displacements of the face nodes (two entries a node, others may follow), rotation
+  /// of the hub and position of the cylinder from the pivot frame's origin.
   struct FaceConfiguration
   {
     const dealii::Vector<double> *displacement;
@@ -20,11 +23,12 @@ namespace sprag
   };
 
   /// A friction face laid out for the search and summation of every iteration of every step: patch by patch, without
-  /// indirection within a patch.
+  /// indirection within a patch. Patches are found by their boxes, and from one patch to those beside it.
+  template <int dim>
   class FacePatches
   {
   public:
-    static constexpr unsigned int max_nodes = 3;
+    static constexpr unsigned int max_nodes = dim == 2 ? 3 : 9;
 
     struct Patch
     {
@@ -37,82 +41,105 @@ namespace sprag
 
     struct Point
     {
-      LeverPoint position; ///< undeformed
+      dealii::Point<dim> position; ///< undeformed
       double weight;
       std::array<double, max_nodes> shapes; ///< of the patch's nodes
-      std::array<double, max_nodes> slopes; ///< their derivatives along the face [1/mm]
     };
 
-    explicit FacePatches(const FrictionFace<2> &face);
+    /// Indices of patches, increasing.
+    using Indices = std::vector<unsigned int>;
 
-    const std::vector<Patch> &patches() const;
-    const std::vector<Point> &points() const;
+    explicit FacePatches(const FrictionFace<dim> &face);
+    ~FacePatches();
 
-    /// The patch's part of the displacements.
-    using Nodal = std::array<double, 2 * max_nodes>;
+    const std::vector<Patch> patches;
+    const std::vector<Point> points;
+
+    /// The patch's part of the displacements of the face, dim entries a node.
+    using Nodal = std::array<double, dim * max_nodes>;
     static Nodal nodal(const Patch &patch, const dealii::Vector<double> &displacement);
-    static LeverPoint position(const Point &point, const Nodal &displacement);
+    static dealii::Point<dim> position(const Point &point, const Nodal &displacement);
 
-    struct Range
-    {
-      unsigned int begin;
-      unsigned int end; ///< beyond the last
-    };
+    /// Returns the patches of the undeformed face that reach into a box, at least the one closest to its centre.
+    Indices patches_in(const dealii::BoundingBox<dim> &box) const;
 
-    static Range united(const Range &a, const Range &b)
-    {
-      return { std::min(a.begin, b.begin), std::max(a.end, b.end) };
-    }
+    /// Returns the patches whose distance from a convex body is negative, at least the closest one. On each part of the face they
+    /// are sought downhill, first from below the body's `centre`, then to all sides, as beyond the first patch out of reach the
+    /// distance only grows.
+    template <class Distance>
+    Indices find_near(const dealii::Point<dim> &centre, const Distance &distance) const;
 
-    /// Of n patches those whose distance is below a margin, at least the closest one. From `start` downhill, then to both sides:
-    /// beyond the first patch that is out of reach the distance from a convex body only grows.
-    template <class Distance, class Margin>
-    static Range find_near(unsigned int start, unsigned int n, const Distance &distance, const Margin &margin);
+    /// Returns the indices of the displacements of the nodes of some patches, increasing.
+    std::vector<unsigned int> displacements_of(const Indices &some) const;
 
-    /// Patches of the undeformed face between two lever coordinates, at least one.
-    Range patches_between(double from, double to) const;
-
-    /// Indices of the displacements of the nodes of some patches, increasing.
-    std::vector<unsigned int> displacements_of(const Range &range) const;
-
-    Range patches_of_points(unsigned int first, unsigned int last) const;
-
+    /// Returns the index of the patch that holds a point, by its index.
     unsigned int patch_of_point(unsigned int point) const;
 
-    /// The patch of the undeformed face at a lever coordinate, or the closest one.
-    unsigned int patch_at(double xi) const;
-
   private:
-    std::vector<Patch> all_patches;
-    std::vector<Point> all_points;
+    struct Tree;
+    unsigned int patch_below(const dealii::Point<dim> &centre) const;
+    void find_neighbours();
+
+    std::unique_ptr<const Tree> tree;
+    std::vector<Indices> neighbours; ///< of the patches: those that touch them
+    Indices other_starts;            ///< of a face of several parts that do not touch: a patch of each
+    mutable dealii::Point<dim> known_centre;
+    mutable unsigned int known_patch = dealii::numbers::invalid_unsigned_int; ///< below it
   };
 
-  template <class Distance, class Margin>
-  FacePatches::Range FacePatches::find_near(const unsigned int start, const unsigned int n, const Distance &distance,
-                                            const Margin &margin)
+  inline std::vector<unsigned int> united(const std::vector<unsigned int> &a, const std::vector<unsigned int> &b)
   {
-    unsigned int closest  = start;
-    double smallest       = distance(start);
-    const auto try_better = [&](const unsigned int patch)
-    {
-      const double there = distance(patch);
-      if (there >= smallest)
-        return false;
-      closest  = patch;
-      smallest = there;
-      return true;
-    };
-    while (closest + 1 < n && try_better(closest + 1))
-      continue;
-    while (closest > 0 && try_better(closest - 1))
-      continue;
+    std::vector<unsigned int> result;
+    result.reserve(a.size() + b.size());
+    std::set_union(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(result));
+    return result;
+  }
 
-    const auto is_near = [&](const unsigned int patch) { return distance(patch) < margin(patch); };
-    Range range{ closest, closest + 1 };
-    while (range.begin > 0 && is_near(range.begin - 1))
-      --range.begin;
-    while (range.end < n && is_near(range.end))
-      ++range.end;
-    return range;
+  template <int dim>
+  template <class Distance>
+  std::vector<unsigned int> FacePatches<dim>::find_near(const dealii::Point<dim> &centre, const Distance &distance) const
+  {
+    Indices found;
+    std::vector<bool> seen(patches.size());
+    unsigned int closest = 0;
+    double least         = std::numeric_limits<double>::infinity();
+    const auto search    = [&](unsigned int patch)
+    {
+      double smallest = distance(patch);
+      for (bool falls = true; falls;)
+      {
+        falls = false;
+        for (const unsigned int next : neighbours[patch])
+          if (const double there = distance(next); there < smallest)
+          {
+            patch    = next;
+            smallest = there;
+            falls    = true;
+            break;
+          }
+      }
+      if (smallest < least)
+        closest = patch;
+      least = std::min(smallest, least);
+      if (smallest >= 0. || seen[patch])
+        return;
+      seen[patch] = true;
+      found.push_back(patch);
+      for (std::size_t i = found.size() - 1; i < found.size(); ++i)
+        for (const unsigned int next : neighbours[found[i]])
+          if (!seen[next])
+          {
+            seen[next] = true;
+            if (distance(next) < 0.)
+              found.push_back(next);
+          }
+    };
+    search(patch_below(centre));
+    for (const unsigned int patch : other_starts)
+      search(patch);
+    if (found.empty())
+      found.push_back(closest);
+    std::sort(found.begin(), found.end());
+    return found;
   }
 } // namespace sprag

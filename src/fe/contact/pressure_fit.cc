@@ -10,7 +10,7 @@ namespace sprag
 {
   namespace
   {
-    /// Whether xi lies in the contact; then the values there of what the coefficients belong to.
+    /// Returns whether xi lies in the contact; if so, sets the functions that the coefficients belong to, there.
     bool set_shapes(const PressureFit &fit, const double xi, PressureFit::Coefficients &values)
     {
       const double s = (2. * xi - fit.a - fit.b) / (fit.b - fit.a);

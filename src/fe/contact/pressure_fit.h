@@ -6,7 +6,7 @@
 
 namespace sprag
 {
-  /// What a pressure is fitted to: points along a face or means over some of them.
+  /// The data that a pressure is fitted to: points along a face or means over some of them.
   struct PressureData
   {
     std::vector<double> xi;       ///< [mm]

@@ -46,7 +46,7 @@ namespace sprag
       return Range{ first, last + 1 };
     }
 
-    /// Of samples in and beside the contact, means over some.
+    /// Returns the samples in and beside the contact, as means over some.
     PressureData data(const PressureSamples &samples, const Range &contact, const Range &range, const std::size_t together)
     {
       const unsigned int first = samples.cell[contact.begin], last = samples.cell[contact.end - 1];
@@ -72,7 +72,7 @@ namespace sprag
       return result;
     }
 
-    /// Where the trial pressure, linear between a sample under pressure and the one beside it, changes sign.
+    /// Finds where the trial pressure, linear between a sample under pressure and the one beside it, changes sign.
     double zero(const PressureSamples &samples, const std::size_t closed, const std::size_t open)
     {
       if (open >= samples.xi.size())

@@ -1,5 +1,7 @@
 #include "fe/contact/rigid_obstacle.h"
 
+#include "fe/contact/face_pair.h"
+
 #include <algorithm>
 
 namespace sprag
@@ -7,10 +9,35 @@ namespace sprag
   using dealii::Tensor;
   using dealii::Vector;
 
-  RigidObstacle::RigidObstacle(const FacePatches &face_, const FaceContactProperties &properties_)
+  namespace
+  {
+    LeverPoint place_of(const dealii::Point<2> &position)
+    {
+      return { position[0], position[1] };
+    }
+  } // namespace
+
+  RigidObstacle::RigidObstacle(const FrictionFace<2> &lever, const FacePatches<2> &face_,
+                               const FaceContactProperties &properties_)
       : face(face_)
       , properties(properties_)
+      , slopes(face.points.size())
   {
+    for (std::size_t k = 0; k < lever.edges.size(); ++k)
+    {
+      const auto &of      = face.patches[k];
+      const auto &nodes   = lever.edges[k].nodes;
+      const double origin = nodes.front().position[0];
+      const double length = nodes.back().position[0] - origin;
+      for (unsigned int q = of.begin; q < of.end; ++q)
+      {
+        const auto shapes = edge_shapes(static_cast<unsigned int>(nodes.size()), (face.points[q].position[0] - origin) / length);
+        for (unsigned int a = 0; a < of.n_nodes; ++a)
+          for (std::size_t node = 0; node < nodes.size(); ++node)
+            if (nodes[node].index == of.nodes[a])
+              slopes[q][a] = shapes.slopes[node] / length;
+      }
+    }
   }
 
   void RigidObstacle::enter(const StepPlaces &of_step)
@@ -36,33 +63,31 @@ namespace sprag
     begin_points.clear();
   }
 
-  FacePatches::Range RigidObstacle::near() const
+  FacePatches<2>::Indices RigidObstacle::near() const
   {
     const auto at_last = near(places.end, end);
-    return places.balanced_at_end() ? at_last : FacePatches::united(at_last, near_begin);
+    return places.balanced_at_end() ? at_last : united(at_last, near_begin);
   }
 
   /// The gap along a straight patch to a convex obstacle lies above its tangent at the first point; the margin covers bending.
-  FacePatches::Range RigidObstacle::near(const FaceConfiguration &at, const PlacedObstacle &obstacle) const
+  FacePatches<2>::Indices RigidObstacle::near(const FaceConfiguration &at, const PlacedObstacle &obstacle) const
   {
-    const auto least_gap = [&](const unsigned int of_face)
+    const auto reach = [&](const unsigned int of_face)
     {
-      const auto &chosen = face.patches()[of_face];
-      const auto nodal   = FacePatches::nodal(chosen, *at.displacement);
-      const auto first   = FacePatches::position(face.points()[chosen.begin], nodal);
-      const auto last    = FacePatches::position(face.points()[chosen.end - 1], nodal);
-      const auto contact = obstacle(first);
-      const double rise  = contact.gap_row[0] * (last.xi - first.xi) + contact.gap_row[1] * (last.eta - first.eta);
-      return contact.gap + std::min(0., rise);
+      const auto &chosen = face.patches[of_face];
+      const auto nodal   = FacePatches<2>::nodal(chosen, *at.displacement);
+      const auto first   = FacePatches<2>::position(face.points[chosen.begin], nodal);
+      const auto along   = FacePatches<2>::position(face.points[chosen.end - 1], nodal) - first;
+      const auto contact = obstacle(place_of(first));
+      return contact.gap + std::min(0., contact.gap_row[0] * along[0] + contact.gap_row[1] * along[1]) - 0.02 * chosen.length;
     };
-    return FacePatches::find_near(face.patch_at(at.centre.xi), static_cast<unsigned int>(face.patches().size()), least_gap,
-                                  [&](const unsigned int of_face) { return 0.02 * face.patches()[of_face].length; });
+    return face.find_near({ at.centre.xi, at.centre.eta }, reach);
   }
 
   void RigidObstacle::enter(const unsigned int of_face)
   {
     patch          = of_face;
-    at_end         = FacePatches::nodal(face.patches()[patch], *places.end.displacement);
+    at_end         = FacePatches<2>::nodal(face.patches[patch], *places.end.displacement);
     begin_of_patch = places.moves() ? &begin_of(patch) : nullptr;
     touched        = false;
     values         = {};
@@ -70,10 +95,10 @@ namespace sprag
     friction       = {};
   }
 
-  bool RigidObstacle::place(FacePointState &state)
+  bool RigidObstacle::place(FacePointState<2> &state)
   {
-    state.position = FacePatches::position(face.points()[state.index], at_end);
-    placed         = end(state.position);
+    state.position = FacePatches<2>::position(face.points[state.index], at_end);
+    placed         = end(place_of(state.position));
     state.gap      = placed.gap;
     return true;
   }
@@ -83,12 +108,12 @@ namespace sprag
     const auto [found, is_new] = begin_points.try_emplace(of_patch);
     if (is_new)
     {
-      const auto &chosen = face.patches()[of_patch];
-      const auto nodal   = FacePatches::nodal(chosen, known_begin);
+      const auto &chosen = face.patches[of_patch];
+      const auto nodal   = FacePatches<2>::nodal(chosen, known_begin);
       for (unsigned int q = chosen.begin; q < chosen.end; ++q)
       {
-        const auto position = FacePatches::position(face.points()[q], nodal);
-        const auto contact  = begin(position);
+        const auto position = FacePatches<2>::position(face.points[q], nodal);
+        const auto contact  = begin(place_of(position));
         found->second.push_back({ position, contact.gap, contact.slip });
       }
     }
@@ -97,7 +122,7 @@ namespace sprag
 
   const RigidObstacle::BeginPoint &RigidObstacle::at_begin(const unsigned int point) const
   {
-    return (*begin_of_patch)[point - face.patches()[patch].begin];
+    return (*begin_of_patch)[point - face.patches[patch].begin];
   }
 
   double RigidObstacle::gap_at_begin(const unsigned int point) const
@@ -105,107 +130,92 @@ namespace sprag
     return begin_of_patch ? at_begin(point).gap : placed.gap;
   }
 
-  StepKinematics<4> RigidObstacle::over_step(const FacePointState &state, const double slip_change) const
+  StepKinematics<4> RigidObstacle::over_step(const FacePointState<2> &state, const double slip_change) const
   {
     auto result = step_to(placed, placed.slip - slip_change);
     if (places.balanced_at_end())
       return result;
-    const double share = places.balance;
     const auto &first  = at_begin(state.index);
-    const Tensor<1, 4> change({ state.position.xi - first.position.xi, state.position.eta - first.position.eta,
-                                places.end.theta - places.begin.theta, places.end.x - places.begin.x });
-    const auto middle = balance(
-        { places.balanced(first.position.xi, state.position.xi), places.balanced(first.position.eta, state.position.eta) });
-    result.gap_begin      = first.gap;
-    result.gap_row        = middle.gap_row;
-    result.gap_curvature  = share * middle.gap_curvature;
-    result.gap_bend       = change * (middle.gap_curvature * change);
-    result.slip_row       = middle.slip_row;
-    result.slip_curvature = share * middle.slip_curvature;
-    result.slip_bend      = change * (middle.slip_curvature * change);
+    const auto moved   = state.position - first.position;
+    const auto between = first.position + places.balance * moved;
+    result.gap_begin   = first.gap;
+    set_balance(balance(place_of(between)), places.balance,
+                Tensor<1, 4>({ moved[0], moved[1], places.end.theta - places.begin.theta, places.end.x - places.begin.x }),
+                result);
     return result;
   }
 
-  namespace
+  /// Returns the derivative of a deformed point's position along the undeformed face.
+  Tensor<1, 4> RigidObstacle::direction_of_face(const unsigned int point) const
   {
-    /// Derivative of a deformed point's position along the undeformed face.
-    Tensor<1, 4> direction_of_face(const FacePatches::Point &point, const FacePatches::Nodal &displacement)
-    {
-      Tensor<1, 4> result({ 1., 0., 0., 0. });
-      for (unsigned int i = 0; i < displacement.size(); ++i)
-        result[i % 2] += point.slopes[i / 2] * displacement[i];
-      return result;
-    }
-  } // namespace
+    Tensor<1, 4> result({ 1., 0., 0., 0. });
+    for (unsigned int i = 0; i < at_end.size(); ++i)
+      result[i % 2] += slopes[point][i / 2] * at_end[i];
+    return result;
+  }
 
-  void RigidObstacle::step(FacePointState &state, const ContactMemory &memory, const FaceStep &step, ContactSums &sums)
+  void RigidObstacle::step(FacePointState<2> &state, const ContactMemory &memory, const FaceStep &step, ContactSums &sums)
   {
-    const auto &point        = face.points()[state.index];
+    const auto &point        = face.points[state.index];
     const double slip_change = (begin_of_patch ? placed.slip - at_begin(state.index).slip : 0.) + step.surface_run;
     auto kinematics_of_step  = over_step(state, slip_change);
     SlipShift shift;
     Tensor<1, 4> direction;
     if (step.travel != 0.)
     {
-      direction                     = direction_of_face(point, at_end);
-      shift                         = slip_shift(face, state.index, placed.slip_row * direction, step,
-                                                 [this](const unsigned int q)
-                                                 {
+      direction                        = direction_of_face(state.index);
+      shift                            = slip_shift(face, state.index, placed.slip_row * direction, step,
+                                                    [this](const unsigned int q)
+                                                    {
                            const unsigned int of_patch = face.patch_of_point(q);
-                           return begin_of(of_patch)[q - face.patches()[of_patch].begin].slip;
+                           return begin_of(of_patch)[q - face.patches[of_patch].begin].slip;
                          });
-      kinematics_of_step.slip_shift = shift.total();
+      kinematics_of_step.slip_shift[0] = shift.total();
     }
     auto response = step_response(kinematics_of_step, memory, step.law);
     record(response, step, memory, slip_change + shift.slip, point.weight, step.surface_run, state, sums);
-    state.end_force = response.pressure * placed.gap_row - response.traction * placed.slip_row;
+    state.end_force = response.pressure * placed.gap_row - response.traction[0] * placed.slip_row;
     sums.force_on_obstacle += point.weight * response.force[3];
-    const double by_slope = shift.d_slope * response.d_shift;
+    const double by_slope = shift.d_slope * response.d_shift[0][0];
     if (by_slope != 0.)
       response.tangent -= by_slope * outer_product(placed.slip_row, placed.slip_curvature * direction);
     add_force(point, response.force);
     add_tangent(point, response.tangent, tangent);
     if (by_slope != 0.)
-      add_slope(point, by_slope);
+      add_slope(state.index, by_slope);
   }
 
-  /// Of a traction that changes with the slope of the slip along the face, as far as the face's direction goes with it.
-  void RigidObstacle::add_slope(const FacePatches::Point &point, const double traction_by_slope)
+  /// Adds what a traction has in the tangent that changes with the slope of the slip along the face, as far as the face's
+  /// direction goes with it.
+  void RigidObstacle::add_slope(const unsigned int index, const double traction_by_slope)
   {
-    const auto &slip_row = placed.slip_row;
-    for (unsigned int b = 0; b < FacePatches::max_nodes; ++b)
-      for (unsigned int e = 0; e < 2; ++e)
-      {
-        const double change       = point.weight * traction_by_slope * slip_row[e] * point.slopes[b];
-        const unsigned int column = 2 * b + e;
-        tangent[theta_index][column] -= slip_row[2] * change;
-        tangent[x_index][column] -= slip_row[3] * change;
-        for (unsigned int a = 0; a < FacePatches::max_nodes; ++a)
-          for (unsigned int d = 0; d < 2; ++d)
-            tangent[2 * a + d][column] -= point.shapes[a] * slip_row[d] * change;
-      }
+    const auto &point = face.points[index];
+    Local slope;
+    for (unsigned int i = 0; i < theta_index; ++i)
+      slope[i] = point.weight * traction_by_slope * placed.slip_row[i % 2] * slopes[index][i / 2];
+    tangent -= outer_product(spread(point, placed.slip_row), slope);
   }
 
-  void RigidObstacle::slide(FacePointState &state, const SlidingState &sliding, const FrictionLaw &law, ContactSums &sums)
+  void RigidObstacle::slide(FacePointState<2> &state, const SlidingState &sliding, const FrictionLaw &law, ContactSums &sums)
   {
-    const auto &point = face.points()[state.index];
-    state.slip_change = sliding.speed;
+    const auto &point = face.points[state.index];
+    double &speed     = state.slip_change[0];
+    speed             = sliding.speed;
     if (sliding.rates != nullptr)
     {
-      const auto nodal = FacePatches::nodal(face.patches()[patch], *sliding.rates);
-      const auto moved = FacePatches::position(point, nodal);
+      const auto nodal = FacePatches<2>::nodal(face.patches[patch], *sliding.rates);
+      const auto rate  = FacePatches<2>::position(point, nodal) - point.position;
       const auto &at   = properties.ports;
-      state.slip_change += placed.slip_row[0] * (moved.xi - point.position.xi) +
-                           placed.slip_row[1] * (moved.eta - point.position.eta) +
-                           placed.slip_row[2] * (*sliding.rates)[at.rotation()] -
-                           (at.sprung ? placed.slip_row[3] * (*sliding.rates)[at.support()] : 0.);
+      speed += placed.slip_row[0] * rate[0] + placed.slip_row[1] * rate[1] +
+               placed.slip_row[2] * (*sliding.rates)[at.rotation()] -
+               (at.sprung ? placed.slip_row[3] * (*sliding.rates)[at.support()] : 0.);
     }
     const auto of   = sprag::slide(properties, law, sliding, point.weight, state, sums);
-    state.end_force = state.pressure * placed.gap_row - state.traction * placed.slip_row;
+    state.end_force = state.pressure * placed.gap_row - state.traction[0] * placed.slip_row;
     add_force(point, state.end_force);
     const auto pressure    = of.normal * outer_product(placed.gap_row, placed.gap_row) + state.pressure * placed.gap_curvature;
     const auto by_friction = outer_product(placed.slip_row, of.coupled * placed.gap_row + of.stuck * placed.slip_row) -
-                             state.traction * placed.slip_curvature;
+                             state.traction[0] * placed.slip_curvature;
     if (!sums.in_parts)
       return add_tangent(point, pressure + by_friction, tangent);
     add_tangent(point, pressure, tangent);
@@ -215,18 +225,26 @@ namespace sprag
       friction.delays.push_back(delay_of(of, sliding.speed, rows(state)));
   }
 
-  void RigidObstacle::add_force(const FacePatches::Point &point, const Tensor<1, 4> &force)
+  /// Returns a row over the point's coordinates as one over those of the patch.
+  RigidObstacle::Local RigidObstacle::spread(const FacePatches<2>::Point &point, const Tensor<1, 4> &row)
   {
-    touched = true;
-    values[theta_index] += point.weight * force[2];
-    values[x_index] += point.weight * force[3];
-    for (unsigned int i = 0; i < 2 * face.patches()[patch].n_nodes; ++i)
-      values[i] += point.weight * point.shapes[i / 2] * force[i % 2];
+    Local result;
+    for (unsigned int i = 0; i < theta_index; ++i)
+      result[i] = point.shapes[i / 2] * row[i % 2];
+    result[theta_index] = row[2];
+    result[x_index]     = row[3];
+    return result;
   }
 
-  void RigidObstacle::add_tangent(const FacePatches::Point &point, const Tensor<2, 4> &of_point, LocalMatrix &sum) const
+  void RigidObstacle::add_force(const FacePatches<2>::Point &point, const Tensor<1, 4> &force)
   {
-    const unsigned int n_nodes        = face.patches()[patch].n_nodes;
+    touched = true;
+    values += point.weight * spread(point, force);
+  }
+
+  void RigidObstacle::add_tangent(const FacePatches<2>::Point &point, const Tensor<2, 4> &of_point, LocalMatrix &sum) const
+  {
+    const unsigned int n_nodes        = face.patches[patch].n_nodes;
     constexpr unsigned int rest[2][2] = { { 2, theta_index }, { 3, x_index } };
     for (const auto &[i, row] : rest)
       for (const auto &[j, column] : rest)
@@ -247,16 +265,14 @@ namespace sprag
       }
   }
 
-  /// Coordinates of the patch that are ports. The support's moves the obstacle's position back.
-  std::vector<FaceCoordinate> RigidObstacle::ports() const
+  /// Returns the coordinates of the patch that are ports.
+  PortCoordinates RigidObstacle::ports() const
   {
-    std::vector<FaceCoordinate> result;
-    const auto &of = face.patches()[patch];
+    PortCoordinates result;
+    const auto &of = face.patches[patch];
     for (unsigned int i = 0; i < 2 * of.n_nodes; ++i)
       result.push_back({ i, 2 * of.nodes[i / 2] + i % 2, 1. });
-    result.push_back({ theta_index, properties.ports.rotation(), 1. });
-    if (properties.ports.sprung)
-      result.push_back({ x_index, properties.ports.support(), -1. });
+    add_frame(properties.ports, theta_index, x_index, result);
     return result;
   }
 
@@ -266,30 +282,20 @@ namespace sprag
       add_patch(ports(), values, tangent, friction, sums);
   }
 
-  FacePointRows RigidObstacle::rows(const FacePointState &state) const
+  FacePointRows RigidObstacle::rows(const FacePointState<2> &state) const
   {
-    const auto &point   = face.points()[state.index];
-    const auto contact  = end(state.position);
+    const auto &point   = face.points[state.index];
+    const auto contact  = end(place_of(state.position));
     const auto of_patch = ports();
-    const auto n        = static_cast<unsigned int>(of_patch.size());
-    FacePointRows result{ point.weight, {}, Vector<double>(n), Vector<double>(n), Vector<double>(n) };
-    for (unsigned int i = 0; i < n; ++i)
-    {
-      const unsigned int c   = of_patch[i].index;
-      const double factor    = of_patch[i].sign * (c < theta_index ? point.shapes[c / 2] : 1.);
-      const unsigned int row = c < theta_index ? c % 2 : c - theta_index + 2;
-      result.ports.push_back(of_patch[i].port);
-      result.gap[i]  = factor * contact.gap_row[row];
-      result.slip[i] = factor * contact.slip_row[row];
-    }
-    return result;
+    return { point.weight, ports_of(of_patch), row_on_ports(of_patch, spread(point, contact.gap_row)),
+             row_on_ports(of_patch, spread(point, contact.slip_row)), row_on_ports(of_patch, Local()) };
   }
 
-  double RigidObstacle::slip(const FacePointState &state) const
+  double RigidObstacle::slip(const FacePointState<2> &state) const
   {
     if (!begin_of_patch)
       return 0.;
-    const auto position = FacePatches::position(face.points()[state.index], at_end);
-    return end(position).slip - at_begin(state.index).slip;
+    const auto position = FacePatches<2>::position(face.points[state.index], at_end);
+    return end(place_of(position)).slip - at_begin(state.index).slip;
   }
 } // namespace sprag

@@ -6,90 +6,97 @@
 
 namespace sprag
 {
-  /// What FaceContact sees of a rigid obstacle below the lever's face. Per point: displacement along xi and eta, rotation,
+  /// A rigid obstacle below the lever's face, in two dimensions. FaceContact enters it with a step, then with one patch after the
+  /// other, by their indices in `face`. A point has four coordinates: its displacement along xi and eta, the rotation, and the
   /// position of the obstacle.
   class RigidObstacle
   {
   public:
-    /// `face` and `properties` must outlive the obstacle.
-    RigidObstacle(const FacePatches &face, const FaceContactProperties &properties);
+    /// `face`, the lever's patches, and `properties` must outlive the obstacle.
+    RigidObstacle(const FrictionFace<2> &lever, const FacePatches<2> &face, const FaceContactProperties &properties);
 
     /// Sets the configurations of all that follows; for steady sliding beginning and end are one.
     void enter(const StepPlaces &places);
 
     /// Patches within reach at the end of the step, and where the step's mean counts at its beginning as well; at least one that
     /// is closest up to the margin, 0.02 of its length.
-    FacePatches::Range near() const;
+    FacePatches<2>::Indices near() const;
 
     /// Sets the patch of all that follows.
     void enter(unsigned int patch);
 
     /// Gives a point of the patch its position and gap, and makes it that of step() and slide(). Returns whether the obstacle can
     /// touch it.
-    bool place(FacePointState &state);
+    bool place(FacePointState<2> &state);
 
-    /// Gap of a point of the patch at the beginning of the step [mm].
+    /// Returns the gap of a point of the patch, by its index in the face, at the beginning of the step [mm].
     double gap_at_begin(unsigned int point) const;
 
     /// Response of the point placed last to the step, and its forces.
-    void step(FacePointState &state, const ContactMemory &memory, const FaceStep &step, ContactSums &sums);
+    void step(FacePointState<2> &state, const ContactMemory &memory, const FaceStep &step, ContactSums &sums);
 
-    /// Of the point placed last, in contact, if it slides steadily.
-    void slide(FacePointState &state, const SlidingState &sliding, const FrictionLaw &law, ContactSums &sums);
+    /// Forces of the point placed last, in contact, that slides steadily.
+    void slide(FacePointState<2> &state, const SlidingState &sliding, const FrictionLaw &law, ContactSums &sums);
 
     /// Adds the forces of the patch, if it has any.
     void leave(ContactSums &sums);
 
-    /// At the end of the step.
-    FacePointRows rows(const FacePointState &state) const;
+    /// Returns the rows of a point of the patch at the end of the step.
+    FacePointRows rows(const FacePointState<2> &state) const;
 
     /// Slip of a point of the patch from one configuration to the other of the step [mm].
-    double slip(const FacePointState &state) const;
+    double slip(const FacePointState<2> &state) const;
 
   private:
-    static constexpr unsigned int n_local     = 2 * FacePatches::max_nodes + 2;
-    static constexpr unsigned int theta_index = 2 * FacePatches::max_nodes;
+    static constexpr unsigned int n_local     = 2 * FacePatches<2>::max_nodes + 2;
+    static constexpr unsigned int theta_index = 2 * FacePatches<2>::max_nodes;
     static constexpr unsigned int x_index     = theta_index + 1;
+    using Local                               = dealii::Tensor<1, n_local>;
     using LocalMatrix                         = dealii::Tensor<2, n_local>;
 
     /// A point where a step begins.
     struct BeginPoint
     {
-      LeverPoint position;
+      dealii::Point<2> position;
       double gap;
       double slip;
     };
 
-    FacePatches::Range near(const FaceConfiguration &at, const PlacedObstacle &obstacle) const;
+    FacePatches<2>::Indices near(const FaceConfiguration &at, const PlacedObstacle &obstacle) const;
     void enter_begin(const FaceConfiguration &at);
     const std::vector<BeginPoint> &begin_of(unsigned int of_patch);
     const BeginPoint &at_begin(unsigned int point) const;
-    StepKinematics<4> over_step(const FacePointState &state, double slip_change) const;
-    void add_slope(const FacePatches::Point &point, double traction_by_slope);
-    void add_force(const FacePatches::Point &point, const dealii::Tensor<1, 4> &force);
-    void add_tangent(const FacePatches::Point &point, const dealii::Tensor<2, 4> &of_point, LocalMatrix &sum) const;
-    std::vector<FaceCoordinate> ports() const;
+    StepKinematics<4> over_step(const FacePointState<2> &state, double slip_change) const;
+    using Slopes = std::array<double, FacePatches<2>::max_nodes>;
 
-    const FacePatches &face;
+    dealii::Tensor<1, 4> direction_of_face(unsigned int point) const;
+    void add_slope(unsigned int point, double traction_by_slope);
+    static Local spread(const FacePatches<2>::Point &point, const dealii::Tensor<1, 4> &row);
+    void add_force(const FacePatches<2>::Point &point, const dealii::Tensor<1, 4> &force);
+    void add_tangent(const FacePatches<2>::Point &point, const dealii::Tensor<2, 4> &of_point, LocalMatrix &sum) const;
+    PortCoordinates ports() const;
+
+    const FacePatches<2> &face;
     const FaceContactProperties &properties;
+    std::vector<Slopes> slopes; ///< of the shapes of a point's nodes along xi [1/mm]
     StepPlaces places{};
     PlacedObstacle end;
     PlacedObstacle balance; ///< where forces are not those at the end
     unsigned int patch = 0;
-    FacePatches::Nodal at_end{};
+    FacePatches<2>::Nodal at_end{};
     ContactKinematics<4> placed{}; ///< of the point placed last
 
     // Where the step begins, the same in all its iterations.
     FaceConfiguration of_begin{};
     PlacedObstacle begin;
     dealii::Vector<double> known_begin;
-    FacePatches::Range near_begin{ 0, 0 };
+    FacePatches<2>::Indices near_begin;
     std::map<unsigned int, std::vector<BeginPoint>> begin_points; ///< by patches
 
     // Of the patch.
     const std::vector<BeginPoint> *begin_of_patch = nullptr; ///< none where beginning and end are one
     bool touched                                  = false;
-    dealii::Tensor<1, n_local> values;
+    Local values;
     LocalMatrix tangent;
     FrictionParts<LocalMatrix> friction;
   };

@@ -137,7 +137,7 @@ namespace sprag
       const double theta     = properties.spring.rest + turns(trial)[i];
       const double travel =
           properties.centre(x, theta).xi - properties.centre(begin_x, properties.spring.rest + begin[ports.rotation(i)]).xi;
-      for (const unsigned int port : levers[i].contact.reachable_ports(x, theta, std::abs(travel)))
+      for (const unsigned int port : levers[i].contact.reachable_ports(x, { { theta } }, std::abs(travel)))
         result.push_back(joined_port(ports, i, port));
     }
     std::sort(result.begin(), result.end());
@@ -152,7 +152,7 @@ namespace sprag
     trial.forces   = { forces->ports, forces->values };
     double overlap = 0.;
     for (const auto &lever : levers)
-      overlap = std::max(overlap, lever.contact.overlap());
+      overlap = std::max(overlap, lever.found.overlap());
     return { std::visit([&](auto &s) { return s.unbalance(trial.coordinates, *forces); }, structure), overlap };
   }
 
@@ -170,9 +170,9 @@ namespace sprag
       const Kinematic from{ ports_of_lever(ports, i, begin), {}, {} };
       const StepWeights weights{ trial.drive.time - start.time, 0., 0., 0., 0. };
       lever.contact.evaluate(PortStep{ start, lever.memory, trial.drive, from, ports_of_lever(ports, i, end), {}, weights },
-                             terms);
-      of_levers.push_back(&lever.contact.forces());
-      within_reach = within_reach && lever.contact.within_reach();
+                             lever.found, terms);
+      of_levers.push_back(&lever.found.forces);
+      within_reach = within_reach && lever.found.within_reach;
     }
     if (!within_reach)
       return widen_reach(trial, mode);
@@ -235,8 +235,8 @@ namespace sprag
     double largest = 0.;
     for (const auto &lever : levers)
       largest = std::max(largest, lever.properties.contact.enforcement == Enforcement::penalty
-                                      ? lever.contact.penetration()
-                                      : lever.multipliers.largest_change(lever.contact.points(), lever.memory) /
+                                      ? lever.found.penetration()
+                                      : lever.multipliers.largest_change(lever.found.points, lever.memory) /
                                             lever.contact.penalties().normal);
     return largest;
   }
@@ -252,17 +252,17 @@ namespace sprag
   std::string LeverModel::objection(const Lever &lever, const DrivePoint &drive) const
   {
     Row row;
-    observe_resultants(lever.contact.view(), row);
+    observe_resultants(body, lever.found, row);
     const double s    = row[Column::s];
     const double mu_e = row[Column::mu] * lever.properties.interface_offset;
     if (direction_of(drive.v) < 0 && row[Column::F] < 0. && s <= mu_e)
       return "the lever locks: moving back, s = " + rounded_text(s) + " mm <= mu e = " + rounded_text(mu_e) + " mm";
 
-    if (const auto beyond = lever.contact.objection(); !beyond.empty())
+    if (const auto beyond = lever.found.objection(); !beyond.empty())
       return beyond;
 
     // A linear material knows no limit of its own.
-    const double pressure = lever.contact.overlap() * lever.contact.penalties().normal;
+    const double pressure = lever.found.overlap() * lever.contact.penalties().normal;
     const double limit    = largest_strain * body.friction_face().young_modulus;
     if (lever.properties.body.material == MaterialModel::linear && pressure > limit)
       return "the pressure on the friction face exceeds " + rounded_text(limit) + " MPa, half of its Young's modulus";
@@ -278,7 +278,7 @@ namespace sprag
 
   void LeverModel::augment(State &trial) const
   {
-    trial.contact = joined([](const Lever &lever) { return lever.multipliers.augmented(lever.contact.points()); });
+    trial.contact = joined([](const Lever &lever) { return lever.multipliers.augmented(lever.found.points); });
   }
 
   std::vector<ContactMemory> LeverModel::memory() const
@@ -287,8 +287,8 @@ namespace sprag
         [](const Lever &lever)
         {
           return lever.properties.contact.enforcement == Enforcement::augmented_lagrangian
-                     ? lever.multipliers.augmented(lever.contact.points())
-                     : lever.contact.memory();
+                     ? lever.multipliers.augmented(lever.found.points)
+                     : lever.found.memory();
         });
   }
 
@@ -308,20 +308,20 @@ namespace sprag
 
   void LeverModel::observe(const unsigned int index, const State &trial, Row &row) const
   {
-    const auto &[properties, contact, multipliers, memory] = levers[index];
-    const double turn                                      = turns(trial)[index];
-    const double theta                                     = properties.spring.rest + turn;
-    const double u                                         = support_displacement(trial);
-    row[Column::theta]                                     = theta;
-    row[Column::spring_energy]                             = properties.spring.law.energy(turn);
-    observe_face(contact.view(), properties.layer_thickness, row);
+    const auto &[properties, contact, multipliers, memory, found] = levers[index];
+    const double turn                                             = turns(trial)[index];
+    const double theta                                            = properties.spring.rest + turn;
+    const double u                                                = support_displacement(trial);
+    row[Column::theta]                                            = theta;
+    row[Column::spring_energy]                                    = properties.spring.law.energy(turn);
+    observe_face(body, found, properties.layer_thickness, row);
     row[Column::centre_offset]        = row[Column::s] - properties.centre(trial.drive.x - u, theta).xi;
     row[Column::Q]                    = row[Column::P] * std::sin(theta) + row[Column::F] * std::cos(theta);
     row[Column::support_displacement] = u;
     const double support              = properties.support_stiffness.value_or(0.);
     row[Column::Q_support]            = ports.sprung ? support * u : row[Column::Q];
     row[Column::support_energy]       = 0.5 * support * u * u;
-    row[Column::elastic_energy] += cylinder_energy(contact);
+    row[Column::elastic_energy] += cylinder_energy(found);
     if (properties.body.material != MaterialModel::linear)
       row[Column::elastic_energy] = body.energy(body_displacements(trial)[index]);
     if (!body.connectors().empty())
@@ -330,14 +330,14 @@ namespace sprag
   }
 
   /// Of a linear one: half the work of its forces [mJ].
-  double LeverModel::cylinder_energy(const FaceContact &contact) const
+  double LeverModel::cylinder_energy(const FaceEvaluation &found) const
   {
     const auto first = 2 * static_cast<unsigned int>(body.friction_face().nodes.size());
-    const auto &on   = contact.forces();
+    const auto &on   = found.forces;
     double result    = 0.;
     for (unsigned int i = 0; i < on.ports.size(); ++i)
       if (on.ports[i] >= first && on.ports[i] < ports.surface)
-        result += 0.5 * on.values[i] * contact.displacements()[on.ports[i]];
+        result += 0.5 * on.values[i] * found.displacement[on.ports[i]];
     return result;
   }
 
@@ -353,7 +353,7 @@ namespace sprag
 
   FaceState LeverModel::face_state(const State &trial) const
   {
-    const auto of_lever = [&](const Lever &lever) { return sprag::face_state(lever.contact.view(), trial.drive); };
+    const auto of_lever = [&](const Lever &lever) { return sprag::face_state(body, lever.found, trial.drive); };
     return levers.size() == 1 ? of_lever(levers[0]) : joined_faces(of_lever(levers[0]), of_lever(levers[1]));
   }
 

@@ -62,7 +62,8 @@ namespace sprag
       const LeverProperties properties;
       FaceContact contact;
       const FaceMultipliers multipliers;
-      std::vector<ContactMemory> memory; ///< and multipliers of the last evaluation
+      std::vector<ContactMemory> memory; ///< and multipliers that `found` was evaluated with
+      FaceEvaluation found;
     };
 
     LeverModel(const dealii::Triangulation<2> &triangulation, std::vector<LeverProperties> properties, bool swings);
@@ -75,7 +76,7 @@ namespace sprag
     double support_displacement(const State &state) const;
     std::string objection(const Lever &lever, const DrivePoint &drive) const;
     void observe(unsigned int lever, const State &trial, Row &row) const;
-    double cylinder_energy(const FaceContact &contact) const;
+    double cylinder_energy(const FaceEvaluation &found) const;
     unsigned int n_face_points() const;
 
     const ElasticBody<2> body;
