@@ -3,6 +3,8 @@
 #include "base/errors.h"
 #include "base/text.h"
 
+#include <boost/algorithm/string/case_conv.hpp>
+
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -46,9 +48,7 @@ namespace sprag
       return std::any_of(std::sregex_iterator(cell.begin(), cell.end(), word), {},
                          [&](const auto &match)
                          {
-                           std::string lower = match.str();
-                           std::transform(lower.begin(), lower.end(), lower.begin(),
-                                          [](const unsigned char c) { return static_cast<char>(std::tolower(c)); });
+                           const auto lower = boost::algorithm::to_lower_copy(match.str());
                            return std::find(words.begin(), words.end(), lower) != words.end();
                          });
     }

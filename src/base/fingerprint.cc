@@ -1,6 +1,7 @@
 #include "base/fingerprint.h"
 
-#include <cstdio>
+#include "base/text.h"
+
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -75,9 +76,7 @@ namespace sprag
 
   std::string Fingerprint::text() const
   {
-    char digits[24];
-    std::snprintf(digits, sizeof(digits), "%016llx", static_cast<unsigned long long>(hash));
-    return digits;
+    return formatted("%016llx", static_cast<unsigned long long>(hash));
   }
 
   std::string content_fingerprint(const std::string &file)

@@ -51,7 +51,7 @@ namespace sprag
     {
       if (!std::ifstream(path) || std::filesystem::is_directory(path))
         throw InputError(path + ": cannot be read");
-      const hdf5::SilencedHdf5 silence;
+      hdf5::silence();
       const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
       // Disks that are read-only or without locks are as good as others.
       H5Pset_file_locking(access.id(), false, true);
