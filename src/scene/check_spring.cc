@@ -1,4 +1,4 @@
-#include "scene/check_spring.h"
+#include "scene/check_parts.h"
 
 #include "base/text.h"
 

@@ -106,11 +106,6 @@ namespace sprag
     return geometry.cylinder_radius * geometry.pivot_distance * slope_per_stiffness(geometry, coefficient, sign);
   }
 
-  double critical_inclination(const double coefficient)
-  {
-    return std::atan(coefficient);
-  }
-
   double pivot_contact(const Geometry &geometry)
   {
     const double R = geometry.cylinder_radius;
@@ -188,15 +183,5 @@ namespace sprag
     }
     add(from, end);
     return work;
-  }
-
-  double loop_area(const Scene &scene)
-  {
-    return work_between(scene, 0., scene.drive.duration()).drive;
-  }
-
-  double friction_work(const Scene &scene)
-  {
-    return work_between(scene, 0., scene.drive.duration()).friction;
   }
 } // namespace sprag

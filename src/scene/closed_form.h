@@ -50,9 +50,6 @@ namespace sprag
   /// C_Q R l / k, eqs. 20-22.
   double dimensionless_slope(const Geometry &geometry, double coefficient, int sign);
 
-  /// th0 above which the backward stroke no longer damps, atan mu [rad], eq. 25.
-  double critical_inclination(double coefficient);
-
   /// Smallest x at which the cylinder touches the pivot: (l-x)^2 + h^2 = R^2 [mm]. Requires |h| <= R: else it never does.
   double pivot_contact(const Geometry &geometry);
 
@@ -80,10 +77,4 @@ namespace sprag
   /// The same of any lever, by its state over time.
   Work work_between(const Drive &drive, const std::function<ClosedFormState(const DrivePoint &)> &state_at, double begin,
                     double end);
-
-  /// Integral of Q dx over the drive [N mm]; over whole cycles it equals the friction work.
-  double loop_area(const Scene &scene);
-
-  /// Integral of F v_rel dt over the drive [N mm].
-  double friction_work(const Scene &scene);
 } // namespace sprag

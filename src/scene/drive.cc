@@ -19,7 +19,7 @@ namespace sprag
         return harmonic_motion(start, stroke, speed, cycles);
       if (reversal_duration == 0.)
         return triangle_motion(start, stroke, speed, cycles);
-      Assert(reversal_duration > 0. && reversal_duration <= largest_reversal_duration(start, stroke, speed, cycles),
+      Assert(reversal_duration > 0. && reversal_duration <= Drive::largest_reversal_duration(start, stroke, speed, cycles),
              dealii::ExcMessage("The strokes have no room for these reversals."));
       return smooth_triangle_motion(start, stroke, speed, cycles, reversal_duration);
     }
@@ -39,11 +39,6 @@ namespace sprag
   Drive::Drive(std::vector<double> times, std::vector<double> positions)
       : motion(table_motion(times, positions))
   {
-  }
-
-  double Drive::largest_reversal_duration(const double start, const double stroke, const double speed, const double cycles)
-  {
-    return sprag::largest_reversal_duration(start, stroke, speed, cycles);
   }
 
   DriveProfile Drive::profile() const

@@ -1,7 +1,5 @@
 #include "scene/motion.h"
 
-#include "scene/strokes.h"
-
 #include <algorithm>
 #include <cmath>
 

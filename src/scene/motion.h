@@ -2,6 +2,7 @@
 
 #include "scene/drive.h"
 
+#include <algorithm>
 #include <memory>
 #include <vector>
 
@@ -43,7 +44,25 @@ namespace sprag
   /// asked for. Times beyond the ends belong to the first or last.
   std::size_t interval_at(const std::vector<double> &bounds, double time, Drive::Side side);
 
-  /// -1, 0 or 1.
+  /// One way of the cylinder, the last one possibly cut short.
+  struct Stroke
+  {
+    double from;
+    double to;
+    double part; ///< of the way that is gone, 0 < part <= 1
+  };
+
+  /// There and back, `cycles` > 0 times.
+  inline std::vector<Stroke> strokes(const double start, const double stroke, const double cycles)
+  {
+    const double n_half_cycles = 2. * cycles;
+    std::vector<Stroke> result;
+    for (unsigned int i = 0; i < n_half_cycles; ++i)
+      result.push_back({ i % 2 == 0 ? start : stroke, i % 2 == 0 ? stroke : start, std::min(1., n_half_cycles - i) });
+    return result;
+  }
+
+  /// Returns -1, 0 or 1.
   inline int sign_of(const double value)
   {
     return (value > 0.) - (value < 0.);
@@ -51,14 +70,11 @@ namespace sprag
 
   std::shared_ptr<const DriveMotion> triangle_motion(double start, double stroke, double speed, double cycles);
 
-  /// `reversal_duration` > 0 and at most largest_reversal_duration().
+  /// `reversal_duration` > 0 and at most Drive::largest_reversal_duration().
   std::shared_ptr<const DriveMotion> smooth_triangle_motion(double start, double stroke, double speed, double cycles,
                                                             double reversal_duration);
 
   std::shared_ptr<const DriveMotion> harmonic_motion(double start, double stroke, double speed, double cycles);
 
   std::shared_ptr<const DriveMotion> table_motion(const std::vector<double> &times, const std::vector<double> &positions);
-
-  /// The longest reversals for which every stroke has room for its ramps [s]; infinite where there are none.
-  double largest_reversal_duration(double start, double stroke, double speed, double cycles);
 } // namespace sprag
