@@ -84,6 +84,7 @@ namespace sprag
     std::size_t index(unsigned int i, unsigned int j) const;
     Corners corners(const Level &level, unsigned int a, unsigned int b) const;
     bool is_active(std::size_t level, unsigned int a, unsigned int b) const;
+    std::vector<Corners> active_quads() const; ///< of all levels, coarsest first
     bool is_mixed(const Corners &quad) const;
     void split_level(std::size_t level);
     void interpolate(const Corners &quad, const std::vector<double> &values, std::vector<double> &result) const;

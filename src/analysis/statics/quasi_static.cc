@@ -2,11 +2,11 @@
 
 #include "analysis/statics/newton.h"
 #include "base/errors.h"
+#include "base/text.h"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <sstream>
 #include <string>
 
 namespace sprag
@@ -114,12 +114,10 @@ namespace sprag
 
     [[noreturn]] void give_up(const Row &last, const double dx, const std::string &failure)
     {
-      std::ostringstream message;
-      message << "no equilibrium beyond x = " << last[Column::x] << " mm (v = " << last[Column::v]
-              << " mm/s, P = " << last[Column::P] << " N): " << failure << " even in a step of " << dx << " mm. ";
-      message << "Try a smaller friction coefficient or offset; if it is not the mechanics, a smaller Contact/Penalty or a finer "
-                 "Mesh/Face size.";
-      throw AnalysisError(message.str());
+      throw AnalysisError("no equilibrium beyond x = " + mm(last[Column::x]) + " (v = " + rounded_text(last[Column::v]) +
+                          " mm/s, P = " + rounded_text(last[Column::P]) + " N): " + failure + " even in a step of " + mm(dx) +
+                          ". Try a smaller friction coefficient or offset; if it is not the mechanics, a smaller Contact/Penalty "
+                          "or a finer Mesh/Face size.");
     }
 
     bool is_reversal(const Drive &drive, const double time)

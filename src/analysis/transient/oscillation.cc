@@ -265,11 +265,9 @@ namespace sprag
 
     double negligible(const std::vector<Row> &rows)
     {
-      double peak = 0.;
-      for (const auto &row : rows)
-        if (std::isfinite(row[Column::P_quasi_static]))
-          peak = std::max(peak, std::abs(row[Column::P_quasi_static]));
-      return noise * peak;
+      const auto finite_P = [](const Row &row)
+      { return std::isfinite(row[Column::P_quasi_static]) ? row[Column::P_quasi_static] : 0.; };
+      return noise * largest(rows, finite_P);
     }
 
     Oscillation oscillation_at(const std::vector<Row> &rows, const DrivePoint &turn, const double reversal_duration,

@@ -15,16 +15,23 @@ namespace sprag
     /// shorter than asked for, so that they can be.
     StepClock(const Drive &drive, double step, unsigned int largest_doublings);
 
-    double duration() const;
+    /// Duration of the present step [s].
+    double duration() const
+    {
+      return (ends[segment] - begin) / static_cast<double>(count);
+    }
 
     /// End of the present step [s].
     double end_of_step() const;
 
-    bool finished() const;
+    bool finished() const
+    {
+      return segment == ends.size();
+    }
 
     void halve();
 
-    /// Doubles the step where that leaves a whole number of them, up to the largest one; says whether it did.
+    /// Doubles the step where that leaves a whole number of them, up to the largest one; returns whether it did.
     bool grow();
 
     void advance();
