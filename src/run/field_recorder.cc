@@ -32,6 +32,11 @@ namespace sprag
       return { begin, 0.5 * (low + high) };
     }
 
+    double largest_force(const Row &row)
+    {
+      return row.second_lever().empty() ? row[Column::P] : std::max(row[Column::P], row.of_second_lever(Column::P));
+    }
+
     double largest_surface_stress(const std::vector<double> &pressure, const std::vector<double> &traction)
     {
       double result = 0.;
@@ -87,11 +92,6 @@ namespace sprag
     if (scene.analysis.type == AnalysisType::transient)
       result.emplace_back(Estimate::elastic_energy, row[Column::elastic_energy]);
     return result;
-  }
-
-  double FieldRecorder::largest_force(const Row &row) const
-  {
-    return row.second_lever().empty() ? row[Column::P] : std::max(row[Column::P], row.of_second_lever(Column::P));
   }
 
   double FieldRecorder::moment_at_hub(const Row &row) const

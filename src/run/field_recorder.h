@@ -55,7 +55,6 @@ namespace sprag
     bool is_frame(const Row &row);
     bool is_turn_or_end(double time) const;
     bool slides_back(const Row &row) const;
-    double largest_force(const Row &row) const;
     double moment_at_hub(const Row &row) const;
     std::vector<std::pair<Estimate, double>> estimates(const Row &row, const FaceState &face) const;
     void find(const Kept &kept, bool frame);
