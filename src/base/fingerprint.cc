@@ -69,11 +69,6 @@ namespace sprag
       hash = (hash ^ data[i]) * 1099511628211u;
   }
 
-  std::uint64_t Fingerprint::value() const
-  {
-    return hash;
-  }
-
   std::string Fingerprint::text() const
   {
     return formatted("%016llx", static_cast<unsigned long long>(hash));

@@ -59,11 +59,6 @@ namespace sprag
   {
   }
 
-  Progress::~Progress()
-  {
-    finish();
-  }
-
   void Progress::update(const double done, const ProgressFields &fields)
   {
     const double share = std::clamp(done / total, 0., 1.);

@@ -41,11 +41,14 @@ namespace sprag
     /// Returns the seconds since any fixed instant.
     using Clock = std::function<double()>;
 
-    /// `total` > 0 in the unit of update()'s `done`; the stream has to outlive the object.
+    /// Shows progress towards `total` > 0, in the unit of update()'s `done`. The stream must outlive the object.
     Progress(std::ostream &stream, ProgressStyle style, double total, Clock clock = monotonic_seconds);
 
     /// Ends the line, whatever became of the run.
-    ~Progress();
+    ~Progress()
+    {
+      finish();
+    }
 
     Progress &operator=(Progress &&) = delete;
 

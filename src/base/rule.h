@@ -19,7 +19,7 @@ namespace sprag
   Interval any_number();
   Interval above(double low);
   Interval at_least(double low);
-  /// Neither bound belongs to it.
+  /// Returns an interval to which neither bound belongs.
   Interval between(double low, double high);
 
   /// A rule that the text of a parameter's value must keep.

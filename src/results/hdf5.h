@@ -52,7 +52,8 @@ namespace sprag::hdf5
   class Series
   {
   public:
-    /// Rows have one number each, of which `chunk` are stored together, or the shape given; those are compressed.
+    /// Creates the dataset. A row is one number, or numbers of the shape given, which are compressed; `chunk` rows are stored
+    /// together.
     Series(const Handle &location, const std::string &name, std::size_t chunk, const std::vector<hsize_t> &row = {});
 
     const Handle &handle() const

@@ -171,86 +171,7 @@ namespace sprag
       hdf5::Handle group;
       hdf5::Series time, x, pressure, traction;
     };
-  } // namespace
 
-  struct ResultFile::Implementation
-  {
-    /// What is open while rows are appended.
-    struct Writer
-    {
-      DiskReserve reserve; // given back after the file is closed
-      hdf5::Handle file;
-      Table table;
-      std::optional<Face> face;
-      std::chrono::steady_clock::time_point last_flush = {};
-
-      void flush()
-      {
-        reserve.require_in_place();
-        reserve.cover(overhead + table.pending_bytes());
-        table.write();
-        hdf5::checked("flushing", H5Fflush(file.id(), H5F_SCOPE_LOCAL));
-        last_flush = std::chrono::steady_clock::now();
-      }
-
-      /// At the end: false where there is no space left but for the end itself.
-      bool flush_what_fits()
-      {
-        reserve.require_in_place();
-        try
-        {
-          flush();
-          return true;
-        }
-        catch (const AnalysisError &)
-        {
-          return false;
-        }
-      }
-    };
-
-    std::string path;
-    std::optional<Writer> writer;
-  };
-
-  ResultFile::ResultFile(const std::string &path, const std::string &parameters, const FacePoints &points,
-                         const std::vector<ColumnInfo> &columns)
-      : implementation(std::make_unique<Implementation>())
-  {
-    hdf5::Handle file = create(path);
-    DiskReserve reserve(path);
-    reserve.cover(overhead + parameters.size());
-    hdf5::write_attribute(file, "format", std::string("sprag result"));
-    hdf5::write_attribute(file, "format_version", 1.);
-    describe(hdf5::write_dataset(file, "parameters", parameters), "", "every parameter as used, in .prm form");
-    Table table(file, columns);
-    std::optional<Face> face;
-    if (!points.xi.empty())
-      face.emplace(file, points);
-    // From here on others can read along; no object and no attribute can be created any more.
-    hdf5::checked("letting others read", H5Fstart_swmr_write(file.id()));
-    implementation->path = path;
-    implementation->writer.emplace(
-        Implementation::Writer{ std::move(reserve), std::move(file), std::move(table), std::move(face), {} });
-  }
-
-  ResultFile::ResultFile(ResultFile &&) noexcept = default;
-
-  ResultFile::~ResultFile()
-  {
-    if (implementation && implementation->writer)
-      try
-      {
-        implementation->writer->flush();
-      }
-      catch (const AnalysisError &)
-      {
-        // The run is being abandoned for a reason of its own.
-      }
-  }
-
-  namespace
-  {
     /// The row in the order of table_columns(), NaN in place of sensors that the model has not.
     std::vector<double> values_of(const Row &row, const std::size_t n_values)
     {
@@ -280,28 +201,93 @@ namespace sprag
     }
   } // namespace
 
+  /// What is open while rows are appended.
+  struct ResultFile::Writer
+  {
+    DiskReserve reserve; // given back after the file is closed
+    hdf5::Handle file;
+    Table table;
+    std::optional<Face> face                         = {};
+    std::chrono::steady_clock::time_point last_flush = {};
+
+    void flush()
+    {
+      reserve.require_in_place();
+      reserve.cover(overhead + table.pending_bytes());
+      table.write();
+      hdf5::checked("flushing", H5Fflush(file.id(), H5F_SCOPE_LOCAL));
+      last_flush = std::chrono::steady_clock::now();
+    }
+
+    /// At the end: false where there is no space left but for the end itself.
+    bool flush_what_fits()
+    {
+      reserve.require_in_place();
+      try
+      {
+        flush();
+        return true;
+      }
+      catch (const AnalysisError &)
+      {
+        return false;
+      }
+    }
+  };
+
+  ResultFile::ResultFile(const std::string &file_path, const std::string &parameters, const FacePoints &points,
+                         const std::vector<ColumnInfo> &columns)
+      : path(file_path)
+  {
+    hdf5::Handle file = create(path);
+    DiskReserve reserve(path);
+    reserve.cover(overhead + parameters.size());
+    hdf5::write_attribute(file, "format", std::string("sprag result"));
+    hdf5::write_attribute(file, "format_version", 1.);
+    describe(hdf5::write_dataset(file, "parameters", parameters), "", "every parameter as used, in .prm form");
+    Table table(file, columns);
+    writer = std::make_unique<Writer>(Writer{ std::move(reserve), std::move(file), std::move(table) });
+    if (!points.xi.empty())
+      writer->face.emplace(writer->file, points);
+    // From here on others can read along; no object and no attribute can be created any more.
+    hdf5::checked("letting others read", H5Fstart_swmr_write(writer->file.id()));
+  }
+
+  ResultFile::ResultFile(ResultFile &&) noexcept = default;
+
+  ResultFile::~ResultFile()
+  {
+    if (writer)
+      try
+      {
+        writer->flush();
+      }
+      catch (const AnalysisError &)
+      {
+        // The run is being abandoned for a reason of its own.
+      }
+  }
+
   void ResultFile::append(const Row &row)
   {
-    Assert(implementation->writer, dealii::ExcMessage("The result file is finished."));
-    append(values_of(row, implementation->writer->table.n_columns()));
+    Assert(writer, dealii::ExcMessage("The result file is finished."));
+    append(values_of(row, writer->table.n_columns()));
   }
 
   void ResultFile::append(const std::vector<double> &row)
   {
-    Assert(implementation->writer, dealii::ExcMessage("The result file is finished."));
-    Implementation::Writer &writer = *implementation->writer;
-    writer.table.append(row);
-    if (std::chrono::steady_clock::now() - writer.last_flush >= flush_interval)
-      writer.flush();
+    Assert(writer, dealii::ExcMessage("The result file is finished."));
+    writer->table.append(row);
+    if (std::chrono::steady_clock::now() - writer->last_flush >= flush_interval)
+      writer->flush();
   }
 
   void ResultFile::append(const FaceState &state)
   {
-    Assert(implementation->writer && implementation->writer->face, dealii::ExcMessage("The result file has no open /face."));
-    Implementation::Writer &writer = *implementation->writer;
-    writer.reserve.cover(overhead + 2 * state.pressure.size() * sizeof(double));
-    writer.face->append(state);
-    writer.flush();
+    Assert(writer && writer->face, dealii::ExcMessage("The result file has no open /face."));
+    writer->reserve.cover(overhead + 2 * state.pressure.size() * sizeof(double));
+    writer->face->append(state);
+    writer->flush();
   }
 
   void add_entries(const hdf5::Handle &file, const std::string &name, const std::vector<Entry> &entries)
@@ -316,14 +302,14 @@ namespace sprag
   void ResultFile::finish(const std::vector<Entry> &summary, const std::vector<Entry> &meta, const Warnings &warnings,
                           const std::vector<Group> &groups)
   {
-    Assert(implementation->writer, dealii::ExcMessage("The result file is finished already."));
+    Assert(writer, dealii::ExcMessage("The result file is finished already."));
     // Nothing can be created in a file that others may be reading along: close it and open it anew.
-    const bool has_space = implementation->writer->flush_what_fits();
-    implementation->writer.reset();
-    DiskReserve reserve(implementation->path);
+    const bool has_space = writer->flush_what_fits();
+    writer.reset();
+    DiskReserve reserve(path);
     if (has_space)
       reserve.cover(overhead + size_of(groups) + size_of(warnings));
-    hdf5::Handle file = hdf5::open_file(implementation->path);
+    hdf5::Handle file = hdf5::open_file(path);
     add_entries(file, "summary", summary);
     add_entries(file, "meta", meta);
     if (has_space)

@@ -105,12 +105,6 @@ namespace sprag
                                                                row.of_second_lever(Column::F)));
   }
 
-  bool FieldRecorder::is_turn_or_end(const double time) const
-  {
-    const auto &reversals = scene.drive.reversals();
-    return std::binary_search(reversals.begin(), reversals.end(), time) || time >= scene.drive.duration();
-  }
-
   bool FieldRecorder::slides_back(const Row &row) const
   {
     const double reached = direction * row[Column::friction_resultant];
@@ -122,7 +116,7 @@ namespace sprag
     if (!frames)
       return false;
     const auto &output = scene.output;
-    const bool turning = is_turn_or_end(row[Column::time]);
+    const bool turning = scene.drive.turns_at(row[Column::time]) || row[Column::time] >= scene.drive.duration();
     bool behind        = false;
     if (turned)
       behind = slides_back(row) || travelled >= *turned + long_behind * scene.geometry.cylinder_radius;

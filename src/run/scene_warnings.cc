@@ -1,4 +1,4 @@
-#include "run/scene_warnings.h"
+#include "run/warnings.h"
 
 #include "base/text.h"
 #include "scene/closed_form.h"

@@ -54,6 +54,26 @@ namespace sprag
       const double mu    = sliding_friction(scene, point.x, point.v).coefficient;
       return contact.s - mu * scene.geometry.interface_offset;
     }
+
+    std::optional<Locking> locking_between(const Scene &scene, const double from, const double to)
+    {
+      const double search_step = 0.1;
+      const auto &drive        = scene.drive;
+      for (DrivePoint point = drive.at(from, Drive::Side::after); point.time < to;)
+      {
+        const double begin = point.time;
+        point              = drive.step(point.time, search_step);
+        if (!(point.x < drive.at(begin).x))
+          continue;
+        for (const double time : { begin, point.time })
+        {
+          const auto at = drive.at(time, time == begin ? Drive::Side::after : Drive::Side::before);
+          if (locking_margin(scene, at) <= 0.)
+            return Locking{ at.x, kinematics(scene.geometry, at.x).s, sliding_friction(scene, at.x, at.v).coefficient };
+        }
+      }
+      return {};
+    }
   } // namespace
 
   Kinematics kinematics(const Geometry &geometry, const double x)
@@ -112,29 +132,6 @@ namespace sprag
     const double h = geometry.pivot_height;
     return geometry.pivot_distance - std::sqrt(std::max(0., R * R - h * h));
   }
-
-  namespace
-  {
-    std::optional<Locking> locking_between(const Scene &scene, const double from, const double to)
-    {
-      const double search_step = 0.1;
-      const auto &drive        = scene.drive;
-      for (DrivePoint point = drive.at(from, Drive::Side::after); point.time < to;)
-      {
-        const double begin = point.time;
-        point              = drive.step(point.time, search_step);
-        if (!(point.x < drive.at(begin).x))
-          continue;
-        for (const double time : { begin, point.time })
-        {
-          const auto at = drive.at(time, time == begin ? Drive::Side::after : Drive::Side::before);
-          if (locking_margin(scene, at) <= 0.)
-            return Locking{ at.x, kinematics(scene.geometry, at.x).s, sliding_friction(scene, at.x, at.v).coefficient };
-        }
-      }
-      return {};
-    }
-  } // namespace
 
   std::optional<Locking> locking(const Scene &scene)
   {

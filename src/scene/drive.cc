@@ -76,6 +76,11 @@ namespace sprag
     return motion->reversals;
   }
 
+  bool Drive::turns_at(const double time) const
+  {
+    return std::binary_search(motion->reversals.begin(), motion->reversals.end(), time);
+  }
+
   const std::vector<double> &Drive::kinks() const
   {
     return motion->kinks;
@@ -84,13 +89,13 @@ namespace sprag
   DrivePoint Drive::at(const double time, const Side side) const
   {
     const double inside = std::clamp(time, 0., duration());
-    return motion->at(motion->piece(inside, side), inside, side);
+    return motion->at(interval_at(motion->times, inside, side), inside, side);
   }
 
   DrivePoint Drive::step(const double time, const double dx) const
   {
     Assert(dx > 0., dealii::ExcMessage("A step must move."));
-    const auto piece      = motion->piece(time, Side::after);
+    const auto piece      = interval_at(motion->times, time, Side::after);
     const double end      = motion->times[piece + 1];
     const double distance = std::abs(motion->positions[piece + 1] - motion->at(piece, time, Side::after).x);
     return at(distance < 1.001 * dx ? end : motion->moved_by(piece, time, dx));

@@ -23,8 +23,8 @@ namespace sprag
   /// Returns whether the levers of a full pair can swing together without a moment of their springs.
   bool swings(const Scene &scene);
 
-  /// Returns whether that is another motion of springs and joint, with inertia of its own, than the one in which the levers mirror
-  /// each other.
+  /// Returns whether that is another motion of springs and joint, with inertia of its own, than the one in which the levers
+  /// mirror each other.
   bool swings_otherwise(const Scene &scene);
 
   /// Returns the scene of a lever while both swing together. It has the inertia of leaf springs and joint in that motion, and the

@@ -129,22 +129,15 @@ namespace sprag
         law.speed                        = friction.speed;
         law.factor                       = friction.factor;
         law.regularisation_speed         = friction.regularisation_speed;
-        switch (friction.law)
-        {
-        case FrictionChoice::coulomb:
+        if (friction.law == FrictionChoice::coulomb)
           law.law = friction.coulomb;
-          break;
-        case FrictionChoice::cork_on_aluminium:
+        else if (friction.law == FrictionChoice::cork_on_aluminium)
           law.law = CorkOnAluminium{};
-          break;
-        case FrictionChoice::stribeck:
+        else if (friction.law == FrictionChoice::stribeck)
           law.law = friction.stribeck;
-          break;
-        case FrictionChoice::table:
+        else
           use_table("Friction/Table", friction.table, { "speed", "mu" },
                     [&law](const auto &table) { law.law = TabulatedFriction(table.first, table.second); });
-          break;
-        }
       }
 
       void check()

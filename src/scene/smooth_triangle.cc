@@ -46,15 +46,10 @@ namespace sprag
         const auto later   = std::upper_bound(phases.begin(), phases.end(), time,
                                               [](const double value, const Phase &phase) { return value < phase.begin; });
         const Phase &phase = later == phases.begin() ? *later : *(later - 1);
-        switch (phase.kind)
-        {
-        case Kind::start:
+        if (phase.kind == Kind::start)
           return start(phase, time);
-        case Kind::reversal:
+        if (phase.kind == Kind::reversal)
           return reversal(phase, time);
-        case Kind::steady:
-          break;
-        }
         return { time, phase.x + phase.v * (time - phase.time), phase.v, 0. };
       }
 

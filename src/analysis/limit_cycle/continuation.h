@@ -46,8 +46,8 @@ namespace sprag
     /// Bisections of the interval in which a vibration that was carried along dies.
     static constexpr unsigned int bisections = 3;
 
-    /// `drive`: where it starts; `period` of the vibration at the start [s]; `modes` as of judge(). The run has to begin at a
-    /// slide or vibration at `drive`, which has led to `start`.
+    /// Starts at `drive` with a vibration of this period [s]; `modes` is that of judge(). The run must begin at the slide or
+    /// vibration there.
     Continuation(DynamicModel &model, HeldRun &run, const DrivePoint &drive, double period, unsigned int modes,
                  const SpragSlipSettings &settings);
 

@@ -23,7 +23,7 @@ namespace sprag
     bool slid    = true;             ///< neither stick nor loss of contact in the window
     bool reached = false;            ///< the amplitude aimed at, within Sprag slip/Longest growth
 
-    /// The frequency that the eigenvalue predicts [Hz].
+    /// Returns the frequency that the eigenvalue predicts [Hz].
     double predicted_frequency() const
     {
       return eigenvalue.imag() / (2. * M_PI);

@@ -35,11 +35,6 @@ namespace sprag
     }
   }
 
-  std::size_t MapGrid::index(const unsigned int i, const unsigned int j) const
-  {
-    return std::size_t{ i } * n[1] + j;
-  }
-
   MapGrid::Corners MapGrid::corners(const Level &level, const unsigned int a, const unsigned int b) const
   {
     const auto end = [&](const unsigned int quad, const unsigned int points)
@@ -126,16 +121,6 @@ namespace sprag
             known[index(i, j)] = 1;
             kind[index(i, j)]  = found->second;
           }
-  }
-
-  bool MapGrid::is_known(const unsigned int i, const unsigned int j) const
-  {
-    return known[index(i, j)] != 0;
-  }
-
-  const MapKinds &MapGrid::kinds(const unsigned int i, const unsigned int j) const
-  {
-    return kind[index(i, j)];
   }
 
   std::vector<double> MapGrid::interpolated(const std::vector<double> &values) const

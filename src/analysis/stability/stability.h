@@ -17,7 +17,7 @@ namespace sprag
     jammed      ///< no unique equilibrium: none found, or its tangent has passed a singular one
   };
 
-  /// "stable", "flutter" ...
+  /// Returns "stable", "flutter" ...
   std::string kind_name(SlideKind kind);
 
   /// A steady slide and its vibrations.
@@ -62,6 +62,6 @@ namespace sprag
   /// Judges the slide at `drive`: its vibrations, at least the `modes` lowest.
   SlideStability judge(DynamicModel &model, const DrivePoint &drive, unsigned int modes);
 
-  /// The same at the scene's held_drive(), its model in held_scene() made by `maker`.
+  /// Judges the slide at the scene's held_drive(), with its model in held_scene(), which `maker` makes.
   SlideStability judge(const Scene &scene, DynamicsMaker &maker);
 } // namespace sprag

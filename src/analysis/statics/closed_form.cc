@@ -118,10 +118,9 @@ namespace sprag
 
   void run_closed_form(const Scene &scene, const std::function<void(const Row &)> &sink)
   {
-    const auto &drive     = scene.drive;
-    const auto &reversals = drive.reversals();
-    const auto advance    = make_advance(scene);
-    const auto hand_on    = [&](const DrivePoint &from, const DrivePoint &to)
+    const auto &drive  = scene.drive;
+    const auto advance = make_advance(scene);
+    const auto hand_on = [&](const DrivePoint &from, const DrivePoint &to)
     {
       Row row           = advance(from, to);
       row[Column::step] = to.x - from.x;
@@ -135,7 +134,7 @@ namespace sprag
       const auto next = drive.step(point.time, scene.analysis.step);
       hand_on(point, next);
       point = next;
-      if (std::binary_search(reversals.begin(), reversals.end(), point.time))
+      if (drive.turns_at(point.time))
       {
         point = drive.at(point.time, Drive::Side::after);
         hand_on(point, point);

@@ -47,12 +47,6 @@ namespace sprag
     };
   }
 
-  HeldRun::HeldRun(DynamicModel &dynamic_model, const double step_duration)
-      : model(dynamic_model)
-      , dt(step_duration)
-  {
-  }
-
   void HeldRun::begin(Motion motion)
   {
     const auto energy = model.stored_energy(motion);

@@ -29,8 +29,12 @@ namespace sprag
   class HeldRun
   {
   public:
-    /// A step of `dt` > 0 [s] without solution is divided in two, up to 12 times.
-    HeldRun(DynamicModel &model, double dt);
+    /// Prepares steps of `dt` > 0 [s]; one without solution is divided in two, up to 12 times.
+    HeldRun(DynamicModel &dynamic_model, const double step_duration)
+        : model(dynamic_model)
+        , dt(step_duration)
+    {
+    }
 
     /// Begins at a motion, the outcome of the model's last hold() or perturbed(). The ledger begins anew; the time of a run that
     /// has begun before goes on.

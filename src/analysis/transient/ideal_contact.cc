@@ -83,8 +83,7 @@ namespace sprag
 
   TransientReport run_ideal_contact(const Scene &scene, const double inertia, const std::function<void(const Row &)> &sink)
   {
-    const auto &drive     = scene.drive;
-    const auto &reversals = drive.reversals();
+    const auto &drive = scene.drive;
     const IdealContact lever{ scene, inertia };
     StepClock clock(drive, scene.time.step, 0);
 
@@ -109,7 +108,7 @@ namespace sprag
       ++report.steps;
       hand_on(end - time);
       time = end;
-      if (std::binary_search(reversals.begin(), reversals.end(), end))
+      if (drive.turns_at(end))
       {
         row = lever.row(drive.at(end, Drive::Side::after));
         hand_on(0.);

@@ -30,13 +30,6 @@ namespace sprag
     return passed + 1 == count ? ends[segment] : begin + static_cast<double>(passed + 1) * duration();
   }
 
-  void StepClock::halve()
-  {
-    count *= 2;
-    passed *= 2;
-    wanted *= 0.5;
-  }
-
   bool StepClock::grow()
   {
     if (wanted >= 0.99 * largest || count % 2 != 0 || passed % 2 != 0 || count - passed < 2)
