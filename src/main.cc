@@ -2,7 +2,9 @@
 #include "base/all_cores.h"
 #include "base/errors.h"
 #include "base/guard.h"
+#include "base/hdf5_handle.h"
 #include "base/interrupt.h"
+#include "base/text.h"
 #include "results/earlier_result.h"
 #include "results/warning.h"
 #include "run/memory.h"
@@ -18,7 +20,6 @@
 #include <csignal>
 #include <cstring>
 #include <ctime>
-#include <hdf5.h>
 #include <iostream>
 #include <optional>
 #include <sstream>
@@ -129,11 +130,7 @@ namespace
       return error.what();
     std::ostringstream text;
     of_dealii->print_info(text);
-    std::string message;
-    std::istringstream words(text.str());
-    for (std::string word; words >> word;)
-      message += (message.empty() ? "" : " ") + word;
-    return message;
+    return sprag::single_spaced(text.str());
   }
 
   /// Errors of an analysis come on all ranks alike and are told by the first; any other may be one rank's own.
@@ -207,7 +204,7 @@ namespace
       ::setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
     int no_arguments = 1;
     dealii::Utilities::MPI::MPI_InitFinalize mpi(no_arguments, argv, 1);
-    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); // what HDF5 has to say is in the errors thrown
+    sprag::hdf5::silence();
     sprag::catch_interrupts();
     return exit_status_of(arguments, std::move(scene), since);
   }

@@ -2,7 +2,7 @@
 
 namespace sprag
 {
-  /// Cores that this process may use.
+  /// Returns the number of cores that this process may use.
   unsigned int available_cores();
 
   /// Returns whether `processes` ranks can be had: not under MPI already, not for one process, not without mpirun on the PATH.

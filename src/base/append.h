@@ -11,7 +11,7 @@ namespace sprag
     all.insert(all.end(), more.begin(), more.end());
   }
 
-  /// `first` with `second` at its end.
+  /// Returns `first` with `second` at its end.
   template <class T>
   std::vector<T> joined(std::vector<T> first, const std::vector<T> &second)
   {

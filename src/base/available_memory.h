@@ -11,7 +11,7 @@ namespace sprag
     std::string reason; ///< what sets the limit: "free on this machine", "left by the limit of the control group"
   };
 
-  /// The least of what is free on the machine, what the limits of the process's control groups (version 1 or 2) leave, and what
-  /// its own limit of address space leaves. `root` stands before /proc and /sys.
+  /// Returns the least of what is free on the machine, what the limits of the process's control groups (version 1 or 2) leave,
+  /// and what its own limit of address space leaves. `root` stands before /proc and /sys.
   AvailableMemory available_memory(const std::string &root = "");
 } // namespace sprag

@@ -22,17 +22,6 @@ namespace sprag
   {
     using Clock = std::chrono::steady_clock;
 
-    void write_all(const int pipe, const std::string &text)
-    {
-      for (std::size_t done = 0; done < text.size();)
-      {
-        const auto written = ::write(pipe, text.data() + done, text.size() - done);
-        if (written <= 0)
-          ::_exit(1);
-        done += static_cast<std::size_t>(written);
-      }
-    }
-
     [[noreturn]] void be_child(const std::function<std::string()> &work, const int pipe, const pid_t parent)
     {
       ::prctl(PR_SET_PDEATHSIG, SIGTERM);
@@ -44,13 +33,12 @@ namespace sprag
           ::dup2(nothing, stream);
       try
       {
-        write_all(pipe, work());
+        ::_exit(write_all(pipe, work()) ? 0 : 1);
       }
       catch (...)
       {
         ::_exit(1);
       }
-      ::_exit(0);
     }
 
     /// Bytes up to the pipe's end; false when the time is over or the run is interrupted first.
@@ -82,6 +70,18 @@ namespace sprag
       return WEXITSTATUS(status) == 0 ? "" : "fails";
     }
   } // namespace
+
+  bool write_all(const int file, const std::string &text)
+  {
+    for (std::size_t done = 0; done < text.size();)
+    {
+      const auto written = ::write(file, text.data() + done, text.size() - done);
+      if (written < 0 && errno != EINTR)
+        return false;
+      done += written > 0 ? static_cast<std::size_t>(written) : 0;
+    }
+    return true;
+  }
 
   ChildAnswer in_child_process(const std::function<std::string()> &work, const double seconds)
   {

@@ -6,6 +6,9 @@
 
 namespace sprag
 {
+  /// Writes a text to an open file or pipe; returns false, with the reason in errno, where that fails.
+  bool write_all(int file, const std::string &text);
+
   /// The result of work done in a process of its own.
   struct ChildAnswer
   {
@@ -19,6 +22,7 @@ namespace sprag
   /// interrupted meanwhile.
   ChildAnswer in_child_process(const std::function<std::string()> &work, double seconds);
 
-  /// From now on this process cannot grow by more than `bytes`. Without effect under an address sanitizer, which maps terabytes.
+  /// Keeps this process from growing by more than `bytes` from now on. This has no effect under an address sanitizer, which maps
+  /// terabytes.
   void limit_growth(std::size_t bytes);
 } // namespace sprag

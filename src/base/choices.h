@@ -12,7 +12,7 @@ namespace sprag
   template <class T>
   using Choices = std::vector<std::pair<std::string, T>>;
 
-  /// The word for a value; throws std::out_of_range where it has none.
+  /// Returns the word for a value; throws std::out_of_range where it has none.
   template <class T>
   std::string word_for(const Choices<T> &choices, const T &value)
   {
@@ -22,7 +22,7 @@ namespace sprag
     return found->first;
   }
 
-  /// The value that a word stands for; throws std::out_of_range for another word.
+  /// Returns the value that a word stands for; throws std::out_of_range for another word.
   template <class T>
   T value_for(const Choices<T> &choices, const std::string &word)
   {

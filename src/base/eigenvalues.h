@@ -15,7 +15,7 @@ namespace sprag
     std::array<dealii::Vector<double>, 2> vector; ///< real and imaginary part
   };
 
-  /// Right eigenpairs of a real square matrix (LAPACK dgeev). Throws AnalysisError if the iteration fails or the matrix has an
-  /// entry that is no number.
+  /// Finds the right eigenpairs of a real square matrix (LAPACK dgeev). Throws AnalysisError if the iteration fails or the matrix
+  /// has an entry that is no number.
   std::vector<Eigenpair> eigenpairs(const dealii::FullMatrix<double> &matrix);
 } // namespace sprag

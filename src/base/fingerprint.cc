@@ -1,6 +1,7 @@
 #include "base/fingerprint.h"
 
-#include <cstdio>
+#include "base/text.h"
+
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -68,16 +69,9 @@ namespace sprag
       hash = (hash ^ data[i]) * 1099511628211u;
   }
 
-  std::uint64_t Fingerprint::value() const
-  {
-    return hash;
-  }
-
   std::string Fingerprint::text() const
   {
-    char digits[24];
-    std::snprintf(digits, sizeof(digits), "%016llx", static_cast<unsigned long long>(hash));
-    return digits;
+    return formatted("%016llx", static_cast<unsigned long long>(hash));
   }
 
   std::string content_fingerprint(const std::string &file)

@@ -12,14 +12,18 @@ namespace sprag
     void add(double value);
     void add(const std::string &text);
     void add(const void *bytes, std::size_t count);
-    std::uint64_t value() const;
+    std::uint64_t value() const
+    {
+      return hash;
+    }
+
     std::string text() const; ///< 16 hexadecimal digits
 
   private:
     std::uint64_t hash = 14695981039346656037u;
   };
 
-  /// Fingerprint of a file's content, whatever its name and time. What a script of gmsh (.geo) includes or merges by a quoted
-  /// name, relative to its folder, belongs to its content. A file that cannot be read has the fingerprint "unreadable".
+  /// Returns the fingerprint of a file's content, whatever its name and time. What a script of gmsh (.geo) includes or merges by
+  /// a quoted name, relative to its folder, belongs to its content. A file that cannot be read has the fingerprint "unreadable".
   std::string content_fingerprint(const std::string &file);
 } // namespace sprag

@@ -12,10 +12,11 @@ namespace sprag
     bool asked = false; ///< whether the user asked for the end
   };
 
-  /// Time from the wish for an end to making one [s]: libraries in the middle of a mesh, a factorisation or a basis cannot ask.
+  /// Time between asking a process for its end and making it end [s]: libraries in the middle of a mesh, a factorisation or a
+  /// basis cannot notice the question.
   inline constexpr double grace = 2.;
 
-  /// The same where processes of MPI have to end together: mpirun does not survive being hurried.
+  /// The same time where processes of MPI have to end together: mpirun does not survive being hurried.
   inline constexpr double grace_of_processes = 10.;
 
   /// Splits the process: none is returned in a child, which goes on with the work, and its end in the parent, which looks after

@@ -9,43 +9,26 @@
 
 namespace sprag::hdf5
 {
-  /// Keeps HDF5 from printing its error stack while in scope; the stack itself stays.
-  class SilencedHdf5
+  /// Keeps HDF5 from printing its errors from now on. What they say is in the errors that checked() throws.
+  inline void silence()
   {
-  public:
-    SilencedHdf5()
-    {
-      H5Eget_auto2(H5E_DEFAULT, &function, &data);
-      H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-    }
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  }
 
-    ~SilencedHdf5()
-    {
-      H5Eset_auto2(H5E_DEFAULT, function, data);
-    }
-
-    SilencedHdf5 &operator=(SilencedHdf5 &&) = delete;
-
-  private:
-    H5E_auto2_t function = nullptr;
-    void *data           = nullptr;
-  };
-
-  /// What went wrong deepest in the library: that is where the file name and the system's reason are.
+  /// Returns what went wrong deepest in the library in its last call: that is where the file name and the system's reason are.
   std::string deepest_error();
 
-  /// Returns what a call of the library returns; throws AnalysisError with the task and the library's message where it failed.
-  template <typename Call>
-  auto checked(const std::string &task, const Call &call)
+  /// Passes on what a call of the library has returned; throws AnalysisError with the task and the library's message where the
+  /// call has failed.
+  template <typename Result>
+  Result checked(const std::string &task, const Result result)
   {
-    const SilencedHdf5 silenced;
-    const auto result = call();
     if (result < 0)
       throw AnalysisError("HDF5, " + task + ": " + deepest_error());
     return result;
   }
 
-  /// Owner of one identifier, closed with it.
+  /// Owner of one identifier, which it closes at its end.
   class Handle
   {
   public:
@@ -65,7 +48,11 @@ namespace sprag::hdf5
 
     Handle &operator=(Handle &&) = delete;
 
-    ~Handle();
+    ~Handle()
+    {
+      if (identifier >= 0)
+        closing_function(identifier);
+    }
 
     hid_t id() const
     {
@@ -73,13 +60,16 @@ namespace sprag::hdf5
     }
 
     /// Closes now and reports what a destructor has to swallow. Later calls of id() are a mistake.
-    void close();
+    void close()
+    {
+      checked("closing", closing_function(std::exchange(identifier, H5I_INVALID_HID)));
+    }
 
   private:
     hid_t identifier;
     Close closing_function;
   };
 
-  /// Names in a group, or at the root of a file, in alphabetical order; empty where they cannot be read.
+  /// Returns the names in a group, or at the root of a file, in alphabetical order; none where they cannot be read.
   std::vector<std::string> names_in(const Handle &group);
 } // namespace sprag::hdf5

@@ -14,10 +14,14 @@ namespace sprag
       asked = 1;
     }
 
-    // An address sanitizer has handlers of its own, which tell more.
+    /// But under an address sanitizer, which has handlers of its own that tell more.
+    void leave_crashes_to_the_system()
+    {
 #ifndef __SANITIZE_ADDRESS__
-    constexpr int crashes[] = { SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT };
+      for (const int signal : { SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT })
+        std::signal(signal, SIG_DFL);
 #endif
+    }
   } // namespace
 
   void catch_interrupts()
@@ -28,10 +32,7 @@ namespace sprag
       std::signal(SIGHUP, SIG_IGN);
     std::signal(SIGPIPE, SIG_IGN);
     std::signal(SIGXFSZ, SIG_IGN);
-#ifndef __SANITIZE_ADDRESS__
-    for (const int signal : crashes)
-      std::signal(signal, SIG_DFL);
-#endif
+    leave_crashes_to_the_system();
   }
 
   bool interrupted()
@@ -43,9 +44,6 @@ namespace sprag
   {
     for (const int signal : { SIGINT, SIGTERM, SIGUSR1, SIGHUP, SIGPIPE })
       std::signal(signal, SIG_DFL);
-#ifndef __SANITIZE_ADDRESS__
-    for (const int signal : crashes)
-      std::signal(signal, SIG_DFL);
-#endif
+    leave_crashes_to_the_system();
   }
 } // namespace sprag

@@ -17,20 +17,21 @@ namespace sprag
     }
   };
 
-  /// The line of least squares of y over x, which have as many entries, at least two different x among them. Weights > 0 are
-  /// those of the squares; without them all count the same. Means are those by the weights.
+  /// Finds the line of least squares of y over x, which have equally many entries, at least two different x among them. The
+  /// weights, all > 0, multiply the squares and count in the means; without them all points count the same.
   Line fitted_line(const std::vector<double> &x, const std::vector<double> &y, const std::vector<double> &weights = {});
 
-  /// The parabola of least squares through the origin, y = slope x + bend x^2, has this slope; of at least two different x.
+  /// Finds the slope at the origin of the parabola of least squares through it, y = slope x + bend x^2, from at least two
+  /// different x.
   double slope_at_origin(const std::vector<double> &x, const std::vector<double> &y);
 
-  /// A factor times a shape.
+  /// A factor by which a shape meets values.
   struct ScaledShape
   {
     double factor;
     double error; ///< root mean square of what the values are off, over the largest of them
   };
 
-  /// The factor by which `shape` meets values best by least squares; neither is 0 everywhere.
+  /// Finds the factor by which `shape` meets values best by least squares; neither is 0 everywhere.
   ScaledShape fitted_factor(const std::vector<double> &shape, const std::vector<double> &values);
 } // namespace sprag

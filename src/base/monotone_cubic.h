@@ -5,17 +5,17 @@
 
 namespace sprag
 {
-  /// y over x through given points: the monotone cubic of Fritsch and Butland (PCHIP), which never overshoots the points.
-  /// Constant beyond its ends.
+  /// The monotone cubic of Fritsch and Butland (PCHIP): y over x through given points, which it never overshoots. It is constant
+  /// beyond its ends.
   class MonotoneCubic
   {
   public:
-    /// At least 4 points, all finite, `x` strictly increasing. Throws InputError naming the row otherwise.
+    /// Takes at least 4 points, all finite, with `x` strictly increasing. Throws InputError naming the row otherwise.
     MonotoneCubic(const std::vector<double> &x, const std::vector<double> &y);
 
     double value(double x) const;
 
-    /// dy/dx; 0 beyond the ends.
+    /// Returns dy/dx, which is 0 beyond the ends.
     double derivative(double x) const;
 
   private:

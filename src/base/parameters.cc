@@ -2,6 +2,8 @@
 
 #include "base/text.h"
 
+#include <boost/algorithm/string/predicate.hpp>
+
 #include <algorithm>
 #include <deal.II/base/parameter_handler.h>
 #include <filesystem>
@@ -44,35 +46,14 @@ namespace sprag
       return result;
     }
 
-    std::string single_spaced(const std::string &text)
-    {
-      std::istringstream words(text);
-      std::string result;
-      for (std::string word; words >> word;)
-        result += (result.empty() ? "" : " ") + word;
-      return result;
-    }
-
     /// Everything behind a keyword; none where the text begins with another one.
     std::optional<std::string> behind(const std::string &keyword, const std::string &text)
     {
-      const std::string first_word = text.substr(0, text.find_first_of(" \t"));
-      const bool same              = first_word.size() == keyword.size() &&
-                        std::equal(keyword.begin(), keyword.end(), first_word.begin(),
-                                   [](const char a, const char b) { return a == std::tolower(static_cast<unsigned char>(b)); });
+      const bool same = boost::algorithm::iequals(keyword, text.substr(0, text.find_first_of(" \t")));
       return same ? std::make_optional(trim(text.substr(keyword.size()))) : std::nullopt;
     }
 
-    /// By its full name.
-    std::vector<Parameter>::const_iterator find_parameter(const std::vector<Parameter> &declared, const std::string &name)
-    {
-      const auto slash = name.find('/');
-      const auto meant = [&](const Parameter &parameter) {
-        return name.compare(0, slash, parameter.section) == 0 && name.compare(slash + 1, std::string::npos, parameter.name) == 0;
-      };
-      return slash == std::string::npos ? declared.end() : std::find_if(declared.begin(), declared.end(), meant);
-    }
-
+    /// Reads parameter files and overrides into settings.
     struct Reader
     {
       const std::vector<Parameter> &declared;
@@ -81,183 +62,178 @@ namespace sprag
       bool section_known                 = false;
       std::string section_place          = {};
 
-      void read_file();
-      void read_override(const std::string &text);
-      void read_all(std::istream &input);
-      void unusable(const std::string &rule);
-      void mistake(const std::string &place, const std::string &what, const std::string &rule);
-      void read(const std::string &place, const std::string &text);
-      void open(const std::string &place, const std::string &name);
-      void close(const std::string &place, const std::string &rest);
-      void set(const std::string &place, const std::string &text);
-      void assign(const std::string &place, const std::string &name, const std::string &value, bool again_allowed);
-      void unknown_name(const std::string &place, const std::string &name, const std::string &value);
-      std::optional<std::string> section_meant(const std::string &name) const;
-      std::vector<std::string> names(const std::string &in_section) const;
+      void mistake(const std::string &place, const std::string &what, const std::string &rule)
+      {
+        settings.mistakes.push_back(place + ": " + what + ": " + rule);
+      }
+
+      void unusable(const std::string &rule)
+      {
+        settings.mistakes.push_back(settings.file + ": " + rule);
+        for (const auto &parameter : declared)
+          settings.doubtful.insert(full_name(parameter));
+      }
+
+      void read_file()
+      {
+        std::error_code ignored;
+        std::ifstream input(settings.file);
+        if (std::filesystem::is_directory(settings.file, ignored))
+          return unusable("is a folder: must be a parameter file");
+        if (!input)
+          return unusable("cannot be read");
+        read_all(input);
+      }
+
+      void read_all(std::istream &input)
+      {
+        const std::vector<Statement> all = statements(input);
+        if (std::any_of(all.begin(), all.end(), [](const auto &s) { return s.text.find('\0') != std::string::npos; }))
+          return unusable("is not a text: must be a parameter file");
+
+        for (const auto &statement : all)
+          read(settings.file + ":" + std::to_string(statement.line), statement.text);
+        if (section)
+          mistake(section_place, "subsection " + *section, "must be closed by a line 'end'");
+        section.reset();
+      }
+
+      void read(const std::string &place, const std::string &text)
+      {
+        if (const auto name = behind("subsection", text))
+          open(place, single_spaced(*name));
+        else if (const auto assignment = behind("set", text))
+          set(place, *assignment);
+        else if (const auto rest = behind("end", text))
+          close(place, *rest);
+        else if (behind("include", text))
+          mistake(place, text, "other files are not included: write their lines here or use --set");
+        else
+          mistake(place, text,
+                  "must begin with subsection, set, end or #" +
+                      did_you_mean(nearest(text.substr(0, text.find_first_of(" \t")), { "subsection", "set", "end" })));
+      }
+
+      void open(const std::string &place, const std::string &name)
+      {
+        if (section)
+          mistake(place, "subsection " + name, "subsection " + *section + " must be closed by a line 'end' before it");
+        const auto meant = section_meant(name);
+        section_known    = meant.has_value();
+        if (!section_known || *meant != name)
+          mistake(place, "subsection " + name, "no such subsection" + did_you_mean(meant));
+        section       = meant.value_or(name);
+        section_place = place;
+      }
+
+      void close(const std::string &place, const std::string &rest)
+      {
+        if (!rest.empty())
+          mistake(place, "end " + rest, "'end' must stand alone");
+        if (!section)
+          mistake(place, "end", "no subsection is open");
+        section.reset();
+      }
+
+      void set(const std::string &place, const std::string &text)
+      {
+        const auto equals = text.find('=');
+        if (equals == std::string::npos)
+          return mistake(place, "set " + text, "must have the form set Name = value");
+        const std::string name  = single_spaced(text.substr(0, equals));
+        const std::string value = trim(text.substr(equals + 1));
+        if (!section)
+          unknown_name(place, name, value);
+        else if (section_known)
+          assign(place, *section + "/" + name, value, false);
+      }
+
+      void read_overrides(const std::vector<std::string> &overrides)
+      {
+        for (const auto &text : overrides)
+          read_override(text);
+      }
+
+      void read_override(const std::string &text)
+      {
+        const auto equals = text.find('=');
+        const auto slash  = text.find('/');
+        if (equals == std::string::npos || slash > equals)
+          return mistake("--set", text, "must have the form Section/Name=value");
+        const std::string given_section = single_spaced(text.substr(0, slash));
+        const std::string name          = single_spaced(text.substr(slash + 1, equals - slash - 1));
+        const std::string value         = trim(text.substr(equals + 1));
+        const auto meant                = section_meant(given_section);
+        if (!meant || *meant != given_section)
+          mistake("--set", given_section + "/" + name + " = " + value, "no such section" + did_you_mean(meant));
+        if (meant)
+          assign("--set", *meant + "/" + name, value, true);
+      }
+
+      void assign(const std::string &place, const std::string &name, const std::string &value, const bool again_allowed)
+      {
+        const Parameter *found = find_parameter(declared, name);
+        if (found == nullptr)
+          return unknown_name(place, name, value);
+
+        if (const auto before = settings.given.find(name); before != settings.given.end() && !again_allowed)
+          mistake(place, name + " = " + value, "must be set once only, it is at " + before->second.place + " already");
+        else if (const auto broken = violation(found->rule, value))
+        {
+          mistake(place, name + " = " + value, *broken);
+          settings.doubtful.insert(name);
+        }
+        else
+          settings.given[name] = { place, value };
+      }
+
+      /// `name` with its section, or alone where it stands outside any.
+      void unknown_name(const std::string &place, const std::string &name, const std::string &value)
+      {
+        const auto slash       = name.find('/');
+        const std::string own  = slash == std::string::npos ? "" : name.substr(0, slash);
+        const std::string last = slash == std::string::npos ? name : name.substr(slash + 1);
+        std::optional<std::string> meant;
+        std::vector<std::string> names;
+        for (const auto &parameter : declared)
+        {
+          if (parameter.name == last)
+            meant = full_name(parameter);
+          if (parameter.section == own)
+            names.push_back(parameter.name);
+        }
+        if (const auto near = nearest(last, names); near && !meant)
+        {
+          meant = near;
+          settings.doubtful.insert(own + "/" + *near);
+        }
+        mistake(place, name + " = " + value,
+                (own.empty() ? "must stand inside a subsection" : "no such parameter") + did_you_mean(meant));
+      }
+
+      std::optional<std::string> section_meant(const std::string &name) const
+      {
+        std::vector<std::string> sections;
+        for (const auto &parameter : declared)
+          if (parameter.section == name)
+            return name;
+          else if (sections.empty() || sections.back() != parameter.section)
+            sections.push_back(parameter.section);
+        return nearest(name, sections);
+      }
     };
-
-    void Reader::mistake(const std::string &place, const std::string &what, const std::string &rule)
-    {
-      settings.mistakes.push_back(place + ": " + what + ": " + rule);
-    }
-
-    void Reader::unusable(const std::string &rule)
-    {
-      settings.mistakes.push_back(settings.file + ": " + rule);
-      for (const auto &parameter : declared)
-        settings.doubtful.insert(full_name(parameter));
-    }
-
-    void Reader::read_file()
-    {
-      std::error_code ignored;
-      std::ifstream input(settings.file);
-      if (std::filesystem::is_directory(settings.file, ignored))
-        return unusable("is a folder: must be a parameter file");
-      if (!input)
-        return unusable("cannot be read");
-      read_all(input);
-    }
-
-    void Reader::read_all(std::istream &input)
-    {
-      const std::vector<Statement> all = statements(input);
-      if (std::any_of(all.begin(), all.end(), [](const auto &s) { return s.text.find('\0') != std::string::npos; }))
-        return unusable("is not a text: must be a parameter file");
-
-      for (const auto &statement : all)
-        read(settings.file + ":" + std::to_string(statement.line), statement.text);
-      if (section)
-        mistake(section_place, "subsection " + *section, "must be closed by a line 'end'");
-      section.reset();
-    }
-
-    void Reader::read(const std::string &place, const std::string &text)
-    {
-      if (const auto name = behind("subsection", text))
-        open(place, single_spaced(*name));
-      else if (const auto assignment = behind("set", text))
-        set(place, *assignment);
-      else if (const auto rest = behind("end", text))
-        close(place, *rest);
-      else if (behind("include", text))
-        mistake(place, text, "other files are not included: write their lines here or use --set");
-      else
-        mistake(place, text,
-                "must begin with subsection, set, end or #" +
-                    did_you_mean(nearest(text.substr(0, text.find_first_of(" \t")), { "subsection", "set", "end" })));
-    }
-
-    void Reader::open(const std::string &place, const std::string &name)
-    {
-      if (section)
-        mistake(place, "subsection " + name, "subsection " + *section + " must be closed by a line 'end' before it");
-      const auto meant = section_meant(name);
-      section_known    = meant.has_value();
-      if (!section_known || *meant != name)
-        mistake(place, "subsection " + name, "no such subsection" + did_you_mean(meant));
-      section       = meant.value_or(name);
-      section_place = place;
-    }
-
-    void Reader::close(const std::string &place, const std::string &rest)
-    {
-      if (!rest.empty())
-        mistake(place, "end " + rest, "'end' must stand alone");
-      if (!section)
-        mistake(place, "end", "no subsection is open");
-      section.reset();
-    }
-
-    void Reader::set(const std::string &place, const std::string &text)
-    {
-      const auto equals = text.find('=');
-      if (equals == std::string::npos)
-        return mistake(place, "set " + text, "must have the form set Name = value");
-      const std::string name  = single_spaced(text.substr(0, equals));
-      const std::string value = trim(text.substr(equals + 1));
-      if (!section)
-        unknown_name(place, name, value);
-      else if (section_known)
-        assign(place, *section + "/" + name, value, false);
-    }
-
-    void Reader::read_override(const std::string &text)
-    {
-      const auto equals = text.find('=');
-      const auto slash  = text.find('/');
-      if (equals == std::string::npos || slash > equals)
-        return mistake("--set", text, "must have the form Section/Name=value");
-      const std::string given_section = single_spaced(text.substr(0, slash));
-      const std::string name          = single_spaced(text.substr(slash + 1, equals - slash - 1));
-      const std::string value         = trim(text.substr(equals + 1));
-      const auto meant                = section_meant(given_section);
-      if (!meant || *meant != given_section)
-        mistake("--set", given_section + "/" + name + " = " + value, "no such section" + did_you_mean(meant));
-      if (meant)
-        assign("--set", *meant + "/" + name, value, true);
-    }
-
-    void Reader::assign(const std::string &place, const std::string &name, const std::string &value, const bool again_allowed)
-    {
-      const auto found = find_parameter(declared, name);
-      if (found == declared.end())
-        return unknown_name(place, name, value);
-
-      if (const auto before = settings.given.find(name); before != settings.given.end() && !again_allowed)
-        mistake(place, name + " = " + value, "must be set once only, it is at " + before->second.place + " already");
-      else if (const auto broken = violation(found->rule, value))
-      {
-        mistake(place, name + " = " + value, *broken);
-        settings.doubtful.insert(name);
-      }
-      else
-        settings.given[name] = { place, value };
-    }
-
-    /// `name` with its section, or alone where it stands outside any.
-    void Reader::unknown_name(const std::string &place, const std::string &name, const std::string &value)
-    {
-      const auto slash       = name.find('/');
-      const std::string own  = slash == std::string::npos ? "" : name.substr(0, slash);
-      const std::string last = slash == std::string::npos ? name : name.substr(slash + 1);
-      std::optional<std::string> meant;
-      for (const auto &parameter : declared)
-        if (parameter.name == last)
-          meant = full_name(parameter);
-      if (const auto near = nearest(last, names(own)); near && !meant)
-      {
-        meant = near;
-        settings.doubtful.insert(own + "/" + *near);
-      }
-      mistake(place, name + " = " + value,
-              (own.empty() ? "must stand inside a subsection" : "no such parameter") + did_you_mean(meant));
-    }
-
-    std::optional<std::string> Reader::section_meant(const std::string &name) const
-    {
-      std::vector<std::string> sections;
-      for (const auto &parameter : declared)
-        if (parameter.section == name)
-          return name;
-        else if (sections.empty() || sections.back() != parameter.section)
-          sections.push_back(parameter.section);
-      return nearest(name, sections);
-    }
-
-    std::vector<std::string> Reader::names(const std::string &in_section) const
-    {
-      std::vector<std::string> result;
-      for (const auto &parameter : declared)
-        if (parameter.section == in_section)
-          result.push_back(parameter.name);
-      return result;
-    }
   } // namespace
 
   std::string full_name(const Parameter &parameter)
   {
     return parameter.section + "/" + parameter.name;
+  }
+
+  const Parameter *find_parameter(const std::vector<Parameter> &declared, const std::string &name)
+  {
+    const auto meant = [&](const Parameter &parameter) { return full_name(parameter) == name; };
+    const auto found = std::find_if(declared.begin(), declared.end(), meant);
+    return found == declared.end() ? nullptr : &*found;
   }
 
   std::string documentation(const Parameter &parameter)
@@ -272,32 +248,27 @@ namespace sprag
   Settings read_settings(const std::string &file, const std::vector<std::string> &overrides,
                          const std::vector<Parameter> &declared)
   {
-    Settings settings;
-    settings.file = file;
+    Settings settings{ file, {}, {}, {} };
     Reader reader{ declared, settings };
     reader.read_file();
-    for (const auto &text : overrides)
-      reader.read_override(text);
+    reader.read_overrides(overrides);
     return settings;
   }
 
   Settings override_settings(const std::string &file, const ParameterValues &values, const std::vector<std::string> &overrides,
                              const std::vector<Parameter> &declared)
   {
-    Settings settings;
-    settings.file = file;
+    Settings settings{ file, {}, {}, {} };
     for (const auto &[name, value] : values)
       settings.given[name] = { file, value };
-    Reader reader{ declared, settings };
-    for (const auto &override_given : overrides)
-      reader.read_override(override_given);
+    Reader{ declared, settings }.read_overrides(overrides);
     return settings;
   }
 
   void add_mistake(Settings &settings, const std::vector<Parameter> &declared, const std::string &name, const std::string &rule)
   {
-    const auto parameter = find_parameter(declared, name);
-    AssertThrow(parameter != declared.end(), dealii::ExcMessage(name + " is not declared."));
+    const Parameter *parameter = find_parameter(declared, name);
+    AssertThrow(parameter != nullptr, dealii::ExcMessage(name + " is not declared."));
     const auto given      = settings.given.find(name);
     const Setting setting = given == settings.given.end() ? Setting{ settings.file, parameter->default_value } : given->second;
     settings.mistakes.push_back(setting.place + ": " + name + " = " + setting.value + ": " + rule);

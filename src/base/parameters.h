@@ -25,8 +25,11 @@ namespace sprag
     std::string chosen = {}; ///< there
   };
 
-  /// "Section/Name".
+  /// Returns "Section/Name".
   std::string full_name(const Parameter &parameter);
+
+  /// Returns the parameter with this full name, null where none is declared.
+  const Parameter *find_parameter(const std::vector<Parameter> &declared, const std::string &name);
 
   /// Returns meaning, unit and range in words.
   std::string documentation(const Parameter &parameter);
@@ -55,13 +58,14 @@ namespace sprag
   /// Values by full name.
   using ParameterValues = std::map<std::string, std::string>;
 
-  /// The overrides on top of values that were read before and keep their rules, to be called those of `file` in messages.
+  /// Reads the overrides on top of values that were read before and keep their rules. Messages call these values those of `file`.
   Settings override_settings(const std::string &file, const ParameterValues &values, const std::vector<std::string> &overrides,
                              const std::vector<Parameter> &declared);
 
   /// Adds the mistake that the parameter with this full name breaks `rule`, with its place and the value in use.
   void add_mistake(Settings &settings, const std::vector<Parameter> &declared, const std::string &name, const std::string &rule);
 
-  /// Every parameter with its documentation as a comment, in .prm form: the given values, defaults elsewhere. Reads back.
+  /// Writes every parameter with its documentation as a comment, in .prm form: the given values, defaults elsewhere. The text can
+  /// be read back.
   std::string parameters_text(const std::vector<Parameter> &declared, const ParameterValues &given);
 } // namespace sprag

@@ -1,12 +1,12 @@
 #include "base/progress.h"
 
+#include "base/text.h"
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
-#include <iomanip>
 #include <ostream>
-#include <sstream>
 #include <unistd.h>
 
 namespace sprag
@@ -15,11 +15,6 @@ namespace sprag
   {
     constexpr double redraw_interval = 0.1; // [s]
     constexpr int bar_length         = 20;
-
-    double monotonic_seconds()
-    {
-      return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-    }
 
     std::string bar(const double share)
     {
@@ -31,20 +26,14 @@ namespace sprag
     std::string duration_text(const double duration)
     {
       const long seconds = std::lround(duration);
-      std::ostringstream text;
-      text << std::setfill('0');
-      if (seconds >= 3600)
-        text << seconds / 3600 << ':' << std::setw(2) << seconds / 60 % 60;
-      else
-        text << seconds / 60;
-      text << ':' << std::setw(2) << seconds % 60;
-      return text.str();
+      if (seconds < 3600)
+        return formatted("%ld:%02ld", seconds / 60, seconds % 60);
+      return formatted("%ld:%02ld:%02ld", seconds / 3600, seconds / 60 % 60, seconds % 60);
     }
 
-    void add_field(std::ostream &text, const char *symbol, const double value, const char *unit)
+    std::string field(const char *symbol, const double value, const char *unit)
     {
-      if (!std::isnan(value))
-        text << "  " << symbol << ' ' << std::setw(8) << std::fixed << std::setprecision(3) << value << ' ' << unit;
+      return std::isnan(value) ? "" : formatted("  %s %8.3f %s", symbol, value, unit);
     }
   } // namespace
 
@@ -56,9 +45,9 @@ namespace sprag
     return terminal ? ProgressStyle::terminal : ProgressStyle::log;
   }
 
-  Progress::Progress(std::ostream &output, const ProgressStyle chosen_style, const double whole)
-      : Progress(output, chosen_style, whole, monotonic_seconds)
+  double monotonic_seconds()
   {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
   }
 
   Progress::Progress(std::ostream &output, const ProgressStyle chosen_style, const double whole, Clock time_source)
@@ -68,11 +57,6 @@ namespace sprag
       , clock(std::move(time_source))
       , start(clock())
   {
-  }
-
-  Progress::~Progress()
-  {
-    finish();
   }
 
   void Progress::update(const double done, const ProgressFields &fields)
@@ -100,19 +84,16 @@ namespace sprag
 
   std::string Progress::line(const double share, const ProgressFields &fields) const
   {
-    std::ostringstream text;
-    text << std::setw(3) << static_cast<int>(std::floor(100. * share + 1e-9)) << " %";
-    add_field(text, "x", fields.x, "mm");
-    add_field(text, "P", fields.P, "N");
-    add_field(text, "Q", fields.Q, "N");
+    std::string text = formatted("%3.0f %%", std::floor(100. * share + 1e-9)) + field("x", fields.x, "mm") +
+                       field("P", fields.P, "N") + field("Q", fields.Q, "N");
     if (fields.iterations > 0)
-      text << "  " << std::setw(2) << fields.iterations << " it";
+      text += formatted("  %2u it", fields.iterations);
     const double elapsed = clock() - start;
     if (share >= 1.)
-      text << "  " << duration_text(elapsed) << " in all";
+      text += "  " + duration_text(elapsed) + " in all";
     else if (share > 0.)
-      text << "  " << duration_text(elapsed * (1. - share) / share) << " left";
-    return text.str();
+      text += "  " + duration_text(elapsed * (1. - share) / share) + " left";
+    return text;
   }
 
   void Progress::redraw()

@@ -25,25 +25,30 @@ namespace sprag
     quiet     ///< nothing
   };
 
-  /// Environment variable that says that standard error ends at a terminal although something stands between.
+  /// Environment variable which tells that standard error ends at a terminal although another process stands between.
   inline constexpr const char *terminal_variable = "SPRAG_TERMINAL";
 
-  /// The style for the standard error stream.
+  /// Chooses the style for the standard error stream.
   ProgressStyle progress_style(bool quiet);
 
-  /// How far a run has come and how long it will still take. The time left assumes that the rest goes as fast as what is done.
+  /// Returns the seconds since some fixed instant, which no change of the system's time affects.
+  double monotonic_seconds();
+
+  /// Shows how far a run has come and how long it will still take, assuming that the rest goes as fast as what is done.
   class Progress
   {
   public:
-    /// Seconds from any fixed instant on.
+    /// Returns the seconds since any fixed instant.
     using Clock = std::function<double()>;
 
-    /// `total` > 0 in the unit of update()'s `done`; the stream has to outlive the object.
-    Progress(std::ostream &stream, ProgressStyle style, double total);
-    Progress(std::ostream &stream, ProgressStyle style, double total, Clock clock);
+    /// Shows progress towards `total` > 0, in the unit of update()'s `done`. The stream must outlive the object.
+    Progress(std::ostream &stream, ProgressStyle style, double total, Clock clock = monotonic_seconds);
 
     /// Ends the line, whatever became of the run.
-    ~Progress();
+    ~Progress()
+    {
+      finish();
+    }
 
     Progress &operator=(Progress &&) = delete;
 

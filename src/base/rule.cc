@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace sprag
 {
@@ -30,15 +29,6 @@ namespace sprag
       return text;
     }
 
-    std::vector<std::string> split_at_commas(const std::string &text)
-    {
-      std::vector<std::string> parts;
-      std::istringstream stream(text);
-      for (std::string part; std::getline(stream, part, ',');)
-        parts.push_back(trim(part));
-      return parts;
-    }
-
     std::optional<std::string> number_violation(const Rule &rule, const std::string &value)
     {
       const auto number = leading_number(value);
@@ -55,7 +45,7 @@ namespace sprag
 
     std::optional<std::string> list_violation(const Rule &rule, const std::string &value)
     {
-      const auto parts = split_at_commas(value);
+      const auto parts = dealii::Utilities::split_string_list(value);
       Rule each        = rule;
       each.kind        = Rule::Kind::number;
       const bool kept  = std::all_of(parts.begin(), parts.end(), [&](const auto &part) { return !number_violation(each, part); });
@@ -135,7 +125,7 @@ namespace sprag
   std::vector<double> list_of_numbers(const std::string &value)
   {
     std::vector<double> numbers;
-    for (const auto &part : split_at_commas(value))
+    for (const auto &part : dealii::Utilities::split_string_list(value))
       numbers.push_back(leading_number(part)->value);
     return numbers;
   }

@@ -7,6 +7,7 @@
 
 namespace sprag
 {
+  /// Numbers between two bounds.
   struct Interval
   {
     double low    = -std::numeric_limits<double>::infinity();
@@ -18,7 +19,7 @@ namespace sprag
   Interval any_number();
   Interval above(double low);
   Interval at_least(double low);
-  /// Open at both ends.
+  /// Returns an interval to which neither bound belongs.
   Interval between(double low, double high);
 
   /// A rule that the text of a parameter's value must keep.
@@ -41,13 +42,13 @@ namespace sprag
     std::vector<std::string> choices; ///< choice
   };
 
-  /// The rule in words, without the unit: "a number > 0", "one of a | b".
+  /// Tells the rule in words, without the unit: "a number > 0", "one of a | b".
   std::string description(const Rule &rule);
 
-  /// None where `value` keeps the rule, otherwise what it must be, and, for a number with something behind it, that it must
-  /// stand alone and the unit that is meant.
+  /// Returns none where `value` keeps the rule. Otherwise it says what the value must be, and, of a number with something behind
+  /// it, that the number must stand alone and which unit is meant.
   std::optional<std::string> violation(const Rule &rule, const std::string &value);
 
-  /// The numbers of a comma-separated list that keeps its rule.
+  /// Reads the numbers of a comma-separated list that keeps its rule.
   std::vector<double> list_of_numbers(const std::string &value);
 } // namespace sprag

@@ -1,22 +1,18 @@
 #include "base/text.h"
 
+#include <boost/algorithm/string/case_conv.hpp>
+
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <numeric>
+#include <sstream>
 
 namespace sprag
 {
   namespace
   {
-    bool same_letter(const char a, const char b)
-    {
-      return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
-    }
-
     std::size_t edit_distance(const std::string &a, const std::string &b)
     {
       // Row i of the table of distances between the first i letters of a and the first j of b.
@@ -28,7 +24,7 @@ namespace sprag
         row[0]               = i;
         for (std::size_t j = 1; j <= b.size(); ++j)
         {
-          const std::size_t replaced = diagonal + (same_letter(a[i - 1], b[j - 1]) ? 0 : 1);
+          const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
           diagonal                   = row[j];
           row[j]                     = std::min({ replaced, row[j] + 1, row[j - 1] + 1 });
         }
@@ -36,6 +32,15 @@ namespace sprag
       return row.back();
     }
   } // namespace
+
+  std::string single_spaced(const std::string &text)
+  {
+    std::istringstream words(text);
+    std::string result;
+    for (std::string word; words >> word;)
+      result += (result.empty() ? "" : " ") + word;
+    return result;
+  }
 
   std::string number_text(const double value)
   {
@@ -46,9 +51,7 @@ namespace sprag
 
   std::string rounded_text(const double value)
   {
-    std::array<char, 32> buffer;
-    std::snprintf(buffer.data(), buffer.size(), "%.6g", value);
-    return buffer.data();
+    return formatted("%.6g", value);
   }
 
   std::string mm(const double length)
@@ -86,8 +89,9 @@ namespace sprag
   {
     std::optional<std::string> best;
     std::size_t smallest = std::max<std::size_t>(name.size() / 2, 1) + 1;
+    const auto lower     = [](const std::string &text) { return boost::algorithm::to_lower_copy(text); };
     for (const auto &candidate : candidates)
-      if (const auto distance = edit_distance(name, candidate); distance < smallest)
+      if (const auto distance = edit_distance(lower(name), lower(candidate)); distance < smallest)
       {
         smallest = distance;
         best     = candidate;

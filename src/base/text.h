@@ -2,6 +2,7 @@
 
 #include <deal.II/base/utilities.h>
 
+#include <cstdio>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,13 +11,25 @@ namespace sprag
 {
   using dealii::Utilities::trim; // takes off white space at both ends
 
-  /// The shortest decimal form that reads back as the same number.
+  /// Returns the text with single blanks between its words and none at its ends.
+  std::string single_spaced(const std::string &text);
+
+  /// Writes values as std::printf() does, in at most 63 characters.
+  template <class... Values>
+  std::string formatted(const char *format, const Values... values)
+  {
+    char text[64];
+    std::snprintf(text, sizeof(text), format, values...);
+    return text;
+  }
+
+  /// Writes a number in the shortest decimal form that reads back as the same number.
   std::string number_text(double value);
 
-  /// At most six significant digits, for a reader's eye.
+  /// Writes a number with at most six significant digits, for a reader's eye.
   std::string rounded_text(double value);
 
-  /// "12.5 mm", rounded.
+  /// Writes a length as "12.5 mm", rounded.
   std::string mm(double length);
 
   /// A number at the beginning of a text and what stands behind it.
@@ -26,16 +39,17 @@ namespace sprag
     std::string rest; ///< without white space at its ends; empty where the text is a number alone
   };
 
-  /// None where the text does not begin with a finite decimal number.
+  /// Reads the number that a text begins with; returns none where it does not begin with a finite decimal number.
   std::optional<LeadingNumber> leading_number(const std::string &text);
 
-  /// The number that a text begins with where it has a comma for its decimal point, with a point; none otherwise.
+  /// Returns the number that a text begins with, written with a decimal point, where the text has a comma instead; none
+  /// otherwise.
   std::optional<std::string> with_decimal_point(const std::string &text);
 
-  /// The candidate with the smallest edit distance (Levenshtein, capitals ignored); none where even that would change more than
-  /// half of the name.
+  /// Returns the candidate with the smallest edit distance (Levenshtein, capitals ignored); none where even that would change
+  /// more than half of the name.
   std::optional<std::string> nearest(const std::string &name, const std::vector<std::string> &candidates);
 
-  /// "; did you mean 'X'?" with the nearest candidate, or nothing.
+  /// Returns "; did you mean 'X'?", or an empty text without a candidate.
   std::string did_you_mean(const std::optional<std::string> &candidate);
 } // namespace sprag

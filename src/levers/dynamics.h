@@ -38,7 +38,7 @@ namespace sprag
   class DynamicsMaker
   {
   public:
-    /// `store_bases`: whether condensed bases go to the cache on disk.
+    /// Makes models; with `store_bases` condensed bases go to the cache on disk.
     explicit DynamicsMaker(bool store_bases = true);
 
     /// Throws InputError for a mesh that cannot be used, AnalysisError if a factorisation fails.

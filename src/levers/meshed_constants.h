@@ -1,22 +1,37 @@
 #pragma once
 
 #include "fe/body/effective_bending.h"
+#include "model/model.h"
 #include "scene/scene.h"
+
+#include <memory>
 
 namespace sprag
 {
-  /// k of the scene's leaf spring, unloaded, if it were of another thickness [mm], by finite elements [N mm/rad].
+  /// Finds by finite elements the k that the scene's leaf spring would have, unloaded, with another thickness [mm] [N mm/rad].
   double leaf_stiffness(const Scene &scene, double thickness);
 
-  /// J of the scene's mesh with its densities, whatever Lever/Inertia says [t mm^2].
+  /// Finds J of the scene's mesh with its densities, whatever Lever/Inertia says [t mm^2].
   double inertia_as_built(const Scene &scene);
 
   /// Constants of a reduced lever that stands for a prepared scene's mesh.
   struct MeshedConstants
   {
     double moment_of_inertia = 0.; ///< J as Lever/Inertia says [t mm^2]
-    EffectiveBending bending{};    ///< for contacts wherever the drive leads
+    EffectiveBending bending{};    ///< of contacts wherever the drive leads
   };
 
+  /// Finds these constants by the mesh of a prepared scene.
   MeshedConstants meshed_constants(const Scene &scene);
+
+  /// A meshed lever without inertia and the mesh that it stands on.
+  struct StaticLever
+  {
+    std::unique_ptr<Mesh> mesh;
+    std::unique_ptr<Model> model;
+  };
+
+  /// Makes the scene's lever with an automatic penalty as stiff as hard contact, to which laws of the reduced models are fitted.
+  /// Throws InputError for a mesh that cannot serve.
+  StaticLever make_lever_in_hard_contact(const Scene &scene);
 } // namespace sprag

@@ -146,21 +146,6 @@ namespace sprag
     return of_second.at(static_cast<std::size_t>(place));
   }
 
-  double Row::drive_force() const
-  {
-    return (*this)[Column::Q] + (of_second.empty() ? 0. : of_second_lever(Column::Q));
-  }
-
-  double Row::friction_force() const
-  {
-    return (*this)[Column::F] + (of_second.empty() ? 0. : of_second_lever(Column::F));
-  }
-
-  double Row::swing() const
-  {
-    return 0.5 * ((*this)[Column::theta] - of_second_lever(Column::theta));
-  }
-
   double Row::lateral_force() const
   {
     const auto upward = [](const double P, const double F, const double theta)

@@ -75,14 +75,14 @@ namespace sprag
 
   const ColumnInfo &column_info(Column column);
 
-  /// Every Column in the order of the enumeration.
+  /// Lists every Column in the order of the enumeration.
   const std::vector<ColumnInfo> &all_columns();
 
-  /// Columns of the table of a run: with a friction plate on sensors also sensor_1 ... sensor_n and sensor_sum; of a full pair
-  /// those of the second lever, named ..._2, and swing, Q_pair and lateral_force.
+  /// Lists the columns of the table of a run: with a friction plate on sensors also sensor_1 ... sensor_n and sensor_sum; of a
+  /// full pair those of the second lever, named ..._2, and swing, Q_pair and lateral_force.
   std::vector<ColumnInfo> table_columns(const FrictionPlate &plate, const MirroredPair &pair);
 
-  /// Columns that each lever of a pair has.
+  /// Lists the columns that each lever of a pair has.
   const std::vector<Column> &columns_of_a_lever();
 
   /// One accepted step.
@@ -109,25 +109,34 @@ namespace sprag
     /// Makes this the row of a pair, whose first lever it was: energies, works and powers of both, what each lever has beside it.
     void add_second_lever(const Row &second);
 
-    /// Of a pair's second lever, in the order of columns_of_a_lever(), with its sensors' forces; empty without.
+    /// Returns the values of a pair's second lever in the order of columns_of_a_lever(); empty for a single lever.
     const std::vector<double> &second_lever() const
     {
       return of_second;
     }
 
-    /// One of columns_of_a_lever() of a pair's second lever.
+    /// Returns one of columns_of_a_lever() of a pair's second lever.
     double of_second_lever(Column column) const;
 
-    /// Of both levers; Q of a single one [N].
-    double drive_force() const;
+    /// Returns Q of all levers together [N].
+    double drive_force() const
+    {
+      return (*this)[Column::Q] + (of_second.empty() ? 0. : of_second_lever(Column::Q));
+    }
 
-    /// F of both levers; that of a single one [N].
-    double friction_force() const;
+    /// Returns F of all levers together [N].
+    double friction_force() const
+    {
+      return (*this)[Column::F] + (of_second.empty() ? 0. : of_second_lever(Column::F));
+    }
 
-    /// (theta - theta_2)/2: what both levers of a pair turn together, the same way in space [rad].
-    double swing() const;
+    /// Returns (theta - theta_2)/2: what both levers of a pair turn together, the same way in space [rad].
+    double swing() const
+    {
+      return 0.5 * ((*this)[Column::theta] - of_second_lever(Column::theta));
+    }
 
-    /// y-force of both levers of a pair on the cylinder, towards the first where positive [N].
+    /// Returns the y-force of both levers of a pair on the cylinder, towards the first where positive [N].
     double lateral_force() const;
 
   private:

@@ -27,7 +27,7 @@ namespace sprag
       const std::vector<Entry> meta = { { "version", std::string(SPRAG_VERSION), "", "of sprag" } };
       if (std::filesystem::exists(path))
       {
-        hdf5::Handle file = hdf5::open_abandoned_file(path);
+        hdf5::Handle file = hdf5::open_file(path, true);
         if (H5Lexists(file.id(), "summary", H5P_DEFAULT) > 0)
           return;
         add_entries(file, "summary", { status_entry(status) });

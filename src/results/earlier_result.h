@@ -13,7 +13,7 @@ namespace sprag
     std::string status;     ///< how the run ended
   };
 
-  /// Of the result file at `path`; none where there is no such file, it is damaged, or its run was not finished.
+  /// Reads the result file at `path`; returns none where there is no such file, it is damaged, or its run was not finished.
   std::optional<EarlierResult> earlier_result(const std::string &path);
 
   /// Gives the result file that a run left unfinished a /summary with the status, so that it is no longer marked as being

@@ -5,7 +5,7 @@
 
 namespace sprag
 {
-  /// The last entry of every summary: "completed" or what went wrong.
+  /// Returns the last entry of every summary: "completed" or what went wrong.
   inline Entry status_entry(const std::string &status)
   {
     return { "status", status, "", "how the run ended" };

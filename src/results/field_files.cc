@@ -1,17 +1,16 @@
 #include "results/field_files.h"
 
 #include "base/errors.h"
+#include "base/text.h"
 #include "results/disk_reserve.h"
 #include "results/hdf5.h"
 
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <limits>
 #include <optional>
 #include <regex>
-#include <sstream>
 
 namespace sprag
 {
@@ -45,20 +44,15 @@ namespace sprag
 
     void write_field(const hdf5::Handle &group, const Field &field)
     {
-      const auto dataset = hdf5::write_rows(group, field.name, field.values, field.components);
-      hdf5::write_attribute(dataset, "unit", field.unit);
-      hdf5::write_attribute(dataset, "description", field.description);
+      describe(hdf5::write_rows(group, field.name, field.values, field.components), field.unit, field.description);
     }
 
     std::string item(const std::string &place, const std::size_t rows, const std::size_t width, const std::string &type,
                      const unsigned int precision)
     {
-      std::ostringstream text;
-      text << "<DataItem Dimensions=\"" << rows;
-      if (width > 1)
-        text << ' ' << width;
-      text << "\" NumberType=\"" << type << "\" Precision=\"" << precision << "\" Format=\"HDF\">" << place << "</DataItem>\n";
-      return text.str();
+      return "<DataItem Dimensions=\"" + std::to_string(rows) + (width > 1 ? " " + std::to_string(width) : "") +
+             "\" NumberType=\"" + type + "\" Precision=\"" + std::to_string(precision) + "\" Format=\"HDF\">" + place +
+             "</DataItem>\n";
     }
 
     std::string shown_name(const std::string &name, const std::string &unit)
@@ -76,10 +70,7 @@ namespace sprag
 
     std::string number(const double value)
     {
-      std::ostringstream text;
-      text.precision(std::numeric_limits<double>::max_digits10);
-      text << value;
-      return text.str();
+      return formatted("%.17g", value); // reads back as the same number
     }
 
     void check(const std::ios &stream, const std::string &path)
@@ -118,21 +109,14 @@ namespace sprag
       , name(std::move(name_))
       , storage(kept)
   {
-    write_mesh_file(meshes);
     for (auto &mesh : meshes)
+      indices.push_back({ folder + "/" + mesh.name + ".xdmf", std::move(mesh) });
+    write_mesh_file();
+    for (const auto &index : indices)
     {
-      indices.push_back({ {},
-                          mesh.n_nodes(),
-                          mesh.cells.size() / mesh.nodes_per_cell,
-                          folder + "/" + mesh.name + ".xdmf",
-                          -std::numeric_limits<double>::infinity() });
-      indices.back().mesh.name           = mesh.name;
-      indices.back().mesh.nodes_per_cell = mesh.nodes_per_cell;
-      for (auto &field : mesh.fixed)
-        indices.back().mesh.fixed.push_back({ field.name, field.unit, field.description, field.components, {} });
-      std::ofstream file(indices.back().path, std::ios::binary | std::ios::trunc);
+      std::ofstream file(index.path, std::ios::binary | std::ios::trunc);
       file << opening << closing << std::flush;
-      check(file, indices.back().path);
+      check(file, index.path);
     }
   }
 
@@ -141,19 +125,18 @@ namespace sprag
     return name + (storage == FrameStorage::files ? "-mesh.h5" : ".h5");
   }
 
-  void FieldFiles::write_mesh_file(const std::vector<FieldMesh> &meshes) const
+  void FieldFiles::write_mesh_file() const
   {
     std::size_t bytes = overhead;
-    for (const auto &mesh : meshes)
+    for (const auto &[path, mesh, last_time] : indices)
       bytes += 3 * 8 * mesh.nodes.size() + 8 * mesh.cells.size() + bytes_of(mesh.fixed);
     require_space(folder + "/" + mesh_file(), bytes);
     auto file = hdf5::create_file(folder + "/" + mesh_file());
-    for (const auto &mesh : meshes)
+    for (const auto &[path, mesh, last_time] : indices)
     {
       const auto group = hdf5::create_group(file, mesh.name);
-      const auto nodes = hdf5::write_rows(group, "nodes", in_space(mesh.nodes), 3);
-      hdf5::write_attribute(nodes, "unit", "mm");
-      hdf5::write_attribute(nodes, "description", "positions at rest: x along the cylinder's path towards the pivot, y up");
+      describe(hdf5::write_rows(group, "nodes", in_space(mesh.nodes), 3), "mm",
+               "positions at rest: x along the cylinder's path towards the pivot, y up");
       hdf5::write_rows(group, "cells", mesh.cells, mesh.nodes_per_cell);
       for (const auto &field : mesh.fixed)
         write_field(group, field);
@@ -163,11 +146,10 @@ namespace sprag
 
   void FieldFiles::write(const double time, const std::vector<std::vector<Field>> &fields, const std::vector<FrameFact> &facts)
   {
-    char number_text[16];
-    std::snprintf(number_text, sizeof(number_text), "%04u", n_frames++);
+    const auto number           = formatted("%04u", n_frames++);
     const bool own_file         = storage == FrameStorage::files;
-    const std::string file_name = own_file ? name + "-" + number_text + ".h5" : mesh_file();
-    const std::string of_frame  = own_file ? "" : std::string("frame-") + number_text;
+    const std::string file_name = own_file ? name + "-" + number + ".h5" : mesh_file();
+    const std::string of_frame  = own_file ? "" : "frame-" + number;
     std::size_t bytes           = overhead;
     for (const auto &of_mesh : fields)
       bytes += bytes_of(of_mesh);
@@ -209,18 +191,18 @@ namespace sprag
                                const std::vector<FrameFact> &facts) const
   {
     const auto &mesh              = index.mesh;
+    const std::size_t n_cells     = mesh.cells.size() / mesh.nodes_per_cell;
     const std::string of_mesh     = mesh_file() + ":/" + mesh.name;
     const std::string element_set = mesh.nodes_per_cell == 2 ? "Polyline\" NodesPerElement=\"2" : "Quadrilateral";
     std::string text = "      <Grid Name=\"" + mesh.name + "\" GridType=\"Uniform\">\n        <Time Value=\"" + number(time) +
                        "\"/>\n        <Topology TopologyType=\"" + element_set + "\" NumberOfElements=\"" +
-                       std::to_string(index.n_cells) + "\">" +
-                       item(of_mesh + "/cells", index.n_cells, mesh.nodes_per_cell, "UInt", 4) +
+                       std::to_string(n_cells) + "\">" + item(of_mesh + "/cells", n_cells, mesh.nodes_per_cell, "UInt", 4) +
                        "        </Topology>\n        <Geometry GeometryType=\"XYZ\">" +
-                       item(of_mesh + "/nodes", index.n_nodes, 3, "Float", 8) + "        </Geometry>\n";
+                       item(of_mesh + "/nodes", mesh.n_nodes(), 3, "Float", 8) + "        </Geometry>\n";
     for (const auto &field : fields)
-      text += attribute(field, place, index.n_nodes);
+      text += attribute(field, place, mesh.n_nodes());
     for (const auto &field : mesh.fixed)
-      text += attribute(field, of_mesh, index.n_nodes);
+      text += attribute(field, of_mesh, mesh.n_nodes());
     for (const auto &fact : facts)
       text += "        <Attribute Name=\"" + shown_name(fact.name, fact.unit) +
               "\" AttributeType=\"Scalar\" Center=\"Grid\"><DataItem Dimensions=\"1\" NumberType=\"Float\" Precision=\"8\" "

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -59,14 +60,12 @@ namespace sprag
   private:
     struct Index
     {
-      FieldMesh mesh; ///< without its numbers
-      std::size_t n_nodes;
-      std::size_t n_cells;
       std::string path;
-      double last_time;
+      FieldMesh mesh;
+      double last_time = -std::numeric_limits<double>::infinity(); ///< of the frames written [s]
     };
 
-    void write_mesh_file(const std::vector<FieldMesh> &meshes) const;
+    void write_mesh_file() const;
     std::string mesh_file() const;
     std::string grid(const Index &index, double time, const std::string &place, const std::vector<Field> &fields,
                      const std::vector<FrameFact> &facts) const;

@@ -21,12 +21,6 @@ namespace sprag
     // A flush costs about 0.4 ms of CPU time, a tenth of a quasi-static step.
     constexpr std::chrono::milliseconds flush_interval(50);
 
-    void describe(const hdf5::Handle &dataset, const std::string &unit, const std::string &description)
-    {
-      hdf5::write_attribute(dataset, "unit", unit);
-      hdf5::write_attribute(dataset, "description", description);
-    }
-
     // Chunks and descriptions that a flush or the entries of /summary and /meta bring along with the numbers themselves.
     constexpr std::size_t overhead = 256 * 1024;
 
@@ -52,32 +46,27 @@ namespace sprag
       }
     }
 
-    hdf5::Series create_series(const hdf5::Handle &group, const ColumnInfo &column)
+    /// Numbers a row each, or of the shape given: those are rows that are flushed at once.
+    hdf5::Series create_series(const hdf5::Handle &group, const ColumnInfo &column, const std::vector<hsize_t> &row = {})
     {
-      hdf5::Series series(group, column.name, table_chunk);
+      // A compressed chunk changes its length when a row is added to it, and the space it leaves is lost while others
+      // read. With a row a chunk nothing is written twice.
+      hdf5::Series series(group, column.name, row.empty() ? table_chunk : 1, row);
       describe(series.handle(), column.unit, column.description);
       return series;
     }
 
-    hdf5::Series create_rows(const hdf5::Handle &group, const ColumnInfo &column, const std::size_t width)
+    void write_values(const hdf5::Handle &group, const ColumnInfo &column, const std::vector<double> &values,
+                      const std::vector<std::size_t> &shape = {})
     {
-      hdf5::Series series = hdf5::Series::of_rows(group, column.name, width);
-      describe(series.handle(), column.unit, column.description);
-      return series;
-    }
-
-    void write_values(const hdf5::Handle &group, const ColumnInfo &column, const std::vector<double> &values)
-    {
-      describe(hdf5::write_dataset(group, column.name, values), column.unit, column.description);
+      describe(hdf5::write_dataset(group, column.name, values, shape), column.unit, column.description);
     }
 
     void write_group(const hdf5::Handle &file, const Group &group)
     {
       const hdf5::Handle handle = hdf5::create_group(file, group.name);
       for (const auto &[info, values, shape] : group.datasets)
-        describe(shape.empty() ? hdf5::write_dataset(handle, info.name, values)
-                               : hdf5::write_dataset(handle, info.name, values, shape),
-                 info.unit, info.description);
+        write_values(handle, info, values, shape);
     }
 
     void write_warnings(const hdf5::Handle &file, const Warnings &warnings)
@@ -157,7 +146,14 @@ namespace sprag
     {
     public:
       Face(const hdf5::Handle &file, const FacePoints &points)
-          : Face(hdf5::create_group(file, "face"), points.xi.size())
+          : group(hdf5::create_group(file, "face"))
+          , time(create_series(group, { "time", "s", "time of the written step" }))
+          , x(create_series(group, { "x", "mm", "position of the cylinder at the written step" }))
+          , pressure(
+                create_series(group, { "pressure", "MPa", "contact pressure, written steps x points" }, { points.xi.size() }))
+          , traction(create_series(group,
+                                   { "traction", "MPa", "friction traction on the lever along -d, written steps x points" },
+                                   { points.xi.size() }))
       {
         write_values(group, { "xi", "mm", "lever coordinate of the undeformed point, from the pivot" }, points.xi);
         write_values(group, { "weight", "mm^2", "area of the friction face carried by the point" }, points.weight);
@@ -172,67 +168,76 @@ namespace sprag
       }
 
     private:
-      Face(hdf5::Handle face_group, const std::size_t n_points)
-          : group(std::move(face_group))
-          , time(create_series(group, { "time", "s", "time of the written step" }))
-          , x(create_series(group, { "x", "mm", "position of the cylinder at the written step" }))
-          , pressure(create_rows(group, { "pressure", "MPa", "contact pressure, written steps x points" }, n_points))
-          , traction(create_rows(group, { "traction", "MPa", "friction traction on the lever along -d, written steps x points" },
-                                 n_points))
-      {
-      }
-
       hdf5::Handle group;
-      hdf5::Series time;
-      hdf5::Series x;
-      hdf5::Series pressure;
-      hdf5::Series traction;
+      hdf5::Series time, x, pressure, traction;
     };
+
+    /// The row in the order of table_columns(), NaN in place of sensors that the model has not.
+    std::vector<double> values_of(const Row &row, const std::size_t n_values)
+    {
+      const auto &second = row.second_lever();
+      const bool is_pair = !second.empty();
+      const auto of_pair =
+          is_pair ? std::vector<double>{ row.swing(), row.drive_force(), row.lateral_force() } : std::vector<double>();
+      const auto n_sensors  = (n_values - n_columns - second.size() - of_pair.size()) / (is_pair ? 2 : 1); // and their sum
+      const auto of_sensors = [&](const std::size_t lever)
+      {
+        std::vector<double> forces(n_sensors, std::numeric_limits<double>::quiet_NaN());
+        if (row.sensor_forces.empty() || forces.empty())
+          return forces;
+        const auto begin = row.sensor_forces.begin() + static_cast<std::ptrdiff_t>(lever * (n_sensors - 1));
+        std::copy_n(begin, n_sensors - 1, forces.begin());
+        forces.back() = std::accumulate(forces.begin(), forces.end() - 1, 0.);
+        return forces;
+      };
+      std::vector<double> values;
+      for (std::size_t i = 0; i < n_columns; ++i)
+        values.push_back(row[static_cast<Column>(i)]);
+      sprag::append(values, of_sensors(0));
+      sprag::append(values, second);
+      if (is_pair)
+        sprag::append(values, of_sensors(1));
+      return joined(values, of_pair);
+    }
   } // namespace
 
-  struct ResultFile::Implementation
+  /// What is open while rows are appended.
+  struct ResultFile::Writer
   {
-    /// What is open while rows are appended.
-    struct Writer
+    DiskReserve reserve; // given back after the file is closed
+    hdf5::Handle file;
+    Table table;
+    std::optional<Face> face                         = {};
+    std::chrono::steady_clock::time_point last_flush = {};
+
+    void flush()
     {
-      DiskReserve reserve; // given back after the file is closed
-      hdf5::Handle file;
-      Table table;
-      std::optional<Face> face;
-      std::chrono::steady_clock::time_point last_flush = {};
+      reserve.require_in_place();
+      reserve.cover(overhead + table.pending_bytes());
+      table.write();
+      hdf5::checked("flushing", H5Fflush(file.id(), H5F_SCOPE_LOCAL));
+      last_flush = std::chrono::steady_clock::now();
+    }
 
-      void flush()
+    /// At the end: false where there is no space left but for the end itself.
+    bool flush_what_fits()
+    {
+      reserve.require_in_place();
+      try
       {
-        reserve.require_in_place();
-        reserve.cover(overhead + table.pending_bytes());
-        table.write();
-        hdf5::flush(file);
-        last_flush = std::chrono::steady_clock::now();
+        flush();
+        return true;
       }
-
-      /// At the end: false where there is no space left but for the end itself.
-      bool flush_what_fits()
+      catch (const AnalysisError &)
       {
-        reserve.require_in_place();
-        try
-        {
-          flush();
-          return true;
-        }
-        catch (const AnalysisError &)
-        {
-          return false;
-        }
+        return false;
       }
-    };
-
-    std::string path;
-    std::optional<Writer> writer;
+    }
   };
 
-  ResultFile::ResultFile(const std::string &path, const std::string &parameters, const FacePoints &points,
+  ResultFile::ResultFile(const std::string &file_path, const std::string &parameters, const FacePoints &points,
                          const std::vector<ColumnInfo> &columns)
-      : implementation(std::make_unique<Implementation>())
+      : path(file_path)
   {
     hdf5::Handle file = create(path);
     DiskReserve reserve(path);
@@ -241,23 +246,21 @@ namespace sprag
     hdf5::write_attribute(file, "format_version", 1.);
     describe(hdf5::write_dataset(file, "parameters", parameters), "", "every parameter as used, in .prm form");
     Table table(file, columns);
-    std::optional<Face> face;
+    writer = std::make_unique<Writer>(Writer{ std::move(reserve), std::move(file), std::move(table) });
     if (!points.xi.empty())
-      face.emplace(file, points);
-    hdf5::start_swmr_write(file);
-    implementation->path = path;
-    implementation->writer.emplace(
-        Implementation::Writer{ std::move(reserve), std::move(file), std::move(table), std::move(face), {} });
+      writer->face.emplace(writer->file, points);
+    // From here on others can read along; no object and no attribute can be created any more.
+    hdf5::checked("letting others read", H5Fstart_swmr_write(writer->file.id()));
   }
 
   ResultFile::ResultFile(ResultFile &&) noexcept = default;
 
   ResultFile::~ResultFile()
   {
-    if (implementation && implementation->writer)
+    if (writer)
       try
       {
-        implementation->writer->flush();
+        writer->flush();
       }
       catch (const AnalysisError &)
       {
@@ -265,67 +268,26 @@ namespace sprag
       }
   }
 
-  namespace
-  {
-    /// Columns after those that every table has: sensors and, of a pair, what its second lever has, sensors again, and the
-    /// pair's.
-    void fill_parts(const Row &row, std::vector<double> &values)
-    {
-      constexpr std::size_t of_pair_alone = 3;
-      const bool is_pair                  = !row.second_lever().empty();
-      const std::size_t levers            = is_pair ? 2 : 1;
-      const std::size_t sensors           = row.sensor_forces.size() / levers;
-      const auto add_sensors              = [&](const std::size_t lever, const std::size_t to)
-      {
-        const auto begin = row.sensor_forces.begin() + static_cast<std::ptrdiff_t>(lever * sensors);
-        const auto end   = begin + static_cast<std::ptrdiff_t>(sensors);
-        std::copy(begin, end, values.begin() + static_cast<std::ptrdiff_t>(to));
-        values[to + sensors] = std::accumulate(begin, end, 0.);
-      };
-      const std::size_t last = values.size() - (is_pair ? of_pair_alone : 0);
-      if (sensors > 0)
-        add_sensors(0, n_columns);
-      if (!is_pair)
-        return;
-      if (sensors > 0)
-        add_sensors(1, last - sensors - 1);
-      const std::size_t of_a_lever  = row.second_lever().size();
-      const std::size_t all_sensors = last - n_columns - of_a_lever;
-      std::copy(row.second_lever().begin(), row.second_lever().end(),
-                values.begin() + static_cast<std::ptrdiff_t>(n_columns + all_sensors / 2));
-      values[last]     = row.swing();
-      values[last + 1] = row.drive_force();
-      values[last + 2] = row.lateral_force();
-    }
-  } // namespace
-
   void ResultFile::append(const Row &row)
   {
-    Assert(implementation->writer, dealii::ExcMessage("The result file is finished."));
-    std::vector<double> values(implementation->writer->table.n_columns(), std::numeric_limits<double>::quiet_NaN());
-    for (std::size_t i = 0; i < n_columns; ++i)
-      values[i] = row[static_cast<Column>(i)];
-    if (values.size() > n_columns)
-      fill_parts(row, values);
-    append(values);
+    Assert(writer, dealii::ExcMessage("The result file is finished."));
+    append(values_of(row, writer->table.n_columns()));
   }
 
   void ResultFile::append(const std::vector<double> &row)
   {
-    Assert(implementation->writer, dealii::ExcMessage("The result file is finished."));
-    Implementation::Writer &writer = *implementation->writer;
-    writer.table.append(row);
-    if (std::chrono::steady_clock::now() - writer.last_flush >= flush_interval)
-      writer.flush();
+    Assert(writer, dealii::ExcMessage("The result file is finished."));
+    writer->table.append(row);
+    if (std::chrono::steady_clock::now() - writer->last_flush >= flush_interval)
+      writer->flush();
   }
 
   void ResultFile::append(const FaceState &state)
   {
-    Assert(implementation->writer && implementation->writer->face, dealii::ExcMessage("The result file has no open /face."));
-    Implementation::Writer &writer = *implementation->writer;
-    writer.reserve.cover(overhead + 2 * state.pressure.size() * sizeof(double));
-    writer.face->append(state);
-    writer.flush();
+    Assert(writer && writer->face, dealii::ExcMessage("The result file has no open /face."));
+    writer->reserve.cover(overhead + 2 * state.pressure.size() * sizeof(double));
+    writer->face->append(state);
+    writer->flush();
   }
 
   void add_entries(const hdf5::Handle &file, const std::string &name, const std::vector<Entry> &entries)
@@ -340,14 +302,14 @@ namespace sprag
   void ResultFile::finish(const std::vector<Entry> &summary, const std::vector<Entry> &meta, const Warnings &warnings,
                           const std::vector<Group> &groups)
   {
-    Assert(implementation->writer, dealii::ExcMessage("The result file is finished already."));
+    Assert(writer, dealii::ExcMessage("The result file is finished already."));
     // Nothing can be created in a file that others may be reading along: close it and open it anew.
-    const bool has_space = implementation->writer->flush_what_fits();
-    implementation->writer.reset();
-    DiskReserve reserve(implementation->path);
+    const bool has_space = writer->flush_what_fits();
+    writer.reset();
+    DiskReserve reserve(path);
     if (has_space)
       reserve.cover(overhead + size_of(groups) + size_of(warnings));
-    hdf5::Handle file = hdf5::open_file(implementation->path);
+    hdf5::Handle file = hdf5::open_file(path);
     add_entries(file, "summary", summary);
     add_entries(file, "meta", meta);
     if (has_space)

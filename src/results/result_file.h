@@ -28,6 +28,16 @@ namespace sprag
     std::vector<std::size_t> shape; ///< empty: one dimension
   };
 
+  /// Returns a dataset with a value for each item of a range.
+  template <class Items, class Value>
+  Dataset dataset_of(const Items &items, const ColumnInfo &info, const Value &value)
+  {
+    Dataset result{ info, {}, {} };
+    for (const auto &item : items)
+      result.values.push_back(value(item));
+    return result;
+  }
+
   /// A named group of datasets.
   struct Group
   {
@@ -55,7 +65,7 @@ namespace sprag
     std::vector<double> traction_2;
   };
 
-  /// The first lever's with the second's.
+  /// Returns the state of the first lever's face with that of the second's.
   inline FaceState joined_faces(FaceState first, FaceState second)
   {
     first.pressure_2 = std::move(second.pressure);
@@ -77,10 +87,10 @@ namespace sprag
     ResultFile(ResultFile &&) noexcept;
     ~ResultFile();
 
-    /// For a file with all_columns() or table_columns().
+    /// Appends a row to a file with all_columns() or table_columns().
     void append(const Row &row);
 
-    /// A value for each of the columns given to the constructor.
+    /// Appends a value for each of the columns given to the constructor.
     void append(const std::vector<double> &row);
 
     void append(const FaceState &state);
@@ -91,7 +101,8 @@ namespace sprag
                 const std::vector<Group> &groups = {});
 
   private:
-    struct Implementation;
-    std::unique_ptr<Implementation> implementation;
+    struct Writer;
+    std::string path;
+    std::unique_ptr<Writer> writer; ///< null once the file is finished
   };
 } // namespace sprag

@@ -8,7 +8,7 @@ namespace sprag
 {
   // Of ranges of rows, or of whatever `value` takes. NaN does not count.
 
-  /// The value of largest size with its sign; 0 without any.
+  /// Returns the value of largest size with its sign; 0 without any.
   template <class Rows, class Value>
   double signed_peak(const Rows &rows, const Value &value)
   {
@@ -19,21 +19,21 @@ namespace sprag
     return result;
   }
 
-  /// The largest size of a value; 0 without any.
+  /// Returns the largest size of a value; 0 without any.
   template <class Rows, class Value>
   double largest(const Rows &rows, const Value &value)
   {
     return std::abs(signed_peak(rows, value));
   }
 
-  /// The largest size in a column; 0 without any.
+  /// Returns the largest size in a column; 0 without any.
   template <class Rows>
   double largest(const Rows &rows, const Column column)
   {
     return largest(rows, [column](const Row &row) { return row[column]; });
   }
 
-  /// The sum of a column.
+  /// Returns the sum of a column.
   template <class Rows>
   double sum(const Rows &rows, const Column column)
   {
@@ -44,7 +44,7 @@ namespace sprag
     return result;
   }
 
-  /// The row with the largest finite value; null where no value is positive.
+  /// Returns the row with the largest finite value; null where no value is positive.
   template <class Rows, class Value>
   const Row *row_of_largest(const Rows &rows, const Value &value)
   {

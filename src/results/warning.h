@@ -18,9 +18,9 @@ namespace sprag
 
   using Warnings = std::vector<Warning>;
 
-  /// All of them for people, a paragraph each in lines of at most 100 characters; empty without.
+  /// Writes warnings for people, a paragraph each in lines of at most 100 characters; empty without warnings.
   std::string text_of(const Warnings &warnings);
 
-  /// "no warnings" or their number and names.
+  /// Returns "no warnings" or their number and names.
   std::string count_text(const Warnings &warnings);
 } // namespace sprag

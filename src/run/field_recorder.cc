@@ -32,6 +32,11 @@ namespace sprag
       return { begin, 0.5 * (low + high) };
     }
 
+    double largest_force(const Row &row)
+    {
+      return row.second_lever().empty() ? row[Column::P] : std::max(row[Column::P], row.of_second_lever(Column::P));
+    }
+
     double largest_surface_stress(const std::vector<double> &pressure, const std::vector<double> &traction)
     {
       double result = 0.;
@@ -89,11 +94,6 @@ namespace sprag
     return result;
   }
 
-  double FieldRecorder::largest_force(const Row &row) const
-  {
-    return row.second_lever().empty() ? row[Column::P] : std::max(row[Column::P], row.of_second_lever(Column::P));
-  }
-
   double FieldRecorder::moment_at_hub(const Row &row) const
   {
     const double arm_of_F = hub_section[1] - scene.geometry.interface_offset;
@@ -103,12 +103,6 @@ namespace sprag
     return row.second_lever().empty() ? first
                                       : std::max(first, moment(row.of_second_lever(Column::P), row.of_second_lever(Column::s),
                                                                row.of_second_lever(Column::F)));
-  }
-
-  bool FieldRecorder::is_turn_or_end(const double time) const
-  {
-    const auto &reversals = scene.drive.reversals();
-    return std::binary_search(reversals.begin(), reversals.end(), time) || time >= scene.drive.duration();
   }
 
   bool FieldRecorder::slides_back(const Row &row) const
@@ -122,7 +116,7 @@ namespace sprag
     if (!frames)
       return false;
     const auto &output = scene.output;
-    const bool turning = is_turn_or_end(row[Column::time]);
+    const bool turning = scene.drive.turns_at(row[Column::time]) || row[Column::time] >= scene.drive.duration();
     bool behind        = false;
     if (turned)
       behind = slides_back(row) || travelled >= *turned + long_behind * scene.geometry.cylinder_radius;

@@ -23,10 +23,10 @@ namespace sprag
   class FieldRecorder
   {
   public:
-    /// Elastic displacement of the body, one a lever, in lever axes.
+    /// Finds the elastic displacements of the body, one for each lever, in lever axes.
     using Displacements = std::function<std::vector<dealii::Vector<double>>()>;
 
-    /// Scene and body must outlive it. No folder: peaks alone.
+    /// Scene and body must outlive the object. Without a folder it finds peaks alone.
     FieldRecorder(const Scene &scene, const Body &body, const std::optional<std::string> &folder, dealii::TimerOutput &timer);
 
     /// Looks at an accepted step and returns whether it was written as a frame. `keep` makes what finds its fields later.
@@ -53,9 +53,7 @@ namespace sprag
     };
 
     bool is_frame(const Row &row);
-    bool is_turn_or_end(double time) const;
     bool slides_back(const Row &row) const;
-    double largest_force(const Row &row) const;
     double moment_at_hub(const Row &row) const;
     std::vector<std::pair<Estimate, double>> estimates(const Row &row, const FaceState &face) const;
     void find(const Kept &kept, bool frame);

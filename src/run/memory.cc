@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace sprag
 {
@@ -75,14 +74,18 @@ namespace sprag
     constexpr double bytes_of_row = 2. * sizeof(Row);
     constexpr double most_rows    = 1e7;
 
+    std::string step_parameter(const Scene &scene)
+    {
+      return scene.analysis.type == AnalysisType::transient ? "Time/Step" : "Analysis/Step";
+    }
+
     void require_number_of_rows(const Scene &scene)
     {
       const double rows = expected_rows(scene);
       if (rows <= most_rows)
         return;
-      throw InputError("The drive and " +
-                       std::string(scene.analysis.type == AnalysisType::transient ? "Time/Step" : "Analysis/Step") + " make " +
-                       rounded_text(rows) + " rows or more, of which a run may have " + rounded_text(most_rows) +
+      throw InputError("The drive and " + step_parameter(scene) + " make " + rounded_text(rows) +
+                       " rows or more, of which a run may have " + rounded_text(most_rows) +
                        ". Try longer steps, fewer cycles or a faster drive");
     }
 
@@ -121,9 +124,7 @@ namespace sprag
 
     std::string gigabytes(const double bytes)
     {
-      char text[32];
-      std::snprintf(text, sizeof text, bytes < 99.5e9 ? "%.2g GB" : "%.3g GB", bytes / 1e9);
-      return text;
+      return formatted(bytes < 99.5e9 ? "%.2g GB" : "%.3g GB", bytes / 1e9);
     }
 
     constexpr double of_libraries = 0.15e9;
@@ -153,9 +154,8 @@ namespace sprag
     const std::string has = ": the run needs about " + gigabytes(needed) + " of memory, and " + gigabytes(available.bytes) +
                             " are " + available.reason + ". ";
     if (rows > needed / 2.)
-      throw InputError("Drive/Cycles and " +
-                       std::string(scene.analysis.type == AnalysisType::transient ? "Time/Step" : "Analysis/Step") + " make " +
-                       rounded_text(expected_rows(scene)) + " rows" + has + "Try fewer cycles or longer steps");
+      throw InputError("Drive/Cycles and " + step_parameter(scene) + " make " + rounded_text(expected_rows(scene)) + " rows" +
+                       has + "Try fewer cycles or longer steps");
     throw InputError("Mesh/Face size = " + mm(scene.mesh.face_size) + has +
                      (processes > 1 ? "Try a larger one, or fewer processes (--jobs)" : "Try a larger one"));
   }

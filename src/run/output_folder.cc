@@ -2,7 +2,6 @@
 
 #include "base/errors.h"
 #include "results/earlier_result.h"
-#include "run/result_writer.h"
 
 #include <cerrno>
 #include <chrono>

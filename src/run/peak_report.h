@@ -12,7 +12,7 @@ namespace sprag
   /// the lever where it is larger. Adds nothing for models without a face.
   void add_largest_pressure(const std::vector<Row> &rows, std::vector<Entry> &entries);
 
-  /// The relative error of the largest pressure to expect where the contact is `elements` > 0 face sizes wide: at most
+  /// Returns the relative error of the largest pressure to expect where the contact is `elements` > 0 face sizes wide: at most
   /// 5/elements^3 (displacements of degree 1) or 0.8/elements^3 (degree 2), measured by tests/benchmarks/pressure.py, and 1.
   double expected_pressure_error(double elements, unsigned int degree);
 

@@ -3,8 +3,8 @@
 #include "base/append.h"
 #include "base/interrupt.h"
 #include "fe/fields/stress_peaks.h"
-#include "run/row_warnings.h"
 #include "run/transient_report.h"
+#include "run/warnings.h"
 
 #include <algorithm>
 #include <cmath>
@@ -51,11 +51,6 @@ namespace sprag
   void Recorder::record(const FaceState &face)
   {
     writer.append(face);
-  }
-
-  void Recorder::set_stress(std::vector<Entry> peaks)
-  {
-    stress = std::move(peaks);
   }
 
   std::vector<Entry> Recorder::finish(const std::string &status, const std::vector<Entry> &meta, Warnings &warnings)

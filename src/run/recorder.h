@@ -18,7 +18,10 @@ namespace sprag
     void record(const FaceState &face);
 
     /// Sets the peaks of stress for the summary, see StressPeaks; without a call they are NaN, as of a model without a mesh.
-    void set_stress(std::vector<Entry> peaks);
+    void set_stress(std::vector<Entry> peaks)
+    {
+      stress = std::move(peaks);
+    }
 
     /// Writes summary, meta and warnings, to which it adds those that follow from the rows, and prints the table at the end of a
     /// run. Status and meta: see ResultWriter. Returns the summary.

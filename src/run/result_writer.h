@@ -2,6 +2,7 @@
 
 #include "base/errors.h"
 #include "results/result_file.h"
+#include "run/output_folder.h"
 #include "run/run.h"
 
 #include <deal.II/base/timer.h>
@@ -10,12 +11,6 @@
 
 namespace sprag
 {
-  /// Throws InputError if the folder could not be made or written to; makes nothing.
-  void require_writable(const std::string &folder);
-
-  /// Makes the folder if needed; throws InputError if nothing can be written there.
-  void prepare_folder(const std::string &folder);
-
   /// Measures the wall and CPU time of a run's phases and prints nothing.
   dealii::TimerOutput phase_timer();
 

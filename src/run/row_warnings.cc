@@ -1,4 +1,4 @@
-#include "run/row_warnings.h"
+#include "run/warnings.h"
 
 #include "base/text.h"
 #include "results/row_statistics.h"

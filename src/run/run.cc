@@ -6,7 +6,7 @@
 #include "levers/prepared_scene.h"
 #include "run/analyses.h"
 #include "run/result_writer.h"
-#include "run/scene_warnings.h"
+#include "run/warnings.h"
 #include "scene/analysis_use.h"
 #include "scene/mirrored_pair.h"
 

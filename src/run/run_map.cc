@@ -52,21 +52,12 @@ namespace sprag
       std::vector<BoundaryPoint> boundary = {};
     };
 
-    /// Leaves what there is in `map` when it throws.
     void judge_all(const Scene &scene, MapTeam &team, MapProgress &progress, StabilityMap &map)
     {
       for (auto sites = map.grid.wanted(); !sites.empty(); sites = map.grid.wanted())
       {
         progress.say("grid: " + std::to_string(sites.size()) + " cells");
-        try
-        {
-          team.judge(sites);
-        }
-        catch (const AnalysisError &)
-        {
-          map.grid.learn(team.kinds());
-          throw;
-        }
+        team.judge(sites);
         map.grid.learn(team.kinds());
       }
       BoundarySearch search(map.grid, scene.map.bisections);
@@ -83,10 +74,9 @@ namespace sprag
     std::string unit_of(const std::string &name)
     {
       SceneSettings settings;
-      for (const auto &parameter : scene_parameters(settings))
-        if (full_name(parameter) == name && !parameter.rule.unit.empty())
-          return parameter.rule.unit;
-      return "1";
+      const auto parameters = scene_parameters(settings);
+      const auto &unit      = find_parameter(parameters, name)->rule.unit;
+      return unit.empty() ? "1" : unit;
     }
 
     Dataset axis(const std::string &name, const ParameterRange &range)
@@ -227,6 +217,7 @@ namespace sprag
                        [&](const std::string &status)
                        {
                          progress.bar.reset();
+                         map.grid.learn(team.kinds());
                          const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
                          const auto meta                             = cost_of_map(team, seconds.count());
                          on_first_rank([&] { write_map(scene, options, map, team, status, meta, warnings); });

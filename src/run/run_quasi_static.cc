@@ -1,5 +1,6 @@
 #include "analysis/statics/closed_form.h"
 #include "analysis/statics/quasi_static.h"
+#include "base/text.h"
 #include "fe/mesh/mesh.h"
 #include "fe/statics/lever_model.h"
 #include "run/analyses.h"
@@ -8,7 +9,6 @@
 
 #include <iostream>
 #include <optional>
-#include <sstream>
 
 namespace sprag
 {
@@ -22,12 +22,9 @@ namespace sprag
       const double limit = scene.analysis.maximum_deviation;
       const double found = largest_deviation(summary);
       if (limit > 0. && !(found <= limit))
-      {
-        std::ostringstream message;
-        message << "the deviation from the closed form, " << found << ", is larger than Analysis/Maximum deviation = " << limit
-                << ". Try a finer Mesh/Face size or a stiffer lever, or admit more.";
-        throw AnalysisError(message.str());
-      }
+        throw AnalysisError("the deviation from the closed form, " + rounded_text(found) +
+                            ", is larger than Analysis/Maximum deviation = " + rounded_text(limit) +
+                            ". Try a finer Mesh/Face size or a stiffer lever, or admit more.");
     }
 
     void follow_closed_form(const Scene &scene, const RunOptions &options, Warnings &warnings)
@@ -107,16 +104,13 @@ namespace sprag
       auto timer = phase_timer();
       require_writable(options.folder);
       Mesh triangulation;
-      {
-        const Timer::Scope scope(timer, "mesh");
-        make_mesh(scene, triangulation);
-      }
-      std::optional<LeverModel> levers;
-      {
-        const Timer::Scope scope(timer, "model");
-        levers.emplace(triangulation, scene);
-      }
-      drive_levers(scene, options, timer, *levers, warnings);
+      timer.enter_subsection("mesh");
+      make_mesh(scene, triangulation);
+      timer.leave_subsection();
+      timer.enter_subsection("model");
+      LeverModel levers(triangulation, scene);
+      timer.leave_subsection();
+      drive_levers(scene, options, timer, levers, warnings);
     }
   } // namespace
 

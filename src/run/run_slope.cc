@@ -4,6 +4,7 @@
 #include "run/result_writer.h"
 #include "scene/closed_form.h"
 
+#include <cmath>
 #include <iostream>
 
 namespace sprag
@@ -16,7 +17,7 @@ namespace sprag
     for (const auto &row : sweep.rows)
       writer.append(row);
     const double mu                  = friction_coefficient(scene.friction, scene.drive.peak_speed()).coefficient;
-    const std::vector<Entry> summary = { { "critical_inclination", critical_inclination(mu), "rad",
+    const std::vector<Entry> summary = { { "critical_inclination", std::atan(mu), "rad",
                                            "th0B = atan mu: steeper, the backward stroke no longer damps" } };
     const auto end                   = writer.finish("completed", { summary }, warnings);
     if (!options.quiet)

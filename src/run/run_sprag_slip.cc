@@ -3,9 +3,9 @@
 #include "run/analyses.h"
 #include "run/report.h"
 #include "run/result_writer.h"
-#include "run/row_warnings.h"
 #include "run/sprag_slip_report.h"
 #include "run/transient_report.h"
+#include "run/warnings.h"
 #include "scene/held_slide.h"
 
 #include <cmath>

@@ -4,7 +4,6 @@
 #include "base/append.h"
 #include "base/text.h"
 #include "levers/dynamics.h"
-#include "model/reduced_lever.h"
 #include "run/analyses.h"
 #include "run/field_recorder.h"
 #include "run/recorder.h"
@@ -95,24 +94,6 @@ namespace sprag
                    [&] { return run_ideal_contact(scene, inertia, [&](const Row &row) { recorder.record(row); }); });
     }
 
-    void run_reduced(const Scene &scene, const RunOptions &options, Warnings &warnings)
-    {
-      auto timer       = phase_timer();
-      const auto model = make_reduced_lever(scene);
-      DynamicsMaker maker;
-      const auto growing = growing_modes_of(scene, maker);
-      Recorder recorder(scene, options, timer, model->face_points());
-      announce(scene, options);
-      announce(growing, scene, options);
-      append(warnings, hidden_vibration_warnings(growing, scene.time));
-      record_steps(scene, recorder, timer, warnings, {},
-                   [&]
-                   {
-                     return run_transient(*model, scene.drive, settings_of(scene, growing),
-                                          [&](const Motion &, const Row &row) { recorder.record(row); });
-                   });
-    }
-
     std::vector<Entry> meshed_entries(const MeshedDynamics &lever, const Body &body)
     {
       std::vector<Entry> entries = {
@@ -135,9 +116,8 @@ namespace sprag
       return entries;
     }
 
-    void announce(const Scene &scene, const MeshedDynamics &lever, const Body &body, const RunOptions &options)
+    void announce(const MeshedDynamics &lever, const Body &body, const Scene &scene, const RunOptions &options)
     {
-      announce(scene, options);
       if (options.quiet)
         return;
       std::cout << "Mesh:         " << body.n_dofs() << " displacements, " << lever.n_coordinates
@@ -165,23 +145,25 @@ namespace sprag
       };
     }
 
-    void run_meshed(const Scene &scene, const RunOptions &options, Warnings &warnings)
+    void run_with_inertia(const Scene &scene, const RunOptions &options, Warnings &warnings)
     {
       require_writable(options.folder);
       DynamicsMaker maker;
       auto &timer         = maker.timer();
       const auto dynamics = maker.make(scene);
-      const auto &lever   = dynamics.meshed;
-      const auto &body    = *dynamics.lever->body;
+      auto &model         = dynamics.model();
+      const Body *body    = dynamics.lever ? dynamics.lever->body.get() : nullptr;
       const auto growing  = growing_modes_of(scene, maker);
-      Recorder recorder(scene, options, timer, lever.model->face_points());
-      announce(scene, lever, body, options);
+      Recorder recorder(scene, options, timer, model.face_points());
+      announce(scene, options);
+      if (body != nullptr)
+        announce(dynamics.meshed, *body, scene, options);
       announce(growing, scene, options);
       append(warnings, hidden_vibration_warnings(growing, scene.time));
       std::optional<FieldRecorder> fields;
-      if (scene.output.fields != FieldOutput::none)
-        fields.emplace(scene, body, options.folder, timer);
-      else
+      if (body != nullptr && scene.output.fields != FieldOutput::none)
+        fields.emplace(scene, *body, options.folder, timer);
+      else if (body != nullptr)
         recorder.set_stress(no_stress_peaks("Output/Fields = none"));
 
       const auto write = [&](const Motion &motion, const Row &row)
@@ -189,13 +171,13 @@ namespace sprag
         recorder.record(row);
         if (!fields)
           return;
-        const auto face = lever.model->face_state(motion);
-        if (fields->record(row, face, [&] { return recovery(lever, motion, number_of_levers(scene)); }))
+        const auto face = model.face_state(motion);
+        if (fields->record(row, face, [&] { return recovery(dynamics.meshed, motion, number_of_levers(scene)); }))
           recorder.record(face);
       };
       record_steps(
-          scene, recorder, timer, warnings, meshed_entries(lever, body),
-          [&] { return run_transient(*lever.model, scene.drive, settings_of(scene, growing), write); },
+          scene, recorder, timer, warnings, body != nullptr ? meshed_entries(dynamics.meshed, *body) : std::vector<Entry>(),
+          [&] { return run_transient(model, scene.drive, settings_of(scene, growing), write); },
           [&]
           {
             if (fields)
@@ -206,18 +188,10 @@ namespace sprag
 
   void run_transient_scene(const Scene &scene, const RunOptions &options, Warnings &warnings)
   {
-    switch (scene.analysis.model)
-    {
-    case ModelType::closed_form:
-      return run_ideal(scene, options, warnings);
-    case ModelType::rigid:
-      return scene.contact.type == ContactType::ideal ? run_ideal(scene, options, warnings)
-                                                      : run_reduced(scene, options, warnings);
-    case ModelType::beam:
-      return run_reduced(scene, options, warnings);
-    case ModelType::condensed:
-    case ModelType::finite_element:
-      return run_meshed(scene, options, warnings);
-    }
+    const auto model = scene.analysis.model;
+    if (model == ModelType::closed_form || (model == ModelType::rigid && scene.contact.type == ContactType::ideal))
+      run_ideal(scene, options, warnings);
+    else
+      run_with_inertia(scene, options, warnings);
   }
 } // namespace sprag

@@ -6,8 +6,8 @@
 #include "run/analyses.h"
 #include "run/report.h"
 #include "run/result_writer.h"
-#include "run/row_warnings.h"
 #include "run/vibration_report.h"
+#include "run/warnings.h"
 #include "scene/held_slide.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "run/scene_warnings.h"
+#include "run/warnings.h"
 
 #include "base/text.h"
 #include "scene/closed_form.h"
@@ -174,10 +174,7 @@ namespace sprag
       std::string list;
       for (const auto &[name, counts] : dependents(scene))
         if (counts && scene.given.count(name) == 0 && !is_varied(scene, name))
-          list +=
-              (list.empty() ? "" : ", ") + name + " = " +
-              std::find_if(parameters.begin(), parameters.end(), [&name = name](const auto &p) { return full_name(p) == name; })
-                  ->default_value;
+          list += (list.empty() ? "" : ", ") + name + " = " + find_parameter(parameters, name)->default_value;
       if (list.empty())
         return;
       warnings.push_back({ "defaults_of_model_a",

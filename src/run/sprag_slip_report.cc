@@ -1,7 +1,5 @@
 #include "run/sprag_slip_report.h"
 
-#include "run/dataset.h"
-
 #include <cmath>
 #include <limits>
 

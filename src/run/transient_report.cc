@@ -8,9 +8,10 @@
 #include "run/peak_report.h"
 #include "scene/contact_reference.h"
 
+#include <boost/algorithm/string/join.hpp>
+
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace sprag
 {
@@ -56,8 +57,7 @@ namespace sprag
 
     std::string contact_text(const Scene &scene)
     {
-      const bool meshed = is_meshed(scene.analysis.model);
-      if (meshed)
+      if (is_meshed(scene.analysis.model))
         return "contact along the friction face by penalty";
       if (scene.analysis.model == ModelType::closed_form || scene.contact.type == ContactType::ideal)
         return "ideal contact, which cannot open";
@@ -139,16 +139,9 @@ namespace sprag
     part(scene.lever.tip_mass > 0. && !massless, "tip mass");
     part(!ideal && scene.friction.regularisation_speed == 0., "stick");
 
-    const auto line = [](const std::string &begin, const std::vector<std::string> &names)
-    {
-      std::string text = begin;
-      for (std::size_t i = 0; i < names.size(); ++i)
-        text += (i > 0 ? ", " : "") + names[i];
-      return text;
-    };
-    std::vector<std::string> lines = { line("Modelled:     ", with) };
+    std::vector<std::string> lines = { "Modelled:     " + boost::algorithm::join(with, ", ") };
     if (!without.empty())
-      lines.push_back(line("Not modelled: ", without));
+      lines.push_back("Not modelled: " + boost::algorithm::join(without, ", "));
     lines.push_back(scene.time.tolerance > 0. && !ideal ? "Time:         adaptive steps, first " + rounded_text(scene.time.step) +
                                                               " s, tolerance " + rounded_text(scene.time.tolerance)
                                                         : "Time:         steps of " + rounded_text(scene.time.step) + " s");
@@ -160,10 +153,9 @@ namespace sprag
     const double limit = scene.analysis.maximum_residual;
     if (limit == 0. || ledger.share() <= limit)
       return;
-    std::ostringstream message;
-    message << "the energy ledger leaves open " << ledger.share() << " of the largest work, more than Analysis/Maximum energy "
-            << "residual = " << limit << "; it opened most at t = " << ledger.time << " s, where " << ledger.term
-            << " changed most. Try a shorter Time/Step or a smaller Time/Tolerance.";
-    throw AnalysisError(message.str());
+    throw AnalysisError("the energy ledger leaves open " + rounded_text(ledger.share()) +
+                        " of the largest work, more than Analysis/Maximum energy residual = " + rounded_text(limit) +
+                        "; it opened most at t = " + rounded_text(ledger.time) + " s, where " + ledger.term +
+                        " changed most. Try a shorter Time/Step or a smaller Time/Tolerance.");
   }
 } // namespace sprag

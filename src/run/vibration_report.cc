@@ -2,7 +2,6 @@
 
 #include "base/append.h"
 #include "base/text.h"
-#include "run/dataset.h"
 
 #include <algorithm>
 #include <cctype>

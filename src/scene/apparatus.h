@@ -48,14 +48,14 @@ namespace sprag
     double room           = 150.; ///< from the pivot to the end of the pivot frame [mm]
   };
 
-  /// What a lever feels of a leaf spring besides its stiffness: from finite elements, at every fidelity.
+  /// What a lever feels of a leaf spring besides its stiffness. It is found by finite elements, for levers of every fidelity.
   struct LeafBehaviour
   {
     MomentLaw law;
     double mass    = 0.; ///< [t]
     double inertia = 0.; ///< about the pivot, of the shape it takes when the hub turns [t mm^2]
 
-    /// Of a unit rate of the hub, in the axes of the lever at rest: momentum along xi, eta [t mm].
+    /// Momentum along xi and eta, in the axes of the lever at rest, for a unit rate of the hub [t mm].
     std::array<double, 2> momentum{};
 
     /// Vibrations with the hub held, of mass 1.
@@ -75,11 +75,11 @@ namespace sprag
     LeafSpring leaf;
     LeafBehaviour behaviour; ///< filled in by with_leaf_spring(), empty for a torsional spring
 
-    /// The same where both levers of a pair swing together with a joint that is free; filled in there too.
+    /// The behaviour where both levers of a pair swing together with a joint that is free; filled in there too.
     std::optional<LeafBehaviour> swing;
   };
 
-  /// Moment over turn of the spring, whatever its type.
+  /// Returns the moment over the turn of the spring, whatever its type.
   inline MomentLaw moment_law(const RotationalSpring &spring)
   {
     return spring.behaviour.law.is_linear() ? MomentLaw(spring.stiffness) : spring.behaviour.law;

@@ -1,6 +1,5 @@
-#include "scene/apparatus_sections.h"
-
 #include "scene/section.h"
+#include "scene/sections.h"
 
 namespace sprag
 {

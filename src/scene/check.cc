@@ -1,11 +1,8 @@
-#include "scene/check.h"
+#include "scene/check_parts.h"
 
 #include "base/append.h"
 #include "base/text.h"
 #include "scene/analysis_use.h"
-#include "scene/check_penalty.h"
-#include "scene/check_plate.h"
-#include "scene/check_spring.h"
 #include "scene/closed_form.h"
 #include "scene/contact_reference.h"
 #include "scene/mirrored_pair.h"

@@ -1,4 +1,4 @@
-#include "scene/check_plate.h"
+#include "scene/check_parts.h"
 
 #include "base/append.h"
 #include "base/text.h"

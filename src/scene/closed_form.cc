@@ -54,6 +54,26 @@ namespace sprag
       const double mu    = sliding_friction(scene, point.x, point.v).coefficient;
       return contact.s - mu * scene.geometry.interface_offset;
     }
+
+    std::optional<Locking> locking_between(const Scene &scene, const double from, const double to)
+    {
+      const double search_step = 0.1;
+      const auto &drive        = scene.drive;
+      for (DrivePoint point = drive.at(from, Drive::Side::after); point.time < to;)
+      {
+        const double begin = point.time;
+        point              = drive.step(point.time, search_step);
+        if (!(point.x < drive.at(begin).x))
+          continue;
+        for (const double time : { begin, point.time })
+        {
+          const auto at = drive.at(time, time == begin ? Drive::Side::after : Drive::Side::before);
+          if (locking_margin(scene, at) <= 0.)
+            return Locking{ at.x, kinematics(scene.geometry, at.x).s, sliding_friction(scene, at.x, at.v).coefficient };
+        }
+      }
+      return {};
+    }
   } // namespace
 
   Kinematics kinematics(const Geometry &geometry, const double x)
@@ -106,40 +126,12 @@ namespace sprag
     return geometry.cylinder_radius * geometry.pivot_distance * slope_per_stiffness(geometry, coefficient, sign);
   }
 
-  double critical_inclination(const double coefficient)
-  {
-    return std::atan(coefficient);
-  }
-
   double pivot_contact(const Geometry &geometry)
   {
     const double R = geometry.cylinder_radius;
     const double h = geometry.pivot_height;
     return geometry.pivot_distance - std::sqrt(std::max(0., R * R - h * h));
   }
-
-  namespace
-  {
-    std::optional<Locking> locking_between(const Scene &scene, const double from, const double to)
-    {
-      const double search_step = 0.1;
-      const auto &drive        = scene.drive;
-      for (DrivePoint point = drive.at(from, Drive::Side::after); point.time < to;)
-      {
-        const double begin = point.time;
-        point              = drive.step(point.time, search_step);
-        if (!(point.x < drive.at(begin).x))
-          continue;
-        for (const double time : { begin, point.time })
-        {
-          const auto at = drive.at(time, time == begin ? Drive::Side::after : Drive::Side::before);
-          if (locking_margin(scene, at) <= 0.)
-            return Locking{ at.x, kinematics(scene.geometry, at.x).s, sliding_friction(scene, at.x, at.v).coefficient };
-        }
-      }
-      return {};
-    }
-  } // namespace
 
   std::optional<Locking> locking(const Scene &scene)
   {
@@ -188,15 +180,5 @@ namespace sprag
     }
     add(from, end);
     return work;
-  }
-
-  double loop_area(const Scene &scene)
-  {
-    return work_between(scene, 0., scene.drive.duration()).drive;
-  }
-
-  double friction_work(const Scene &scene)
-  {
-    return work_between(scene, 0., scene.drive.duration()).friction;
   }
 } // namespace sprag

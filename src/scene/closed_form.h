@@ -17,13 +17,13 @@ namespace sprag
     double theta_x; ///< dth/dx = sin th / s [rad/mm]
   };
 
-  /// Requires x with the contact point on the lever's side of the pivot, see pivot_contact().
+  /// Solves eqs. 8 and 9. Requires an x with the contact point on the lever's side of the pivot, see pivot_contact().
   Kinematics kinematics(const Geometry &geometry, double x);
 
-  /// Material sliding speed of the cylinder along the lever, v cos th - e dth/dt [mm/s], signed.
+  /// Returns the material sliding speed of the cylinder along the lever, v cos th - e dth/dt [mm/s], signed.
   double sliding_speed(const Geometry &geometry, double x, double v);
 
-  /// mu at x while moving at v, by the speed that the scene's law refers to.
+  /// Returns mu at x while moving at v, by the speed that the scene's law refers to.
   FrictionValue sliding_friction(const Scene &scene, double x, double v);
 
   struct ClosedFormState
@@ -36,27 +36,25 @@ namespace sprag
     double Q; ///< along x [N], eq. 6
   };
 
-  /// State at x while moving at v [mm/s]; of a zero the sign is the direction. Infinite or negative forces where
+  /// Returns the state at x while moving at v [mm/s]; of a zero the sign is the direction. Forces are infinite or negative where
   /// s + sgn(v) mu e <= 0.
   ClosedFormState closed_form(const Scene &scene, double x, double v);
 
-  /// The same of any lever, which a moment presses on the cylinder [N mm].
+  /// Returns the state of any lever, which a moment presses on the cylinder [N mm].
   ClosedFormState closed_form(const Geometry &geometry, const FrictionLaw &friction, double moment, double x, double v);
 
-  /// Representative slope C_Q = dQ/dx at x = 0 [N/mm], eqs. 10-12 (with the sign of dth/dx mended), sign = +1 or -1. NaN where
-  /// the lever locks at x = 0.
+  /// Returns the representative slope C_Q = dQ/dx at x = 0 [N/mm], eqs. 10-12 (with the sign of dth/dx mended), sign = +1 or -1.
+  /// It is NaN where the lever locks at x = 0.
   double representative_slope(const Geometry &geometry, double spring_stiffness, double coefficient, int sign);
 
-  /// C_Q R l / k, eqs. 20-22.
+  /// Returns the dimensionless slope C_Q R l / k, eqs. 20-22.
   double dimensionless_slope(const Geometry &geometry, double coefficient, int sign);
 
-  /// th0 above which the backward stroke no longer damps, atan mu [rad], eq. 25.
-  double critical_inclination(double coefficient);
-
-  /// Smallest x at which the cylinder touches the pivot: (l-x)^2 + h^2 = R^2 [mm]. Requires |h| <= R: else it never does.
+  /// Returns the smallest x at which the cylinder touches the pivot: (l-x)^2 + h^2 = R^2 [mm]. Requires |h| <= R, as it never
+  /// does otherwise.
   double pivot_contact(const Geometry &geometry);
 
-  /// Where on the drive the lever locks while moving back, s <= mu e with the scene's mu(v).
+  /// A place of the drive at which the lever locks while moving back, s <= mu e with the scene's mu(v).
   struct Locking
   {
     double x;
@@ -64,7 +62,7 @@ namespace sprag
     double mu;
   };
 
-  /// The first instant of the drive at which it does, to 0.1 mm; none if the whole drive is free of it.
+  /// Finds the first instant of the drive at which the lever locks, to 0.1 mm; none if the whole drive is free of it.
   std::optional<Locking> locking(const Scene &scene);
 
   struct Work
@@ -73,17 +71,11 @@ namespace sprag
     double friction = 0.; ///< integral of F v_rel dt [N mm]
   };
 
-  /// Work done from one instant of the drive to another, to 1e-11 where mu(v) is smooth and 1e-8 across its joints, or to the
-  /// rounding of the time over the time between them.
+  /// Integrates the work done from one instant of the drive to another, to 1e-11 where mu(v) is smooth and 1e-8 across its
+  /// joints, or to the rounding of the time over the time between them.
   Work work_between(const Scene &scene, double begin, double end);
 
-  /// The same of any lever, by its state over time.
+  /// Integrates the work of any lever by its state over time.
   Work work_between(const Drive &drive, const std::function<ClosedFormState(const DrivePoint &)> &state_at, double begin,
                     double end);
-
-  /// Integral of Q dx over the drive [N mm]; over whole cycles it equals the friction work.
-  double loop_area(const Scene &scene);
-
-  /// Integral of F v_rel dt over the drive [N mm].
-  double friction_work(const Scene &scene);
 } // namespace sprag

@@ -17,16 +17,16 @@ namespace sprag
 
   ContactReference contact_reference(const Scene &scene);
 
-  /// Density [t/mm] per length of a beam: with the scene's moment of inertia, rho A = (J - J_0) / (L^3/3 + L e_a^2), J_0 that of
-  /// tip mass, hub and leaf spring; or that of bar and layer as built.
+  /// Returns the density per length of a beam [t/mm]: with the scene's moment of inertia, rho A = (J - J_0) / (L^3/3 + L e_a^2),
+  /// J_0 that of tip mass, hub and leaf spring; or that of bar and layer as built.
   double mass_per_length(const Scene &scene);
 
-  /// J about the pivot [t mm^2] of all that turns with the hub: the scene's, or as built.
+  /// Returns J about the pivot of all that turns with the hub [t mm^2]: the scene's, or as built.
   double moment_of_inertia(const Scene &scene);
 
-  /// That of tip mass, hub and leaf spring alone.
+  /// Returns the part of J that tip mass, hub and leaf spring have alone [t mm^2].
   double added_inertia(const Scene &scene);
 
-  /// e_a [mm]: given, or that of the meshed bar.
+  /// Returns e_a [mm]: the given one, or that of the meshed bar.
   double neutral_axis_offset(const Scene &scene);
 } // namespace sprag

@@ -19,7 +19,7 @@ namespace sprag
         return harmonic_motion(start, stroke, speed, cycles);
       if (reversal_duration == 0.)
         return triangle_motion(start, stroke, speed, cycles);
-      Assert(reversal_duration > 0. && reversal_duration <= largest_reversal_duration(start, stroke, speed, cycles),
+      Assert(reversal_duration > 0. && reversal_duration <= Drive::largest_reversal_duration(start, stroke, speed, cycles),
              dealii::ExcMessage("The strokes have no room for these reversals."));
       return smooth_triangle_motion(start, stroke, speed, cycles, reversal_duration);
     }
@@ -39,11 +39,6 @@ namespace sprag
   Drive::Drive(std::vector<double> times, std::vector<double> positions)
       : motion(table_motion(times, positions))
   {
-  }
-
-  double Drive::largest_reversal_duration(const double start, const double stroke, const double speed, const double cycles)
-  {
-    return sprag::largest_reversal_duration(start, stroke, speed, cycles);
   }
 
   DriveProfile Drive::profile() const
@@ -81,6 +76,11 @@ namespace sprag
     return motion->reversals;
   }
 
+  bool Drive::turns_at(const double time) const
+  {
+    return std::binary_search(motion->reversals.begin(), motion->reversals.end(), time);
+  }
+
   const std::vector<double> &Drive::kinks() const
   {
     return motion->kinks;
@@ -89,13 +89,13 @@ namespace sprag
   DrivePoint Drive::at(const double time, const Side side) const
   {
     const double inside = std::clamp(time, 0., duration());
-    return motion->at(motion->piece(inside, side), inside, side);
+    return motion->at(interval_at(motion->times, inside, side), inside, side);
   }
 
   DrivePoint Drive::step(const double time, const double dx) const
   {
     Assert(dx > 0., dealii::ExcMessage("A step must move."));
-    const auto piece      = motion->piece(time, Side::after);
+    const auto piece      = interval_at(motion->times, time, Side::after);
     const double end      = motion->times[piece + 1];
     const double distance = std::abs(motion->positions[piece + 1] - motion->at(piece, time, Side::after).x);
     return at(distance < 1.001 * dx ? end : motion->moved_by(piece, time, dx));

@@ -28,7 +28,7 @@ namespace sprag
     double surface = 0.;
   };
 
-  /// +1 forward, -1 back.
+  /// Returns +1 for forward, -1 for back.
   inline int direction_of(const double v)
   {
     return std::signbit(v) ? -1 : 1;
@@ -40,20 +40,22 @@ namespace sprag
   class Drive
   {
   public:
-    /// Model A's: 0 .. 65 .. 0 mm at 112 mm/s.
+    /// Makes the drive of model A: 0 .. 65 .. 0 mm at 112 mm/s.
     Drive();
 
-    /// Triangle and harmonic. start, stroke [mm], speed V [mm/s] > 0, cycles > 0 (a half cycle is 0.5). Unequal start and stroke.
+    /// Makes a triangle or a harmonic motion between start and stroke [mm], which differ, at the speed V > 0 [mm/s], cycles > 0
+    /// times (0.5 is a half cycle).
     ///
     /// Reversals of a duration T [s] concern the triangle only: 0 <= T <= largest_reversal_duration(). With
     /// S(tau) = 10 tau^3 - 15 tau^4 + 6 tau^5 the velocity is V (1 - 2 S(t/T)) in a reversal, which turns at T/2, 0.34375 V T
     /// behind where it began. A drive that starts at x = 0 does so from rest with V S(t/T), any other at V. It ends at V.
     Drive(DriveProfile profile, double start, double stroke, double speed, double cycles, double reversal_duration = 0.);
 
-    /// Table: strictly increasing times from 0, at least 4 rows. Throws InputError otherwise.
+    /// Makes a motion from a table of strictly increasing times from 0, at least 4 rows. Throws InputError otherwise.
     Drive(std::vector<double> times, std::vector<double> positions);
 
-    /// The longest reversals that leave room in every stroke for the ramps before and behind it [s]; infinite without ramps.
+    /// Returns the longest reversals that leave room in every stroke for the ramps before and behind it [s]; infinite without
+    /// ramps.
     static double largest_reversal_duration(double start, double stroke, double speed, double cycles);
 
     DriveProfile profile() const;
@@ -64,19 +66,23 @@ namespace sprag
 
     double maximum() const;
 
-    /// Largest |v| [mm/s].
+    /// Returns the largest |v| [mm/s].
     double peak_speed() const;
 
-    /// 0 where reversals are instantaneous, and for harmonic motion and tables, which turn in their own way [s].
+    /// Returns how long a reversal takes [s]; 0 where reversals are instantaneous, and for harmonic motion and tables, which turn
+    /// in their own way.
     double reversal_duration() const;
 
-    /// Times strictly between 0 and duration() where the direction of motion changes, increasing. A motion back that sets in
-    /// after a rest at the beginning is one of them.
+    /// Returns the times strictly between 0 and duration() where the direction of motion changes, increasing. A motion back that
+    /// sets in after a rest at the beginning is one of them.
     const std::vector<double> &reversals() const;
 
-    /// Times strictly between 0 and duration() at which a time integration must begin a new step, increasing: the reversals, the
-    /// beginning and end of those that take time, the end of the start ramp, beginnings and ends of rests, and the samples of a
-    /// table if there are at most 2000.
+    /// Returns whether a time is one of the reversals().
+    bool turns_at(double time) const;
+
+    /// Returns the times strictly between 0 and duration() at which a time integration must begin a new step, increasing: the
+    /// reversals, the beginning and end of those that take time, the end of the start ramp, beginnings and ends of rests, and the
+    /// samples of a table if there are at most 2000.
     const std::vector<double> &kinks() const;
 
     enum class Side
@@ -85,11 +91,11 @@ namespace sprag
       after
     };
 
-    /// Position, velocity and acceleration; where v or a jump they are those just before or just after.
+    /// Returns position, velocity and acceleration; where v or a jump, those just before or just after.
     DrivePoint at(double time, Side side = Side::before) const;
 
-    /// The end of a step from `time` that moves x by at most `dx` > 0 [mm]: the first later time at which |x - x(time)| = dx,
-    /// the next reversal, the beginning or end of a rest, or the end of the drive, whichever comes first. A remainder of less
+    /// Returns the end of a step from `time` that moves x by at most `dx` > 0 [mm]: the first later time at which |x - x(time)| =
+    /// dx, the next reversal, the beginning or end of a rest, or the end of the drive, whichever comes first. A remainder of less
     /// than 1e-3 dx before a reversal or the end is taken along, so that those are hit exactly and never by a sliver of a step.
     DrivePoint step(double time, double dx) const;
 

@@ -3,7 +3,8 @@
 #include "base/text.h"
 #include "laws/friction_of_step.h"
 
-#include <algorithm>
+#include <boost/algorithm/string/join.hpp>
+
 #include <sstream>
 
 namespace sprag
@@ -13,22 +14,18 @@ namespace sprag
     /// Reduced models cost so little that islands can be looked for.
     unsigned int tried_points(const Scene &scene)
     {
-      const bool reduced = is_reduced(scene.analysis.model);
-      return reduced ? 49 : 13;
+      return is_reduced(scene.analysis.model) ? 49 : 13;
     }
 
     std::vector<ParameterRange> usual_searches(const Scene &scene)
     {
-      const unsigned int tried           = tried_points(scene);
-      std::vector<ParameterRange> result = {
-        { "Friction/Factor", 0., 3., tried },
-        { "Stability/Position", scene.drive.minimum() + 0.05 * (scene.drive.maximum() - scene.drive.minimum()),
-          scene.drive.maximum(), tried },
-      };
+      const unsigned int tried = tried_points(scene);
+      const double from = scene.drive.minimum(), to = scene.drive.maximum();
+      std::vector<ParameterRange> result = { { "Friction/Factor", 0., 3., tried },
+                                             { "Stability/Position", from + 0.05 * (to - from), to, tried } };
       if (scene.drive.profile() != DriveProfile::table)
         result.push_back({ "Drive/Speed", 1., 800., tried });
-      const ModelType model = scene.analysis.model;
-      if (model == ModelType::beam)
+      if (scene.analysis.model == ModelType::beam)
         result.push_back({ "Lever/Depth", 2., 30., tried });
       return result;
     }
@@ -36,27 +33,20 @@ namespace sprag
     std::optional<ParameterRange> range_of(const std::string &text)
     {
       // The name may hold blanks: the numbers are the last two words.
-      std::istringstream stream(text);
-      std::vector<std::string> words;
-      for (std::string word; stream >> word;)
-        words.push_back(word);
+      auto words = dealii::Utilities::split_string_list(single_spaced(text), ' ');
       if (words.size() < 3)
         return {};
-      ParameterRange range;
-      for (std::size_t i = 0; i + 2 < words.size(); ++i)
-        range.name += (i == 0 ? "" : " ") + words[i];
-      const auto number = [](const std::string &word) -> std::optional<double>
+      const auto take_number = [&]
       {
-        const auto found = leading_number(word);
-        return found && found->rest.empty() ? std::make_optional(found->value) : std::nullopt;
+        const auto number = leading_number(words.back());
+        words.pop_back();
+        return number && number->rest.empty() ? std::make_optional(number->value) : std::nullopt;
       };
-      const auto from = number(words[words.size() - 2]);
-      const auto to   = number(words.back());
+      const auto to   = take_number();
+      const auto from = take_number();
       if (!from || !to)
         return {};
-      range.from = *from;
-      range.to   = *to;
-      return range;
+      return ParameterRange{ boost::algorithm::join(words, " "), *from, *to };
     }
   } // namespace
 

@@ -7,15 +7,15 @@
 
 namespace sprag
 {
-  /// Position and velocity of the drive at the slide that a scene's stability is judged at: Stability/Position and
+  /// Returns position and velocity of the drive at the slide that a scene's stability is judged at: Stability/Position and
   /// Stability/Direction at the drive's peak speed.
   DrivePoint held_drive(const Scene &scene);
 
-  /// The scene as it is while the drive keeps its velocity: a friction that depends on the drive's speed is a constant then. With
-  /// Stability/Damping = off it has no damping.
+  /// Returns the scene as it is while the drive keeps its velocity: a friction that depends on the drive's speed is a constant
+  /// then. With Stability/Damping = off it has no damping.
   Scene held_scene(const Scene &scene);
 
-  /// The parameters of Stability/Critical with their ranges; none if it cannot be read. `points` is how many are tried before a
-  /// root is searched.
+  /// Returns the parameters of Stability/Critical with their ranges; none if it cannot be read. `points` is how many are tried
+  /// before a root is searched.
   std::optional<std::vector<ParameterRange>> critical_searches(const Scene &scene);
 } // namespace sprag

@@ -8,15 +8,15 @@ namespace sprag
 {
   // Dimensions that follow from those of the scene, in lever axes [mm].
 
-  /// The pivot's axle, which holds a lever frame: of a rigid hub.
+  /// Radius of the pivot's axle, the rigid hub that holds a lever frame.
   inline constexpr double frame_hub_radius = 5.;
 
-  /// Least metal of the root around it.
+  /// Least thickness of the metal that the root has around it.
   inline constexpr double frame_wall = 5.;
 
-  /// First and last xi that the contact of a rigid lever sweeps in the drive.
+  /// Returns the first and last xi that the contact of a rigid lever sweeps in the drive.
   std::array<double, 2> swept_contact(const Scene &scene);
 
-  /// Part of the lever or plate that carries the friction layer, first and last xi.
+  /// Returns the first and last xi of the part of lever or plate that carries the friction layer.
   std::array<double, 2> friction_face(const Scene &scene);
 } // namespace sprag

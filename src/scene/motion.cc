@@ -1,7 +1,5 @@
 #include "scene/motion.h"
 
-#include "scene/strokes.h"
-
 #include <algorithm>
 #include <cmath>
 
@@ -84,21 +82,11 @@ namespace sprag
 
   } // namespace
 
-  DriveMotion::DriveMotion(const DriveProfile kind)
-      : profile(kind)
-  {
-  }
-
   std::size_t interval_at(const std::vector<double> &bounds, const double time, const Drive::Side side)
   {
     const auto after = side == Drive::Side::before ? std::lower_bound(bounds.begin(), bounds.end(), time)
                                                    : std::upper_bound(bounds.begin(), bounds.end(), time);
     return std::clamp<std::ptrdiff_t>(after - bounds.begin(), 1, static_cast<std::ptrdiff_t>(bounds.size()) - 1) - 1;
-  }
-
-  std::size_t DriveMotion::piece(const double time, const Drive::Side side) const
-  {
-    return interval_at(times, time, side);
   }
 
   DrivePoint DriveMotion::at(const std::size_t piece, const double time, const Drive::Side side) const

@@ -12,7 +12,7 @@ namespace sprag
   // energy 2 W((phi_1 + phi_2)/2) gives M_1 = M_2 = M((phi_1 + phi_2)/2). A lever that would have to be pulled to the cylinder
   // does not reach it: held it rests; free neither reaches, and both stay as far from it as they share what is missing.
 
-  /// Inclinations at x, without and with contact [rad].
+  /// Returns the inclinations of both levers at x, with or without contact [rad].
   std::array<double, 2> pair_inclinations(const Scene &scene, double x);
 
   struct PairedLever
@@ -22,10 +22,10 @@ namespace sprag
     double spring_energy = 0.;   ///< its share [N mm]
   };
 
-  /// Both levers at x while the cylinder moves at v; of a zero the sign is the direction. Forces are infinite or negative as in
-  /// closed_form().
+  /// Returns both levers at x while the cylinder moves at v; of a zero the sign is the direction. Forces are infinite or negative
+  /// as in closed_form().
   std::array<PairedLever, 2> pair_closed_form(const Scene &scene, double x, double v);
 
-  /// Work on each lever from one instant of the drive to another, as accurate as that of a single one.
+  /// Integrates the work on each lever from one instant of the drive to another, as accurate as that of a single one.
   std::array<Work, 2> pair_work_between(const Scene &scene, double begin, double end);
 } // namespace sprag

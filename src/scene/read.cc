@@ -48,274 +48,240 @@ namespace sprag
     class SceneReader
     {
     public:
-      explicit SceneReader(const std::function<Settings(const std::vector<Parameter> &)> &read);
+      explicit SceneReader(const std::function<Settings(const std::vector<Parameter> &)> &read)
+          : parameters(scene_parameters(input))
+          , settings(read(parameters))
+      {
+      }
 
-      Scene scene();
+      Scene scene()
+      {
+        store();
+        make_drive();
+        make_friction();
+        check_unused();
+        check();
+        check_ranges();
+        if (!settings.mistakes.empty())
+          throw InputError(settings.mistakes);
+        input.scene.name       = std::filesystem::path(settings.file).stem().string();
+        input.scene.parameters = std::make_shared<const ParameterValues>(values());
+        for (const auto &[name, setting] : settings.given)
+          input.scene.given.insert(name);
+        return input.scene;
+      }
 
     private:
       SceneSettings input;
       std::vector<Parameter> parameters;
       Settings settings;
 
-      ParameterValues values() const;
-      void store();
-      void make_time_tolerance();
-      void make_drive();
-      void make_friction();
-      void check();
-      void check_ranges();
-      void check_range(const std::string &parameter, const ParameterRange &range);
-      void check_unused();
-      const Parameter &declared(const std::string &name) const;
-      bool counts(const Parameter &parameter) const;
-      double reversal_duration();
-      void use_table(const std::string &parameter, const std::string &file, const ColumnNames &names,
-                     const std::function<void(const TwoColumns &)> &use);
-      void resolve(const std::string &parameter, std::string &path);
-      void report(const std::string &parameter, const std::string &rule);
-      bool doubtful(const std::string &parameter) const;
-    };
-
-    SceneReader::SceneReader(const std::function<Settings(const std::vector<Parameter> &)> &read)
-        : parameters(scene_parameters(input))
-        , settings(read(parameters))
-    {
-    }
-
-    Scene SceneReader::scene()
-    {
-      store();
-      make_drive();
-      make_friction();
-      check_unused();
-      check();
-      check_ranges();
-      if (!settings.mistakes.empty())
-        throw InputError(settings.mistakes);
-      input.scene.name       = std::filesystem::path(settings.file).stem().string();
-      input.scene.parameters = std::make_shared<const ParameterValues>(values());
-      for (const auto &[name, setting] : settings.given)
-        input.scene.given.insert(name);
-      return input.scene;
-    }
-
-    ParameterValues SceneReader::values() const
-    {
-      ParameterValues result;
-      for (const auto &parameter : parameters)
-        result.emplace(full_name(parameter), parameter.default_value);
-      for (const auto &[name, setting] : settings.given)
-        result[name] = setting.value;
-      return result;
-    }
-
-    void SceneReader::store()
-    {
-      for (const auto &parameter : parameters)
-        if (const auto given = settings.given.find(full_name(parameter)); given != settings.given.end())
-          parameter.store(given->second.value);
-      input.scene.slope.maximum_inclination = input.maximum_inclination * M_PI / 180.;
-      resolve("Drive/Table", input.drive.table);
-      resolve("Friction/Table", input.friction.table);
-      resolve("Mesh/File", input.scene.mesh.file);
-      resolve("Condensed/Cache", input.scene.condensed.cache);
-      make_time_tolerance();
-      const auto type            = input.scene.analysis.type;
-      const bool is_driven       = type == AnalysisType::quasi_static || type == AnalysisType::transient;
-      input.scene.mesh.face_size = input.face_size.value_or(is_driven ? driven_face_size : input.scene.mesh.face_size);
-    }
-
-    /// The printed parameters give a step, so that they must give the tolerance too.
-    void SceneReader::make_time_tolerance()
-    {
-      const double by_step                 = settings.given.count("Time/Step") > 0 ? 0. : input.scene.time.tolerance;
-      input.scene.time.tolerance           = input.time_tolerance.value_or(by_step);
-      settings.given[time_tolerance].value = number_text(input.scene.time.tolerance);
-    }
-
-    /// The printed parameters hold absolute paths, so that they can be read back from anywhere.
-    void SceneReader::resolve(const std::string &parameter, std::string &path)
-    {
-      if (path.empty())
-        return;
-      const auto folder                  = std::filesystem::absolute(settings.file).parent_path();
-      path                               = (folder / path).lexically_normal().string();
-      settings.given.at(parameter).value = path;
-    }
-
-    void SceneReader::make_drive()
-    {
-      const DriveSettings &drive = input.drive;
-      if (drive.profile == DriveProfile::table)
-        return use_table("Drive/Table", drive.table, { "time", "x" },
-                         [this](const auto &table) { input.scene.drive = Drive(table.first, table.second); });
-      if (drive.stroke > drive.start)
-        input.scene.drive = Drive(drive.profile, drive.start, drive.stroke, drive.speed, drive.cycles, reversal_duration());
-      else if (!doubtful("Drive/Stroke") && !doubtful("Drive/Start"))
-        report("Drive/Stroke", "must be more than Start = " + mm(drive.start));
-    }
-
-    /// 0 wherever it does not count or does not fit.
-    double SceneReader::reversal_duration()
-    {
-      const DriveSettings &drive = input.drive;
-      if (input.scene.analysis.type != AnalysisType::transient || drive.profile != DriveProfile::triangle)
-        return 0.;
-      const double largest = Drive::largest_reversal_duration(drive.start, drive.stroke, drive.speed, drive.cycles);
-      if (drive.reversal <= largest)
-        return drive.reversal;
-      const std::vector<std::string> others = { "Analysis/Type", "Drive/Profile", "Drive/Start",
-                                                "Drive/Stroke",  "Drive/Speed",   "Drive/Cycles" };
-      if (std::none_of(others.begin(), others.end(), [this](const auto &name) { return doubtful(name); }))
-        report("Drive/Reversal duration",
-               "must be at most " + rounded_down_text(largest) + " s, or the ramps of speed do not fit into the shortest stroke");
-      return 0.;
-    }
-
-    void SceneReader::make_friction()
-    {
-      const FrictionSettings &friction = input.friction;
-      FrictionLaw &law                 = input.scene.friction;
-      law.speed                        = friction.speed;
-      law.factor                       = friction.factor;
-      law.regularisation_speed         = friction.regularisation_speed;
-      switch (friction.law)
+      ParameterValues values() const
       {
-      case FrictionChoice::coulomb:
-        law.law = friction.coulomb;
-        break;
-      case FrictionChoice::cork_on_aluminium:
-        law.law = CorkOnAluminium{};
-        break;
-      case FrictionChoice::stribeck:
-        law.law = friction.stribeck;
-        break;
-      case FrictionChoice::table:
-        use_table("Friction/Table", friction.table, { "speed", "mu" },
-                  [&law](const auto &table) { law.law = TabulatedFriction(table.first, table.second); });
-        break;
+        ParameterValues result;
+        for (const auto &parameter : parameters)
+          result.emplace(full_name(parameter), parameter.default_value);
+        for (const auto &[name, setting] : settings.given)
+          result[name] = setting.value;
+        return result;
       }
-    }
 
-    void SceneReader::use_table(const std::string &parameter, const std::string &file, const ColumnNames &names,
-                                const std::function<void(const TwoColumns &)> &use)
-    {
-      if (file.empty())
-        return report(parameter, "must name a file");
-      try
+      void store()
       {
-        const auto table = read_table(file, names);
-        if (exchanged_columns(table.header, words_for(names.first), words_for(names.second)))
-          return report(parameter, "the header '" + table.header + "' has the columns exchanged: " + names.first +
-                                       " must be the first, " + names.second + " the second");
-        use(table);
+        for (const auto &parameter : parameters)
+          if (const auto given = settings.given.find(full_name(parameter)); given != settings.given.end())
+            parameter.store(given->second.value);
+        input.scene.slope.maximum_inclination = input.maximum_inclination * M_PI / 180.;
+        resolve("Drive/Table", input.drive.table);
+        resolve("Friction/Table", input.friction.table);
+        resolve("Mesh/File", input.scene.mesh.file);
+        resolve("Condensed/Cache", input.scene.condensed.cache);
+        make_time_tolerance();
+        const auto type            = input.scene.analysis.type;
+        const bool is_driven       = type == AnalysisType::quasi_static || type == AnalysisType::transient;
+        input.scene.mesh.face_size = input.face_size.value_or(is_driven ? driven_face_size : input.scene.mesh.face_size);
       }
-      catch (const InputError &error)
-      {
-        for (const auto &message : error.messages)
-          report(parameter, message);
-      }
-    }
 
-    void SceneReader::check_ranges()
-    {
-      const Scene &scene = input.scene;
-      if (doubtful("Analysis/Type"))
-        return;
-      if (scene.analysis.type == AnalysisType::map)
+      /// The printed parameters give a step, so that they must give the tolerance too.
+      void make_time_tolerance()
       {
-        check_range("Map/First parameter", scene.map.first);
-        check_range("Map/Second parameter", scene.map.second);
-        if (scene.map.first.name == scene.map.second.name)
-          report("Map/Second parameter", "must be another than First parameter");
+        const double by_step                 = settings.given.count("Time/Step") > 0 ? 0. : input.scene.time.tolerance;
+        input.scene.time.tolerance           = input.time_tolerance.value_or(by_step);
+        settings.given[time_tolerance].value = number_text(input.scene.time.tolerance);
       }
-      if (scene.analysis.type != AnalysisType::stability)
-        return;
-      if (const auto searches = critical_searches(scene))
-        for (const auto &range : *searches)
-          check_range("Stability/Critical", range);
-      else
-        report("Stability/Critical", "must be auto, none or a list of SECTION/NAME FROM TO separated by semicolons");
-    }
 
-    /// The parameter must be one of a number, and both ends keep its rule.
-    void SceneReader::check_range(const std::string &parameter, const ParameterRange &range)
-    {
-      const auto numeric = [](const Parameter &p)
-      { return p.rule.kind == Rule::Kind::number || p.rule.kind == Rule::Kind::number_or_auto; };
-      std::vector<std::string> names;
-      const Parameter *meant = nullptr;
-      for (const auto &candidate : parameters)
-        if (numeric(candidate))
+      void make_drive()
+      {
+        const DriveSettings &drive = input.drive;
+        if (drive.profile == DriveProfile::table)
+          return use_table("Drive/Table", drive.table, { "time", "x" },
+                           [this](const auto &table) { input.scene.drive = Drive(table.first, table.second); });
+        if (drive.stroke > drive.start)
+          input.scene.drive = Drive(drive.profile, drive.start, drive.stroke, drive.speed, drive.cycles, reversal_duration());
+        else if (!doubtful("Drive/Stroke") && !doubtful("Drive/Start"))
+          report("Drive/Stroke", "must be more than Start = " + mm(drive.start));
+      }
+
+      void make_friction()
+      {
+        const FrictionSettings &friction = input.friction;
+        FrictionLaw &law                 = input.scene.friction;
+        law.speed                        = friction.speed;
+        law.factor                       = friction.factor;
+        law.regularisation_speed         = friction.regularisation_speed;
+        if (friction.law == FrictionChoice::coulomb)
+          law.law = friction.coulomb;
+        else if (friction.law == FrictionChoice::cork_on_aluminium)
+          law.law = CorkOnAluminium{};
+        else if (friction.law == FrictionChoice::stribeck)
+          law.law = friction.stribeck;
+        else
+          use_table("Friction/Table", friction.table, { "speed", "mu" },
+                    [&law](const auto &table) { law.law = TabulatedFriction(table.first, table.second); });
+      }
+
+      void check()
+      {
+        for (const auto &violation : violations(input.scene))
         {
-          names.push_back(full_name(candidate));
-          if (names.back() == range.name)
-            meant = &candidate;
+          const auto known = [this](const auto &name) { return !doubtful(name); };
+          if (known(violation.parameter) && std::all_of(violation.others.begin(), violation.others.end(), known))
+            report(violation.parameter, violation.rule);
         }
-      if (meant == nullptr)
-        return report(parameter, range.name + " is no parameter with a number" + did_you_mean(nearest(range.name, names)));
-      if (!counts(*meant))
-        return report(parameter, range.name + " counts only with " + meant->choice + " = " + meant->chosen +
-                                     (meant->section == "Friction" ? "; Friction/Factor multiplies any law" : ""));
-      for (const double value : { range.from, range.to })
-        if (const auto broken = violation(meant->rule, number_text(value)))
-          return report(parameter, range.name + " = " + number_text(value) + " " + *broken);
-      if (range.from == range.to)
-        report(parameter, range.name + " must have a range, not " + number_text(range.from) + " alone");
-    }
-
-    const Parameter &SceneReader::declared(const std::string &name) const
-    {
-      return *std::find_if(parameters.begin(), parameters.end(),
-                           [&](const auto &candidate) { return full_name(candidate) == name; });
-    }
-
-    bool SceneReader::counts(const Parameter &parameter) const
-    {
-      if (parameter.choice.empty() || doubtful(parameter.choice))
-        return true;
-      const auto chosen = settings.given.find(parameter.choice);
-      return (chosen != settings.given.end() ? chosen->second.value : declared(parameter.choice).default_value) ==
-             parameter.chosen;
-    }
-
-    /// A default beside a choice given in the same place passes: so do the printed parameters.
-    void SceneReader::check_unused()
-    {
-      for (const auto &parameter : parameters)
-      {
-        const auto name  = full_name(parameter);
-        const auto given = settings.given.find(name);
-        if (counts(parameter) || given == settings.given.end() || given->second.value.empty() || doubtful(name))
-          continue;
-        const auto chosen         = settings.given.find(parameter.choice);
-        const auto by_option      = [](const Setting &setting) { return setting.place == "--set"; };
-        const bool chosen_as_well = chosen != settings.given.end() && (by_option(chosen->second) || !by_option(given->second));
-        if (given->second.value != parameter.default_value || !chosen_as_well)
-          report(name, "counts only with " + parameter.choice + " = " + parameter.chosen);
       }
-    }
 
-    void SceneReader::check()
-    {
-      for (const auto &violation : violations(input.scene))
+      void check_ranges()
       {
-        const auto known = [this](const auto &name) { return !doubtful(name); };
-        if (known(violation.parameter) && std::all_of(violation.others.begin(), violation.others.end(), known))
-          report(violation.parameter, violation.rule);
+        const Scene &scene = input.scene;
+        if (doubtful("Analysis/Type"))
+          return;
+        if (scene.analysis.type == AnalysisType::map)
+        {
+          check_range("Map/First parameter", scene.map.first);
+          check_range("Map/Second parameter", scene.map.second);
+          if (scene.map.first.name == scene.map.second.name)
+            report("Map/Second parameter", "must be another than First parameter");
+        }
+        if (scene.analysis.type != AnalysisType::stability)
+          return;
+        if (const auto searches = critical_searches(scene))
+          for (const auto &range : *searches)
+            check_range("Stability/Critical", range);
+        else
+          report("Stability/Critical", "must be auto, none or a list of SECTION/NAME FROM TO separated by semicolons");
       }
-    }
 
-    void SceneReader::report(const std::string &parameter, const std::string &rule)
-    {
-      add_mistake(settings, parameters, parameter, rule);
-      settings.doubtful.insert(parameter);
-    }
+      /// The parameter must be one of a number, and both ends keep its rule.
+      void check_range(const std::string &parameter, const ParameterRange &range)
+      {
+        const auto numeric = [](const Parameter &p)
+        { return p.rule.kind == Rule::Kind::number || p.rule.kind == Rule::Kind::number_or_auto; };
+        std::vector<std::string> names;
+        const Parameter *meant = nullptr;
+        for (const auto &candidate : parameters)
+          if (numeric(candidate))
+          {
+            names.push_back(full_name(candidate));
+            if (names.back() == range.name)
+              meant = &candidate;
+          }
+        if (meant == nullptr)
+          return report(parameter, range.name + " is no parameter with a number" + did_you_mean(nearest(range.name, names)));
+        if (!counts(*meant))
+          return report(parameter, range.name + " counts only with " + meant->choice + " = " + meant->chosen +
+                                       (meant->section == "Friction" ? "; Friction/Factor multiplies any law" : ""));
+        for (const double value : { range.from, range.to })
+          if (const auto broken = violation(meant->rule, number_text(value)))
+            return report(parameter, range.name + " = " + number_text(value) + " " + *broken);
+        if (range.from == range.to)
+          report(parameter, range.name + " must have a range, not " + number_text(range.from) + " alone");
+      }
 
-    bool SceneReader::doubtful(const std::string &parameter) const
-    {
-      return settings.doubtful.count(parameter) > 0;
-    }
+      /// A default beside a choice given in the same place passes: so do the printed parameters.
+      void check_unused()
+      {
+        for (const auto &parameter : parameters)
+        {
+          const auto name  = full_name(parameter);
+          const auto given = settings.given.find(name);
+          if (counts(parameter) || given == settings.given.end() || given->second.value.empty() || doubtful(name))
+            continue;
+          const auto chosen         = settings.given.find(parameter.choice);
+          const auto by_option      = [](const Setting &setting) { return setting.place == "--set"; };
+          const bool chosen_as_well = chosen != settings.given.end() && (by_option(chosen->second) || !by_option(given->second));
+          if (given->second.value != parameter.default_value || !chosen_as_well)
+            report(name, "counts only with " + parameter.choice + " = " + parameter.chosen);
+        }
+      }
+
+      bool counts(const Parameter &parameter) const
+      {
+        if (parameter.choice.empty() || doubtful(parameter.choice))
+          return true;
+        const auto chosen = settings.given.find(parameter.choice);
+        const auto &value =
+            chosen != settings.given.end() ? chosen->second.value : find_parameter(parameters, parameter.choice)->default_value;
+        return value == parameter.chosen;
+      }
+
+      /// 0 wherever it does not count or does not fit.
+      double reversal_duration()
+      {
+        const DriveSettings &drive = input.drive;
+        if (input.scene.analysis.type != AnalysisType::transient || drive.profile != DriveProfile::triangle)
+          return 0.;
+        const double largest = Drive::largest_reversal_duration(drive.start, drive.stroke, drive.speed, drive.cycles);
+        if (drive.reversal <= largest)
+          return drive.reversal;
+        const std::vector<std::string> others = { "Analysis/Type", "Drive/Profile", "Drive/Start",
+                                                  "Drive/Stroke",  "Drive/Speed",   "Drive/Cycles" };
+        if (std::none_of(others.begin(), others.end(), [this](const auto &name) { return doubtful(name); }))
+          report("Drive/Reversal duration", "must be at most " + rounded_down_text(largest) +
+                                                " s, or the ramps of speed do not fit into the shortest stroke");
+        return 0.;
+      }
+
+      void use_table(const std::string &parameter, const std::string &file, const ColumnNames &names,
+                     const std::function<void(const TwoColumns &)> &use)
+      {
+        if (file.empty())
+          return report(parameter, "must name a file");
+        try
+        {
+          const auto table = read_table(file, names);
+          if (exchanged_columns(table.header, words_for(names.first), words_for(names.second)))
+            return report(parameter, "the header '" + table.header + "' has the columns exchanged: " + names.first +
+                                         " must be the first, " + names.second + " the second");
+          use(table);
+        }
+        catch (const InputError &error)
+        {
+          for (const auto &message : error.messages)
+            report(parameter, message);
+        }
+      }
+
+      /// The printed parameters hold absolute paths, so that they can be read back from anywhere.
+      void resolve(const std::string &parameter, std::string &path)
+      {
+        if (path.empty())
+          return;
+        const auto folder                  = std::filesystem::absolute(settings.file).parent_path();
+        path                               = (folder / path).lexically_normal().string();
+        settings.given.at(parameter).value = path;
+      }
+
+      void report(const std::string &parameter, const std::string &rule)
+      {
+        add_mistake(settings, parameters, parameter, rule);
+        settings.doubtful.insert(parameter);
+      }
+
+      bool doubtful(const std::string &parameter) const
+      {
+        return settings.doubtful.count(parameter) > 0;
+      }
+    };
   } // namespace
 
   Scene read_scene(const std::string &file, const std::vector<std::string> &overrides)

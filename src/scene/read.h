@@ -12,15 +12,15 @@ namespace sprag
   /// default is at fault and "--set" for an override.
   Scene read_scene(const std::string &file, const std::vector<std::string> &overrides = {});
 
-  /// The scene with some parameters changed, each "Section/Name=value". Throws InputError as read_scene() does.
+  /// Returns the scene with some parameters changed, each "Section/Name=value". Throws InputError as read_scene() does.
   Scene variant(const Scene &scene, const std::vector<std::string> &overrides);
 
-  /// The same with a number given to a parameter.
+  /// Returns the text "Section/Name=value" for a number.
   std::string override_text(const std::string &parameter, double value);
 
-  /// Every parameter as it was read with its documentation, in .prm form; empty for a scene that was not read.
+  /// Writes every parameter as it was read with its documentation, in .prm form; empty for a scene that was not read.
   std::string parameters_text(const Scene &scene);
 
-  /// Every parameter with its default and documentation, in .prm form.
+  /// Writes every parameter with its default and documentation, in .prm form.
   std::string default_parameters_text();
 } // namespace sprag

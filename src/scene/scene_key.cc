@@ -4,30 +4,10 @@
 #include "base/text.h"
 #include "scene/sections.h"
 
-#include <set>
-
 namespace sprag
 {
   namespace
   {
-    std::set<std::string> spared_names()
-    {
-      std::set<std::string> names;
-      for (const auto &spared : spared_parameters())
-        names.insert(spared.parameters.begin(), spared.parameters.end());
-      return names;
-    }
-
-    /// All parameters of these sections, and some more.
-    std::vector<std::string> all_of(const std::set<std::string> &sections, std::vector<std::string> more = {})
-    {
-      SceneSettings settings;
-      for (const auto &parameter : scene_parameters(settings))
-        if (sections.count(parameter.section) == 1)
-          more.push_back(full_name(parameter));
-      return more;
-    }
-
     std::string value_as_read(const std::string &name, const Scene &scene)
     {
       if (!scene.parameters)
@@ -47,15 +27,17 @@ namespace sprag
       return file.empty() ? file : content_fingerprint(file);
     }
 
-    std::string key_without(const Scene &scene, const std::set<std::string> &spared)
+    /// All parameters but those that `is_spared` says.
+    template <class Spared>
+    std::string key_without(const Scene &scene, const Spared &is_spared)
     {
       SceneSettings settings;
       settings.scene     = scene;
       settings.face_size = scene.mesh.face_size;
       std::string key;
       for (const auto &parameter : scene_parameters(settings))
-        if (const auto name = full_name(parameter); spared.count(name) == 0)
-          key += name + " = " + value_of(parameter, scene) + '\n';
+        if (!is_spared(parameter))
+          key += full_name(parameter) + " = " + value_of(parameter, scene) + '\n';
       return key;
     }
 
@@ -78,13 +60,14 @@ namespace sprag
 
   std::string scene_key(const Scene &scene)
   {
-    return key_without(scene, {});
+    return key_without(scene, [](const Parameter &) { return false; });
   }
 
   std::string body_key(const Scene &scene)
   {
-    static const auto spared = spared_names();
-    std::string key          = key_without(scene, spared);
+    const auto is_spared = [](const Parameter &parameter)
+    { return spared_sections().count(parameter.section) > 0 || spared_parameters().count(full_name(parameter)) > 0; };
+    std::string key = key_without(scene, is_spared);
     key += "drive";
     add_number(scene.drive.minimum(), key);
     add_number(scene.drive.maximum(), key);
@@ -95,26 +78,33 @@ namespace sprag
     return key;
   }
 
-  const std::vector<Spared> &spared_parameters()
+  const std::set<std::string> &spared_sections()
   {
-    static const std::vector<Spared> all = {
-      { "what is done with a lever, not what it is",
-        { "Analysis/Type", "Analysis/Solution", "Analysis/Step", "Analysis/Minimum step", "Analysis/Maximum deviation",
-          "Analysis/Maximum energy residual" } },
-      { "the drive counts by its ends, which belong to the key", { "Drive/Speed", "Drive/Cycles", "Drive/Reversal duration" } },
-      { "friction acts on the face", all_of({ "Friction" }, { "Mirrored pair/Friction ratio" }) },
-      { "of rigid and beam alone", { "Lever/Neutral axis offset", "Contact/Type", "Contact/Stiffness", "Contact/Exponent" } },
-      { "damping is added to mass and stiffness",
-        { "Lever/Modal damping", "Lever/Mass damping", "Lever/Stiffness damping", "Contact/Damping" } },
-      { "the contact's springs join the lever later",
-        { "Contact/Enforcement", "Contact/Penalty", "Contact/Tangential penalty", "Contact/Penetration tolerance",
-          "Contact/Maximum augmentations", "Contact/Tangential stiffness" } },
-      { "so does the support", { "Support/Type", "Support/Mass", "Support/Stiffness", "Support/Damping" } },
-      { "the cylinder's path meets the lever later", { "Mirrored pair/Cylinder offset" } },
-      { "steps in time", { "Time/Step", "Time/Tolerance", "Time/Spectral radius" } },
-      { "where bases are kept", { "Condensed/Cache" } },
-      { "what is written", { "Output/Fields", "Output/Field interval" } },
-      { "which slide is judged and what else is tried", all_of({ "Stability", "Map", "Sprag slip" }) },
+    // Friction acts on the face, and the others say which slide is judged and what else is tried.
+    static const std::set<std::string> all = { "Friction", "Stability", "Map", "Sprag slip" };
+    return all;
+  }
+
+  const std::set<std::string> &spared_parameters()
+  {
+    static const std::set<std::string> all = {
+      // What is done with a lever, not what it is.
+      "Analysis/Type", "Analysis/Solution", "Analysis/Step", "Analysis/Minimum step", "Analysis/Maximum deviation",
+      "Analysis/Maximum energy residual",
+      // The drive counts by its ends, which belong to the key.
+      "Drive/Speed", "Drive/Cycles", "Drive/Reversal duration",
+      // Of rigid and beam alone.
+      "Lever/Neutral axis offset", "Contact/Type", "Contact/Stiffness", "Contact/Exponent",
+      // Damping is added to mass and stiffness.
+      "Lever/Modal damping", "Lever/Mass damping", "Lever/Stiffness damping", "Contact/Damping",
+      // The contact's springs join the lever later.
+      "Contact/Enforcement", "Contact/Penalty", "Contact/Tangential penalty", "Contact/Penetration tolerance",
+      "Contact/Maximum augmentations", "Contact/Tangential stiffness",
+      // So do the support, the cylinder's path and the friction of a second lever.
+      "Support/Type", "Support/Mass", "Support/Stiffness", "Support/Damping", "Mirrored pair/Cylinder offset",
+      "Mirrored pair/Friction ratio",
+      // Steps in time, where bases are kept, what is written.
+      "Time/Step", "Time/Tolerance", "Time/Spectral radius", "Condensed/Cache", "Output/Fields", "Output/Field interval"
     };
     return all;
   }

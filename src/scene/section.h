@@ -20,7 +20,7 @@ namespace sprag
     {
     }
 
-    /// For parameters that count only with a choice in this section.
+    /// Returns the section for parameters that count only with a choice in it.
     Section only_with(const std::string &entry, const std::string &word) const
     {
       Section result       = *this;
@@ -36,7 +36,7 @@ namespace sprag
           [&value](const auto &text) { value = leading_number(text)->value; });
     }
 
-    /// A number > 0 in mm.
+    /// Adds a number > 0 in mm.
     void length(const std::string &entry, double &value, const std::string &meaning)
     {
       number(entry, value, above(0.), "mm", meaning);
@@ -66,14 +66,9 @@ namespace sprag
           [&values](const auto &list) { values = list_of_numbers(list); });
     }
 
-    void text(const std::string &entry, std::string &value, const std::string &meaning)
+    void text(const std::string &entry, std::string &value, const std::string &meaning, const Rule::Kind kind = Rule::Kind::text)
     {
-      add(entry, value, {}, meaning, [&value](const auto &given) { value = given; });
-    }
-
-    void file(const std::string &entry, std::string &value, const std::string &meaning)
-    {
-      add(entry, value, { Rule::Kind::file, {}, "", {} }, meaning, [&value](const auto &given) { value = given; });
+      add(entry, value, { kind, {}, "", {} }, meaning, [&value](const auto &given) { value = given; });
     }
 
     template <typename T>
@@ -100,7 +95,7 @@ namespace sprag
     }
   };
 
-  /// Constants of an elastic part; `of` says which.
+  /// Adds the constants of an elastic part; `of` says of which.
   template <class Part>
   void add_material(Section &section, Part &part, const std::string &of = {})
   {

@@ -1,6 +1,5 @@
 #include "scene/sections.h"
 
-#include "scene/apparatus_sections.h"
 #include "scene/section.h"
 
 namespace sprag
@@ -71,7 +70,8 @@ namespace sprag
       section.number("Reversal duration", settings.reversal, at_least(0.), "s",
                      "T, transient triangle only: from Speed to the opposite Speed, and from rest to Speed where Start = 0");
       section.only_with("Profile", "table")
-          .file("Table", settings.table, "File with the columns time [s] and x [mm], relative to the folder of this one");
+          .text("Table", settings.table, "File with the columns time [s] and x [mm], relative to the folder of this one",
+                Rule::Kind::file);
     }
 
     void friction(Section section, FrictionSettings &settings)
@@ -93,7 +93,8 @@ namespace sprag
                       "delta: 1 steepest at rest, 2 level there");
       stribeck.number("Viscous coefficient", settings.stribeck.viscous, at_least(0.), "s/mm", "c, growth of mu with speed");
       section.only_with("Law", "table")
-          .file("Table", settings.table, "File with the columns speed [mm/s] and mu [-], relative to the folder of this one");
+          .text("Table", settings.table, "File with the columns speed [mm/s] and mu [-], relative to the folder of this one",
+                Rule::Kind::file);
       section.choice("Speed", settings.speed, { { "sliding", FrictionSpeed::sliding }, { "drive", FrictionSpeed::drive } },
                      "Speed that mu depends on: of sliding, or the drive's (the paper's choice)");
       section.number("Factor", settings.factor, at_least(0.), "", "Times mu of whichever law");
@@ -198,8 +199,8 @@ namespace sprag
           "Face size", face_size, above(0.), "mm",
           "Element length along the friction face; auto: 0.25 where Analysis/Type is quasi-static or transient, else 0.5");
       section.integer("Degree", settings.degree, { 1., 2. }, "Of the polynomials");
-      section.file("File", settings.file,
-                   "A .geo or .msh file instead of the built-in lever, relative to the folder of this one");
+      section.text("File", settings.file, "A .geo or .msh file instead of the built-in lever, relative to the folder of this one",
+                   Rule::Kind::file);
     }
 
     void output(Section section, OutputSettings &settings)

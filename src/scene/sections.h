@@ -9,7 +9,7 @@
 
 namespace sprag
 {
-  /// Drive as given in text.
+  /// The drive as a parameter file gives it.
   struct DriveSettings
   {
     DriveProfile profile = DriveProfile::triangle;
@@ -29,7 +29,7 @@ namespace sprag
     table
   };
 
-  /// Friction as given in text.
+  /// Friction as a parameter file gives it.
   struct FrictionSettings
   {
     FrictionChoice law = FrictionChoice::cork_on_aluminium;
@@ -52,7 +52,10 @@ namespace sprag
     std::optional<double> face_size;      ///< none: by the analysis
   };
 
-  /// Every parameter of a scene file. Defaults are the present values in `settings`, where `store` writes to; `settings` must
-  /// outlive the result.
+  /// Lists every parameter of a scene file. Defaults are the present values in `settings`, where Parameter::store writes to;
+  /// `settings` must outlive the result.
   std::vector<Parameter> scene_parameters(SceneSettings &settings);
+
+  /// Adds those of the parts of the apparatus: spring, lever frame, friction plate, cylinder, pair and what is calibrated.
+  void add_apparatus_parameters(Scene &scene, std::vector<Parameter> &all);
 } // namespace sprag

@@ -1,5 +1,4 @@
 #include "scene/motion.h"
-#include "scene/strokes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -29,10 +28,30 @@ namespace sprag
     class SmoothTriangle : public DriveMotion
     {
     public:
-      SmoothTriangle(const std::vector<Stroke> &strokes, double speed, double duration);
+      SmoothTriangle(const std::vector<Stroke> &strokes, const double speed, const double duration)
+          : DriveMotion(DriveProfile::triangle)
+      {
+        peak_speed        = speed;
+        reversal_duration = duration;
+        times.push_back(0.);
+        positions.push_back(strokes.front().from);
+        for (std::size_t i = 0; i < strokes.size(); ++i)
+          add_stroke(strokes[i], i == 0, i + 1 == strokes.size());
+        find_reversals();
+      }
 
     protected:
-      DrivePoint point(std::size_t piece, double time, Drive::Side side) const override;
+      DrivePoint point(std::size_t, const double time, Drive::Side) const override
+      {
+        const auto later   = std::upper_bound(phases.begin(), phases.end(), time,
+                                              [](const double value, const Phase &phase) { return value < phase.begin; });
+        const Phase &phase = later == phases.begin() ? *later : *(later - 1);
+        if (phase.kind == Kind::start)
+          return start(phase, time);
+        if (phase.kind == Kind::reversal)
+          return reversal(phase, time);
+        return { time, phase.x + phase.v * (time - phase.time), phase.v, 0. };
+      }
 
     private:
       enum class Kind
@@ -53,95 +72,61 @@ namespace sprag
 
       std::vector<Phase> phases;
 
-      void add(const Phase &phase);
-      void add_stroke(const Stroke &stroke, bool first, bool last);
-      DrivePoint start(const Phase &phase, double time) const;
-      DrivePoint reversal(const Phase &phase, double time) const;
+      void add(const Phase &phase)
+      {
+        if (phase.begin > 0.)
+          kinks.push_back(phase.begin);
+        phases.push_back(phase);
+      }
+
+      void add_stroke(const Stroke &stroke, const bool first, const bool last)
+      {
+        const bool from_rest      = first && begins_at_rest(stroke.from);
+        const double distance     = peak_speed * reversal_duration;
+        const double way          = (stroke.to - stroke.from) * stroke.part;
+        const double v            = std::copysign(peak_speed, way);
+        const double steady       = (std::abs(way) - ramp_distance(from_rest, first, last) * distance) / peak_speed;
+        const double ramp_before  = first ? (from_rest ? reversal_duration : 0.) : reversal_duration / 2.;
+        const double steady_begin = times.back() + ramp_before;
+        const double end          = steady_begin + std::max(0., steady) + (last ? 0. : reversal_duration / 2.);
+
+        if (from_rest)
+          add({ Kind::start, 0., 0., stroke.from, v });
+        // A sliver would be a step of its own.
+        if (steady > 1e-9 * reversal_duration)
+          add({ Kind::steady, steady_begin, steady_begin,
+                stroke.from + std::copysign(ramp_distance(from_rest, first, true) * distance, v), v });
+        if (!last)
+        {
+          add({ Kind::reversal, end - reversal_duration / 2., end, stroke.to, v });
+          kinks.push_back(end);
+        }
+        times.push_back(end);
+        positions.push_back(stroke.part == 1. ? stroke.to : stroke.from + way);
+      }
+
+      /// v = V S(tau).
+      DrivePoint start(const Phase &phase, const double time) const
+      {
+        const double duration = reversal_duration;
+        const double tau      = (time - phase.time) / duration;
+        const double cube     = tau * tau * tau;
+        return { time, phase.x + phase.v * duration * cube * tau * (2.5 - 3. * tau + tau * tau),
+                 phase.v * cube * (10. - 15. * tau + 6. * tau * tau),
+                 phase.v / duration * 30. * tau * tau * (1. - tau) * (1. - tau) };
+      }
+
+      /// v = V (1 - 2 S(tau)) written over u = tau - 1/2, in which it is odd: the turning point is exact and never passed.
+      DrivePoint reversal(const Phase &phase, const double time) const
+      {
+        const double duration = reversal_duration;
+        const double u        = (time - phase.time) / duration;
+        const double square   = u * u;
+        return { time, phase.x - phase.v * duration * square * (1.875 - 2.5 * square + 2. * square * square),
+                 -phase.v * u * (3.75 - 10. * square + 12. * square * square),
+                 -phase.v / duration * (3.75 - 30. * square + 60. * square * square) };
+      }
     };
-
-    SmoothTriangle::SmoothTriangle(const std::vector<Stroke> &strokes, const double speed, const double duration)
-        : DriveMotion(DriveProfile::triangle)
-    {
-      peak_speed        = speed;
-      reversal_duration = duration;
-      times.push_back(0.);
-      positions.push_back(strokes.front().from);
-      for (std::size_t i = 0; i < strokes.size(); ++i)
-        add_stroke(strokes[i], i == 0, i + 1 == strokes.size());
-      find_reversals();
-    }
-
-    void SmoothTriangle::add(const Phase &phase)
-    {
-      if (phase.begin > 0.)
-        kinks.push_back(phase.begin);
-      phases.push_back(phase);
-    }
-
-    void SmoothTriangle::add_stroke(const Stroke &stroke, const bool first, const bool last)
-    {
-      const bool from_rest      = first && begins_at_rest(stroke.from);
-      const double distance     = peak_speed * reversal_duration;
-      const double way          = (stroke.to - stroke.from) * stroke.part;
-      const double v            = std::copysign(peak_speed, way);
-      const double steady       = (std::abs(way) - ramp_distance(from_rest, first, last) * distance) / peak_speed;
-      const double ramp_before  = first ? (from_rest ? reversal_duration : 0.) : reversal_duration / 2.;
-      const double steady_begin = times.back() + ramp_before;
-      const double end          = steady_begin + std::max(0., steady) + (last ? 0. : reversal_duration / 2.);
-
-      if (from_rest)
-        add({ Kind::start, 0., 0., stroke.from, v });
-      // A sliver would be a step of its own.
-      if (steady > 1e-9 * reversal_duration)
-        add({ Kind::steady, steady_begin, steady_begin,
-              stroke.from + std::copysign(ramp_distance(from_rest, first, true) * distance, v), v });
-      if (!last)
-      {
-        add({ Kind::reversal, end - reversal_duration / 2., end, stroke.to, v });
-        kinks.push_back(end);
-      }
-      times.push_back(end);
-      positions.push_back(stroke.part == 1. ? stroke.to : stroke.from + way);
-    }
-
-    DrivePoint SmoothTriangle::point(std::size_t, const double time, Drive::Side) const
-    {
-      const auto later   = std::upper_bound(phases.begin(), phases.end(), time,
-                                            [](const double value, const Phase &phase) { return value < phase.begin; });
-      const Phase &phase = later == phases.begin() ? *later : *(later - 1);
-      switch (phase.kind)
-      {
-      case Kind::start:
-        return start(phase, time);
-      case Kind::reversal:
-        return reversal(phase, time);
-      case Kind::steady:
-        break;
-      }
-      return { time, phase.x + phase.v * (time - phase.time), phase.v, 0. };
-    }
-
-    /// v = V S(tau).
-    DrivePoint SmoothTriangle::start(const Phase &phase, const double time) const
-    {
-      const double duration = reversal_duration;
-      const double tau      = (time - phase.time) / duration;
-      const double cube     = tau * tau * tau;
-      return { time, phase.x + phase.v * duration * cube * tau * (2.5 - 3. * tau + tau * tau),
-               phase.v * cube * (10. - 15. * tau + 6. * tau * tau),
-               phase.v / duration * 30. * tau * tau * (1. - tau) * (1. - tau) };
-    }
-
-    /// v = V (1 - 2 S(tau)) written over u = tau - 1/2, in which it is odd: the turning point is exact and never passed.
-    DrivePoint SmoothTriangle::reversal(const Phase &phase, const double time) const
-    {
-      const double duration = reversal_duration;
-      const double u        = (time - phase.time) / duration;
-      const double square   = u * u;
-      return { time, phase.x - phase.v * duration * square * (1.875 - 2.5 * square + 2. * square * square),
-               -phase.v * u * (3.75 - 10. * square + 12. * square * square),
-               -phase.v / duration * (3.75 - 30. * square + 60. * square * square) };
-    }
   } // namespace
 
   std::shared_ptr<const DriveMotion> smooth_triangle_motion(const double start, const double stroke, const double speed,
@@ -150,7 +135,7 @@ namespace sprag
     return std::make_shared<const SmoothTriangle>(strokes(start, stroke, cycles), speed, reversal_duration);
   }
 
-  double largest_reversal_duration(const double start, const double stroke, const double speed, const double cycles)
+  double Drive::largest_reversal_duration(const double start, const double stroke, const double speed, const double cycles)
   {
     const auto all = strokes(start, stroke, cycles);
     double largest = std::numeric_limits<double>::infinity();

@@ -11,12 +11,6 @@
 
 namespace sprag
 {
-  SprungClosedForm::SprungClosedForm(const Scene &the_scene)
-      : scene(the_scene)
-      , stiffness(the_scene.support.stiffness)
-  {
-  }
-
   /// The frame follows with Q: the cylinder passes it at v / (1 + Q_x / k_f).
   ClosedFormState SprungClosedForm::sliding(const double at, const double v) const
   {

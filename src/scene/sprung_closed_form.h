@@ -10,8 +10,12 @@ namespace sprag
   class SprungClosedForm
   {
   public:
-    /// `scene` must outlive it.
-    explicit SprungClosedForm(const Scene &scene);
+    /// Begins without a state. `scene` must outlive the object.
+    explicit SprungClosedForm(const Scene &the_scene)
+        : scene(the_scene)
+        , stiffness(the_scene.support.stiffness)
+    {
+    }
 
     struct State
     {
@@ -22,10 +26,10 @@ namespace sprag
       Work work; ///< since the start [N mm]
     };
 
-    /// In steady sliding at x at the speed v, whose sign is the direction.
+    /// Begins in steady sliding at x at the speed v, whose sign is the direction.
     State start(double x, double v);
 
-    /// From the last position to x, in one direction, the speed changing evenly to v, whose sign is the direction.
+    /// Goes from the last position to x in one direction, while the speed changes evenly to v, whose sign is the direction.
     /// Throws AnalysisError where no position of the frame balances Q.
     const State &advance(double x, double v);
 

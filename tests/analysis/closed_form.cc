@@ -2,6 +2,7 @@
 
 #include "scene/closed_form.h"
 #include "scenes.h"
+#include "support/work_of_drive.h"
 
 #include <algorithm>
 #include <cmath>

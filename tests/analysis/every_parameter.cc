@@ -307,12 +307,16 @@ TEST(EveryParameter, BelongsToTheKeysOfSomeScene)
 
 TEST(EveryParameter, SparedOnesAreDeclared)
 {
-  std::set<std::string> names;
+  std::set<std::string> names, sections;
   for (const auto &parameter : declared())
+  {
     names.insert(full_name(parameter));
-  for (const auto &spared : spared_parameters())
-    for (const auto &name : spared.parameters)
-      EXPECT_EQ(names.count(name), 1u) << name;
+    sections.insert(parameter.section);
+  }
+  for (const auto &name : spared_parameters())
+    EXPECT_EQ(names.count(name), 1u) << name;
+  for (const auto &section : spared_sections())
+    EXPECT_EQ(sections.count(section), 1u) << section;
 }
 
 TEST(EveryParameter, FilesCountByWhatTheyHold)

@@ -1,4 +1,4 @@
-#include "analysis/statics/newton.h"
+#include "analysis/statics/quasi_static.h"
 
 #include "analysis/toy_model.h"
 

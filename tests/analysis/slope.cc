@@ -147,7 +147,7 @@ TEST(SlopeOverInclination, EndsAtTheMaximumInclinationIfThatComesFirst)
 
 TEST(SlopeOverInclination, ChangesSignBackwardAtTheCriticalInclinationWhateverTheOffset)
 {
-  const double critical = critical_inclination(0.73);
+  const double critical = std::atan(0.73);
   for (const auto &row : over_inclination().rows)
     EXPECT_EQ(row[backward_over_theta0] > 0., row[theta0] > critical) << row[theta0];
   // The curves that reach it have points on either side.

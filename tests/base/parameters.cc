@@ -1,7 +1,7 @@
 #include "base/parameters.h"
 
-#include "base/csv.h"
 #include "base/errors.h"
+#include "base/table_file.h"
 #include "base/text.h"
 #include "support/written.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "bar_on_cylinder.h"
-#include "fe/mesh/cylinder_mesh.h"
+#include "fe/mesh/mesh.h"
 
 namespace sprag
 {

@@ -1,7 +1,7 @@
 #include "fe/body/cell_elasticity.h"
 
-#include "fe/body/dilatation.h"
 #include "fe/body/elastic_body.h"
+#include "fe/body/material.h"
 #include "fe/fields/body_fields.h"
 #include "mpi_environment.h"
 #include "support/random_vector.h"

@@ -1,4 +1,4 @@
-#include "fe/mesh/cylinder_mesh.h"
+#include "fe/mesh/mesh.h"
 
 #include "bar_on_elastic_cylinder.h"
 #include "base/errors.h"

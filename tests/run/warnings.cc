@@ -1,5 +1,4 @@
-#include "run/row_warnings.h"
-#include "run/scene_warnings.h"
+#include "run/warnings.h"
 #include "scene/closed_form.h"
 #include "scenes.h"
 #include "support/row_of.h"

@@ -1,8 +1,8 @@
 #include "scene/drive.h"
 
 #include "base/errors.h"
-#include "scene/closed_form.h"
 #include "scenes.h"
+#include "support/work_of_drive.h"
 
 #include <algorithm>
 #include <cmath>

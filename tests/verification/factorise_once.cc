@@ -1,4 +1,4 @@
-#include "analysis/statics/newton.h"
+#include "analysis/statics/quasi_static.h"
 #include "fe/mesh/mesh.h"
 #include "fe/statics/lever_model.h"
 #include "mpi_environment.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/statics/newton.h"
+#include "analysis/statics/quasi_static.h"
 #include "fe/statics/lever_model.h"
 #include "verification/block.h"
 

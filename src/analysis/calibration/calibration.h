@@ -20,8 +20,8 @@ namespace sprag
     Scene scene;                        ///< with them, prepared()
   };
 
-  /// Thickness of the leaf spring and added mass by finite elements: Calibration/Stiffness and Moment of inertia, where they are
-  /// given. Throws InputError where a target cannot be reached.
+  /// Finds the thickness of the leaf spring and the added mass by finite elements, from Calibration/Stiffness and Moment of
+  /// inertia, where they are given. Throws InputError where a target cannot be reached.
   CalibratedParts calibrate_parts(const Scene &scene);
 
   /// Constants of the rigid and beam models for a meshed lever.
@@ -52,10 +52,10 @@ namespace sprag
     std::array<std::vector<double>, 2> free_frequencies;    ///< the two lowest, out of contact [Hz]
     std::array<std::vector<double>, 2> contact_frequencies; ///< the two lowest, in contact at Stability/Position [Hz]
 
-    /// Largest difference over the largest value: of P (0) or Q (1).
+    /// Returns the largest difference of the forces over the largest value: of P (which = 0) or Q (1).
     double of_forces(unsigned int which) const;
   };
 
-  /// `meshed` is condensed, which is exact in statics and to its modes in vibration.
+  /// Compares both scenes. `meshed` is condensed, which is exact in statics and to its modes in vibration.
   Disagreement compare(const Scene &meshed, const Scene &beam);
 } // namespace sprag

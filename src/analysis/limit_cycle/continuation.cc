@@ -18,16 +18,6 @@ namespace sprag
     }
   } // namespace
 
-  bool ContinuationPoint::holds() const
-  {
-    return slide.kind != SlideKind::jammed;
-  }
-
-  bool ContinuationPoint::coexist() const
-  {
-    return slide.kind == SlideKind::stable && (away.vibrates() || back.vibrates());
-  }
-
   Continuation::Continuation(DynamicModel &dynamic_model, HeldRun &held_run, const DrivePoint &start, const double period,
                              const unsigned int n_modes, const SpragSlipSettings &sprag_slip)
       : model(dynamic_model)

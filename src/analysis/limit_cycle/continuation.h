@@ -14,11 +14,20 @@ namespace sprag
     Settled away;         ///< the vibration carried along, or what a large kick of the slide leads to
     Settled back;         ///< the slide, perturbed a little, or a vibration carried along
 
-    bool holds() const; ///< whether there is a slide to vibrate about
-    bool coexist() const;
+    /// Returns whether there is a slide to vibrate about.
+    bool holds() const
+    {
+      return slide.kind != SlideKind::jammed;
+    }
+
+    /// Returns whether a stable slide and a vibration both live there.
+    bool coexist() const
+    {
+      return slide.kind == SlideKind::stable && (away.vibrates() || back.vibrates());
+    }
   };
 
-  /// From one x to another [mm], increasing.
+  /// Places at which a stable slide and a vibration live side by side [mm], `from` < `to`.
   struct Coexistence
   {
     double from;
@@ -37,8 +46,8 @@ namespace sprag
     /// Bisections of the interval in which a vibration that was carried along dies.
     static constexpr unsigned int bisections = 3;
 
-    /// `drive`: where it starts; `period` of the vibration at the start [s]; `modes` as of judge(). The run has to begin at a
-    /// slide or vibration at `drive`, which has led to `start`.
+    /// Starts at `drive` with a vibration of this period [s]; `modes` is that of judge(). The run must begin at the slide or
+    /// vibration there.
     Continuation(DynamicModel &model, HeldRun &run, const DrivePoint &drive, double period, unsigned int modes,
                  const SpragSlipSettings &settings);
 
@@ -46,14 +55,14 @@ namespace sprag
     /// called after each x. What is finished can be asked for after an exception too. Throws as HeldRun::step() and judge().
     void go(const SlideStability &slide, const Settled &start, double turn, const std::function<void()> &done);
 
-    /// The points visited so far, from the start to the turn.
+    /// Returns the points visited so far, from the start to the turn.
     const std::vector<ContinuationPoint> &points() const
     {
       return visited;
     }
 
-    /// The longest interval in which a stable slide and a vibration were both found, up to where the slide loses its stability to
-    /// within 1e-3 mm, and to the last x at which the vibration was found; none if there is no such x.
+    /// Finds the longest interval in which a stable slide and a vibration were both found. It ends where the slide loses its
+    /// stability, to within 1e-3 mm, or at the last x at which the vibration was found; none if there is no such x.
     std::optional<Coexistence> coexistence();
 
   private:

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace sprag
 {
@@ -11,69 +10,48 @@ namespace sprag
     constexpr double window_periods = 20.;
     constexpr double same           = 0.01; ///< relative difference of amplitudes that counts as none
 
-    /// Sums up rows of equal steps.
-    class WindowSum
+    /// Of the signal's upward changes of sign: a cycle that loses contact has one of each kind a period.
+    double upward_frequency(const std::vector<Sample> &signal)
     {
-    public:
-      void add(const Row &row, const bool slides)
-      {
-        const double P = row[Column::P];
-        lowest_P       = std::min(lowest_P, P);
-        highest_P      = std::max(highest_P, P);
-        lowest         = std::min(lowest, row[Column::indentation]);
-        highest        = std::max(highest, row[Column::indentation]);
-        open += P == 0. ? 1. : 0.;
-        stuck += slides ? 0. : 1.;
-        signal.push_back({ row[Column::time], P });
-      }
+      const auto times = crossings(signal);
+      std::vector<double> upward;
+      const bool starts_below = signal.front().value < 0.;
+      for (std::size_t i = starts_below ? 0 : 1; i < times.size(); i += 2)
+        upward.push_back(times[i]);
+      return 2. * fit_frequency(upward);
+    }
 
-      VibrationWindow result(const double begin) const
-      {
-        const double n = static_cast<double>(signal.size());
-        double mean    = 0.;
-        for (const auto &sample : signal)
-          mean += sample.value / n;
-        auto about_mean = signal;
-        for (auto &sample : about_mean)
-          sample.value -= mean;
-        return { begin,    signal.back().time, 0.5 * (highest_P - lowest_P), 0.5 * (highest - lowest), mean,
-                 open / n, stuck / n,          upward_frequency(about_mean) };
-      }
-
-    private:
-      /// Of the signal's upward changes of sign: a cycle that loses contact has one of each kind a period.
-      static double upward_frequency(const std::vector<Sample> &signal)
-      {
-        const auto times = crossings(signal);
-        std::vector<double> upward;
-        const bool starts_below = signal.front().value < 0.;
-        for (std::size_t i = starts_below ? 0 : 1; i < times.size(); i += 2)
-          upward.push_back(times[i]);
-        return 2. * fit_frequency(upward);
-      }
-
-      double lowest_P  = std::numeric_limits<double>::infinity();
-      double highest_P = -std::numeric_limits<double>::infinity();
-      double lowest    = std::numeric_limits<double>::infinity();
-      double highest   = -std::numeric_limits<double>::infinity();
-      double open      = 0.;
-      double stuck     = 0.;
-      std::vector<Sample> signal;
-    };
+    double amplitude(const std::vector<Sample> &signal)
+    {
+      const auto [lowest, highest] =
+          std::minmax_element(signal.begin(), signal.end(), [](const Sample &a, const Sample &b) { return a.value < b.value; });
+      return 0.5 * (highest->value - lowest->value);
+    }
 
     VibrationWindow next_window(HeldRun &run, const HeldSlide &slide, const DrivePath &path, const double duration,
                                 const RowSink &sink)
     {
-      WindowSum sum;
+      std::vector<Sample> P, indentation;
+      double open = 0., stuck = 0., mean = 0.;
       const double begin = run.drive().time;
       const auto n       = static_cast<unsigned int>(std::ceil(duration / run.time_step() - 1e-6));
       for (unsigned int i = 0; i < n; ++i)
       {
         const Row &row = run.step(path);
-        sum.add(row, run.slides(slide.speed));
+        P.push_back({ row[Column::time], row[Column::P] });
+        indentation.push_back({ row[Column::time], row[Column::indentation] });
+        open += row[Column::P] == 0. ? 1. : 0.;
+        stuck += run.slides(slide.speed) ? 0. : 1.;
         sink(row);
       }
-      return sum.result(begin);
+      for (const auto &sample : P)
+        mean += sample.value / n;
+      auto about_mean = P;
+      for (auto &sample : about_mean)
+        sample.value -= mean;
+      return {
+        begin, P.back().time, amplitude(P), amplitude(indentation), mean, open / n, stuck / n, upward_frequency(about_mean)
+      };
     }
 
     bool agree(const double a, const double b)

@@ -25,7 +25,7 @@ namespace sprag
     undecided  ///< too small to tell what becomes of it
   };
 
-  /// "slide", "cycle" ...
+  /// Returns "slide", "cycle" ...
   std::string settling_name(Settling settling);
 
   /// The vibration or slide that a motion about a held slide comes to.

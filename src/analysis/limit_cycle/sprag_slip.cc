@@ -67,21 +67,6 @@ namespace sprag
     }
   } // namespace
 
-  double Growth::predicted_frequency() const
-  {
-    return eigenvalue.imag() / (2. * M_PI);
-  }
-
-  double Growth::growth_difference() const
-  {
-    return envelope.rate / eigenvalue.real() - 1.;
-  }
-
-  double Growth::frequency_difference() const
-  {
-    return frequency / predicted_frequency() - 1.;
-  }
-
   const Eigenmode &watched_mode(const SlideStability &stability)
   {
     if (stability.kind != SlideKind::stable)

@@ -16,21 +16,35 @@ namespace sprag
   /// where mu falls with speed the spring of stick, in series with friction then, is left out of the eigenvalue.
   struct Growth
   {
-    std::complex<double> eigenvalue;    ///< predicted [1/s]
-    ExponentialFit envelope{};          ///< measured, of P - P of the slide [N]
-    double frequency = 0.;              ///< measured [Hz]; NaN where the mode does not oscillate
-    std::vector<Sample> sizes;          ///< the envelope fitted, over the mean overlap
-    bool slid    = true;                ///< neither stick nor loss of contact in the window
-    bool reached = false;               ///< the amplitude aimed at, within Sprag slip/Longest growth
-    double predicted_frequency() const; ///< [Hz]
-    double growth_difference() const;   ///< measured over predicted - 1
-    double frequency_difference() const;
+    std::complex<double> eigenvalue; ///< predicted [1/s]
+    ExponentialFit envelope{};       ///< measured, of P - P of the slide [N]
+    double frequency = 0.;           ///< measured [Hz]; NaN where the mode does not oscillate
+    std::vector<Sample> sizes;       ///< the envelope fitted, over the mean overlap
+    bool slid    = true;             ///< neither stick nor loss of contact in the window
+    bool reached = false;            ///< the amplitude aimed at, within Sprag slip/Longest growth
+
+    /// Returns the frequency that the eigenvalue predicts [Hz].
+    double predicted_frequency() const
+    {
+      return eigenvalue.imag() / (2. * M_PI);
+    }
+
+    // Measured over predicted, less 1.
+    double growth_difference() const
+    {
+      return envelope.rate / eigenvalue.real() - 1.;
+    }
+
+    double frequency_difference() const
+    {
+      return frequency / predicted_frequency() - 1.;
+    }
   };
 
-  /// The mode that is watched: the worst one, or of a stable slide the oscillating one that decays slowest.
+  /// Returns the mode that is watched: the worst one, or of a stable slide the oscillating one that decays slowest.
   const Eigenmode &watched_mode(const SlideStability &stability);
 
-  /// Duration of a step: that of the mode's period over Sprag slip/Steps per period [s]. Without oscillation 2 pi / |lambda|
+  /// Returns the duration of a step: the mode's period over Sprag slip/Steps per period [s]. Without oscillation 2 pi / |lambda|
   /// stands for the period.
   double step_of(const Eigenmode &mode, const SpragSlipSettings &settings);
 

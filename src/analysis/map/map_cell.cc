@@ -19,24 +19,6 @@ namespace sprag
 
     constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 
-    std::vector<ColumnInfo> make_columns()
-    {
-      std::string kinds;
-      for (unsigned int kind = 0; kind < n_cell_kinds; ++kind)
-        kinds += (kind == 0 ? "" : ", ") + std::to_string(kind) + " " + cell_kind_name(kind);
-      std::vector<ColumnInfo> columns = { { "theta_0", "rad", "inclination of the lever at x = 0" } };
-      for (const std::string way : { "forward", "backward" })
-      {
-        columns.push_back({ "kind_" + way, "1", kinds });
-        columns.push_back({ "growth_rate_" + way, "1/s", "largest Re lambda of the slide " + way });
-        columns.push_back({ "frequency_" + way, "Hz", "of that vibration, 0: no vibration" });
-        columns.push_back(
-            { "uniqueness_" + way, "1", "of the equilibrium: 1 without friction, <= 0 where it has lost uniqueness" });
-        columns.push_back({ "P_" + way, "N", "normal force of the slide" });
-      }
-      return columns;
-    }
-
     /// A cell without slides.
     MapCell empty_cell(const unsigned int kind)
     {
@@ -76,14 +58,24 @@ namespace sprag
     return kind == inadmissible_cell ? "inadmissible" : "failed";
   }
 
-  MapKinds MapCell::kinds() const
-  {
-    return { { static_cast<unsigned int>(values[1]), static_cast<unsigned int>(values[1 + n_slide_values]) } };
-  }
-
   const std::vector<ColumnInfo> &cell_columns()
   {
-    static const auto columns = make_columns();
+    static const auto columns = []
+    {
+      std::string kinds;
+      for (unsigned int kind = 0; kind < n_cell_kinds; ++kind)
+        kinds += (kind == 0 ? "" : ", ") + std::to_string(kind) + " " + cell_kind_name(kind);
+      std::vector<ColumnInfo> all = { { "theta_0", "rad", "inclination of the lever at x = 0" } };
+      for (const std::string way : { "forward", "backward" })
+      {
+        all.push_back({ "kind_" + way, "1", kinds });
+        all.push_back({ "growth_rate_" + way, "1/s", "largest Re lambda of the slide " + way });
+        all.push_back({ "frequency_" + way, "Hz", "of that vibration, 0: no vibration" });
+        all.push_back({ "uniqueness_" + way, "1", "of the equilibrium: 1 without friction, <= 0 where it has lost uniqueness" });
+        all.push_back({ "P_" + way, "N", "normal force of the slide" });
+      }
+      return all;
+    }();
     return columns;
   }
 
@@ -129,11 +121,6 @@ namespace sprag
       // No model: both ways stay failed.
     }
     return cell;
-  }
-
-  dealii::TimerOutput &CellJudge::timer()
-  {
-    return maker.timer();
   }
 
   std::optional<unsigned int> CellJudge::mesh_parameter() const

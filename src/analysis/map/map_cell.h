@@ -23,13 +23,23 @@ namespace sprag
   {
     std::array<double, n_cell_values> values;
 
-    MapKinds kinds() const; ///< forward, backward
+    template <class Archive>
+    void serialize(Archive &archive, const unsigned int /*version*/)
+    {
+      archive &values;
+    }
+
+    /// Returns the kinds forward and backward.
+    MapKinds kinds() const
+    {
+      return { { static_cast<unsigned int>(values[1]), static_cast<unsigned int>(values[1 + n_slide_values]) } };
+    }
   };
 
-  /// Names, units and meaning of a cell's numbers.
+  /// Lists names, units and meaning of a cell's numbers.
   const std::vector<ColumnInfo> &cell_columns();
 
-  /// The parameter's value at a coordinate of the grid: its ends exactly.
+  /// Returns the parameter's value at a coordinate of the grid: its ends exactly.
   double parameter_at(const ParameterRange &range, double coordinate);
 
   /// Judges the slides of a map's scene both ways with other values of its two parameters. A cell depends on nothing but its
@@ -41,11 +51,14 @@ namespace sprag
 
     MapCell judge(const MapSite &site);
 
-    /// Time spent on meshes and models.
-    dealii::TimerOutput &timer();
+    /// Measures the time spent on meshes and models.
+    dealii::TimerOutput &timer()
+    {
+      return maker.timer();
+    }
 
-    /// The parameter, 0 or 1, that alone changes the mesh, so that cells in the order of it are judged faster; none where there
-    /// is no such parameter.
+    /// Returns the parameter, 0 or 1, that alone changes the mesh, so that cells in the order of it are judged faster; none where
+    /// there is no such parameter.
     std::optional<unsigned int> mesh_parameter() const;
 
   private:

@@ -35,11 +35,6 @@ namespace sprag
     }
   }
 
-  std::size_t MapGrid::index(const unsigned int i, const unsigned int j) const
-  {
-    return std::size_t{ i } * n[1] + j;
-  }
-
   MapGrid::Corners MapGrid::corners(const Level &level, const unsigned int a, const unsigned int b) const
   {
     const auto end = [&](const unsigned int quad, const unsigned int points)
@@ -97,18 +92,23 @@ namespace sprag
     for (std::size_t level = 0; level + 1 < levels.size(); ++level)
       split_level(level);
     std::set<MapSite> missing;
+    for (const auto &[low, high] : active_quads())
+      for (const unsigned int i : { low[0], high[0] })
+        for (const unsigned int j : { low[1], high[1] })
+          if (!is_known(i, j))
+            missing.insert({ static_cast<double>(i), static_cast<double>(j) });
+    return { missing.begin(), missing.end() };
+  }
+
+  std::vector<MapGrid::Corners> MapGrid::active_quads() const
+  {
+    std::vector<Corners> result;
     for (std::size_t level = 0; level < levels.size(); ++level)
       for (unsigned int a = 0; a < levels[level].quads[0]; ++a)
         for (unsigned int b = 0; b < levels[level].quads[1]; ++b)
           if (is_active(level, a, b))
-          {
-            const auto [low, high] = corners(levels[level], a, b);
-            for (const unsigned int i : { low[0], high[0] })
-              for (const unsigned int j : { low[1], high[1] })
-                if (!is_known(i, j))
-                  missing.insert({ static_cast<double>(i), static_cast<double>(j) });
-          }
-    return { missing.begin(), missing.end() };
+            result.push_back(corners(levels[level], a, b));
+    return result;
   }
 
   void MapGrid::learn(const KnownKinds &sites)
@@ -123,25 +123,12 @@ namespace sprag
           }
   }
 
-  bool MapGrid::is_known(const unsigned int i, const unsigned int j) const
-  {
-    return known[index(i, j)] != 0;
-  }
-
-  const MapKinds &MapGrid::kinds(const unsigned int i, const unsigned int j) const
-  {
-    return kind[index(i, j)];
-  }
-
   std::vector<double> MapGrid::interpolated(const std::vector<double> &values) const
   {
     std::vector<double> result(values.size(), std::numeric_limits<double>::quiet_NaN());
     // Smaller quads come later and overwrite.
-    for (std::size_t level = 0; level < levels.size(); ++level)
-      for (unsigned int a = 0; a < levels[level].quads[0]; ++a)
-        for (unsigned int b = 0; b < levels[level].quads[1]; ++b)
-          if (is_active(level, a, b))
-            interpolate(corners(levels[level], a, b), values, result);
+    for (const auto &quad : active_quads())
+      interpolate(quad, values, result);
     for (std::size_t i = 0; i < values.size(); ++i)
       if (known[i])
         result[i] = values[i];

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <map>
+#include <utility>
 #include <vector>
 
 namespace sprag
@@ -11,17 +12,8 @@ namespace sprag
 
   using MapKinds = std::array<unsigned int, 2>;
 
-  /// A place in a map, in intervals of its grid: 0 ... points - 1, exact in binary.
-  struct MapSite
-  {
-    double first;
-    double second;
-  };
-
-  inline bool operator<(const MapSite &a, const MapSite &b)
-  {
-    return a.first < b.first || (a.first == b.first && a.second < b.second);
-  }
+  /// A place in a map, first and second coordinate in intervals of its grid: 0 ... points - 1, exact in binary.
+  using MapSite = std::pair<double, double>;
 
   using KnownKinds = std::map<MapSite, MapKinds>;
 
@@ -33,27 +25,33 @@ namespace sprag
   class MapGrid
   {
   public:
-    /// At least two points each way; `coarsest` a power of 2.
+    /// Makes a grid of at least two points each way; `coarsest` is a power of 2.
     MapGrid(unsigned int first_points, unsigned int second_points, unsigned int coarsest);
 
-    /// Grid points to be judged next, by increasing site; none once nothing is left to refine.
+    /// Returns the grid points to be judged next, by increasing site; none once nothing is left to refine.
     std::vector<MapSite> wanted();
 
     /// Takes over what is known of the grid's points.
     void learn(const KnownKinds &known);
 
-    bool is_known(unsigned int i, unsigned int j) const;
+    bool is_known(const unsigned int i, const unsigned int j) const
+    {
+      return known[index(i, j)] != 0;
+    }
 
-    /// Kinds at a point of the grid, forward and backward; the point must be known.
-    const MapKinds &kinds(unsigned int i, unsigned int j) const;
+    /// Returns the kinds at a point of the grid, forward and backward; the point must be known.
+    const MapKinds &kinds(const unsigned int i, const unsigned int j) const
+    {
+      return kind[index(i, j)];
+    }
 
     std::array<unsigned int, 2> points() const
     {
       return n;
     }
 
-    /// Values at all points, the second parameter running fastest, from `values` at the known ones: bilinear over the smallest
-    /// quad around. Where a corner of that is NaN or not known, NaN.
+    /// Returns values at all points, the second parameter running fastest, from `values` at the known ones: bilinear over the
+    /// smallest quad around. They are NaN where a corner of that quad is NaN or not known.
     std::vector<double> interpolated(const std::vector<double> &values) const;
 
   private:
@@ -81,9 +79,14 @@ namespace sprag
     std::vector<char> known;
     std::vector<MapKinds> kind;
 
-    std::size_t index(unsigned int i, unsigned int j) const;
+    std::size_t index(const unsigned int i, const unsigned int j) const
+    {
+      return std::size_t{ i } * n[1] + j;
+    }
+
     Corners corners(const Level &level, unsigned int a, unsigned int b) const;
     bool is_active(std::size_t level, unsigned int a, unsigned int b) const;
+    std::vector<Corners> active_quads() const; ///< of all levels, coarsest first
     bool is_mixed(const Corners &quad) const;
     void split_level(std::size_t level);
     void interpolate(const Corners &quad, const std::vector<double> &values, std::vector<double> &result) const;
@@ -105,7 +108,7 @@ namespace sprag
   public:
     BoundarySearch(const MapGrid &grid, unsigned int bisections);
 
-    /// Middles of the brackets, by increasing site; none after the last bisection.
+    /// Returns the middles of the brackets, by increasing site; none after the last bisection.
     std::vector<MapSite> wanted() const;
 
     /// Takes one bisection; all wanted sites must be known.

@@ -1,11 +1,12 @@
 #include "analysis/map/map_journal.h"
 
+#include "base/child_process.h"
 #include "base/errors.h"
 #include "base/fingerprint.h"
+#include "base/text.h"
 
 #include <cerrno>
 #include <chrono>
-#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <fcntl.h>
@@ -29,13 +30,6 @@ namespace sprag
       return "sprag " SPRAG_VERSION " map, scene " + key.text() + '\n';
     }
 
-    std::string exact(const double number)
-    {
-      char text[40];
-      std::snprintf(text, sizeof text, "%a ", number);
-      return text;
-    }
-
     /// Of a line's numbers, in the journal of a scene.
     std::string checksum(const std::string &header, const std::string &numbers)
     {
@@ -47,9 +41,9 @@ namespace sprag
 
     std::string line_of(const std::string &header, const MapSite &site, const MapCell &cell)
     {
-      std::string numbers = exact(site.first) + exact(site.second);
+      std::string numbers = formatted("%a %a ", site.first, site.second);
       for (const double value : cell.values)
-        numbers += exact(value);
+        numbers += formatted("%a ", value); // to the last bit
       return numbers + checksum(header, numbers);
     }
 
@@ -149,13 +143,8 @@ namespace sprag
 
   void MapJournal::write(const std::string &text)
   {
-    for (std::size_t done = 0; done < text.size();)
-    {
-      const auto written = ::write(file, text.data() + done, text.size() - done);
-      if (written < 0 && errno != EINTR)
-        throw AnalysisError(path + " cannot be written: " + std::strerror(errno));
-      done += written > 0 ? static_cast<std::size_t>(written) : 0;
-    }
+    if (!write_all(file, text))
+      throw AnalysisError(path + " cannot be written: " + std::strerror(errno));
   }
 
   void MapJournal::remove()

@@ -42,7 +42,7 @@ namespace sprag
     /// Hands the lines to the operating system. Throws AnalysisError if they cannot be written.
     void append(const MapCells &more);
 
-    /// The map is complete: removes the file.
+    /// Returns the map is complete: removes the file.
     void remove();
 
   private:

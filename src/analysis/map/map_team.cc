@@ -6,6 +6,10 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <boost/serialization/array.hpp>
+#include <boost/serialization/map.hpp>
+#include <boost/serialization/utility.hpp>
+
 #include <algorithm>
 
 namespace sprag
@@ -16,31 +20,6 @@ namespace sprag
 
     /// How long a rank works on before all tell each other what they have.
     constexpr std::chrono::milliseconds batch_duration(500);
-
-    constexpr std::size_t numbers_per_cell = 2 + n_cell_values;
-
-    std::vector<double> packed(const MapCells &cells)
-    {
-      std::vector<double> result;
-      for (const auto &[site, cell] : cells)
-      {
-        result.insert(result.end(), { site.first, site.second });
-        result.insert(result.end(), cell.values.begin(), cell.values.end());
-      }
-      return result;
-    }
-
-    MapCells unpacked(const std::vector<double> &numbers)
-    {
-      MapCells result;
-      for (std::size_t i = 0; i + numbers_per_cell <= numbers.size(); i += numbers_per_cell)
-      {
-        MapCell cell{};
-        std::copy_n(numbers.begin() + static_cast<long>(i + 2), n_cell_values, cell.values.begin());
-        result.insert({ { numbers[i], numbers[i + 1] }, cell });
-      }
-      return result;
-    }
 
     double coordinate(const MapSite &site, const unsigned int parameter)
     {
@@ -81,8 +60,7 @@ namespace sprag
       , report(std::move(reporter))
       , kept(own_judge.mesh_parameter())
   {
-    const auto numbers = journal != nullptr ? packed(journal->cells()) : std::vector<double>();
-    learn(unpacked(MPI::broadcast(MPI_COMM_WORLD, numbers)));
+    learn(MPI::broadcast(MPI_COMM_WORLD, journal != nullptr ? journal->cells() : MapCells()));
     from_journal = known.size();
   }
 
@@ -133,8 +111,8 @@ namespace sprag
   std::size_t MapTeam::share(const MapCells &batch)
   {
     MapCells all;
-    for (const auto &numbers : MPI::all_gather(MPI_COMM_WORLD, packed(batch)))
-      all.merge(unpacked(numbers));
+    for (auto &cells : MPI::all_gather(MPI_COMM_WORLD, batch))
+      all.merge(cells);
     on_first_rank([&] { keep(all); });
     learn(all);
     return all.size();

@@ -11,8 +11,8 @@ namespace sprag
   class MapTeam
   {
   public:
-    /// `journal`: rank 0's, whose cells are taken over; null on the others. `report` is called on rank 0 now and then with the
-    /// cells judged and those asked for.
+    /// Takes over the cells in the journal, which rank 0 has; it is null on the others. `report` is called on rank 0 now and then
+    /// with the cells judged and those asked for.
     MapTeam(const Scene &scene, MapJournal *journal, std::function<void(std::size_t, std::size_t)> report);
 
     /// Judges what is not known yet. Throws AnalysisError on all ranks when one was asked to end, an input file has changed since
@@ -28,7 +28,7 @@ namespace sprag
       return known_kinds;
     }
 
-    /// Cells that were in the journal.
+    /// Returns the number of cells that were in the journal.
     std::size_t taken_over() const
     {
       return from_journal;

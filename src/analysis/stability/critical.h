@@ -29,10 +29,10 @@ namespace sprag
     unsigned int more_values = 0;   ///< tried between them, where a growth rate peaks
   };
 
-  /// The changes of kind along one parameter of the scene: tried at the range's points, then where the growth rate of a mode
-  /// peaks between them so high that it may change its sign, and bisected to `tolerance` of the range. An island narrower than
-  /// the spacing that no growth rate at the points hints at is missed. Values that cannot be judged are passed over. `point_done`
-  /// is called after each of the range's points.
+  /// Finds the changes of kind along one parameter of the scene: it is tried at the range's points, then where the growth rate of
+  /// a mode peaks between them so high that it may change its sign, and bisected to `tolerance` of the range. An island narrower
+  /// than the spacing that no growth rate at the points hints at is missed. Values that cannot be judged are passed over.
+  /// `point_done` is called after each of the range's points.
   CriticalSearch critical_values(
       const Scene &scene, const ParameterRange &range, double tolerance, DynamicsMaker &maker,
       const std::function<void()> &point_done = [] {});

@@ -30,10 +30,10 @@ namespace sprag
     std::optional<double> flexible_critical_mu; ///< at which it jams there; none: above three times the rigid lever's, or 5
   };
 
-  /// The least on the way of the drive with mu at its speed there; where a slide is held, of all x of the drive and both
-  /// directions at its peak speed. `flexible`: whether the lever's flexure is counted, by a beam.
+  /// Finds the least margin on the way of the drive with mu at its speed there; where a slide is held, of all x of the drive and
+  /// both directions at its peak speed. `flexible`: whether the lever's flexure is counted, by a beam.
   JammingMargin jamming_margin(const Scene &scene, bool flexible);
 
-  /// The margin in a line.
+  /// Tells the margin in a line.
   std::string jamming_text(const JammingMargin &margin);
 } // namespace sprag

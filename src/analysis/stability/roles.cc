@@ -3,8 +3,6 @@
 #include "base/errors.h"
 #include "scene/held_slide.h"
 
-#include <limits>
-
 namespace sprag
 {
   namespace
@@ -14,7 +12,6 @@ namespace sprag
 
     Role judged(const std::string &name, const std::string &meaning, const Scene &scene, DynamicsMaker &maker)
     {
-      constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
       try
       {
         const auto found = judge(scene, maker);
@@ -22,21 +19,16 @@ namespace sprag
       }
       catch (const AnalysisError &error)
       {
-        return { name, meaning + "; " + error.what(), SlideKind::jammed, unknown, unknown, {} };
+        return { name, meaning + "; " + error.what(), SlideKind::jammed };
       }
     }
 
     /// Without mass nothing vibrates: what is left is whether the equilibrium is unique.
     Role without_inertia(const SlideStability &present)
     {
-      constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-      const bool unique        = present.slide && present.uniqueness() > 0.;
-      return { "without_inertia",
-               "massless: stable where the equilibrium is unique",
-               unique ? SlideKind::stable : SlideKind::jammed,
-               unknown,
-               unknown,
-               {} };
+      const bool unique = present.slide && present.uniqueness() > 0.;
+      return { "without_inertia", "massless: stable where the equilibrium is unique",
+               unique ? SlideKind::stable : SlideKind::jammed };
     }
   } // namespace
 
@@ -60,9 +52,9 @@ namespace sprag
       fixed.support.type = SupportType::rigid;
       result.push_back(judged("without_support", "pivot at rest", fixed, maker));
     }
-    Scene stiff = scene;
     if (scene.analysis.model != ModelType::rigid)
     {
+      Scene stiff = scene;
       stiff.lever.young_modulus *= rigid_factor;
       result.push_back(judged("without_flexure", "Young's modulus of the lever times 1e4", stiff, maker));
     }

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace sprag
 {
@@ -24,26 +23,6 @@ namespace sprag
   std::string kind_name(const SlideKind kind)
   {
     return std::vector<std::string>{ "stable", "flutter", "divergence", "jammed" }.at(static_cast<std::size_t>(kind));
-  }
-
-  const Eigenmode &SlideStability::worst_mode() const
-  {
-    return modes.at(worst);
-  }
-
-  double SlideStability::growth_rate() const
-  {
-    return modes.empty() ? std::numeric_limits<double>::quiet_NaN() : worst_mode().mode.eigenvalue.real();
-  }
-
-  double SlideStability::frequency() const
-  {
-    return modes.empty() ? std::numeric_limits<double>::quiet_NaN() : worst_mode().mode.eigenvalue.imag() / (2. * M_PI);
-  }
-
-  double SlideStability::uniqueness() const
-  {
-    return slide ? slide->uniqueness : std::numeric_limits<double>::quiet_NaN();
   }
 
   std::string SlideStability::motion() const

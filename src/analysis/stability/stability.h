@@ -2,6 +2,8 @@
 
 #include "levers/dynamics.h"
 
+#include <cmath>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -15,7 +17,7 @@ namespace sprag
     jammed      ///< no unique equilibrium: none found, or its tangent has passed a singular one
   };
 
-  /// "stable", "flutter" ...
+  /// Returns "stable", "flutter" ...
   std::string kind_name(SlideKind kind);
 
   /// A steady slide and its vibrations.
@@ -26,22 +28,40 @@ namespace sprag
     std::vector<Eigenmode> modes;   ///< by increasing |lambda|; empty without equilibrium
     std::size_t worst = 0;          ///< of the modes, the one with the largest growth rate, the first of those that tie
 
-    const Eigenmode &worst_mode() const;
-    double growth_rate() const; ///< largest Re lambda [1/s]; NaN without equilibrium
-    double frequency() const;   ///< of that mode [Hz]; NaN without equilibrium
-    double uniqueness() const;  ///< see HeldSlide; NaN without equilibrium
+    const Eigenmode &worst_mode() const
+    {
+      return modes.at(worst);
+    }
 
-    /// How a pair's levers move in that mode: "mirroring", "swinging", "either" where a mode of each kind has its eigenvalue,
-    /// "mixed" of levers that differ. Empty for one lever and without equilibrium.
+    /// Returns the largest Re lambda [1/s]; NaN without equilibrium.
+    double growth_rate() const
+    {
+      return modes.empty() ? std::numeric_limits<double>::quiet_NaN() : worst_mode().mode.eigenvalue.real();
+    }
+
+    /// Returns the frequency of that mode [Hz]; NaN without equilibrium.
+    double frequency() const
+    {
+      return modes.empty() ? std::numeric_limits<double>::quiet_NaN() : worst_mode().mode.eigenvalue.imag() / (2. * M_PI);
+    }
+
+    /// Returns the uniqueness of the HeldSlide; NaN without equilibrium.
+    double uniqueness() const
+    {
+      return slide ? slide->uniqueness : std::numeric_limits<double>::quiet_NaN();
+    }
+
+    /// Tells how a pair's levers move in that mode: "mirroring", "swinging", "either" where a mode of each kind has its
+    /// eigenvalue, "mixed" where the levers differ. It is empty for one lever and without equilibrium.
     std::string motion() const;
   };
 
-  /// Growth above this share of |lambda| counts as such; below is round-off.
+  /// Growth above this share of |lambda| counts as growth; what is below is round-off.
   constexpr double smallest_growth = 1e-7;
 
   /// Judges the slide at `drive`: its vibrations, at least the `modes` lowest.
   SlideStability judge(DynamicModel &model, const DrivePoint &drive, unsigned int modes);
 
-  /// The same at the scene's held_drive(), its model in held_scene() made by `maker`.
+  /// Judges the slide at the scene's held_drive(), with its model in held_scene(), which `maker` makes.
   SlideStability judge(const Scene &scene, DynamicsMaker &maker);
 } // namespace sprag

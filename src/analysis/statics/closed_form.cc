@@ -14,32 +14,12 @@ namespace sprag
   {
     Row row_at(const DrivePoint &point, const ClosedFormState &state, const double spring_energy, const Work &work)
     {
-      Row row;
-      row[Column::time]                 = point.time;
-      row[Column::x]                    = point.x;
-      row[Column::v]                    = point.v;
-      row[Column::theta]                = state.contact.theta;
-      row[Column::s]                    = state.contact.s;
-      row[Column::P]                    = state.P;
-      row[Column::F]                    = state.F;
-      row[Column::Q]                    = state.Q;
-      row[Column::normal_resultant]     = state.P;
-      row[Column::friction_resultant]   = state.F;
-      row[Column::v_rel]                = state.v_rel;
-      row[Column::mu]                   = state.mu;
-      row[Column::friction_power]       = state.F * state.v_rel;
-      row[Column::P_closed_form]        = state.P;
-      row[Column::Q_closed_form]        = state.Q;
-      row[Column::theta_closed_form]    = state.contact.theta;
-      row[Column::spring_energy]        = spring_energy;
-      row[Column::support_displacement] = 0.;
-      row[Column::Q_support]            = state.Q;
-      row[Column::support_energy]       = 0.;
-      row[Column::drive_work]           = work.drive;
-      row[Column::friction_work]        = work.friction;
-      for (const auto column : { Column::centre_offset, Column::contact_width, Column::penetration, Column::indentation,
-                                 Column::cone_violation, Column::elastic_slip, Column::elastic_energy })
-        row[column] = 0.;
+      Row row                        = ideal_contact_row(point, state, spring_energy);
+      row[Column::P_closed_form]     = state.P;
+      row[Column::Q_closed_form]     = state.Q;
+      row[Column::theta_closed_form] = state.contact.theta;
+      row[Column::drive_work]        = work.drive;
+      row[Column::friction_work]     = work.friction;
       return row;
     }
 
@@ -111,12 +91,36 @@ namespace sprag
     }
   } // namespace
 
+  Row ideal_contact_row(const DrivePoint &point, const ClosedFormState &state, const double spring_energy)
+  {
+    Row row;
+    row[Column::time]               = point.time;
+    row[Column::x]                  = point.x;
+    row[Column::v]                  = point.v;
+    row[Column::theta]              = state.contact.theta;
+    row[Column::s]                  = state.contact.s;
+    row[Column::P]                  = state.P;
+    row[Column::F]                  = state.F;
+    row[Column::Q]                  = state.Q;
+    row[Column::Q_support]          = state.Q;
+    row[Column::normal_resultant]   = state.P;
+    row[Column::friction_resultant] = state.F;
+    row[Column::v_rel]              = state.v_rel;
+    row[Column::mu]                 = state.mu;
+    row[Column::friction_power]     = state.F * state.v_rel;
+    row[Column::spring_energy]      = spring_energy;
+    for (const auto column :
+         { Column::centre_offset, Column::contact_width, Column::penetration, Column::indentation, Column::cone_violation,
+           Column::elastic_slip, Column::elastic_energy, Column::support_displacement, Column::support_energy })
+      row[column] = 0.;
+    return row;
+  }
+
   void run_closed_form(const Scene &scene, const std::function<void(const Row &)> &sink)
   {
-    const auto &drive     = scene.drive;
-    const auto &reversals = drive.reversals();
-    const auto advance    = make_advance(scene);
-    const auto hand_on    = [&](const DrivePoint &from, const DrivePoint &to)
+    const auto &drive  = scene.drive;
+    const auto advance = make_advance(scene);
+    const auto hand_on = [&](const DrivePoint &from, const DrivePoint &to)
     {
       Row row           = advance(from, to);
       row[Column::step] = to.x - from.x;
@@ -130,7 +134,7 @@ namespace sprag
       const auto next = drive.step(point.time, scene.analysis.step);
       hand_on(point, next);
       point = next;
-      if (std::binary_search(reversals.begin(), reversals.end(), point.time))
+      if (drive.turns_at(point.time))
       {
         point = drive.at(point.time, Drive::Side::after);
         hand_on(point, point);

@@ -30,8 +30,8 @@ namespace sprag
     double rms_error;
   };
 
-  /// Least squares of the errors of P, to first order: the stiffness at the largest P, which the ringing after a reversal feels,
-  /// is met best. Requires two or more points with P, local() > 0.
+  /// Fits the law by least squares of the errors of P, to first order: the stiffness at the largest P, which the ringing after a
+  /// reversal feels, is met best. Requires two or more points with P, local() > 0.
   ContactLawFit fit_contact_law(const std::vector<Indentation> &points);
 
   struct FittedContact
@@ -39,7 +39,8 @@ namespace sprag
     std::vector<Indentation> points;
     ContactLawFit fit;
 
-    /// Largest relative error of P that the penalty leaves: the exponent times the overlap over the local indentation.
+    /// Returns the largest relative error of P that the penalty leaves: the exponent times the overlap over the local
+    /// indentation.
     double penalty_error() const;
   };
 
@@ -48,6 +49,6 @@ namespace sprag
   /// coarse as the scene's and an automatic penalty as stiff as hard contact.
   FittedContact indent(const Scene &scene);
 
-  /// The same for a lever that bends as a beam of that EI [N mm^2] does, instead of the scene's bar.
+  /// Indents a lever that bends as a beam of that EI [N mm^2] does, instead of the scene's bar.
   FittedContact indent(const Scene &scene, double bending_stiffness);
 } // namespace sprag

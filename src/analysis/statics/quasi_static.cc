@@ -1,18 +1,18 @@
 #include "analysis/statics/quasi_static.h"
 
-#include "analysis/statics/newton.h"
 #include "base/errors.h"
+#include "base/text.h"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <sstream>
 #include <string>
 
 namespace sprag
 {
   namespace
   {
+    constexpr double round_off            = 5e-15; ///< of positions, over the size of the scene
     constexpr double growth               = 1.5;
     constexpr double cut                  = 0.25;
     constexpr double stalled_overlap      = 100.; ///< admitted after all augmentations, over the tolerance
@@ -114,17 +114,10 @@ namespace sprag
 
     [[noreturn]] void give_up(const Row &last, const double dx, const std::string &failure)
     {
-      std::ostringstream message;
-      message << "no equilibrium beyond x = " << last[Column::x] << " mm (v = " << last[Column::v]
-              << " mm/s, P = " << last[Column::P] << " N): " << failure << " even in a step of " << dx << " mm. ";
-      message << "Try a smaller friction coefficient or offset; if it is not the mechanics, a smaller Contact/Penalty or a finer "
-                 "Mesh/Face size.";
-      throw AnalysisError(message.str());
-    }
-
-    bool is_reversal(const Drive &drive, const double time)
-    {
-      return std::binary_search(drive.reversals().begin(), drive.reversals().end(), time);
+      throw AnalysisError("no equilibrium beyond x = " + mm(last[Column::x]) + " (v = " + rounded_text(last[Column::v]) +
+                          " mm/s, P = " + rounded_text(last[Column::P]) + " N): " + failure + " even in a step of " + mm(dx) +
+                          ". Try a smaller friction coefficient or offset; if it is not the mechanics, a smaller Contact/Penalty "
+                          "or a finer Mesh/Face size.");
     }
 
     /// A drive that goes back at once from where the cylinder was slid forward.
@@ -204,15 +197,9 @@ namespace sprag
       return true;
     }
 
-    struct Start
-    {
-      Progression progression;
-      double step; ///< [mm]
-    };
-
-    /// The state in which the drive begins: just touching at x = 0, further on as reached by sliding there from x = 0 at the
-    /// drive's own speed.
-    Start begin(Model &model, const Drive &drive, const QuasiStaticSettings &settings)
+    /// The state in which the drive begins and the first step [mm]: just touching at x = 0, further on as reached by sliding
+    /// there from x = 0 at the drive's own speed.
+    std::pair<Progression, double> begin(Model &model, const Drive &drive, const QuasiStaticSettings &settings)
     {
       const DrivePoint start = drive.at(0., Drive::Side::after);
       Progression now{ model.initial_state({ 0., 0., drive.peak_speed() }), {} };
@@ -250,6 +237,32 @@ namespace sprag
     }
   } // namespace
 
+  NewtonResult solve_equilibrium(Model &model, State &trial, const bool stick_first)
+  {
+    if (stick_first)
+    {
+      model.evaluate(trial, FrictionMode::stick);
+      trial.coordinates += model.correction();
+    }
+    double overlap      = 0.;
+    const auto evaluate = [&](const dealii::Vector<double> & /*coordinates of trial*/)
+    {
+      const auto unbalance = model.evaluate(trial, FrictionMode::cone);
+      overlap              = unbalance.overlap;
+      return unbalance.norm;
+    };
+    return solve_by_newton(
+        trial.coordinates, round_off * model.length_scale(), evaluate, [&] { return model.correction(); },
+        [&](const dealii::Vector<double> &change) { return model.movement(change); }, [&] { return overlap; });
+  }
+
+  bool is_balanced(Model &model, const State &state)
+  {
+    State trial = model.begin_step(state, state.drive);
+    model.evaluate(trial, FrictionMode::cone);
+    return model.movement(model.correction()) <= round_off * model.length_scale();
+  }
+
   double stick_stiffness(Model &model, const State &accepted)
   {
     // The accepted state itself is not balanced in stick where the multipliers of the augmented Lagrangian are carried over.
@@ -275,7 +288,7 @@ namespace sprag
     Passage passage;
     while (now.state.drive.time < drive.duration())
     {
-      const bool reversed = is_reversal(drive, now.state.drive.time) || begins_backward(now.state.drive);
+      const bool reversed = drive.turns_at(now.state.drive.time) || begins_backward(now.state.drive);
       if (reversed)
       {
         const double stiffness = stick_stiffness(model, now.state);

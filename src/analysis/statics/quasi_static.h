@@ -1,12 +1,20 @@
 #pragma once
 
 #include "model/model.h"
+#include "model/newton.h"
 #include "scene/scene.h"
 
 #include <functional>
 
 namespace sprag
 {
+  /// Solves the equilibrium of `trial` in the model's step, see solve_by_newton(), from the coordinates in `trial`. With
+  /// `stick_first` the first correction assumes stick everywhere, which finds the direction of slip after a reversal.
+  NewtonResult solve_equilibrium(Model &model, State &trial, bool stick_first);
+
+  /// Returns whether a state that no step led to is an equilibrium, up to round-off.
+  bool is_balanced(Model &model, const State &state);
+
   struct QuasiStaticSettings
   {
     double step         = 1.;   ///< largest change of x in a step [mm]
@@ -17,8 +25,8 @@ namespace sprag
   /// Called with every accepted state, the first included, right after the model evaluated it.
   using StepSink = std::function<void(const State &state, const Row &row)>;
 
-  /// Stiffness dF/dx of the lever in stick, with all points under pressure stuck: of layer, tangential penalty and body in series
-  /// [N/mm]; of a full pair that of both levers. 0 where the contact is open. Evaluates the model.
+  /// Finds the stiffness dF/dx of the lever in stick, with all points under pressure stuck: of layer, tangential penalty and body
+  /// in series [N/mm]; of a full pair that of both levers. 0 where the contact is open. Evaluates the model.
   double stick_stiffness(Model &model, const State &accepted);
 
   /// Moves the model along the drive through equilibria, inertia left out. Steps are cut back where the equilibrium is not found

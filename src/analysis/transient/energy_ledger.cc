@@ -35,12 +35,6 @@ namespace sprag
     }
   } // namespace
 
-  EnergyLedger::EnergyLedger(const StoredEnergy &at_start)
-      : start(at_start)
-      , now(at_start)
-  {
-  }
-
   double EnergyLedger::residual() const
   {
     return sum.drive - (total(now) - total(start)) - dissipated(sum);

@@ -25,7 +25,11 @@ namespace sprag
   class EnergyLedger
   {
   public:
-    explicit EnergyLedger(const StoredEnergy &at_start);
+    explicit EnergyLedger(const StoredEnergy &at_start)
+        : start(at_start)
+        , now(at_start)
+    {
+    }
 
     void add(double time, const StoredEnergy &stored, const StepWork &work);
 

@@ -11,11 +11,11 @@ namespace sprag
     double value;
   };
 
-  /// The extrema of a signal between its changes of sign, as sizes > 0: one a half period, at the vertex of the parabola through
-  /// the largest sample and its neighbours. What stands before the first and behind the last change of sign is left out.
+  /// Finds the extrema of a signal between its changes of sign, as sizes > 0: one a half period, at the vertex of the parabola
+  /// through the largest sample and its neighbours. What stands before the first and behind the last change of sign is left out.
   std::vector<Sample> envelope_of(const std::vector<Sample> &signal);
 
-  /// Times of the changes of sign, between samples by a straight line [s].
+  /// Finds the times of the changes of sign, between samples by a straight line [s].
   std::vector<double> crossings(const std::vector<Sample> &signal);
 
   /// A exp(g t) fitted to sizes by the least squares of their logarithms.
@@ -26,9 +26,10 @@ namespace sprag
     double scatter;   ///< root mean square of what the logarithms are off
   };
 
-  /// Sizes > 0.
+  /// Fits sizes, all > 0.
   ExponentialFit fit_exponential(const std::vector<Sample> &sizes);
 
-  /// Half the number of changes of sign per time, by least squares of their times over their numbers [Hz]; NaN with fewer than 3.
+  /// Returns half the number of changes of sign per time, by least squares of their times over their numbers [Hz]; NaN with fewer
+  /// than 3.
   double fit_frequency(const std::vector<double> &crossings);
 } // namespace sprag

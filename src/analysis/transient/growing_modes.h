@@ -17,16 +17,16 @@ namespace sprag
     double frequency;   ///< [Hz], > 0
   };
 
-  /// The fastest growing vibration at each of a few places of the drive's first cycle, those left out at which none grows by
-  /// more than a factor of 1000 within a stroke. Where the model has no slide there is none. Judges by all vibrations of a
+  /// Finds the fastest growing vibration at each of a few places of the drive's first cycle, those left out at which none grows
+  /// by more than a factor of 1000 within a stroke. Where the model has no slide there is none. Judges by all vibrations of a
   /// small model; requires one that finds them all (not finite elements).
   std::vector<GrowingMode> growing_modes(DynamicModel &model, const Drive &drive);
 
-  /// Algorithmic damping over critical: the loss of the logarithm of an amplitude in a radian, of `angle` > 0 radians a step, in
-  /// the generalised-alpha method. It rises with the angle.
+  /// Returns the algorithmic damping over critical: the loss of the logarithm of an amplitude in a radian, of `angle` > 0 radians
+  /// a step, in the generalised-alpha method. It rises with the angle.
   double algorithmic_damping(double spectral_radius, double angle);
 
-  /// The longest step that damps each mode by less than a tenth of its growth and turns it by 1 rad at most [s]; infinite
+  /// Returns the longest step that damps each mode by less than a tenth of its growth and turns it by 1 rad at most [s]; infinite
   /// without modes.
   double longest_step(const std::vector<GrowingMode> &modes, double spectral_radius);
 

@@ -2,9 +2,9 @@
 
 #include "base/errors.h"
 #include "base/interrupt.h"
+#include "base/text.h"
 
 #include <algorithm>
-#include <sstream>
 
 namespace sprag
 {
@@ -14,11 +14,9 @@ namespace sprag
 
     [[noreturn]] void give_up(const DrivePoint &at, const double dt)
     {
-      std::ostringstream message;
-      message << "no step beyond t = " << at.time << " s (held at x = " << at.x << " mm): Newton's method does not converge even "
-              << "in a step of " << dt << " s. Try more Sprag slip/Steps per period, or a smaller Contact/Stiffness or "
-              << "Contact/Penalty.";
-      throw AnalysisError(message.str());
+      throw AnalysisError("no step beyond t = " + rounded_text(at.time) + " s (held at x = " + mm(at.x) +
+                          "): Newton's method does not converge even in a step of " + rounded_text(dt) +
+                          " s. Try more Sprag slip/Steps per period, or a smaller Contact/Stiffness or Contact/Penalty.");
     }
   } // namespace
 
@@ -49,24 +47,13 @@ namespace sprag
     };
   }
 
-  HeldRun::HeldRun(DynamicModel &dynamic_model, const double step_duration)
-      : model(dynamic_model)
-      , dt(step_duration)
-  {
-  }
-
   void HeldRun::begin(Motion motion)
   {
     const auto energy = model.stored_energy(motion);
-    start({ std::move(motion), energy });
+    resume({ std::move(motion), energy });
   }
 
-  void HeldRun::resume(const RunState &state)
-  {
-    start(state);
-  }
-
-  void HeldRun::start(RunState state)
+  void HeldRun::resume(RunState state)
   {
     worst = ledger();
     if (account)
@@ -112,11 +99,6 @@ namespace sprag
       give_up(now.motion.drive, duration);
     const auto first = advance(path, 0.5 * duration, halvings + 1);
     return outcome.iterations + first + advance(path, 0.5 * duration, halvings + 1);
-  }
-
-  const DrivePoint &HeldRun::drive() const
-  {
-    return now.motion.drive;
   }
 
   bool HeldRun::slides(const double speed) const

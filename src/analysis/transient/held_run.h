@@ -8,14 +8,14 @@
 
 namespace sprag
 {
-  /// The drive at an instant of a run, surface included.
+  /// Tells where the drive is at an instant of a run [s], how far its surface has run included.
   using DrivePath = std::function<DrivePoint(double time)>;
 
-  /// The centre stays where it is and the surface runs on at the slide's speed.
+  /// Returns the path on which the centre stays where it is and the surface runs on at the slide's speed.
   DrivePath held_path(const DrivePoint &from, const HeldSlide &slide);
 
-  /// The centre moves smoothly from one slide's x to another's within `duration` > 0 [s]. The surface runs the slower the more
-  /// that motion slides by itself, so that the slip goes on at the speed of the slides.
+  /// Returns the path on which the centre moves smoothly from one slide's x to another's within `duration` > 0 [s]. The surface
+  /// runs the slower the more that motion slides by itself, so that the slip goes on at the speed of the slides.
   DrivePath moving_path(const DrivePoint &from, const HeldSlide &begin, const HeldSlide &end, double duration);
 
   /// A state of a run from which it can be taken up again.
@@ -25,26 +25,30 @@ namespace sprag
     StoredEnergy energy;
   };
 
-  /// Steps of one duration about held slides, with their ledger.
+  /// Takes steps of one duration about held slides and keeps their energy ledger.
   class HeldRun
   {
   public:
-    /// A step of `dt` > 0 [s] without solution is divided in two, up to 12 times.
-    HeldRun(DynamicModel &model, double dt);
+    /// Prepares steps of `dt` > 0 [s]; one without solution is divided in two, up to 12 times.
+    HeldRun(DynamicModel &dynamic_model, const double step_duration)
+        : model(dynamic_model)
+        , dt(step_duration)
+    {
+    }
 
     /// Begins at a motion, the outcome of the model's last hold() or perturbed(). The ledger begins anew; the time of a run that
     /// has begun before goes on.
     void begin(Motion motion);
 
     /// Takes up a former state of this run, its time apart; the ledger begins anew.
-    void resume(const RunState &state);
+    void resume(RunState state);
 
     const RunState &state() const
     {
       return now;
     }
 
-    /// Spectral radius of the steps from now on, 0 ... 1; at first 1.
+    /// Sets the spectral radius of the steps from now on, 0 ... 1; at first it is 1.
     void use_spectral_radius(const double radius)
     {
       spectral_radius = radius;
@@ -53,11 +57,18 @@ namespace sprag
     /// Goes on by dt and returns the row there. Throws AnalysisError where there is no solution, or when the run is interrupted.
     const Row &step(const DrivePath &path);
 
-    const DrivePoint &drive() const;
+    /// Returns where the drive is at the present state.
+    const DrivePoint &drive() const
+    {
+      return now.motion.drive;
+    }
+
     double time_step() const
     {
       return dt;
     }
+
+    /// Returns the number of steps so far.
     unsigned long steps() const
     {
       return count;
@@ -70,7 +81,6 @@ namespace sprag
     LedgerReport ledger() const;
 
   private:
-    void start(RunState state);
     unsigned int advance(const DrivePath &path, double duration, unsigned int halvings);
 
     DynamicModel &model;

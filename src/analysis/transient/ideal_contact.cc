@@ -1,5 +1,6 @@
 #include "analysis/transient/ideal_contact.h"
 
+#include "analysis/statics/closed_form.h"
 #include "analysis/transient/step_clock.h"
 #include "base/errors.h"
 #include "base/text.h"
@@ -23,44 +24,26 @@ namespace sprag
       Row row(const DrivePoint &point) const
       {
         const auto &g          = scene.geometry;
-        const auto contact     = kinematics(g, point.x);
-        const double mu        = sliding_friction(scene, point.x, point.v).coefficient;
-        const double signed_mu = direction_of(point.v) * mu;
+        ClosedFormState state  = closed_form(scene, point.x, point.v);
+        const auto &contact    = state.contact;
+        const double signed_mu = direction_of(point.v) * state.mu;
         const double s_x       = -std::cos(contact.theta) - (g.cylinder_radius - g.interface_offset) * contact.theta_x;
         const double theta_xx =
             (std::cos(contact.theta) * contact.theta_x * contact.s - std::sin(contact.theta) * s_x) / (contact.s * contact.s);
-        const double rate         = contact.theta_x * point.v;
-        const double acceleration = contact.theta_x * point.a + theta_xx * point.v * point.v;
-        const double moment       = inertia * acceleration + spring.moment(contact.theta - rest);
-        const double P            = moment / (contact.s + signed_mu * g.interface_offset);
-        const double F            = signed_mu * P;
-        const double speed        = sliding_speed(g, point.x, point.v);
+        const double rate           = contact.theta_x * point.v;
+        const double acceleration   = contact.theta_x * point.a + theta_xx * point.v * point.v;
+        const double moment         = inertia * acceleration + spring.moment(contact.theta - rest);
+        const double quasi_static_P = state.P, quasi_static_Q = state.Q;
+        state.P = moment / (contact.s + signed_mu * g.interface_offset);
+        state.F = signed_mu * state.P;
+        state.Q = state.P * std::sin(contact.theta) + state.F * std::cos(contact.theta);
 
-        Row result;
-        result[Column::time]               = point.time;
-        result[Column::x]                  = point.x;
-        result[Column::v]                  = point.v;
-        result[Column::theta]              = contact.theta;
-        result[Column::theta_rate]         = rate;
-        result[Column::s]                  = contact.s;
-        result[Column::P]                  = P;
-        result[Column::F]                  = F;
-        result[Column::Q]                  = P * std::sin(contact.theta) + F * std::cos(contact.theta);
-        result[Column::Q_support]          = result[Column::Q];
-        result[Column::normal_resultant]   = P;
-        result[Column::friction_resultant] = F;
-        result[Column::v_rel]              = speed;
-        result[Column::mu]                 = mu;
-        result[Column::friction_power]     = F * speed;
-        result[Column::kinetic_energy]     = 0.5 * inertia * rate * rate;
-        result[Column::spring_energy]      = spring.energy(contact.theta - rest);
-        const auto quasi_static            = closed_form(scene, point.x, point.v);
-        result[Column::P_quasi_static]     = quasi_static.P;
-        result[Column::Q_quasi_static]     = quasi_static.Q;
-        for (const auto column :
-             { Column::centre_offset, Column::contact_width, Column::penetration, Column::indentation, Column::cone_violation,
-               Column::elastic_slip, Column::elastic_energy, Column::support_energy, Column::contact_energy, Column::damping_work,
-               Column::algorithmic_work, Column::support_displacement, Column::creep })
+        Row result                     = ideal_contact_row(point, state, spring.energy(contact.theta - rest));
+        result[Column::theta_rate]     = rate;
+        result[Column::kinetic_energy] = 0.5 * inertia * rate * rate;
+        result[Column::P_quasi_static] = quasi_static_P;
+        result[Column::Q_quasi_static] = quasi_static_Q;
+        for (const auto column : { Column::contact_energy, Column::damping_work, Column::algorithmic_work, Column::creep })
           result[column] = 0.;
         return result;
       }
@@ -100,8 +83,7 @@ namespace sprag
 
   TransientReport run_ideal_contact(const Scene &scene, const double inertia, const std::function<void(const Row &)> &sink)
   {
-    const auto &drive     = scene.drive;
-    const auto &reversals = drive.reversals();
+    const auto &drive = scene.drive;
     const IdealContact lever{ scene, inertia };
     StepClock clock(drive, scene.time.step, 0);
 
@@ -126,7 +108,7 @@ namespace sprag
       ++report.steps;
       hand_on(end - time);
       time = end;
-      if (std::binary_search(reversals.begin(), reversals.end(), end))
+      if (drive.turns_at(end))
       {
         row = lever.row(drive.at(end, Drive::Side::after));
         hand_on(0.);

@@ -223,15 +223,16 @@ namespace sprag
       return unknown;
     }
 
-    /// What a verdict needs beside the window's P.
-    struct Surroundings
+    /// P that never counts [N].
+    double negligible(const std::vector<Row> &rows)
     {
-      double face_size; ///< [mm], 0: no mesh
-      double speed;     ///< of the contact along the face in the window [mm/s]
-      double least;     ///< P that never counts [N]
-    };
+      const auto finite_P = [](const Row &row)
+      { return std::isfinite(row[Column::P_quasi_static]) ? row[Column::P_quasi_static] : 0.; };
+      return noise * largest(rows, finite_P);
+    }
 
-    void add_normal_force(Oscillation &oscillation, const Samples &after_turn, const Surroundings &around)
+    void add_normal_force(Oscillation &oscillation, const Samples &after_turn, const std::vector<Row> &rows,
+                          const double face_size)
     {
       const Samples after_reversal = later_than(after_turn, oscillation.window_begin);
       const Samples window         = up_to(after_reversal, oscillation.window_end);
@@ -247,9 +248,10 @@ namespace sprag
       oscillation.rms_end     = rms(later_than(window, last_tenth));
       oscillation.extent      = extent(after_reversal, oscillation.x);
       oscillation.scale       = largest_reference(window);
-      if (around.face_size > 0.)
-        oscillation.passing_frequency = passing_frequency(oscillation, around.speed, around.face_size);
-      oscillation.verdict = verdict_of(oscillation, around.least);
+      if (face_size > 0.)
+        oscillation.passing_frequency =
+            passing_frequency(oscillation, speed_along(rows, oscillation.window_begin, oscillation.window_end), face_size);
+      oscillation.verdict = verdict_of(oscillation, negligible(rows));
     }
 
     void add_force_along_x(const Samples &after_turn, const double begin, const double end, double &excess, double &frequency,
@@ -263,15 +265,6 @@ namespace sprag
       distance  = rms(window);
     }
 
-    double negligible(const std::vector<Row> &rows)
-    {
-      double peak = 0.;
-      for (const auto &row : rows)
-        if (std::isfinite(row[Column::P_quasi_static]))
-          peak = std::max(peak, std::abs(row[Column::P_quasi_static]));
-      return noise * peak;
-    }
-
     Oscillation oscillation_at(const std::vector<Row> &rows, const DrivePoint &turn, const double reversal_duration,
                                const double next_reversal, const double face_size)
     {
@@ -281,8 +274,7 @@ namespace sprag
       result.window_begin = turn.time + reversal_duration / 2.;
       const double end    = std::min(next_reversal, rows.empty() ? turn.time : rows.back()[Column::time]);
       result.window_end   = std::max(std::min(result.window_begin + window_length, end), result.window_begin);
-      add_normal_force(result, samples_of(rows, Column::P, Column::P_quasi_static, turn.time, end),
-                       { face_size, speed_along(rows, result.window_begin, result.window_end), negligible(rows) });
+      add_normal_force(result, samples_of(rows, Column::P, Column::P_quasi_static, turn.time, end), rows, face_size);
       add_force_along_x(samples_of(rows, Column::Q, Column::Q_quasi_static, turn.time, end), result.window_begin,
                         result.window_end, result.overshoot_Q, result.frequency_Q, result.rms_Q);
       add_force_along_x(samples_of(rows, Column::Q_support, Column::Q_quasi_static, turn.time, end), result.window_begin,

@@ -20,7 +20,7 @@ namespace sprag
     rings     ///< none of these: it decays, but not within the window
   };
 
-  /// "vibrates", "decays" ...
+  /// Returns "vibrates", "decays" ...
   std::string verdict_name(Verdict verdict);
 
   /// The vibration after a reversal of the drive, measured by how far P, Q and Q_support are off the values without inertia.
@@ -66,12 +66,13 @@ namespace sprag
     double extent = unknown;
   };
 
-  /// One a reversal of the drive, in its order. `face_size`: of the elements along the friction face [mm]; 0: none, or unknown.
+  /// Measures the oscillation after each reversal of the drive. `face_size` is that of the elements along the friction face [mm],
+  /// 0 where there are none or it is unknown.
   std::vector<Oscillation> oscillations(const std::vector<Row> &rows, const Drive &drive, double face_size = 0.);
 
   /// Warns of ringing that the mesh makes, not the lever.
   Warnings element_passing_warnings(const std::vector<Oscillation> &oscillations, double face_size);
 
-  /// For /summary: reversal_1_verdict, reversal_1_frequency, ... for every reversal.
+  /// Returns the entries of /summary: reversal_1_verdict, reversal_1_frequency, ... for every reversal.
   std::vector<Entry> oscillation_entries(const std::vector<Oscillation> &oscillations);
 } // namespace sprag

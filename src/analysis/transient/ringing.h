@@ -20,8 +20,8 @@ namespace sprag
     double growth_rate = std::numeric_limits<double>::quiet_NaN(); ///< of the envelope [1/s], negative: decays
   };
 
-  /// Between the first and the last value further than `noise` from the signal's linear trend. Frequency: peak of the spectrum,
-  /// refined by a least-squares fit of one exponentially growing or decaying sinusoid. Growth: log-linear fit of the half ranges
-  /// of successive periods, so that neither harmonics nor a slow drift matter.
+  /// Finds the ringing between the first and the last value further than `noise` from the signal's linear trend. Frequency: peak
+  /// of the spectrum, refined by a least-squares fit of one exponentially growing or decaying sinusoid. Growth: log-linear fit of
+  /// the half ranges of successive periods, so that neither harmonics nor a slow drift matter.
   Ringing ringing(const Signal &signal, double noise);
 } // namespace sprag

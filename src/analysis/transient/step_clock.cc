@@ -25,26 +25,9 @@ namespace sprag
         count = (count + unit - 1) / unit * unit;
   }
 
-  bool StepClock::finished() const
-  {
-    return segment == ends.size();
-  }
-
-  double StepClock::duration() const
-  {
-    return (ends[segment] - begin) / static_cast<double>(count);
-  }
-
   double StepClock::end_of_step() const
   {
     return passed + 1 == count ? ends[segment] : begin + static_cast<double>(passed + 1) * duration();
-  }
-
-  void StepClock::halve()
-  {
-    count *= 2;
-    passed *= 2;
-    wanted *= 0.5;
   }
 
   bool StepClock::grow()

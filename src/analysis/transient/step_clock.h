@@ -11,20 +11,32 @@ namespace sprag
   class StepClock
   {
   public:
-    /// `largest_doublings`: how often the first step may be doubled. If at all, the steps of a segment are up to an eighth
-    /// shorter than asked for, so that they can be.
+    /// Begins with steps of at most `step` [s], which may be doubled `largest_doublings` times. If at all, the steps of a segment
+    /// are up to an eighth shorter than asked for, so that they can be.
     StepClock(const Drive &drive, double step, unsigned int largest_doublings);
 
-    double duration() const;
+    /// Returns the duration of the present step [s].
+    double duration() const
+    {
+      return (ends[segment] - begin) / static_cast<double>(count);
+    }
 
-    /// End of the present step [s].
+    /// Returns the end of the present step [s].
     double end_of_step() const;
 
-    bool finished() const;
+    bool finished() const
+    {
+      return segment == ends.size();
+    }
 
-    void halve();
+    void halve()
+    {
+      count *= 2;
+      passed *= 2;
+      wanted *= 0.5;
+    }
 
-    /// Doubles the step where that leaves a whole number of them, up to the largest one; says whether it did.
+    /// Doubles the step where that leaves a whole number of them, up to the largest one; returns whether it did.
     bool grow();
 
     void advance();

@@ -2,10 +2,10 @@
 
 #include "analysis/transient/step_clock.h"
 #include "base/errors.h"
+#include "base/text.h"
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace sprag
 {
@@ -17,12 +17,10 @@ namespace sprag
 
     [[noreturn]] void give_up(const DrivePoint &at, const double dt, const std::string &failure)
     {
-      std::ostringstream message;
-      message << "no step beyond t = " << at.time << " s (x = " << at.x << " mm, v = " << at.v << " mm/s): " << failure
-              << " even in a step of " << dt
-              << " s. Try a larger Time/Tolerance, a smaller Contact/Stiffness or Contact/Penalty, "
-              << "or a smaller Time/Spectral radius.";
-      throw AnalysisError(message.str());
+      throw AnalysisError("no step beyond t = " + rounded_text(at.time) + " s (x = " + mm(at.x) + ", v = " + rounded_text(at.v) +
+                          " mm/s): " + failure + " even in a step of " + rounded_text(dt) +
+                          " s. Try a larger Time/Tolerance, a smaller Contact/Stiffness or Contact/Penalty, or a smaller "
+                          "Time/Spectral radius.");
     }
 
     Row observe(const DynamicModel &model, const Motion &motion, const EnergyLedger &ledger)
@@ -38,16 +36,17 @@ namespace sprag
 
     /// Steady sliding without inertia along the drive, computed where x or v has changed enough and joined by lines; a jump where
     /// it turns.
-    class QuasiStaticCurve
+    struct QuasiStaticCurve
     {
-    public:
-      QuasiStaticCurve(DynamicModel &dynamic_model, const Drive &prescribed, const double largest_spacing)
-          : model(dynamic_model)
-          , drive(prescribed)
-          , spacing(largest_spacing)
+      DynamicModel &model;
+      const Drive &drive;
+      const double spacing; ///< of x [mm]
+
+      struct Sample
       {
-        add(drive.at(0., Drive::Side::after));
-      }
+        double time, P, Q;
+      };
+      std::vector<Sample> samples = { sample(drive.at(0., Drive::Side::after)) };
 
       /// Evaluates the model: to be called before the step to that time.
       void extend(const double time)
@@ -57,9 +56,9 @@ namespace sprag
           const double end  = next(samples.back().time);
           const auto before = drive.at(end, Drive::Side::before);
           const auto after  = drive.at(end, Drive::Side::after);
-          add(before);
+          samples.push_back(sample(before));
           if (direction_of(after.v) != direction_of(before.v))
-            add(after);
+            samples.push_back(sample(after));
         }
       }
 
@@ -75,16 +74,10 @@ namespace sprag
         row[Column::Q_quasi_static] = begin.Q + share * (end.Q - begin.Q);
       }
 
-    private:
-      struct Sample
+      Sample sample(const DrivePoint &point) const
       {
-        double time, P, Q;
-      };
-
-      void add(const DrivePoint &point)
-      {
-        const auto forces = model.sliding_forces(point);
-        samples.push_back(forces ? Sample{ point.time, forces->P, forces->Q } : Sample{ point.time, std::nan(""), std::nan("") });
+        const auto forces = model.sliding_forces(point).value_or(SlidingForces{ std::nan(""), std::nan("") });
+        return { point.time, forces.P, forces.Q };
       }
 
       double next(const double time) const
@@ -97,11 +90,6 @@ namespace sprag
           point = drive.step(time, dx *= 0.5);
         return point.time;
       }
-
-      DynamicModel &model;
-      const Drive &drive;
-      const double spacing; ///< of x [mm]
-      std::vector<Sample> samples;
     };
 
     /// Decides on steps by their local error.
@@ -189,7 +177,7 @@ namespace sprag
   TransientReport run_transient(DynamicModel &model, const Drive &drive, const TransientSettings &settings,
                                 const MotionSink &sink)
   {
-    QuasiStaticCurve quasi_static(model, drive, settings.quasi_static_spacing);
+    QuasiStaticCurve quasi_static{ model, drive, settings.quasi_static_spacing };
     Motion motion = model.initial_motion(drive.at(0., Drive::Side::after));
     EnergyLedger ledger(model.stored_energy(motion));
     Row first = observe(model, motion, ledger);

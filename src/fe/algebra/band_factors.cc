@@ -7,18 +7,6 @@
 
 namespace sprag
 {
-  BandFactors::BandFactors(const unsigned int size, const unsigned int width)
-      : n(size)
-      , bandwidth(width)
-      , rows(static_cast<std::size_t>(size) * (width + 1))
-  {
-  }
-
-  std::size_t BandFactors::position(const unsigned int i, const unsigned int j) const
-  {
-    return static_cast<std::size_t>(i) * (bandwidth + 1) + (j - i);
-  }
-
   unsigned int BandFactors::factorise()
   {
     unsigned int negative = 0;

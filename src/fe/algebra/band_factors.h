@@ -13,11 +13,19 @@ namespace sprag
   public:
     BandFactors() = default;
 
-    /// Entries (i, j) with i <= j <= i + `bandwidth`.
-    BandFactors(unsigned int n, unsigned int bandwidth);
+    /// Makes room for the entries (i, j) with i <= j <= i + `width`.
+    BandFactors(const unsigned int size, const unsigned int width)
+        : n(size)
+        , bandwidth(width)
+        , rows(static_cast<std::size_t>(size) * (width + 1))
+    {
+    }
 
-    /// Where in entries() (i, j) is.
-    std::size_t position(unsigned int i, unsigned int j) const;
+    /// Returns where in entries() the entry (i, j) is.
+    std::size_t position(const unsigned int i, const unsigned int j) const
+    {
+      return static_cast<std::size_t>(i) * (bandwidth + 1) + (j - i);
+    }
 
     std::vector<double> &entries()
     {
@@ -28,7 +36,7 @@ namespace sprag
     /// AnalysisError if one is 0 or no number.
     unsigned int factorise();
 
-    /// After factorise().
+    /// Solves with the factors that factorise() has left.
     void solve(dealii::Vector<double> &right_hand_side_and_solution) const;
 
   private:

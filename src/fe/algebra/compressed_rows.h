@@ -1,6 +1,7 @@
 #pragma once
 
-#include <deal.II/lac/petsc_sparse_matrix.h>
+#include "fe/algebra/matrix_rows.h"
+
 #include <deal.II/lac/vector.h>
 
 #include <array>
@@ -12,10 +13,25 @@ namespace sprag
   class CompressedRows
   {
   public:
-    /// Entries that are 0 are left out.
-    explicit CompressedRows(const dealii::PETScWrappers::SparseMatrix &matrix);
+    /// Copies the matrix; entries that are 0 are left out.
+    explicit CompressedRows(const dealii::PETScWrappers::SparseMatrix &matrix)
+    {
+      const MatrixRows rows(matrix);
+      row_begin.push_back(0);
+      for (PetscInt i = 0; i < rows.n; ++i)
+      {
+        for (PetscInt a = rows.begin[i]; a < rows.begin[i + 1]; ++a)
+          if (const double entry = rows[static_cast<std::size_t>(a)]; entry != 0.)
+          {
+            columns.push_back(static_cast<unsigned int>(rows.column[a]));
+            values.push_back(entry);
+          }
+        row_begin.push_back(static_cast<unsigned int>(columns.size()));
+      }
+    }
 
-    /// results[k] = matrix times vectors[k]. Vectors may be longer than the matrix, results are left as they are beyond it.
+    /// Sets results[k] to the matrix times vectors[k]. Vectors may be longer than the matrix, results are left as they are beyond
+    /// it.
     template <std::size_t n>
     void multiply(const std::array<const dealii::Vector<double> *, n> &vectors,
                   const std::array<dealii::Vector<double> *, n> &results) const
@@ -31,7 +47,7 @@ namespace sprag
       }
     }
 
-    /// The matrix times a vector in extended precision, of which sums of large terms that nearly cancel lose little.
+    /// Multiplies the matrix by a vector in extended precision, of which sums of large terms that nearly cancel lose little.
     void multiply(const std::vector<long double> &vector, dealii::Vector<double> &result) const
     {
       for (unsigned int i = 0; i + 1 < row_begin.size(); ++i)

@@ -14,8 +14,8 @@ namespace sprag
     std::vector<dealii::Vector<double>> shapes; ///< phi^T M phi = 1
   };
 
-  /// The lowest `n` modes, or all if there are not so many. Both matrices symmetric and positive definite. Throws AnalysisError
-  /// if a residual is too large.
+  /// Finds the lowest `n` modes, or all if there are not so many. Both matrices symmetric and positive definite. Throws
+  /// AnalysisError if a residual is too large.
   FreeModes free_modes(const dealii::PETScWrappers::SparseMatrix &stiffness, const dealii::PETScWrappers::SparseMatrix &mass,
                        unsigned int n);
 } // namespace sprag

@@ -6,8 +6,8 @@
 
 namespace sprag
 {
-  /// Row beginnings and columns of a sequential matrix, in the order of its values; to be destroyed before the matrix changes its
-  /// pattern. Throws AnalysisError where PETSc does not give them.
+  /// Row beginnings, columns and entries of a sequential matrix; to be destroyed before the matrix changes its pattern. The
+  /// entries can be read and changed. Throws AnalysisError where PETSc does not give them.
   class MatrixRows
   {
   public:
@@ -15,45 +15,26 @@ namespace sprag
         : matrix(matrix_)
     {
       PetscBool found = PETSC_FALSE;
-      if (MatGetRowIJ(matrix, 0, PETSC_FALSE, PETSC_FALSE, &n, &begin, &column, &found) != 0 || found == PETSC_FALSE)
+      if (MatGetRowIJ(matrix, 0, PETSC_FALSE, PETSC_FALSE, &n, &begin, &column, &found) != 0 || found == PETSC_FALSE ||
+          MatSeqAIJGetArray(matrix, &entries) != 0)
         throw AnalysisError("the rows of a matrix cannot be read");
     }
     MatrixRows &operator=(MatrixRows &&) = delete;
     ~MatrixRows()
     {
       PetscBool found = PETSC_FALSE;
-      MatRestoreRowIJ(matrix, 0, PETSC_FALSE, PETSC_FALSE, &n, &begin, &column, &found);
-    }
-
-    PetscInt n             = 0;
-    const PetscInt *begin  = nullptr;
-    const PetscInt *column = nullptr;
-
-  private:
-    const Mat matrix;
-  };
-
-  /// Entries of a sequential matrix in the order of MatrixRows, which can be read and changed. Throws AnalysisError where PETSc
-  /// does not give them.
-  class MatrixValues
-  {
-  public:
-    explicit MatrixValues(const dealii::PETScWrappers::SparseMatrix &matrix_)
-        : matrix(matrix_)
-    {
-      if (MatSeqAIJGetArray(matrix, &entries) != 0)
-        throw AnalysisError("the entries of a matrix cannot be read");
-    }
-    MatrixValues &operator=(MatrixValues &&) = delete;
-    ~MatrixValues()
-    {
       MatSeqAIJRestoreArray(matrix, &entries);
+      MatRestoreRowIJ(matrix, 0, PETSC_FALSE, PETSC_FALSE, &n, &begin, &column, &found);
     }
 
     PetscScalar &operator[](const std::size_t i) const
     {
       return entries[i];
     }
+
+    PetscInt n             = 0;
+    const PetscInt *begin  = nullptr;
+    const PetscInt *column = nullptr;
 
   private:
     const Mat matrix;

@@ -20,7 +20,7 @@ namespace sprag
     inline constexpr dealii::types::material_id cylinder = 6;
     inline constexpr dealii::types::material_id leaf     = 7;
 
-    /// Whether what is made of it turns with the lever; a cylinder does not.
+    /// Returns whether what is made of it turns with the lever; a cylinder does not.
     inline bool turns(const dealii::types::material_id id)
     {
       return id != cylinder;

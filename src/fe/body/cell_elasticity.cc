@@ -1,7 +1,5 @@
 #include "fe/body/cell_elasticity.h"
 
-#include "fe/body/dilatation.h"
-
 #include <deal.II/base/quadrature_lib.h>
 
 namespace sprag
@@ -11,38 +9,12 @@ namespace sprag
   namespace
   {
     template <int dim>
-    Tensor<2, dim> identity()
-    {
-      return Tensor<2, dim>(unit_symmetric_tensor<dim>());
-    }
-
-    template <int dim>
-    Stress<dim> stress(const MaterialModel model, const Lame &constants, const Tensor<2, dim> &displacement_gradient)
-    {
-      switch (model)
-      {
-      case MaterialModel::linear:
-        return linear_elastic<dim>(constants, displacement_gradient);
-      case MaterialModel::neo_hookean:
-        return neo_hookean<dim>(constants, identity<dim>() + displacement_gradient);
-      case MaterialModel::st_venant_kirchhoff:
-        break;
-      }
-      return st_venant_kirchhoff<dim>(constants, displacement_gradient);
-    }
-
-    template <int dim>
     double energy_density(const MaterialModel model, const Lame &constants, const Tensor<2, dim> &displacement_gradient)
     {
-      switch (model)
-      {
-      case MaterialModel::linear:
+      if (model == MaterialModel::linear)
         return 0.5 * scalar_product(linear_elastic<dim>(constants, displacement_gradient).piola, displacement_gradient);
-      case MaterialModel::neo_hookean:
-        return neo_hookean_energy<dim>(constants, identity<dim>() + displacement_gradient);
-      case MaterialModel::st_venant_kirchhoff:
-        break;
-      }
+      if (model == MaterialModel::neo_hookean)
+        return neo_hookean_energy<dim>(constants, Tensor<2, dim>(unit_symmetric_tensor<dim>()) + displacement_gradient);
       return st_venant_kirchhoff_energy<dim>(constants, displacement_gradient);
     }
   } // namespace
@@ -107,7 +79,7 @@ namespace sprag
   Stress<dim> CellElasticity<dim>::stress_at(const unsigned int q) const
   {
     if (!projects)
-      return stress<dim>(properties.material, constants, displacement_gradients[q]);
+      return stress_of<dim>(properties.material, constants, displacement_gradients[q]);
     double theta = 0.;
     for (unsigned int a = 0; a < space.size(); ++a)
       theta += projected[a] * space.value(a, q);
@@ -162,12 +134,6 @@ namespace sprag
       for (const double theta : projected)
         sum += 0.5 * constants.lambda * theta * theta * width;
     return sum;
-  }
-
-  template <int dim>
-  LinearPolynomial<dim> CellElasticity<dim>::dilatation() const
-  {
-    return space.combined(projected);
   }
 
   template class CellElasticity<2>;

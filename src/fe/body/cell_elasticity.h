@@ -12,7 +12,7 @@
 
 namespace sprag
 {
-  /// Whether cells of a material would lock: in plane strain, linear or neo-Hookean, nu > 0.4 (lambda > 4 mu).
+  /// Returns whether cells of a material would lock: in plane strain, linear or neo-Hookean, nu > 0.4 (lambda > 4 mu).
   bool is_nearly_incompressible(const BodyProperties &properties, dealii::types::material_id id);
 
   /// Elastic energy, forces and stiffness of one cell of a body after the other.
@@ -29,20 +29,24 @@ namespace sprag
   public:
     using Cell = typename dealii::DoFHandler<dim>::active_cell_iterator;
 
-    /// Everything is kept by reference.
+    /// Keeps references to all that it is given.
     CellElasticity(const dealii::Mapping<dim> &mapping, const dealii::FiniteElement<dim> &fe, const BodyProperties &properties);
 
     /// Enters a cell, not of the hub, with the displacements of its degrees of freedom.
     void reinit(const Cell &cell, const dealii::Vector<double> &displacement);
 
-    /// Stiffness and internal forces [N], in place of what was there. Throws AnalysisError where an element turned inside out.
+    /// Writes stiffness and internal forces [N] of the cell over what was there. Throws AnalysisError where an element turned
+    /// inside out.
     void assemble(dealii::FullMatrix<double> &stiffness, dealii::Vector<double> &forces) const;
 
-    /// [mJ]
+    /// Returns the elastic energy of the cell [mJ].
     double energy() const;
 
-    /// The projected dilatation, in nearly incompressible cells alone.
-    LinearPolynomial<dim> dilatation() const;
+    /// Returns the projected dilatation; it is there in nearly incompressible cells alone.
+    LinearPolynomial<dim> dilatation() const
+    {
+      return space.combined(projected);
+    }
 
   private:
     void project();

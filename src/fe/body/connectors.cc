@@ -59,19 +59,15 @@ namespace sprag
 
     /// Collects the shape functions of pieces in a pad.
     template <int dim>
-    class PadCollector
+    struct PadCollector
     {
-    public:
-      PadCollector(const Mapping<dim> &mapping_, const FiniteElement<dim> &fe_, const AffineConstraints<double> &constraints_,
-                   const double length)
-          : mapping(mapping_)
-          , fe(fe_)
-          , constraints(constraints_)
-          , full_length(length)
-          , rule(fe.degree + 1)
-          , dofs(fe.n_dofs_per_cell())
-      {
-      }
+      const Mapping<dim> &mapping;
+      const FiniteElement<dim> &fe;
+      const AffineConstraints<double> &constraints;
+      const double full_length;
+      const QGauss<1> rule                      = QGauss<1>(fe.degree + 1);
+      std::vector<types::global_dof_index> dofs = std::vector<types::global_dof_index>(fe.n_dofs_per_cell());
+      Pad pad                                   = {};
 
       void add(const Piece<dim> &piece)
       {
@@ -96,9 +92,6 @@ namespace sprag
         pad.length += length;
       }
 
-      Pad pad;
-
-    private:
       template <class Use>
       void for_shapes(const Piece<dim> &piece, const Point<dim> &point, const Use &use) const
       {
@@ -107,13 +100,6 @@ namespace sprag
           if (const auto dof = static_cast<unsigned int>(dofs[i]); !constraints.is_constrained(dof))
             use(dof, fe.system_to_component_index(i).first, fe.shape_value(i, unit));
       }
-
-      const Mapping<dim> &mapping;
-      const FiniteElement<dim> &fe;
-      const AffineConstraints<double> &constraints;
-      const double full_length;
-      const QGauss<1> rule;
-      std::vector<types::global_dof_index> dofs;
     };
 
     std::string name_of(const ConnectorSettings &settings)
@@ -128,7 +114,7 @@ namespace sprag
     {
       const double from = settings.middle - 0.5 * settings.length;
       const double to   = settings.middle + 0.5 * settings.length;
-      PadCollector<dim> collector(mapping, dof_handler.get_fe(), constraints, settings.length);
+      PadCollector<dim> collector{ mapping, dof_handler.get_fe(), constraints, settings.length };
       for (const auto &piece : pieces_between(dof_handler, side, from, to))
         collector.add(piece);
       // What a pad lacks would be missing in its mean.

@@ -19,7 +19,7 @@ namespace sprag
     double stiffness   = 0.;                          ///< [N/mm]
     std::vector<std::pair<unsigned int, double>> row; ///< free degrees of freedom, increasing, and their weights
 
-    /// [mm], positive where plate and lever approach (sensor) or the plate moves towards the tip (guide).
+    /// Returns the compression [mm], positive where plate and lever approach (sensor) or the plate moves towards the tip (guide).
     template <class Vector>
     double compression(const Vector &displacement) const
     {
@@ -30,10 +30,10 @@ namespace sprag
     }
   };
 
-  /// Connectors of the settings in their order. Each presses on a pad of the sides `sensor_plate` and `sensor_lever` within the
-  /// same range of the first axis. Compression of a sensor: mean normal displacement of the plate's pad less that of the lever's.
-  /// That of a guide: the mean tangential displacement of the plate's pad less that of a rigid block which stands on the lever's
-  /// pad and reaches to the plate, as it turns with the pad: the guide's forces on plate and lever lie in one line.
+  /// Finds the connectors of the settings in their order. Each presses on a pad of the sides `sensor_plate` and `sensor_lever`
+  /// within the same range of the first axis. Compression of a sensor: mean normal displacement of the plate's pad less that of
+  /// the lever's. That of a guide: the mean tangential displacement of the plate's pad less that of a rigid block which stands on
+  /// the lever's pad and reaches to the plate, as it turns with the pad: the guide's forces on plate and lever lie in one line.
   /// Means are integrals over the pads, which need not end where cells do. Throws InputError if the sides do not reach as far.
   template <int dim>
   std::vector<Connector> find_connectors(const dealii::Mapping<dim> &mapping, const dealii::DoFHandler<dim> &dof_handler,

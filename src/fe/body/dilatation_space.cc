@@ -67,18 +67,6 @@ namespace sprag
   }
 
   template <int dim>
-  unsigned int DilatationSpace<dim>::size() const
-  {
-    return static_cast<unsigned int>(functions.size());
-  }
-
-  template <int dim>
-  double DilatationSpace<dim>::value(const unsigned int function, const unsigned int point) const
-  {
-    return at_points[function][point];
-  }
-
-  template <int dim>
   LinearPolynomial<dim> DilatationSpace<dim>::combined(const std::vector<double> &factors) const
   {
     LinearPolynomial<dim> sum{ functions.front().centre, 0., {} };

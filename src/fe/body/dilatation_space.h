@@ -7,7 +7,7 @@
 
 namespace sprag
 {
-  /// constant + slope . (x - centre)
+  /// The polynomial constant + slope . (x - centre).
   template <int dim>
   struct LinearPolynomial
   {
@@ -30,12 +30,18 @@ namespace sprag
     /// Enters the cell of `values`, which has points and weights.
     void reinit(const dealii::FEValues<dim> &values, unsigned int degree);
 
-    unsigned int size() const;
+    unsigned int size() const
+    {
+      return static_cast<unsigned int>(functions.size());
+    }
 
-    /// Of a function at a point of `values`.
-    double value(unsigned int function, unsigned int point) const;
+    /// Returns the value of a function at a point of the FEValues.
+    double value(const unsigned int function, const unsigned int point) const
+    {
+      return at_points[function][point];
+    }
 
-    /// Sum of the functions by `factors`.
+    /// Returns the sum of the functions by `factors`.
     LinearPolynomial<dim> combined(const std::vector<double> &factors) const;
 
   private:

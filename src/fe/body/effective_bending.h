@@ -15,9 +15,9 @@ namespace sprag
     double shift_error;         ///< of its displacements along, the same
   };
 
-  /// A unit load across the lever's end face at xi = L moves the friction face, at eta = e, as by Maxwell's theorem loads on the
-  /// face would move the end. For the beam
+  /// Finds the beam that bends most like a lever. A unit load across the lever's end face at xi = L moves the friction face, at
+  /// eta = e, as by Maxwell's theorem loads on the face would move the end. For the beam
   ///   u_eta = xi^2 (3 L - xi) / (6 EI),   u_xi = (e_a - e) xi (2 L - xi) / (2 EI),
-  /// fitted by least squares between two places of the face, which a cylinder sweeps. Requires an end face, see end_face().
+  /// fitted by least squares between two places of the face [mm], which a cylinder sweeps. Requires an end face, see end_face().
   EffectiveBending effective_bending(const ElasticBody<2> &body, double from, double to);
 } // namespace sprag

@@ -30,7 +30,7 @@ namespace sprag
     /// Adds constraints to those of hub and core.
     using Constrain = std::function<void(const dealii::DoFHandler<dim> &, dealii::AffineConstraints<double> &)>;
 
-    /// The triangulation is kept by reference and must outlive the body.
+    /// Returns the triangulation is kept by reference and must outlive the body.
     ElasticBody(const dealii::Triangulation<dim> &triangulation, BodyProperties properties, const Constrain &constrain = {});
     ElasticBody &operator=(ElasticBody &&) = delete;
 
@@ -44,19 +44,19 @@ namespace sprag
       return face;
     }
 
-    /// Where an elastic cylinder can touch the friction face; empty without one.
+    /// Returns the face where an elastic cylinder can touch the friction face; empty without such a cylinder.
     const FrictionFace<dim> &cylinder_face() const
     {
       return face_of_cylinder;
     }
 
-    /// Springs between friction plate and lever, part of stiffness and energy.
+    /// Returns the springs between friction plate and lever, which are part of stiffness and energy.
     const std::vector<Connector> &connectors() const
     {
       return springs;
     }
 
-    /// Those of them that are force sensors.
+    /// Returns those of the connectors() that are force sensors.
     std::vector<Connector> sensors() const;
 
     const dealii::Mapping<dim> &cell_mapping() const
@@ -64,7 +64,7 @@ namespace sprag
       return mapping;
     }
 
-    /// Which degrees of freedom are held or follow others.
+    /// Returns which degrees of freedom are held or follow others.
     const dealii::AffineConstraints<double> &held() const
     {
       return constraints;
@@ -77,10 +77,10 @@ namespace sprag
     void assemble(const dealii::Vector<double> &displacement, dealii::PETScWrappers::SparseMatrix &matrix,
                   dealii::Vector<double> &forces) const;
 
-    /// Elastic energy [mJ].
+    /// Returns the elastic energy [mJ].
     double energy(const dealii::Vector<double> &displacement) const;
 
-    /// Mass [t] and moment of inertia about the origin of the axes [t mm^2] at the given density [t/mm^3], hub included.
+    /// Returns mass [t] and moment of inertia about the origin of the axes [t mm^2] at the given density [t/mm^3], hub included.
     std::array<double, 2> mass_and_inertia(double density) const;
 
     const BodyProperties &body_properties() const
@@ -93,7 +93,7 @@ namespace sprag
       return dof_handler;
     }
 
-    /// Whether the hub holds a degree of freedom.
+    /// Returns whether the hub holds a degree of freedom.
     bool is_held(const unsigned int dof) const
     {
       return constraints.is_constrained(dof);
@@ -114,7 +114,7 @@ namespace sprag
     std::vector<Connector> springs;
   };
 
-  /// Forces of the body's sensors at a displacement [N].
+  /// Returns the forces of the body's sensors at a displacement [N].
   template <int dim>
   std::vector<double> sensor_forces(const ElasticBody<dim> &body, const dealii::Vector<double> &displacement);
 } // namespace sprag

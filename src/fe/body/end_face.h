@@ -10,11 +10,11 @@ namespace sprag
   template <int dim>
   using CellFaces = std::vector<std::pair<typename dealii::DoFHandler<dim>::active_cell_iterator, unsigned int>>;
 
-  /// Boundary faces of the lever's material farthest along the first axis; empty if its end is not straight across.
+  /// Finds the boundary faces of the lever's material farthest along the first axis; empty if its end is not straight across.
   template <int dim>
   CellFaces<dim> end_face(const dealii::DoFHandler<dim> &dofs);
 
-  /// Sum of the faces' measures [mm] (in 2D).
+  /// Returns the sum of the faces' measures [mm] (in 2D).
   template <int dim>
   double total_measure(const CellFaces<dim> &faces);
 } // namespace sprag

@@ -88,7 +88,6 @@ namespace sprag
   void FiniteStatics::reduce(const Matrix &of_body, Matrix &reduced) const
   {
     const MatrixRows rows(of_body);
-    const MatrixValues values(of_body);
     DynamicSparsityPattern pattern(n, n);
     for_all_couplings(rows, movers,
                       [&](std::size_t, const Mover &row, const Mover &column)
@@ -96,7 +95,7 @@ namespace sprag
     reduced.reinit(pattern);
     for_all_couplings(rows, movers,
                       [&](const std::size_t a, const Mover &row, const Mover &column)
-                      { reduced.add(row.coordinate, column.coordinate, row.share * column.share * values[a]); });
+                      { reduced.add(row.coordinate, column.coordinate, row.share * column.share * rows[a]); });
     reduced.compress(VectorOperation::add);
   }
 
@@ -125,7 +124,7 @@ namespace sprag
     body.assemble(displacement, tangent, internal);
     auto &entries = band.entries();
     std::fill(entries.begin(), entries.end(), 0.);
-    const MatrixValues values(tangent);
+    const MatrixRows values(tangent);
     for (const auto &[from, to, factor] : contributions)
       entries[to] += factor * values[from];
     negative_pivots = band.factorise();
@@ -154,11 +153,10 @@ namespace sprag
   Vector<double> FiniteStatics::stiffness_product(const Vector<double> &displacement) const
   {
     const MatrixRows rows(tangent);
-    const MatrixValues values(tangent);
     Vector<double> result(body.n_dofs());
     for (PetscInt row = 0; row < rows.n; ++row)
       for (PetscInt a = rows.begin[row]; a < rows.begin[row + 1]; ++a)
-        result[row] += values[a] * displacement[rows.column[a]];
+        result[row] += rows[a] * displacement[rows.column[a]];
     return result;
   }
 
@@ -174,10 +172,5 @@ namespace sprag
     band.solve(coordinates);
     result += expand(coordinates);
     return result;
-  }
-
-  bool FiniteStatics::is_stable() const
-  {
-    return negative_pivots == 0;
   }
 } // namespace sprag

@@ -11,8 +11,8 @@ namespace sprag
   class FiniteStatics
   {
   public:
-    /// The body itself must hold nothing. What it is held by is closed and without inhomogeneities: a degree of freedom whose
-    /// line is empty is held at a given displacement, one with entries follows others, the rest are the coordinates.
+    /// Returns the body itself must hold nothing. What it is held by is closed and without inhomogeneities: a degree of freedom
+    /// whose line is empty is held at a given displacement, one with entries follows others, the rest are the coordinates.
     FiniteStatics(const ElasticBody<2> &body, const dealii::AffineConstraints<double> &held);
 
     unsigned int n_coordinates() const
@@ -26,31 +26,35 @@ namespace sprag
 
     // Of all degrees of freedom at the displacement last balanced.
 
-    /// Internal forces [N]; those of held ones are what holds them.
+    /// Returns the internal forces [N]; those of held degrees of freedom are what holds them.
     const dealii::Vector<double> &forces() const
     {
       return internal;
     }
 
-    /// How displacements change with those of held ones (others in `of_held` count for nothing) and with the loads.
+    /// Returns how displacements change with those of held degrees of freedom (others in `of_held` count for nothing) and with
+    /// the loads.
     dealii::Vector<double> response(const dealii::Vector<double> &of_held, const dealii::Vector<double> &of_loads) const;
 
-    /// Tangent stiffness times a displacement.
+    /// Multiplies a displacement by the tangent stiffness.
     dealii::Vector<double> stiffness_product(const dealii::Vector<double> &displacement) const;
 
-    /// Whether the equilibrium is stable.
-    bool is_stable() const;
+    /// Returns whether the equilibrium is stable.
+    bool is_stable() const
+    {
+      return negative_pivots == 0;
+    }
 
-    /// The tangent stiffness of the body, without regard to what holds it.
+    /// Returns the tangent stiffness of the body, without regard to what holds it.
     const dealii::PETScWrappers::SparseMatrix &stiffness() const
     {
       return tangent;
     }
 
-    /// A matrix of the body, on the coordinates.
+    /// Reduces a matrix of the body to the coordinates.
     void reduce(const dealii::PETScWrappers::SparseMatrix &of_body, dealii::PETScWrappers::SparseMatrix &reduced) const;
 
-    /// Displacement of all degrees of freedom, 0 where held, from the coordinates.
+    /// Returns the displacement of all degrees of freedom, 0 where held, that belongs to the coordinates.
     dealii::Vector<double> expand(const dealii::Vector<double> &coordinates) const;
 
   private:

@@ -21,23 +21,29 @@ namespace sprag
 
     /// Collects the faces of cells one by one.
     template <int dim>
-    class Collector
+    struct Collector
     {
-    public:
-      Collector(const Mapping<dim> &mapping_, const DoFHandler<dim> &dof_handler, const AffineConstraints<double> &constraints_,
-                const BodyProperties &properties_)
-          : mapping(mapping_)
-          , constraints(constraints_)
-          , properties(properties_)
-          , fe(dof_handler.get_fe())
+      const Mapping<dim> &mapping;
+      const FiniteElement<dim> &fe;
+      const AffineConstraints<double> &constraints;
+      const BodyProperties &properties;
+
+      struct OfCell
       {
-      }
+        std::vector<FacePoint<dim>> points;
+        FaceEdge<dim> edge;
+        double length;
+      };
+      std::vector<OfCell> cells                                 = {};
+      std::map<unsigned int, FEFaceValues<dim>> values_by_parts = {};
+      std::map<unsigned int, unsigned int> index_by_dof         = {};
+      FrictionFace<dim> result                                  = {};
 
       void add(const typename DoFHandler<dim>::active_cell_iterator &cell, const unsigned int f)
       {
-        const double length = cell->face(f)->diameter();
-        depth               = std::max(depth, cell->measure() / cell->face(f)->measure());
-        young_modulus       = std::max(young_modulus, properties.constants.at(cell->material_id()).young_modulus);
+        const double length  = cell->face(f)->diameter();
+        result.depth         = std::max(result.depth, cell->measure() / cell->face(f)->measure());
+        result.young_modulus = std::max(result.young_modulus, properties.constants.at(cell->material_id()).young_modulus);
 
         auto &values = values_for(number_of_parts(length, properties.point_spacing));
         values.reinit(cell, f);
@@ -56,10 +62,6 @@ namespace sprag
       {
         std::sort(cells.begin(), cells.end(),
                   [](const auto &a, const auto &b) { return a.points.front().position[0] < b.points.front().position[0]; });
-        FrictionFace<dim> result;
-        result.nodes         = nodes;
-        result.young_modulus = young_modulus;
-        result.depth         = depth;
         for (const auto &[points, edge, length] : cells)
         {
           const auto begin = static_cast<unsigned int>(result.points.size());
@@ -70,7 +72,6 @@ namespace sprag
         return result;
       }
 
-    private:
       FEFaceValues<dim> &values_for(const unsigned int parts)
       {
         const UpdateFlags flags = update_values | update_JxW_values | update_quadrature_points;
@@ -92,31 +93,14 @@ namespace sprag
           edge.nodes.push_back({ position, FaceEdge<dim>::held });
           if (constraints.is_constrained(dofs[0]))
             continue;
-          const auto node = index_by_dof.try_emplace(dofs[0], static_cast<unsigned int>(nodes.size()));
+          const auto node = index_by_dof.try_emplace(dofs[0], static_cast<unsigned int>(result.nodes.size()));
           if (node.second)
-            nodes.push_back({ position, dofs });
+            result.nodes.push_back({ position, dofs });
           edge.nodes.back().index = node.first->second;
           for (const unsigned int q : values.quadrature_point_indices())
             points[q].nodes.emplace_back(node.first->second, values.shape_value(in_cell, q));
         }
       }
-
-      const Mapping<dim> &mapping;
-      const AffineConstraints<double> &constraints;
-      const BodyProperties &properties;
-      const FiniteElement<dim> &fe;
-      std::map<unsigned int, FEFaceValues<dim>> values_by_parts;
-      std::map<unsigned int, unsigned int> index_by_dof;
-      std::vector<FaceNode<dim>> nodes;
-      struct OfCell
-      {
-        std::vector<FacePoint<dim>> points;
-        FaceEdge<dim> edge;
-        double length;
-      };
-      std::vector<OfCell> cells;
-      double young_modulus = 0.;
-      double depth         = 0.;
     };
   } // namespace
 
@@ -125,7 +109,7 @@ namespace sprag
                                        const AffineConstraints<double> &constraints, const BodyProperties &properties,
                                        const types::boundary_id boundary)
   {
-    Collector<dim> collector(mapping, dof_handler, constraints, properties);
+    Collector<dim> collector{ mapping, dof_handler.get_fe(), constraints, properties };
     for (const auto &cell : dof_handler.active_cell_iterators())
       for (const unsigned int f : cell->face_indices())
         if (cell->face(f)->at_boundary() && cell->face(f)->boundary_id() == boundary)

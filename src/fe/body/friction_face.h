@@ -52,7 +52,7 @@ namespace sprag
     std::vector<Node> nodes;
   };
 
-  /// Where a body can be touched.
+  /// The face where a body can be touched.
   template <int dim>
   struct FrictionFace
   {

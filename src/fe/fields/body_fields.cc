@@ -1,12 +1,12 @@
 #include "fe/fields/body_fields.h"
 
 #include "fe/body/cell_elasticity.h"
-#include "fe/body/dilatation.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_values.h>
 
 #include <cmath>
+#include <optional>
 
 namespace sprag
 {
@@ -14,11 +14,6 @@ namespace sprag
 
   namespace
   {
-    Quadrature<2> equidistant(const unsigned int degree)
-    {
-      return QIterated<2>(QTrapezoid<1>(), degree);
-    }
-
     bool touches_what_is_held(const ElasticBody<2> &body, const DoFHandler<2>::active_cell_iterator &cell)
     {
       for (const unsigned int v : cell->vertex_indices())
@@ -27,41 +22,25 @@ namespace sprag
       return false;
     }
 
+    /// Where the dilatation is projected, so is the pressure [MPa]: at each point by itself it would swing within the cell.
     void set_stress(const BodyProperties &properties, const ElasticConstants &constants, const Tensor<2, 2> &gradient,
-                    NodalField &node)
+                    const std::optional<double> &pressure, NodalField &node)
     {
-      const Lame lame   = plane_constants(constants, properties.plane);
-      const bool strain = properties.plane == PlaneState::strain;
-      const auto turned = [](const Tensor<2, 2> &stress) { return symmetrize(stress); };
-      if (properties.material == MaterialModel::linear)
-      {
-        node.stress       = turned(linear_elastic<2>(lame, gradient).piola);
-        node.out_of_plane = strain ? constants.poisson_ratio * trace(node.stress) : 0.;
-        return;
-      }
-      const auto F   = Tensor<2, 2>(unit_symmetric_tensor<2>()) + gradient;
-      const double J = determinant(F);
-      if (properties.material == MaterialModel::st_venant_kirchhoff)
-      {
-        node.stress         = turned(st_venant_kirchhoff<2>(lame, gradient).piola * transpose(F) / J);
-        const double volume = 0.5 * (F.norm_square() - 2.); // trace of the strain
-        node.out_of_plane   = strain ? lame.lambda * volume / J : 0.;
-        return;
-      }
-      node.stress       = turned(neo_hookean<2>(lame, F).piola * transpose(F) / J);
-      node.out_of_plane = lame.lambda * std::log(J) / J;
-    }
-
-    /// Where the dilatation is projected, so is the pressure: at each point by itself it would swing within the cell.
-    void set_stress_at_pressure(const BodyProperties &properties, const double mu, const Tensor<2, 2> &gradient,
-                                const double pressure, NodalField &node)
-    {
-      const auto piola  = stress_at_pressure<2>(properties.material, mu, gradient, pressure).piola;
-      const auto F      = Tensor<2, 2>(unit_symmetric_tensor<2>()) + gradient;
-      const bool finite = properties.material != MaterialModel::linear;
-      const double J    = finite ? determinant(F) : 1.;
-      node.stress       = symmetrize(finite ? piola * transpose(F) / J : piola);
-      node.out_of_plane = pressure / J;
+      const Lame lame    = plane_constants(constants, properties.plane);
+      const bool linear  = properties.material == MaterialModel::linear;
+      const auto F       = Tensor<2, 2>(unit_symmetric_tensor<2>()) + gradient;
+      const double J     = linear ? 1. : determinant(F);
+      const auto at_node = pressure ? stress_at_pressure<2>(properties.material, lame.mu, gradient, *pressure)
+                                    : stress_of<2>(properties.material, lame, gradient);
+      node.stress        = symmetrize(linear ? at_node.piola : at_node.piola * transpose(F) / J);
+      if (pressure)
+        node.out_of_plane = *pressure / J;
+      else if (properties.material == MaterialModel::neo_hookean)
+        node.out_of_plane = lame.lambda * std::log(J) / J;
+      else if (properties.plane == PlaneState::strain && linear)
+        node.out_of_plane = constants.poisson_ratio * trace(node.stress);
+      else if (properties.plane == PlaneState::strain)
+        node.out_of_plane = lame.lambda * (0.5 * (F.norm_square() - 2.)) / J; // by the trace of the strain
     }
   } // namespace
 
@@ -75,7 +54,7 @@ namespace sprag
 
   BodyFields::BodyFields(const ElasticBody<2> &of)
       : body(of)
-      , places(equidistant(body.body_properties().degree))
+      , places(QIterated<2>(QTrapezoid<1>(), body.body_properties().degree))
   {
     const unsigned int p = body.body_properties().degree;
     FEValues<2> values(body.cell_mapping(), body.dofs().get_fe(), places, update_quadrature_points);
@@ -93,11 +72,6 @@ namespace sprag
           quads.insert(quads.end(), { corner, corner + 1, corner + p + 2, corner + p + 1 });
         }
     }
-  }
-
-  unsigned int BodyFields::nodes_per_cell() const
-  {
-    return places.size();
   }
 
   std::vector<NodalField> BodyFields::at(const Vector<double> &displacement) const
@@ -128,14 +102,12 @@ namespace sprag
       for (unsigned int q = 0; q < places.size(); ++q)
       {
         NodalField node{ displacements[q], {}, 0. };
+        std::optional<double> pressure;
         if (is_projected)
-        {
-          const Lame lame = plane_constants(properties.constants.at(material), properties.plane);
-          set_stress_at_pressure(properties, lame.mu, gradients[q],
-                                 lame.lambda * elasticity.dilatation()(all_nodes[result.size()].position), node);
-        }
-        else if (is_elastic)
-          set_stress(properties, properties.constants.at(material), gradients[q], node);
+          pressure = plane_constants(properties.constants.at(material), properties.plane).lambda *
+                     elasticity.dilatation()(all_nodes[result.size()].position);
+        if (is_elastic)
+          set_stress(properties, properties.constants.at(material), gradients[q], pressure, node);
         result.push_back(node);
       }
     }

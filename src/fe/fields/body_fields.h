@@ -16,15 +16,15 @@ namespace sprag
     double out_of_plane = 0.;             ///< normal stress [MPa]
   };
 
-  /// sqrt(((s1 - s2)^2 + (s2 - s3)^2 + (s3 - s1)^2)/2 + 3 t^2) [MPa].
+  /// Returns sqrt(((s1 - s2)^2 + (s2 - s3)^2 + (s3 - s1)^2)/2 + 3 t^2) [MPa].
   double von_mises(const NodalField &node);
 
-  /// Nodes of a body's cells for pictures: (p + 1)^2 a cell of degree p, which it shares with no other, so that each side of a
-  /// bond has its own stress, in p x p quadrilaterals.
+  /// Nodes of a body's cells for pictures. A cell of degree p has (p + 1)^2 of them, in p x p quadrilaterals, and shares them
+  /// with no other cell, so that each side of a bond has its own stress.
   class BodyFields
   {
   public:
-    /// The body must outlive it.
+    /// Returns the body must outlive it.
     explicit BodyFields(const ElasticBody<2> &body);
 
     struct Node
@@ -39,15 +39,19 @@ namespace sprag
       return all_nodes;
     }
 
-    /// Cell by cell, so many each.
-    unsigned int nodes_per_cell() const;
+    /// Returns how many nodes each cell has; nodes() come cell by cell.
+    unsigned int nodes_per_cell() const
+    {
+      return places.size();
+    }
 
-    /// Four nodes each.
+    /// Returns the numbers of four nodes for each quadrilateral.
     const std::vector<unsigned int> &quadrilaterals() const
     {
       return quads;
     }
 
+    /// Finds displacement and stress at the nodes by the displacements of the body's degrees of freedom.
     std::vector<NodalField> at(const dealii::Vector<double> &displacement) const;
 
   private:

@@ -132,18 +132,9 @@ namespace sprag
 
   WorldAxes axes_of(const Scene &scene, const DevicePose &pose, const DeviceBlock &block)
   {
-    switch (block.part)
-    {
-    case DevicePart::lever:
-    case DevicePart::leaf:
-      return lever_axes(scene, pose, block.lever);
-    case DevicePart::cylinder:
-      return cylinder_axes(scene, pose, block.lever);
-    case DevicePart::rigid_cylinder:
-      break;
-    }
-    // Which way it is turned cannot be seen.
-    return world_axes(Point<2>(pose.x, cylinder_height(scene)), 0., 1.);
+    if (block.part == DevicePart::rigid_cylinder) // which way it is turned cannot be seen
+      return world_axes(Point<2>(pose.x, cylinder_height(scene)), 0., 1.);
+    return block.part == DevicePart::cylinder ? cylinder_axes(scene, pose, block.lever) : lever_axes(scene, pose, block.lever);
   }
 
   FieldMesh device_mesh(const Scene &scene, const DevicePose &pose, const std::vector<DeviceBlock> &blocks,

@@ -18,19 +18,19 @@ namespace sprag
     std::array<double, 2> theta{}; ///< of each lever [rad]
   };
 
-  /// At rest: x = 0, no lever turned, the pivot frame where it is without force.
+  /// Returns the pose at rest: x = 0, no lever turned, the pivot frame where it is without force.
   DevicePose rest_pose(const Scene &scene);
 
   DevicePose pose_of(const Row &row);
 
-  /// Axes of a lever, 0 or of a pair 1, on its pivot.
+  /// Returns the axes of a lever (0, of a pair also 1) on its pivot.
   WorldAxes lever_axes(const Scene &scene, const DevicePose &pose, unsigned int lever);
 
-  /// Axes of an elastic cylinder's mesh: at the cylinder's centre, parallel to those of the lever that presses on it, through
-  /// which its material passes.
+  /// Returns the axes of an elastic cylinder's mesh: at the cylinder's centre, parallel to those of the lever that presses on it,
+  /// through which its material passes.
   WorldAxes cylinder_axes(const Scene &scene, const DevicePose &pose, unsigned int lever);
 
-  /// What the apparatus consists of in pictures.
+  /// The parts of the apparatus in pictures.
   enum class DevicePart
   {
     lever,    ///< with layer and plate
@@ -48,17 +48,17 @@ namespace sprag
     std::vector<dealii::Point<2>> positions; ///< of those, in the axes of the part
   };
 
-  /// Lever, cylinder and, where one is given, leaf spring, each for every lever of the scene, as blocks of one mesh. Of an
-  /// elastic cylinder between two levers, which is meshed for each of them, each has the half that faces it.
+  /// Returns lever, cylinder and, where one is given, leaf spring, each for every lever of the scene, as blocks of one mesh. Of
+  /// an elastic cylinder between two levers, which is meshed for each of them, each has the half that faces it.
   std::vector<DeviceBlock> device_blocks(const Scene &scene, const BodyFields &body, const BodyFields *leaf);
 
-  /// Axes of a block. A leaf spring's are those of the lever.
+  /// Returns the axes of a block. A leaf spring's are those of the lever.
   WorldAxes axes_of(const Scene &scene, const DevicePose &pose, const DeviceBlock &block);
 
-  /// The mesh of the blocks in a pose, with `part` (material_id) and `lever` (1 or 2, 0 of a rigid cylinder).
+  /// Returns the mesh of the blocks in a pose, with `part` (material_id) and `lever` (1 or 2, 0 of a rigid cylinder).
   FieldMesh device_mesh(const Scene &scene, const DevicePose &pose, const std::vector<DeviceBlock> &blocks,
                         const BodyFields &body, const BodyFields *leaf);
 
-  /// x and y as ParaView's vectors have them.
+  /// Appends x, y and 0, as ParaView's vectors have them.
   void append(const dealii::Tensor<1, 2> &vector, std::vector<float> &values);
 } // namespace sprag

@@ -1,8 +1,10 @@
 #pragma once
 
+#include "base/errors.h"
 #include "fe/fields/body_fields.h"
 #include "fe/leaf/leaf_body.h"
 
+#include <cmath>
 #include <optional>
 
 namespace sprag
@@ -12,16 +14,34 @@ namespace sprag
   class LeafShapes
   {
   public:
-    explicit LeafShapes(const Scene &scene);
+    explicit LeafShapes(const Scene &scene)
+        : leaf(scene.spring.leaf, scene.analysis.plane)
+        , of_body(leaf.body())
+        , rest(leaf.rest())
+    {
+    }
 
     const BodyFields &fields() const
     {
       return of_body;
     }
 
-    /// Displacement at a turn from rest [rad], the hub's rotation included; none where no equilibrium is found: a picture less
-    /// must not end a run.
-    std::optional<dealii::Vector<double>> displacement(double turn);
+    /// Finds the displacement of the body's degrees of freedom at a turn from rest [rad], the hub's rotation included; none where
+    /// no equilibrium is found: a picture less must not end a run.
+    std::optional<dealii::Vector<double>> displacement(const double turn)
+    {
+      constexpr double least = 1e-9; // moves no point by more than a picture could show
+      if (std::abs(turn) < least)
+        return rest.displacement;
+      try
+      {
+        return leaf.steps(rest, turn).back().displacement;
+      }
+      catch (const AnalysisError &)
+      {
+        return {};
+      }
+    }
 
   private:
     LeafBody leaf;

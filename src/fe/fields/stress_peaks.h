@@ -17,10 +17,10 @@ namespace sprag
   public:
     explicit StressPeaks(const BodyFields &fields);
 
-    /// `direction`: 1 forward, -1 backward; `lever`: 0 or of a pair 1.
+    /// Looks at the fields of a state at x [mm]. `direction` is 1 forward and -1 backward, `lever` is 0 or of a pair 1.
     void look_at(const std::vector<NodalField> &nodal, double x, int direction, unsigned int lever);
 
-    /// For /summary; `levers`: how many there are. NaN where nothing has been looked at.
+    /// Returns the entries of /summary for so many levers. They are NaN where nothing has been looked at.
     std::vector<Entry> entries(unsigned int levers) const;
 
   private:
@@ -33,7 +33,7 @@ namespace sprag
       dealii::Point<2> place;
     };
 
-    /// Of lever, layer, hub.
+    /// Returns the region of a node: 0 lever, 1 layer, 2 hub; none for other parts.
     std::optional<unsigned int> region(const BodyFields::Node &node) const;
 
     const BodyFields &fields;
@@ -41,6 +41,6 @@ namespace sprag
     std::array<bool, 3> there{}; ///< whether the mesh has such cells
   };
 
-  /// The same of a run that finds no stress.
+  /// Returns the entries of a run that finds no stress.
   std::vector<Entry> no_stress_peaks(const std::string &reason);
 } // namespace sprag

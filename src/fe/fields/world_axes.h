@@ -37,7 +37,7 @@ namespace sprag
     }
   };
 
-  /// `side`: 1, or -1 for a pair's second lever; `origin` as it is seen from the first's side.
+  /// Makes axes. `side` is 1, or -1 for a pair's second lever; `origin` as it is seen from the first's side.
   inline WorldAxes world_axes(const dealii::Point<2> &origin, const double theta, const double side)
   {
     WorldAxes result;

@@ -92,29 +92,26 @@ namespace sprag
 
     void hold_joint(const LeafSpring &leaf, const ElasticBody<2> &body, AffineConstraints<double> &constraints)
     {
-      const auto along  = dofs_on(body, 0, boundary_id::joint);
-      const auto across = dofs_on(body, 1, boundary_id::joint);
       const bool slides = leaf.axial == LeafAxial::free;
-      switch (leaf.end)
+      if (leaf.end == LeafEnd::loose)
+        return;
+      if (leaf.end == LeafEnd::pinned)
       {
-      case LeafEnd::clamped:
-        hold_all(across, constraints);
-        break;
-      case LeafEnd::guided:
-        move_alike(across, constraints);
-        break;
-      case LeafEnd::pinned:
         hold_mean(body, 1, constraints);
         if (!slides)
           hold_mean(body, 0, constraints);
         return;
-      case LeafEnd::loose:
-        return;
       }
-      if (slides)
-        move_alike(along, constraints);
-      else
-        hold_all(along, constraints);
+      const auto hold = [&](const unsigned int component, const bool moves)
+      {
+        const auto dofs = dofs_on(body, component, boundary_id::joint);
+        if (moves)
+          move_alike(dofs, constraints);
+        else
+          hold_all(dofs, constraints);
+      };
+      hold(1, leaf.end == LeafEnd::guided);
+      hold(0, slides);
     }
 
     /// Along the tangent.
@@ -152,11 +149,6 @@ namespace sprag
     hold_joint(leaf, elastic, constraints);
     constraints.close();
     return constraints;
-  }
-
-  LeafBody::State LeafBody::rest()
-  {
-    return state(0., Vector<double>(elastic.n_dofs()));
   }
 
   LeafBody::State LeafBody::state(const double turn, Vector<double> guess)

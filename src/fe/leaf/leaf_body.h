@@ -18,7 +18,7 @@ namespace sprag
     LeafBody(const LeafSpring &leaf, PlaneState plane);
     LeafBody(const LeafSpring &leaf, PlaneState plane, const LeafElements &elements);
 
-    /// For FieldFrames. Holds no degree of freedom itself.
+    /// Returns the body, which holds no degree of freedom itself, for fields.
     const ElasticBody<2> &body() const
     {
       return elastic;
@@ -34,16 +34,20 @@ namespace sprag
       dealii::Vector<double> rate;         ///< d(displacement)/d(turn) [mm/rad]
     };
 
-    State rest();
+    State rest()
+    {
+      return state(0., dealii::Vector<double>(elastic.n_dofs()));
+    }
 
-    /// Newton's method from a guess. Throws AnalysisError where that finds no equilibrium.
+    /// Finds the equilibrium at a turn of the hub by Newton's method from a guess. Throws AnalysisError where there is none to be
+    /// found.
     State state(double turn, dealii::Vector<double> guess);
 
-    /// The states of the steps, of at most 0.02 rad and halved where Newton's method fails, from another state to a turn; the
-    /// last is that of the turn. Throws AnalysisError saying what to try.
+    /// Follows the equilibrium in steps, of at most 0.02 rad and halved where Newton's method fails, from another state to a turn
+    /// and returns their states; the last is that of the turn. Throws AnalysisError saying what to try.
     std::vector<State> steps(const State &from, double turn);
 
-    /// Of the last state.
+    /// Returns the statics of the last state that was found.
     const FiniteStatics &statics() const
     {
       return finite_statics;
@@ -65,4 +69,8 @@ namespace sprag
     std::vector<ClampDof> clamp;
     FiniteStatics finite_statics;
   };
+
+  /// Fills in mass, inertia, momentum and the lowest vibrations with the hub held, linear about rest, all with the consistent
+  /// mass matrix of a density [t/mm^3] and a mass [t] on the section at the joint.
+  void add_inertia(LeafBody &leaf, double density, double joint_mass, LeafBehaviour &behaviour);
 } // namespace sprag

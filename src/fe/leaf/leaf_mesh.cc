@@ -15,14 +15,6 @@ namespace sprag
 
   namespace
   {
-    MeshGroups leaf_groups()
-    {
-      return { { { "leaf", material_id::leaf } },
-               { { "hub", boundary_id::clamp }, { "joint", boundary_id::joint } },
-               "'leaf'",
-               [](const std::set<std::string> &, const std::set<std::string> &) { return std::vector<std::string>(); } };
-    }
-
     void refuse_impossible_shapes(const LeafSpring &leaf)
     {
       std::vector<std::string> mistakes;
@@ -59,6 +51,9 @@ namespace sprag
   void make_leaf_mesh(const LeafSpring &leaf, const LeafElements &elements, Triangulation<2> &triangulation)
   {
     refuse_impossible_shapes(leaf);
+    const MeshGroups groups{ { { "leaf", material_id::leaf } },
+                             { { "hub", boundary_id::clamp }, { "joint", boundary_id::joint } },
+                             "'leaf'" };
     read_gmsh(mesh_script("leaf.geo"),
               { { "leaf_length", leaf.length },
                 { "leaf_thickness", leaf.thickness },
@@ -66,7 +61,7 @@ namespace sprag
                 { "clamp_distance", leaf.clamp_distance },
                 { "elements_along", elements.along },
                 { "elements_across", elements.across } },
-              leaf_groups(), triangulation);
+              groups, triangulation);
     if (!is_bent(leaf))
       return;
     triangulation.set_all_manifold_ids(0);

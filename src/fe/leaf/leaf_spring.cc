@@ -1,7 +1,7 @@
 #include "fe/leaf/leaf_spring.h"
 
 #include "base/errors.h"
-#include "fe/leaf/leaf_vibration.h"
+#include "fe/leaf/leaf_body.h"
 #include "scene/closed_form.h"
 #include "scene/mirrored_pair.h"
 

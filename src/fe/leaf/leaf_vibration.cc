@@ -1,7 +1,6 @@
-#include "fe/leaf/leaf_vibration.h"
-
 #include "fe/algebra/compressed_rows.h"
 #include "fe/algebra/free_modes.h"
+#include "fe/leaf/leaf_body.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_values.h>
@@ -17,16 +16,12 @@ namespace sprag
     constexpr unsigned int n_modes = 8;
 
     /// A mass per area of the cells or length of the faces that `values` visits, once for every call of `add`.
-    class MassOf
+    struct MassOf
     {
-    public:
-      MassOf(const FEValuesBase<2> &of, PETScWrappers::SparseMatrix &sum)
-          : values(of)
-          , mass(sum)
-          , local(of.get_fe().n_dofs_per_cell(), of.get_fe().n_dofs_per_cell())
-          , indices(of.get_fe().n_dofs_per_cell())
-      {
-      }
+      const FEValuesBase<2> &values;
+      PETScWrappers::SparseMatrix &mass;
+      FullMatrix<double> local                     = FullMatrix<double>(values.get_fe().n_dofs_per_cell());
+      std::vector<types::global_dof_index> indices = std::vector<types::global_dof_index>(local.m());
 
       template <class Cell>
       void add(const Cell &cell, const double density)
@@ -41,12 +36,6 @@ namespace sprag
         cell->get_dof_indices(indices);
         mass.add(indices, local);
       }
-
-    private:
-      const FEValuesBase<2> &values;
-      PETScWrappers::SparseMatrix &mass;
-      FullMatrix<double> local;
-      std::vector<types::global_dof_index> indices;
     };
 
     void assemble_mass(const ElasticBody<2> &body, const double density, PETScWrappers::SparseMatrix &mass)
@@ -54,7 +43,7 @@ namespace sprag
       const auto &fe = body.dofs().get_fe();
       FEValues<2> values(body.cell_mapping(), fe, QGauss<2>(fe.degree + 1), update_values | update_JxW_values);
       body.reinit(mass);
-      MassOf of_cells(values, mass);
+      MassOf of_cells{ values, mass };
       for (const auto &cell : body.dofs().active_cell_iterators())
       {
         values.reinit(cell);
@@ -81,7 +70,7 @@ namespace sprag
       double length = 0.;
       on_joint([&](const auto &)
                { length = std::accumulate(values.get_JxW_values().begin(), values.get_JxW_values().end(), length); });
-      MassOf of_section(values, mass);
+      MassOf of_section{ values, mass };
       on_joint([&](const auto &cell) { of_section.add(cell, joint_mass / length); });
       mass.compress(VectorOperation::add);
     }

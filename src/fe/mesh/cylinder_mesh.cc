@@ -1,9 +1,8 @@
-#include "fe/mesh/cylinder_mesh.h"
-
 #include "base/errors.h"
 #include "base/text.h"
 #include "fe/body/body_properties.h"
 #include "fe/mesh/geometry_script.h"
+#include "fe/mesh/mesh.h"
 
 #include <deal.II/grid/grid_tools.h>
 #include <deal.II/grid/manifold_lib.h>
@@ -17,14 +16,6 @@ namespace sprag
   namespace
   {
     constexpr types::manifold_id circle = 1;
-
-    MeshGroups cylinder_groups()
-    {
-      return { { { "cylinder", material_id::cylinder } },
-               { { "core", boundary_id::core }, { "cylinder face", boundary_id::cylinder_face } },
-               "'cylinder'",
-               [](const auto &, const auto &) { return std::vector<std::string>(); } };
-    }
 
     /// A facetted circle would tilt friction and pressure with each of its sides.
     void check(const Scene &scene)
@@ -66,13 +57,16 @@ namespace sprag
     check(scene);
     const double radius     = scene.geometry.cylinder_radius;
     const double face_width = 2. * (0.1 * radius + scene.layer.thickness);
+    const MeshGroups groups{ { { "cylinder", material_id::cylinder } },
+                             { { "core", boundary_id::core }, { "cylinder face", boundary_id::cylinder_face } },
+                             "'cylinder'" };
     Triangulation<2> cylinder;
     read_gmsh(mesh_script("cylinder.geo"),
               { { "radius", radius },
                 { "inner_radius", scene.cylinder.inner_radius },
                 { "face_width", face_width },
                 { "face_size", scene.cylinder.face_size } },
-              cylinder_groups(), cylinder);
+              groups, cylinder);
     cylinder.set_all_manifold_ids(circle);
 
     // Both lie about their origins: none of their vertices are to become one.

@@ -4,7 +4,13 @@
 #include "base/errors.h"
 #include "base/text.h"
 
+#include <deal.II/base/utilities.h>
 #include <deal.II/grid/grid_in.h>
+
+#include <boost/algorithm/string/join.hpp>
+#include <boost/serialization/map.hpp>
+#include <boost/serialization/string.hpp>
+#include <boost/serialization/vector.hpp>
 
 #include <gmsh.h>
 
@@ -27,44 +33,25 @@ namespace sprag
     constexpr double mesh_patience  = 20.;
     constexpr std::size_t mesh_room = std::size_t(1) << 30;
 
-    std::vector<std::string> lines_of(const std::string &text)
+    /// What the process that runs gmsh hands back.
+    struct Answer
     {
-      std::vector<std::string> lines;
-      std::istringstream stream(text);
-      for (std::string line; std::getline(stream, line);)
-        lines.push_back(line);
-      return lines;
-    }
+      std::vector<std::string> mistakes;            ///< or, without any, what follows
+      std::map<int, types::material_id> materials;  ///< by physical tag
+      std::map<int, types::boundary_id> boundaries; ///< by physical tag
+      std::string mesh;                             ///< in gmsh's format 2.2
 
-    /// gmsh lives in one global session; this opens and closes it.
-    class GmshSession
-    {
-    public:
-      explicit GmshSession(const std::vector<std::string> &arguments)
+      template <class Archive>
+      void serialize(Archive &archive, const unsigned int /*version*/)
       {
-        std::vector<std::string> copy = arguments;
-        std::vector<char *> argv;
-        for (auto &argument : copy)
-          argv.push_back(argument.data());
-        gmsh::initialize(static_cast<int>(argv.size()), argv.data(), false);
+        archive &mistakes &materials &boundaries &mesh;
       }
-      GmshSession &operator=(GmshSession &&) = delete;
-      ~GmshSession()
-      {
-        gmsh::finalize();
-      }
-    };
-
-    struct GroupIds
-    {
-      std::map<int, types::material_id> materials;
-      std::map<int, types::boundary_id> boundaries;
     };
 
     /// Physical tags by meaning. Reports everything that is missing or unknown at once.
-    GroupIds read_groups(const std::string &file, const MeshGroups &groups)
+    Answer read_groups(const std::string &file, const MeshGroups &groups)
     {
-      GroupIds ids;
+      Answer ids;
       std::set<std::string> surfaces, curves;
       std::vector<std::string> mistakes;
       gmsh::vectorpair tags;
@@ -131,18 +118,6 @@ namespace sprag
                          ": the lever is modelled in its plane, x along it and y away from the cylinder; z must be 0");
     }
 
-    std::vector<std::string> arguments_of(const std::vector<std::pair<std::string, double>> &constants)
-    {
-      std::vector<std::string> arguments = { "sprag" };
-      for (const auto &[name, value] : constants)
-      {
-        char number[32];
-        std::snprintf(number, sizeof(number), "%.17g", value);
-        arguments.insert(arguments.end(), { "-setnumber", name, number });
-      }
-      return arguments;
-    }
-
     /// What gmsh writes; the end of the process waits until its file is gone.
     std::string written_mesh()
     {
@@ -159,11 +134,15 @@ namespace sprag
       return mesh;
     }
 
-    /// Ids and the mesh itself, in gmsh's format 2.2.
-    std::pair<GroupIds, std::string>
-    run_gmsh(const std::string &file, const std::vector<std::pair<std::string, double>> &constants, const MeshGroups &groups)
+    Answer run_gmsh(const std::string &file, const MeshConstants &constants, const MeshGroups &groups)
     {
-      const GmshSession session(arguments_of(constants));
+      std::vector<std::string> arguments = { "sprag" };
+      for (const auto &[name, value] : constants)
+        arguments.insert(arguments.end(), { "-setnumber", name, formatted("%.17g", value) });
+      std::vector<char *> argv;
+      for (auto &argument : arguments)
+        argv.push_back(argument.data());
+      gmsh::initialize(static_cast<int>(argv.size()), argv.data(), false); // and never finalised: the process ends first
       gmsh::option::setNumber("General.Terminal", 0);
       gmsh::option::setNumber("Mesh.MshFileVersion", 2.2);
       try
@@ -174,10 +153,11 @@ namespace sprag
         gmsh::model::mesh::getNodes(nodes, positions, parametric);
         if (nodes.empty())
           gmsh::model::mesh::generate(2);
-        const GroupIds ids = read_groups(file, groups);
+        Answer answer = read_groups(file, groups);
         refuse_third_dimension(file);
         refuse_other_elements(file);
-        return { ids, written_mesh() };
+        answer.mesh = written_mesh();
+        return answer;
       }
       catch (const InputError &)
       {
@@ -191,7 +171,7 @@ namespace sprag
       }
     }
 
-    void rename_ids(const GroupIds &ids, Triangulation<2> &triangulation)
+    void rename_ids(const Answer &ids, Triangulation<2> &triangulation)
     {
       for (const auto &cell : triangulation.active_cell_iterators())
       {
@@ -209,14 +189,15 @@ namespace sprag
     void refuse_inverted_cells(const std::string &file, const Triangulation<2> &triangulation)
     {
       for (const auto &cell : triangulation.active_cell_iterators())
-        for (const unsigned int v : { 0, 1, 2, 3 })
-        {
-          constexpr unsigned int next[] = { 1, 3, 0, 2 }, last[] = { 2, 0, 3, 1 }; // anticlockwise
-          const auto a = cell->vertex(next[v]) - cell->vertex(v), b = cell->vertex(last[v]) - cell->vertex(v);
-          if (!(a[0] * b[1] - a[1] * b[0] > 0.))
+      {
+        const Point<2> corners[] = { cell->vertex(0), cell->vertex(1), cell->vertex(2), cell->vertex(3) };
+        Tensor<0, 2> areas[4];
+        GeometryInfo<2>::alternating_form_at_vertices(corners, areas);
+        for (const double area : areas)
+          if (!(area > 0.))
             throw InputError(file + ": the cell at (" + rounded_text(cell->center()[0]) + ", " + rounded_text(cell->center()[1]) +
                              ") mm is degenerate or turned inside out");
-        }
+      }
     }
 
     void read(const std::string &file, const std::string &mesh, Triangulation<2> &triangulation)
@@ -236,59 +217,27 @@ namespace sprag
       refuse_inverted_cells(file, triangulation);
     }
 
-    // What the process that runs gmsh hands back: a kind, then mistakes, a line each, or ids and mesh.
-    constexpr char refused = 'r', meshed = 'm';
-
-    std::string mesh_text(const GroupIds &ids, const std::string &mesh)
-    {
-      std::ostringstream text;
-      text << meshed << ids.materials.size() << ' ' << ids.boundaries.size();
-      for (const auto &[tag, id] : ids.materials)
-        text << ' ' << tag << ' ' << id;
-      for (const auto &[tag, id] : ids.boundaries)
-        text << ' ' << tag << ' ' << id;
-      return text.str() + '\n' + mesh;
-    }
-
-    GroupIds ids_of(std::istream &text)
-    {
-      GroupIds ids;
-      std::size_t materials = 0, boundaries = 0;
-      int tag         = 0;
-      unsigned int id = 0;
-      text >> materials >> boundaries;
-      for (; materials > 0 && text >> tag >> id; --materials)
-        ids.materials[tag] = id;
-      for (; boundaries > 0 && text >> tag >> id; --boundaries)
-        ids.boundaries[tag] = id;
-      return ids;
-    }
-
     /// Carried out in a process of its own.
-    std::string gmsh_answer(const std::string &file, const std::vector<std::pair<std::string, double>> &constants,
-                            const MeshGroups &groups)
+    Answer gmsh_answer(const std::string &file, const MeshConstants &constants, const MeshGroups &groups)
     {
       try
       {
-        const auto [ids, mesh] = run_gmsh(file, constants, groups);
+        auto answer = run_gmsh(file, constants, groups);
         Triangulation<2> trial;
         if (constants.empty()) // a user's own may be anything
-          read(file, mesh, trial);
-        return mesh_text(ids, mesh);
+          read(file, answer.mesh, trial);
+        return answer;
       }
       catch (const InputError &error)
       {
-        return refused + std::string(error.what());
+        return { error.messages, {}, {}, {} };
       }
     }
   } // namespace
 
   std::string quoted_list(const std::set<std::string> &names)
   {
-    std::string text;
-    for (const auto &name : names)
-      text += (text.empty() ? "'" : ", '") + name + "'";
-    return text.empty() ? "none" : text;
+    return names.empty() ? "none" : "'" + boost::algorithm::join(names, "', '") + "'";
   }
 
   std::string mesh_script(const std::string &name)
@@ -296,7 +245,7 @@ namespace sprag
     return SPRAG_MESHES "/" + name;
   }
 
-  void read_gmsh(const std::string &file, const std::vector<std::pair<std::string, double>> &constants, const MeshGroups &groups,
+  void read_gmsh(const std::string &file, const MeshConstants &constants, const MeshGroups &groups,
                  Triangulation<2> &triangulation)
   {
     std::error_code ignored;
@@ -308,16 +257,16 @@ namespace sprag
     {
       if (is_mesh)
         limit_growth(mesh_room + 200 * bytes);
-      return gmsh_answer(file, constants, groups);
+      const auto packed = Utilities::pack(gmsh_answer(file, constants, groups), false);
+      return std::string(packed.begin(), packed.end());
     };
-    const auto answer = in_child_process(work, is_mesh ? mesh_patience + 1e-6 * static_cast<double>(bytes) : 0.);
-    if (!answer.failure.empty())
-      throw InputError(file + ": gmsh " + answer.failure + " on it: the file is damaged, or meshing it needs too much memory");
-    if (answer.text.front() == refused)
-      throw InputError(lines_of(answer.text.substr(1)));
-    std::istringstream text(answer.text.substr(1));
-    const GroupIds ids = ids_of(text);
-    read(file, answer.text.substr(answer.text.find('\n') + 1), triangulation);
-    rename_ids(ids, triangulation);
+    const auto found = in_child_process(work, is_mesh ? mesh_patience + 1e-6 * static_cast<double>(bytes) : 0.);
+    if (!found.failure.empty())
+      throw InputError(file + ": gmsh " + found.failure + " on it: the file is damaged, or meshing it needs too much memory");
+    const auto answer = Utilities::unpack<Answer>(std::vector<char>(found.text.begin(), found.text.end()), false);
+    if (!answer.mistakes.empty())
+      throw InputError(answer.mistakes);
+    read(file, answer.mesh, triangulation);
+    rename_ids(answer, triangulation);
   }
 } // namespace sprag

@@ -1,11 +1,13 @@
 #include "fe/mesh/mesh.h"
 
+#include "base/append.h"
 #include "base/errors.h"
 #include "base/text.h"
 #include "fe/body/elastic_body.h"
-#include "fe/mesh/cylinder_mesh.h"
 #include "fe/mesh/geometry_script.h"
 #include "scene/lever_shape.h"
+
+#include <deal.II/base/bounding_box.h>
 
 #include <algorithm>
 #include <cmath>
@@ -49,10 +51,7 @@ namespace sprag
         result.push_back("no physical curve or surface 'hub', which carries the lever on its pivot");
       if (surfaces.count("web") != 0 && scene.frame.web == 0.)
         result.push_back("has a surface 'web', which must be wider than Lever frame/Web = 0");
-      const bool wanted = scene.plate.type == PlateType::on_sensors;
-      for (auto &mistake : missing_of_plate(wanted, surfaces, curves))
-        result.push_back(std::move(mistake));
-      return result;
+      return joined(result, missing_of_plate(scene.plate.type == PlateType::on_sensors, surfaces, curves));
     }
 
     MeshGroups lever_groups(const Scene &scene)
@@ -80,9 +79,7 @@ namespace sprag
       return { { std::max(first - room, std::min(begin + size, first)), std::min(last + room, std::max(end - size, last)) } };
     }
 
-    using Constants = std::vector<std::pair<std::string, double>>;
-
-    Constants common_constants(const Scene &scene)
+    MeshConstants common_constants(const Scene &scene)
     {
       const auto sweep = swept_face(scene);
       return { { "lever_length", scene.lever.length },
@@ -98,72 +95,54 @@ namespace sprag
                { "sweep_end", sweep[1] } };
     }
 
-    Constants with(Constants constants, const Constants &more)
+    MeshConstants bar_constants(const Scene &scene)
     {
-      constants.insert(constants.end(), more.begin(), more.end());
-      return constants;
+      return joined(common_constants(scene), { { "lever_depth", scene.lever.depth }, { "hub_length", 0.5 * scene.lever.depth } });
     }
 
-    Constants bar_constants(const Scene &scene)
+    MeshConstants frame_constants(const Scene &scene)
     {
-      return with(common_constants(scene), { { "lever_depth", scene.lever.depth }, { "hub_length", 0.5 * scene.lever.depth } });
+      return joined(common_constants(scene), { { "root_depth", scene.lever.depth },
+                                               { "tip_depth", scene.frame.tip_depth },
+                                               { "flange", scene.frame.flange },
+                                               { "web", scene.frame.web },
+                                               { "pockets", scene.frame.pockets },
+                                               { "rib", scene.frame.rib },
+                                               { "root", scene.frame.root },
+                                               { "hub_radius", frame_hub_radius },
+                                               { "wall", frame_wall } });
     }
 
-    Constants frame_constants(const Scene &scene)
+    std::vector<Point<2>> corners_of_friction_face(const Triangulation<2> &triangulation)
     {
-      return with(common_constants(scene), { { "root_depth", scene.lever.depth },
-                                             { "tip_depth", scene.frame.tip_depth },
-                                             { "flange", scene.frame.flange },
-                                             { "web", scene.frame.web },
-                                             { "pockets", scene.frame.pockets },
-                                             { "rib", scene.frame.rib },
-                                             { "root", scene.frame.root },
-                                             { "hub_radius", frame_hub_radius },
-                                             { "wall", frame_wall } });
-    }
-
-    /// Bounding box of the friction face, empty if lower > upper.
-    struct FaceExtent
-    {
-      Point<2> lower{ std::numeric_limits<double>::max(), std::numeric_limits<double>::max() };
-      Point<2> upper{ std::numeric_limits<double>::lowest(), std::numeric_limits<double>::lowest() };
-    };
-
-    FaceExtent extent_of_friction_face(const Triangulation<2> &triangulation)
-    {
-      FaceExtent extent;
+      std::vector<Point<2>> corners;
       for (const auto &cell : triangulation.active_cell_iterators())
         for (const auto &face : cell->face_iterators())
           if (face->at_boundary() && face->boundary_id() == boundary_id::friction_face)
-            for (unsigned int v = 0; v < 2; ++v)
-              for (unsigned int d = 0; d < 2; ++d)
-              {
-                extent.lower[d] = std::min(extent.lower[d], face->vertex(v)[d]);
-                extent.upper[d] = std::max(extent.upper[d], face->vertex(v)[d]);
-              }
-      return extent;
+            corners.insert(corners.end(), { face->vertex(0), face->vertex(1) });
+      return corners;
     }
 
     /// The face must lie where the scene's geometry has it, or the cylinder would miss it.
     void check_position(const Scene &scene, const Triangulation<2> &triangulation)
     {
-      const auto extent    = extent_of_friction_face(triangulation);
+      const auto corners   = corners_of_friction_face(triangulation);
       const auto &geometry = scene.geometry;
       const auto &file     = scene.mesh.file;
       const double e       = geometry.interface_offset;
       const double small   = 1e-6 * geometry.cylinder_radius;
-      if (extent.lower[0] > extent.upper[0])
+      if (corners.empty())
         throw InputError(file + ": no side of 'lever' or 'layer' lies on the curve 'friction face'");
+      const auto [lower, upper] = BoundingBox<2>(corners).get_boundary_points();
 
       std::vector<std::string> mistakes;
-      if (extent.lower[1] < e - small || extent.upper[1] > e + small)
-        mistakes.push_back(file + ": the curve 'friction face' lies " + rounded_text(extent.lower[1]) + " to " +
-                           mm(extent.upper[1]) + " off the pivot, but Geometry/Interface offset = " + rounded_text(e));
+      if (lower[1] < e - small || upper[1] > e + small)
+        mistakes.push_back(file + ": the curve 'friction face' lies " + rounded_text(lower[1]) + " to " + mm(upper[1]) +
+                           " off the pivot, but Geometry/Interface offset = " + rounded_text(e));
       const auto [first, last] = swept_contact(scene);
-      if (extent.lower[0] > first || extent.upper[0] < last)
-        mistakes.push_back(file + ": the curve 'friction face' spans " + rounded_text(extent.lower[0]) + " to " +
-                           mm(extent.upper[0]) + " from the pivot, but the contact sweeps " + rounded_text(first) + " to " +
-                           mm(last));
+      if (lower[0] > first || upper[0] < last)
+        mistakes.push_back(file + ": the curve 'friction face' spans " + rounded_text(lower[0]) + " to " + mm(upper[0]) +
+                           " from the pivot, but the contact sweeps " + rounded_text(first) + " to " + mm(last));
       if (!mistakes.empty())
         throw InputError(mistakes);
     }

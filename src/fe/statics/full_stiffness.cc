@@ -136,7 +136,7 @@ namespace sprag
     for (unsigned int dof = 0; dof < body.n_dofs(); ++dof)
       residual[first + dof] -= internal[dof];
 
-    const MatrixValues from(of_body), to(matrix);
+    const MatrixRows from(of_body), to(matrix);
     const std::size_t n = places.size() / ports.levers;
     for (std::size_t k = 0; k < n; ++k)
       to[places[lever * n + k]] += from[k];

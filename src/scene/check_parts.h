@@ -1,0 +1,34 @@
+#pragma once
+
+#include "scene/check.h"
+
+namespace sprag
+{
+  /// Collects the rules that are broken.
+  struct Rules
+  {
+    std::vector<Violation> broken;
+
+    void need(const bool kept, const std::string &parameter, const std::vector<std::string> &others, const std::string &rule)
+    {
+      if (!kept)
+        broken.push_back({ parameter, others, rule });
+    }
+  };
+
+  /// Checks that penalties are not stiffer than the friction face of a built-in mesh takes, see params/README.md.
+  void check_penalty(const Scene &scene, Rules &rules);
+
+  /// Checks whether lever frame, friction plate, force sensors and guide can be built. With a mesh of the user's own it checks
+  /// only what does not depend on the built-in outlines.
+  void check_plate(const Scene &scene, bool own_mesh, Rules &rules);
+
+  /// Checks that frame and plate of a built-in outline leave the cylinder its way. The drive must be in range.
+  void check_sweep(const Scene &scene, Rules &rules);
+
+  // The following check the dimensions of a leaf spring, of an elastic cylinder, what is calibrated, and a full pair.
+  void check_spring(const Scene &scene, Rules &rules);
+  void check_cylinder(const Scene &scene, Rules &rules);
+  void check_calibration(const Scene &scene, Rules &rules);
+  void check_pair(const Scene &scene, Rules &rules);
+} // namespace sprag
