@@ -27,7 +27,8 @@ namespace sprag
       , ports(ports_)
       , damping(damping_)
       , weights(weights_)
-      , factors(MatrixKind::positive_definite)
+      // A lever at rest is as soft as its spring, which multiplies round-off; vibrations rest on that, and LU leaves less of it.
+      , factors(weights.mass > 0. ? MatrixKind::positive_definite : MatrixKind::general)
   {
     PETScWrappers::SparseMatrix matrix;
     matrices.sum(weights, matrix);
