@@ -14,7 +14,7 @@ namespace sprag
       asked = 1;
     }
 
-    /// But under an address sanitizer, which has handlers of its own that tell more.
+    /// An address sanitizer keeps its own handlers, which tell more.
     void leave_crashes_to_the_system()
     {
 #ifndef __SANITIZE_ADDRESS__

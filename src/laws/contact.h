@@ -26,10 +26,8 @@ namespace sprag
 
     explicit Directed(const Vector &vector)
         : size(vector.norm())
-        , direction(vector / size)
+        , direction(size > 0. ? vector / size : Vector(dealii::Point<n>::unit_vector(0)))
     {
-      if (!(size > 0.))
-        direction = dealii::Point<n>::unit_vector(0);
     }
 
     /// Derivative by the vector of `value` times its direction. `by_size` and `by_direction` are derivatives of the value; at

@@ -3,8 +3,7 @@
 #include "fe/dynamics/dynamic_face_lever.h"
 #include "fe/leaf/leaf_spring.h"
 #include "fe/mesh/mesh.h"
-#include "fe/statics/contact_penalties.h"
-#include "fe/statics/lever_model.h"
+#include "fe/statics/lever_properties.h"
 #include "scene/closed_form.h"
 
 namespace sprag
@@ -35,15 +34,5 @@ namespace sprag
     const double nearest  = kinematics(scene.geometry, scene.drive.maximum()).s - room;
     const double farthest = kinematics(scene.geometry, scene.drive.minimum()).s + room;
     return { mesh_inertia(scene, body), effective_bending(body, nearest, farthest) };
-  }
-
-  StaticLever make_lever_in_hard_contact(const Scene &scene)
-  {
-    StaticLever result{ std::make_unique<Mesh>(), nullptr };
-    make_mesh(scene, *result.mesh);
-    auto properties           = lever_properties(scene);
-    properties.penalty_factor = penalty_over_layer::indentation;
-    result.model              = std::make_unique<LeverModel>(*result.mesh, std::move(properties));
-    return result;
   }
 } // namespace sprag

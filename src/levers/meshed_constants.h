@@ -1,10 +1,7 @@
 #pragma once
 
 #include "fe/body/effective_bending.h"
-#include "model/model.h"
 #include "scene/scene.h"
-
-#include <memory>
 
 namespace sprag
 {
@@ -23,15 +20,4 @@ namespace sprag
 
   /// Finds these constants by the mesh of a prepared scene.
   MeshedConstants meshed_constants(const Scene &scene);
-
-  /// A meshed lever without inertia and the mesh that it stands on.
-  struct StaticLever
-  {
-    std::unique_ptr<Mesh> mesh;
-    std::unique_ptr<Model> model;
-  };
-
-  /// Makes the scene's lever with an automatic penalty as stiff as hard contact, to which laws of the reduced models are fitted.
-  /// Throws InputError for a mesh that cannot serve.
-  StaticLever make_lever_in_hard_contact(const Scene &scene);
 } // namespace sprag

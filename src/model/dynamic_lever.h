@@ -250,10 +250,10 @@ namespace sprag
 
     OfLevers turns(const Motion &motion) const
     {
-      OfLevers result{};
+      PortSelection rotations;
       for (unsigned int lever = 0; lever < frame.ports.levers; ++lever)
-        result[lever] = structure->port_state(motion, frame.ports.rotation(lever)).position;
-      return result;
+        rotations.push_back(frame.ports.rotation(lever));
+      return turns_of(frame.ports, structure->port_positions(motion, rotations));
     }
 
     OfLevers inclinations(const OfLevers &of_turns) const

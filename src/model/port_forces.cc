@@ -31,12 +31,11 @@ namespace sprag
       {
         for (const auto &block : compliance.blocks())
           if (const auto places = places_in(block, ports); places.first < places.second)
-            blocks.push_back({ places, LAPACKFullMatrix<double>(places.second - places.first), LAPACKFullMatrix<double>() });
+            blocks.push_back(
+                { places, block, LAPACKFullMatrix<double>(places.second - places.first), LAPACKFullMatrix<double>() });
         find_columns(tangent);
-        auto part = blocks.begin();
-        for (const auto &block : compliance.blocks())
-          if (part != blocks.end() && places_in(block, ports) == part->places)
-            factorise(*block.matrix, block.begin, ports, tangent, *part++);
+        for (auto &block : blocks)
+          factorise(ports, tangent, block);
         if (columns.empty())
           return;
         of_columns.reinit(static_cast<unsigned int>(columns.size()));
@@ -48,7 +47,7 @@ namespace sprag
 
       void solve(Vector<double> &values) const
       {
-        for (const auto &[places, matrix, answers] : blocks)
+        for (const auto &[places, of_ports, matrix, answers] : blocks)
         {
           Vector<double> of_block(values.begin() + places.first, values.begin() + places.second);
           matrix.solve(of_block);
@@ -60,7 +59,7 @@ namespace sprag
         for (unsigned int k = 0; k < columns.size(); ++k)
           of_others[k] = values[columns[k]];
         of_columns.solve(of_others);
-        for (const auto &[places, matrix, answers] : blocks)
+        for (const auto &[places, of_ports, matrix, answers] : blocks)
           for (unsigned int i = places.first; i < places.second; ++i)
             for (unsigned int k = 0; k < columns.size(); ++k)
               values[i] -= answers(i - places.first, k) * of_others[k];
@@ -78,6 +77,7 @@ namespace sprag
       struct Block
       {
         Places places;
+        PortCompliance::Block of_ports;
         LAPACKFullMatrix<double> matrix;
         LAPACKFullMatrix<double> answers; ///< D^-1 E, a column for each of C
       };
@@ -94,7 +94,7 @@ namespace sprag
       void find_columns(const FullMatrix<double> &tangent)
       {
         if (blocks.size() > 1)
-          for (const auto &[places, matrix, answers] : blocks)
+          for (const auto &[places, of_ports, matrix, answers] : blocks)
             for (unsigned int column = places.first; column < places.second; ++column)
               for (unsigned int i = 0; i < tangent.m(); ++i)
                 if (!holds(places, i) && tangent(i, column) != 0.)
@@ -104,16 +104,16 @@ namespace sprag
                 }
       }
 
-      void factorise(const FullMatrix<double> &compliance, const unsigned int begin, const std::vector<unsigned int> &ports,
-                     const FullMatrix<double> &tangent, Block &block) const
+      void factorise(const std::vector<unsigned int> &ports, const FullMatrix<double> &tangent, Block &block) const
       {
         const auto [first, last] = block.places;
+        const auto &of           = block.of_ports;
         const unsigned int n     = last - first;
         FullMatrix<double> loaded(n), of_block(n), product(n);
         of_block.fill(tangent, 0, 0, first, first);
         for (unsigned int i = 0; i < n; ++i)
           for (unsigned int j = 0; j < n; ++j)
-            loaded(i, j) = compliance(ports[first + i] - begin, ports[first + j] - begin);
+            loaded(i, j) = (*of.matrix)(ports[first + i] - of.begin, ports[first + j] - of.begin);
         loaded.mmult(product, of_block);
         for (unsigned int i = 0; i < n; ++i)
           for (unsigned int j = 0; j < n; ++j)

@@ -18,8 +18,8 @@ namespace sprag
     }
     virtual ~DriveMotion() = default;
 
-    /// Returns the turning points and ends are met bit for bit, and v has the sign of the piece's direction, whatever round-off
-    /// says.
+    /// Returns the drive at a time on a piece. Turning points and ends are met bit for bit, and v has the sign of the piece's
+    /// direction, whatever round-off says.
     DrivePoint at(std::size_t piece, double time, Drive::Side side) const;
 
     /// Returns the time within a moving piece, after `time`, at which x has moved by dx; the piece moves farther than that.

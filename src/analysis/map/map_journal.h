@@ -42,7 +42,7 @@ namespace sprag
     /// Hands the lines to the operating system. Throws AnalysisError if they cannot be written.
     void append(const MapCells &more);
 
-    /// Returns the map is complete: removes the file.
+    /// Removes the file, once the map is complete.
     void remove();
 
   private:

@@ -2,7 +2,7 @@
 
 #include "analysis/statics/quasi_static.h"
 #include "base/least_squares.h"
-#include "levers/meshed_constants.h"
+#include "levers/static_lever.h"
 #include "model/circle.h"
 #include "scene/closed_form.h"
 #include "scene/contact_reference.h"

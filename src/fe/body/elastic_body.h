@@ -30,7 +30,7 @@ namespace sprag
     /// Adds constraints to those of hub and core.
     using Constrain = std::function<void(const dealii::DoFHandler<dim> &, dealii::AffineConstraints<double> &)>;
 
-    /// Returns the triangulation is kept by reference and must outlive the body.
+    /// The triangulation is kept by reference and must outlive the body.
     ElasticBody(const dealii::Triangulation<dim> &triangulation, BodyProperties properties, const Constrain &constrain = {});
     ElasticBody &operator=(ElasticBody &&) = delete;
 

@@ -11,8 +11,9 @@ namespace sprag
   class FiniteStatics
   {
   public:
-    /// Returns the body itself must hold nothing. What it is held by is closed and without inhomogeneities: a degree of freedom
-    /// whose line is empty is held at a given displacement, one with entries follows others, the rest are the coordinates.
+    /// The body itself must hold nothing and outlive this. What it is held by is closed and without inhomogeneities: a degree of
+    /// freedom whose line is empty is held at a given displacement, one with entries follows others, the rest are the
+    /// coordinates.
     FiniteStatics(const ElasticBody<2> &body, const dealii::AffineConstraints<double> &held);
 
     unsigned int n_coordinates() const

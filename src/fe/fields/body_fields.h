@@ -24,7 +24,7 @@ namespace sprag
   class BodyFields
   {
   public:
-    /// Returns the body must outlive it.
+    /// The body must outlive this.
     explicit BodyFields(const ElasticBody<2> &body);
 
     struct Node

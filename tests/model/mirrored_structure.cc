@@ -1,0 +1,165 @@
+#include "model/mirrored_structure.h"
+
+#include "model/modal_structure.h"
+
+#include <algorithm>
+#include <gtest/gtest.h>
+
+using namespace sprag;
+using Vector = dealii::Vector<double>;
+
+// Levers of a pair that are alike and have neither joint nor support in common feel nothing of each other: what the pair does is
+// what each lever does alone.
+
+namespace
+{
+  constexpr unsigned int n_ports = 3; ///< of a lever
+
+  ModalData lever_data(const bool with_statics)
+  {
+    ModalData data;
+    data.ports     = { 2, false };
+    data.stiffness = { 400., 9e4, 4e6 };
+    data.damping.reinit(3, 3);
+    data.damping(0, 0) = 0.8;
+    data.damping(1, 1) = 12.;
+    data.damping(2, 2) = 80.;
+    data.shapes.reinit(n_ports, 3);
+    const double shapes[n_ports][3] = { { 20., -31., 12. }, { 14., 9., -27. }, { 0.4, 0.2, -0.1 } };
+    for (unsigned int a = 0; a < n_ports; ++a)
+      for (unsigned int i = 0; i < 3; ++i)
+        data.shapes(a, i) = shapes[a][i];
+    if (!with_statics)
+      return data;
+    data.face_compliance.reinit(n_ports, n_ports);
+    for (unsigned int a = 0; a < n_ports; ++a)
+      data.face_compliance(a, a) = 2e-3 + 1e-3 * a;
+    data.face_compliance(0, 1) = data.face_compliance(1, 0) = 1e-3;
+    data.relaxation                                         = 2e-4;
+    return data;
+  }
+
+  std::unique_ptr<ModalStructure> lever(const bool with_statics)
+  {
+    return std::make_unique<ModalStructure>(lever_data(with_statics));
+  }
+
+  MirroredStructure<ModalStructure> pair(const bool with_statics)
+  {
+    return MirroredStructure<ModalStructure>(lever(with_statics), lever(with_statics), true);
+  }
+
+  /// A contact's forces on ports 0 and 1, with friction that delays.
+  PortPerturbation contact_forces(const double size)
+  {
+    PortPerturbation forces({ 0, 1 });
+    forces.pressure(0, 0)      = -30. * size;
+    forces.pressure(1, 1)      = -70. * size;
+    forces.friction(0, 1)      = 25. * size;
+    forces.pressure_rate(1, 1) = -0.05 * size;
+    forces.friction_rate(0, 0) = -0.02 * size;
+    FrictionDelay delay{ 1e-3, Vector(2), Vector(2), Vector(2) };
+    delay.force[0]         = -1.;
+    delay.stiffness_row[1] = -5. * size;
+    delay.rate_row[0]      = 0.01 * size;
+    forces.delays.push_back(delay);
+    return forces;
+  }
+
+  /// Both levers' forces on the ports of the pair.
+  PortPerturbation on_pair(const double first, const double second)
+  {
+    PortPerturbation result({ 0, 1, n_ports, n_ports + 1 });
+    for (unsigned int i = 0; i < 2; ++i)
+    {
+      auto of_lever = contact_forces(i == 0 ? first : second);
+      for (auto &port : of_lever.ports)
+        port += i * n_ports;
+      result.add(of_lever);
+    }
+    return result;
+  }
+
+  std::vector<std::complex<double>> sorted(const std::vector<StructureMode> &modes)
+  {
+    std::vector<std::complex<double>> result;
+    for (const auto &mode : modes)
+      result.push_back(mode.eigenvalue);
+    std::sort(result.begin(), result.end(),
+              [](const auto &a, const auto &b)
+              { return std::abs(a) != std::abs(b) ? std::abs(a) < std::abs(b) : a.real() < b.real(); });
+    return result;
+  }
+} // namespace
+
+TEST(MirroredStructure, VibrationsAreThoseOfEachLeverAlone)
+{
+  for (const bool with_statics : { false, true })
+    for (const double second : { 1., 0.7 })
+    {
+      auto both     = pair(with_statics);
+      auto expected = lever(with_statics)->vibrations(contact_forces(1.), 0);
+      for (auto &mode : lever(with_statics)->vibrations(contact_forces(second), 0))
+        expected.push_back(mode);
+      const auto found = both.vibrations(on_pair(1., second), 0);
+      const auto a = sorted(found), b = sorted(expected);
+      ASSERT_EQ(a.size(), b.size()) << with_statics << second;
+      for (std::size_t i = 0; i < a.size(); ++i)
+        EXPECT_LT(std::abs(a[i] - b[i]), 1e-9 * std::abs(b[i])) << with_statics << second << " " << i;
+      for (const auto &mode : found)
+        EXPECT_LT(mode.residual, 1e-10);
+    }
+}
+
+TEST(MirroredStructure, StepsAreThoseOfEachLeverAlone)
+{
+  for (const bool with_statics : { false, true })
+  {
+    auto both = pair(with_statics);
+    std::array<std::unique_ptr<ModalStructure>, 2> alone{ { lever(with_statics), lever(with_statics) } };
+    const auto weights = generalised_alpha(0.8, 1e-3);
+    both.use_step(weights);
+    Motion motion = both.rest();
+    std::array<Motion, 2> motions;
+    for (unsigned int i = 0; i < 2; ++i)
+    {
+      alone[i]->use_step(weights);
+      motions[i] = alone[i]->rest();
+    }
+    const auto all = all_ports(2 * n_ports);
+    for (unsigned int step = 0; step < 20; ++step)
+    {
+      // On all ports of the first lever and two of the second.
+      PortForces forces{ { 0, 1, 2, 3, 5 }, Vector(5), {} };
+      for (unsigned int a = 0; a < 5; ++a)
+        forces.values[a] = std::sin(1. + a + 0.3 * step);
+      Vector predicted = both.free_ports(motion, all);
+      add_response(both.compliance(), forces.ports, forces.values, all, predicted);
+      motion = both.advance(motion, forces, {});
+      for (unsigned int i = 0; i < 2; ++i)
+      {
+        PortForces own;
+        for (unsigned int a = 0; a < 5; ++a)
+          if (forces.ports[a] / n_ports == i)
+            own.ports.push_back(forces.ports[a] % n_ports);
+        own.values.reinit(static_cast<unsigned int>(own.ports.size()));
+        std::copy_n(forces.values.begin() + (i == 0 ? 0 : 3), own.ports.size(), own.values.begin());
+        alone[i]->free_ports(motions[i], all_ports(n_ports));
+        motions[i]          = alone[i]->advance(motions[i], own, {});
+        const auto expected = alone[i]->port_positions(motions[i]);
+        const auto found    = both.port_positions(motion);
+        for (unsigned int port = 0; port < n_ports; ++port)
+        {
+          EXPECT_NEAR(found[i * n_ports + port], expected[port], 1e-12) << step;
+          EXPECT_NEAR(predicted[i * n_ports + port], expected[port], 1e-12) << step;
+          EXPECT_NEAR(both.port_state(motion, i * n_ports + port).velocity, alone[i]->port_state(motions[i], port).velocity,
+                      1e-10);
+        }
+      }
+    }
+    const auto energy = both.stored_energy(motion);
+    const auto first = alone[0]->stored_energy(motions[0]), second = alone[1]->stored_energy(motions[1]);
+    EXPECT_NEAR(energy.kinetic, first.kinetic + second.kinetic, 1e-12 * energy.kinetic);
+    EXPECT_NEAR(energy.elastic, first.elastic + second.elastic, 1e-12 * energy.elastic);
+  }
+}
