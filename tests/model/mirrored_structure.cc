@@ -130,7 +130,7 @@ TEST(MirroredStructure, StepsAreThoseOfEachLeverAlone)
     for (unsigned int step = 0; step < 20; ++step)
     {
       // On all ports of the first lever and two of the second.
-      PortForces forces{ { 0, 1, 2, 3, 5 }, Vector(5), {} };
+      PortForces forces{ { 0, 1, 2, 3, 5 }, Vector(5), dealii::FullMatrix<double>() };
       for (unsigned int a = 0; a < 5; ++a)
         forces.values[a] = std::sin(1. + a + 0.3 * step);
       Vector predicted = both.free_ports(motion, all);
