@@ -81,8 +81,9 @@ namespace sprag
           rate.add(weights.rate(), z, -weights.rate(), drifted.position);
         }
         contact->evaluate(PortStep{ accepted.drive, accepted.contact, to, begin, z, rate, weights }, found);
-        return hub_spring.add_forces(coupling.add_forces(found.forces, begin, z, weights), turned, turns_of(frame.ports, z),
-                                     weights);
+        coupling.add_forces(begin, z, weights, found.forces);
+        hub_spring.add_forces(turned, turns_of(frame.ports, z), weights, found.forces);
+        return found.forces;
       };
 
       StepOutcome outcome;
@@ -166,6 +167,14 @@ namespace sprag
     {
       const auto forces = perturbation(slide, in_contact);
       return explained(*structure, structure->vibrations(forces, number), forces, frame.ports);
+    }
+
+    std::vector<std::complex<double>> eigenvalues(const HeldSlide &slide, const unsigned int number) override
+    {
+      std::vector<std::complex<double>> result;
+      for (const auto &mode : structure->vibrations(perturbation(slide, true), number))
+        result.push_back(mode.eigenvalue);
+      return result;
     }
 
     Motion perturbed(const HeldSlide &slide, const Eigenmode &eigenmode, const double amplitude) override

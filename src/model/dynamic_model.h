@@ -106,6 +106,9 @@ namespace sprag
     /// Not in contact: those of the free structure.
     virtual std::vector<Eigenmode> vibrations(const HeldSlide &slide, bool in_contact, unsigned int number) = 0;
 
+    /// The eigenvalues lambda of vibrations() in contact, without explaining their modes [1/s].
+    virtual std::vector<std::complex<double>> eigenvalues(const HeldSlide &slide, unsigned int number) = 0;
+
     /// The held slide displaced along a mode so that the gap moves by `amplitude` [mm] at first, with the velocities of the mode.
     virtual Motion perturbed(const HeldSlide &slide, const Eigenmode &mode, double amplitude) = 0;
 

@@ -69,14 +69,14 @@ namespace sprag
   {
   }
 
-  const PortForces &FrameCoupling::add_forces(const PortForces &contact, const Kinematic &begin, const Vector<double> &end,
-                                              const StepWeights &w)
+  void FrameCoupling::add_forces(const Kinematic &begin, const Vector<double> &end, const StepWeights &w,
+                                 PortForces &forces) const
   {
     if (!layout.sprung)
-      return contact;
+      return;
     const Kinematic at = at_end(begin, end, w);
-    extend(contact, coupled_ports(), sum);
-    const auto place = [&](const unsigned int port) { return place_of(port, sum.ports); };
+    add_ports(coupled_ports(), forces);
+    const auto place = [&](const unsigned int port) { return place_of(port, forces.ports); };
     for (unsigned int lever = 0; lever < layout.levers; ++lever)
     {
       const Local q       = weighted(layout, lever, rest, begin, at, w);
@@ -86,28 +86,27 @@ namespace sprag
 
       const unsigned int hub = place(layout.rotation(lever)), eta = place(layout.momentum_eta(lever)),
                          xi = place(layout.momentum_xi(lever)), u = place(layout.support());
-      sum.values[eta] -= s * q.u_acceleration + c * q.theta_rate * q.u_rate;
-      sum.values[xi] += c * q.u_acceleration - s * q.theta_rate * q.u_rate;
-      sum.values[hub] += q.u_rate * across;
-      sum.values[u] -= s * q.p_eta_acceleration - c * q.p_xi_acceleration + q.theta_rate * across;
+      forces.values[eta] -= s * q.u_acceleration + c * q.theta_rate * q.u_rate;
+      forces.values[xi] += c * q.u_acceleration - s * q.theta_rate * q.u_rate;
+      forces.values[hub] += q.u_rate * across;
+      forces.values[u] -= s * q.p_eta_acceleration - c * q.p_xi_acceleration + q.theta_rate * across;
 
       const double m = w.mass();
       const double r = w.damping();
       const double k = w.stiffness();
-      sum.tangent(eta, u) -= s * m + c * q.theta_rate * r;
-      sum.tangent(eta, hub) -= k * (c * q.u_acceleration - s * q.theta_rate * q.u_rate) + r * c * q.u_rate;
-      sum.tangent(xi, u) += c * m - s * q.theta_rate * r;
-      sum.tangent(xi, hub) += k * (-s * q.u_acceleration - c * q.theta_rate * q.u_rate) - r * s * q.u_rate;
-      sum.tangent(hub, u) += r * across;
-      sum.tangent(hub, eta) += r * q.u_rate * c;
-      sum.tangent(hub, xi) += r * q.u_rate * s;
-      sum.tangent(hub, hub) += k * q.u_rate * (-s * q.p_eta_rate + c * q.p_xi_rate);
-      sum.tangent(u, eta) -= s * m + q.theta_rate * c * r;
-      sum.tangent(u, xi) -= -c * m + q.theta_rate * s * r;
-      sum.tangent(u, hub) -= k * (c * q.p_eta_acceleration + s * q.p_xi_acceleration) + r * across +
-                             k * q.theta_rate * (-s * q.p_eta_rate + c * q.p_xi_rate);
+      forces.tangent(eta, u) -= s * m + c * q.theta_rate * r;
+      forces.tangent(eta, hub) -= k * (c * q.u_acceleration - s * q.theta_rate * q.u_rate) + r * c * q.u_rate;
+      forces.tangent(xi, u) += c * m - s * q.theta_rate * r;
+      forces.tangent(xi, hub) += k * (-s * q.u_acceleration - c * q.theta_rate * q.u_rate) - r * s * q.u_rate;
+      forces.tangent(hub, u) += r * across;
+      forces.tangent(hub, eta) += r * q.u_rate * c;
+      forces.tangent(hub, xi) += r * q.u_rate * s;
+      forces.tangent(hub, hub) += k * q.u_rate * (-s * q.p_eta_rate + c * q.p_xi_rate);
+      forces.tangent(u, eta) -= s * m + q.theta_rate * c * r;
+      forces.tangent(u, xi) -= -c * m + q.theta_rate * s * r;
+      forces.tangent(u, hub) -= k * (c * q.p_eta_acceleration + s * q.p_xi_acceleration) + r * across +
+                                k * q.theta_rate * (-s * q.p_eta_rate + c * q.p_xi_rate);
     }
-    return sum;
   }
 
   std::vector<unsigned int> FrameCoupling::coupled_ports() const

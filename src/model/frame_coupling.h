@@ -13,9 +13,9 @@ namespace sprag
   public:
     FrameCoupling(const PortLayout &ports, double rest_inclination);
 
-    /// The forces of the contact with those of the coupling added; valid until the next call.
-    const PortForces &add_forces(const PortForces &contact, const Kinematic &begin, const dealii::Vector<double> &end,
-                                 const StepWeights &weights);
+    /// Adds the forces of a step.
+    void add_forces(const Kinematic &begin, const dealii::Vector<double> &end, const StepWeights &weights,
+                    PortForces &forces) const;
 
     /// Adds the coupling's mass at inclinations theta to the matrix of those ports, which must hold its own.
     void add_inertia(const std::vector<unsigned int> &ports, const OfLevers &theta, dealii::FullMatrix<double> &inertia) const;
@@ -31,6 +31,5 @@ namespace sprag
   private:
     const PortLayout layout;
     const double rest;
-    PortForces sum;
   };
 } // namespace sprag

@@ -59,17 +59,16 @@ namespace sprag
     return joined || !law.is_linear();
   }
 
-  const PortForces &HubSpringExcess::with(const PortForces &others, const Moments &moments)
+  void HubSpringExcess::add(const Moments &moments, PortForces &forces) const
   {
-    extend(others, loaded_ports(), sum);
+    add_ports(loaded_ports(), forces);
     for (unsigned int i = 0; i < layout.levers; ++i)
     {
-      const unsigned int row = place_of(layout.rotation(i), sum.ports);
-      sum.values[row] += moments.values[i];
+      const unsigned int row = place_of(layout.rotation(i), forces.ports);
+      forces.values[row] += moments.values[i];
       for (unsigned int j = 0; j < layout.levers; ++j)
-        sum.tangent(row, place_of(layout.rotation(j), sum.ports)) += moments.tangent[i][j];
+        forces.tangent(row, place_of(layout.rotation(j), forces.ports)) += moments.tangent[i][j];
     }
-    return sum;
   }
 
   /// Of joined springs: an excess against opening, and a moment that swings.
@@ -121,15 +120,17 @@ namespace sprag
     return result;
   }
 
-  const PortForces &HubSpringExcess::add_forces(const PortForces &others, const OfLevers &begin, const OfLevers &end,
-                                                const StepWeights &weights)
+  void HubSpringExcess::add_forces(const OfLevers &begin, const OfLevers &end, const StepWeights &weights,
+                                   PortForces &forces) const
   {
-    return !is_active() ? others : with(others, of_step(begin, end, weights));
+    if (is_active())
+      add(of_step(begin, end, weights), forces);
   }
 
-  const PortForces &HubSpringExcess::add_forces(const PortForces &others, const OfLevers &turns, const bool swing_is_held)
+  void HubSpringExcess::add_forces(const OfLevers &turns, const bool swing_is_held, PortForces &forces) const
   {
-    return !is_active() ? others : with(others, at(turns, swing_is_held));
+    if (is_active())
+      add(at(turns, swing_is_held), forces);
   }
 
   void HubSpringExcess::add_work(const OfLevers &begin, const OfLevers &end, const StepWeights &weights, StepWork &work) const

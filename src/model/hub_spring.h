@@ -18,14 +18,13 @@ namespace sprag
     /// `joined`: by a free joint; needs two levers. `swing_stiffness`: the share of k then left against swinging.
     HubSpringExcess(const PortLayout &ports, MomentLaw law, bool joined = false, double swing_stiffness = 1e-6);
 
-    /// `others` with the forces of a step from some turns of the hubs to others added: the mean over the turn (discrete gradient)
-    /// with generalised-alpha's delay, so that no energy is made. Valid until the next call, as below.
-    const PortForces &add_forces(const PortForces &others, const OfLevers &begin, const OfLevers &end,
-                                 const StepWeights &weights);
+    /// Adds the forces of a step from some turns of the hubs to others: the mean over the turn (discrete gradient) with
+    /// generalised-alpha's delay, so that no energy is made.
+    void add_forces(const OfLevers &begin, const OfLevers &end, const StepWeights &weights, PortForces &forces) const;
 
-    /// `others` with the forces at turns of the hubs added. Where nothing else holds the swing of joined springs, the tangent is
-    /// that of springs which leave it where it is.
-    const PortForces &add_forces(const PortForces &others, const OfLevers &turns, bool swing_is_held = true);
+    /// Adds the forces at turns of the hubs. Where nothing else holds the swing of joined springs, the tangent is that of springs
+    /// which leave it where it is.
+    void add_forces(const OfLevers &turns, bool swing_is_held, PortForces &forces) const;
 
     /// Adds the algorithmic dissipation of the step.
     void add_work(const OfLevers &begin, const OfLevers &end, const StepWeights &weights, StepWork &work) const;
@@ -52,12 +51,11 @@ namespace sprag
     Moments of_step(const OfLevers &begin, const OfLevers &end, const StepWeights &weights) const;
     Moments at(const OfLevers &turns, bool swing_is_held) const;
     Moments spread(double excess, double stiffness, double moment, double moment_stiffness) const;
-    const PortForces &with(const PortForces &others, const Moments &moments);
+    void add(const Moments &moments, PortForces &forces) const;
 
     const PortLayout layout;
     const MomentLaw law;
     const bool joined;
     const double given_back; ///< stiffness against swinging that the joint takes from the structure's [N mm/rad]
-    PortForces sum;
   };
 } // namespace sprag

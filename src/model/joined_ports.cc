@@ -23,32 +23,34 @@ namespace sprag
     return port < layout.of_a_lever() ? layout.first(lever) + port : layout.support();
   }
 
-  PortForces joined_forces(const PortLayout &layout, const std::vector<const PortForces *> &of_levers)
+  void join_forces(const PortLayout &layout, const std::vector<const PortForces *> &of_levers, PortForces &result)
   {
-    if (of_levers.size() == 1)
-      return *of_levers.front();
-    PortForces result;
+    result.ports.clear();
     for (unsigned int lever = 0; lever < of_levers.size(); ++lever)
       for (const unsigned int port : of_levers[lever]->ports)
-        result.ports.push_back(joined_port(layout, lever, port));
-    std::sort(result.ports.begin(), result.ports.end());
-    result.ports.erase(std::unique(result.ports.begin(), result.ports.end()), result.ports.end());
-    const auto n = static_cast<unsigned int>(result.ports.size());
-    result.values.reinit(n);
-    result.tangent.reinit(n, n);
-    for (unsigned int lever = 0; lever < of_levers.size(); ++lever)
+        if (port < layout.of_a_lever())
+          result.ports.push_back(joined_port(layout, lever, port));
+    const auto support = static_cast<unsigned int>(result.ports.size());
+    if (std::any_of(of_levers.begin(), of_levers.end(),
+                    [&](const auto &forces) { return !forces->ports.empty() && forces->ports.back() == layout.of_a_lever(); }))
+      result.ports.push_back(layout.support());
+
+    result.values.reinit(static_cast<unsigned int>(result.ports.size()));
+    result.tangent.reinit(result.ports.size(), result.ports.size());
+    unsigned int first = 0; // place of the lever's first port
+    for (const auto &forces : of_levers)
     {
-      const auto &of_lever = *of_levers[lever];
-      std::vector<unsigned int> places;
-      for (const unsigned int port : of_lever.ports)
-        places.push_back(place_of(joined_port(layout, lever, port), result.ports));
-      for (unsigned int a = 0; a < places.size(); ++a)
+      const auto n   = static_cast<unsigned int>(forces->ports.size());
+      const auto own = n > 0 && forces->ports.back() == layout.of_a_lever() ? n - 1 : n;
+      for (unsigned int a = 0; a < n; ++a)
       {
-        result.values[places[a]] += of_lever.values[a];
-        for (unsigned int b = 0; b < places.size(); ++b)
-          result.tangent(places[a], places[b]) += of_lever.tangent(a, b);
+        const unsigned int row = a < own ? first + a : support;
+        result.values[row] += forces->values[a];
+        std::copy_n(&forces->tangent(a, 0), own, &result.tangent(row, 0) + first);
+        if (own < n)
+          result.tangent(row, support) += forces->tangent(a, own);
       }
+      first += own;
     }
-    return result;
   }
 } // namespace sprag

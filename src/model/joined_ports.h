@@ -13,6 +13,6 @@ namespace sprag
   /// Port of all of a port of a lever's contact.
   unsigned int joined_port(const PortLayout &layout, unsigned int lever, unsigned int port);
 
-  /// Forces of the contacts of the levers, in their order, as forces on all ports.
-  PortForces joined_forces(const PortLayout &layout, const std::vector<const PortForces *> &of_levers);
+  /// Writes forces of the contacts of the levers, in their order, as forces on all ports.
+  void join_forces(const PortLayout &layout, const std::vector<const PortForces *> &of_levers, PortForces &result);
 } // namespace sprag

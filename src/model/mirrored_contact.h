@@ -181,8 +181,8 @@ namespace sprag
 
     void join(Evaluation &found) const
     {
-      const auto &of     = found.of_lever;
-      found.forces       = joined_forces(layout, { &of[0].forces, &of[1].forces });
+      const auto &of = found.of_lever;
+      join_forces(layout, { &of[0].forces, &of[1].forces }, found.forces);
       found.within_reach = of[0].within_reach && of[1].within_reach;
       found.points       = points;
     }

@@ -93,15 +93,20 @@ namespace sprag
 
       void find_columns(const FullMatrix<double> &tangent)
       {
-        if (blocks.size() > 1)
-          for (const auto &[places, of_ports, matrix, answers] : blocks)
-            for (unsigned int column = places.first; column < places.second; ++column)
-              for (unsigned int i = 0; i < tangent.m(); ++i)
-                if (!holds(places, i) && tangent(i, column) != 0.)
-                {
-                  columns.push_back(column);
-                  break;
-                }
+        const auto n = static_cast<unsigned int>(tangent.n());
+        std::vector<char> counts(n, 0);
+        for (const auto &[places, of_ports, matrix, answers] : blocks)
+          for (unsigned int i = places.first; i < places.second; ++i)
+          {
+            const double *const row = &tangent(i, 0);
+            for (unsigned int column = 0; column < places.first; ++column)
+              counts[column] |= row[column] != 0.;
+            for (unsigned int column = places.second; column < n; ++column)
+              counts[column] |= row[column] != 0.;
+          }
+        for (unsigned int column = 0; column < n; ++column)
+          if (counts[column])
+            columns.push_back(column);
       }
 
       void factorise(const std::vector<unsigned int> &ports, const FullMatrix<double> &tangent, Block &block) const
@@ -146,9 +151,11 @@ namespace sprag
     return static_cast<unsigned int>(std::lower_bound(ports.begin(), ports.end(), port) - ports.begin());
   }
 
-  void extend(const PortForces &forces, const std::vector<unsigned int> &others, PortForces &result)
+  void add_ports(const std::vector<unsigned int> &others, PortForces &forces)
   {
-    result.ports.clear();
+    if (std::includes(forces.ports.begin(), forces.ports.end(), others.begin(), others.end()))
+      return;
+    PortForces result;
     std::set_union(forces.ports.begin(), forces.ports.end(), others.begin(), others.end(), std::back_inserter(result.ports));
     const auto n = static_cast<unsigned int>(result.ports.size());
     result.values.reinit(n);
@@ -157,11 +164,9 @@ namespace sprag
     for (const unsigned int port : forces.ports)
       places.push_back(place_of(port, result.ports));
     for (unsigned int i = 0; i < places.size(); ++i)
-    {
       result.values[places[i]] = forces.values[i];
-      for (unsigned int j = 0; j < places.size(); ++j)
-        result.tangent(places[i], places[j]) = forces.tangent(i, j);
-    }
+    forces.tangent.scatter_matrix_to(places, places, result.tangent);
+    forces = std::move(result);
   }
 
   double port_determinant(const PortCompliance &compliance, const std::vector<unsigned int> &ports,

@@ -20,8 +20,8 @@ namespace sprag
   /// The place where a port stands, or would stand, among increasing ones.
   unsigned int place_of(unsigned int port, const std::vector<unsigned int> &ports);
 
-  /// Forces as they are on their own ports and others, increasing, where they are 0.
-  void extend(const PortForces &forces, const std::vector<unsigned int> &others, PortForces &result);
+  /// Gives forces further ports, increasing, where they are 0 so far.
+  void add_ports(const std::vector<unsigned int> &others, PortForces &forces);
 
   /// Forces on some of the ports.
   struct PortLoads

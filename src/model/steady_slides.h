@@ -70,7 +70,8 @@ namespace sprag
       const auto evaluate = [&](const dealii::Vector<double> &ports) -> const PortForces &
       {
         contact.evaluate_sliding(SlidingState{ ports, drive, speed, nullptr, friction }, found);
-        return hub_spring.add_forces(found.forces, turns_of(frame.ports, ports));
+        hub_spring.add_forces(turns_of(frame.ports, ports), true, found.forces);
+        return found.forces;
       };
       const auto solved = solve_ports(
           structure.compliance(), free, frame.lengths, near, evaluate, [&] { return found.overlap(); }, z);

@@ -50,6 +50,10 @@ namespace
     {
       return inner->vibrations(slide, in_contact, number);
     }
+    std::vector<std::complex<double>> eigenvalues(const HeldSlide &slide, const unsigned int number) override
+    {
+      return inner->eigenvalues(slide, number);
+    }
     Motion perturbed(const HeldSlide &slide, const Eigenmode &mode, const double amplitude) override
     {
       return inner->perturbed(slide, mode, amplitude);

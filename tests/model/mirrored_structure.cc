@@ -1,6 +1,6 @@
 #include "model/mirrored_structure.h"
 
-#include "model/modal_structure.h"
+#include "support/three_modes.h"
 
 #include <algorithm>
 #include <gtest/gtest.h>
@@ -15,33 +15,9 @@ namespace
 {
   constexpr unsigned int n_ports = 3; ///< of a lever
 
-  ModalData lever_data(const bool with_statics)
-  {
-    ModalData data;
-    data.ports     = { 2, false };
-    data.stiffness = { 400., 9e4, 4e6 };
-    data.damping.reinit(3, 3);
-    data.damping(0, 0) = 0.8;
-    data.damping(1, 1) = 12.;
-    data.damping(2, 2) = 80.;
-    data.shapes.reinit(n_ports, 3);
-    const double shapes[n_ports][3] = { { 20., -31., 12. }, { 14., 9., -27. }, { 0.4, 0.2, -0.1 } };
-    for (unsigned int a = 0; a < n_ports; ++a)
-      for (unsigned int i = 0; i < 3; ++i)
-        data.shapes(a, i) = shapes[a][i];
-    if (!with_statics)
-      return data;
-    data.face_compliance.reinit(n_ports, n_ports);
-    for (unsigned int a = 0; a < n_ports; ++a)
-      data.face_compliance(a, a) = 2e-3 + 1e-3 * a;
-    data.face_compliance(0, 1) = data.face_compliance(1, 0) = 1e-3;
-    data.relaxation                                         = 2e-4;
-    return data;
-  }
-
   std::unique_ptr<ModalStructure> lever(const bool with_statics)
   {
-    return std::make_unique<ModalStructure>(lever_data(with_statics));
+    return std::make_unique<ModalStructure>(three_modes(with_statics));
   }
 
   MirroredStructure<ModalStructure> pair(const bool with_statics)

@@ -1,4 +1,4 @@
-#include "model/modal_structure.h"
+#include "support/three_modes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,34 +10,6 @@ using namespace sprag;
 namespace
 {
   using Vector = dealii::Vector<double>;
-
-  /// A port on the face with a static shape, another one without beside it, and the rotation.
-  ModalData make_data(const bool with_statics)
-  {
-    ModalData data;
-    data.ports     = { 2, false };
-    data.stiffness = { 400., 9e4, 4e6 };
-    data.damping.reinit(3, 3);
-    data.damping(0, 0) = 0.8;
-    data.damping(1, 1) = 12.;
-    data.damping(2, 2) = 80.;
-    data.damping(0, 1) = data.damping(1, 0) = -1.5;
-    data.shapes.reinit(3, 3);
-    const double shapes[3][3] = { { 20., -31., 12. }, { 14., 9., -27. }, { 0.4, 0.2, -0.1 } };
-    for (unsigned int a = 0; a < 3; ++a)
-      for (unsigned int i = 0; i < 3; ++i)
-        data.shapes(a, i) = shapes[a][i];
-    data.spring_stiffness = 50.;
-    if (with_statics)
-    {
-      data.face_compliance.reinit(2, 2);
-      data.face_compliance(0, 0) = 2e-3;
-      data.face_compliance(1, 1) = 3e-3;
-      data.face_compliance(0, 1) = data.face_compliance(1, 0) = 1e-3;
-      data.relaxation                                         = 2e-4;
-    }
-    return data;
-  }
 
   PortForces forces_on(const std::vector<double> &values)
   {
@@ -125,7 +97,7 @@ TEST(ModalStructure, ComplianceIsTheAnswerToUnitForcesAtRest)
 {
   for (const bool with_statics : { false, true })
   {
-    ModalStructure structure(make_data(with_statics));
+    ModalStructure structure(three_modes(with_statics));
     structure.use_statics();
     for (unsigned int a = 0; a < 3; ++a)
     {
@@ -147,7 +119,7 @@ TEST(ModalStructure, ComplianceOfAStepIsTheChangeOfItsEndByUnitForces)
     for (const double radius : { 1., 0.8, 0. })
       for (const double dt : { 1e-2, 1e-4 })
       {
-        ModalStructure structure(make_data(with_statics));
+        ModalStructure structure(three_modes(with_statics));
         structure.use_statics();
         Motion motion                      = structure.deform(forces_on({ 1., -2., 30. }));
         motion.coordinates.velocity[0]     = 3.;
@@ -174,7 +146,7 @@ TEST(ModalStructure, EnergyDampingAndAlgorithmicWorkMakeUpTheWorkOfTheForces)
   for (const bool with_statics : { false, true })
     for (const double radius : { 1., 0.8, 0.3, 0. })
     {
-      ModalStructure structure(make_data(with_statics));
+      ModalStructure structure(three_modes(with_statics));
       structure.use_statics();
       Motion motion                   = structure.deform(forces_on({ 0.4, -0.7, 0.9 }));
       const StepWeights all_weights[] = { generalised_alpha(radius, 3e-3), generalised_alpha(radius, 2e-4) };
@@ -201,7 +173,7 @@ TEST(ModalStructure, EnergyDampingAndAlgorithmicWorkMakeUpTheWorkOfTheForces)
 
 TEST(ModalStructure, TellsTheSpringsAndTheSupportsPartOfTheEnergy)
 {
-  auto data    = make_data(false);
+  auto data    = three_modes(false);
   data.support = 2;
   ModalStructure structure(data);
   structure.use_statics();
@@ -239,7 +211,7 @@ TEST(ModalStructure, StaticShapesDecayByTheSpectralRadiusAskedFor)
 {
   for (const double radius : { 1., 0.8, 0.5 })
   {
-    auto data       = make_data(true);
+    auto data       = three_modes(true);
     data.relaxation = 0.;
     ModalStructure structure(data);
     EXPECT_NEAR(spectral_norm_of_ten_steps(structure, generalised_alpha(radius, 1e-3)), radius, 1e-12) << radius;
@@ -249,7 +221,7 @@ TEST(ModalStructure, StaticShapesDecayByTheSpectralRadiusAskedFor)
 TEST(ModalStructure, StaticShapesForgetTheirForceWithTheRelaxationTime)
 {
   // f = K (u + tau du/dt), free: u decays as exp(-t/tau); the midpoint rule errs by (dt/tau)^2/12 of the rate.
-  ModalStructure structure(make_data(true));
+  ModalStructure structure(three_modes(true));
   const double dt      = 1e-5;
   Motion motion        = structure.rest();
   motion.face_force[0] = 1.;
@@ -316,7 +288,7 @@ TEST(ModalStructure, LocalErrorIsOfThirdOrder)
 
 TEST(ModalStructure, ManyDurationsInARowDoNotSpoilEachOther)
 {
-  ModalStructure structure(make_data(false));
+  ModalStructure structure(three_modes(false));
   structure.use_step(generalised_alpha(0.8, 1e-3));
   const PortCompliance before = structure.compliance();
   for (unsigned int i = 1; i < 40; ++i)

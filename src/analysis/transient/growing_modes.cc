@@ -50,12 +50,9 @@ namespace sprag
         if (!slide || !(slide->uniqueness > 0.) || !(slide->forces.P > 0.))
           return {};
         std::optional<GrowingMode> fastest;
-        for (const auto &mode : model.vibrations(*slide, true, 1))
-        {
-          const auto lambda = mode.mode.eigenvalue;
+        for (const auto lambda : model.eigenvalues(*slide, 1))
           if (lambda.imag() > 0. && lambda.real() > 0. && (!fastest || lambda.real() > fastest->growth_rate))
             fastest = GrowingMode{ drive.x, drive.v, lambda.real(), lambda.imag() / (2. * M_PI) };
-        }
         return fastest;
       }
       catch (const AnalysisError &)

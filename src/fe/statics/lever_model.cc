@@ -148,12 +148,12 @@ namespace sprag
   Unbalance LeverModel::evaluate(State &trial, const FrictionMode mode)
   {
     evaluate_contacts(trial, mode);
-    forces         = &excess.add_forces(on_ports, turns(trial), !on_ports.ports.empty());
-    trial.forces   = { forces->ports, forces->values };
+    excess.add_forces(turns(trial), !forces.ports.empty(), forces);
+    trial.forces   = { forces.ports, forces.values };
     double overlap = 0.;
     for (const auto &lever : levers)
       overlap = std::max(overlap, lever.found.overlap());
-    return { std::visit([&](auto &s) { return s.unbalance(trial.coordinates, *forces); }, structure), overlap };
+    return { std::visit([&](auto &s) { return s.unbalance(trial.coordinates, forces); }, structure), overlap };
   }
 
   void LeverModel::evaluate_contacts(State &trial, const FrictionMode mode)
@@ -176,7 +176,7 @@ namespace sprag
     }
     if (!within_reach)
       return widen_reach(trial, mode);
-    on_ports = joined_forces(ports, of_levers);
+    join_forces(ports, of_levers, forces);
   }
 
   /// Evaluates again with more ports, which begin with what the forces there make of them.
@@ -194,7 +194,7 @@ namespace sprag
 
   Vector<double> LeverModel::correction()
   {
-    return std::visit([&](auto &s) { return s.correction(*forces); }, structure);
+    return std::visit([&](auto &s) { return s.correction(forces); }, structure);
   }
 
   unsigned int LeverModel::rotation(const unsigned int lever) const

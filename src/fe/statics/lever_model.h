@@ -91,7 +91,6 @@ namespace sprag
     dealii::Vector<double> begin; ///< displacements of the ports
     PortLoads begin_forces;
 
-    PortForces on_ports;                ///< of the contacts at the last evaluation
-    const PortForces *forces = nullptr; ///< and of the springs beyond their linear part
+    PortForces forces; ///< of the contacts and of the springs beyond their linear part, at the last evaluation
   };
 } // namespace sprag
