@@ -294,13 +294,17 @@ namespace sprag
   {
     const hdf5::Handle group = hdf5::create_group(file, name);
     for (const Entry &entry : entries)
-      std::visit([&](const auto &value)
-                 { describe(hdf5::write_dataset(group, entry.name, value), entry.unit, entry.description); },
-                 entry.value);
+    {
+      const auto dataset =
+          std::visit([&](const auto &value) { return hdf5::write_dataset(group, entry.name, value); }, entry.value);
+      describe(dataset, entry.unit, entry.description);
+      for (const auto &[attribute, text] : entry.attributes)
+        hdf5::write_attribute(dataset, attribute, text);
+    }
   }
 
   void ResultFile::finish(const std::vector<Entry> &summary, const std::vector<Entry> &meta, const Warnings &warnings,
-                          const std::vector<Group> &groups)
+                          const std::vector<Group> &groups, const std::vector<Entry> &accuracy)
   {
     Assert(writer, dealii::ExcMessage("The result file is finished already."));
     // Nothing can be created in a file that others may be reading along: close it and open it anew.
@@ -312,6 +316,8 @@ namespace sprag
     hdf5::Handle file = hdf5::open_file(path);
     add_entries(file, "summary", summary);
     add_entries(file, "meta", meta);
+    if (!accuracy.empty())
+      add_entries(file, "accuracy", accuracy);
     if (has_space)
       write_warnings(file, warnings);
     for (const Group &group : has_space ? groups : std::vector<Group>())

@@ -11,13 +11,14 @@
 
 namespace sprag
 {
-  /// A named scalar or text with its unit and meaning, for /summary and /meta.
+  /// A named scalar or text with its unit and meaning, for /summary, /meta and /accuracy.
   struct Entry
   {
     std::string name;
     std::variant<double, std::string> value;
     std::string unit; ///< "1" where dimensionless, empty for text
     std::string description;
+    std::vector<std::pair<std::string, std::string>> attributes = {}; ///< further ones, name and text
   };
 
   /// Numbers of a fixed size, stored row by row.
@@ -95,10 +96,11 @@ namespace sprag
 
     void append(const FaceState &state);
 
-    /// Writes /summary, /meta, /warnings and other groups and closes the file. To be called once, also after a failed analysis.
-    /// Of each warning a dataset of its name: what was found, with the attributes effect and remedy.
+    /// Writes /summary, /meta, /warnings, other groups and, where there are entries, /accuracy, and closes the file. To be called
+    /// once, also after a failed analysis. Of each warning a dataset of its name: what was found, with the attributes effect and
+    /// remedy.
     void finish(const std::vector<Entry> &summary, const std::vector<Entry> &meta, const Warnings &warnings = {},
-                const std::vector<Group> &groups = {});
+                const std::vector<Group> &groups = {}, const std::vector<Entry> &accuracy = {});
 
   private:
     struct Writer;

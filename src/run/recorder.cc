@@ -63,11 +63,12 @@ namespace sprag
     append(warnings, row_warnings(scene, rows));
     if (in_time)
       append(warnings, transient_warnings(scene, rows));
-    auto end = writer.finish(status, { summary, meta }, warnings);
+    auto end = writer.finish(status, { summary, meta, {}, accuracy_entries(accuracy) }, warnings);
     if (!quiet)
     {
       const auto cpu = std::find_if(end.meta.begin(), end.meta.end(), [](const Entry &e) { return e.name == "cpu_time"; });
       print_summary(std::cout, joined(end.summary, { *cpu }));
+      print_accuracy(std::cout, accuracy);
     }
     return end.summary;
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/progress.h"
+#include "run/accuracy_report.h"
 #include "run/report.h"
 #include "run/result_writer.h"
 
@@ -23,6 +24,18 @@ namespace sprag
       stress = std::move(peaks);
     }
 
+    /// Returns the rows so far.
+    const std::vector<Row> &recorded() const
+    {
+      return rows;
+    }
+
+    /// Sets the errors that the run tells of its results; without a call it tells none.
+    void set_accuracy(std::vector<ErrorEstimate> estimates)
+    {
+      accuracy = std::move(estimates);
+    }
+
     /// Writes summary, meta and warnings, to which it adds those that follow from the rows, and prints the table at the end of a
     /// run. Status and meta: see ResultWriter. Returns the summary.
     std::vector<Entry> finish(const std::string &status, const std::vector<Entry> &meta, Warnings &warnings);
@@ -34,6 +47,7 @@ namespace sprag
     Progress progress;
     std::vector<Row> rows;
     std::vector<Entry> stress;
+    std::vector<ErrorEstimate> accuracy;
     double travel = 0.;
   };
 

@@ -57,7 +57,7 @@ namespace sprag
   {
     end.summary.push_back(status_entry(status));
     sprag::append(end.meta, process_entries(timer));
-    file.finish(end.summary, end.meta, warnings, end.groups);
+    file.finish(end.summary, end.meta, warnings, end.groups, end.accuracy);
     return end;
   }
 } // namespace sprag

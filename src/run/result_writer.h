@@ -18,8 +18,9 @@ namespace sprag
   struct RunEnd
   {
     std::vector<Entry> summary;
-    std::vector<Entry> meta   = {}; ///< facts of the run's own; program, libraries and costs are added to them
-    std::vector<Group> groups = {};
+    std::vector<Entry> meta     = {}; ///< facts of the run's own; program, libraries and costs are added to them
+    std::vector<Group> groups   = {};
+    std::vector<Entry> accuracy = {};
   };
 
   /// The file result.h5 of a run of any type, from its first row to its summary.

@@ -5,6 +5,7 @@
 #include "fe/statics/lever_model.h"
 #include "run/analyses.h"
 #include "run/field_recorder.h"
+#include "run/quasi_static_accuracy.h"
 #include "run/recorder.h"
 
 #include <iostream>
@@ -46,6 +47,7 @@ namespace sprag
                { "degrees_of_freedom", static_cast<double>(body.n_dofs()), "1", "displacements, those of the hub included" },
                { "face_points", static_cast<double>(body.friction_face().points.size()), "1",
                  "integration points of the friction face" },
+               { "face_size", scene.mesh.face_size, "mm", "element length along the friction face in use, of the built-in mesh" },
                { "penalty", normal, "N/mm^3", "normal penalty in use" },
                { "tangential_penalty", slip, "N/mm^3", "tangential penalty in use" },
                { "lever_mass", mass, "t", "mass of lever, layer and hub at the lever's density" },
@@ -91,6 +93,11 @@ namespace sprag
           [&](const std::string &status)
           {
             recorder.set_stress(fields.finish());
+            if (status == "completed")
+            {
+              const Timer::Scope scope(timer, "accuracy");
+              recorder.set_accuracy(quasi_static_accuracy(scene, levers, recorder.recorded(), settings));
+            }
             meta.push_back(
                 { "stick_stiffness", stick, "N/mm",
                   "tangential stiffness of layer and penalty in stick at the first reversal, of both levers of a pair" });

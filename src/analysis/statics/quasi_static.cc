@@ -89,18 +89,6 @@ namespace sprag
       return trial;
     }
 
-    Row observe(const Model &model, const State &state)
-    {
-      Row row;
-      row[Column::time]          = state.drive.time;
-      row[Column::x]             = state.drive.x;
-      row[Column::v]             = state.drive.v;
-      row[Column::friction_work] = 0.;
-      row[Column::drive_work]    = 0.;
-      model.observe(state, row);
-      return row;
-    }
-
     /// Trapezoidal rule, but across a reversal the friction power jumps and its value at the end of the step stands for it.
     void add_work(const Row &before, const bool reversed, Row &row)
     {
@@ -175,7 +163,7 @@ namespace sprag
         next = solve_step(model, from.state, end_of_step(drive, time, dx), settings, sticking, cost);
       }
       next->contact = model.memory();
-      Row row       = observe(model, *next);
+      Row row       = observed(model, *next);
       add_work(from.row, reversed, row);
       row[Column::iterations]    = cost.iterations;
       row[Column::augmentations] = cost.augmentations;
@@ -219,7 +207,7 @@ namespace sprag
         model.evaluate(now.state, FrictionMode::stick);
       }
       now.state.drive = start;
-      now.row         = observe(model, now.state);
+      now.row         = observed(model, now.state);
       const bool rubs = pressed && start.x == 0.; // friction then builds up within the first step
       return { std::move(now), rubs ? std::max(first_share * settings.step, settings.minimum_step) : settings.step };
     }
@@ -236,6 +224,31 @@ namespace sprag
       return overlap;
     }
   } // namespace
+
+  Row observed(const Model &model, const State &state)
+  {
+    Row row;
+    row[Column::time]          = state.drive.time;
+    row[Column::x]             = state.drive.x;
+    row[Column::v]             = state.drive.v;
+    row[Column::friction_work] = 0.;
+    row[Column::drive_work]    = 0.;
+    model.observe(state, row);
+    return row;
+  }
+
+  std::optional<State> solve_step(Model &model, const State &accepted, const DrivePoint &end, const QuasiStaticSettings &settings)
+  {
+    StepCost cost;
+    return solve_step(model, accepted, end, settings, false, cost);
+  }
+
+  State settled(Model &model, const DrivePoint &start, const QuasiStaticSettings &settings)
+  {
+    State state = model.initial_state(start);
+    settle(model, state, settings);
+    return state;
+  }
 
   NewtonResult solve_equilibrium(Model &model, State &trial, const bool stick_first)
   {

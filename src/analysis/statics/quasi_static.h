@@ -5,6 +5,7 @@
 #include "scene/scene.h"
 
 #include <functional>
+#include <optional>
 
 namespace sprag
 {
@@ -21,6 +22,18 @@ namespace sprag
     double minimum_step = 1e-6; ///< [mm]
     ContactSettings contact;
   };
+
+  /// Returns the state in which a model begins at x = 0: just touching or, where the cylinder opens it there already, off the
+  /// middle of a pair, put on it without friction.
+  State settled(Model &model, const DrivePoint &start, const QuasiStaticSettings &settings);
+
+  /// Returns the state at the end of one step from an accepted one, or none where no equilibrium was found. The model evaluated
+  /// it last.
+  std::optional<State> solve_step(Model &model, const State &accepted, const DrivePoint &end,
+                                  const QuasiStaticSettings &settings);
+
+  /// Returns the row of a state without inertia that the model evaluated last, its works 0.
+  Row observed(const Model &model, const State &state);
 
   /// Called with every accepted state, the first included, right after the model evaluated it.
   using StepSink = std::function<void(const State &state, const Row &row)>;

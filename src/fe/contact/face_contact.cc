@@ -288,6 +288,11 @@ namespace sprag
     return properties.penalties;
   }
 
+  void FaceContact::use_penalties(const ContactPenalties &penalties)
+  {
+    properties.penalties = penalties;
+  }
+
   namespace
   {
     /// Returns the point in the middle of those under pressure, or the closest one if there are none.

@@ -61,6 +61,9 @@ namespace sprag
 
     const ContactPenalties &penalties() const;
 
+    /// Evaluates with other penalties from now on [N/mm^3], > 0.
+    void use_penalties(const ContactPenalties &penalties);
+
     /// Returns by how much a small change of the ports changes the gap in the middle of the contact, or where it is smallest
     /// [mm].
     double gap_change(const FaceEvaluation &found, const dealii::Vector<double> &change_of_ports, unsigned int lever = 0) const;
@@ -97,7 +100,7 @@ namespace sprag
     FacePatches<2>::Indices clip(FacePatches<2>::Indices near, FaceEvaluation &found) const;
 
     const ElasticBody<2> &body;
-    const FaceContactProperties properties;
+    FaceContactProperties properties;
     const FacePatches<2> face;
 
     // What evaluations work with; nothing of it is a result.

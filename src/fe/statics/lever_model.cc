@@ -357,6 +357,12 @@ namespace sprag
     return levers.size() == 1 ? of_lever(levers[0]) : joined_faces(of_lever(levers[0]), of_lever(levers[1]));
   }
 
+  void LeverModel::use_penalties(const ContactPenalties &penalties)
+  {
+    for (auto &lever : levers)
+      lever.contact.use_penalties(penalties);
+  }
+
   const ContactPenalties &LeverModel::penalties() const
   {
     return levers.front().contact.penalties();

@@ -46,6 +46,9 @@ namespace sprag
 
     const ContactPenalties &penalties() const;
 
+    /// Evaluates with other penalties from now on [N/mm^3], > 0.
+    void use_penalties(const ContactPenalties &penalties);
+
     const ElasticBody<2> &elastic_body() const;
 
     /// Displacement of all degrees of freedom of each lever in its axes [mm].

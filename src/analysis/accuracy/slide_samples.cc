@@ -1,0 +1,128 @@
+#include "analysis/accuracy/slide_samples.h"
+
+#include "base/errors.h"
+#include "base/text.h"
+#include "results/row_statistics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace sprag
+{
+  namespace
+  {
+    constexpr double all_slide         = 0.999; ///< share of mu P from which the whole contact is told to slide
+    constexpr double pressed           = 0.02;  ///< of the largest P, from which a row counts
+    constexpr unsigned int most_halves = 6;
+
+    using Index = std::size_t;
+
+    bool slides(const Row &row, const double largest_force)
+    {
+      const double friction = std::abs(row[Column::friction_resultant]);
+      return row[Column::v] != 0. && row[Column::P] > pressed * largest_force &&
+             friction >= all_slide * row[Column::mu] * row[Column::normal_resultant];
+    }
+
+    /// The sliding rows of the stroke that begins at a row, and the row behind the stroke. Near its beginning they still remember
+    /// what was before, until the contact has moved by its own width.
+    std::pair<std::vector<Index>, Index> stroke_from(const std::vector<Row> &rows, const Index begin, const double largest_force)
+    {
+      const double turned_at = rows[begin > 0 ? begin - 1 : 0][Column::x];
+      std::vector<Index> result;
+      Index i = begin;
+      for (; i < rows.size() && direction_of(rows[i][Column::v]) == direction_of(rows[begin][Column::v]); ++i)
+        if (slides(rows[i], largest_force) && std::abs(rows[i][Column::x] - turned_at) > rows[i][Column::contact_width])
+          result.push_back(i);
+      return { result, i };
+    }
+
+    void choose_evenly(const std::vector<Row> &rows, const std::vector<Index> &stroke, const unsigned int number,
+                       std::set<Index> &chosen)
+    {
+      if (stroke.empty())
+        return;
+      const double begin = rows[stroke.front()][Column::x];
+      const double way   = rows[stroke.back()][Column::x] - begin;
+      for (unsigned int i = 0; i < number; ++i)
+      {
+        const double x     = begin + way * (i + 0.5) / number;
+        const auto closest = [&](const Index a, const Index b)
+        { return std::abs(rows[a][Column::x] - x) < std::abs(rows[b][Column::x] - x); };
+        chosen.insert(*std::min_element(stroke.begin(), stroke.end(), closest));
+      }
+      for (const Column column : { Column::P, Column::largest_pressure })
+        chosen.insert(*std::max_element(stroke.begin(), stroke.end(),
+                                        [&](const Index a, const Index b) { return rows[a][column] < rows[b][column]; }));
+    }
+
+    DrivePoint point_of(const Row &row)
+    {
+      return { row[Column::time], row[Column::x], row[Column::v] };
+    }
+
+    DrivePoint half_way(const DrivePoint &from, DrivePoint to)
+    {
+      to.time = 0.5 * (from.time + to.time);
+      to.x    = 0.5 * (from.x + to.x);
+      return to;
+    }
+
+    State slid_to(Model &model, const State &from, const DrivePoint &to, const QuasiStaticSettings &settings,
+                  const unsigned int halves = 0)
+    {
+      if (auto next = solve_step(model, from, to, settings))
+      {
+        next->contact = model.memory();
+        return *next;
+      }
+      if (halves == most_halves)
+        throw AnalysisError("no equilibrium at x = " + mm(to.x));
+      return slid_to(model, slid_to(model, from, half_way(from.drive, to), settings, halves + 1), to, settings, halves + 1);
+    }
+  } // namespace
+
+  std::vector<Row> slide_samples(const std::vector<Row> &rows, const unsigned int number)
+  {
+    const double largest_force = largest(rows, Column::P);
+    std::set<Index> chosen;
+    Index begin = 0;
+    for (unsigned int stroke = 0; stroke < 2 && begin < rows.size(); ++stroke)
+    {
+      const auto [sliding, end] = stroke_from(rows, begin, largest_force);
+      choose_evenly(rows, sliding, number, chosen);
+      begin = end;
+    }
+    std::vector<Row> result;
+    for (const Index i : chosen)
+      result.push_back(rows[i]);
+    return result;
+  }
+
+  std::vector<Row> repeated(Model &model, const std::vector<Row> &samples, const double start,
+                            const QuasiStaticSettings &settings)
+  {
+    std::vector<Row> result;
+    if (samples.empty())
+      return result;
+    const DrivePoint first = point_of(samples.front());
+    State state            = settled(model, { 0., 0., std::abs(first.v) }, settings);
+    if (first.v < 0.)
+    {
+      const double speed = std::abs(first.v);
+      state              = slid_to(model, state, { start / speed, start, speed }, settings);
+      state.drive        = { 0., start, first.v };
+    }
+    for (const Row &sample : samples)
+    {
+      const DrivePoint point = point_of(sample);
+      // On the way through stick the slip is not that of the drive, and mu depends on its speed.
+      if (direction_of(point.v) != direction_of(state.drive.v))
+        state = slid_to(model, state, half_way(state.drive, point), settings);
+      state = slid_to(model, state, point, settings);
+      result.push_back(observed(model, state));
+    }
+    return result;
+  }
+} // namespace sprag

@@ -1,0 +1,60 @@
+#include "run/accuracy_report.h"
+
+#include <cmath>
+#include <iomanip>
+#include <ostream>
+#include <sstream>
+
+namespace sprag
+{
+  namespace
+  {
+    std::string percent(const double error)
+    {
+      std::ostringstream text;
+      text << std::setprecision(2) << 100. * error << " %";
+      return text.str();
+    }
+
+    std::string parts_text(const ErrorEstimate &estimate)
+    {
+      std::string text;
+      for (const auto &part : estimate.parts)
+        text += (text.empty() ? "" : ", ") + part.name + ' ' + percent(part.value);
+      return text;
+    }
+  } // namespace
+
+  std::vector<Entry> accuracy_entries(const std::vector<ErrorEstimate> &estimates)
+  {
+    std::vector<Entry> entries;
+    for (const auto &estimate : estimates)
+    {
+      Entry whole{ estimate.quantity, total_error(estimate), "1", "estimated error relative to " + estimate.relative_to };
+      if (estimate.parts.empty())
+        whole.attributes = { { "unknown", estimate.unknown } };
+      else
+        whole.attributes = { { "largest_part", largest_part(estimate).name }, { "remedy", largest_part(estimate).remedy } };
+      entries.push_back(whole);
+      for (const auto &part : estimate.parts)
+        entries.push_back({ estimate.quantity + '_' + part.name, part.value, "1",
+                            "part of the error of " + estimate.quantity + ": " + part.remedy });
+    }
+    return entries;
+  }
+
+  void print_accuracy(std::ostream &stream, const std::vector<ErrorEstimate> &estimates)
+  {
+    if (!estimates.empty())
+      stream << "Accuracy, estimated:\n";
+    for (const auto &estimate : estimates)
+    {
+      stream << "  " << std::left << std::setw(18) << estimate.quantity << std::right;
+      if (estimate.parts.empty())
+        stream << estimate.unknown << '\n';
+      else
+        stream << std::setw(9) << percent(total_error(estimate)) << " of " << estimate.relative_to << ": " << parts_text(estimate)
+               << ". " << largest_part(estimate).remedy << '\n';
+    }
+  }
+} // namespace sprag

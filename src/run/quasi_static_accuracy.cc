@@ -1,0 +1,173 @@
+#include "run/quasi_static_accuracy.h"
+
+#include "analysis/accuracy/slide_samples.h"
+#include "base/errors.h"
+#include "fe/mesh/mesh.h"
+#include "results/row_statistics.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sprag
+{
+  namespace
+  {
+    constexpr unsigned int samples_of_stroke = 6;
+    constexpr double softer                  = 3.; ///< penalty of the run over that of the probe
+    constexpr double coarser                 = 2.; ///< face size of the probe over that of the run
+
+    struct Orders
+    {
+      double of_forces;
+      double of_pressure;
+    };
+
+    bool augments(const Scene &scene)
+    {
+      return scene.contact.enforcement == Enforcement::augmented_lagrangian;
+    }
+
+    Orders orders_of(const Scene &scene)
+    {
+      return { scene.mesh.degree == 1 ? 1.6 : 2., augments(scene) ? 2. : 3. };
+    }
+
+    Scene with_coarser_mesh(Scene scene, const ContactPenalties &penalties)
+    {
+      scene.mesh.face_size *= coarser;
+      scene.cylinder.face_size *= coarser;
+      scene.contact.penalty            = penalties.normal;
+      scene.contact.tangential_penalty = penalties.tangential;
+      return scene;
+    }
+
+    /// The samples and what other models make of them.
+    struct Probes
+    {
+      std::vector<Row> run;
+      std::vector<Row> coarse; ///< on the coarser mesh
+      std::vector<Row> soft;   ///< with the softer penalty; empty where the run augments
+    };
+
+    Probes probe(const Scene &scene, LeverModel &levers, const std::vector<Row> &rows, const QuasiStaticSettings &settings)
+    {
+      Probes result;
+      result.run           = slide_samples(rows, samples_of_stroke);
+      const double start   = rows.front()[Column::x];
+      const auto penalties = levers.penalties();
+      Mesh mesh;
+      const Scene coarse = with_coarser_mesh(scene, penalties);
+      make_mesh(coarse, mesh);
+      LeverModel on_coarse(mesh, coarse);
+      result.coarse = repeated(on_coarse, result.run, start, settings);
+      if (augments(scene))
+        return result;
+      levers.use_penalties({ penalties.normal / softer, penalties.tangential / softer });
+      result.soft = repeated(levers, result.run, start, settings);
+      levers.use_penalties(penalties);
+      return result;
+    }
+
+    using Value = std::function<double(const Row &)>;
+
+    double largest_change(const std::vector<Row> &run, const std::vector<Row> &other, const Value &value)
+    {
+      double result = 0.;
+      for (std::size_t i = 0; i < run.size(); ++i)
+        result = std::max(result, std::abs(value(other[i]) - value(run[i])));
+      return result;
+    }
+
+    /// Finds the size of what changes between the run and another model, over a reference.
+    using Size = std::function<double(const std::vector<Row> &other)>;
+
+    std::vector<ErrorPart> parts_of(const Scene &scene, const Probes &probes, const Size &change, const double order)
+    {
+      std::vector<ErrorPart> parts = { { "mesh", share_of_finer(coarser, order) * change(probes.coarse),
+                                         scene.mesh.degree == 1 ? "Try Mesh/Degree = 2 or a smaller Mesh/Face size."
+                                                                : "Try a Mesh/Face size 0.7 times as large." } };
+      if (!probes.soft.empty())
+        parts.push_back({ "penalty", share_of_finer(softer, 1.) * change(probes.soft),
+                          "Try twice the Contact/Penalty or Contact/Enforcement = augmented Lagrangian." });
+      return parts;
+    }
+
+    ErrorEstimate along_the_path(const Scene &scene, const Probes &probes, const std::vector<Row> &rows,
+                                 const std::string &quantity, const std::string &relative_to, const Value &value)
+    {
+      const double peak = largest(rows, value);
+      const auto change = [&](const std::vector<Row> &other) { return largest_change(probes.run, other, value) / peak; };
+      return { quantity, relative_to, parts_of(scene, probes, change, orders_of(scene).of_forces), {} };
+    }
+
+    ErrorEstimate largest_pressure(const Scene &scene, const Probes &probes)
+    {
+      const double run  = largest(probes.run, Column::largest_pressure);
+      const auto change = [&](const std::vector<Row> &other)
+      { return std::abs(largest(other, Column::largest_pressure) - run) / run; };
+      return { "largest_pressure", "it", parts_of(scene, probes, change, orders_of(scene).of_pressure), {} };
+    }
+
+    /// The integral of the drive's force over the samples by the trapezoidal rule.
+    double work(const std::vector<Row> &rows)
+    {
+      double result = 0.;
+      for (std::size_t i = 1; i < rows.size(); ++i)
+        result += 0.5 * (rows[i - 1].drive_force() + rows[i].drive_force()) * (rows[i][Column::x] - rows[i - 1][Column::x]);
+      return result;
+    }
+
+    /// What the trapezoidal rule adds to the work, by Richardson from steps taken two at a time.
+    double error_of_trapezoids(const std::vector<Row> &rows)
+    {
+      double error = 0.;
+      for (std::size_t i = 2; i < rows.size(); i += 2)
+      {
+        const std::vector<Row> both = { rows[i - 2], rows[i - 1], rows[i] };
+        if (direction_of(both[0][Column::v]) == direction_of(both[2][Column::v]))
+          error += (work({ both[0], both[2] }) - work(both)) / 3.;
+      }
+      return error;
+    }
+
+    ErrorEstimate loop_area(const Scene &scene, const Probes &probes, const std::vector<Row> &rows)
+    {
+      const double run  = work(probes.run);
+      const auto change = [&](const std::vector<Row> &other) { return std::abs((work(other) - run) / run); };
+      auto parts        = parts_of(scene, probes, change, orders_of(scene).of_forces);
+      parts.push_back({ "step", std::abs(error_of_trapezoids(rows) / rows.back()[Column::drive_work]),
+                        "Try an Analysis/Step 0.7 times as large." });
+      return { "loop_area", "it", parts, {} };
+    }
+
+    std::vector<ErrorEstimate> unknown(const std::string &reason)
+    {
+      std::vector<ErrorEstimate> result;
+      for (const char *const quantity : { "P", "Q", "loop_area", "largest_pressure", "contact_width" })
+        result.push_back({ quantity, "", {}, reason });
+      return result;
+    }
+  } // namespace
+
+  std::vector<ErrorEstimate> quasi_static_accuracy(const Scene &scene, LeverModel &levers, const std::vector<Row> &rows,
+                                                   const QuasiStaticSettings &settings)
+  {
+    if (!scene.mesh.file.empty())
+      return unknown("No estimate: a mesh from a file has no coarser one to compare with. Run a finer mesh beside it.");
+    try
+    {
+      const Probes probes = probe(scene, levers, rows, settings);
+      if (probes.run.size() < 2)
+        return unknown("No estimate: there are no two states in which the whole contact slides.");
+      return { along_the_path(scene, probes, rows, "P", "its peak", [](const Row &row) { return row[Column::P]; }),
+               along_the_path(scene, probes, rows, "Q", "its peak", [](const Row &row) { return row[Column::Q]; }),
+               loop_area(scene, probes, rows), largest_pressure(scene, probes),
+               along_the_path(scene, probes, rows, "contact_width", "the largest one",
+                              [](const Row &row) { return row[Column::contact_width]; }) };
+    }
+    catch (const AnalysisError &error)
+    {
+      return unknown("No estimate: in the comparison there was " + std::string(error.what()) + ".");
+    }
+  }
+} // namespace sprag
