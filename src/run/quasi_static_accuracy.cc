@@ -4,6 +4,7 @@
 #include "base/errors.h"
 #include "fe/mesh/mesh.h"
 #include "results/row_statistics.h"
+#include "run/coarser_scene.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,32 +14,16 @@ namespace sprag
   namespace
   {
     constexpr unsigned int samples_of_stroke = 6;
-    constexpr double softer                  = 3.; ///< penalty of the run over that of the probe
-    constexpr double coarser                 = 2.; ///< face size of the probe over that of the run
-
-    struct Orders
-    {
-      double of_forces;
-      double of_pressure;
-    };
 
     bool augments(const Scene &scene)
     {
       return scene.contact.enforcement == Enforcement::augmented_lagrangian;
     }
 
-    Orders orders_of(const Scene &scene)
+    /// As measured; averaged tractions of the augmented Lagrangian follow a narrow contact less closely.
+    double order_of_pressure(const Scene &scene)
     {
-      return { scene.mesh.degree == 1 ? 1.6 : 2., augments(scene) ? 2. : 3. };
-    }
-
-    Scene with_coarser_mesh(Scene scene, const ContactPenalties &penalties)
-    {
-      scene.mesh.face_size *= coarser;
-      scene.cylinder.face_size *= coarser;
-      scene.contact.penalty            = penalties.normal;
-      scene.contact.tangential_penalty = penalties.tangential;
-      return scene;
+      return augments(scene) ? 2. : 3.;
     }
 
     /// The samples and what other models make of them.
@@ -56,7 +41,7 @@ namespace sprag
       const double start   = rows.front()[Column::x];
       const auto penalties = levers.penalties();
       Mesh mesh;
-      const Scene coarse = with_coarser_mesh(scene, penalties);
+      const Scene coarse = with_coarser_mesh(with_penalties(scene, penalties, 1.));
       make_mesh(coarse, mesh);
       LeverModel on_coarse(mesh, coarse);
       result.coarse = repeated(on_coarse, result.run, start, settings);
@@ -83,12 +68,9 @@ namespace sprag
 
     std::vector<ErrorPart> parts_of(const Scene &scene, const Probes &probes, const Size &change, const double order)
     {
-      std::vector<ErrorPart> parts = { { "mesh", share_of_finer(coarser, order) * change(probes.coarse),
-                                         scene.mesh.degree == 1 ? "Try Mesh/Degree = 2 or a smaller Mesh/Face size."
-                                                                : "Try a Mesh/Face size 0.7 times as large." } };
+      std::vector<ErrorPart> parts = { mesh_part(scene, change(probes.coarse), order) };
       if (!probes.soft.empty())
-        parts.push_back({ "penalty", share_of_finer(softer, 1.) * change(probes.soft),
-                          "Try twice the Contact/Penalty or Contact/Enforcement = augmented Lagrangian." });
+        parts.push_back(penalty_part(change(probes.soft)));
       return parts;
     }
 
@@ -97,7 +79,7 @@ namespace sprag
     {
       const double peak = largest(rows, value);
       const auto change = [&](const std::vector<Row> &other) { return largest_change(probes.run, other, value) / peak; };
-      return { quantity, relative_to, parts_of(scene, probes, change, orders_of(scene).of_forces), {} };
+      return { quantity, relative_to, parts_of(scene, probes, change, order_of_forces(scene)), {} };
     }
 
     ErrorEstimate largest_pressure(const Scene &scene, const Probes &probes)
@@ -105,7 +87,7 @@ namespace sprag
       const double run  = largest(probes.run, Column::largest_pressure);
       const auto change = [&](const std::vector<Row> &other)
       { return std::abs(largest(other, Column::largest_pressure) - run) / run; };
-      return { "largest_pressure", "it", parts_of(scene, probes, change, orders_of(scene).of_pressure), {} };
+      return { "largest_pressure", "it", parts_of(scene, probes, change, order_of_pressure(scene)), {} };
     }
 
     /// The integral of the drive's force over the samples by the trapezoidal rule.
@@ -134,7 +116,7 @@ namespace sprag
     {
       const double run  = work(probes.run);
       const auto change = [&](const std::vector<Row> &other) { return std::abs((work(other) - run) / run); };
-      auto parts        = parts_of(scene, probes, change, orders_of(scene).of_forces);
+      auto parts        = parts_of(scene, probes, change, order_of_forces(scene));
       parts.push_back({ "step", std::abs(error_of_trapezoids(rows) / rows.back()[Column::drive_work]),
                         "Try an Analysis/Step 0.7 times as large." });
       return { "loop_area", "it", parts, {} };
@@ -153,7 +135,7 @@ namespace sprag
                                                    const QuasiStaticSettings &settings)
   {
     if (!scene.mesh.file.empty())
-      return unknown("No estimate: a mesh from a file has no coarser one to compare with. Run a finer mesh beside it.");
+      return unknown(no_coarser_mesh);
     try
     {
       const Probes probes = probe(scene, levers, rows, settings);

@@ -3,9 +3,11 @@
 #include "base/text.h"
 #include "fe/fields/mode_frames.h"
 #include "model/growth.h"
+#include "run/accuracy_report.h"
 #include "run/analyses.h"
 #include "run/report.h"
 #include "run/result_writer.h"
+#include "run/vibration_accuracy.h"
 #include "run/vibration_report.h"
 #include "run/warnings.h"
 #include "scene/held_slide.h"
@@ -118,6 +120,13 @@ namespace sprag
       return result;
     }
 
+    std::vector<ErrorEstimate> accuracy_of(const Scene &held, const SlideStability &found, const MeshedDynamics &dynamics,
+                                           DynamicsMaker &maker)
+    {
+      const dealii::TimerOutput::Scope scope(maker.timer(), "accuracy");
+      return vibration_accuracy(held, found, dynamics, maker);
+    }
+
     RunEnd stability(const Scene &scene, DynamicsMaker &maker, const RunOptions &options, Warnings &warnings)
     {
       RunEnd result;
@@ -134,11 +143,14 @@ namespace sprag
         result.summary = slide_entries(found);
         if (found.slide)
           append(warnings, slide_warnings(scene, found.slide->drive, found.slide->forces.P, found.slide->indentation));
+        const auto accuracy = accuracy_of(held, found, dynamics.meshed, maker);
+        result.accuracy     = accuracy_entries(accuracy);
         if (!options.quiet)
         {
           print_summary(std::cout, result.summary);
           print_modes(std::cout, modes);
           print_growth(std::cout, modes);
+          print_accuracy(std::cout, accuracy);
         }
       }
       if (scene.stability.roles)

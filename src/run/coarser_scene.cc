@@ -1,0 +1,36 @@
+#include "run/coarser_scene.h"
+
+namespace sprag
+{
+  Scene with_penalties(Scene scene, const ContactPenalties &penalties, const double share)
+  {
+    scene.contact.penalty            = share * penalties.normal;
+    scene.contact.tangential_penalty = share * penalties.tangential;
+    return scene;
+  }
+
+  Scene with_coarser_mesh(Scene scene)
+  {
+    scene.mesh.face_size *= coarser;
+    scene.cylinder.face_size *= coarser;
+    return scene;
+  }
+
+  double order_of_forces(const Scene &scene)
+  {
+    return scene.mesh.degree == 1 ? 1.6 : 2.;
+  }
+
+  ErrorPart mesh_part(const Scene &scene, const double change, const double order)
+  {
+    return { "mesh", share_of_finer(coarser, order) * change,
+             scene.mesh.degree == 1 ? "Try Mesh/Degree = 2 or a smaller Mesh/Face size."
+                                    : "Try a Mesh/Face size 0.7 times as large." };
+  }
+
+  ErrorPart penalty_part(const double change)
+  {
+    return { "penalty", share_of_finer(softer, 1.) * change,
+             "Try twice the Contact/Penalty or Contact/Enforcement = augmented Lagrangian." };
+  }
+} // namespace sprag

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "analysis/accuracy/error_estimate.h"
+#include "fe/contact/face_contact_point.h"
+#include "scene/scene.h"
+
+#include <string>
+
+namespace sprag
+{
+  // Scenes whose results tell the error of another's, and the parts of that error.
+
+  constexpr double softer  = 3.; ///< penalty of a run over that of its probe
+  constexpr double coarser = 2.; ///< face size of a probe over that of its run
+
+  constexpr const char *no_coarser_mesh =
+      "No estimate: a mesh from a file has no coarser one to compare with. Run a finer mesh beside it.";
+
+  /// Returns the scene with `share` > 0 of given penalties in place of automatic ones.
+  Scene with_penalties(Scene scene, const ContactPenalties &penalties, double share);
+
+  /// Returns the scene on a built-in mesh with larger faces of lever and cylinder.
+  Scene with_coarser_mesh(Scene scene);
+
+  /// Returns the order in which forces and frequencies converge with the face size: 2, and 1.6 with displacements of degree 1, as
+  /// measured.
+  double order_of_forces(const Scene &scene);
+
+  /// Returns the part of the mesh, from the change on with_coarser_mesh() and the order of convergence.
+  ErrorPart mesh_part(const Scene &scene, double change, double order);
+
+  /// Returns the part of the penalty, from the change with the softer one.
+  ErrorPart penalty_part(double change);
+} // namespace sprag
