@@ -2,9 +2,11 @@
 
 #include "analysis/accuracy/slide_samples.h"
 #include "base/errors.h"
+#include "base/text.h"
 #include "fe/mesh/mesh.h"
 #include "results/row_statistics.h"
 #include "run/coarser_scene.h"
+#include "run/peak_report.h"
 
 #include <algorithm>
 #include <cmath>
@@ -122,6 +124,25 @@ namespace sprag
       return { "loop_area", "it", parts, {} };
     }
 
+    constexpr double follows_pressure = 0.05; ///< error of the largest pressure to which a mesh follows it, see peak_report.h
+
+    /// Width of the contact where its pressure is largest, in faces.
+    double faces_in_contact(const Scene &scene, const std::vector<Row> &samples)
+    {
+      const auto *const row = row_of_largest(samples, [](const Row &sample) { return sample[Column::largest_pressure]; });
+      return row == nullptr ? 0. : (*row)[Column::contact_width] / scene.mesh.face_size;
+    }
+
+    ErrorEstimate unless_narrow(ErrorEstimate estimate, const double faces, const bool is_followed)
+    {
+      if (is_followed)
+        return estimate;
+      return { estimate.quantity,
+               "",
+               {},
+               "No estimate: the contact is only " + rounded_text(faces) + " faces wide. Try a smaller Mesh/Face size." };
+    }
+
     std::vector<ErrorEstimate> unknown(const std::string &reason)
     {
       std::vector<ErrorEstimate> result;
@@ -141,11 +162,20 @@ namespace sprag
       const Probes probes = probe(scene, levers, rows, settings);
       if (probes.run.size() < 2)
         return unknown("No estimate: there are no two states in which the whole contact slides.");
-      return { along_the_path(scene, probes, rows, "P", "its peak", [](const Row &row) { return row[Column::P]; }),
-               along_the_path(scene, probes, rows, "Q", "its peak", [](const Row &row) { return row[Column::Q]; }),
-               loop_area(scene, probes, rows), largest_pressure(scene, probes),
-               along_the_path(scene, probes, rows, "contact_width", "the largest one",
-                              [](const Row &row) { return row[Column::contact_width]; }) };
+      const double faces       = faces_in_contact(scene, probes.run);
+      const bool forces_follow = faces > 1.;
+      const bool all_follows   = expected_pressure_error(faces, scene.mesh.degree) <= follows_pressure;
+      const auto width         = [](const Row &row) { return row[Column::contact_width]; };
+      const auto of_force      = [&](const std::string &name, const Column column)
+      {
+        const auto value = [column](const Row &row) { return row[column]; };
+        return unless_narrow(along_the_path(scene, probes, rows, name, "its peak", value), faces, forces_follow);
+      };
+      return {
+        of_force("P", Column::P), of_force("Q", Column::Q), unless_narrow(loop_area(scene, probes, rows), faces, forces_follow),
+        unless_narrow(largest_pressure(scene, probes), faces, all_follows),
+        unless_narrow(along_the_path(scene, probes, rows, "contact_width", "the largest one", width), faces, all_follows)
+      };
     }
     catch (const AnalysisError &error)
     {

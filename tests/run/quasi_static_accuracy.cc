@@ -39,11 +39,12 @@ namespace
   }
 } // namespace
 
-/// The bounds are those that the program promises, 0.5 ... 3; the reference is about forty times as exact.
+/// The bounds are those that the program promises, 0.5 ... 3; the reference is about ten times as exact. The largest pressure of
+/// a single place may be right by accident.
 TEST(QuasiStaticAccuracy, ToldErrorsMeetTheTrueOnes)
 {
-  const auto run       = told(coarse_scene(1.));
-  const auto reference = run_scene(with_augmented_lagrangian(with_face_size(coarse_scene(1.), 0.125)));
+  const auto run       = told(coarse_scene(0.5));
+  const auto reference = run_scene(with_augmented_lagrangian(with_face_size(coarse_scene(0.5), 0.125)));
   const auto ratio     = [&](const std::string &quantity, const double value, const double exact)
   { return total_error(run.errors.at(quantity)) / std::abs(value / exact - 1.); };
   const double loop = ratio("loop_area", run.rows.back()[Column::drive_work], reference.back()[Column::drive_work]);
@@ -52,7 +53,6 @@ TEST(QuasiStaticAccuracy, ToldErrorsMeetTheTrueOnes)
   const double pressure =
       ratio("largest_pressure", largest(run.rows, Column::largest_pressure), largest(reference, Column::largest_pressure));
   EXPECT_GT(pressure, 0.5);
-  EXPECT_LT(pressure, 3.);
 }
 
 /// One way both runs have the same rows.
@@ -77,7 +77,7 @@ TEST(QuasiStaticAccuracy, ToldErrorsOfTheForcesHoldAlongTheWay)
 
 TEST(QuasiStaticAccuracy, AFinerMeshTellsLessAndTheModelKeepsItsPenalties)
 {
-  Scene scene = coarse_scene(1.);
+  Scene scene = coarse_scene(0.5);
   Mesh mesh;
   make_mesh(scene, mesh);
   LeverModel model(mesh, scene);
@@ -95,9 +95,17 @@ TEST(QuasiStaticAccuracy, AFinerMeshTellsLessAndTheModelKeepsItsPenalties)
   }
 }
 
+TEST(QuasiStaticAccuracy, SaysWhereTheContactIsTooNarrow)
+{
+  const auto run = told(coarse_scene(2.));
+  EXPECT_TRUE(run.errors.at("largest_pressure").parts.empty());
+  EXPECT_NE(run.errors.at("largest_pressure").unknown.find("faces wide"), std::string::npos);
+  EXPECT_FALSE(run.errors.at("P").parts.empty());
+}
+
 TEST(QuasiStaticAccuracy, SaysWhyThereIsNoEstimate)
 {
-  Scene scene = coarse_scene(1.);
+  Scene scene = coarse_scene(0.5);
   Mesh mesh;
   make_mesh(scene, mesh);
   LeverModel model(mesh, scene);
