@@ -97,7 +97,7 @@ TEST(QuasiStaticAccuracy, AFinerMeshTellsLessAndTheModelKeepsItsPenalties)
 
 TEST(QuasiStaticAccuracy, SaysWhereTheContactIsTooNarrow)
 {
-  const auto run = told(coarse_scene(2.));
+  const auto run = told(coarse_scene(1.));
   EXPECT_TRUE(run.errors.at("largest_pressure").parts.empty());
   EXPECT_NE(run.errors.at("largest_pressure").unknown.find("faces wide"), std::string::npos);
   EXPECT_FALSE(run.errors.at("P").parts.empty());
