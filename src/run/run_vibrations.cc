@@ -51,7 +51,7 @@ namespace sprag
     template <class Find>
     auto timed(DynamicsMaker &maker, const Find &find)
     {
-      const dealii::TimerOutput::Scope scope(maker.timer(), "eigenvalues");
+      const PhaseTimer::Scope scope(maker.timer(), "eigenvalues");
       return find();
     }
 
