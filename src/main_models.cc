@@ -43,29 +43,40 @@ namespace sprag
       if (!rank.is_alone && scene.analysis.type != AnalysisType::map)
         throw InputError("only Analysis/Type = map runs in several processes: leave out mpirun");
       const std::string folder     = folder_of(arguments, scene);
-      const unsigned int processes = MPI::n_mpi_processes(MPI_COMM_WORLD);
-      on_first_rank([&] { claim_folder(folder, parameters_text(scene), arguments.overwrite); });
-      on_first_rank([&] { require_memory(scene, processes); });
+      const unsigned int processes = rank.is_alone ? 1 : MPI::n_mpi_processes(MPI_COMM_WORLD);
+      const auto claim             = [&]
+      {
+        claim_folder(folder, parameters_text(scene), arguments.overwrite);
+        require_memory(scene, processes);
+      };
+      if (rank.is_alone)
+        claim();
+      else
+        on_first_rank(claim);
       run(scene, { folder, arguments.quiet, rank.is_first });
     }
 
-    /// Whether PETSc, which starts with MPI, is needed, or MPI itself.
-    bool needs_mpi(const std::optional<Scene> &scene)
+    /// Whether MPI is needed: by PETSc and meshes, or because processes share the work.
+    bool needs_mpi(const Scene &scene)
     {
-      return !scene || needs_mesh(*scene) || scene->spring.type == SpringType::leaf || scene->analysis.type == AnalysisType::map;
+      return needs_mesh(scene) || scene.spring.type == SpringType::leaf || scene.analysis.type == AnalysisType::map;
     }
 
-    /// Settings of Open MPI for one process, kept where they are given: no daemon beside the program, no network looked for.
+    /// Settings for one process, kept where they are given: no daemon beside the program, no network and no devices looked for.
     void set_up_mpi_for_one()
     {
-      ::setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
-      ::setenv("OMPI_MCA_pml", "ob1", 0);
-      ::setenv("OMPI_MCA_btl", "self", 0);
+      for (const auto &[name, value] : { std::pair{ "OMPI_MCA_ess_singleton_isolated", "1" }, std::pair{ "OMPI_MCA_pml", "ob1" },
+                                         std::pair{ "OMPI_MCA_btl", "self" }, std::pair{ "HWLOC_SYNTHETIC", "core:1 pu:1" } })
+        ::setenv(name, value, 0);
     }
 
-    int exit_status(const Arguments &arguments, const std::optional<Scene> &scene, const std::timespec &since)
+    Rank rank_in_mpi()
     {
-      const Rank rank = { MPI::this_mpi_process(MPI_COMM_WORLD) == 0, MPI::n_mpi_processes(MPI_COMM_WORLD) == 1 };
+      return { MPI::this_mpi_process(MPI_COMM_WORLD) == 0, MPI::n_mpi_processes(MPI_COMM_WORLD) == 1 };
+    }
+
+    int exit_status(const Arguments &arguments, const std::optional<Scene> &scene, const std::timespec &since, const Rank &rank)
+    {
       try
       {
         return exit_status_of(arguments, scene, since, rank,
@@ -112,10 +123,10 @@ int main(int argc, char **argv)
     }
   int no_arguments = 1;
   std::optional<dealii::Utilities::MPI::MPI_InitFinalize> mpi;
-  if (needs_mpi(scene))
+  if (!scene || needs_mpi(*scene))
     mpi.emplace(no_arguments, argv, 1);
   dealii::MultithreadInfo::set_thread_limit(1);
   hdf5::silence();
   catch_interrupts();
-  return exit_status(arguments, scene, since);
+  return exit_status(arguments, scene, since, mpi ? rank_in_mpi() : Rank());
 }

@@ -29,8 +29,6 @@ namespace sprag
 
   void on_first_rank(const std::function<void()> &work)
   {
-    if (MPI::n_mpi_processes(MPI_COMM_WORLD) == 1)
-      return work();
     std::vector<std::string> input, analysis;
     if (MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
       try
