@@ -13,6 +13,7 @@
 
 #include <csignal>
 #include <cstring>
+#include <filesystem>
 #include <iostream>
 
 // The program that one calls. It reads, checks and looks after runs and does itself what formulas answer; for models, which take
@@ -57,6 +58,14 @@ namespace sprag
       return scene.spring.type == SpringType::leaf || (arguments.validate ? needs_mesh(scene) : !follows_formulas(scene));
     }
 
+    /// The arguments and the file are read again there.
+    [[noreturn]] void become_models(const Arguments &arguments, char **argv)
+    {
+      if (!std::filesystem::is_regular_file(arguments.file))
+        throw InputError(arguments.file + ": must be a file and no pipe, as it is read twice");
+      become_neighbour("sprag-models", argv);
+    }
+
     void do_without_models(const Arguments &arguments, const Scene &scene)
     {
       if (arguments.print_parameters)
@@ -90,7 +99,7 @@ namespace sprag
       if (on_all_cores)
         become_mpirun(argv, processes);
       if (needs_models(arguments, scene))
-        become_neighbour("sprag-models", argv);
+        become_models(arguments, argv);
       hdf5::silence();
       catch_interrupts();
       return exit_status_of(arguments, scene, since, {}, [&](const Scene &given) { do_without_models(arguments, given); });
