@@ -1,255 +1,127 @@
-#include "analysis/map/map_team.h"
 #include "base/all_cores.h"
-#include "base/errors.h"
 #include "base/guard.h"
 #include "base/hdf5_handle.h"
 #include "base/interrupt.h"
-#include "base/text.h"
-#include "results/earlier_result.h"
-#include "results/warning.h"
+#include "base/neighbour.h"
 #include "run/memory.h"
+#include "run/outcome.h"
 #include "run/output_folder.h"
 #include "run/run.h"
+#include "run/warnings.h"
+#include "scene/analysis_use.h"
 #include "scene/read.h"
-
-#include <cstdlib>
-#include <deal.II/base/mpi.h>
-
-#include <CLI/CLI.hpp>
 
 #include <csignal>
 #include <cstring>
-#include <ctime>
+#include <filesystem>
 #include <iostream>
-#include <optional>
-#include <sstream>
 
-namespace
+// The program that one calls. It reads, checks and looks after runs and does itself what formulas answer; for models, which take
+// some 200 shared libraries, it becomes sprag-models. Linking it says what it must not use.
+
+namespace sprag
 {
-  enum ExitStatus
+  namespace
   {
-    success         = 0,
-    analysis_failed = 1,
-    bad_input       = 2
-  };
-
-  struct Arguments
-  {
-    std::string file;
-    std::vector<std::string> overrides;
-    std::string folder;
-    bool validate         = false;
-    bool print_parameters = false;
-    bool quiet            = false;
-    bool overwrite        = false;
-    unsigned int jobs     = 0; ///< 0: as many as cores
-  };
-
-  void declare(CLI::App &app, Arguments &arguments)
-  {
-    app.add_option("FILE.prm", arguments.file, "The scene: a parameter file; see params/README.md");
-    app.add_option("--set", arguments.overrides, "\"Section/Name=value\": overrides a parameter of the file; may be repeated")
-        ->allow_extra_args(false);
-    app.add_option("--output", arguments.folder, "Folder for results; default output/NAME_OF_THE_FILE");
-    app.add_flag("--overwrite", arguments.overwrite, "Replace the completed result of another scene in that folder");
-    app.add_flag("--validate", arguments.validate, "Check the file and stop");
-    app.add_flag("--print-parameters", arguments.print_parameters, "Print every parameter with its meaning and stop");
-    app.add_flag("--quiet", arguments.quiet, "Print errors only");
-    app.add_option("--jobs", arguments.jobs, "Processes that work on a map; default: one a core")->check(CLI::PositiveNumber);
-    app.set_version_flag("--version", std::string("sprag " SPRAG_VERSION));
-    app.footer("Exit status: 0 success, 1 the analysis failed or was interrupted (finished steps are kept), 2 bad input (nothing "
-               "is written).");
-  }
-
-  std::string folder_of(const Arguments &arguments, const sprag::Scene &scene)
-  {
-    return arguments.folder.empty() ? "output/" + scene.name : arguments.folder;
-  }
-
-  bool is_run(const Arguments &arguments)
-  {
-    return !arguments.validate && !arguments.print_parameters;
-  }
-
-  sprag::Scene scene_of(const Arguments &arguments)
-  {
-    if (arguments.file.empty())
-      throw sprag::InputError("FILE.prm is missing; try --help");
-    return sprag::read_scene(arguments.file, arguments.overrides);
-  }
-
-  void execute(const Arguments &arguments, const sprag::Scene &scene)
-  {
-    if (arguments.print_parameters)
+    std::string fate_of(const WorkEnd &end)
     {
-      std::cout << sprag::parameters_text(scene);
-      return;
+      const bool by_user = end.asked || end.signal == SIGINT || end.signal == SIGTERM || end.signal == SIGHUP;
+      if (by_user)
+        return interruption;
+      if (end.signal == SIGKILL)
+        return "killed by the system, probably for want of memory; every finished step is kept";
+      const std::string reason = end.signal != 0 ? strsignal(end.signal) : "exit status " + std::to_string(end.status);
+      return "crashed (" + reason + "); every finished step is kept";
     }
-    if (arguments.validate)
+
+    /// The exit status of a run that was looked after.
+    int conclude(const WorkEnd &end, const Arguments &arguments, const Scene &scene, const std::timespec &since)
     {
-      sprag::require_memory(scene);
-      const auto warnings = sprag::validate(scene);
-      if (!arguments.quiet)
-        std::cout << sprag::text_of(warnings) << arguments.file << ": valid, " << sprag::count_text(warnings) << '\n';
-      return sprag::check_warnings(scene, warnings);
+      const bool ended_itself = end.signal == 0 && end.status <= bad_input;
+      if (ended_itself && end.status != analysis_failed)
+        return end.status;
+      const std::string fate = fate_of(end);
+      const bool unfinished  = finish(arguments, scene, fate, since);
+      return ended_itself && !unfinished ? analysis_failed : tell(fate);
     }
-    const bool alone = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) == 1;
-    if (!alone && scene.analysis.type != sprag::AnalysisType::map)
-      throw sprag::InputError("only Analysis/Type = map runs in several processes: leave out mpirun");
-    const std::string folder = folder_of(arguments, scene);
-    sprag::on_first_rank([&] { sprag::claim_folder(folder, sprag::parameters_text(scene), arguments.overwrite); });
-    const unsigned int processes = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
-    sprag::on_first_rank([&] { sprag::require_memory(scene, processes); });
-    sprag::run(scene, { folder, arguments.quiet });
-  }
 
-  /// What a run leaves unfinished gets its end; returns whether there was anything.
-  bool finish(const Arguments &arguments, const sprag::Scene &scene, const std::string &status, const std::timespec &since)
-  {
-    return is_run(arguments) &&
-           sprag::finish_abandoned(folder_of(arguments, scene) + "/result.h5", sprag::parameters_text(scene), status, since);
-  }
-
-  int tell(const sprag::InputError &error)
-  {
-    std::cerr << error.what() << '\n';
-    return bad_input;
-  }
-
-  int tell(const std::string &failure)
-  {
-    std::cerr << "sprag: " << failure << '\n';
-    return analysis_failed;
-  }
-
-  /// A library's message without what it says about its sources.
-  std::string message_of(const std::exception &error)
-  {
-    const auto *of_dealii = dynamic_cast<const dealii::ExceptionBase *>(&error);
-    if (of_dealii == nullptr)
-      return error.what();
-    std::ostringstream text;
-    of_dealii->print_info(text);
-    return sprag::single_spaced(text.str());
-  }
-
-  /// Errors of an analysis come on all ranks alike and are told by the first; any other may be one rank's own.
-  int exit_status_of(const Arguments &arguments, std::optional<sprag::Scene> scene, const std::timespec &since)
-  {
-    namespace MPI        = dealii::Utilities::MPI;
-    const bool is_first  = MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
-    const bool one_alone = MPI::n_mpi_processes(MPI_COMM_WORLD) == 1;
-    try
+    /// A map is carried out by several processes. A folder that cannot serve is for the run itself to refuse.
+    bool is_for_all_cores(const Arguments &arguments, const Scene &scene, const unsigned int processes)
     {
-      if (!scene)
-        scene = scene_of(arguments);
-      execute(arguments, *scene);
-      return success;
+      return is_run(arguments) && scene.analysis.type == AnalysisType::map && works_on_all_cores(processes);
     }
-    catch (const sprag::InputError &error)
+
+    bool needs_models(const Arguments &arguments, const Scene &scene)
     {
-      return is_first ? tell(error) : bad_input;
+      if (arguments.print_parameters)
+        return false;
+      return scene.spring.type == SpringType::leaf || (arguments.validate ? needs_mesh(scene) : !follows_formulas(scene));
     }
-    catch (const sprag::AnalysisError &error)
+
+    /// The arguments and the file are read again there.
+    [[noreturn]] void become_models(const Arguments &arguments, char **argv)
     {
-      if (is_first && scene)
-        finish(arguments, *scene, error.what(), since);
-      return is_first ? tell(error.what()) : analysis_failed;
+      if (!std::filesystem::is_regular_file(arguments.file))
+        throw InputError(arguments.file + ": must be a file and no pipe, as it is read twice");
+      become_neighbour("sprag-models", argv);
     }
-    catch (const std::exception &error)
+
+    void do_without_models(const Arguments &arguments, const Scene &scene)
     {
-      const std::string failure = message_of(error);
-      if (one_alone && scene)
-        finish(arguments, *scene, failure, since);
-      tell(failure);
-      if (!one_alone)
-        MPI_Abort(MPI_COMM_WORLD, analysis_failed);
-      return analysis_failed;
+      if (arguments.print_parameters)
+      {
+        std::cout << parameters_text(scene);
+        return;
+      }
+      if (arguments.validate)
+      {
+        require_memory(scene);
+        return tell_validity(arguments, scene, scene_warnings(scene));
+      }
+      const std::string folder = folder_of(arguments, scene);
+      claim_folder(folder, parameters_text(scene), arguments.overwrite);
+      require_memory(scene);
+      run_by_formulas(scene, { folder, arguments.quiet });
     }
-  }
 
-  std::string fate_of(const sprag::WorkEnd &end)
-  {
-    const bool by_user = end.asked || end.signal == SIGINT || end.signal == SIGTERM || end.signal == SIGHUP;
-    if (by_user)
-      return sprag::interruption;
-    if (end.signal == SIGKILL)
-      return "killed by the system, probably for want of memory; every finished step is kept";
-    const std::string reason = end.signal != 0 ? strsignal(end.signal) : "exit status " + std::to_string(end.status);
-    return "crashed (" + reason + "); every finished step is kept";
-  }
-
-  /// The exit status of a run that was looked after.
-  int conclude(const sprag::WorkEnd &end, const Arguments &arguments, const sprag::Scene &scene, const std::timespec &since)
-  {
-    const bool ended_itself = end.signal == 0 && end.status <= bad_input;
-    if (ended_itself && end.status != analysis_failed)
-      return end.status;
-    const std::string fate = fate_of(end);
-    const bool unfinished  = finish(arguments, scene, fate, since);
-    return ended_itself && !unfinished ? analysis_failed : tell(fate);
-  }
-
-  /// A map is carried out by several processes. A folder that cannot serve is for the run itself to refuse.
-  bool is_for_all_cores(const Arguments &arguments, const sprag::Scene &scene, const unsigned int processes)
-  {
-    return is_run(arguments) && scene.analysis.type == sprag::AnalysisType::map && sprag::works_on_all_cores(processes);
-  }
-
-  int run_as_process_of_mpi(const Arguments &arguments, std::optional<sprag::Scene> scene, const std::timespec &since,
-                            char **argv)
-  {
-    // Alone, Open MPI would start a daemon beside the program.
-    if (!sprag::under_mpi())
-      ::setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
-    int no_arguments = 1;
-    dealii::Utilities::MPI::MPI_InitFinalize mpi(no_arguments, argv, 1);
-    sprag::hdf5::silence();
-    sprag::catch_interrupts();
-    return exit_status_of(arguments, std::move(scene), since);
-  }
-
-  int run_looked_after(const Arguments &arguments, const std::timespec &since, char **argv)
-  {
-    if (arguments.file.empty() && arguments.print_parameters && arguments.overrides.empty())
+    int run_looked_after(const Arguments &arguments, const std::timespec &since, char **argv)
     {
-      std::cout << sprag::default_parameters_text();
-      return success;
+      if (arguments.file.empty() && arguments.print_parameters && arguments.overrides.empty())
+      {
+        std::cout << default_parameters_text();
+        return success;
+      }
+      const Scene scene            = scene_of(arguments);
+      const unsigned int processes = arguments.jobs > 0 ? arguments.jobs : available_cores();
+      const bool on_all_cores      = is_for_all_cores(arguments, scene, processes);
+      if (const auto end = on_all_cores ? look_after(SIGTERM, grace_of_processes) : look_after(SIGKILL, grace))
+        return conclude(*end, arguments, scene, since);
+      if (on_all_cores)
+        become_mpirun(argv, processes);
+      if (needs_models(arguments, scene))
+        become_models(arguments, argv);
+      hdf5::silence();
+      catch_interrupts();
+      return exit_status_of(arguments, scene, since, {}, [&](const Scene &given) { do_without_models(arguments, given); });
     }
-    const sprag::Scene scene     = scene_of(arguments);
-    const unsigned int processes = arguments.jobs > 0 ? arguments.jobs : sprag::available_cores();
-    const bool on_all_cores      = is_for_all_cores(arguments, scene, processes);
-    if (const auto end =
-            on_all_cores ? sprag::look_after(SIGTERM, sprag::grace_of_processes) : sprag::look_after(SIGKILL, sprag::grace))
-      return conclude(*end, arguments, scene, since);
-    if (on_all_cores)
-      sprag::become_mpirun(argv, processes);
-    return run_as_process_of_mpi(arguments, scene, since, argv);
-  }
-} // namespace
+  } // namespace
+} // namespace sprag
 
 int main(int argc, char **argv)
 {
-  CLI::App app("Finite-element contact of the linear friction damper of Yamaguchi & Yoshida");
+  using namespace sprag;
   Arguments arguments;
-  declare(app, arguments);
-  try
-  {
-    app.parse(argc, argv);
-  }
-  catch (const CLI::ParseError &error)
-  {
-    return app.exit(error) == 0 ? success : bad_input;
-  }
+  if (const auto status = read_arguments(argc, argv, arguments))
+    return *status;
   std::timespec since = {};
   clock_gettime(CLOCK_REALTIME_COARSE, &since); // the clock of file systems
-  if (sprag::under_mpi())
-    return run_as_process_of_mpi(arguments, {}, since, argv);
   try
   {
+    if (under_mpi() && !arguments.print_parameters)
+      become_neighbour("sprag-models", argv);
     return run_looked_after(arguments, since, argv);
   }
-  catch (const sprag::InputError &error)
+  catch (const InputError &error)
   {
     return tell(error);
   }

@@ -5,11 +5,10 @@
 #include <boost/algorithm/string/predicate.hpp>
 
 #include <algorithm>
-#include <deal.II/base/parameter_handler.h>
 #include <filesystem>
 #include <fstream>
 #include <optional>
-#include <sstream>
+#include <stdexcept>
 
 namespace sprag
 {
@@ -268,25 +267,10 @@ namespace sprag
   void add_mistake(Settings &settings, const std::vector<Parameter> &declared, const std::string &name, const std::string &rule)
   {
     const Parameter *parameter = find_parameter(declared, name);
-    AssertThrow(parameter != nullptr, dealii::ExcMessage(name + " is not declared."));
+    if (parameter == nullptr)
+      throw std::logic_error(name + " is not declared");
     const auto given      = settings.given.find(name);
     const Setting setting = given == settings.given.end() ? Setting{ settings.file, parameter->default_value } : given->second;
     settings.mistakes.push_back(setting.place + ": " + name + " = " + setting.value + ": " + rule);
-  }
-
-  std::string parameters_text(const std::vector<Parameter> &declared, const ParameterValues &given)
-  {
-    dealii::ParameterHandler handler;
-    for (const auto &parameter : declared)
-    {
-      handler.enter_subsection(parameter.section);
-      handler.declare_entry(parameter.name, parameter.default_value, dealii::Patterns::Anything(), documentation(parameter));
-      if (const auto value = given.find(full_name(parameter)); value != given.end())
-        handler.set(parameter.name, value->second);
-      handler.leave_subsection();
-    }
-    std::ostringstream text;
-    handler.print_parameters(text, dealii::ParameterHandler::PRM | dealii::ParameterHandler::KeepDeclarationOrder);
-    return text.str();
   }
 } // namespace sprag

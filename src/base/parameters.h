@@ -10,7 +10,8 @@
 
 namespace sprag
 {
-  // Parameter files as dealii::ParameterHandler knows them, except that every mistake in them is found, not only the first.
+  // Parameter files as dealii::ParameterHandler knows them, except that every mistake in them is found, not only the first, and
+  // that no library is loaded for them.
 
   /// A declared entry of a parameter file. Names hold neither '/' nor '='.
   struct Parameter

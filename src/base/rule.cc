@@ -45,7 +45,7 @@ namespace sprag
 
     std::optional<std::string> list_violation(const Rule &rule, const std::string &value)
     {
-      const auto parts = dealii::Utilities::split_string_list(value);
+      const auto parts = split(value, ',');
       Rule each        = rule;
       each.kind        = Rule::Kind::number;
       const bool kept  = std::all_of(parts.begin(), parts.end(), [&](const auto &part) { return !number_violation(each, part); });
@@ -125,7 +125,7 @@ namespace sprag
   std::vector<double> list_of_numbers(const std::string &value)
   {
     std::vector<double> numbers;
-    for (const auto &part : dealii::Utilities::split_string_list(value))
+    for (const auto &part : split(value, ','))
       numbers.push_back(leading_number(part)->value);
     return numbers;
   }

@@ -1,6 +1,7 @@
 #include "base/text.h"
 
 #include <boost/algorithm/string/case_conv.hpp>
+#include <boost/algorithm/string/trim.hpp>
 
 #include <algorithm>
 #include <array>
@@ -32,6 +33,20 @@ namespace sprag
       return row.back();
     }
   } // namespace
+
+  std::string trim(const std::string &text)
+  {
+    return boost::algorithm::trim_copy(text, std::locale::classic());
+  }
+
+  std::vector<std::string> split(const std::string &text, const char delimiter)
+  {
+    std::vector<std::string> parts;
+    std::istringstream rest(text.substr(0, text.find_last_not_of(' ') + 1));
+    for (std::string part; std::getline(rest, part, delimiter);)
+      parts.push_back(boost::algorithm::trim_copy_if(part, [](const char c) { return c == ' '; }));
+    return parts;
+  }
 
   std::string single_spaced(const std::string &text)
   {

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <deal.II/base/utilities.h>
-
 #include <cstdio>
 #include <optional>
 #include <string>
@@ -9,7 +7,11 @@
 
 namespace sprag
 {
-  using dealii::Utilities::trim; // takes off white space at both ends
+  /// Returns the text without white space at its ends.
+  std::string trim(const std::string &text);
+
+  /// Returns the parts between the delimiters, without blanks at their ends. Behind a delimiter at the end there is no part.
+  std::vector<std::string> split(const std::string &text, char delimiter);
 
   /// Returns the text with single blanks between its words and none at its ends.
   std::string single_spaced(const std::string &text);

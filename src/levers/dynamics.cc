@@ -6,14 +6,10 @@
 #include "scene/contact_reference.h"
 #include "scene/scene_key.h"
 
-#include <iostream>
-
 namespace sprag
 {
   namespace
   {
-    using Timer = dealii::TimerOutput;
-
     /// Contact points four times as far apart as in quasi-static runs: P moves by 6e-4 of its size, and a step is the faster.
     BodyProperties body_properties(const Scene &scene)
     {
@@ -30,7 +26,6 @@ namespace sprag
 
   DynamicsMaker::DynamicsMaker(const bool store_bases)
       : store(store_bases)
-      , time(std::cout, Timer::never, Timer::cpu_and_wall_times)
   {
   }
 
@@ -47,10 +42,10 @@ namespace sprag
     {
       auto lever = std::make_shared<MeshedLever>();
       {
-        const Timer::Scope scope(time, "mesh");
+        const PhaseTimer::Scope scope(time, "mesh");
         make_mesh(scene, lever->triangulation);
       }
-      const Timer::Scope scope(time, "basis");
+      const PhaseTimer::Scope scope(time, "basis");
       lever->body = std::make_unique<const Body>(lever->triangulation, body_properties(scene));
       if (condensed)
         lever->condensed = make_condensed_basis(scene, *lever->body, store);
@@ -59,7 +54,7 @@ namespace sprag
       last     = lever;
       last_key = key;
     }
-    const Timer::Scope scope(time, "model");
+    const PhaseTimer::Scope scope(time, "model");
     result.lever            = last;
     const double relaxation = contact_reference(scene).relaxation;
     result.meshed           = condensed ? make_condensed_dynamics(scene, *last->body, last->condensed, relaxation)

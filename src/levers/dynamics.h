@@ -1,8 +1,7 @@
 #pragma once
 
+#include "base/phase_timer.h"
 #include "fe/dynamics/dynamic_face_lever.h"
-
-#include <deal.II/base/timer.h>
 
 #include <memory>
 #include <string>
@@ -45,7 +44,7 @@ namespace sprag
     Dynamics make(const Scene &scene);
 
     /// Measures the wall and CPU time spent on meshes and models.
-    dealii::TimerOutput &timer()
+    PhaseTimer &timer()
     {
       return time;
     }
@@ -54,6 +53,6 @@ namespace sprag
     const bool store;
     std::string last_key;
     std::shared_ptr<const MeshedLever> last;
-    dealii::TimerOutput time;
+    PhaseTimer time;
   };
 } // namespace sprag

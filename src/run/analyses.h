@@ -1,19 +1,33 @@
 #pragma once
 
+#include "analysis/stability/jamming.h"
 #include "run/run.h"
+
+#include <functional>
 
 namespace sprag
 {
   // What run() does for each Analysis/Type. Each writes and prints what it finds, adds the warnings that follow from it and
   // throws what run() throws; what was finished before an AnalysisError is written.
 
-  /// Follows the drive without inertia, by finite elements or the closed form.
+  /// What carries out an analysis.
+  using Run = std::function<void(const Scene &, const RunOptions &, Warnings &)>;
+
+  /// Carries out an analysis from its first line to the last: tells the margin to jamming, which `margin` finds for one lever,
+  /// before anything is computed and the warnings at the end.
+  void run_from_margin_to_warnings(const Scene &scene, const RunOptions &options,
+                                   const std::function<JammingMargin(const Scene &)> &margin, const Run &analysis);
+
+  /// Does what formulas do: see follows_formulas().
+  void run_formulas(const Scene &scene, const RunOptions &options, Warnings &warnings);
+
+  /// Follows the drive without inertia by finite elements.
   void run_quasi_static_scene(const Scene &scene, const RunOptions &options, Warnings &warnings);
 
   /// Sweeps the representative slope C_Q.
   void run_slope(const Scene &scene, const RunOptions &options, Warnings &warnings);
 
-  /// Follows the drive in time with any model. Throws AnalysisError too where the energy ledger leaves more open than
+  /// Follows the drive in time with a model. Throws AnalysisError too where the energy ledger leaves more open than
   /// Analysis/Maximum energy residual.
   void run_transient_scene(const Scene &scene, const RunOptions &options, Warnings &warnings);
 

@@ -7,8 +7,6 @@
 
 namespace sprag
 {
-  using Timer = dealii::TimerOutput;
-
   namespace
   {
     constexpr double all_slide   = 0.99; ///< share of mu P from which the whole contact is told to slide
@@ -46,7 +44,8 @@ namespace sprag
     }
   } // namespace
 
-  FieldRecorder::FieldRecorder(const Scene &of_scene, const Body &body, const std::optional<std::string> &folder, Timer &of_run)
+  FieldRecorder::FieldRecorder(const Scene &of_scene, const Body &body, const std::optional<std::string> &folder,
+                               PhaseTimer &of_run)
       : scene(of_scene)
       , timer(of_run)
       , fields(body)
@@ -132,7 +131,7 @@ namespace sprag
 
   void FieldRecorder::find(const Kept &kept, const bool frame)
   {
-    const Timer::Scope scope(timer, "fields");
+    const PhaseTimer::Scope scope(timer, "fields");
     const auto displacements = kept.displacements();
     for (unsigned int lever = 0; lever < displacements.size(); ++lever)
       peaks.look_at(fields.at(displacements[lever]), kept.row[Column::x], kept.direction, lever);

@@ -1,9 +1,8 @@
 #pragma once
 
+#include "base/phase_timer.h"
 #include "fe/fields/field_frames.h"
 #include "fe/fields/stress_peaks.h"
-
-#include <deal.II/base/timer.h>
 
 #include <functional>
 #include <map>
@@ -27,7 +26,7 @@ namespace sprag
     using Displacements = std::function<std::vector<dealii::Vector<double>>()>;
 
     /// Scene and body must outlive the object. Without a folder it finds peaks alone.
-    FieldRecorder(const Scene &scene, const Body &body, const std::optional<std::string> &folder, dealii::TimerOutput &timer);
+    FieldRecorder(const Scene &scene, const Body &body, const std::optional<std::string> &folder, PhaseTimer &timer);
 
     /// Looks at an accepted step and returns whether it was written as a frame. `keep` makes what finds its fields later.
     bool record(const Row &row, const FaceState &face, const std::function<Displacements()> &keep);
@@ -59,7 +58,7 @@ namespace sprag
     void find(const Kept &kept, bool frame);
 
     const Scene &scene;
-    dealii::TimerOutput &timer;
+    PhaseTimer &timer;
     const BodyFields fields;
     StressPeaks peaks;
     std::optional<FieldFrames> frames;

@@ -2,7 +2,7 @@
 
 #include "base/append.h"
 #include "base/interrupt.h"
-#include "fe/fields/stress_peaks.h"
+#include "results/stress_entries.h"
 #include "run/transient_report.h"
 #include "run/warnings.h"
 
@@ -24,7 +24,7 @@ namespace sprag
     return length + std::abs(drive.at(drive.duration()).x - x);
   }
 
-  Recorder::Recorder(const Scene &scene_, const RunOptions &options, dealii::TimerOutput &timer, const FacePoints &points)
+  Recorder::Recorder(const Scene &scene_, const RunOptions &options, PhaseTimer &timer, const FacePoints &points)
       : scene(scene_)
       , quiet(options.quiet)
       , writer(scene, options, timer, table_columns(scene.plate, scene.pair), points)

@@ -12,7 +12,7 @@ namespace sprag
   {
   public:
     /// Makes the folder and result file. Throws InputError if they cannot be written.
-    Recorder(const Scene &scene, const RunOptions &options, dealii::TimerOutput &timer, const FacePoints &points);
+    Recorder(const Scene &scene, const RunOptions &options, PhaseTimer &timer, const FacePoints &points);
 
     void record(const Row &row);
 

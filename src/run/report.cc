@@ -1,6 +1,8 @@
 #include "run/report.h"
 
+#include "base/errors.h"
 #include "base/least_squares.h"
+#include "base/text.h"
 #include "results/row_statistics.h"
 #include "run/peak_report.h"
 #include "scene/mirrored_pair.h"
@@ -222,5 +224,15 @@ namespace sprag
         stream << std::get<std::string>(entry.value);
       stream << '\n';
     }
+  }
+
+  void check_deviation(const Scene &scene, const std::vector<Entry> &summary)
+  {
+    const double limit = scene.analysis.maximum_deviation;
+    const double found = largest_deviation(summary);
+    if (limit > 0. && !(found <= limit))
+      throw AnalysisError("the deviation from the closed form, " + rounded_text(found) +
+                          ", is larger than Analysis/Maximum deviation = " + rounded_text(limit) +
+                          ". Try a finer Mesh/Face size or a stiffer lever, or admit more.");
   }
 } // namespace sprag

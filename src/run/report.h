@@ -31,4 +31,7 @@ namespace sprag
 
   /// Prints the entries as a table for people.
   void print_summary(std::ostream &stream, const std::vector<Entry> &summary);
+
+  /// Throws AnalysisError where a run that ended is too far from the closed form, by more than Analysis/Maximum deviation.
+  void check_deviation(const Scene &scene, const std::vector<Entry> &summary);
 } // namespace sprag

@@ -1,25 +1,22 @@
 #include "run/result_writer.h"
 
 #include "base/append.h"
+#include "base/available_memory.h"
 #include "results/entries.h"
 #include "scene/read.h"
 
-#include <deal.II/base/utilities.h>
+#include <deal.II/base/config.h>
 
 #include <petscversion.h>
 
-#include <ctime>
 #include <gmsh.h>
-#include <iostream>
 
 namespace sprag
 {
-  using Timer = dealii::TimerOutput;
-
   namespace
   {
     /// Program, libraries and what the process has used so far, phases by wall and CPU time [s].
-    std::vector<Entry> process_entries(Timer &timer)
+    std::vector<Entry> process_entries(PhaseTimer &timer)
     {
       std::vector<Entry> entries;
       entries.push_back({ "version", std::string(SPRAG_VERSION), "", "of sprag" });
@@ -29,25 +26,18 @@ namespace sprag
                               std::to_string(PETSC_VERSION_SUBMINOR),
                           "", "version of the library" });
       entries.push_back({ "gmsh", std::string(GMSH_API_VERSION), "", "version of the library" });
-      for (const auto &[phase, seconds] : timer.get_summary_data(Timer::total_wall_time))
-        entries.push_back({ "wall_time_" + phase, seconds, "s", "wall time in the phase" });
-      for (const auto &[phase, seconds] : timer.get_summary_data(Timer::total_cpu_time))
-        entries.push_back({ "cpu_time_" + phase, seconds, "s", "CPU time in the phase" });
-      entries.push_back({ "cpu_time", static_cast<double>(std::clock()) / CLOCKS_PER_SEC, "s", "CPU time of the process" });
-      dealii::Utilities::System::MemoryStats memory;
-      dealii::Utilities::System::get_memory_stats(memory);
-      entries.push_back({ "peak_memory", static_cast<double>(memory.VmHWM) / 1024., "MiB", "largest resident memory" });
+      for (const auto &[name, phase] : timer.phases())
+        entries.push_back({ "wall_time_" + name, phase.wall, "s", "wall time in the phase" });
+      for (const auto &[name, phase] : timer.phases())
+        entries.push_back({ "cpu_time_" + name, phase.cpu, "s", "CPU time in the phase" });
+      entries.push_back({ "cpu_time", PhaseTimer::cpu_seconds(), "s", "CPU time of the process" });
+      entries.push_back({ "peak_memory", peak_memory() / (1024. * 1024.), "MiB", "largest resident memory" });
       return entries;
     }
   } // namespace
 
-  Timer phase_timer()
-  {
-    return Timer(std::cout, Timer::never, Timer::cpu_and_wall_times);
-  }
-
-  ResultWriter::ResultWriter(const Scene &scene, const RunOptions &options, Timer &of_run, const std::vector<ColumnInfo> &columns,
-                             const FacePoints &points)
+  ResultWriter::ResultWriter(const Scene &scene, const RunOptions &options, PhaseTimer &of_run,
+                             const std::vector<ColumnInfo> &columns, const FacePoints &points)
       : timer(of_run)
       , file((prepare_folder(options.folder), options.folder + "/result.h5"), parameters_text(scene), points, columns)
   {

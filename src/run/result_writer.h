@@ -1,19 +1,15 @@
 #pragma once
 
 #include "base/errors.h"
+#include "base/phase_timer.h"
 #include "results/result_file.h"
 #include "run/output_folder.h"
 #include "run/run.h"
-
-#include <deal.II/base/timer.h>
 
 #include <utility>
 
 namespace sprag
 {
-  /// Measures the wall and CPU time of a run's phases and prints nothing.
-  dealii::TimerOutput phase_timer();
-
   /// The results of a run besides its rows, written at its end.
   struct RunEnd
   {
@@ -29,8 +25,8 @@ namespace sprag
   public:
     /// Makes the folder and the file, which has /face where there are points. Throws InputError if they cannot be written. The
     /// timer is read at the end.
-    ResultWriter(const Scene &scene, const RunOptions &options, dealii::TimerOutput &timer,
-                 const std::vector<ColumnInfo> &columns, const FacePoints &points = {});
+    ResultWriter(const Scene &scene, const RunOptions &options, PhaseTimer &timer, const std::vector<ColumnInfo> &columns,
+                 const FacePoints &points = {});
 
     /// Appends a Row, a FaceState or the values of the columns.
     template <class Appended>
@@ -44,7 +40,7 @@ namespace sprag
     RunEnd finish(const std::string &status, RunEnd end, const Warnings &warnings);
 
   private:
-    dealii::TimerOutput &timer;
+    PhaseTimer &timer;
     ResultFile file;
   };
 

@@ -1,18 +1,12 @@
 #include "run/run.h"
 
-#include "analysis/stability/jamming.h"
-#include "base/errors.h"
 #include "fe/mesh/mesh.h"
 #include "levers/prepared_scene.h"
 #include "run/analyses.h"
-#include "run/result_writer.h"
+#include "run/output_folder.h"
 #include "run/warnings.h"
 #include "scene/analysis_use.h"
-#include "scene/mirrored_pair.h"
 
-#include <deal.II/base/mpi.h>
-
-#include <iostream>
 #include <map>
 
 namespace sprag
@@ -27,42 +21,15 @@ namespace sprag
       make_mesh(scene, triangulation);
     }
 
-    /// The margin of the lever of a pair that is closer to jamming.
-    JammingMargin least_margin(const Scene &scene, const bool flexible)
+    JammingMargin margin_of(const Scene &scene)
     {
-      if (number_of_levers(scene) == 1)
-        return jamming_margin(scene, flexible);
-      const auto of_lever = [&](const unsigned int lever)
-      {
-        Scene alone = scene_of_lever(scene, lever);
-        alone.pair  = {};
-        return jamming_margin(alone, flexible);
-      };
-      const auto first  = of_lever(0);
-      const auto second = of_lever(1);
-      return first.margin() <= second.margin() ? first : second;
-    }
-
-    /// Before every run in which a cylinder is put somewhere, once nothing is left for which it could be refused.
-    void announce_margin(const Scene &scene, const RunOptions &options)
-    {
-      if (options.quiet || scene.analysis.type == AnalysisType::slope)
-        return;
-      require_writable(options.folder);
-      if (!scene.mesh.file.empty())
-        try_mesh(scene);
-      if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) != 0)
-        return;
       const ModelType model = scene.analysis.model;
-      const bool rigid      = model == ModelType::closed_form || model == ModelType::rigid;
-      std::cout << jamming_text(least_margin(scene, !rigid)) << '\n' << std::flush;
+      return jamming_margin(scene, model != ModelType::closed_form && model != ModelType::rigid);
     }
 
     void carry_out(const Scene &scene, const RunOptions &options, Warnings &warnings)
     {
-      using Run                                     = void (*)(const Scene &, const RunOptions &, Warnings &);
       static const std::map<AnalysisType, Run> runs = { { AnalysisType::quasi_static, run_quasi_static_scene },
-                                                        { AnalysisType::slope, run_slope },
                                                         { AnalysisType::transient, run_transient_scene },
                                                         { AnalysisType::contact_law, run_contact_law },
                                                         { AnalysisType::modal, run_vibrations },
@@ -70,14 +37,10 @@ namespace sprag
                                                         { AnalysisType::map, run_map },
                                                         { AnalysisType::sprag_slip, run_sprag_slip },
                                                         { AnalysisType::calibration, run_calibration } };
-      runs.at(scene.analysis.type)(scene, options, warnings);
-    }
-
-    /// Warnings and, in the last line, their number; by the first process alone.
-    void print_end(const std::string &end, const Warnings &warnings, const bool quiet)
-    {
-      if (!quiet && dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
-        std::cout << text_of(warnings) << end << count_text(warnings) << std::endl;
+      if (follows_formulas(scene))
+        run_formulas(scene, options, warnings);
+      else
+        runs.at(scene.analysis.type)(scene, options, warnings);
     }
   } // namespace
 
@@ -88,28 +51,14 @@ namespace sprag
     return scene_warnings(scene);
   }
 
-  void check_warnings(const Scene &scene, const Warnings &warnings)
-  {
-    if (scene.analysis.warnings == WarningTreatment::error && !warnings.empty())
-      throw AnalysisError("Analysis/Warnings = error: " + count_text(warnings) + ". The first says: " + warnings.front().found +
-                          ' ' + warnings.front().remedy);
-  }
-
   void run(const Scene &given, const RunOptions &options)
   {
     const Scene scene = prepared(given);
-    announce_margin(scene, options);
-    Warnings warnings = scene_warnings(scene);
-    try
+    if (!options.quiet && !scene.mesh.file.empty())
     {
-      carry_out(scene, options, warnings);
+      require_writable(options.folder);
+      try_mesh(scene);
     }
-    catch (const AnalysisError &)
-    {
-      print_end("failed, ", warnings, options.quiet);
-      throw;
-    }
-    print_end("completed, ", warnings, options.quiet);
-    check_warnings(scene, warnings);
+    run_from_margin_to_warnings(scene, options, margin_of, carry_out);
   }
 } // namespace sprag

@@ -10,15 +10,19 @@ namespace sprag
   struct RunOptions
   {
     std::string folder; ///< for results; made if it does not exist
-    bool quiet = false;
+    bool quiet    = false;
+    bool is_first = true; ///< of several processes that run the scene together: it prints
   };
+
+  /// Throws AnalysisError where there are warnings and Analysis/Warnings = error; the message quotes the first of them.
+  void check_warnings(const Scene &scene, const Warnings &warnings);
+
+  /// Carries out the analysis of a scene that follows_formulas() and has no leaf spring. It throws what run() throws.
+  void run_by_formulas(const Scene &scene, const RunOptions &options);
 
   /// Checks that the scene's mesh can serve, which read_scene() cannot, and throws InputError if not. Returns the warnings
   /// that follow from the scene alone.
   Warnings validate(const Scene &scene);
-
-  /// Throws AnalysisError where there are warnings and Analysis/Warnings = error; the message quotes the first of them.
-  void check_warnings(const Scene &scene, const Warnings &warnings);
 
   /// Carries out the scene's analysis with its model and writes results into the folder. Throws InputError, before anything is
   /// written, for meshes and folders that cannot serve; AnalysisError when the analysis fails or deviates from the closed form by

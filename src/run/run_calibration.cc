@@ -74,7 +74,7 @@ namespace sprag
 
   void run_calibration(const Scene &scene, const RunOptions &options, Warnings &warnings)
   {
-    auto timer = phase_timer();
+    PhaseTimer timer;
     require_writable(options.folder);
     const auto parts      = calibrate_parts(scene);
     const auto reduced    = reduced_constants(parts.scene);

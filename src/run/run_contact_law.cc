@@ -25,7 +25,7 @@ namespace sprag
 
   void run_contact_law(const Scene &scene, const RunOptions &options, Warnings &warnings)
   {
-    auto timer = phase_timer();
+    PhaseTimer timer;
     require_writable(options.folder);
     const auto law = indent(scene);
     ResultWriter writer(scene, options, timer,

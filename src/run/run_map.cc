@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <ctime>
 #include <iostream>
 #include <optional>
 
@@ -167,7 +166,7 @@ namespace sprag
     /// All ranks call it.
     std::vector<Entry> cost_of_map(MapTeam &team, const double wall_seconds)
     {
-      const double cpu = MPI::sum(static_cast<double>(std::clock()) / CLOCKS_PER_SEC, MPI_COMM_WORLD);
+      const double cpu = MPI::sum(PhaseTimer::cpu_seconds(), MPI_COMM_WORLD);
       const auto ranks = static_cast<double>(MPI::n_mpi_processes(MPI_COMM_WORLD));
       return { { "ranks", ranks, "1", "processes" },
                { "cells_taken_over", static_cast<double>(team.taken_over()), "1", "from the journal" },

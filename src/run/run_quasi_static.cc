@@ -1,12 +1,11 @@
-#include "analysis/statics/closed_form.h"
 #include "analysis/statics/quasi_static.h"
-#include "base/text.h"
 #include "fe/mesh/mesh.h"
 #include "fe/statics/lever_model.h"
 #include "run/analyses.h"
 #include "run/field_recorder.h"
 #include "run/quasi_static_accuracy.h"
 #include "run/recorder.h"
+#include "run/report.h"
 
 #include <iostream>
 #include <optional>
@@ -15,29 +14,6 @@ namespace sprag
 {
   namespace
   {
-    using Timer = dealii::TimerOutput;
-
-    /// Exit status 1 for a run that ended but is too far from the closed form.
-    void check_deviation(const Scene &scene, const std::vector<Entry> &summary)
-    {
-      const double limit = scene.analysis.maximum_deviation;
-      const double found = largest_deviation(summary);
-      if (limit > 0. && !(found <= limit))
-        throw AnalysisError("the deviation from the closed form, " + rounded_text(found) +
-                            ", is larger than Analysis/Maximum deviation = " + rounded_text(limit) +
-                            ". Try a finer Mesh/Face size or a stiffer lever, or admit more.");
-    }
-
-    void follow_closed_form(const Scene &scene, const RunOptions &options, Warnings &warnings)
-    {
-      auto timer = phase_timer();
-      Recorder recorder(scene, options, timer, {});
-      std::vector<Entry> summary;
-      finish_in_any_case([&] { run_closed_form(scene, [&](const Row &row) { recorder.record(row); }); },
-                         [&](const std::string &status) { summary = recorder.finish(status, {}, warnings); });
-      check_deviation(scene, summary);
-    }
-
     std::vector<Entry> model_entries(const Scene &scene, const LeverModel &model)
     {
       const auto &body           = model.elastic_body();
@@ -64,7 +40,7 @@ namespace sprag
                 << std::flush;
     }
 
-    void drive_levers(const Scene &scene, const RunOptions &options, Timer &timer, LeverModel &levers, Warnings &warnings)
+    void drive_levers(const Scene &scene, const RunOptions &options, PhaseTimer &timer, LeverModel &levers, Warnings &warnings)
     {
       Recorder recorder(scene, options, timer, levers.face_points());
       if (!options.quiet)
@@ -75,7 +51,7 @@ namespace sprag
 
       const auto write = [&](const State &state, const Row &row)
       {
-        const Timer::Scope scope(timer, "output");
+        const PhaseTimer::Scope scope(timer, "output");
         const auto face = levers.face_state(state);
         recorder.record(row);
         recorder.record(face);
@@ -87,7 +63,7 @@ namespace sprag
       finish_in_any_case(
           [&]
           {
-            const Timer::Scope scope(timer, "steps_and_output");
+            const PhaseTimer::Scope scope(timer, "steps_and_output");
             stick = run_quasi_static(levers, scene.drive, settings, write);
           },
           [&](const std::string &status)
@@ -95,7 +71,7 @@ namespace sprag
             recorder.set_stress(fields.finish());
             if (status == "completed")
             {
-              const Timer::Scope scope(timer, "accuracy");
+              const PhaseTimer::Scope scope(timer, "accuracy");
               recorder.set_accuracy(quasi_static_accuracy(scene, levers, recorder.recorded(), settings));
             }
             meta.push_back(
@@ -105,27 +81,16 @@ namespace sprag
           });
       check_deviation(scene, summary);
     }
-
-    void follow_finite_elements(const Scene &scene, const RunOptions &options, Warnings &warnings)
-    {
-      auto timer = phase_timer();
-      require_writable(options.folder);
-      Mesh triangulation;
-      timer.enter_subsection("mesh");
-      make_mesh(scene, triangulation);
-      timer.leave_subsection();
-      timer.enter_subsection("model");
-      LeverModel levers(triangulation, scene);
-      timer.leave_subsection();
-      drive_levers(scene, options, timer, levers, warnings);
-    }
   } // namespace
 
   void run_quasi_static_scene(const Scene &scene, const RunOptions &options, Warnings &warnings)
   {
-    if (scene.analysis.model == ModelType::closed_form)
-      follow_closed_form(scene, options, warnings);
-    else
-      follow_finite_elements(scene, options, warnings);
+    PhaseTimer timer;
+    require_writable(options.folder);
+    Mesh triangulation;
+    timed(timer, "mesh", [&] { make_mesh(scene, triangulation); });
+    std::optional<LeverModel> levers;
+    timed(timer, "model", [&] { levers.emplace(triangulation, scene); });
+    drive_levers(scene, options, timer, *levers, warnings);
   }
 } // namespace sprag

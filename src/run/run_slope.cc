@@ -11,7 +11,7 @@ namespace sprag
 {
   void run_slope(const Scene &scene, const RunOptions &options, Warnings &warnings)
   {
-    auto timer       = phase_timer();
+    PhaseTimer timer;
     const auto sweep = slope_sweep(scene);
     ResultWriter writer(scene, options, timer, sweep.columns);
     for (const auto &row : sweep.rows)

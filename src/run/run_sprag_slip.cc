@@ -17,7 +17,6 @@ namespace sprag
 {
   namespace
   {
-    using Timer = dealii::TimerOutput;
 
     constexpr double most_growth_rows    = 20000.; ///< written of the growth
     constexpr unsigned int approach_rows = 16;     ///< a period, from the growth to the vibration it leads to
@@ -197,7 +196,7 @@ namespace sprag
     finish_in_any_case(
         [&]
         {
-          const Timer::Scope scope(maker.timer(), "steps_and_output");
+          const PhaseTimer::Scope scope(maker.timer(), "steps_and_output");
           const auto drive = held_drive(scene);
           found.slide      = judge(dynamics.model(), drive, scene.stability.modes);
           require_slide(found, drive.x);

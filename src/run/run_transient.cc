@@ -1,13 +1,13 @@
 #include "analysis/transient/growing_modes.h"
-#include "analysis/transient/ideal_contact.h"
 #include "analysis/transient/transient.h"
 #include "base/append.h"
 #include "base/text.h"
 #include "levers/dynamics.h"
+#include "results/stress_entries.h"
 #include "run/analyses.h"
 #include "run/field_recorder.h"
 #include "run/recorder.h"
-#include "run/transient_report.h"
+#include "run/steps_in_time.h"
 #include "scene/contact_reference.h"
 #include "scene/mirrored_pair.h"
 
@@ -20,42 +20,6 @@ namespace sprag
 {
   namespace
   {
-    using Timer = dealii::TimerOutput;
-
-    /// Runs `steps`, which returns its report, completes and finishes the record whatever happens.
-    void record_steps(
-        const Scene &scene, Recorder &recorder, Timer &timer, Warnings &warnings, const std::vector<Entry> &facts,
-        const std::function<TransientReport()> &steps, const std::function<void()> &complete = [] {})
-    {
-      TransientReport report;
-      double seconds = 0.;
-      finish_in_any_case(
-          [&]
-          {
-            const Timer::Scope scope(timer, "steps_and_output");
-            dealii::Timer clock;
-            report  = steps();
-            seconds = clock.cpu_time();
-            check_ledger(scene, report.ledger);
-          },
-          [&](const std::string &status)
-          {
-            complete();
-            const double rate = seconds > 0. ? report.steps / seconds : 0.;
-            recorder.finish(status, joined(facts, { { "steps_per_cpu_second", rate, "1/s", "accepted steps, output included" } }),
-                            warnings);
-          });
-    }
-
-    void announce(const Scene &scene, const RunOptions &options)
-    {
-      if (options.quiet)
-        return;
-      for (const auto &line : modelled(scene))
-        std::cout << line << '\n';
-      std::cout << std::flush;
-    }
-
     TransientSettings settings_of(const Scene &scene, const std::vector<GrowingMode> &modes)
     {
       const auto reference = contact_reference(scene);
@@ -82,16 +46,6 @@ namespace sprag
                 << rounded_text(fastest->frequency) << " Hz at x = " << rounded_text(fastest->x) << " mm; steps of up to "
                 << rounded_text(longest_step(modes, scene.time.spectral_radius)) << " s follow it\n"
                 << std::flush;
-    }
-
-    void run_ideal(const Scene &scene, const RunOptions &options, Warnings &warnings)
-    {
-      auto timer           = phase_timer();
-      const double inertia = scene.analysis.model == ModelType::rigid ? moment_of_inertia(scene) : 0.;
-      Recorder recorder(scene, options, timer, {});
-      announce(scene, options);
-      record_steps(scene, recorder, timer, warnings, {},
-                   [&] { return run_ideal_contact(scene, inertia, [&](const Row &row) { recorder.record(row); }); });
     }
 
     std::vector<Entry> meshed_entries(const MeshedDynamics &lever, const Body &body)
@@ -144,54 +98,45 @@ namespace sprag
         return result;
       };
     }
-
-    void run_with_inertia(const Scene &scene, const RunOptions &options, Warnings &warnings)
-    {
-      require_writable(options.folder);
-      DynamicsMaker maker;
-      auto &timer         = maker.timer();
-      const auto dynamics = maker.make(scene);
-      auto &model         = dynamics.model();
-      const Body *body    = dynamics.lever ? dynamics.lever->body.get() : nullptr;
-      const auto growing  = growing_modes_of(scene, maker);
-      Recorder recorder(scene, options, timer, model.face_points());
-      announce(scene, options);
-      if (body != nullptr)
-        announce(dynamics.meshed, *body, scene, options);
-      announce(growing, scene, options);
-      append(warnings, hidden_vibration_warnings(growing, scene.time));
-      std::optional<FieldRecorder> fields;
-      if (body != nullptr && scene.output.fields != FieldOutput::none)
-        fields.emplace(scene, *body, options.folder, timer);
-      else if (body != nullptr)
-        recorder.set_stress(no_stress_peaks("Output/Fields = none"));
-
-      const auto write = [&](const Motion &motion, const Row &row)
-      {
-        recorder.record(row);
-        if (!fields)
-          return;
-        const auto face = model.face_state(motion);
-        if (fields->record(row, face, [&] { return recovery(dynamics.meshed, motion, number_of_levers(scene)); }))
-          recorder.record(face);
-      };
-      record_steps(
-          scene, recorder, timer, warnings, body != nullptr ? meshed_entries(dynamics.meshed, *body) : std::vector<Entry>(),
-          [&] { return run_transient(model, scene.drive, settings_of(scene, growing), write); },
-          [&]
-          {
-            if (fields)
-              recorder.set_stress(fields->finish());
-          });
-    }
   } // namespace
 
   void run_transient_scene(const Scene &scene, const RunOptions &options, Warnings &warnings)
   {
-    const auto model = scene.analysis.model;
-    if (model == ModelType::closed_form || (model == ModelType::rigid && scene.contact.type == ContactType::ideal))
-      run_ideal(scene, options, warnings);
-    else
-      run_with_inertia(scene, options, warnings);
+    require_writable(options.folder);
+    DynamicsMaker maker;
+    auto &timer         = maker.timer();
+    const auto dynamics = maker.make(scene);
+    auto &model         = dynamics.model();
+    const Body *body    = dynamics.lever ? dynamics.lever->body.get() : nullptr;
+    const auto growing  = growing_modes_of(scene, maker);
+    Recorder recorder(scene, options, timer, model.face_points());
+    announce_model(scene, options);
+    if (body != nullptr)
+      announce(dynamics.meshed, *body, scene, options);
+    announce(growing, scene, options);
+    append(warnings, hidden_vibration_warnings(growing, scene.time));
+    std::optional<FieldRecorder> fields;
+    if (body != nullptr && scene.output.fields != FieldOutput::none)
+      fields.emplace(scene, *body, options.folder, timer);
+    else if (body != nullptr)
+      recorder.set_stress(no_stress_peaks("Output/Fields = none"));
+
+    const auto write = [&](const Motion &motion, const Row &row)
+    {
+      recorder.record(row);
+      if (!fields)
+        return;
+      const auto face = model.face_state(motion);
+      if (fields->record(row, face, [&] { return recovery(dynamics.meshed, motion, number_of_levers(scene)); }))
+        recorder.record(face);
+    };
+    record_steps(
+        scene, recorder, timer, warnings, body != nullptr ? meshed_entries(dynamics.meshed, *body) : std::vector<Entry>(),
+        [&] { return run_transient(model, scene.drive, settings_of(scene, growing), write); },
+        [&]
+        {
+          if (fields)
+            recorder.set_stress(fields->finish());
+        });
   }
 } // namespace sprag

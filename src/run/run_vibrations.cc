@@ -53,7 +53,7 @@ namespace sprag
     template <class Find>
     auto timed(DynamicsMaker &maker, const Find &find)
     {
-      const dealii::TimerOutput::Scope scope(maker.timer(), "eigenvalues");
+      const PhaseTimer::Scope scope(maker.timer(), "eigenvalues");
       return find();
     }
 
@@ -123,7 +123,7 @@ namespace sprag
     std::vector<ErrorEstimate> accuracy_of(const Scene &held, const SlideStability &found, const MeshedDynamics &dynamics,
                                            DynamicsMaker &maker)
     {
-      const dealii::TimerOutput::Scope scope(maker.timer(), "accuracy");
+      const PhaseTimer::Scope scope(maker.timer(), "accuracy");
       return vibration_accuracy(held, found, dynamics, maker);
     }
 

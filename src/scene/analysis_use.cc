@@ -1,5 +1,7 @@
 #include "scene/analysis_use.h"
 
+#include <tuple>
+
 namespace sprag
 {
   bool holds_slide(const AnalysisType type)
@@ -19,5 +21,15 @@ namespace sprag
     if (runs_model(type))
       return is_meshed(scene.analysis.model);
     return type == AnalysisType::contact_law || type == AnalysisType::calibration;
+  }
+
+  bool follows_formulas(const Scene &scene)
+  {
+    const auto &[type, model] = std::tie(scene.analysis.type, scene.analysis.model);
+    const bool is_ideal =
+        type == AnalysisType::transient && model == ModelType::rigid && scene.contact.type == ContactType::ideal;
+    const bool is_closed =
+        (type == AnalysisType::quasi_static || type == AnalysisType::transient) && model == ModelType::closed_form;
+    return type == AnalysisType::slope || is_closed || is_ideal;
   }
 } // namespace sprag

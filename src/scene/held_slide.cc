@@ -33,7 +33,7 @@ namespace sprag
     std::optional<ParameterRange> range_of(const std::string &text)
     {
       // The name may hold blanks: the numbers are the last two words.
-      auto words = dealii::Utilities::split_string_list(single_spaced(text), ' ');
+      auto words = split(single_spaced(text), ' ');
       if (words.size() < 3)
         return {};
       const auto take_number = [&]

@@ -187,6 +187,9 @@ class BadMesh(ProgramTest):
         self.write(text, "own.geo")
         return self.write("subsection Mesh\n  set File = own.geo\nend\n")
 
+    def test_standard_input_in_place_of_a_file(self):
+        self.refused("/dev/stdin", says=["/dev/stdin: must be a file and no pipe"], mistakes=1)
+
     def test_good_mesh_near_the_closed_form(self):
         changes = ("--set", "Drive/Stroke=10", "--set", "Analysis/Maximum deviation=0.2")
         done = sprag(self.geometry(STRIP + LEVER + HUB + FACE), *changes, "--output", self.output, "--quiet")

@@ -18,7 +18,7 @@ TEST(ResultWriter, AddsStatusAndWhatEveryRunTells)
 {
   const TemporaryFolder temporary;
   const std::string folder = temporary.path / "run";
-  auto timer               = phase_timer();
+  PhaseTimer timer;
   ResultWriter writer(model_a(), { folder, true }, timer, columns);
   writer.append(std::vector<double>{ 1. });
   const auto end = writer.finish("stopped", { { { "number", 2., "1", "of a test" } }, { { "own", 3., "1", "fact" } } }, {});

@@ -7,7 +7,8 @@ import sys
 
 ROOT = pathlib.Path(os.environ.get("SPRAG_SOURCE", pathlib.Path(__file__).parents[2]))
 
-# A folder of src/ includes itself and what stands before it; main.cc includes any. An analysis knows no mesh.
+# A folder of src/ includes itself and what stands before it; the programs include any. An analysis knows no mesh.
+PROGRAMS = ["main.cc", "main_models.cc"]
 ORDER = ["base", "laws", "scene", "results", "model", "fe", "levers", "analysis", "run"]
 UNSEEN = {"analysis": ["fe"]}
 # So do the rooms of a folder.
@@ -43,14 +44,14 @@ def reach_of(place, order):
 def check_includes(path, lines):
     place = path.relative_to(ROOT / "src").parts
     folder = place[0]
-    if folder != "main.cc" and folder not in ORDER:
-        report(path, 1, f"folder or file unknown here; src/ holds main.cc and {', '.join(ORDER)}")
+    if folder not in PROGRAMS + ORDER:
+        report(path, 1, f"folder or file unknown here; src/ holds {', '.join(PROGRAMS + ORDER)}")
         return
     rooms = ROOMS.get(folder, [])
     if rooms and (len(place) != 3 or place[1] not in rooms):
         report(path, 1, f"src/{folder} has the rooms {', '.join(rooms)}")
         return
-    reach = ORDER if folder == "main.cc" else [name for name in reach_of(folder, ORDER) if name not in UNSEEN.get(folder, [])]
+    reach = ORDER if folder in PROGRAMS else [name for name in reach_of(folder, ORDER) if name not in UNSEEN.get(folder, [])]
     for number, line in enumerate(lines, 1):
         if found := re.match(r'\s*#\s*include\s*"([^"]*)"', line):
             to = found[1].split("/")

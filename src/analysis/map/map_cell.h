@@ -52,7 +52,7 @@ namespace sprag
     MapCell judge(const MapSite &site);
 
     /// Measures the time spent on meshes and models.
-    dealii::TimerOutput &timer()
+    PhaseTimer &timer()
     {
       return maker.timer();
     }

@@ -31,7 +31,10 @@ namespace sprag
   };
 
   /// Finds the least margin on the way of the drive with mu at its speed there; where a slide is held, of all x of the drive and
-  /// both directions at its peak speed. `flexible`: whether the lever's flexure is counted, by a beam.
+  /// both directions at its peak speed. The lever's flexure is not asked for.
+  JammingMargin rigid_jamming_margin(const Scene &scene);
+
+  /// Finds the same margin; `flexible`: whether the lever's flexure is counted, by a beam.
   JammingMargin jamming_margin(const Scene &scene, bool flexible);
 
   /// Tells the margin in a line.

@@ -2,7 +2,7 @@
 
 #include "base/least_squares.h"
 
-#include <deal.II/lac/lapack_full_matrix.h>
+#include <boost/numeric/ublas/lu.hpp>
 
 #include <algorithm>
 #include <array>
@@ -145,8 +145,10 @@ namespace sprag
       /// One step of Gauss-Newton; its change of omega, nothing if it cannot be done.
       std::optional<double> improve()
       {
-        dealii::LAPACKFullMatrix<double> matrix(unknowns);
-        dealii::Vector<double> change(unknowns);
+        namespace dense              = boost::numeric::ublas;
+        dense::matrix<double> matrix = dense::zero_matrix<double>(unknowns, unknowns);
+        dense::vector<double> change = dense::zero_vector<double>(unknowns);
+        dense::permutation_matrix<std::size_t> order(unknowns);
         for (std::size_t i = 0; i < signal.values.size(); ++i)
         {
           const double t        = time(i);
@@ -162,15 +164,9 @@ namespace sprag
         // As long as there is no amplitude, omega and growth mean nothing: the linear unknowns first.
         if (parameters[0] == 0. && parameters[1] == 0.)
           matrix(4, 4) = matrix(5, 5) = 1.;
-        try
-        {
-          matrix.compute_lu_factorization();
-        }
-        catch (const dealii::LACExceptions::ExcSingular &)
-        {
+        if (dense::lu_factorize(matrix, order) != 0)
           return std::nullopt;
-        }
-        matrix.solve(change);
+        dense::lu_substitute(matrix, order, change);
         for (unsigned int i = 0; i < unknowns; ++i)
           parameters[i] += change[i];
         return change[4];

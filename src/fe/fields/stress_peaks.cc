@@ -1,20 +1,11 @@
 #include "fe/fields/stress_peaks.h"
 
+#include "results/stress_entries.h"
+
 #include <limits>
 
 namespace sprag
 {
-  namespace
-  {
-    constexpr std::array<const char *, 3> names{ { "largest_lever_stress", "largest_layer_stress", "largest_stress_at_hub" } };
-    constexpr std::array<const char *, 3> meanings{
-      { "largest von Mises stress in the lever, the cells at the hub left out",
-        "largest von Mises stress in the friction layer, the cells at the hub left out",
-        "largest von Mises stress in the cells that the hub holds: at its corner the linear elastic stress is singular, and a "
-        "finer mesh finds more" }
-    };
-  } // namespace
-
   StressPeaks::StressPeaks(const BodyFields &of)
       : fields(of)
   {
@@ -52,12 +43,12 @@ namespace sprag
   {
     const double missing = std::numeric_limits<double>::quiet_NaN();
     std::vector<Entry> result;
-    for (unsigned int i = 0; i < names.size(); ++i)
+    for (unsigned int i = 0; i < stress_names.size(); ++i)
       if (there[i])
       {
-        const std::string name = names[i];
+        const std::string name = stress_names[i];
         const Peak peak        = peaks[i].value_or(Peak{ missing, missing, 0, 0, { missing, missing } });
-        result.push_back({ name, peak.stress, "MPa", meanings[i] });
+        result.push_back({ name, peak.stress, "MPa", stress_meanings[i] });
         result.push_back({ name + "_x", peak.x, "mm", "position of the cylinder there" });
         result.push_back({ name + "_direction",
                            std::string(peak.direction == 0  ? "none"
@@ -70,15 +61,6 @@ namespace sprag
         if (levers == 2)
           result.push_back({ name + "_lever", peak.lever + 1., "1", "of which lever" });
       }
-    return result;
-  }
-
-  std::vector<Entry> no_stress_peaks(const std::string &reason)
-  {
-    const double missing = std::numeric_limits<double>::quiet_NaN();
-    std::vector<Entry> result;
-    for (const unsigned int i : { 0u, 1u })
-      result.push_back({ names[i], missing, "MPa", std::string(meanings[i]) + "; not told: " + reason });
     return result;
   }
 } // namespace sprag

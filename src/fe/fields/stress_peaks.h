@@ -40,7 +40,4 @@ namespace sprag
     std::array<std::optional<Peak>, 3> peaks;
     std::array<bool, 3> there{}; ///< whether the mesh has such cells
   };
-
-  /// Returns the entries of a run that finds no stress.
-  std::vector<Entry> no_stress_peaks(const std::string &reason);
 } // namespace sprag

@@ -1,0 +1,17 @@
+#include "base/neighbour.h"
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <stdexcept>
+#include <unistd.h>
+
+namespace sprag
+{
+  void become_neighbour(const std::string &name, char **arguments)
+  {
+    const auto program = std::filesystem::read_symlink("/proc/self/exe").replace_filename(name);
+    ::execv(program.c_str(), arguments);
+    throw std::runtime_error(program.string() + " cannot be run: " + std::strerror(errno));
+  }
+} // namespace sprag

@@ -1,0 +1,132 @@
+#include "analysis/map/map_team.h"
+#include "base/guard.h"
+#include "base/hdf5_handle.h"
+#include "base/interrupt.h"
+#include "base/text.h"
+#include "run/memory.h"
+#include "run/outcome.h"
+#include "run/output_folder.h"
+#include "run/run.h"
+#include "scene/analysis_use.h"
+#include "scene/read.h"
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/multithread_info.h>
+
+#include <cstdlib>
+#include <sstream>
+
+// What sprag becomes where models are needed, with the libraries that they need, and what mpirun starts. It does formulas as
+// well.
+
+namespace sprag
+{
+  namespace
+  {
+    namespace MPI = dealii::Utilities::MPI;
+
+    /// A library's message without what it says about its sources.
+    std::string message_of(const dealii::ExceptionBase &error)
+    {
+      std::ostringstream text;
+      error.print_info(text);
+      return single_spaced(text.str());
+    }
+
+    void execute(const Arguments &arguments, const Scene &scene, const Rank &rank)
+    {
+      if (arguments.validate)
+      {
+        require_memory(scene);
+        return tell_validity(arguments, scene, validate(scene));
+      }
+      if (!rank.is_alone && scene.analysis.type != AnalysisType::map)
+        throw InputError("only Analysis/Type = map runs in several processes: leave out mpirun");
+      const std::string folder     = folder_of(arguments, scene);
+      const unsigned int processes = rank.is_alone ? 1 : MPI::n_mpi_processes(MPI_COMM_WORLD);
+      const auto claim             = [&]
+      {
+        claim_folder(folder, parameters_text(scene), arguments.overwrite);
+        require_memory(scene, processes);
+      };
+      if (rank.is_alone)
+        claim();
+      else
+        on_first_rank(claim);
+      run(scene, { folder, arguments.quiet, rank.is_first });
+    }
+
+    /// Whether MPI is needed: by PETSc and meshes, or because processes share the work.
+    bool needs_mpi(const Scene &scene)
+    {
+      return needs_mesh(scene) || scene.spring.type == SpringType::leaf || scene.analysis.type == AnalysisType::map;
+    }
+
+    /// Settings for one process, kept where they are given: no daemon beside the program, no network and no devices looked for.
+    void set_up_mpi_for_one()
+    {
+      for (const auto &[name, value] : { std::pair{ "OMPI_MCA_ess_singleton_isolated", "1" }, std::pair{ "OMPI_MCA_pml", "ob1" },
+                                         std::pair{ "OMPI_MCA_btl", "self" }, std::pair{ "HWLOC_SYNTHETIC", "core:1 pu:1" } })
+        ::setenv(name, value, 0);
+    }
+
+    Rank rank_in_mpi()
+    {
+      return { MPI::this_mpi_process(MPI_COMM_WORLD) == 0, MPI::n_mpi_processes(MPI_COMM_WORLD) == 1 };
+    }
+
+    int exit_status(const Arguments &arguments, const std::optional<Scene> &scene, const std::timespec &since, const Rank &rank)
+    {
+      try
+      {
+        return exit_status_of(arguments, scene, since, rank,
+                              [&](const Scene &given)
+                              {
+                                try
+                                {
+                                  execute(arguments, given, rank);
+                                }
+                                catch (const dealii::ExceptionBase &error)
+                                {
+                                  throw std::runtime_error(message_of(error));
+                                }
+                              });
+      }
+      catch (const std::exception &error)
+      {
+        tell(error.what());
+        MPI_Abort(MPI_COMM_WORLD, analysis_failed);
+        return analysis_failed;
+      }
+    }
+  } // namespace
+} // namespace sprag
+
+int main(int argc, char **argv)
+{
+  using namespace sprag;
+  Arguments arguments;
+  if (const auto status = read_arguments(argc, argv, arguments))
+    return *status;
+  std::timespec since = {};
+  clock_gettime(CLOCK_REALTIME_COARSE, &since); // the clock of file systems
+  std::optional<Scene> scene;
+  if (!under_mpi())
+    try
+    {
+      scene = scene_of(arguments);
+      set_up_mpi_for_one();
+    }
+    catch (const InputError &error)
+    {
+      return tell(error);
+    }
+  int no_arguments = 1;
+  std::optional<dealii::Utilities::MPI::MPI_InitFinalize> mpi;
+  if (!scene || needs_mpi(*scene))
+    mpi.emplace(no_arguments, argv, 1);
+  dealii::MultithreadInfo::set_thread_limit(1);
+  hdf5::silence();
+  catch_interrupts();
+  return exit_status(arguments, scene, since, mpi ? rank_in_mpi() : Rank());
+}

@@ -1,0 +1,43 @@
+#include "analysis/statics/closed_form.h"
+#include "analysis/transient/ideal_contact.h"
+#include "run/analyses.h"
+#include "run/recorder.h"
+#include "run/report.h"
+#include "run/steps_in_time.h"
+#include "scene/contact_reference.h"
+
+namespace sprag
+{
+  namespace
+  {
+    void run_without_inertia(const Scene &scene, const RunOptions &options, Warnings &warnings)
+    {
+      PhaseTimer timer;
+      Recorder recorder(scene, options, timer, {});
+      std::vector<Entry> summary;
+      finish_in_any_case([&] { run_closed_form(scene, [&](const Row &row) { recorder.record(row); }); },
+                         [&](const std::string &status) { summary = recorder.finish(status, {}, warnings); });
+      check_deviation(scene, summary);
+    }
+
+    void run_in_time(const Scene &scene, const RunOptions &options, Warnings &warnings)
+    {
+      PhaseTimer timer;
+      const double inertia = scene.analysis.model == ModelType::rigid ? moment_of_inertia(scene) : 0.;
+      Recorder recorder(scene, options, timer, {});
+      announce_model(scene, options);
+      record_steps(scene, recorder, timer, warnings, {},
+                   [&] { return run_ideal_contact(scene, inertia, [&](const Row &row) { recorder.record(row); }); });
+    }
+  } // namespace
+
+  void run_formulas(const Scene &scene, const RunOptions &options, Warnings &warnings)
+  {
+    if (scene.analysis.type == AnalysisType::slope)
+      run_slope(scene, options, warnings);
+    else if (scene.analysis.type == AnalysisType::transient)
+      run_in_time(scene, options, warnings);
+    else
+      run_without_inertia(scene, options, warnings);
+  }
+} // namespace sprag

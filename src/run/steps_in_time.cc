@@ -1,0 +1,42 @@
+#include "run/steps_in_time.h"
+
+#include "base/append.h"
+#include "run/transient_report.h"
+
+#include <iostream>
+
+namespace sprag
+{
+  void record_steps(const Scene &scene, Recorder &recorder, PhaseTimer &timer, Warnings &warnings,
+                    const std::vector<Entry> &facts, const std::function<TransientReport()> &steps,
+                    const std::function<void()> &complete)
+  {
+    TransientReport report;
+    double seconds = 0.;
+    finish_in_any_case(
+        [&]
+        {
+          const PhaseTimer::Scope scope(timer, "steps_and_output");
+          const double begin = PhaseTimer::cpu_seconds();
+          report             = steps();
+          seconds            = PhaseTimer::cpu_seconds() - begin;
+          check_ledger(scene, report.ledger);
+        },
+        [&](const std::string &status)
+        {
+          complete();
+          const double rate = seconds > 0. ? report.steps / seconds : 0.;
+          recorder.finish(status, joined(facts, { { "steps_per_cpu_second", rate, "1/s", "accepted steps, output included" } }),
+                          warnings);
+        });
+  }
+
+  void announce_model(const Scene &scene, const RunOptions &options)
+  {
+    if (options.quiet)
+      return;
+    for (const auto &line : modelled(scene))
+      std::cout << line << '\n';
+    std::cout << std::flush;
+  }
+} // namespace sprag
