@@ -1,4 +1,4 @@
-#include "analysis/map/map_team.h"
+#include "analysis/team/team.h"
 #include "base/all_cores.h"
 #include "base/errors.h"
 #include "base/guard.h"
