@@ -1,15 +1,16 @@
 #include "analysis/team/team.h"
 #include "base/all_cores.h"
+#include "base/error_text.h"
 #include "base/errors.h"
 #include "base/guard.h"
 #include "base/hdf5_handle.h"
 #include "base/interrupt.h"
-#include "base/text.h"
 #include "results/earlier_result.h"
 #include "results/warning.h"
 #include "run/memory.h"
 #include "run/output_folder.h"
 #include "run/run.h"
+#include "scene/analysis_use.h"
 #include "scene/read.h"
 
 #include <cstdlib>
@@ -22,7 +23,6 @@
 #include <ctime>
 #include <iostream>
 #include <optional>
-#include <sstream>
 
 namespace
 {
@@ -55,7 +55,8 @@ namespace
     app.add_flag("--validate", arguments.validate, "Check the file and stop");
     app.add_flag("--print-parameters", arguments.print_parameters, "Print every parameter with its meaning and stop");
     app.add_flag("--quiet", arguments.quiet, "Print errors only");
-    app.add_option("--jobs", arguments.jobs, "Processes that work on a map; default: one a core")->check(CLI::PositiveNumber);
+    app.add_option("--jobs", arguments.jobs, "Processes that work on a map or study; default: one a core")
+        ->check(CLI::PositiveNumber);
     app.set_version_flag("--version", std::string("sprag " SPRAG_VERSION));
     app.footer("Exit status: 0 success, 1 the analysis failed or was interrupted (finished steps are kept), 2 bad input (nothing "
                "is written).");
@@ -94,8 +95,8 @@ namespace
       return sprag::check_warnings(scene, warnings);
     }
     const bool alone = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) == 1;
-    if (!alone && scene.analysis.type != sprag::AnalysisType::map)
-      throw sprag::InputError("only Analysis/Type = map runs in several processes: leave out mpirun");
+    if (!alone && !sprag::works_in_parallel(scene.analysis.type))
+      throw sprag::InputError("only Analysis/Type = map and study run in several processes: leave out mpirun");
     const std::string folder = folder_of(arguments, scene);
     sprag::on_first_rank([&] { sprag::claim_folder(folder, sprag::parameters_text(scene), arguments.overwrite); });
     const unsigned int processes = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
@@ -120,17 +121,6 @@ namespace
   {
     std::cerr << "sprag: " << failure << '\n';
     return analysis_failed;
-  }
-
-  /// A library's message without what it says about its sources.
-  std::string message_of(const std::exception &error)
-  {
-    const auto *of_dealii = dynamic_cast<const dealii::ExceptionBase *>(&error);
-    if (of_dealii == nullptr)
-      return error.what();
-    std::ostringstream text;
-    of_dealii->print_info(text);
-    return sprag::single_spaced(text.str());
   }
 
   /// Errors of an analysis come on all ranks alike and are told by the first; any other may be one rank's own.
@@ -158,7 +148,7 @@ namespace
     }
     catch (const std::exception &error)
     {
-      const std::string failure = message_of(error);
+      const std::string failure = sprag::message_of(error);
       if (one_alone && scene)
         finish(arguments, *scene, failure, since);
       tell(failure);
@@ -190,10 +180,10 @@ namespace
     return ended_itself && !unfinished ? analysis_failed : tell(fate);
   }
 
-  /// A map is carried out by several processes. A folder that cannot serve is for the run itself to refuse.
+  /// A map or a study is carried out by several processes. A folder that cannot serve is for the run itself to refuse.
   bool is_for_all_cores(const Arguments &arguments, const sprag::Scene &scene, const unsigned int processes)
   {
-    return is_run(arguments) && scene.analysis.type == sprag::AnalysisType::map && sprag::works_on_all_cores(processes);
+    return is_run(arguments) && sprag::works_in_parallel(scene.analysis.type) && sprag::works_on_all_cores(processes);
   }
 
   int run_as_process_of_mpi(const Arguments &arguments, std::optional<sprag::Scene> scene, const std::timespec &since,

@@ -6,6 +6,7 @@
 #include "levers/prepared_scene.h"
 #include "run/analyses.h"
 #include "run/result_writer.h"
+#include "run/study_runs.h"
 #include "run/warnings.h"
 #include "scene/analysis_use.h"
 #include "scene/mirrored_pair.h"
@@ -46,7 +47,7 @@ namespace sprag
     /// Before every run in which a cylinder is put somewhere, once nothing is left for which it could be refused.
     void announce_margin(const Scene &scene, const RunOptions &options)
     {
-      if (options.quiet || scene.analysis.type == AnalysisType::slope)
+      if (options.quiet || scene.analysis.type == AnalysisType::slope || scene.analysis.type == AnalysisType::study)
         return;
       require_writable(options.folder);
       if (!scene.mesh.file.empty())
@@ -58,21 +59,6 @@ namespace sprag
       std::cout << jamming_text(least_margin(scene, !rigid)) << '\n' << std::flush;
     }
 
-    void carry_out(const Scene &scene, const RunOptions &options, Warnings &warnings)
-    {
-      using Run                                     = void (*)(const Scene &, const RunOptions &, Warnings &);
-      static const std::map<AnalysisType, Run> runs = { { AnalysisType::quasi_static, run_quasi_static_scene },
-                                                        { AnalysisType::slope, run_slope },
-                                                        { AnalysisType::transient, run_transient_scene },
-                                                        { AnalysisType::contact_law, run_contact_law },
-                                                        { AnalysisType::modal, run_vibrations },
-                                                        { AnalysisType::stability, run_vibrations },
-                                                        { AnalysisType::map, run_map },
-                                                        { AnalysisType::sprag_slip, run_sprag_slip },
-                                                        { AnalysisType::calibration, run_calibration } };
-      runs.at(scene.analysis.type)(scene, options, warnings);
-    }
-
     /// Warnings and, in the last line, their number; by the first process alone.
     void print_end(const std::string &end, const Warnings &warnings, const bool quiet)
     {
@@ -81,9 +67,27 @@ namespace sprag
     }
   } // namespace
 
+  void carry_out(const Scene &scene, const RunOptions &options, Warnings &warnings)
+  {
+    using Run                                     = void (*)(const Scene &, const RunOptions &, Warnings &);
+    static const std::map<AnalysisType, Run> runs = { { AnalysisType::quasi_static, run_quasi_static_scene },
+                                                      { AnalysisType::slope, run_slope },
+                                                      { AnalysisType::transient, run_transient_scene },
+                                                      { AnalysisType::contact_law, run_contact_law },
+                                                      { AnalysisType::modal, run_vibrations },
+                                                      { AnalysisType::stability, run_vibrations },
+                                                      { AnalysisType::map, run_map },
+                                                      { AnalysisType::sprag_slip, run_sprag_slip },
+                                                      { AnalysisType::calibration, run_calibration },
+                                                      { AnalysisType::study, run_study } };
+    runs.at(scene.analysis.type)(scene, options, warnings);
+  }
+
   Warnings validate(const Scene &given)
   {
     const Scene scene = prepared(given);
+    if (scene.analysis.type == AnalysisType::study)
+      require_possible_runs(scene);
     try_mesh(scene);
     return scene_warnings(scene);
   }

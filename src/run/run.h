@@ -7,10 +7,13 @@
 
 namespace sprag
 {
+  struct InMemory;
+
   struct RunOptions
   {
     std::string folder; ///< for results; made if it does not exist
-    bool quiet = false;
+    bool quiet          = false;
+    InMemory *in_memory = nullptr; ///< for a run that writes no files, in place of a folder; else null
   };
 
   /// Checks that the scene's mesh can serve, which read_scene() cannot, and throws InputError if not. Returns the warnings

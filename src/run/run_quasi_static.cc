@@ -1,10 +1,10 @@
 #include "analysis/statics/closed_form.h"
 #include "analysis/statics/quasi_static.h"
 #include "base/text.h"
-#include "fe/mesh/mesh.h"
 #include "fe/statics/lever_model.h"
 #include "run/analyses.h"
 #include "run/field_recorder.h"
+#include "run/in_memory.h"
 #include "run/quasi_static_accuracy.h"
 #include "run/recorder.h"
 
@@ -93,7 +93,7 @@ namespace sprag
           [&](const std::string &status)
           {
             recorder.set_stress(fields.finish());
-            if (status == "completed")
+            if (status == "completed" && estimates_errors(options))
             {
               const Timer::Scope scope(timer, "accuracy");
               recorder.set_accuracy(quasi_static_accuracy(scene, levers, recorder.recorded(), settings));
@@ -109,10 +109,10 @@ namespace sprag
     void follow_finite_elements(const Scene &scene, const RunOptions &options, Warnings &warnings)
     {
       auto timer = phase_timer();
-      require_writable(options.folder);
-      Mesh triangulation;
+      require_folder(options);
+      const auto meshes = static_meshes(options);
       timer.enter_subsection("mesh");
-      make_mesh(scene, triangulation);
+      const Mesh &triangulation = meshes->mesh_of(scene);
       timer.leave_subsection();
       timer.enter_subsection("model");
       LeverModel levers(triangulation, scene);
