@@ -9,8 +9,10 @@
 #include <algorithm>
 #include <cctype>
 #include <limits>
+#include <map>
 #include <ostream>
 #include <set>
+#include <utility>
 
 namespace sprag
 {
@@ -189,16 +191,34 @@ namespace sprag
                            const std::vector<const StudyRecord *> &rows, const MeasuredErrors &measured)
     {
       stream << "  " << measured.measure.name << '\n';
+      std::string accuracies;
       for (std::size_t i = 0; i < recommended_accuracies.size(); ++i)
       {
-        const std::string accuracy = percent(recommended_accuracies[i]);
-        stream << "    within " << accuracy << ": " << std::string(7 - std::min<std::size_t>(7, accuracy.size()), ' ');
-        if (const auto row = measured.recommended[i])
-          stream << settings_text(study, points[rows[*row]->run]) << "; " << formatted("%.3g", rows[*row]->cpu_time)
-                 << " CPU s, error " << percent(measured.errors[*row]) << '\n';
-        else
-          stream << "none\n";
+        accuracies += (accuracies.empty() ? "" : ", ") + percent(recommended_accuracies[i]);
+        const auto row = measured.recommended[i];
+        if (i + 1 < recommended_accuracies.size() && measured.recommended[i + 1] == row)
+          continue;
+        accuracies.resize(std::max<std::size_t>(accuracies.size(), 10), ' ');
+        stream << "    within " << accuracies << "  "
+               << (row ? settings_text(study, points[rows[*row]->run]) + "; " + formatted("%.3g", rows[*row]->cpu_time) +
+                             " CPU s, error " + percent(measured.errors[*row])
+                       : std::string("none"))
+               << '\n';
+        accuracies.clear();
       }
+    }
+    /// Of each measure over each size, from the least to the largest of all other settings.
+    void print_orders(std::ostream &stream, const std::vector<ObservedOrder> &orders)
+    {
+      std::map<std::pair<std::string, std::string>, std::pair<double, double>> ranges;
+      for (const auto &[measure, parameter, others, order] : orders)
+      {
+        auto &range = ranges.insert({ { parameter, measure }, { order, order } }).first->second;
+        range       = { std::min(range.first, order), std::max(range.second, order) };
+      }
+      for (const auto &[of, range] : ranges)
+        stream << "  observed order over " << of.first << " of " << of.second << ": " << formatted("%.2f", range.first)
+               << (range.first < range.second ? formatted(" ... %.2f", range.second) : "") << '\n';
     }
   } // namespace
 
@@ -225,7 +245,9 @@ namespace sprag
     for (const auto &measured : trade.measured)
     {
       const auto &name = measured.measure.name;
-      Dataset run{ { "run_" + name, "1", "the cheapest run that meets the accuracy; NaN: none" }, {}, {} };
+      Dataset run{
+        { "run_" + name, "1", "the cheapest run that meets the accuracy, and with it those of smaller sizes; NaN: none" }, {}, {}
+      };
       Dataset cost{ { "cpu_time_" + name, "s", "of that run" }, {}, {} };
       TextDataset settings{ "settings_" + name, "of that run", {} };
       for (const auto &row : measured.recommended)
@@ -297,8 +319,6 @@ namespace sprag
            << " CPU s):\n";
     for (const auto &measured : trade.measured)
       print_recommended(stream, study, points, rows, measured);
-    for (const auto &[measure, parameter, others, order] : trade.orders)
-      stream << "  observed order of " << measure << " over " << parameter << (others.empty() ? "" : ", " + others) << ": "
-             << formatted("%.2f", order) << '\n';
+    print_orders(stream, trade.orders);
   }
 } // namespace sprag

@@ -33,9 +33,10 @@ namespace sprag
     }
 
     /// A number that is no more exact than its ends make it, so that it is short where they are.
-    std::string short_text(const double value)
+    /// A number between two others, as short as can be.
+    std::string short_text(const double value, const int digits)
     {
-      return number_text(leading_number(formatted("%.12g", value))->value);
+      return number_text(leading_number(formatted("%.*g", digits, value))->value);
     }
 
     std::optional<double> number_alone(const std::string &text)
@@ -64,7 +65,8 @@ namespace sprag
       for (double i = 1.; i < n - 1.; ++i)
       {
         const double share = i / (n - 1.);
-        values.push_back(short_text(by_ratio ? *first * std::pow(*last / *first, share) : *first + share * (*last - *first)));
+        values.push_back(by_ratio ? short_text(*first * std::pow(*last / *first, share), 6)
+                                  : short_text(*first + share * (*last - *first), 12));
       }
       values.push_back(number_text(*last));
       return values;

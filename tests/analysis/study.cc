@@ -199,6 +199,25 @@ TEST(StudyTrade, OfASmallTable)
   EXPECT_EQ(trade.orders.front().others, "Mesh/Degree = 1");
 }
 
+// The coarsest run meets the reference by chance, and the second finest fails.
+TEST(StudyTrade, RecommendsNoneThatIsExactByChance)
+{
+  StudySettings settings;
+  settings.varied        = { { "Mesh/Face size", { "1", "2", "4", "8" } } };
+  StudyRecords records   = { { 0, completed(0, 4., 100.01) },
+                             { 1, completed(1, 2., 104.) },
+                             { 2, completed(2, 1., 103.) },
+                             { 3, completed(3, 0.5, 100.) },
+                             { 4, completed(4, 60., 100.) } };
+  const auto recommended = [&] { return trade_of(settings, points_of(settings), records).measured.front().recommended; };
+  EXPECT_EQ(recommended()[0], 3u);
+  EXPECT_EQ(recommended()[1], 0u);
+  EXPECT_EQ(recommended()[2], 0u);
+  EXPECT_FALSE(recommended()[3]);
+  records[1].outcome = RunOutcome::failed;
+  EXPECT_EQ(recommended()[0], 0u);
+}
+
 TEST(StudyTrade, IsNoneWithoutAReferenceThatIsCompleted)
 {
   StudySettings settings;

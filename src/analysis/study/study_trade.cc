@@ -19,12 +19,12 @@ namespace sprag
       return number && number->rest.empty() ? number->value : unknown;
     }
 
-    /// Sizes of elements and steps.
+    /// Sizes of elements and steps, and tolerances of steps: what makes results exact by being small.
     bool is_size(const std::string &parameter)
     {
       const auto ends_with = [&](const std::string &end)
       { return parameter.size() > end.size() && parameter.compare(parameter.size() - end.size(), end.size(), end) == 0; };
-      return ends_with("/Face size") || ends_with("/Step");
+      return ends_with("/Face size") || ends_with("/Step") || ends_with("/Tolerance");
     }
 
     /// NaN where one of them is.
@@ -38,11 +38,38 @@ namespace sprag
       return largest;
     }
 
-    void judge(MeasuredErrors &measured, const std::vector<double> &costs)
+    /// Whether a run has sizes that are at most those of another and all else alike.
+    bool is_as_fine(const StudySettings &study, const StudyPoint &run, const StudyPoint &other)
     {
-      measured.front = pareto_front(costs, measured.errors);
+      for (std::size_t i = 0; i < run.size(); ++i)
+      {
+        const auto &values = study.varied[i].values;
+        const bool smaller = is_size(study.varied[i].name) && number_of(values[run[i]]) <= number_of(values[other[i]]);
+        if (run[i] != other[i] && !smaller)
+          return false;
+      }
+      return true;
+    }
+
+    /// The largest error of each run and of those that are finer, so that none is taken for exact that is so by chance.
+    std::vector<double> lasting_errors(const StudySettings &study, const std::vector<StudyPoint> &rows,
+                                       const std::vector<double> &errors)
+    {
+      std::vector<double> lasting = errors;
+      for (std::size_t row = 0; row < rows.size(); ++row)
+        for (std::size_t finer = 0; finer < rows.size(); ++finer)
+          if (is_as_fine(study, rows[finer], rows[row]) && !(errors[finer] <= lasting[row]))
+            lasting[row] = errors[finer];
+      return lasting;
+    }
+
+    void judge(const StudySettings &study, const std::vector<StudyPoint> &rows, const std::vector<double> &costs,
+               MeasuredErrors &measured)
+    {
+      measured.front     = pareto_front(costs, measured.errors);
+      const auto lasting = lasting_errors(study, rows, measured.errors);
       for (std::size_t i = 0; i < recommended_accuracies.size(); ++i)
-        measured.recommended[i] = cheapest_within(recommended_accuracies[i], costs, measured.errors);
+        measured.recommended[i] = cheapest_within(recommended_accuracies[i], costs, lasting);
     }
 
     /// The settings of a point but for one parameter.
@@ -108,13 +135,13 @@ namespace sprag
         costs.push_back(completed ? record.cpu_time : unknown);
         rows.push_back(points[run]);
       }
-    if (trade.measured.size() > 1)
-      trade.measured.push_back({ { "all", "largest of the errors" }, largest_of(trade.measured), {}, {} });
-    for (auto &measured : trade.measured)
-      judge(measured, costs);
     for (std::size_t i = 0; i < study.varied.size(); ++i)
       if (is_size(study.varied[i].name))
         add_orders(study, rows, i, trade);
+    if (trade.measured.size() > 1)
+      trade.measured.push_back({ { "all", "largest of the errors" }, largest_of(trade.measured), {}, {} });
+    for (auto &measured : trade.measured)
+      judge(study, rows, costs, measured);
     return trade;
   }
 } // namespace sprag

@@ -21,9 +21,11 @@ namespace sprag
   struct MeasuredErrors
   {
     Measure measure;
-    std::vector<double> errors;                                                        ///< of the finished runs, in their order
-    std::vector<bool> front;                                                           ///< see pareto_front()
-    std::array<std::optional<std::size_t>, recommended_accuracies.size()> recommended; ///< rows, see cheapest_within()
+    std::vector<double> errors; ///< of the finished runs, in their order
+    std::vector<bool> front;    ///< see pareto_front()
+
+    /// Rows of the cheapest runs that meet the accuracies, and with them all that are the same but for smaller sizes.
+    std::array<std::optional<std::size_t>, recommended_accuracies.size()> recommended;
   };
 
   /// The order with which an error falls with a parameter that is a size.
