@@ -3,9 +3,10 @@
 from dataclasses import dataclass
 
 import numpy as np
+from matplotlib.colors import LogNorm, Normalize
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
-from style import COLOURS, MARKERS, MILLIMETRE, TWO_COLUMNS, legend_on_top, look, panel_letter, plt
+from style import COLOURS, LINES, MARKERS, MILLIMETRE, TWO_COLUMNS, panel_letter, plt
 
 # What is drawn of each Study/Type, as far as its runs have it.
 QUANTITIES = {
@@ -78,26 +79,67 @@ def abscissa_of(varied):
     return max(varied, key=lambda parameter: (parameter.is_number, len(np.unique(parameter.numbers))))
 
 
-def families(result, others):
-    """[(text, number of the only other parameter or None, mask)] in the order of the runs."""
-    told = np.array([", ".join(p.said(p.texts[row]) for p in others) for row in range(len(result.table["run"]))], dtype=object)
+@dataclass
+class Code:
+    """How runs of the same other settings are drawn."""
+
+    mask: np.ndarray
+    colour: object
+    line: object
+    marker: str
+
+
+def codes(result, others):
+    """The codes of all settings of the other parameters, handles and names for a legend, and the scale of colours if there is one:
+    colours by the parameter with the most values, lines and markers by the rest."""
+    rows = len(result.table["run"])
+    if not others:
+        return [Code(np.ones(rows, dtype=bool), COLOURS[0], LINES[0], MARKERS[0])], ([], []), None
+    coloured = max(others, key=lambda parameter: len(np.unique(parameter.texts)))
+    rest = [parameter for parameter in others if parameter is not coloured]
+    shades, scale = shades_of(coloured)
+    styles = list(dict.fromkeys(settings_of(rest, row) for row in range(rows)))
     found = []
-    for text in dict.fromkeys(told):
-        mask = told == text
-        single = others[0].numbers[mask][0] if len(others) == 1 and others[0].is_number else None
-        found.append((text, single, mask))
-    return found
+    for text in dict.fromkeys(coloured.texts):
+        for index, style in enumerate(styles):
+            mask = np.array([coloured.texts[row] == text and settings_of(rest, row) == style for row in range(rows)])
+            if mask.any():
+                shape = {"line": LINES[index % len(LINES)], "marker": MARKERS[index % len(MARKERS)]}
+                found.append(Code(mask, shades[text], **shape))
+    handles, names = [], []
+    if scale is None:
+        handles += [plt.Line2D([], [], color=colour) for colour in shades.values()]
+        names += [coloured.said(text) for text in shades]
+    if rest:
+        looks = zip(LINES * (1 + len(styles) // len(LINES)), MARKERS * (1 + len(styles) // len(MARKERS)), styles)
+        handles += [plt.Line2D([], [], color="black", linestyle=line, marker=marker, markersize=3.5) for line, marker, _ in looks]
+        names += styles
+    return found, (handles, names), scale and (scale, coloured.label)
 
 
-def looks(found):
-    """The line of each family; many by colour alone, from a scale."""
-    if len(found) <= MOST_LINES:
-        return [look(index) for index in range(len(found))], None
-    numbers = np.array([index if number is None else number for index, (_, number, _) in enumerate(found)], dtype=float)
-    wide = numbers.min() > 0 and numbers.max() / numbers.min() > WIDE
-    norm = (plt.matplotlib.colors.LogNorm if wide else plt.Normalize)(numbers.min(), numbers.max())
+def settings_of(parameters, row):
+    return ", ".join(parameter.said(parameter.texts[row]) for parameter in parameters)
+
+
+def shades_of(parameter):
+    """Colour of each text; of many from a scale."""
+    texts = list(dict.fromkeys(parameter.texts))
+    if len(texts) <= MOST_LINES or not parameter.is_number:
+        return {text: COLOURS[index % len(COLOURS)] for index, text in enumerate(texts)}, None
+    numbers = {text: number for text, number in zip(parameter.texts, parameter.numbers)}
+    low, high = min(numbers.values()), max(numbers.values())
+    norm = LogNorm(low, high) if low > 0 and high / low > WIDE else Normalize(low, high)
     scale = plt.cm.ScalarMappable(norm, "viridis")
-    return [{"color": scale.to_rgba(number)} for number in numbers], scale
+    return {text: scale.to_rgba(numbers[text]) for text in texts}, scale
+
+
+def legend_above(figure, handles, names):
+    """As many columns as the width takes."""
+    if not names:
+        return
+    columns = max(1, min(len(names), 120 // (max(map(len, names)) + 8)))
+    figure.suptitle("\n" * ((len(names) - 1) // columns) or " ", fontsize=7)  # keeps room
+    figure.legend(handles, names, loc="upper center", ncol=columns)
 
 
 def panels_for(count):
@@ -118,26 +160,22 @@ def curves(result):
     """The numbers of the runs over a parameter, a line for each setting of the others."""
     varied = varied_parameters(result)
     abscissa = abscissa_of(varied)
-    others = [parameter for parameter in varied if parameter is not abscissa]
-    found = families(result, others)
-    lines, scale = looks(found)
+    found, legend, bar = codes(result, [parameter for parameter in varied if parameter is not abscissa])
     names = quantities_of(result) or ["cpu_time"]
     figure, panels = panels_for(len(names))
     for axes, name, letter in zip(panels, names, "abcdef"):
-        for (text, _, mask), line in zip(found, lines):
-            x, y = abscissa.numbers[mask], result.table[name][mask]
+        for code in found:
+            x, y = abscissa.numbers[code.mask], result.table[name][code.mask]
             order = np.argsort(x, kind="stable")
-            axes.plot(x[order], y[order], marker=".", markersize=3, label=text, **line)
+            axes.plot(x[order], y[order], color=code.colour, linestyle=code.line, marker=code.marker, markersize=2)
         unit = result.units[name].replace("^2", "$^2$")
         axes.set_ylabel(name.replace("_", " ") + (f" [{unit}]" if unit not in ("", "1") else ""))
         axes.set_xlabel(abscissa.label)
         set_abscissa(axes, abscissa, abscissa.numbers[result.table["outcome"] == 0])
         panel_letter(axes, letter)
-    if scale is not None:
-        bar = figure.colorbar(scale, ax=panels, aspect=30, pad=0.01)
-        bar.set_label(others[0].label if len(others) == 1 else "other settings")
-    elif len(found) > 1:
-        legend_on_top(figure, *panels[0].get_legend_handles_labels())
+    if bar is not None:
+        figure.colorbar(bar[0], ax=panels, aspect=30, pad=0.01).set_label(bar[1])
+    legend_above(figure, *legend)
     return figure
 
 
@@ -151,8 +189,9 @@ def set_abscissa(axes, abscissa, shown):
 
 
 def plain_logarithms(axis):
-    """1, 2, 5, 10 ... in place of powers."""
-    axis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+    """Numbers in place of powers: 1, 2, 5, 10 ... over less than two decades."""
+    low, high = axis.get_view_interval()
+    axis.set_major_locator(LogLocator(subs=(1, 2, 5) if high / low < 60 else (1,)))
     axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:.3g}"))
     axis.set_minor_formatter(NullFormatter())
 
@@ -172,36 +211,42 @@ def trade(result):
     """Error against CPU time with the front on which nobody cheaper is as exact; its runs are labelled."""
     varied = varied_parameters(result)
     sizes = abscissa_of(varied)
-    others = [parameter for parameter in varied if parameter is not sizes]
-    found = families(result, others)
-    names = sorted(measures_of(result), key=lambda name: (name == "all", list(result.table).index(f"error_{name}")))
+    found, (handles, labels), bar = codes(result, [parameter for parameter in varied if parameter is not sizes])
+    names = sorted(measures_of(result), key=lambda name: name == "all")
     figure, panels = panels_for(len(names))
+    cost = result.table["cpu_time"]
     for axes, name, letter in zip(panels, names, "abcdef"):
-        cost, error = result.table["cpu_time"], 100 * result.table[f"error_{name}"]
+        error = 100 * result.table[f"error_{name}"]
         shown = np.isfinite(error) & (error > 0)
-        for index, (text, _, mask) in enumerate(found):
-            style = {"marker": MARKERS[index % len(MARKERS)], "color": COLOURS[index % len(COLOURS)]}
-            axes.plot(cost[mask & shown], error[mask & shown], linestyle="", markersize=3.5, label=text, **style)
-        draw_front(axes, cost, error, shown & (result.table[f"pareto_{name}"] == 1), sizes)
+        for code in found:
+            rows = code.mask & shown
+            axes.plot(cost[rows], error[rows], linestyle="", marker=code.marker, color=code.colour, markersize=3.5)
         axes.set_xscale("log")
         axes.set_yscale("log")
         axes.margins(0.12)
         plain_logarithms(axes.xaxis)
         plain_logarithms(axes.yaxis)
+        draw_front(axes, cost, error, shown & (result.table[f"pareto_{name}"] == 1), sizes)
         axes.set_title(f"({letter}) {name.replace('_', ' ')}", loc="left", fontsize=8)
         axes.set_xlabel("CPU time [s]")
         axes.set_ylabel("error [%]")
-    handles, labels = panels[0].get_legend_handles_labels()
-    handles.append(plt.Line2D([], [], color="black", linewidth=0.8))
-    legend_on_top(figure, handles, [*(text or "runs" for text in labels), f"front, labels: {sizes.label}"])
+    if bar is not None:
+        figure.colorbar(bar[0], ax=panels, aspect=30, pad=0.01).set_label(bar[1])
+    front = plt.Line2D([], [], color="black", linewidth=0.8)
+    legend_above(figure, [*handles, front], [*labels, f"front, labels: {sizes.label}"])
     return figure
 
 
 def draw_front(axes, cost, error, front, sizes):
+    """Labels where there is room for them."""
     order = np.flatnonzero(front)[np.argsort(cost[front])]
     axes.plot(cost[order], error[order], color="black", linewidth=0.8, zorder=1)
+    taken = []
     for row in order:
-        axes.annotate(sizes.texts[row], (cost[row], error[row]), xytext=(3, 3), textcoords="offset points", fontsize=6)
+        place = axes.transAxes.inverted().transform(axes.transData.transform((cost[row], error[row])))
+        if all(abs(place[0] - x) > 0.12 or abs(place[1] - y) > 0.08 for x, y in taken):
+            axes.annotate(sizes.texts[row], (cost[row], error[row]), xytext=(3, 3), textcoords="offset points", fontsize=6)
+            taken.append(place)
 
 
 def study_pictures(result):
