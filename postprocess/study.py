@@ -191,7 +191,7 @@ def set_abscissa(axes, abscissa, shown):
 def plain_logarithms(axis):
     """Numbers in place of powers: 1, 2, 5, 10 ... over less than two decades."""
     low, high = axis.get_view_interval()
-    axis.set_major_locator(LogLocator(subs=(1, 2, 5) if high / low < 60 else (1,)))
+    axis.set_major_locator(LogLocator(subs=(1, 2, 5) if high / low < 25 else (1,)))
     axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:.3g}"))
     axis.set_minor_formatter(NullFormatter())
 
@@ -232,6 +232,8 @@ def trade(result):
         axes.set_ylabel("error [%]")
     if bar is not None:
         figure.colorbar(bar[0], ax=panels, aspect=30, pad=0.01).set_label(bar[1])
+    for handle in handles:
+        handle.set(linestyle="", marker="s" if handle.get_marker() == "None" else handle.get_marker(), markersize=3.5)
     front = plt.Line2D([], [], color="black", linewidth=0.8)
     legend_above(figure, [*handles, front], [*labels, f"front, labels: {sizes.label}"])
     return figure
