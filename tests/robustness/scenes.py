@@ -26,8 +26,8 @@ CHANGES = {
     **{name: STUDY for name in ("study-a", "study-b", "study-pressure-a")},
     "study-growth-a": {**STUDY, "Study/Vary": "Mesh/Face size = 5, 6, 8", "Condensed/Modes": "3"},
     "study-reversal-a": {
-        "Study/Vary": "Mesh/Face size = 6, 8; Time/Tolerance = 1e-2",
-        "Study/Reference": "Time/Tolerance = 5e-3",
+        "Study/Vary": "Mesh/Face size = 2, 3; Time/Tolerance = 1e-2",
+        "Study/Reference": "Mesh/Face size = 1.5",
         "Drive/Start": "64",
         "Condensed/Modes": "3",
     },
