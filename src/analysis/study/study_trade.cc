@@ -51,14 +51,15 @@ namespace sprag
       return true;
     }
 
-    /// The largest error of each run and of those that are finer, so that none is taken for exact that is so by chance.
+    /// The largest error of each run and of those that are finer, so that none is taken for exact that is so by chance; NaN where
+    /// one of them has none.
     std::vector<double> lasting_errors(const StudySettings &study, const std::vector<StudyPoint> &rows,
                                        const std::vector<double> &errors)
     {
       std::vector<double> lasting = errors;
       for (std::size_t row = 0; row < rows.size(); ++row)
         for (std::size_t finer = 0; finer < rows.size(); ++finer)
-          if (is_as_fine(study, rows[finer], rows[row]) && !(errors[finer] <= lasting[row]))
+          if (is_as_fine(study, rows[finer], rows[row]) && !std::isnan(lasting[row]) && !(errors[finer] <= lasting[row]))
             lasting[row] = errors[finer];
       return lasting;
     }
