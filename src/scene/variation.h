@@ -8,8 +8,8 @@
 
 namespace sprag
 {
-  /// The most runs that a study may have.
-  constexpr double most_runs = 1e5;
+  /// The most runs that a study may have: all processes keep what all found.
+  constexpr double most_runs = 2e4;
 
   /// Parameters and values as the texts of a study give them, and everything wrong with the text.
   struct Variation
