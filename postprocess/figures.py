@@ -124,6 +124,8 @@ MAPS = (
     "map-offset-inclination",
 )
 
+STUDIES = ("study-a", "study-b", "study-pressure-a", "study-reversal-a", "study-growth-a")
+
 # Name -> what draws the picture once it is given a Runner.
 FIGURES = {
     "fig-06": friction_over_speed,
@@ -167,6 +169,8 @@ FIGURES = {
     **{f"onset-a-{picture}": drawn("onset-a", picture) for picture in ("growth", "cycle", "continuation")},
     **{f"onset-b-{picture}": drawn("onset-b", picture) for picture in ("cycle", "continuation")},
     **{name: drawn(name, "map") for name in MAPS},
+    # What accuracy costs.
+    **{name: drawn(name, "trade") for name in STUDIES},
 }
 
 

@@ -16,6 +16,7 @@ from pair import has_pair, pair_of_levers
 from results import NotAResult, read_result, script
 from sensors import has_sensors, sensor_forces
 from sprag_slip import is_sprag_slip, sprag_slip_pictures
+from study import is_study, study_pictures
 from style import COLOURS, MARKERS, MILLIMETRE, ONE_COLUMN, TWO_COLUMNS  # noqa: F401  (for figures.py and mesh.py)
 from style import label, legend_on_top, look, panel_letter, plt, set_labels, show_legend, use_print_style  # noqa: F401
 from transient import energy, has_reversal, is_transient, reversal
@@ -252,6 +253,8 @@ def draw(results):
     """{picture name: figure} for one or several results."""
     if len(results) == 1 and is_map(results[0]):
         return {"map": stability_map(results[0])}
+    if len(results) == 1 and is_study(results[0]):
+        return study_pictures(results[0])
     if len(results) == 1 and is_calibration(results[0]):
         return {"calibration": calibration(results[0])}
     if len(results) == 1 and "P_fitted" in results[0].table:

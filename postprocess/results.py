@@ -106,8 +106,9 @@ def read_result(folder):
     """The Result in a folder. Throws NotAResult."""
     folder = Path(folder)
     path = folder / "result.h5"
-    if not path.is_file() and (folder / "map.journal").is_file():
-        raise NotAResult(f"{folder}: a map that was cut short or goes on; where it was cut short, the same command takes it up")
+    for what in ("map", "study"):
+        if not path.is_file() and (folder / f"{what}.journal").is_file():
+            raise NotAResult(f"{folder}: a {what} that was cut short or goes on; where it was cut short, the same command takes it up")
     if not path.is_file():
         raise NotAResult(f"{folder}: no result.h5 there")
     with open_result(path) as file:
@@ -125,7 +126,7 @@ def read_result(folder):
         if result.finished:
             result.summary = _entries(file["summary"])
             result.meta = _entries(file["meta"])
-            result.groups = {n: _arrays(g) for n, g in file.items() if isinstance(g, h5py.Group) and n not in KNOWN}
+            result.groups = {n: _entries(g) for n, g in file.items() if isinstance(g, h5py.Group) and n not in KNOWN}
             result.entry_units = {**_attributes(file["summary"], "unit"), **_attributes(file["meta"], "unit")}
         if "face" in file:
             result.face = _read_face(file["face"])
@@ -150,10 +151,6 @@ def _equally_long(arrays):
     """A run killed between two columns leaves a last row that is not complete."""
     length = min((len(values) for values in arrays.values()), default=0)
     return {name: values[:length] for name, values in arrays.items()}
-
-
-def _arrays(group):
-    return {name: data[()] for name, data in group.items()}
 
 
 def _attributes(group, attribute):

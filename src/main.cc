@@ -45,10 +45,10 @@ namespace sprag
       return ended_itself && !unfinished ? analysis_failed : tell(fate);
     }
 
-    /// A map is carried out by several processes. A folder that cannot serve is for the run itself to refuse.
+    /// A map or a study is carried out by several processes. A folder that cannot serve is for the run itself to refuse.
     bool is_for_all_cores(const Arguments &arguments, const Scene &scene, const unsigned int processes)
     {
-      return is_run(arguments) && scene.analysis.type == AnalysisType::map && works_on_all_cores(processes);
+      return is_run(arguments) && works_in_parallel(scene.analysis.type) && works_on_all_cores(processes);
     }
 
     bool needs_models(const Arguments &arguments, const Scene &scene)

@@ -1,8 +1,8 @@
-#include "analysis/map/map_team.h"
+#include "analysis/team/team.h"
+#include "base/error_text.h"
 #include "base/guard.h"
 #include "base/hdf5_handle.h"
 #include "base/interrupt.h"
-#include "base/text.h"
 #include "run/memory.h"
 #include "run/outcome.h"
 #include "run/output_folder.h"
@@ -14,7 +14,7 @@
 #include <deal.II/base/multithread_info.h>
 
 #include <cstdlib>
-#include <sstream>
+#include <stdexcept>
 
 // What sprag becomes where models are needed, with the libraries that they need, and what mpirun starts. It does formulas as
 // well.
@@ -25,14 +25,6 @@ namespace sprag
   {
     namespace MPI = dealii::Utilities::MPI;
 
-    /// A library's message without what it says about its sources.
-    std::string message_of(const dealii::ExceptionBase &error)
-    {
-      std::ostringstream text;
-      error.print_info(text);
-      return single_spaced(text.str());
-    }
-
     void execute(const Arguments &arguments, const Scene &scene, const Rank &rank)
     {
       if (arguments.validate)
@@ -40,8 +32,8 @@ namespace sprag
         require_memory(scene);
         return tell_validity(arguments, scene, validate(scene));
       }
-      if (!rank.is_alone && scene.analysis.type != AnalysisType::map)
-        throw InputError("only Analysis/Type = map runs in several processes: leave out mpirun");
+      if (!rank.is_alone && !works_in_parallel(scene.analysis.type))
+        throw InputError("only Analysis/Type = map and study run in several processes: leave out mpirun");
       const std::string folder     = folder_of(arguments, scene);
       const unsigned int processes = rank.is_alone ? 1 : MPI::n_mpi_processes(MPI_COMM_WORLD);
       const auto claim             = [&]
@@ -59,7 +51,7 @@ namespace sprag
     /// Whether MPI is needed: by PETSc and meshes, or because processes share the work.
     bool needs_mpi(const Scene &scene)
     {
-      return needs_mesh(scene) || scene.spring.type == SpringType::leaf || scene.analysis.type == AnalysisType::map;
+      return needs_mesh(scene) || scene.spring.type == SpringType::leaf || works_in_parallel(scene.analysis.type);
     }
 
     /// Settings for one process, kept where they are given: no daemon beside the program, no network and no devices looked for.

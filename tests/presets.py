@@ -34,6 +34,7 @@ IN_TIME = ("Analysis/Type=transient",)
 FEW_STEPS = ("Drive/Stroke=45.2", "Time/Step=2e-4", "Time/Tolerance=0")
 MAP = ("Map/First points=3", "Map/Second points=2", "Map/Coarsest=1", "Map/Bisections=1", "Condensed/Modes=2")
 ONSET = ("Sprag slip/Continuation=0", "Sprag slip/Settling time=0.02", "Sprag slip/Initial amplitude=1e-4", "Sprag slip/Steps per period=32")
+STUDY = ("Study/Vary=Mesh/Degree = 1, 2; Mesh/Face size = 4, 300", "Study/Reference=Mesh/Face size = 3")
 NO_SEARCH = ("Stability/Critical=none", "Stability/Roles=off")
 
 # Name: scene and what is changed in it.
@@ -50,6 +51,7 @@ RUNS = {
     "modal": ("modal-a", ("Stability/Modes=3",)),
     "stability": ("stability-a", ("Stability/Critical=Lever/Depth 5 8", "Stability/Modes=3")),
     "map": ("map-position-depth-a", MAP),
+    "study": ("study-a", (*SLIDE, *STUDY)),
     "sprag slip": ("onset-a", ONSET),
     "calibration": ("calibration-a", ()),
     "full pair": ("pair-a", SLIDE),
@@ -90,6 +92,10 @@ FURTHER = {
     "no friction layer": ("model-a", (*SLIDE, "Friction layer/Thickness=0")),
 }
 BY_SCENE = {
+    "study-reversal-": (*REVERSAL, *STUDY),
+    "study-growth-": STUDY,
+    "study-pressure-": STUDY,
+    "study-": (*SLIDE, *STUDY),
     "fig": ("Slope/Number of points=5",),
     "map-": MAP,
     "onset-": ONSET,

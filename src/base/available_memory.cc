@@ -105,9 +105,4 @@ namespace sprag
       least = { bytes, "left by the limit of the process (ulimit -v)" };
     return least;
   }
-
-  double peak_memory()
-  {
-    return 1024. * entry_of("/proc/self/status", "VmHWM:");
-  }
 } // namespace sprag

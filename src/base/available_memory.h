@@ -14,7 +14,4 @@ namespace sprag
   /// Returns the least of what is free on the machine, what the limits of the process's control groups (version 1 or 2) leave,
   /// and what its own limit of address space leaves. `root` stands before /proc and /sys.
   AvailableMemory available_memory(const std::string &root = "");
-
-  /// Returns the largest resident memory that this process has had [bytes]; 0 where the system does not tell.
-  double peak_memory();
 } // namespace sprag

@@ -6,6 +6,9 @@
 #include "scene/contact_reference.h"
 #include "scene/scene_key.h"
 
+#include <algorithm>
+#include <ctime>
+
 namespace sprag
 {
   namespace
@@ -24,41 +27,61 @@ namespace sprag
     return body_key(a) == body_key(b);
   }
 
-  DynamicsMaker::DynamicsMaker(const bool store_bases)
+  DynamicsMaker::DynamicsMaker(const bool store_bases, const std::size_t kept_meshes)
       : store(store_bases)
+      , kept(kept_meshes)
   {
   }
 
   Dynamics DynamicsMaker::make(const Scene &scene)
   {
     Dynamics result;
-    const bool condensed = scene.analysis.model == ModelType::condensed;
     if (!is_meshed(scene.analysis.model))
     {
       result.reduced = make_reduced_lever(scene);
       return result;
     }
-    if (const auto key = body_key(scene); key != last_key)
-    {
-      auto lever = std::make_shared<MeshedLever>();
-      {
-        const PhaseTimer::Scope scope(time, "mesh");
-        make_mesh(scene, lever->triangulation);
-      }
-      const PhaseTimer::Scope scope(time, "basis");
-      lever->body = std::make_unique<const Body>(lever->triangulation, body_properties(scene));
-      if (condensed)
-        lever->condensed = make_condensed_basis(scene, *lever->body, store);
-      else
-        lever->elements = make_finite_element_basis(scene, *lever->body);
-      last     = lever;
-      last_key = key;
-    }
+    result.lever = lever_of(scene);
     const PhaseTimer::Scope scope(time, "model");
-    result.lever            = last;
     const double relaxation = contact_reference(scene).relaxation;
-    result.meshed           = condensed ? make_condensed_dynamics(scene, *last->body, last->condensed, relaxation)
-                                        : make_finite_element_dynamics(scene, *last->body, last->elements, relaxation);
+    result.meshed           = scene.analysis.model == ModelType::condensed
+                                  ? make_condensed_dynamics(scene, *result.lever->body, result.lever->condensed, relaxation)
+                                  : make_finite_element_dynamics(scene, *result.lever->body, result.lever->elements, relaxation);
     return result;
+  }
+
+  std::shared_ptr<const MeshedLever> DynamicsMaker::lever_of(const Scene &scene)
+  {
+    const auto key   = body_key(scene);
+    const auto found = std::find_if(levers.begin(), levers.end(), [&](const auto &lever) { return lever.first == key; });
+    if (found != levers.end())
+    {
+      saved += found->second->cpu_seconds;
+      std::rotate(levers.begin(), found, found + 1);
+    }
+    else
+    {
+      levers.emplace_front(key, make_lever(scene));
+      levers.resize(std::min(levers.size(), kept));
+    }
+    return levers.front().second;
+  }
+
+  std::shared_ptr<const MeshedLever> DynamicsMaker::make_lever(const Scene &scene)
+  {
+    const std::clock_t begin = std::clock();
+    auto lever               = std::make_shared<MeshedLever>();
+    {
+      const PhaseTimer::Scope scope(time, "mesh");
+      make_mesh(scene, lever->triangulation);
+    }
+    const PhaseTimer::Scope scope(time, "basis");
+    lever->body = std::make_unique<const Body>(lever->triangulation, body_properties(scene));
+    if (scene.analysis.model == ModelType::condensed)
+      lever->condensed = make_condensed_basis(scene, *lever->body, store);
+    else
+      lever->elements = make_finite_element_basis(scene, *lever->body);
+    lever->cpu_seconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+    return lever;
   }
 } // namespace sprag

@@ -3,8 +3,10 @@
 #include "base/phase_timer.h"
 #include "fe/dynamics/dynamic_face_lever.h"
 
+#include <deque>
 #include <memory>
 #include <string>
+#include <utility>
 
 namespace sprag
 {
@@ -15,6 +17,7 @@ namespace sprag
     std::unique_ptr<const Body> body;
     FiniteElementBasis elements; ///< of the finite element model
     CondensedBases condensed;    ///< of the condensed one
+    double cpu_seconds = 0.;     ///< that all this took
   };
 
   /// A scene's model in time at its fidelity.
@@ -33,12 +36,12 @@ namespace sprag
   /// Returns whether one mesh, with its matrices and bases, serves the models of both scenes.
   bool share_mesh(const Scene &a, const Scene &b);
 
-  /// Makes one model after another. What the next scene has in common with the last one's mesh is not made again.
+  /// Makes one model after another. What the next scene has in common with the last ones' meshes is not made again.
   class DynamicsMaker
   {
   public:
-    /// Makes models; with `store_bases` condensed bases go to the cache on disk.
-    explicit DynamicsMaker(bool store_bases = true);
+    /// Makes models; with `store_bases` condensed bases go to the cache on disk. The last `kept_meshes` meshed levers are kept.
+    explicit DynamicsMaker(bool store_bases = true, std::size_t kept_meshes = 1);
 
     /// Throws InputError for a mesh that cannot be used, AnalysisError if a factorisation fails.
     Dynamics make(const Scene &scene);
@@ -49,10 +52,20 @@ namespace sprag
       return time;
     }
 
+    /// Returns the CPU time that meshes and bases which were used again did not take again [s].
+    double seconds_saved() const
+    {
+      return saved;
+    }
+
   private:
     const bool store;
-    std::string last_key;
-    std::shared_ptr<const MeshedLever> last;
+    const std::size_t kept;
+    std::deque<std::pair<std::string, std::shared_ptr<const MeshedLever>>> levers; ///< by body_key(), the last one used first
+    double saved = 0.;
     PhaseTimer time;
+
+    std::shared_ptr<const MeshedLever> lever_of(const Scene &scene);
+    std::shared_ptr<const MeshedLever> make_lever(const Scene &scene);
   };
 } // namespace sprag

@@ -8,7 +8,8 @@ namespace sprag
 {
   Scene prepared(const Scene &scene)
   {
-    if (scene.spring.type == SpringType::torsional)
+    // Each run of a study is prepared by itself.
+    if (scene.spring.type == SpringType::torsional || scene.analysis.type == AnalysisType::study)
       return scene;
     Scene result = with_leaf_spring(scene);
     std::vector<std::string> mistakes;

@@ -145,6 +145,15 @@ namespace sprag::hdf5
     return write_dataset(location, name, text_type().id(), scalar_space(), &characters);
   }
 
+  Handle write_dataset(const Handle &location, const std::string &name, const std::vector<std::string> &texts)
+  {
+    std::vector<const char *> characters;
+    for (const auto &text : texts)
+      characters.push_back(text.c_str());
+    const std::vector<hsize_t> extent = { texts.size() };
+    return write_dataset(location, name, text_type().id(), simple_space(extent, extent), characters.data());
+  }
+
   Handle write_dataset(const Handle &location, const std::string &name, const double value)
   {
     return write_dataset(location, name, H5T_NATIVE_DOUBLE, scalar_space(), &value);

@@ -32,6 +32,7 @@ namespace sprag::hdf5
   // Datasets of fixed size, complete when written. Without a shape they have one dimension.
   Handle write_dataset(const Handle &location, const std::string &name, const std::string &text);
   Handle write_dataset(const Handle &location, const std::string &name, double value);
+  Handle write_dataset(const Handle &location, const std::string &name, const std::vector<std::string> &texts);
   Handle write_dataset(const Handle &location, const std::string &name, const std::vector<double> &values,
                        const std::vector<std::size_t> &shape = {});
 

@@ -67,6 +67,8 @@ namespace sprag
       const hdf5::Handle handle = hdf5::create_group(file, group.name);
       for (const auto &[info, values, shape] : group.datasets)
         write_values(handle, info, values, shape);
+      for (const auto &[name, description, values] : group.texts)
+        describe(hdf5::write_dataset(handle, name, values), "", description);
     }
 
     void write_warnings(const hdf5::Handle &file, const Warnings &warnings)
@@ -93,8 +95,13 @@ namespace sprag
     {
       std::size_t size = 0;
       for (const Group &group : groups)
+      {
         for (const Dataset &dataset : group.datasets)
           size += overhead / 16 + sizeof(double) * dataset.values.size();
+        for (const TextDataset &dataset : group.texts)
+          for (const std::string &text : dataset.values)
+            size += overhead / 16 + text.size();
+      }
       return size;
     }
 

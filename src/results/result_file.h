@@ -39,11 +39,20 @@ namespace sprag
     return result;
   }
 
+  /// Texts of one dimension.
+  struct TextDataset
+  {
+    std::string name;
+    std::string description;
+    std::vector<std::string> values;
+  };
+
   /// A named group of datasets.
   struct Group
   {
     std::string name;
     std::vector<Dataset> datasets;
+    std::vector<TextDataset> texts = {};
   };
 
   /// Points of the friction face (fixed for a run): lever coordinates of the undeformed nodes and their weights.

@@ -18,6 +18,9 @@ namespace sprag
   void run_from_margin_to_warnings(const Scene &scene, const RunOptions &options,
                                    const std::function<JammingMargin(const Scene &)> &margin, const Run &analysis);
 
+  /// Does what the Analysis/Type of a prepared scene says.
+  void carry_out(const Scene &scene, const RunOptions &options, Warnings &warnings);
+
   /// Does what formulas do: see follows_formulas().
   void run_formulas(const Scene &scene, const RunOptions &options, Warnings &warnings);
 
@@ -41,6 +44,10 @@ namespace sprag
   /// call it, and it throws on all of them. Until the map is complete its cells are in `map.journal`, from which the same scene
   /// goes on when started again; result.h5 is written at the end.
   void run_map(const Scene &scene, const RunOptions &options, Warnings &warnings);
+
+  /// Runs the scene's Study/Type at other values of its parameters. All ranks of MPI call it, and it throws on all of them. Until
+  /// the study is complete its runs are in `study.journal`, as those of a map; a run that fails or is refused is a row as any.
+  void run_study(const Scene &scene, const RunOptions &options, Warnings &warnings);
 
   /// Compares the growth of a perturbation with its eigenvalue, follows it to the vibration it leads to, and finds where a stable
   /// slide and a vibration live side by side. Throws AnalysisError too where there is no slide to perturb and where the energy

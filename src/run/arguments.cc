@@ -19,7 +19,8 @@ namespace sprag
       app.add_flag("--validate", arguments.validate, "Check the file and stop");
       app.add_flag("--print-parameters", arguments.print_parameters, "Print every parameter with its meaning and stop");
       app.add_flag("--quiet", arguments.quiet, "Print errors only");
-      app.add_option("--jobs", arguments.jobs, "Processes that work on a map; default: one a core")->check(CLI::PositiveNumber);
+      app.add_option("--jobs", arguments.jobs, "Processes that work on a map or study; default: one a core")
+          ->check(CLI::PositiveNumber);
       app.set_version_flag("--version", std::string("sprag " SPRAG_VERSION));
       app.footer(
           "Exit status: 0 success, 1 the analysis failed or was interrupted (finished steps are kept), 2 bad input (nothing "

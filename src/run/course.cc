@@ -31,7 +31,7 @@ namespace sprag
     /// Before every run in which a cylinder is put somewhere, once nothing is left for which it could be refused.
     void announce_margin(const Scene &scene, const RunOptions &options, const FindMargin &margin)
     {
-      if (options.quiet || scene.analysis.type == AnalysisType::slope)
+      if (options.quiet || scene.analysis.type == AnalysisType::slope || scene.analysis.type == AnalysisType::study)
         return;
       require_writable(options.folder);
       if (options.is_first)

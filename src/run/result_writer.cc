@@ -1,8 +1,9 @@
 #include "run/result_writer.h"
 
 #include "base/append.h"
-#include "base/available_memory.h"
+#include "base/peak_memory.h"
 #include "results/entries.h"
+#include "run/in_memory.h"
 #include "scene/read.h"
 
 #include <deal.II/base/config.h>
@@ -36,18 +37,43 @@ namespace sprag
     }
   } // namespace
 
+  void require_folder(const RunOptions &options)
+  {
+    if (options.in_memory == nullptr)
+      require_writable(options.folder);
+  }
+
   ResultWriter::ResultWriter(const Scene &scene, const RunOptions &options, PhaseTimer &of_run,
                              const std::vector<ColumnInfo> &columns, const FacePoints &points)
       : timer(of_run)
-      , file((prepare_folder(options.folder), options.folder + "/result.h5"), parameters_text(scene), points, columns)
+      , in_memory(options.in_memory)
+      , keeps_curve(scene.analysis.type == AnalysisType::quasi_static)
   {
+    if (in_memory != nullptr)
+    {
+      in_memory->found = {};
+      return;
+    }
+    prepare_folder(options.folder);
+    file.emplace(options.folder + "/result.h5", parameters_text(scene), points, columns);
+  }
+
+  void ResultWriter::keep(const Row &row)
+  {
+    if (keeps_curve)
+      in_memory->found.curve.push_back({ row[Column::x], row[Column::v], row[Column::P], row.drive_force() });
   }
 
   RunEnd ResultWriter::finish(const std::string &status, RunEnd end, const Warnings &warnings)
   {
+    if (in_memory != nullptr)
+    {
+      in_memory->found.summary = end.summary;
+      return end;
+    }
     end.summary.push_back(status_entry(status));
     sprag::append(end.meta, process_entries(timer));
-    file.finish(end.summary, end.meta, warnings, end.groups, end.accuracy);
+    file->finish(end.summary, end.meta, warnings, end.groups, end.accuracy);
     return end;
   }
 } // namespace sprag

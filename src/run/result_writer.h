@@ -6,6 +6,7 @@
 #include "run/output_folder.h"
 #include "run/run.h"
 
+#include <optional>
 #include <utility>
 
 namespace sprag
@@ -19,7 +20,10 @@ namespace sprag
     std::vector<Entry> accuracy = {};
   };
 
-  /// The file result.h5 of a run of any type, from its first row to its summary.
+  /// Throws InputError where the folder of a run that writes files cannot serve; makes nothing.
+  void require_folder(const RunOptions &options);
+
+  /// The file result.h5 of a run of any type, from its first row to its summary, or what a run in memory keeps instead.
   class ResultWriter
   {
   public:
@@ -32,7 +36,10 @@ namespace sprag
     template <class Appended>
     void append(const Appended &appended)
     {
-      file.append(appended);
+      if (file)
+        file->append(appended);
+      else
+        keep(appended);
     }
 
     /// Writes everything that the run leaves and closes the file. `status` is "completed" or what went wrong, and becomes the
@@ -41,7 +48,17 @@ namespace sprag
 
   private:
     PhaseTimer &timer;
-    ResultFile file;
+    InMemory *const in_memory;
+    const bool keeps_curve;
+    std::optional<ResultFile> file;
+
+    void keep(const Row &row);
+
+    /// Nothing else is kept of a run in memory.
+    template <class Appended>
+    void keep(const Appended &)
+    {
+    }
   };
 
   /// Runs `steps`, then calls finish(status) whatever happened: with "completed", or with the message of an AnalysisError, which

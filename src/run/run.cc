@@ -4,6 +4,7 @@
 #include "levers/prepared_scene.h"
 #include "run/analyses.h"
 #include "run/output_folder.h"
+#include "run/study_runs.h"
 #include "run/warnings.h"
 #include "scene/analysis_use.h"
 
@@ -26,27 +27,30 @@ namespace sprag
       const ModelType model = scene.analysis.model;
       return jamming_margin(scene, model != ModelType::closed_form && model != ModelType::rigid);
     }
-
-    void carry_out(const Scene &scene, const RunOptions &options, Warnings &warnings)
-    {
-      static const std::map<AnalysisType, Run> runs = { { AnalysisType::quasi_static, run_quasi_static_scene },
-                                                        { AnalysisType::transient, run_transient_scene },
-                                                        { AnalysisType::contact_law, run_contact_law },
-                                                        { AnalysisType::modal, run_vibrations },
-                                                        { AnalysisType::stability, run_vibrations },
-                                                        { AnalysisType::map, run_map },
-                                                        { AnalysisType::sprag_slip, run_sprag_slip },
-                                                        { AnalysisType::calibration, run_calibration } };
-      if (follows_formulas(scene))
-        run_formulas(scene, options, warnings);
-      else
-        runs.at(scene.analysis.type)(scene, options, warnings);
-    }
   } // namespace
+
+  void carry_out(const Scene &scene, const RunOptions &options, Warnings &warnings)
+  {
+    static const std::map<AnalysisType, Run> runs = { { AnalysisType::quasi_static, run_quasi_static_scene },
+                                                      { AnalysisType::transient, run_transient_scene },
+                                                      { AnalysisType::contact_law, run_contact_law },
+                                                      { AnalysisType::modal, run_vibrations },
+                                                      { AnalysisType::stability, run_vibrations },
+                                                      { AnalysisType::map, run_map },
+                                                      { AnalysisType::sprag_slip, run_sprag_slip },
+                                                      { AnalysisType::calibration, run_calibration },
+                                                      { AnalysisType::study, run_study } };
+    if (follows_formulas(scene))
+      run_formulas(scene, options, warnings);
+    else
+      runs.at(scene.analysis.type)(scene, options, warnings);
+  }
 
   Warnings validate(const Scene &given)
   {
     const Scene scene = prepared(given);
+    if (scene.analysis.type == AnalysisType::study)
+      require_possible_runs(scene);
     try_mesh(scene);
     return scene_warnings(scene);
   }

@@ -7,11 +7,14 @@
 
 namespace sprag
 {
+  struct InMemory;
+
   struct RunOptions
   {
     std::string folder; ///< for results; made if it does not exist
-    bool quiet    = false;
-    bool is_first = true; ///< of several processes that run the scene together: it prints
+    bool quiet          = false;
+    bool is_first       = true;    ///< of several processes that run the scene together: it prints
+    InMemory *in_memory = nullptr; ///< for a run that writes no files, in place of a folder; else null
   };
 
   /// Throws AnalysisError where there are warnings and Analysis/Warnings = error; the message quotes the first of them.

@@ -75,7 +75,7 @@ namespace sprag
   void run_calibration(const Scene &scene, const RunOptions &options, Warnings &warnings)
   {
     PhaseTimer timer;
-    require_writable(options.folder);
+    require_folder(options);
     const auto parts      = calibrate_parts(scene);
     const auto reduced    = reduced_constants(parts.scene);
     const auto calibrated = variant(scene, joined(parts.overrides, { in_time, "Analysis/Model=condensed" }));
@@ -89,8 +89,11 @@ namespace sprag
                           { "P_beam", "N", "of the calibrated beam" },
                           { "Q", "N", "x-force of the meshed lever in steady sliding" },
                           { "Q_beam", "N", "of the calibrated beam" } });
-    write_scene(options.folder + "/calibrated.prm", "Calibrated parts, in time, condensed", calibrated);
-    write_scene(options.folder + "/beam.prm", "The beam calibrated by their mesh, in time", beam);
+    if (options.in_memory == nullptr)
+    {
+      write_scene(options.folder + "/calibrated.prm", "Calibrated parts, in time, condensed", calibrated);
+      write_scene(options.folder + "/beam.prm", "The beam calibrated by their mesh, in time", beam);
+    }
     for (const auto &point : found.sliding)
       writer.append(std::vector<double>{ point.x, point.direction, point.forces[0].P, point.forces[1].P, point.forces[0].Q,
                                          point.forces[1].Q });

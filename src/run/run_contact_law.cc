@@ -26,7 +26,7 @@ namespace sprag
   void run_contact_law(const Scene &scene, const RunOptions &options, Warnings &warnings)
   {
     PhaseTimer timer;
-    require_writable(options.folder);
+    require_folder(options);
     const auto law = indent(scene);
     ResultWriter writer(scene, options, timer,
                         { { "P", "N", "normal force" },

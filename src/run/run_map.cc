@@ -3,7 +3,6 @@
 #include "run/analyses.h"
 #include "run/report.h"
 #include "run/result_writer.h"
-#include "scene/scene_key.h"
 #include "scene/sections.h"
 
 #include <deal.II/base/mpi.h>
@@ -186,14 +185,14 @@ namespace sprag
         print_summary(std::cout, end.summary);
     }
 
-    void announce(const MapJournal &journal, MapProgress &progress)
+    void announce(const Journal &journal, MapProgress &progress)
     {
       if (journal.dropped())
         progress.say("map.journal is of another scene or version: begun anew");
       if (const auto damaged = journal.damaged_lines(); damaged > 0)
         std::cerr << "map.journal: damaged lines dropped, their cells are judged again: " << damaged << std::endl;
-      if (!journal.cells().empty())
-        progress.say("map.journal: " + std::to_string(journal.cells().size()) + " cells taken over");
+      if (!journal.lines().empty())
+        progress.say("map.journal: " + std::to_string(journal.lines().size()) + " cells taken over");
     }
   } // namespace
 
@@ -201,12 +200,12 @@ namespace sprag
   {
     const auto begin = std::chrono::steady_clock::now();
     MapProgress progress{ progress_style(options.quiet || !is_first_rank()) };
-    std::optional<MapJournal> journal;
+    std::optional<Journal> journal;
     on_first_rank(
         [&]
         {
           prepare_folder(options.folder);
-          journal.emplace(options.folder + "/map.journal", scene_key(scene));
+          journal.emplace(options.folder + "/map.journal", "map", inputs_key(scene));
           announce(*journal, progress);
         });
     MapTeam team(scene, journal ? &*journal : nullptr,

@@ -1,8 +1,8 @@
 #include "analysis/statics/quasi_static.h"
-#include "fe/mesh/mesh.h"
 #include "fe/statics/lever_model.h"
 #include "run/analyses.h"
 #include "run/field_recorder.h"
+#include "run/in_memory.h"
 #include "run/quasi_static_accuracy.h"
 #include "run/recorder.h"
 #include "run/report.h"
@@ -69,7 +69,7 @@ namespace sprag
           [&](const std::string &status)
           {
             recorder.set_stress(fields.finish());
-            if (status == "completed")
+            if (status == "completed" && estimates_errors(options))
             {
               const PhaseTimer::Scope scope(timer, "accuracy");
               recorder.set_accuracy(quasi_static_accuracy(scene, levers, recorder.recorded(), settings));
@@ -86,11 +86,12 @@ namespace sprag
   void run_quasi_static_scene(const Scene &scene, const RunOptions &options, Warnings &warnings)
   {
     PhaseTimer timer;
-    require_writable(options.folder);
-    Mesh triangulation;
-    timed(timer, "mesh", [&] { make_mesh(scene, triangulation); });
+    require_folder(options);
+    const auto meshes         = static_meshes(options);
+    const Mesh *triangulation = nullptr;
+    timed(timer, "mesh", [&] { triangulation = &meshes->mesh_of(scene); });
     std::optional<LeverModel> levers;
-    timed(timer, "model", [&] { levers.emplace(triangulation, scene); });
+    timed(timer, "model", [&] { levers.emplace(*triangulation, scene); });
     drive_levers(scene, options, timer, *levers, warnings);
   }
 } // namespace sprag

@@ -1,6 +1,7 @@
 #include "base/progress.h"
 #include "base/text.h"
 #include "run/analyses.h"
+#include "run/in_memory.h"
 #include "run/report.h"
 #include "run/result_writer.h"
 #include "run/sprag_slip_report.h"
@@ -186,8 +187,9 @@ namespace sprag
 
   void run_sprag_slip(const Scene &scene, const RunOptions &options, Warnings &warnings)
   {
-    require_writable(options.folder);
-    DynamicsMaker maker;
+    require_folder(options);
+    const auto shared   = dynamics_maker(options);
+    auto &maker         = *shared;
     const Scene held    = held_scene(scene);
     const auto dynamics = maker.make(held);
     ResultWriter writer(scene, options, maker.timer(), table_columns(scene.plate, scene.pair));

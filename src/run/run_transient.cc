@@ -6,6 +6,7 @@
 #include "results/stress_entries.h"
 #include "run/analyses.h"
 #include "run/field_recorder.h"
+#include "run/in_memory.h"
 #include "run/recorder.h"
 #include "run/steps_in_time.h"
 #include "scene/contact_reference.h"
@@ -102,8 +103,9 @@ namespace sprag
 
   void run_transient_scene(const Scene &scene, const RunOptions &options, Warnings &warnings)
   {
-    require_writable(options.folder);
-    DynamicsMaker maker;
+    require_folder(options);
+    const auto shared   = dynamics_maker(options);
+    auto &maker         = *shared;
     auto &timer         = maker.timer();
     const auto dynamics = maker.make(scene);
     auto &model         = dynamics.model();

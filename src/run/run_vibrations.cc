@@ -5,6 +5,7 @@
 #include "model/growth.h"
 #include "run/accuracy_report.h"
 #include "run/analyses.h"
+#include "run/in_memory.h"
 #include "run/report.h"
 #include "run/result_writer.h"
 #include "run/vibration_accuracy.h"
@@ -143,8 +144,9 @@ namespace sprag
         result.summary = slide_entries(found);
         if (found.slide)
           append(warnings, slide_warnings(scene, found.slide->drive, found.slide->forces.P, found.slide->indentation));
-        const auto accuracy = accuracy_of(held, found, dynamics.meshed, maker);
-        result.accuracy     = accuracy_entries(accuracy);
+        const auto accuracy =
+            estimates_errors(options) ? accuracy_of(held, found, dynamics.meshed, maker) : std::vector<ErrorEstimate>();
+        result.accuracy = accuracy_entries(accuracy);
         if (!options.quiet)
         {
           print_summary(std::cout, result.summary);
@@ -173,8 +175,9 @@ namespace sprag
 
   void run_vibrations(const Scene &scene, const RunOptions &options, Warnings &warnings)
   {
-    require_writable(options.folder);
-    DynamicsMaker maker;
+    require_folder(options);
+    const auto shared   = dynamics_maker(options);
+    auto &maker         = *shared;
     const bool undamped = scene.analysis.type == AnalysisType::modal;
     const auto end      = undamped ? modal(scene, maker, options) : stability(scene, maker, options, warnings);
     ResultWriter(scene, options, maker.timer(), {}).finish("completed", end, warnings);

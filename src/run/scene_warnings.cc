@@ -190,6 +190,9 @@ namespace sprag
   Warnings scene_warnings(const Scene &scene)
   {
     Warnings warnings;
+    // Each run of a study has its own.
+    if (scene.analysis.type == AnalysisType::study)
+      return warnings;
     add_defaults(scene, warnings);
     add_sensitivity(scene, warnings);
     add_leaf(scene, warnings);

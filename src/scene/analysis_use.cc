@@ -15,6 +15,11 @@ namespace sprag
     return holds_slide(type) || type == AnalysisType::quasi_static || type == AnalysisType::transient;
   }
 
+  bool works_in_parallel(const AnalysisType type)
+  {
+    return type == AnalysisType::map || type == AnalysisType::study;
+  }
+
   bool needs_mesh(const Scene &scene)
   {
     const AnalysisType type = scene.analysis.type;

@@ -10,6 +10,9 @@ namespace sprag
   /// Returns whether an analysis takes a model of Analysis/Model, of one lever or a pair, along the drive or held at one x of it.
   bool runs_model(AnalysisType type);
 
+  /// Returns whether an analysis has pieces that several processes share.
+  bool works_in_parallel(AnalysisType type);
+
   /// Returns whether anything of the scene is meshed, apart from a leaf spring.
   bool needs_mesh(const Scene &scene);
 

@@ -297,6 +297,9 @@ namespace sprag
 
   std::vector<Violation> violations(const Scene &scene)
   {
+    // Each run of a study is checked by itself.
+    if (scene.analysis.type == AnalysisType::study)
+      return {};
     const Use use{ scene };
     Rules rules;
     settings(scene, use, rules);

@@ -1,11 +1,13 @@
 #include "scene/read.h"
 
+#include "base/append.h"
 #include "base/errors.h"
 #include "base/table_file.h"
 #include "base/text.h"
 #include "scene/check.h"
 #include "scene/held_slide.h"
 #include "scene/sections.h"
+#include "scene/variation.h"
 
 #include <algorithm>
 #include <cmath>
@@ -62,12 +64,11 @@ namespace sprag
         check_unused();
         check();
         check_ranges();
+        read_study();
         if (!settings.mistakes.empty())
           throw InputError(settings.mistakes);
         input.scene.name       = std::filesystem::path(settings.file).stem().string();
         input.scene.parameters = std::make_shared<const ParameterValues>(values());
-        for (const auto &[name, setting] : settings.given)
-          input.scene.given.insert(name);
         return input.scene;
       }
 
@@ -90,7 +91,10 @@ namespace sprag
       {
         for (const auto &parameter : parameters)
           if (const auto given = settings.given.find(full_name(parameter)); given != settings.given.end())
+          {
             parameter.store(given->second.value);
+            input.scene.given.insert(given->first);
+          }
         input.scene.slope.maximum_inclination = input.maximum_inclination * M_PI / 180.;
         resolve("Drive/Table", input.drive.table);
         resolve("Friction/Table", input.friction.table);
@@ -169,6 +173,33 @@ namespace sprag
             check_range("Stability/Critical", range);
         else
           report("Stability/Critical", "must be auto, none or a list of SECTION/NAME FROM TO separated by semicolons");
+      }
+
+      void read_study()
+      {
+        if (doubtful("Analysis/Type") || input.scene.analysis.type != AnalysisType::study)
+          return;
+        StudySettings &study     = input.scene.study;
+        const std::string folder = std::filesystem::absolute(settings.file).parent_path().string();
+        const auto varied        = variation_of(study.vary, parameters, folder);
+        const auto reference     = settings_of(study.reference, parameters, folder);
+        study.varied             = varied.parameters;
+        study.reference_values   = reference.parameters;
+        for (const auto &mistake : varied.mistakes.empty() ? combination_mistakes(study) : varied.mistakes)
+          report("Study/Vary", mistake);
+        for (const auto &mistake : joined(reference.mistakes, reference_mistakes(study)))
+          report("Study/Reference", mistake);
+        keep_paths("Study/Vary", study.vary, study.varied);
+        keep_paths("Study/Reference", study.reference, study.reference_values);
+      }
+
+      /// As resolve() does.
+      void keep_paths(const std::string &parameter, std::string &text, const std::vector<VariedParameter> &read)
+      {
+        const auto is_file = [this](const VariedParameter &varied)
+        { return find_parameter(parameters, varied.name)->rule.kind == Rule::Kind::file; };
+        if (std::any_of(read.begin(), read.end(), is_file))
+          settings.given[parameter].value = text = variation_text(read);
       }
 
       /// The parameter must be one of a number, and both ends keep its rule.

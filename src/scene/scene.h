@@ -26,7 +26,8 @@ namespace sprag
     stability,   ///< eigenvalues of the steady slide, what feeds them, and where it loses stability or jams
     map,         ///< the same over a grid of two parameters
     sprag_slip,  ///< the steady slide perturbed, in time, against its eigenvalue; limit cycles
-    calibration  ///< leaf thickness and added mass for a given k and J; constants of the reduced models for a mesh
+    calibration, ///< leaf thickness and added mass for a given k and J; constants of the reduced models for a mesh
+    study        ///< any of these but the map, run after run at other values of the parameters
   };
 
   enum class ModelType
@@ -269,6 +270,33 @@ namespace sprag
     unsigned int bisections = 3; ///< of each edge that a boundary crosses
   };
 
+  /// A parameter by its --set name and the values that it takes, as texts.
+  struct VariedParameter
+  {
+    std::string name;
+    std::vector<std::string> values;
+  };
+
+  /// How a study combines the values of several parameters.
+  enum class Combination
+  {
+    grid, ///< each value of one with each of the others
+    list  ///< the first values of all, then the second ones, ...
+  };
+
+  /// Runs of one analysis of the scene at other values of its parameters.
+  struct StudySettings
+  {
+    AnalysisType type   = AnalysisType::quasi_static; ///< of each run
+    std::string vary    = "Friction/Factor = 0.5 ... 1.5 : 5";
+    Combination combine = Combination::grid;
+    std::string reference; ///< settings of the run that the others are compared with; empty: none
+
+    // What the texts say, see variation_of().
+    std::vector<VariedParameter> varied;
+    std::vector<VariedParameter> reference_values; ///< one value each
+  };
+
   /// Perturbation of a held slide in time, and its limit cycles up and down the stroke.
   struct SpragSlipSettings
   {
@@ -317,6 +345,7 @@ namespace sprag
     SlopeSettings slope;
     StabilitySettings stability;
     MapSettings map;
+    StudySettings study;
     SpragSlipSettings sprag_slip;
     CalibrationSettings calibration;
     std::string name; ///< file name without folder and ending

@@ -1,27 +1,30 @@
 #include "scene/sections.h"
 
+#include "base/append.h"
 #include "scene/section.h"
 
 namespace sprag
 {
   namespace
   {
+    const Choices<AnalysisType> types_of_a_run = { { "quasi-static", AnalysisType::quasi_static },
+                                                   { "slope", AnalysisType::slope },
+                                                   { "transient", AnalysisType::transient },
+                                                   { "contact law", AnalysisType::contact_law },
+                                                   { "modal", AnalysisType::modal },
+                                                   { "stability", AnalysisType::stability },
+                                                   { "sprag slip", AnalysisType::sprag_slip },
+                                                   { "calibration", AnalysisType::calibration } };
+
     void analysis(Section section, AnalysisSettings &settings)
     {
       section.choice("Type", settings.type,
-                     { { "quasi-static", AnalysisType::quasi_static },
-                       { "slope", AnalysisType::slope },
-                       { "transient", AnalysisType::transient },
-                       { "contact law", AnalysisType::contact_law },
-                       { "modal", AnalysisType::modal },
-                       { "stability", AnalysisType::stability },
-                       { "map", AnalysisType::map },
-                       { "sprag slip", AnalysisType::sprag_slip },
-                       { "calibration", AnalysisType::calibration } },
+                     joined(types_of_a_run, { { "map", AnalysisType::map }, { "study", AnalysisType::study } }),
                      "Follow the drive without inertia, sweep the representative slope C_Q, follow the drive with inertia, fit "
                      "the contact of rigid and beam to finite elements, find vibration modes at one x, judge whether the slide "
-                     "there is stable, the same over two parameters, perturb it in time and follow it to its limit cycle, or "
-                     "make parts that have a given k and J and tell the constants of the reduced models");
+                     "there is stable, perturb it in time and follow it to its limit cycle, make parts that have a given k and J "
+                     "and tell the constants of the reduced models, judge slides over two parameters, or run any of these but "
+                     "the map at other values of any parameters");
       section.choice("Model", settings.model,
                      { { "closed form", ModelType::closed_form },
                        { "rigid", ModelType::rigid },
@@ -261,6 +264,21 @@ namespace sprag
       section.integer("Bisections", settings.bisections, { 0., 40. }, "Of the distance between points that a boundary crosses");
     }
 
+    void study(Section section, StudySettings &settings)
+    {
+      section.choice("Type", settings.type, types_of_a_run, "Analysis of each run");
+      section.text(
+          "Vary", settings.vary,
+          "List of SECTION/NAME = VALUES, separated by semicolons; values are separated by commas, FIRST ... LAST : NUMBER "
+          "are so many from FIRST to LAST, and with log behind it their ratios are equal");
+      section.choice("Combine", settings.combine, { { "grid", Combination::grid }, { "list", Combination::list } },
+                     "Each value of one parameter with each of the others, or the first of all, the second of all, ...");
+      section.text(
+          "Reference", settings.reference,
+          "List of SECTION/NAME = VALUE, separated by semicolons: settings of one more run, from which the errors of the "
+          "others are taken; empty: none");
+    }
+
     void sprag_slip(Section section, SpragSlipSettings &settings)
     {
       const Interval share = { 0., 1., false, false };
@@ -298,6 +316,7 @@ namespace sprag
     slope({ all, "Slope" }, scene.slope, settings.maximum_inclination);
     stability({ all, "Stability" }, scene.stability);
     map({ all, "Map" }, scene.map);
+    study({ all, "Study" }, scene.study);
     sprag_slip({ all, "Sprag slip" }, scene.sprag_slip);
     return all;
   }

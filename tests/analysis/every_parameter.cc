@@ -1,7 +1,7 @@
-#include "analysis/map/map_journal.h"
 #include "analysis/stability/stability.h"
 #include "base/errors.h"
 #include "base/text.h"
+#include "levers/dynamics.h"
 #include "levers/prepared_scene.h"
 #include "mpi_environment.h"
 #include "scene/held_slide.h"

@@ -18,10 +18,19 @@ SCENES = sorted((SOURCE / "params").glob("*.prm"))
 COARSE = {"Mesh/Face size": "4", "Analysis/Step": "5"}
 MAP = {"Map/First points": "3", "Map/Second points": "3", "Map/Coarsest": "1", "Map/Bisections": "1"}
 SHORT = {"Sprag slip/Continuation": "1", "Sprag slip/Turn": "64", "Sprag slip/Settling time": "0.02"}
+STUDY = {"Study/Vary": "Mesh/Face size = 5, 6, 8; Mesh/Degree = 2", "Study/Reference": "Mesh/Face size = 4"}
 CHANGES = {
     "neo-hookean-a": {"Drive/Stroke": "10"},
     "onset-a": SHORT,
     "onset-b": {**SHORT, "Sprag slip/Turn": "45"},
+    **{name: STUDY for name in ("study-a", "study-b", "study-pressure-a")},
+    "study-growth-a": {**STUDY, "Study/Vary": "Mesh/Face size = 5, 6, 8", "Condensed/Modes": "3"},
+    "study-reversal-a": {
+        "Study/Vary": "Mesh/Face size = 2, 3; Time/Tolerance = 1e-2",
+        "Study/Reference": "Mesh/Face size = 1.5",
+        "Drive/Start": "64",
+        "Condensed/Modes": "3",
+    },
 }
 GROUPS = {
     "modal": {"modes": {"frequency", "growth_rate", "kind", "xi", "across_real"}},
@@ -139,6 +148,17 @@ class ScenesTest(RunTest):
         sides = [np.diff(file[f"map/kind_{way}"][:], axis=axis) for way in ("forward", "backward") for axis in (0, 1)]
         self.assertEqual(len(file["table/first"]), sum(np.count_nonzero(side) for side in sides))
 
+    def check_study(self, file):
+        rows = len(file["table/run"])
+        self.assertGreater(rows, 1)
+        self.assertEqual(set(file["runs/outcome"].asstr()[:]), {"completed"})
+        self.assertTrue((file["table/cpu_time"][:] > 0).all())
+        errors = [name for name in file["table"] if name.startswith("error_")]
+        self.assertIn("error_all", errors)
+        for name in errors:
+            self.assertTrue((file["table"][name][:] > 0).all(), name)
+        self.assertEqual(len(file["trade/run_all"]), 4)
+
     def check_sprag_slip(self, file):
         self.check_groups(file, "sprag slip")
         summary = {name: data[()] for name, data in file["summary"].items()}
@@ -203,6 +223,7 @@ class ScenesTest(RunTest):
             "modal": self.check_modes,
             "stability": self.check_stability,
             "map": self.check_map,
+            "study": self.check_study,
             "sprag slip": self.check_sprag_slip,
             "calibration": self.check_calibration,
         }

@@ -23,12 +23,6 @@ namespace sprag
   {
     std::array<double, n_cell_values> values;
 
-    template <class Archive>
-    void serialize(Archive &archive, const unsigned int /*version*/)
-    {
-      archive &values;
-    }
-
     /// Returns the kinds forward and backward.
     MapKinds kinds() const
     {

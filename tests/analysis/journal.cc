@@ -1,4 +1,6 @@
-#include "analysis/map/map_journal.h"
+#include "analysis/team/journal.h"
+
+#include "analysis/map/map_team.h"
 
 #include "base/errors.h"
 #include "support/temporary_folder.h"
@@ -14,14 +16,42 @@ using namespace sprag;
 
 namespace
 {
-  class MapJournalTest : public ::testing::Test
+  class JournalTest : public ::testing::Test
   {
   protected:
     const TemporaryFolder folder;
     const std::string path = folder.path / "map.journal";
+
+    void write(const MapCells &cells, const std::string &scene = "a scene") const
+    {
+      const Journal journal(path, "map", scene);
+      append(journal, cells);
+    }
+
+    static void append(const Journal &journal, const MapCells &cells)
+    {
+      const auto [file, header] = journal.address();
+      JournalPen(file, header).append(lines_of(cells));
+    }
+
+    static std::vector<std::string> lines_of(const MapCells &cells)
+    {
+      std::vector<std::string> lines;
+      for (const auto &[site, cell] : cells)
+        lines.push_back(line_of(site, cell));
+      return lines;
+    }
   };
 
-  std::vector<std::string> lines_of(const std::string &path)
+  MapCells cells_in(const Journal &journal)
+  {
+    MapCells cells;
+    for (const auto &line : journal.lines())
+      cells.insert(cell_of(line));
+    return cells;
+  }
+
+  std::vector<std::string> lines_of_file(const std::string &path)
   {
     std::ifstream input(path);
     std::vector<std::string> lines;
@@ -59,41 +89,41 @@ namespace
   }
 } // namespace
 
-TEST_F(MapJournalTest, GivesBackEveryBit)
+TEST_F(JournalTest, GivesBackEveryBit)
 {
   const auto cells = some_cells();
-  MapJournal(path, "a scene").append(cells);
-  const MapJournal again(path, "a scene");
-  expect_same_bits(again.cells(), cells);
+  write(cells);
+  const Journal again(path, "map", "a scene");
+  expect_same_bits(cells_in(again), cells);
   EXPECT_FALSE(again.dropped());
 }
 
-TEST_F(MapJournalTest, DropsATornLineWhereverItIsTornAndGoesOn)
+TEST_F(JournalTest, DropsATornLineWhereverItIsTornAndGoesOn)
 {
   const auto cells = some_cells();
-  MapJournal(path, "a scene").append(cells);
+  write(cells);
   const auto whole     = std::filesystem::file_size(path);
-  const auto last_line = lines_of(path).back().size();
+  const auto last_line = lines_of_file(path).back().size();
   auto fewer           = cells;
   fewer.erase(std::prev(fewer.end()));
   for (std::size_t missing = 1; missing <= last_line; ++missing)
   {
     std::filesystem::resize_file(path, whole - missing);
     {
-      MapJournal torn(path, "a scene");
-      expect_same_bits(torn.cells(), fewer);
-      torn.append({ *std::prev(cells.end()) });
+      Journal torn(path, "map", "a scene");
+      expect_same_bits(cells_in(torn), fewer);
+      append(torn, { *std::prev(cells.end()) });
     }
-    expect_same_bits(MapJournal(path, "a scene").cells(), cells);
+    expect_same_bits(cells_in(Journal(path, "map", "a scene")), cells);
   }
 }
 
 // Any character of a line changed or taken away: as a rule it would still read as numbers.
-TEST_F(MapJournalTest, DropsAGarbledLineAndKeepsTheOthers)
+TEST_F(JournalTest, DropsAGarbledLineAndKeepsTheOthers)
 {
   const auto cells = some_cells();
-  MapJournal(path, "a scene").append(cells);
-  const auto lines = lines_of(path);
+  write(cells);
+  const auto lines = lines_of_file(path);
   ASSERT_EQ(lines.size(), cells.size() + 1);
   auto fewer = cells;
   fewer.erase(std::next(fewer.begin()));
@@ -110,56 +140,56 @@ TEST_F(MapJournalTest, DropsAGarbledLineAndKeepsTheOthers)
         output << line << '\n';
       output.close();
       {
-        MapJournal journal(path, "a scene");
-        expect_same_bits(journal.cells(), fewer);
+        Journal journal(path, "map", "a scene");
+        expect_same_bits(cells_in(journal), fewer);
         EXPECT_EQ(journal.damaged_lines(), 1u);
-        journal.append({ *std::next(cells.begin()) });
+        append(journal, { *std::next(cells.begin()) });
       }
-      expect_same_bits(MapJournal(path, "a scene").cells(), cells);
+      expect_same_bits(cells_in(Journal(path, "map", "a scene")), cells);
     }
 }
 
-TEST_F(MapJournalTest, DropsALineOfAnotherScenesJournal)
+TEST_F(JournalTest, DropsALineOfAnotherScenesJournal)
 {
-  MapJournal(path, "another scene").append(some_cells());
-  const auto line = lines_of(path).at(1);
+  write(some_cells(), "another scene");
+  const auto line = lines_of_file(path).at(1);
   std::filesystem::remove(path);
   {
-    const MapJournal begun(path, "a scene");
+    const Journal begun(path, "map", "a scene");
   }
   std::ofstream(path, std::ios::app) << line << '\n';
-  const MapJournal journal(path, "a scene");
-  EXPECT_TRUE(journal.cells().empty());
+  const Journal journal(path, "map", "a scene");
+  EXPECT_TRUE(cells_in(journal).empty());
   EXPECT_EQ(journal.damaged_lines(), 1u);
 }
 
-TEST_F(MapJournalTest, BeginsAnewForAnotherScene)
+TEST_F(JournalTest, BeginsAnewForAnotherScene)
 {
-  MapJournal(path, "a scene").append(some_cells());
+  write(some_cells());
   {
-    const MapJournal other(path, "another scene");
+    const Journal other(path, "map", "another scene");
     EXPECT_TRUE(other.dropped());
-    EXPECT_TRUE(other.cells().empty());
+    EXPECT_TRUE(cells_in(other).empty());
   }
-  const MapJournal again(path, "another scene");
+  const Journal again(path, "map", "another scene");
   EXPECT_FALSE(again.dropped());
-  EXPECT_TRUE(again.cells().empty());
+  EXPECT_TRUE(cells_in(again).empty());
 }
 
-TEST_F(MapJournalTest, SurvivesATornHeader)
+TEST_F(JournalTest, SurvivesATornHeader)
 {
   std::ofstream(path) << "sprag";
-  MapJournal(path, "a scene").append(some_cells());
-  expect_same_bits(MapJournal(path, "a scene").cells(), some_cells());
+  write(some_cells());
+  expect_same_bits(cells_in(Journal(path, "map", "a scene")), some_cells());
 }
 
-TEST_F(MapJournalTest, BelongsToOneRun)
+TEST_F(JournalTest, BelongsToOneRun)
 {
-  const MapJournal held(path, "a scene");
-  EXPECT_THROW(MapJournal(path, "a scene"), InputError);
+  const Journal held(path, "map", "a scene");
+  EXPECT_THROW(Journal(path, "map", "a scene"), InputError);
 }
 
-TEST_F(MapJournalTest, RefusesAFolderThatIsNotThere)
+TEST_F(JournalTest, RefusesAFolderThatIsNotThere)
 {
-  EXPECT_THROW(MapJournal(folder.path / "none" / "map.journal", "a scene"), InputError);
+  EXPECT_THROW(Journal(folder.path / "none" / "map.journal", "map", "a scene"), InputError);
 }

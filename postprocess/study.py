@@ -1,0 +1,255 @@
+"""Pictures of studies: what the runs found over the parameters that were varied, and what their accuracy costs."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from matplotlib.colors import LogNorm, Normalize
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+
+from style import COLOURS, LINES, MARKERS, MILLIMETRE, TWO_COLUMNS, panel_letter, plt
+
+# What is drawn of each Study/Type, as far as its runs have it.
+QUANTITIES = {
+    "quasi-static": ("peak_P_forward", "peak_P_backward", "loop_area", "peak_Q_forward", "peak_Q_backward", "largest_pressure"),
+    "transient": (
+        "peak_P_forward",
+        "peak_P_backward",
+        "loop_area",
+        "reversal_1_frequency",
+        "reversal_1_growth_rate",
+        "reversal_1_open_share",
+    ),
+    "modal": ("frequency_1", "frequency_2", "frequency_3", "frequency_4"),
+    "stability": ("growth_rate", "frequency", "P", "margin"),
+    "sprag slip": ("measured_growth_rate", "measured_frequency", "cycle_amplitude_P", "cycle_open_share"),
+    "contact law": ("stiffness", "exponent", "rms_error"),
+    "calibration": ("stiffness", "moment_of_inertia", "P_deviation", "Q_deviation"),
+    "slope": ("critical_inclination",),
+}
+# Beyond them a bar tells colours apart.
+MOST_LINES = 7
+# Ends of an axis with this ratio want a logarithm.
+WIDE = 15
+
+
+@dataclass
+class Varied:
+    """A parameter of a study: of each run its number, or its place among the words, and its text."""
+
+    name: str
+    unit: str
+    numbers: np.ndarray
+    texts: np.ndarray
+
+    @property
+    def is_number(self):
+        try:
+            return bool(np.isfinite(self.texts.astype(float)).all())
+        except ValueError:
+            return False
+
+    @property
+    def label(self):
+        name = self.name.split("/")[1].lower()
+        return name if self.unit == "1" else f"{name} [{self.unit.replace('mm^n', 'mm$^n$')}]"
+
+    def said(self, text):
+        return f"{self.name.split('/')[1].lower()} {text}" if self.is_number or text == "auto" else text
+
+
+def is_study(result):
+    return "outcome" in result.table and "run" in result.table
+
+
+def slug(name):
+    return "".join(c.lower() if c.isalnum() else "_" for c in name)
+
+
+def varied_parameters(result):
+    texts = result.groups["runs"]
+    names = [part.split("=")[0].strip() for part in result.parameter("Study", "Vary").split(";") if "=" in part]
+    return [
+        Varied(name, result.units[slug(name)], result.table[slug(name)], texts[slug(name)].astype(str))
+        for name in (" ".join(name.split()) for name in names)
+    ]
+
+
+def abscissa_of(varied):
+    """The parameter that curves go over: of those with numbers the one with the most values."""
+    return max(varied, key=lambda parameter: (parameter.is_number, len(np.unique(parameter.numbers))))
+
+
+@dataclass
+class Code:
+    """How runs of the same other settings are drawn."""
+
+    mask: np.ndarray
+    colour: object
+    line: object
+    marker: str
+
+
+def codes(result, others):
+    """The codes of all settings of the other parameters, handles and names for a legend, and the scale of colours if there is one:
+    colours by the parameter with the most values, lines and markers by the rest."""
+    rows = len(result.table["run"])
+    if not others:
+        return [Code(np.ones(rows, dtype=bool), COLOURS[0], LINES[0], MARKERS[0])], ([], []), None
+    coloured = max(others, key=lambda parameter: len(np.unique(parameter.texts)))
+    rest = [parameter for parameter in others if parameter is not coloured]
+    shades, scale = shades_of(coloured)
+    styles = list(dict.fromkeys(settings_of(rest, row) for row in range(rows)))
+    found = []
+    for text in dict.fromkeys(coloured.texts):
+        for index, style in enumerate(styles):
+            mask = np.array([coloured.texts[row] == text and settings_of(rest, row) == style for row in range(rows)])
+            if mask.any():
+                shape = {"line": LINES[index % len(LINES)], "marker": MARKERS[index % len(MARKERS)]}
+                found.append(Code(mask, shades[text], **shape))
+    handles, names = [], []
+    if scale is None:
+        handles += [plt.Line2D([], [], color=colour) for colour in shades.values()]
+        names += [coloured.said(text) for text in shades]
+    if rest:
+        looks = zip(LINES * (1 + len(styles) // len(LINES)), MARKERS * (1 + len(styles) // len(MARKERS)), styles)
+        handles += [plt.Line2D([], [], color="black", linestyle=line, marker=marker, markersize=3.5) for line, marker, _ in looks]
+        names += styles
+    return found, (handles, names), scale and (scale, coloured.label)
+
+
+def settings_of(parameters, row):
+    return ", ".join(parameter.said(parameter.texts[row]) for parameter in parameters)
+
+
+def shades_of(parameter):
+    """Colour of each text; of many from a scale."""
+    texts = list(dict.fromkeys(parameter.texts))
+    if len(texts) <= MOST_LINES or not parameter.is_number:
+        return {text: COLOURS[index % len(COLOURS)] for index, text in enumerate(texts)}, None
+    numbers = {text: number for text, number in zip(parameter.texts, parameter.numbers)}
+    low, high = min(numbers.values()), max(numbers.values())
+    norm = LogNorm(low, high) if low > 0 and high / low > WIDE else Normalize(low, high)
+    scale = plt.cm.ScalarMappable(norm, "viridis")
+    return {text: scale.to_rgba(numbers[text]) for text in texts}, scale
+
+
+def legend_above(figure, handles, names):
+    """As many columns as the width takes."""
+    if not names:
+        return
+    columns = max(1, min(len(names), 120 // (max(map(len, names)) + 8)))
+    figure.suptitle("\n" * ((len(names) - 1) // columns) or " ", fontsize=7)  # keeps room
+    figure.legend(handles, names, loc="upper center", ncol=columns)
+
+
+def panels_for(count):
+    columns = 3 if count in (3, 5, 6) else min(2, count)
+    rows = -(-count // columns)
+    figure, axes = plt.subplots(rows, columns, figsize=(TWO_COLUMNS, (14 + 50 * rows) * MILLIMETRE), squeeze=False)
+    for unused in axes.flat[count:]:
+        unused.set_visible(False)
+    return figure, list(axes.flat[:count])
+
+
+def quantities_of(result):
+    wanted = QUANTITIES.get(result.parameter("Study", "Type"), ())
+    return [name for name in wanted if result.has(name)]
+
+
+def curves(result):
+    """The numbers of the runs over a parameter, a line for each setting of the others."""
+    varied = varied_parameters(result)
+    abscissa = abscissa_of(varied)
+    found, legend, bar = codes(result, [parameter for parameter in varied if parameter is not abscissa])
+    names = quantities_of(result) or ["cpu_time"]
+    figure, panels = panels_for(len(names))
+    for axes, name, letter in zip(panels, names, "abcdef"):
+        for code in found:
+            x, y = abscissa.numbers[code.mask], result.table[name][code.mask]
+            order = np.argsort(x, kind="stable")
+            axes.plot(x[order], y[order], color=code.colour, linestyle=code.line, marker=code.marker, markersize=2)
+        unit = result.units[name].replace("^2", "$^2$")
+        axes.set_ylabel(name.replace("_", " ") + (f" [{unit}]" if unit not in ("", "1") else ""))
+        axes.set_xlabel(abscissa.label)
+        set_abscissa(axes, abscissa, abscissa.numbers[result.table["outcome"] == 0])
+        panel_letter(axes, letter)
+    if bar is not None:
+        figure.colorbar(bar[0], ax=panels, aspect=30, pad=0.01).set_label(bar[1])
+    legend_above(figure, *legend)
+    return figure
+
+
+def set_abscissa(axes, abscissa, shown):
+    if not abscissa.is_number:
+        axes.set_xticks(np.unique(abscissa.numbers), list(dict.fromkeys(abscissa.texts[np.argsort(abscissa.numbers)])))
+    elif len(shown) and shown.min() > 0 and shown.max() / shown.min() > WIDE:
+        axes.set_xscale("log")
+        plain_logarithms(axes.xaxis)
+    axes.ticklabel_format(axis="y", useOffset=False)
+
+
+def plain_logarithms(axis):
+    """Numbers in place of powers: 1, 2, 5, 10 ... over less than two decades."""
+    low, high = axis.get_view_interval()
+    axis.set_major_locator(LogLocator(subs=(1, 2, 5) if high / low < 25 else (1,)))
+    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:.3g}"))
+    axis.set_minor_formatter(NullFormatter())
+
+
+# Errors
+
+
+def measures_of(result):
+    return [name[len("error_") :] for name in result.table if name.startswith("error_")]
+
+
+def has_trade(result):
+    return any((result.table[f"error_{name}"] > 0).any() for name in measures_of(result))
+
+
+def trade(result):
+    """Error against CPU time with the front on which nobody cheaper is as exact; its runs are labelled."""
+    varied = varied_parameters(result)
+    sizes = abscissa_of(varied)
+    found, (handles, labels), bar = codes(result, [parameter for parameter in varied if parameter is not sizes])
+    names = sorted(measures_of(result), key=lambda name: name == "all")
+    figure, panels = panels_for(len(names))
+    cost = result.table["cpu_time"]
+    for axes, name, letter in zip(panels, names, "abcdef"):
+        error = 100 * result.table[f"error_{name}"]
+        shown = np.isfinite(error) & (error > 0)
+        for code in found:
+            rows = code.mask & shown
+            axes.plot(cost[rows], error[rows], linestyle="", marker=code.marker, color=code.colour, markersize=3.5)
+        axes.set_xscale("log")
+        axes.set_yscale("log")
+        axes.margins(0.12)
+        plain_logarithms(axes.xaxis)
+        plain_logarithms(axes.yaxis)
+        draw_front(axes, cost, error, shown & (result.table[f"pareto_{name}"] == 1), sizes)
+        axes.set_title(f"({letter}) {name.replace('_', ' ')}", loc="left", fontsize=8)
+        axes.set_xlabel("CPU time [s]")
+        axes.set_ylabel("error [%]")
+    if bar is not None:
+        figure.colorbar(bar[0], ax=panels, aspect=30, pad=0.01).set_label(bar[1])
+    for handle in handles:
+        handle.set(linestyle="", marker="s" if handle.get_marker() == "None" else handle.get_marker(), markersize=3.5)
+    front = plt.Line2D([], [], color="black", linewidth=0.8)
+    legend_above(figure, [*handles, front], [*labels, f"front, labels: {sizes.label}"])
+    return figure
+
+
+def draw_front(axes, cost, error, front, sizes):
+    """Labels where there is room for them."""
+    order = np.flatnonzero(front)[np.argsort(cost[front])]
+    axes.plot(cost[order], error[order], color="black", linewidth=0.8, zorder=1)
+    taken = []
+    for row in order:
+        place = axes.transAxes.inverted().transform(axes.transData.transform((cost[row], error[row])))
+        if all(abs(place[0] - x) > 0.12 or abs(place[1] - y) > 0.08 for x, y in taken):
+            axes.annotate(sizes.texts[row], (cost[row], error[row]), xytext=(3, 3), textcoords="offset points", fontsize=6)
+            taken.append(place)
+
+
+def study_pictures(result):
+    return {"study": curves(result), **({"trade": trade(result)} if has_trade(result) else {})}

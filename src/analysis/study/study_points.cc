@@ -1,0 +1,91 @@
+#include "analysis/study/study_points.h"
+
+#include "base/append.h"
+#include "scene/read.h"
+#include "scene/sections.h"
+
+#include <algorithm>
+
+namespace sprag
+{
+  namespace
+  {
+    /// The next point of a grid; false after the last one.
+    bool advance(const StudySettings &study, StudyPoint &point)
+    {
+      for (std::size_t i = point.size(); i-- > 0; point[i] = 0)
+        if (++point[i] < study.varied[i].values.size())
+          return true;
+      return false;
+    }
+
+    bool sets(const std::vector<std::string> &settings, const std::string &name)
+    {
+      return std::any_of(settings.begin(), settings.end(),
+                         [&](const std::string &setting) { return setting.rfind(name + "=", 0) == 0; });
+    }
+
+    /// As if the study's scene had been read with these overrides, without fields.
+    Scene scene_of_run(const Scene &study, const std::vector<std::string> &settings)
+    {
+      auto overrides = joined({ "Analysis/Type=" + study.parameters->at("Study/Type") }, settings);
+      // A scene that gives the step and not the tolerance has fixed steps.
+      if (sets(settings, "Time/Step") && !sets(settings, "Time/Tolerance") && study.given.count("Time/Tolerance") == 0)
+        overrides.push_back("Time/Tolerance=0");
+      overrides.push_back("Output/Fields=none");
+      return variant(study, overrides);
+    }
+  } // namespace
+
+  std::vector<StudyPoint> points_of(const StudySettings &study)
+  {
+    std::vector<StudyPoint> points;
+    if (study.combine == Combination::list)
+      for (std::size_t i = 0; i < study.varied.front().values.size(); ++i)
+        points.emplace_back(study.varied.size(), i);
+    else
+    {
+      StudyPoint point(study.varied.size(), 0);
+      do
+        points.push_back(point);
+      while (advance(study, point));
+    }
+    return points;
+  }
+
+  std::vector<std::string> values_at(const StudySettings &study, const StudyPoint &point)
+  {
+    std::vector<std::string> values;
+    for (std::size_t i = 0; i < point.size(); ++i)
+      values.push_back(study.varied[i].values[point[i]]);
+    return values;
+  }
+
+  Scene scene_at(const Scene &study, const StudyPoint &point)
+  {
+    const auto values = values_at(study.study, point);
+    std::vector<std::string> settings;
+    for (std::size_t i = 0; i < values.size(); ++i)
+      settings.push_back(study.study.varied[i].name + "=" + values[i]);
+    return scene_of_run(study, settings);
+  }
+
+  Scene scene_of_reference(const Scene &study)
+  {
+    std::vector<std::string> settings;
+    for (const auto &[name, values] : study.study.reference_values)
+      settings.push_back(name + "=" + values.front());
+    return scene_of_run(study, settings);
+  }
+
+  std::vector<std::string> files_of(const StudySettings &study)
+  {
+    SceneSettings settings;
+    const auto parameters = scene_parameters(settings);
+    std::vector<std::string> files;
+    for (const auto &[name, values] : joined(study.varied, study.reference_values))
+      if (find_parameter(parameters, name)->rule.kind == Rule::Kind::file)
+        append(files, values);
+    return files;
+  }
+} // namespace sprag

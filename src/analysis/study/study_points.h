@@ -1,0 +1,27 @@
+#pragma once
+
+#include "scene/scene.h"
+
+#include <string>
+#include <vector>
+
+namespace sprag
+{
+  /// The values of one run: for each of the study's varied parameters the index of its value.
+  using StudyPoint = std::vector<std::size_t>;
+
+  /// Lists the runs of a study; of a grid those of the last parameter follow each other.
+  std::vector<StudyPoint> points_of(const StudySettings &study);
+
+  /// Returns the values that the varied parameters have at a point, in their order.
+  std::vector<std::string> values_at(const StudySettings &study, const StudyPoint &point);
+
+  /// Returns the scene of a run. Throws InputError where it is refused.
+  Scene scene_at(const Scene &study, const StudyPoint &point);
+
+  /// Returns the scene of the run that the others are compared with. Throws InputError where it is refused.
+  Scene scene_of_reference(const Scene &study);
+
+  /// Lists the files among the values of a study.
+  std::vector<std::string> files_of(const StudySettings &study);
+} // namespace sprag

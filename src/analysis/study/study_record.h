@@ -1,0 +1,39 @@
+#pragma once
+
+#include "analysis/study/measures.h"
+
+#include <string>
+#include <vector>
+
+namespace sprag
+{
+  enum class RunOutcome
+  {
+    completed,
+    failed, ///< the analysis could not be carried to its end
+    refused ///< the scene is not possible
+  };
+
+  /// Returns "completed", "failed" or "refused".
+  std::string outcome_name(RunOutcome outcome);
+
+  /// What a study keeps of a run.
+  struct StudyRecord
+  {
+    std::size_t run    = 0; ///< index among the points of the study; their number for the reference
+    RunOutcome outcome = RunOutcome::completed;
+    std::string reason;                ///< of a run that is not completed
+    double cpu_time    = 0.;           ///< that the run would take alone, meshes that it shares with others included [s]
+    double cpu_spent   = 0.;           ///< that it took [s]
+    double wall_time   = 0.;           ///< [s]
+    double peak_memory = 0.;           ///< of its process while it ran [MiB]
+    std::vector<std::string> warnings; ///< their names
+    Comparable found;                  ///< of a completed run
+  };
+
+  /// Writes a record as a line of a journal, numbers to the last bit.
+  std::string line_of(const StudyRecord &record);
+
+  /// Reads such a line.
+  StudyRecord record_of(const std::string &line);
+} // namespace sprag

@@ -1,0 +1,148 @@
+#include "analysis/study/study_trade.h"
+
+#include "analysis/study/trade.h"
+#include "base/text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace sprag
+{
+  namespace
+  {
+    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+    double number_of(const std::string &value)
+    {
+      const auto number = leading_number(value);
+      return number && number->rest.empty() ? number->value : unknown;
+    }
+
+    /// Sizes of elements and steps, and tolerances of steps: what makes results exact by being small.
+    bool is_size(const std::string &parameter)
+    {
+      const auto ends_with = [&](const std::string &end)
+      { return parameter.size() > end.size() && parameter.compare(parameter.size() - end.size(), end.size(), end) == 0; };
+      return ends_with("/Face size") || ends_with("/Step") || ends_with("/Tolerance");
+    }
+
+    /// NaN where one of them is.
+    std::vector<double> largest_of(const std::vector<MeasuredErrors> &measured)
+    {
+      std::vector<double> largest = measured.front().errors;
+      for (const auto &[measure, errors, front, recommended] : measured)
+        for (std::size_t row = 0; row < errors.size(); ++row)
+          if (std::isnan(errors[row]) || errors[row] > largest[row])
+            largest[row] = errors[row];
+      return largest;
+    }
+
+    /// Whether a run has sizes that are at most those of another and all else alike.
+    bool is_as_fine(const StudySettings &study, const StudyPoint &run, const StudyPoint &other)
+    {
+      for (std::size_t i = 0; i < run.size(); ++i)
+      {
+        const auto &values = study.varied[i].values;
+        const bool smaller = is_size(study.varied[i].name) && number_of(values[run[i]]) <= number_of(values[other[i]]);
+        if (run[i] != other[i] && !smaller)
+          return false;
+      }
+      return true;
+    }
+
+    /// The largest error of each run and of those that are finer, so that none is taken for exact that is so by chance; NaN where
+    /// one of them has none.
+    std::vector<double> lasting_errors(const StudySettings &study, const std::vector<StudyPoint> &rows,
+                                       const std::vector<double> &errors)
+    {
+      std::vector<double> lasting = errors;
+      for (std::size_t row = 0; row < rows.size(); ++row)
+        for (std::size_t finer = 0; finer < rows.size(); ++finer)
+          if (is_as_fine(study, rows[finer], rows[row]) && !std::isnan(lasting[row]) && !(errors[finer] <= lasting[row]))
+            lasting[row] = errors[finer];
+      return lasting;
+    }
+
+    void judge(const StudySettings &study, const std::vector<StudyPoint> &rows, const std::vector<double> &costs,
+               MeasuredErrors &measured)
+    {
+      measured.front     = pareto_front(costs, measured.errors);
+      const auto lasting = lasting_errors(study, rows, measured.errors);
+      for (std::size_t i = 0; i < recommended_accuracies.size(); ++i)
+        measured.recommended[i] = cheapest_within(recommended_accuracies[i], costs, lasting);
+    }
+
+    /// The settings of a point but for one parameter.
+    std::string others_text(const StudySettings &study, const StudyPoint &point, const std::size_t left_out)
+    {
+      std::string text;
+      for (std::size_t i = 0; i < point.size(); ++i)
+        if (i != left_out)
+          text += (text.empty() ? "" : ", ") + study.varied[i].name + " = " + study.varied[i].values[point[i]];
+      return text;
+    }
+
+    struct SizesAndErrors
+    {
+      std::vector<double> sizes, errors;
+    };
+
+    /// Of each measure over one parameter, for each combination of the others.
+    void add_orders(const StudySettings &study, const std::vector<StudyPoint> &rows, const std::size_t parameter,
+                    StudyTrade &trade)
+    {
+      for (const auto &measured : trade.measured)
+      {
+        std::map<std::string, SizesAndErrors> by_others;
+        for (std::size_t row = 0; row < rows.size(); ++row)
+        {
+          auto &of_others = by_others[others_text(study, rows[row], parameter)];
+          of_others.sizes.push_back(number_of(study.varied[parameter].values[rows[row][parameter]]));
+          of_others.errors.push_back(measured.errors[row]);
+        }
+        for (const auto &[others, pairs] : by_others)
+          if (const double order = observed_order(pairs.sizes, pairs.errors); !std::isnan(order))
+            trade.orders.push_back({ measured.measure.name, study.varied[parameter].name, others, order });
+      }
+    }
+  } // namespace
+
+  std::string settings_text(const StudySettings &study, const StudyPoint &point)
+  {
+    return others_text(study, point, point.size());
+  }
+
+  StudyTrade trade_of(const StudySettings &study, const std::vector<StudyPoint> &points, const StudyRecords &records)
+  {
+    StudyTrade trade;
+    const auto reference = records.find(points.size());
+    if (reference == records.end() || reference->second.outcome != RunOutcome::completed)
+      return trade;
+    const Comparable &expected = reference->second.found;
+    for (const auto &measure : measures_of(study.type, expected))
+      trade.measured.push_back({ measure, {}, {}, {} });
+    if (trade.measured.empty())
+      return trade;
+    std::vector<double> costs;
+    std::vector<StudyPoint> rows;
+    for (const auto &[run, record] : records)
+      if (run < points.size())
+      {
+        const bool completed = record.outcome == RunOutcome::completed;
+        const auto errors    = completed ? errors_of(study.type, record.found, expected) : std::vector<double>();
+        for (std::size_t i = 0; i < trade.measured.size(); ++i)
+          trade.measured[i].errors.push_back(completed ? errors[i] : unknown);
+        costs.push_back(completed ? record.cpu_time : unknown);
+        rows.push_back(points[run]);
+      }
+    for (std::size_t i = 0; i < study.varied.size(); ++i)
+      if (is_size(study.varied[i].name))
+        add_orders(study, rows, i, trade);
+    if (trade.measured.size() > 1)
+      trade.measured.push_back({ { "all", "largest of the errors" }, largest_of(trade.measured), {}, {} });
+    for (auto &measured : trade.measured)
+      judge(study, rows, costs, measured);
+    return trade;
+  }
+} // namespace sprag

@@ -1,0 +1,52 @@
+#pragma once
+
+#include "analysis/study/study_points.h"
+#include "analysis/study/study_record.h"
+
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace sprag
+{
+  /// Finished runs by their index.
+  using StudyRecords = std::map<std::size_t, StudyRecord>;
+
+  /// Accuracies for which settings are recommended, relative.
+  constexpr std::array<double, 4> recommended_accuracies = { { 0.1, 1e-2, 1e-3, 1e-4 } };
+
+  /// How exact the runs of a study are by one measure.
+  struct MeasuredErrors
+  {
+    Measure measure;
+    std::vector<double> errors; ///< of the finished runs, in their order
+    std::vector<bool> front;    ///< see pareto_front()
+
+    /// Rows of the cheapest runs that meet the accuracies, and with them all that are the same but for smaller sizes.
+    std::array<std::optional<std::size_t>, recommended_accuracies.size()> recommended;
+  };
+
+  /// The order with which an error falls with a parameter that is a size.
+  struct ObservedOrder
+  {
+    std::string measure;
+    std::string parameter;
+    std::string others; ///< values of the other parameters, "Mesh/Degree = 2"; empty where there are none
+    double order;
+  };
+
+  /// What the accuracy of a study's runs costs.
+  struct StudyTrade
+  {
+    std::vector<MeasuredErrors> measured; ///< each measure, and as the last one their largest, "all", where there are several
+    std::vector<ObservedOrder> orders;
+  };
+
+  /// Compares the finished runs with the reference; nothing where there is none or it is not completed.
+  StudyTrade trade_of(const StudySettings &study, const std::vector<StudyPoint> &points, const StudyRecords &records);
+
+  /// Returns "Mesh/Face size = 1, Mesh/Degree = 2".
+  std::string settings_text(const StudySettings &study, const StudyPoint &point);
+} // namespace sprag

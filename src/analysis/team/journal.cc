@@ -1,0 +1,170 @@
+#include "analysis/team/journal.h"
+
+#include "base/child_process.h"
+#include "base/errors.h"
+#include "base/fingerprint.h"
+#include "base/text.h"
+
+#include <cerrno>
+#include <chrono>
+#include <cstdlib>
+#include <cstring>
+#include <fcntl.h>
+#include <fstream>
+#include <optional>
+#include <sys/file.h>
+#include <thread>
+#include <unistd.h>
+
+namespace sprag
+{
+  namespace
+  {
+    constexpr unsigned int lock_attempts = 50;
+    constexpr std::chrono::milliseconds lock_pause(100);
+
+    std::string header_of(const std::string &what, const std::string &scene)
+    {
+      Fingerprint key;
+      key.add(scene);
+      return "sprag " SPRAG_VERSION " " + what + ", scene " + key.text() + '\n';
+    }
+
+    void write(const int file, const std::string &path, const std::string &text)
+    {
+      if (!write_all(file, text))
+        throw AnalysisError(path + " cannot be written: " + std::strerror(errno));
+    }
+
+    /// Of a line's content, in the journal of a scene.
+    std::string checksum(const std::string &header, const std::string &content)
+    {
+      Fingerprint sum;
+      sum.add(header);
+      sum.add(content);
+      return sum.text() + '\n';
+    }
+
+    /// With their ends; the last one may lack it.
+    std::vector<std::string> lines_of(const std::string &path)
+    {
+      std::ifstream input(path);
+      std::vector<std::string> lines;
+      for (std::string line; std::getline(input, line);)
+        lines.push_back(input.eof() ? line : line + '\n');
+      return lines;
+    }
+
+    /// None where the line is not as it was written.
+    std::optional<std::string> content_of(const std::string &header, const std::string &line)
+    {
+      const std::size_t behind  = line.rfind(' ') + 1; // 0 without a blank
+      const std::string content = line.substr(0, behind);
+      if (behind == 0 || line.substr(behind) != checksum(header, content))
+        return {};
+      return content.substr(0, content.size() - 1);
+    }
+  } // namespace
+
+  JournalPen::JournalPen(const std::string &journal, const std::string &first_line)
+      : path(journal)
+      , header(first_line)
+      , file(::open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC))
+  {
+    if (file < 0)
+      throw AnalysisError(path + " cannot be written: " + std::strerror(errno));
+  }
+
+  JournalPen::~JournalPen()
+  {
+    ::close(file);
+  }
+
+  void JournalPen::append(const std::vector<std::string> &lines)
+  {
+    std::string text;
+    for (const auto &line : lines)
+      text += line + ' ' + checksum(header, line + ' ');
+    write(file, path, text);
+  }
+
+  Journal::Journal(const std::string &file_path, const std::string &what, const std::string &scene)
+      : path(file_path)
+      , file(::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666))
+      , header(header_of(what, scene))
+  {
+    if (file < 0)
+      throw InputError(path + " cannot be written: " + std::strerror(errno));
+    try
+    {
+      lock();
+      read();
+    }
+    catch (...)
+    {
+      ::close(file);
+      throw;
+    }
+  }
+
+  Journal::~Journal()
+  {
+    ::close(file);
+  }
+
+  void Journal::lock()
+  {
+    for (unsigned int attempt = 0; ::flock(file, LOCK_EX | LOCK_NB) != 0; ++attempt)
+    {
+      if (attempt == lock_attempts)
+        throw InputError(path + " is in use by another run. Choose another --output, or end that run.");
+      std::this_thread::sleep_for(lock_pause);
+    }
+  }
+
+  void Journal::read()
+  {
+    const auto lines  = lines_of(path);
+    const bool usable = !lines.empty() && lines.front() == header;
+    other_scene       = !lines.empty() && !usable;
+    if (!usable)
+    {
+      if (::ftruncate(file, 0) != 0)
+        throw InputError(path + " cannot be written: " + std::strerror(errno));
+      return write(file, path, header);
+    }
+    for (std::size_t i = 1; i < lines.size(); ++i)
+      if (const auto content = content_of(header, lines[i]))
+        found.push_back(*content);
+      else
+        ++damaged;
+    if (lines.back().back() != '\n')
+      write(file, path, "\n");
+  }
+
+  void Journal::remove()
+  {
+    ::unlink(path.c_str());
+  }
+
+  std::string exact_text(const std::vector<double> &numbers)
+  {
+    std::string text;
+    for (const double number : numbers)
+      text += formatted(text.empty() ? "%a" : " %a", number);
+    return text;
+  }
+
+  std::vector<double> exact_numbers(const std::string &text)
+  {
+    std::vector<double> numbers;
+    const char *at = text.c_str();
+    for (char *end = nullptr;; at = end)
+    {
+      const double number = std::strtod(at, &end);
+      if (end == at)
+        return numbers;
+      numbers.push_back(number);
+    }
+  }
+} // namespace sprag

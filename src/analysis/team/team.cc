@@ -1,0 +1,242 @@
+#include "analysis/team/team.h"
+
+#include "base/errors.h"
+#include "base/fingerprint.h"
+#include "base/interrupt.h"
+#include "scene/scene_key.h"
+
+#include <deal.II/base/mpi.h>
+
+#include <boost/serialization/utility.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <exception>
+#include <thread>
+
+namespace sprag
+{
+  namespace
+  {
+    namespace MPI = dealii::Utilities::MPI;
+
+    /// How long a rank keeps finished lines before it writes them.
+    constexpr std::chrono::milliseconds batch_duration(500);
+    constexpr std::chrono::milliseconds pause(20);
+  } // namespace
+
+  /// Numbers that all ranks count up without waiting for each other.
+  class Team::Counters
+  {
+  public:
+    enum Name : MPI_Aint
+    {
+      group, ///< the next one to be taken
+      done,  ///< pieces
+      stop,  ///< > 0: no more are begun
+      count
+    };
+
+    Counters()
+        : exceptions(std::uncaught_exceptions())
+    {
+      const int ierr =
+          MPI_Win_allocate(count * sizeof(long), sizeof(long), MPI_INFO_NULL, MPI_COMM_WORLD, static_cast<void *>(&own), &window);
+      AssertThrowMPI(ierr);
+      std::fill_n(own, static_cast<long>(count), 0L);
+      MPI_Barrier(MPI_COMM_WORLD);
+      MPI_Win_lock_all(MPI_MODE_NOCHECK, window);
+    }
+
+    /// Not while a rank is lost: the others would wait for it.
+    ~Counters()
+    {
+      if (std::uncaught_exceptions() > exceptions)
+        return;
+      MPI_Win_unlock_all(window);
+      MPI_Win_free(&window);
+    }
+
+    Counters &operator=(Counters &&) = delete;
+
+    /// Returns what the counter was before.
+    std::size_t add(const Name name, const long amount) const
+    {
+      long before = 0;
+      MPI_Fetch_and_op(&amount, &before, MPI_LONG, 0, name, MPI_SUM, window);
+      MPI_Win_flush(0, window);
+      return static_cast<std::size_t>(before);
+    }
+
+    std::size_t value(const Name name) const
+    {
+      return add(name, 0);
+    }
+
+  private:
+    const int exceptions;
+    long *own = nullptr;
+    MPI_Win window{};
+  };
+
+  /// Lines of this rank, on their way into the journal.
+  class Team::Batch
+  {
+  public:
+    Batch(const Task &of, const std::pair<std::string, std::string> &journal)
+        : task(of)
+        , address(journal)
+    {
+    }
+
+    void add(const std::string &line)
+    {
+      fresh.push_back(line);
+      if (std::chrono::steady_clock::now() - begin >= batch_duration)
+        write();
+    }
+
+    void write()
+    {
+      begin = std::chrono::steady_clock::now();
+      if (fresh.empty())
+        return;
+      task.check();
+      if (!pen)
+        pen.emplace(address.first, address.second);
+      pen->append(fresh);
+      written.insert(written.end(), fresh.begin(), fresh.end());
+      fresh.clear();
+    }
+
+    const std::vector<std::string> &lines() const
+    {
+      return written;
+    }
+
+  private:
+    const Task &task;
+    const std::pair<std::string, std::string> &address;
+    std::optional<JournalPen> pen;
+    std::chrono::steady_clock::time_point begin = std::chrono::steady_clock::now();
+    std::vector<std::string> fresh, written;
+  };
+
+  Team::Team(Task of, const Journal *first_ranks_journal)
+      : task(std::move(of))
+      , reports(first_ranks_journal != nullptr)
+  {
+    if (first_ranks_journal != nullptr)
+    {
+      journal      = first_ranks_journal->address();
+      from_journal = first_ranks_journal->lines();
+    }
+    journal      = MPI::broadcast(MPI_COMM_WORLD, journal);
+    from_journal = MPI::broadcast(MPI_COMM_WORLD, from_journal);
+  }
+
+  void Team::carry_out(const std::vector<std::vector<std::size_t>> &groups, const std::function<std::string(std::size_t)> &work,
+                       const std::function<void(const std::string &)> &learn)
+  {
+    std::size_t wanted = 0;
+    for (const auto &group : groups)
+      wanted += group.size();
+    Batch batch(task, journal);
+    std::string failure;
+    {
+      Counters counters;
+      try
+      {
+        work_on(groups, work, wanted, counters, batch);
+      }
+      catch (const AnalysisError &error)
+      {
+        failure = error.what();
+        counters.add(Counters::stop, 1);
+      }
+      wait_for_others(wanted, counters);
+    }
+    for (const auto &lines : MPI::all_gather(MPI_COMM_WORLD, batch.lines()))
+      std::for_each(lines.begin(), lines.end(), learn);
+    for (const auto &told : MPI::all_gather(MPI_COMM_WORLD, failure))
+      if (!told.empty())
+        throw AnalysisError(told);
+  }
+
+  void Team::work_on(const std::vector<std::vector<std::size_t>> &groups, const std::function<std::string(std::size_t)> &work,
+                     const std::size_t wanted, Counters &counters, Batch &batch) const
+  {
+    const auto stopped = [&] { return interrupted() || counters.value(Counters::stop) > 0; };
+    for (std::size_t next = 0; !stopped() && (next = counters.add(Counters::group, 1)) < groups.size();)
+      for (std::size_t i = 0; i < groups[next].size() && !stopped(); ++i)
+      {
+        const auto line = work(groups[next][i]);
+        // A piece that was cut short is none.
+        if (interrupted())
+          break;
+        batch.add(line);
+        const auto done = counters.add(Counters::done, 1) + 1;
+        if (reports)
+          task.report(done, wanted);
+      }
+    batch.write();
+    if (interrupted())
+      throw AnalysisError("interrupted; what is finished is kept: start the same " + task.name + " again to go on");
+  }
+
+  /// Without the calls of MPI that keep a core busy.
+  void Team::wait_for_others(const std::size_t wanted, const Counters &counters) const
+  {
+    for (std::size_t done = 0; (done = counters.value(Counters::done)) < wanted && counters.value(Counters::stop) == 0;)
+    {
+      if (reports)
+        task.report(done, wanted);
+      std::this_thread::sleep_for(pause);
+    }
+    if (reports)
+      task.report(counters.value(Counters::done), wanted);
+  }
+
+  std::string inputs_key(const Scene &scene, const std::vector<std::string> &files)
+  {
+    std::string key = scene_key(scene);
+    for (const auto &file : files)
+      key += content_fingerprint(file) + '\n';
+    return key;
+  }
+
+  std::function<void()> unchanged_inputs(const Scene &scene, const std::string &name, const std::vector<std::string> &files)
+  {
+    return [=, key = inputs_key(scene, files)]
+    {
+      if (inputs_key(scene, files) != key)
+        throw AnalysisError("an input file has changed during the " + name +
+                            "; what was finished before is kept for the file as it was: start the " + name +
+                            " again, with that file or the new one");
+    };
+  }
+
+  void on_first_rank(const std::function<void()> &work)
+  {
+    std::vector<std::string> input, analysis;
+    if (MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+      try
+      {
+        work();
+      }
+      catch (const InputError &error)
+      {
+        input = error.messages;
+      }
+      catch (const AnalysisError &error)
+      {
+        analysis = { error.what() };
+      }
+    input    = MPI::broadcast(MPI_COMM_WORLD, input);
+    analysis = MPI::broadcast(MPI_COMM_WORLD, analysis);
+    if (!input.empty())
+      throw InputError(input);
+    if (!analysis.empty())
+      throw AnalysisError(analysis.front());
+  }
+} // namespace sprag

@@ -1,0 +1,10 @@
+#pragma once
+
+#include <exception>
+#include <string>
+
+namespace sprag
+{
+  /// Returns a library's message in one line, without what it says about its sources.
+  std::string message_of(const std::exception &error);
+} // namespace sprag

@@ -1,0 +1,25 @@
+#include "base/peak_memory.h"
+
+#include <fstream>
+#include <string>
+
+namespace sprag
+{
+  void reset_peak_memory()
+  {
+    std::ofstream("/proc/self/clear_refs") << "5";
+  }
+
+  double peak_memory()
+  {
+    std::ifstream status("/proc/self/status");
+    for (std::string word; status >> word;)
+      if (word == "VmHWM:")
+      {
+        double kilobytes = 0.;
+        status >> kilobytes;
+        return 1024. * kilobytes;
+      }
+    return 0.;
+  }
+} // namespace sprag

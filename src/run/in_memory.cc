@@ -1,0 +1,19 @@
+#include "run/in_memory.h"
+
+namespace sprag
+{
+  bool estimates_errors(const RunOptions &options)
+  {
+    return options.in_memory == nullptr;
+  }
+
+  std::shared_ptr<DynamicsMaker> dynamics_maker(const RunOptions &options)
+  {
+    return options.in_memory != nullptr ? options.in_memory->dynamics : std::make_shared<DynamicsMaker>();
+  }
+
+  std::shared_ptr<StaticMeshes> static_meshes(const RunOptions &options)
+  {
+    return options.in_memory != nullptr ? options.in_memory->meshes : std::make_shared<StaticMeshes>();
+  }
+} // namespace sprag

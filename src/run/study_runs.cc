@@ -1,0 +1,158 @@
+#include "run/study_runs.h"
+
+#include "base/error_text.h"
+#include "base/errors.h"
+#include "base/peak_memory.h"
+#include "base/progress.h"
+#include "levers/prepared_scene.h"
+#include "run/analyses.h"
+#include "run/memory.h"
+#include "run/warnings.h"
+#include "scene/analysis_use.h"
+#include "scene/scene_key.h"
+
+#include <algorithm>
+#include <ctime>
+#include <map>
+#include <new>
+
+namespace sprag
+{
+  namespace
+  {
+    double cpu_seconds()
+    {
+      return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+    }
+
+    std::string reason_of(const InputError &error)
+    {
+      return boost::algorithm::join(error.messages, "; ");
+    }
+  } // namespace
+
+  void require_possible_runs(const Scene &study)
+  {
+    if (!study.study.reference_values.empty())
+      try
+      {
+        scene_of_reference(study);
+      }
+      catch (const InputError &error)
+      {
+        throw InputError(study.name + ".prm: Study/Reference is refused: " + reason_of(error));
+      }
+    std::string first;
+    for (const auto &point : points_of(study.study))
+      try
+      {
+        scene_at(study, point);
+        return;
+      }
+      catch (const InputError &error)
+      {
+        first = first.empty() ? reason_of(error) : first;
+      }
+    throw InputError(study.name + ".prm: Study/Vary: every run is refused, the first one because of " + first);
+  }
+
+  StudyRuns::StudyRuns(const Scene &of_study)
+      : study(of_study)
+      , all_points(points_of(study.study))
+      , has_reference(!study.study.reference_values.empty())
+  {
+  }
+
+  Scene StudyRuns::scene_of(const std::size_t index) const
+  {
+    return index < all_points.size() ? scene_at(study, all_points[index]) : scene_of_reference(study);
+  }
+
+  StudyRecord StudyRuns::run(const std::size_t index)
+  {
+    StudyRecord record;
+    record.run = index;
+    reset_peak_memory();
+    const auto saved   = [this] { return in_memory.dynamics->seconds_saved() + in_memory.meshes->seconds_saved(); };
+    const double begin = monotonic_seconds(), cpu = cpu_seconds(), saved_before = saved();
+    carry_out_run(index, record);
+    record.cpu_spent   = cpu_seconds() - cpu;
+    record.cpu_time    = record.cpu_spent + saved() - saved_before;
+    record.wall_time   = monotonic_seconds() - begin;
+    record.peak_memory = peak_memory() / (1024. * 1024.);
+    return record;
+  }
+
+  void StudyRuns::carry_out_run(const std::size_t index, StudyRecord &record)
+  {
+    const auto ended = [&record](const RunOutcome outcome, const std::string &reason)
+    {
+      record.outcome = outcome;
+      record.reason  = reason;
+    };
+    Warnings warnings;
+    try
+    {
+      const Scene scene = prepared(scene_of(index));
+      require_memory(scene);
+      warnings = scene_warnings(scene);
+      carry_out(scene, { {}, true, true, &in_memory }, warnings);
+      check_warnings(scene, warnings);
+      record.found = std::move(in_memory.found);
+      if (!has_reference)
+        record.found.curve.clear();
+    }
+    catch (const InputError &error)
+    {
+      ended(RunOutcome::refused, reason_of(error));
+    }
+    catch (const std::bad_alloc &)
+    {
+      throw;
+    }
+    catch (const std::exception &error)
+    {
+      ended(RunOutcome::failed, message_of(error));
+    }
+    for (const auto &warning : warnings)
+      record.warnings.push_back(warning.name);
+  }
+
+  std::vector<std::vector<std::size_t>> StudyRuns::groups_of(const std::vector<std::size_t> &runs,
+                                                             const unsigned int processes) const
+  {
+    struct SharedMesh
+    {
+      double size = 0.;
+      std::vector<std::size_t> runs;
+    };
+    std::map<std::string, SharedMesh> by_mesh;
+    for (const auto run : runs)
+      try
+      {
+        const Scene scene = scene_of(run);
+        // Runs without a mesh share nothing.
+        auto &group = by_mesh[needs_mesh(scene) ? body_key(scene) : std::to_string(run)];
+        group.size  = expected_size(scene).displacements;
+        group.runs.push_back(run);
+      }
+      catch (const InputError &)
+      {
+        by_mesh[std::to_string(run)].runs.push_back(run);
+      }
+    std::vector<SharedMesh> groups;
+    for (const auto &[key, group] : by_mesh)
+      if (by_mesh.size() >= processes)
+        groups.push_back(group);
+      else
+        for (const auto run : group.runs)
+          groups.push_back({ group.size, { run } });
+    std::stable_sort(groups.begin(), groups.end(),
+                     [](const SharedMesh &a, const SharedMesh &b)
+                     { return a.size > b.size || (a.size == b.size && a.runs.front() < b.runs.front()); });
+    std::vector<std::vector<std::size_t>> result;
+    for (const auto &group : groups)
+      result.push_back(group.runs);
+    return result;
+  }
+} // namespace sprag

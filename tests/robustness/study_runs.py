@@ -1,0 +1,179 @@
+"""Studies from outside: rows as the runs by themselves, failing runs, killed and started again, any number of processes, refusals.
+Run with /usr/bin/python3; environment: SPRAG, the program, and SPRAG_SOURCE, the sources."""
+
+import shutil
+import signal
+import sys
+import unittest
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from runs import SOURCE, TIMEOUT, RunTest, sprag  # noqa: E402
+
+STATIC = SOURCE / "params" / "model-a.prm"
+IN_TIME = SOURCE / "params" / "reversal-a.prm"
+COARSE = {"Mesh/Face size": "4", "Analysis/Step": "5"}
+# 1500 slides of a beam: long enough to be killed on the way.
+MANY = {
+    "Study/Type": "stability",
+    "Study/Vary": "Friction/Factor = 0.5 ... 1.5 : 50; Lever/Depth = 5 ... 20 : 30",
+    "Stability/Critical": "none",
+    "Stability/Roles": "off",
+}
+COSTS = {"cpu_time", "cpu_time_spent", "wall_time", "peak_memory"}
+
+
+def settings(changes):
+    return [word for name, value in {"Analysis/Type": "study", **changes}.items() for word in ("--set", f"{name}={value}")]
+
+
+def read(output):
+    """Numbers and texts of the runs, entries of the summary."""
+    with h5py.File(output / "result.h5", "r") as file:
+        return (
+            {name: data[:] for name, data in file["table"].items()},
+            {name: data.asstr()[:] for name, data in file["runs"].items()},
+            {name: data.asstr()[()] if data.dtype == object else data[()] for name, data in file["summary"].items()},
+        )
+
+
+class StudyTest(RunTest):
+    def study(self, scene, changes, *options, output=None):
+        output = output or self.output
+        done = sprag(scene, "--output", output, *settings(changes), *options)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual([path.name for path in output.iterdir()], ["result.h5"])
+        return (*read(output), done)
+
+    def expect_same_numbers(self, one, other):
+        self.assertEqual(set(one), set(other))
+        for name in set(one) - COSTS:
+            np.testing.assert_array_equal(one[name], other[name], err_msg=name)
+
+    def test_rows_are_the_runs_by_themselves(self):
+        vary = "Mesh/Degree = 1, 2; Friction/Law = Coulomb, cork on aluminium"
+        table, texts, summary, _ = self.study(STATIC, {**COARSE, "Study/Vary": vary})
+        self.assertEqual(list(texts["friction_law"]), 2 * ["Coulomb", "cork on aluminium"])
+        self.assertEqual(list(table["mesh_degree"]), [1, 1, 2, 2])
+        self.assertEqual((summary["runs"], summary["completed"]), (4, 4))
+        for row in range(4):
+            output = self.folder / str(row)
+            own = {**COARSE, "Mesh/Degree": texts["mesh_degree"][row], "Friction/Law": texts["friction_law"][row]}
+            words = [word for name, value in own.items() for word in ("--set", f"{name}={value}")]
+            self.assertEqual(sprag(STATIC, "--output", output, *words, "--quiet").returncode, 0)
+            with h5py.File(output / "result.h5", "r") as file:
+                for name in ("peak_P_backward", "loop_area", "largest_pressure", "largest_layer_stress", "steps"):
+                    self.assertEqual(table[name][row], file["summary"][name][()], name)
+                    self.assertEqual(file["summary"][name].attrs["unit"], self.unit(name))
+
+    def unit(self, name):
+        with h5py.File(self.output / "result.h5", "r") as file:
+            return file["table"][name].attrs["unit"]
+
+    def test_errors_against_a_reference_are_those_of_the_numbers(self):
+        changes = {"Study/Vary": "Mesh/Face size = 4, 2, 1", "Study/Reference": "Mesh/Face size = 0.5", "Analysis/Step": "5"}
+        table, _, summary, done = self.study(STATIC, changes)
+        self.assertEqual(summary["reference"], "completed")
+        with h5py.File(self.output / "result.h5", "r") as file:
+            for name in ("loop_area", "largest_pressure"):
+                expected = np.abs(table[name] / file["reference"][name][0] - 1)
+                np.testing.assert_allclose(table[f"error_{name}"], expected, rtol=1e-9)
+            chosen = file["trade/run_loop_area"][:]
+        worst = np.max([table[f"error_{name}"] for name in ("P", "Q", "loop_area", "largest_pressure")], axis=0)
+        np.testing.assert_array_equal(table["error_all"], worst)
+        self.assertTrue((table["error_P"] > 0).all())
+        cheap = np.argsort(table["cpu_time"])
+        lasting = np.maximum.accumulate(table["error_loop_area"][::-1])[::-1]  # of those with smaller faces as well
+        exact = [next((run for run in cheap if lasting[run] <= limit), np.nan) for limit in (0.1, 1e-2, 1e-3, 1e-4)]
+        np.testing.assert_array_equal(chosen, exact)
+        self.assertIn("observed order over Mesh/Face size of largest_pressure: ", done.stdout)
+
+    def test_runs_that_fail_or_are_refused_are_rows(self):
+        vary = "Analysis/Maximum deviation = 0, 1e-9, 0, 0; Mesh/Face size = 4, 4, 300, 4; Analysis/Warnings = report, report, report, error"
+        table, texts, summary, done = self.study(STATIC, {**COARSE, "Study/Combine": "list", "Study/Vary": vary})
+        self.assertEqual(list(texts["outcome"]), ["completed", "failed", "refused", "failed"])
+        self.assertEqual((summary["completed"], summary["failed"], summary["refused"]), (1, 2, 1))
+        self.assertIn("is larger than Analysis/Maximum deviation = 1e-09", texts["reason"][1])
+        self.assertIn("must be less than the lever's length", texts["reason"][2])
+        self.assertIn("coarse_contact", texts["warnings"][0])
+        np.testing.assert_array_equal(np.isfinite(table["loop_area"]), [True, False, False, False])
+        self.assertIn("refused: Analysis/Maximum deviation = 0, Mesh/Face size = 300", done.stdout)
+
+    def test_a_step_that_is_given_is_fixed(self):
+        short = {"Drive/Start": "45", "Drive/Stroke": "45.6", "Drive/Reversal duration": "2e-3"}
+        table, *_ = self.study(IN_TIME, {**short, "Study/Type": "transient", "Study/Vary": "Time/Step = 2e-5, 1e-5"})
+        self.assertAlmostEqual(table["steps"][1] / table["steps"][0], 2, delta=0.02)
+
+    def test_killed_and_started_again(self):
+        whole, *_ = self.study(IN_TIME, MANY, output=self.folder / "whole")
+        journal = self.output / "study.journal"
+        process = self.start(IN_TIME, "--output", self.output, *settings(MANY), "--jobs", 1)
+        self.wait_until(process, lambda: journal.exists() and len(journal.read_bytes().splitlines()) > 100 or None)
+        process.kill()
+        process.wait(TIMEOUT)
+        with open(journal, "rb+") as file:  # torn in the middle of a line
+            file.truncate(file.seek(0, 2) - 30)
+        table, _, _, done = self.study(IN_TIME, MANY)
+        self.assertRegex(done.stderr, r"study.journal: \d+ runs taken over")
+        with h5py.File(self.output / "result.h5", "r") as file:
+            self.assertGreater(file["meta/runs_taken_over"][()], 90)
+        self.expect_same_numbers(whole, table)
+
+    def test_interrupted(self):
+        for jobs in (1, 2):
+            output = self.folder / f"interrupted-{jobs}"
+            process = self.start(IN_TIME, "--output", output, *settings(MANY), "--jobs", jobs, "--quiet")
+            journal = output / "study.journal"
+            self.wait_until(process, lambda: journal.exists() and len(journal.read_bytes().splitlines()) > 100 or None)
+            process.send_signal(signal.SIGINT)
+            said = process.communicate(timeout=TIMEOUT)
+            self.assertEqual((process.returncode, said[0]), (1, ""))
+            self.assertEqual(len(said[1].splitlines()), 1, said[1])
+            table, _, summary = read(output)
+            self.assertIn("interrupted", summary["status"])
+            self.assertGreaterEqual(len(table["run"]), 100)
+            self.assertTrue(journal.exists())
+
+    def test_any_number_of_processes(self):
+        changes = {**COARSE, "Study/Vary": "Mesh/Face size = 4, 3; Friction/Factor = 0.8, 1, 1.2"}
+        one, *_ = self.study(STATIC, changes, "--jobs", 1, output=self.folder / "one")
+        for jobs in (2, 3):
+            several, *_ = self.study(STATIC, changes, "--jobs", jobs, output=self.folder / f"several-{jobs}")
+            self.expect_same_numbers(one, several)
+            with h5py.File(self.folder / f"several-{jobs}" / "result.h5", "r") as file:
+                self.assertEqual(file["meta/ranks"][()], jobs if shutil.which("mpirun") else 1)
+
+    def test_a_mesh_is_made_once(self):
+        table, *_ = self.study(STATIC, {**COARSE, "Study/Vary": "Friction/Factor = 0.8, 1, 1.2"}, "--jobs", 1)
+        saved = table["cpu_time"] - table["cpu_time_spent"]
+        self.assertEqual(saved[0], 0)
+        self.assertTrue((saved[1:] > 0).all())
+
+    def test_bad_input_is_told_once(self):
+        wrong = {
+            "Mesh/Fce size = 1": "did you mean 'Mesh/Face size'?",
+            "Mesh/Face size = 1 ... 2": "FIRST ... LAST : NUMBER",
+            "Mesh/Face size = 1, -2": "Mesh/Face size = -2 must be auto or a number > 0",
+            "Mesh/Face size = 300, 400": "every run is refused",
+            "Friction/Coefficient = 0.5": "counts only with Friction/Law = Coulomb",
+        }
+        for vary, message in wrong.items():
+            for command in ((), ("--validate",)):
+                done = sprag(STATIC, "--output", self.output, *settings({"Study/Vary": vary}), *command)
+                self.assertEqual((done.returncode, done.stdout), (2, ""))
+                self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+                self.assertIn("Study/Vary", done.stderr)
+                self.assertIn(message, done.stderr)
+                self.assertFalse(self.output.exists())
+
+    def test_a_reference_that_is_refused(self):
+        done = sprag(STATIC, "--output", self.output, *settings({"Study/Reference": "Mesh/Face size = 300"}))
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("Study/Reference is refused", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
