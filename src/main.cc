@@ -55,7 +55,8 @@ namespace sprag
     {
       if (arguments.print_parameters)
         return false;
-      return scene.spring.type == SpringType::leaf || (arguments.validate ? needs_mesh(scene) : !follows_formulas(scene));
+      return scene.spring.type == SpringType::leaf || scene.analysis.type == AnalysisType::study ||
+             (arguments.validate ? needs_mesh(scene) : !follows_formulas(scene));
     }
 
     /// The arguments and the file are read again there.
