@@ -114,8 +114,7 @@ int main(int argc, char **argv)
   Arguments arguments;
   if (const auto status = read_arguments(argc, argv, arguments))
     return *status;
-  std::timespec since = {};
-  clock_gettime(CLOCK_REALTIME_COARSE, &since); // the clock of file systems
+  const std::timespec since = time_of_files();
   try
   {
     if (under_mpi() && !arguments.print_parameters)

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <numeric>
@@ -117,5 +118,14 @@ namespace sprag
   std::string did_you_mean(const std::optional<std::string> &candidate)
   {
     return candidate ? "; did you mean '" + *candidate + "'?" : "";
+  }
+
+  std::string identifier_of(const std::string &name)
+  {
+    std::string result;
+    for (const char c : name)
+      result +=
+          std::isalnum(static_cast<unsigned char>(c)) != 0 ? static_cast<char>(std::tolower(static_cast<unsigned char>(c))) : '_';
+    return result;
   }
 } // namespace sprag

@@ -54,4 +54,7 @@ namespace sprag
 
   /// Returns "; did you mean 'X'?", or an empty text without a candidate.
   std::string did_you_mean(const std::optional<std::string> &candidate);
+
+  /// Returns a name as an identifier: in small letters, with underscores for all that is neither letter nor digit.
+  std::string identifier_of(const std::string &name);
 } // namespace sprag

@@ -8,6 +8,13 @@
 
 namespace sprag
 {
+  std::timespec time_of_files()
+  {
+    std::timespec result = {};
+    clock_gettime(CLOCK_REALTIME_COARSE, &result);
+    return result;
+  }
+
   int tell(const InputError &error)
   {
     std::cerr << error.what() << '\n';

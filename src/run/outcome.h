@@ -11,6 +11,9 @@ namespace sprag
 {
   // How the program tells what came of it, by messages on the standard error, its exit status and what it leaves in the folder.
 
+  /// Returns the time by the clock of file systems.
+  std::timespec time_of_files();
+
   /// Prints what is wrong with the input and returns the exit status.
   int tell(const InputError &error);
 

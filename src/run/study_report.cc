@@ -7,7 +7,6 @@
 #include <boost/algorithm/string/join.hpp>
 
 #include <algorithm>
-#include <cctype>
 #include <limits>
 #include <map>
 #include <ostream>
@@ -20,16 +19,6 @@ namespace sprag
   {
     constexpr double unknown                = std::numeric_limits<double>::quiet_NaN();
     constexpr std::size_t most_runs_printed = 5; ///< of those that failed, and of those that were refused
-
-    std::string slug(const std::string &name)
-    {
-      std::string result;
-      for (const char c : name)
-        result += std::isalnum(static_cast<unsigned char>(c)) != 0
-                      ? static_cast<char>(std::tolower(static_cast<unsigned char>(c)))
-                      : '_';
-      return result;
-    }
 
     /// Finished runs without the reference.
     std::vector<const StudyRecord *> rows_of(const std::vector<StudyPoint> &points, const StudyRecords &records)
@@ -64,10 +53,10 @@ namespace sprag
         const Rule &rule   = find_parameter(declared, varied.name)->rule;
         const bool numeric = has_numbers(rule);
         const auto meaning = varied.name + (numeric ? "" : ": place among its values");
-        table.numbers.push_back(dataset_of(rows, { slug(varied.name), rule.unit.empty() ? "1" : rule.unit, meaning },
+        table.numbers.push_back(dataset_of(rows, { identifier_of(varied.name), rule.unit.empty() ? "1" : rule.unit, meaning },
                                            [&](const StudyRecord *row)
                                            { return number_of(varied, points[row->run][i], numeric); }));
-        TextDataset texts{ slug(varied.name), varied.name, {} };
+        TextDataset texts{ identifier_of(varied.name), varied.name, {} };
         for (const auto *row : rows)
           texts.values.push_back(varied.values[points[row->run][i]]);
         table.texts.push_back(texts);

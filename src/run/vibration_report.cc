@@ -4,7 +4,6 @@
 #include "base/text.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <functional>
 #include <iomanip>
@@ -115,16 +114,6 @@ namespace sprag
               numbers,
               of_points ? std::vector<std::size_t>{ modes.size(), xi.size() } : std::vector<std::size_t>{} });
       }
-    }
-
-    std::string slug(const std::string &name)
-    {
-      std::string result;
-      for (const char c : name)
-        result += std::isalnum(static_cast<unsigned char>(c)) != 0
-                      ? static_cast<char>(std::tolower(static_cast<unsigned char>(c)))
-                      : '_';
-      return result;
     }
 
     const std::string motions = "mirroring, swinging, either where both tie, mixed where the levers differ";
@@ -248,7 +237,7 @@ namespace sprag
     std::vector<Entry> result;
     for (const auto &search : searches)
     {
-      const std::string name = "critical_" + slug(search.range.name);
+      const std::string name = "critical_" + identifier_of(search.range.name);
       for (std::size_t i = 0; i < search.changes.size(); ++i)
       {
         const auto &critical = search.changes[i];
