@@ -117,8 +117,8 @@ def print_case(scene, changes, cost, told, errors):
     print(f"{scene} {changes or ''}: telling took {100 * cost:.0f} % of the run")
     outside = 0
     for name, error in errors.items():
-        ratio = told[name] / error
-        outside += not 0.5 <= ratio <= 3
+        ratio = told[name] / error  # NaN where words are told
+        outside += ratio < 0.5 or ratio > 3
         print_row(("  " + name, f"{told[name]:.1e}", f"{error:.1e}", f"{ratio:.2f}"), WIDTHS)
     return outside
 

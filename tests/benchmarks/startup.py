@@ -15,7 +15,7 @@ from runs import ROOT, add_program, print_row
 
 COLUMNS = ("run", "CPU ms", "user", "system", "libraries", "phases", "rest", "ratio")
 WIDTHS = (34, 9, 7, 9, 12, 9, 7, 8)
-OUTER_PHASES = ("mesh", "basis", "model", "eigenvalues", "steps_and_output", "fields")
+OUTER_PHASES = ("mesh", "basis", "model", "eigenvalues", "steps_and_output", "fields", "accuracy")
 
 # name, scene of params/ or none, options
 RUNS = (
