@@ -157,6 +157,7 @@ namespace sprag
   {
     if (!scene.mesh.file.empty())
       return unknown(no_coarser_mesh);
+    const auto penalties = levers.penalties();
     try
     {
       const Probes probes = probe(scene, levers, rows, settings);
@@ -179,6 +180,7 @@ namespace sprag
     }
     catch (const AnalysisError &error)
     {
+      levers.use_penalties(penalties);
       return unknown("No estimate: in the comparison there was " + std::string(error.what()) + ".");
     }
   }

@@ -68,6 +68,8 @@ namespace sprag
     try
     {
       const auto probes = probe(scene, dynamics, maker);
+      if (!(probes.coarse.frequency() > 0.) || !(probes.soft.frequency() > 0.))
+        return unknown("No estimate: on a coarser mesh or with a softer penalty the mode that grows most does not oscillate.");
       return { estimate(scene, found, probes, "growth_rate", "it, and beyond 100 % the verdict may flip",
                         &SlideStability::growth_rate),
                estimate(scene, found, probes, "frequency", "it", &SlideStability::frequency) };

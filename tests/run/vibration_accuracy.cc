@@ -1,0 +1,62 @@
+#include "run/vibration_accuracy.h"
+
+#include "mpi_environment.h"
+#include "scene/held_slide.h"
+#include "scenes.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
+
+using namespace sprag;
+
+namespace
+{
+  /// Model A's slide at x = 30 mm moving back, of a condensed lever.
+  Scene slide(const double face_size)
+  {
+    Scene scene               = model_a();
+    scene.analysis.type       = AnalysisType::stability;
+    scene.analysis.model      = ModelType::condensed;
+    scene.mesh.face_size      = face_size;
+    scene.condensed.modes     = 6;
+    scene.stability.position  = 30.;
+    scene.stability.direction = Direction::backward;
+    return held_scene(scene);
+  }
+
+  std::vector<ErrorEstimate> told(const Scene &scene)
+  {
+    DynamicsMaker maker(false);
+    const auto dynamics = maker.make(scene);
+    const auto found    = judge(dynamics.model(), held_drive(scene), scene.stability.modes);
+    return vibration_accuracy(scene, found, dynamics.meshed, maker);
+  }
+} // namespace
+
+TEST(VibrationAccuracy, ToldErrorsHoldTheChangeToAFinerMesh)
+{
+  const Scene scene = slide(0.5);
+  DynamicsMaker maker(false);
+  const auto coarse = judge(scene, maker);
+  const auto fine   = judge(slide(0.125), maker);
+  const auto errors = told(scene);
+  ASSERT_EQ(errors.size(), 2u);
+  const double growth    = std::abs(coarse.growth_rate() / fine.growth_rate() - 1.);
+  const double frequency = std::abs(coarse.frequency() / fine.frequency() - 1.);
+  EXPECT_GT(total_error(errors[0]), 0.5 * growth);
+  EXPECT_GT(total_error(errors[1]), 0.5 * frequency);
+  for (const auto &error : errors)
+  {
+    ASSERT_EQ(error.parts.size(), 3u);
+    EXPECT_LT(total_error(error), 0.05) << error.quantity;
+    for (const auto &part : error.parts)
+      EXPECT_TRUE(std::isfinite(part.value)) << error.quantity << ' ' << part.name;
+  }
+}
+
+TEST(VibrationAccuracy, LeversWithoutAMeshTellNone)
+{
+  Scene scene          = slide(0.5);
+  scene.analysis.model = ModelType::beam;
+  EXPECT_TRUE(told(scene).empty());
+}
