@@ -17,6 +17,10 @@ DefineConstant[
   face_size       = {  0.5, Name "Mesh/Face size"},         // element length along the swept face
   sweep_begin     = {115.0, Name "Mesh/Sweep begin"},       // swept part of the face
   sweep_end       = {190.0, Name "Mesh/Sweep end"},
+  graded_from     = {  0.0, Name "Mesh/Graded from"},       // where lengths begin to fall towards the narrow contact
+  graded_to       = {  0.0, Name "Mesh/Graded to"},         // where they are shortest
+  longest         = {  0.0, Name "Mesh/Longest"},           // up to there
+  shortest        = {  0.0, Name "Mesh/Shortest"},          // at graded_to; 0: all of the face size on the swept face
   largest         = {  3.0, Name "Mesh/Largest length"},    // of elements along the lever
   growth          = {  1.2, Name "Mesh/Growth"}             // between neighbours beyond the swept part
 ];
@@ -25,29 +29,45 @@ plate = plate_thickness > 0 ? 1 : 0;
 face_begin = plate ? plate_begin : 0;
 face_end = plate ? plate_end : lever_length;
 
-// Element boundaries along the friction face: sizes grow away from the swept part and are scaled to fit.
-longest = Max(largest, face_size);
-most = growth > 1.01 ? Min(5000, Ceil(Log(longest / face_size) / Log(growth) + (face_end - face_begin) / longest + 3)) : 5000;
-left[] = {}; size = face_size; sum = 0;
+// Element boundaries along the friction face: sizes are fine between sweep_begin and fine_end, fall towards `last` if the mesh is
+// graded, grow away from there and are scaled to fit.
+graded = shortest > 0 ? 1 : 0;
+fine_size = graded ? longest : face_size;
+last_size = graded ? shortest : face_size;
+fine_end = graded ? Max(graded_from, sweep_begin) : sweep_end;
+last = graded ? graded_to : sweep_end;
+limit = Max(largest, face_size);
+most = growth > 1.01 ? Min(5000, Ceil(Log(limit / last_size) / Log(growth) + (face_end - face_begin) / limit + 3)) : 5000;
+left[] = {}; size = fine_size; sum = 0;
 For i In {1:most}
   If (sum < sweep_begin - face_begin - 1e-9)
-    size = Min(size * growth, longest); sum += size; left[] += size;
+    size = Min(size * growth, limit); sum += size; left[] += size;
   EndIf
 EndFor
-right[] = {}; size = face_size; sum_right = 0;
+right[] = {}; size = last_size; sum_right = 0;
 For i In {1:most}
-  If (sum_right < face_end - sweep_end - 1e-9)
-    size = Min(size * growth, longest); sum_right += size; right[] += size;
+  If (sum_right < face_end - last - 1e-9)
+    size = Min(size * growth, limit); sum_right += size; right[] += size;
   EndIf
 EndFor
-fine = Ceil((sweep_end - sweep_begin) / face_size - 1e-6);
+fine = Ceil((fine_end - sweep_begin) / fine_size - 1e-6);
 counts[] = {}; ends[] = {}; position = 0;
 For i In {1:#left[]}
   position += left[#left[] - i] * (sweep_begin - face_begin) / sum; counts[] += 1; ends[] += position / (face_end - face_begin);
 EndFor
-counts[] += fine; position = sweep_end - face_begin; ends[] += position / (face_end - face_begin);
+If (fine > 0)
+  counts[] += fine; position = fine_end - face_begin; ends[] += position / (face_end - face_begin);
+EndIf
+If (graded)
+  steps = Max(1, Ceil(Log(longest / shortest) / Log(1 + (longest - shortest) / (last - fine_end))));
+  shrinkage = (shortest / longest) ^ (1 / steps);
+  size = (last - fine_end) * (1 - shrinkage) / (1 - shrinkage ^ steps);
+  For i In {1:steps}
+    position += size; size *= shrinkage; counts[] += 1; ends[] += position / (face_end - face_begin);
+  EndFor
+EndIf
 For i In {1:#right[]}
-  position += right[i - 1] * (face_end - sweep_end) / sum_right; counts[] += 1; ends[] += position / (face_end - face_begin);
+  position += right[i - 1] * (face_end - last) / sum_right; counts[] += 1; ends[] += position / (face_end - face_begin);
 EndFor
 ends[#ends[] - 1] = 1;
 

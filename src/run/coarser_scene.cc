@@ -12,6 +12,7 @@ namespace sprag
   Scene with_coarser_mesh(Scene scene)
   {
     scene.mesh.face_size *= coarser;
+    scene.mesh.faces_in_contact /= coarser;
     scene.cylinder.face_size *= coarser;
     return scene;
   }

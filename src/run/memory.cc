@@ -6,6 +6,7 @@
 #include "base/text.h"
 #include "run/recorder.h"
 #include "scene/analysis_use.h"
+#include "scene/contact_width.h"
 #include "scene/lever_shape.h"
 
 #include <algorithm>
@@ -33,7 +34,12 @@ namespace sprag
       const auto [first, last] = swept_contact(scene);
       const auto [begin, end]  = friction_face(scene);
       const double from        = std::clamp(first - room, begin, end);
-      const double to          = std::clamp(last + room, begin, end);
+      if (const auto grading = face_grading(scene))
+        return graded(from - begin, grading->longest, largest, 1.2) + (grading->begin - from) / grading->longest +
+               (grading->end - grading->begin) * std::log(grading->longest / grading->shortest) /
+                   (grading->longest - grading->shortest) +
+               graded(end - grading->end, grading->shortest, largest, 1.2);
+      const double to = std::clamp(last + room, begin, end);
       return (to - from) / size + graded(from - begin, size, largest, 1.2) + graded(end - to, size, largest, 1.2);
     }
 

@@ -41,6 +41,15 @@ namespace sprag
 
     const char *const time_tolerance = "Time/Tolerance";
 
+    /// Augmentations are cheap where the lever is factorised once. Chords of degree 1 need soft contact to follow a circle.
+    Enforcement automatic_enforcement(const Scene &scene)
+    {
+      const bool is_cheap = scene.analysis.type == AnalysisType::quasi_static && scene.lever.material == MaterialModel::linear &&
+                            scene.analysis.solution == Solution::automatic;
+      return is_cheap && scene.mesh.degree == 2 && !scene.contact.penalty ? Enforcement::augmented_lagrangian
+                                                                          : Enforcement::penalty;
+    }
+
     ParameterValues values_of(const Scene &scene)
     {
       return scene.parameters ? *scene.parameters : ParameterValues();
@@ -101,9 +110,18 @@ namespace sprag
         resolve("Mesh/File", input.scene.mesh.file);
         resolve("Condensed/Cache", input.scene.condensed.cache);
         make_time_tolerance();
-        const auto type            = input.scene.analysis.type;
-        const bool is_driven       = type == AnalysisType::quasi_static || type == AnalysisType::transient;
-        input.scene.mesh.face_size = input.face_size.value_or(is_driven ? driven_face_size : input.scene.mesh.face_size);
+        make_discretisation();
+      }
+
+      void make_discretisation()
+      {
+        Scene &scene                = input.scene;
+        const bool is_static        = scene.analysis.type == AnalysisType::quasi_static;
+        const bool is_driven        = is_static || scene.analysis.type == AnalysisType::transient;
+        scene.mesh.face_size        = input.face_size.value_or(is_driven ? driven_face_size : scene.mesh.face_size);
+        const double enough         = scene.mesh.degree == 1 ? 5. : 3.;
+        scene.mesh.faces_in_contact = input.faces_in_contact.value_or(is_static ? enough : 0.);
+        scene.contact.enforcement   = input.enforcement.value_or(automatic_enforcement(scene));
       }
 
       /// The printed parameters give a step, so that they must give the tolerance too.

@@ -194,9 +194,10 @@ namespace sprag
 
   struct MeshSettings
   {
-    double face_size    = 0.5; ///< element length along the friction face [mm], > 0
-    unsigned int degree = 2;   ///< 1 or 2
-    std::string file;          ///< user's .geo or .msh; empty: the built-in lever
+    double face_size        = 0.5; ///< element length along the friction face [mm], > 0
+    double faces_in_contact = 0.;  ///< least number of faces across the contact, see face_grading(), >= 0
+    unsigned int degree     = 2;   ///< 1 or 2
+    std::string file;              ///< user's .geo or .msh; empty: the built-in lever
   };
 
   enum class FieldOutput

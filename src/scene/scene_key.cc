@@ -32,8 +32,10 @@ namespace sprag
     std::string key_without(const Scene &scene, const Spared &is_spared)
     {
       SceneSettings settings;
-      settings.scene     = scene;
-      settings.face_size = scene.mesh.face_size;
+      settings.scene            = scene;
+      settings.face_size        = scene.mesh.face_size;
+      settings.faces_in_contact = scene.mesh.faces_in_contact;
+      settings.enforcement      = scene.contact.enforcement;
       std::string key;
       for (const auto &parameter : scene_parameters(settings))
         if (!is_spared(parameter))

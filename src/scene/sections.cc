@@ -155,11 +155,16 @@ namespace sprag
                      "Share of critical, of frame and lever on the sensor");
     }
 
-    void contact(Section section, ContactSettings &settings)
+    void contact(Section section, SceneSettings &input)
     {
-      section.choice("Enforcement", settings.enforcement,
-                     { { "penalty", Enforcement::penalty }, { "augmented Lagrangian", Enforcement::augmented_lagrangian } },
-                     "How overlap of cylinder and lever is prevented");
+      ContactSettings &settings = input.scene.contact;
+      section.choice(
+          "Enforcement", input.enforcement,
+          { { "auto", std::nullopt },
+            { "penalty", Enforcement::penalty },
+            { "augmented Lagrangian", Enforcement::augmented_lagrangian } },
+          "How overlap of cylinder and lever is prevented; auto: augmented Lagrangian without inertia for a linear lever "
+          "of degree 2 with Penalty = auto, else penalty");
       section.number_or_auto("Penalty", settings.penalty, above(0.), "N/mm3",
                              "Pressure over overlap; auto: from mesh and layer, stiffer in time at degree 2");
       section.number_or_auto("Tangential penalty", settings.tangential_penalty, above(0.), "N/mm3",
@@ -196,11 +201,16 @@ namespace sprag
                    "Folder of stored bases, relative to the folder of this file; empty: the user's cache folder");
     }
 
-    void mesh(Section section, MeshSettings &settings, std::optional<double> &face_size)
+    void mesh(Section section, SceneSettings &input)
     {
+      MeshSettings &settings = input.scene.mesh;
       section.number_or_auto(
-          "Face size", face_size, above(0.), "mm",
+          "Face size", input.face_size, above(0.), "mm",
           "Element length along the friction face; auto: 0.25 where Analysis/Type is quasi-static or transient, else 0.5");
+      section.number_or_auto(
+          "Faces in contact", input.faces_in_contact, { 0., 20. }, "",
+          "Least number of elements across the contact: where it is narrow the built-in bar's are shorter than "
+          "Face size, down to a quarter; 0: none shorter; auto: without inertia 4, of degree 1 5, else 0");
       section.integer("Degree", settings.degree, { 1., 2. }, "Of the polynomials");
       section.text("File", settings.file, "A .geo or .msh file instead of the built-in lever, relative to the folder of this one",
                    Rule::Kind::file);
@@ -308,9 +318,9 @@ namespace sprag
     friction_layer({ all, "Friction layer" }, scene.layer);
     add_apparatus_parameters(scene, all);
     support({ all, "Support" }, scene.support);
-    contact({ all, "Contact" }, scene.contact);
+    contact({ all, "Contact" }, settings);
     time({ all, "Time" }, scene.time, settings.time_tolerance);
-    mesh({ all, "Mesh" }, scene.mesh, settings.face_size);
+    mesh({ all, "Mesh" }, settings);
     condensed({ all, "Condensed" }, scene.condensed);
     output({ all, "Output" }, scene.output);
     slope({ all, "Slope" }, scene.slope, settings.maximum_inclination);

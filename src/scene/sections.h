@@ -47,9 +47,11 @@ namespace sprag
     Scene scene;
     DriveSettings drive;
     FrictionSettings friction;
-    double maximum_inclination = 60.;     ///< [deg]
-    std::optional<double> time_tolerance; ///< none: by whether a time step is given
-    std::optional<double> face_size;      ///< none: by the analysis
+    double maximum_inclination = 60.;       ///< [deg]
+    std::optional<double> time_tolerance;   ///< none: by whether a time step is given
+    std::optional<double> face_size;        ///< none: by the analysis
+    std::optional<double> faces_in_contact; ///< none: by the analysis
+    std::optional<Enforcement> enforcement; ///< none: by the analysis
   };
 
   /// Lists every parameter of a scene file. Defaults are the present values in `settings`, where Parameter::store writes to;

@@ -5,6 +5,7 @@
 #include "base/text.h"
 #include "fe/body/elastic_body.h"
 #include "fe/mesh/geometry_script.h"
+#include "scene/contact_width.h"
 #include "scene/lever_shape.h"
 
 #include <deal.II/base/bounding_box.h>
@@ -97,7 +98,13 @@ namespace sprag
 
     MeshConstants bar_constants(const Scene &scene)
     {
-      return joined(common_constants(scene), { { "lever_depth", scene.lever.depth }, { "hub_length", 0.5 * scene.lever.depth } });
+      const auto grading = face_grading(scene).value_or(FaceGrading{});
+      return joined(common_constants(scene), { { "lever_depth", scene.lever.depth },
+                                               { "hub_length", 0.5 * scene.lever.depth },
+                                               { "graded_from", grading.begin },
+                                               { "graded_to", grading.end },
+                                               { "longest", grading.longest },
+                                               { "shortest", grading.shortest } });
     }
 
     MeshConstants frame_constants(const Scene &scene)

@@ -17,13 +17,15 @@ namespace sprag
     /// with each of them. Linear cells meet a circle with their chords, whose pressures would show.
     constexpr double penalty_over_cells = 12.5;
 
-    double automatic_penalty(const FrictionFace<2> &face, const Enforcement enforcement, const double layer_thickness)
+    double automatic_penalty(const FrictionFace<2> &face, const Enforcement enforcement, const double layer_thickness,
+                             const double longest)
     {
       const double by_layer = penalty_factor * face.young_modulus / std::max(face.depth, layer_thickness);
       if (face.edges.front().nodes.size() == 2)
         return by_layer;
       const auto shorter    = [](const FacePatch &a, const FacePatch &b) { return a.length < b.length; };
-      const double length   = std::min_element(face.patches.begin(), face.patches.end(), shorter)->length;
+      const double shortest = std::min_element(face.patches.begin(), face.patches.end(), shorter)->length;
+      const double length   = std::max(shortest, longest);
       const double by_cells = std::max(by_layer, penalty_over_cells * face.young_modulus / length);
       if (enforcement == Enforcement::augmented_lagrangian)
         return by_cells;
@@ -32,19 +34,19 @@ namespace sprag
   } // namespace
 
   ContactPenalties contact_penalties(const FrictionFace<2> &face, const ContactSettings &settings, const double layer_thickness,
-                                     const std::optional<double> &over_layer)
+                                     const std::optional<double> &over_layer, const double longest)
   {
     const double automatic = over_layer && settings.enforcement == Enforcement::penalty
                                  ? *over_layer * face.young_modulus / std::max(face.depth, layer_thickness)
-                                 : automatic_penalty(face, settings.enforcement, layer_thickness);
+                                 : automatic_penalty(face, settings.enforcement, layer_thickness, longest);
     const double normal    = settings.penalty.value_or(automatic);
     return { normal, settings.tangential_penalty.value_or(normal) };
   }
 
   ContactPenalties contact_penalties(const ElasticBody<2> &body, const ContactSettings &settings, const double layer_thickness,
-                                     const std::optional<double> &over_layer)
+                                     const std::optional<double> &over_layer, const double longest)
   {
-    const auto lever = contact_penalties(body.friction_face(), settings, layer_thickness, over_layer);
+    const auto lever = contact_penalties(body.friction_face(), settings, layer_thickness, over_layer, longest);
     if (body.cylinder_face().patches.empty())
       return lever;
     const auto cylinder = contact_penalties(body.cylinder_face(), settings, 0., over_layer);

@@ -36,7 +36,8 @@ namespace sprag
                properties.radius,
                ports,
                properties.spring.rest,
-               contact_penalties(body, properties.contact, properties.layer_thickness, properties.penalty_factor),
+               contact_penalties(body, properties.contact, properties.layer_thickness, properties.penalty_factor,
+                                 properties.longest_face),
                properties.friction,
                properties.layer_thickness };
     }

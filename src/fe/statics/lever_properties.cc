@@ -1,6 +1,7 @@
 #include "fe/statics/lever_properties.h"
 
 #include "scene/closed_form.h"
+#include "scene/contact_width.h"
 #include "scene/mirrored_pair.h"
 #include "scene/pair_closed_form.h"
 
@@ -54,6 +55,7 @@ namespace sprag
       result.support_stiffness = scene.support.stiffness;
     result.friction         = scene.friction;
     result.contact          = scene.contact;
+    result.longest_face     = face_grading(scene).value_or(FaceGrading{}).longest;
     result.solution         = scene.analysis.solution;
     result.layer_thickness  = scene.layer.thickness;
     result.interface_offset = geometry.interface_offset;

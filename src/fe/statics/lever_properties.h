@@ -31,6 +31,7 @@ namespace sprag
     FrictionLaw friction;
     ContactSettings contact;
     std::optional<double> penalty_factor; ///< of an automatic penalty, see contact_penalties()
+    double longest_face     = 0.;         ///< of a graded mesh, see contact_penalties() [mm]
     Solution solution       = Solution::automatic;
     double layer_thickness  = 0.;     ///< [mm]
     double interface_offset = 0.;     ///< e [mm]

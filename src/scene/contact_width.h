@@ -1,0 +1,28 @@
+#pragma once
+
+#include "scene/scene.h"
+
+#include <optional>
+
+namespace sprag
+{
+  /// Estimates how wide the contact is under a force P >= 0 [N] between the scene's layer, or the bare lever, and a rigid
+  /// cylinder [mm]: the smaller of Hertz's width on a body of the layer's material, which holds while the contact is narrower
+  /// than the layer is thick, and that on a thin bonded layer, 2 (3 P R h (1 - nu^2)/(2 b E))^(1/3).
+  double estimated_contact_width(const Scene &scene, double P);
+
+  /// Faces that become shorter towards where the contact is narrow, in lever axes.
+  struct FaceGrading
+  {
+    double begin    = 0.; ///< xi up to which they are the longest; from there their length falls linearly [mm]
+    double end      = 0.; ///< xi of the shortest, just beyond the contact there; further on they grow again [mm]
+    double longest  = 0.; ///< <= Mesh/Face size [mm]
+    double shortest = 0.; ///< >= Mesh/Face size/4 [mm]
+  };
+
+  /// Returns how the faces of a built-in bar are graded so that Mesh/Faces in contact lie across the contact, as far as that
+  /// takes no faces below a quarter of Mesh/Face size, by estimated_contact_width() and P of the closed form. None where faces of
+  /// Mesh/Face size are short enough everywhere, and where they are twice too long even for the widest contact: of such a mesh
+  /// forces are wanted alone.
+  std::optional<FaceGrading> face_grading(const Scene &scene);
+} // namespace sprag
