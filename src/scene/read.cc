@@ -4,10 +4,13 @@
 #include "base/errors.h"
 #include "base/table_file.h"
 #include "base/text.h"
+#include "scene/accuracy.h"
 #include "scene/check.h"
 #include "scene/held_slide.h"
 #include "scene/sections.h"
 #include "scene/variation.h"
+
+#include <boost/algorithm/string.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -37,6 +40,15 @@ namespace sprag
                                                                       { "speed", { "speed", "velocity", "v" } },
                                                                       { "mu", { "mu", "coefficient", "friction" } } };
       return words.at(column);
+    }
+
+    std::vector<std::string> words_of_list(const std::string &text)
+    {
+      std::vector<std::string> words;
+      boost::split(words, text, [](const char c) { return c == ','; });
+      for (auto &word : words)
+        boost::trim(word);
+      return words;
     }
 
     const char *const time_tolerance = "Time/Tolerance";
@@ -74,6 +86,7 @@ namespace sprag
         check();
         check_ranges();
         read_study();
+        read_accuracy();
         if (!settings.mistakes.empty())
           throw InputError(settings.mistakes);
         input.scene.name       = std::filesystem::path(settings.file).stem().string();
@@ -110,7 +123,33 @@ namespace sprag
         resolve("Mesh/File", input.scene.mesh.file);
         resolve("Condensed/Cache", input.scene.condensed.cache);
         make_time_tolerance();
+        make_model();
         make_discretisation();
+      }
+
+      /// Until it is chosen, the model is the dearest that a choice may end at.
+      void make_model()
+      {
+        Scene &scene                 = input.scene;
+        const bool is_static         = scene.analysis.type == AnalysisType::quasi_static;
+        scene.accuracy.is_model_open = !input.model;
+        scene.analysis.model         = input.model.value_or(is_static ? ModelType::finite_element : ModelType::condensed);
+      }
+
+      void read_accuracy()
+      {
+        AccuracySettings &accuracy = input.scene.accuracy;
+        const auto possible        = quantities_of(input.scene.analysis.type);
+        if (accuracy.is_model_open && !accuracy.is_asked_for())
+          report("Analysis/Model", "auto needs Accuracy/Target or Accuracy/Budget");
+        if (accuracy.is_asked_for() && possible.empty())
+          report(accuracy.target > 0. ? "Accuracy/Target" : "Accuracy/Budget",
+                 "counts only along the drive and for held slides, where errors are told");
+        accuracy.quantities =
+            accuracy.quantity == "auto" ? usual_quantities_of(input.scene.analysis.type) : words_of_list(accuracy.quantity);
+        for (const auto &name : accuracy.quantities)
+          if (accuracy.is_asked_for() && std::find(possible.begin(), possible.end(), name) == possible.end())
+            report("Accuracy/Quantity", "'" + name + "' is none of " + boost::algorithm::join(possible, ", "));
       }
 
       void make_discretisation()
@@ -119,7 +158,7 @@ namespace sprag
         const bool is_static        = scene.analysis.type == AnalysisType::quasi_static;
         const bool is_driven        = is_static || scene.analysis.type == AnalysisType::transient;
         scene.mesh.face_size        = input.face_size.value_or(is_driven ? driven_face_size : scene.mesh.face_size);
-        const double enough         = scene.mesh.degree == 1 ? 5. : 3.;
+        const double enough         = scene.mesh.degree == 1 ? 5. : 4.;
         scene.mesh.faces_in_contact = input.faces_in_contact.value_or(is_static ? enough : 0.);
         scene.contact.enforcement   = input.enforcement.value_or(automatic_enforcement(scene));
       }

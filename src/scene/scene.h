@@ -324,6 +324,21 @@ namespace sprag
     AddedMass mass = AddedMass::hub;
   };
 
+  /// How accurate results are to be. Settings that a file leaves open follow from it.
+  struct AccuracySettings
+  {
+    double target        = 0.;           ///< relative error wanted [-]; 0: nothing follows from it
+    std::string quantity = "auto";       ///< names of quantities of /accuracy, separated by commas
+    double budget        = 0.;           ///< CPU time that a run may take [s]; 0: any
+    bool is_model_open   = false;        ///< Analysis/Model = auto
+    std::vector<std::string> quantities; ///< those meant
+
+    bool is_asked_for() const
+    {
+      return target > 0. || budget > 0.;
+    }
+  };
+
   struct Scene
   {
     AnalysisSettings analysis;
@@ -349,6 +364,7 @@ namespace sprag
     StudySettings study;
     SpragSlipSettings sprag_slip;
     CalibrationSettings calibration;
+    AccuracySettings accuracy;
     std::string name; ///< file name without folder and ending
 
     /// Every parameter as it was read, by "Section/Name", files with absolute paths; null for a scene that was not read.

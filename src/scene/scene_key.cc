@@ -35,6 +35,7 @@ namespace sprag
       settings.scene            = scene;
       settings.face_size        = scene.mesh.face_size;
       settings.faces_in_contact = scene.mesh.faces_in_contact;
+      settings.model            = scene.analysis.model;
       settings.enforcement      = scene.contact.enforcement;
       std::string key;
       for (const auto &parameter : scene_parameters(settings))
@@ -83,7 +84,7 @@ namespace sprag
   const std::set<std::string> &spared_sections()
   {
     // Friction acts on the face, and the others say which slide is judged and what else is tried.
-    static const std::set<std::string> all = { "Friction", "Stability", "Map", "Sprag slip", "Study" };
+    static const std::set<std::string> all = { "Friction", "Stability", "Map", "Sprag slip", "Study", "Accuracy" };
     return all;
   }
 

@@ -16,8 +16,9 @@ namespace sprag
                                                    { "sprag slip", AnalysisType::sprag_slip },
                                                    { "calibration", AnalysisType::calibration } };
 
-    void analysis(Section section, AnalysisSettings &settings)
+    void analysis(Section section, SceneSettings &input)
     {
+      AnalysisSettings &settings = input.scene.analysis;
       section.choice("Type", settings.type,
                      joined(types_of_a_run, { { "map", AnalysisType::map }, { "study", AnalysisType::study } }),
                      "Follow the drive without inertia, sweep the representative slope C_Q, follow the drive with inertia, fit "
@@ -25,14 +26,16 @@ namespace sprag
                      "there is stable, perturb it in time and follow it to its limit cycle, make parts that have a given k and J "
                      "and tell the constants of the reduced models, judge slides over two parameters, or run any of these but "
                      "the map at other values of any parameters");
-      section.choice("Model", settings.model,
-                     { { "closed form", ModelType::closed_form },
+      section.choice("Model", input.model,
+                     { { "auto", std::nullopt },
+                       { "closed form", ModelType::closed_form },
                        { "rigid", ModelType::rigid },
                        { "beam", ModelType::beam },
                        { "condensed", ModelType::condensed },
                        { "finite element", ModelType::finite_element } },
                      "Rigid lever with ideal contact and without mass (eqs. 4-9), or the deformable lever; with inertia also a "
-                     "rigid lever, a beam, or modes and face shapes of the finite elements");
+                     "rigid lever, a beam, or modes and face shapes of the finite elements; auto: the cheapest that meets "
+                     "Accuracy/Target");
       section.integer("Dimension", settings.dimension, { 2., 3. }, "Dimension of the finite elements");
       section.choice("Plane", settings.plane, { { "stress", PlaneState::stress }, { "strain", PlaneState::strain } },
                      "Plane stress or plane strain of lever and friction layer");
@@ -304,13 +307,28 @@ namespace sprag
       section.number_or_auto("Turn", settings.turn, at_least(0.), "mm",
                              "Where the continuation turns; auto: the drive's smallest x");
     }
+
+    void accuracy(Section section, AccuracySettings &settings)
+    {
+      section.number(
+          "Target", settings.target, { 0., 0.5 }, "",
+          "Relative error of Quantity that is wanted: what the file leaves open of model, mesh, step and modes follows "
+          "from it; 0: nothing does");
+      section.text(
+          "Quantity", settings.quantity,
+          "What is to be as accurate: list of P, Q, loop_area, largest_pressure, contact_width without inertia, "
+          "growth_rate, frequency of held slides, P, frequency in time; auto: P, Q, loop_area, or growth_rate, frequency, "
+          "or P");
+      section.number("Budget", settings.budget, at_least(0.), "s",
+                     "CPU time that the run may take; what fits best is chosen; 0: any");
+    }
   } // namespace
 
   std::vector<Parameter> scene_parameters(SceneSettings &settings)
   {
     Scene &scene = settings.scene;
     std::vector<Parameter> all;
-    analysis({ all, "Analysis" }, scene.analysis);
+    analysis({ all, "Analysis" }, settings);
     geometry({ all, "Geometry" }, scene.geometry);
     drive({ all, "Drive" }, settings.drive);
     friction({ all, "Friction" }, settings.friction);
@@ -328,6 +346,7 @@ namespace sprag
     map({ all, "Map" }, scene.map);
     study({ all, "Study" }, scene.study);
     sprag_slip({ all, "Sprag slip" }, scene.sprag_slip);
+    accuracy({ all, "Accuracy" }, scene.accuracy);
     return all;
   }
 } // namespace sprag

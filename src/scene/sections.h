@@ -47,11 +47,12 @@ namespace sprag
     Scene scene;
     DriveSettings drive;
     FrictionSettings friction;
-    double maximum_inclination = 60.;       ///< [deg]
-    std::optional<double> time_tolerance;   ///< none: by whether a time step is given
-    std::optional<double> face_size;        ///< none: by the analysis
-    std::optional<double> faces_in_contact; ///< none: by the analysis
-    std::optional<Enforcement> enforcement; ///< none: by the analysis
+    double maximum_inclination = 60.;                           ///< [deg]
+    std::optional<double> time_tolerance;                       ///< none: by whether a time step is given
+    std::optional<double> face_size;                            ///< none: by the analysis
+    std::optional<double> faces_in_contact;                     ///< none: by the analysis
+    std::optional<Enforcement> enforcement;                     ///< none: by the analysis
+    std::optional<ModelType> model = ModelType::finite_element; ///< none: by the accuracy asked for
   };
 
   /// Lists every parameter of a scene file. Defaults are the present values in `settings`, where Parameter::store writes to;
