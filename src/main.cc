@@ -3,6 +3,7 @@
 #include "base/hdf5_handle.h"
 #include "base/interrupt.h"
 #include "base/neighbour.h"
+#include "run/cost.h"
 #include "run/memory.h"
 #include "run/outcome.h"
 #include "run/output_folder.h"
@@ -55,8 +56,7 @@ namespace sprag
     {
       if (arguments.print_parameters)
         return false;
-      return scene.spring.type == SpringType::leaf || scene.analysis.type == AnalysisType::study ||
-             (arguments.validate ? needs_mesh(scene) : !follows_formulas(scene));
+      return scene.spring.type == SpringType::leaf || scene.analysis.type == AnalysisType::study || !follows_formulas(scene);
     }
 
     /// The arguments and the file are read again there.
@@ -77,6 +77,8 @@ namespace sprag
       if (arguments.validate)
       {
         require_memory(scene);
+        if (!arguments.quiet)
+          print_cost(std::cout, cost_of_formulas(scene));
         return tell_validity(arguments, scene, scene_warnings(scene));
       }
       const std::string folder = folder_of(arguments, scene);

@@ -30,6 +30,8 @@ namespace sprag
       if (arguments.validate)
       {
         require_memory(scene);
+        if (!arguments.quiet && rank.is_first)
+          print_expectations(scene);
         return tell_validity(arguments, scene, validate(scene));
       }
       if (!rank.is_alone && !works_in_parallel(scene.analysis.type))

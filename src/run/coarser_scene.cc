@@ -22,6 +22,11 @@ namespace sprag
     return scene.mesh.degree == 1 ? 1.6 : 2.;
   }
 
+  double order_of_pressure(const Scene &scene)
+  {
+    return scene.contact.enforcement == Enforcement::augmented_lagrangian ? 2. : 3.;
+  }
+
   ErrorPart mesh_part(const Scene &scene, const double change, const double order)
   {
     return { "mesh", share_of_finer(coarser, order) * change,

@@ -26,6 +26,10 @@ namespace sprag
   /// measured.
   double order_of_forces(const Scene &scene);
 
+  /// Returns the order in which pressures do: 3, and 2 of the augmented Lagrangian, whose averaged tractions follow a narrow
+  /// contact less closely, as measured.
+  double order_of_pressure(const Scene &scene);
+
   /// Returns the part of the mesh, from the change on with_coarser_mesh() and the order of convergence.
   ErrorPart mesh_part(const Scene &scene, double change, double order);
 

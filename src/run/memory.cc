@@ -64,18 +64,6 @@ namespace sprag
              std::max(2., std::log1p(0.4 * (radius - scene.cylinder.inner_radius) / size) / std::log(1.4));
     }
 
-    /// Rows of the table, all of which are kept for the summary; the fewest that adaptive steps can make.
-    double expected_rows(const Scene &scene)
-    {
-      if (scene.analysis.type == AnalysisType::quasi_static)
-        return path_length(scene.drive) / scene.analysis.step;
-      if (scene.analysis.type != AnalysisType::transient)
-        return 0.;
-      const bool adaptive =
-          scene.time.tolerance > 0. && scene.analysis.model != ModelType::closed_form && scene.contact.type != ContactType::ideal;
-      return scene.drive.duration() / scene.time.step / (adaptive ? std::exp2(largest_doublings) : 1.);
-    }
-
     /// While their vector grows there are two of most.
     constexpr double bytes_of_row = 2. * sizeof(Row);
     constexpr double most_rows    = 1e7;
@@ -142,6 +130,17 @@ namespace sprag
       return {};
     const double p = scene.mesh.degree, n = elements_along_face(scene), rows = rows_under_face(scene);
     return { 2. * (p * n + 1.) * (p * rows + 1.) + 2. * p * p * cylinder_elements(scene), 2. * (p * n + 1.) };
+  }
+
+  double expected_rows(const Scene &scene)
+  {
+    if (scene.analysis.type == AnalysisType::quasi_static)
+      return path_length(scene.drive) / scene.analysis.step;
+    if (scene.analysis.type != AnalysisType::transient)
+      return 0.;
+    const bool adaptive =
+        scene.time.tolerance > 0. && scene.analysis.model != ModelType::closed_form && scene.contact.type != ContactType::ideal;
+    return scene.drive.duration() / scene.time.step / (adaptive ? std::exp2(largest_doublings) : 1.);
   }
 
   double expected_memory(const Scene &scene, const unsigned int processes)

@@ -1,5 +1,6 @@
 #include "run/quasi_static_accuracy.h"
 
+#include "analysis/accuracy/sample_changes.h"
 #include "analysis/accuracy/slide_samples.h"
 #include "base/errors.h"
 #include "base/text.h"
@@ -20,12 +21,6 @@ namespace sprag
     bool augments(const Scene &scene)
     {
       return scene.contact.enforcement == Enforcement::augmented_lagrangian;
-    }
-
-    /// As measured; averaged tractions of the augmented Lagrangian follow a narrow contact less closely.
-    double order_of_pressure(const Scene &scene)
-    {
-      return augments(scene) ? 2. : 3.;
     }
 
     /// The samples and what other models make of them.
@@ -55,49 +50,13 @@ namespace sprag
       return result;
     }
 
-    using Value = std::function<double(const Row &)>;
-
-    double largest_change(const std::vector<Row> &run, const std::vector<Row> &other, const Value &value)
+    ErrorEstimate estimate(const Scene &scene, const Probes &probes, const std::string &quantity, const std::string &relative_to)
     {
-      double result = 0.;
-      for (std::size_t i = 0; i < run.size(); ++i)
-        result = std::max(result, std::abs(value(other[i]) - value(run[i])));
-      return result;
-    }
-
-    /// Finds the size of what changes between the run and another model, over a reference.
-    using Size = std::function<double(const std::vector<Row> &other)>;
-
-    std::vector<ErrorPart> parts_of(const Scene &scene, const Probes &probes, const Size &change, const double order)
-    {
-      std::vector<ErrorPart> parts = { mesh_part(scene, change(probes.coarse), order) };
+      const auto change  = [&](const std::vector<Row> &other) { return relative_change(quantity, probes.run, other); };
+      const double order = quantity == "largest_pressure" ? order_of_pressure(scene) : order_of_forces(scene);
+      ErrorEstimate result{ quantity, relative_to, { mesh_part(scene, change(probes.coarse), order) }, {} };
       if (!probes.soft.empty())
-        parts.push_back(penalty_part(change(probes.soft)));
-      return parts;
-    }
-
-    ErrorEstimate along_the_path(const Scene &scene, const Probes &probes, const std::vector<Row> &rows,
-                                 const std::string &quantity, const std::string &relative_to, const Value &value)
-    {
-      const double peak = largest(rows, value);
-      const auto change = [&](const std::vector<Row> &other) { return largest_change(probes.run, other, value) / peak; };
-      return { quantity, relative_to, parts_of(scene, probes, change, order_of_forces(scene)), {} };
-    }
-
-    ErrorEstimate largest_pressure(const Scene &scene, const Probes &probes)
-    {
-      const double run  = largest(probes.run, Column::largest_pressure);
-      const auto change = [&](const std::vector<Row> &other)
-      { return std::abs(largest(other, Column::largest_pressure) - run) / run; };
-      return { "largest_pressure", "it", parts_of(scene, probes, change, order_of_pressure(scene)), {} };
-    }
-
-    /// The integral of the drive's force over the samples by the trapezoidal rule.
-    double work(const std::vector<Row> &rows)
-    {
-      double result = 0.;
-      for (std::size_t i = 1; i < rows.size(); ++i)
-        result += 0.5 * (rows[i - 1].drive_force() + rows[i].drive_force()) * (rows[i][Column::x] - rows[i - 1][Column::x]);
+        result.parts.push_back(penalty_part(change(probes.soft)));
       return result;
     }
 
@@ -109,19 +68,17 @@ namespace sprag
       {
         const std::vector<Row> both = { rows[i - 2], rows[i - 1], rows[i] };
         if (direction_of(both[0][Column::v]) == direction_of(both[2][Column::v]))
-          error += (work({ both[0], both[2] }) - work(both)) / 3.;
+          error += (work_of_drive({ both[0], both[2] }) - work_of_drive(both)) / 3.;
       }
       return error;
     }
 
     ErrorEstimate loop_area(const Scene &scene, const Probes &probes, const std::vector<Row> &rows)
     {
-      const double run  = work(probes.run);
-      const auto change = [&](const std::vector<Row> &other) { return std::abs((work(other) - run) / run); };
-      auto parts        = parts_of(scene, probes, change, order_of_forces(scene));
-      parts.push_back({ "step", std::abs(error_of_trapezoids(rows) / rows.back()[Column::drive_work]),
-                        "Try an Analysis/Step 0.7 times as large." });
-      return { "loop_area", "it", parts, {} };
+      auto result = estimate(scene, probes, "loop_area", "it");
+      result.parts.push_back({ "step", std::abs(error_of_trapezoids(rows) / rows.back()[Column::drive_work]),
+                               "Try an Analysis/Step 0.7 times as large." });
+      return result;
     }
 
     constexpr double follows_pressure = 0.05; ///< error of the largest pressure to which a mesh follows it, see peak_report.h
@@ -166,17 +123,11 @@ namespace sprag
       const double faces       = faces_in_contact(scene, probes.run);
       const bool forces_follow = faces > 1.;
       const bool all_follows   = expected_pressure_error(faces, scene.mesh.degree) <= follows_pressure;
-      const auto width         = [](const Row &row) { return row[Column::contact_width]; };
-      const auto of_force      = [&](const std::string &name, const Column column)
-      {
-        const auto value = [column](const Row &row) { return row[column]; };
-        return unless_narrow(along_the_path(scene, probes, rows, name, "its peak", value), faces, forces_follow);
-      };
-      return {
-        of_force("P", Column::P), of_force("Q", Column::Q), unless_narrow(loop_area(scene, probes, rows), faces, forces_follow),
-        unless_narrow(largest_pressure(scene, probes), faces, all_follows),
-        unless_narrow(along_the_path(scene, probes, rows, "contact_width", "the largest one", width), faces, all_follows)
-      };
+      const auto told          = [&](const std::string &quantity, const std::string &relative_to, const bool is_followed)
+      { return unless_narrow(estimate(scene, probes, quantity, relative_to), faces, is_followed); };
+      return { told("P", "its peak", forces_follow), told("Q", "its peak", forces_follow),
+               unless_narrow(loop_area(scene, probes, rows), faces, forces_follow), told("largest_pressure", "it", all_follows),
+               told("contact_width", "the largest one", all_follows) };
     }
     catch (const AnalysisError &error)
     {

@@ -47,6 +47,7 @@ namespace sprag
                              const std::vector<ColumnInfo> &columns, const FacePoints &points)
       : timer(of_run)
       , in_memory(options.in_memory)
+      , chosen(options.chosen)
       , keeps_curve(scene.analysis.type == AnalysisType::quasi_static)
   {
     if (in_memory != nullptr)
@@ -72,6 +73,8 @@ namespace sprag
       return end;
     }
     end.summary.push_back(status_entry(status));
+    if (!chosen.empty())
+      end.meta.push_back({ "chosen_settings", chosen, "", "that followed from Accuracy" });
     sprag::append(end.meta, process_entries(timer));
     file->finish(end.summary, end.meta, warnings, end.groups, end.accuracy);
     return end;

@@ -49,6 +49,7 @@ namespace sprag
   private:
     PhaseTimer &timer;
     InMemory *const in_memory;
+    const std::string chosen;
     const bool keeps_curve;
     std::optional<ResultFile> file;
 

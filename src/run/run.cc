@@ -3,11 +3,15 @@
 #include "fe/mesh/mesh.h"
 #include "levers/prepared_scene.h"
 #include "run/analyses.h"
+#include "run/choice.h"
+#include "run/expected_cost.h"
+#include "run/memory.h"
 #include "run/output_folder.h"
 #include "run/study_runs.h"
 #include "run/warnings.h"
 #include "scene/analysis_use.h"
 
+#include <iostream>
 #include <map>
 
 namespace sprag
@@ -55,6 +59,16 @@ namespace sprag
     return scene_warnings(scene);
   }
 
+  void print_expectations(const Scene &given)
+  {
+    const Scene scene = prepared(given);
+    if (!scene.accuracy.is_asked_for())
+      return print_cost(std::cout, expected_cost(scene));
+    const auto choice = choose_settings(scene);
+    print_choice(std::cout, scene, choice);
+    print_cost(std::cout, expected_cost(with_settings(scene, choice.settings)));
+  }
+
   void run(const Scene &given, const RunOptions &options)
   {
     const Scene scene = prepared(given);
@@ -63,6 +77,21 @@ namespace sprag
       require_writable(options.folder);
       try_mesh(scene);
     }
-    run_from_margin_to_warnings(scene, options, margin_of, carry_out);
+    if (!scene.accuracy.is_asked_for())
+      return run_from_margin_to_warnings(scene, options, margin_of, carry_out);
+    require_writable(options.folder);
+    const auto choice  = choose_settings(scene);
+    Scene chosen       = prepared(with_settings(scene, choice.settings));
+    RunOptions telling = options;
+    telling.chosen     = text_of(choice.settings);
+    if (!options.quiet)
+    {
+      print_choice(std::cout, scene, choice);
+      print_cost(std::cout, expected_cost(chosen));
+    }
+    require_memory(chosen);
+    // The file tells the parameters that were given, by which the folder is known again, and in /meta what followed from them.
+    chosen.parameters = scene.parameters;
+    run_from_margin_to_warnings(chosen, telling, margin_of, carry_out);
   }
 } // namespace sprag

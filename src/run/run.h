@@ -15,6 +15,7 @@ namespace sprag
     bool quiet          = false;
     bool is_first       = true;    ///< of several processes that run the scene together: it prints
     InMemory *in_memory = nullptr; ///< for a run that writes no files, in place of a folder; else null
+    std::string chosen  = {};      ///< settings that follow from the scene's Accuracy, "Section/Name = VALUE; ..."
   };
 
   /// Throws AnalysisError where there are warnings and Analysis/Warnings = error; the message quotes the first of them.
@@ -26,6 +27,9 @@ namespace sprag
   /// Checks that the scene's mesh can serve, which read_scene() cannot, and throws InputError if not. Returns the warnings
   /// that follow from the scene alone.
   Warnings validate(const Scene &scene);
+
+  /// Prints what of a scene follows from its Accuracy and what the run will cost.
+  void print_expectations(const Scene &scene);
 
   /// Carries out the scene's analysis with its model and writes results into the folder. Throws InputError, before anything is
   /// written, for meshes and folders that cannot serve; AnalysisError when the analysis fails or deviates from the closed form by

@@ -9,6 +9,7 @@
 #include "run/in_memory.h"
 #include "run/recorder.h"
 #include "run/steps_in_time.h"
+#include "run/transient_accuracy.h"
 #include "scene/contact_reference.h"
 #include "scene/mirrored_pair.h"
 
@@ -132,11 +133,22 @@ namespace sprag
       if (fields->record(row, face, [&] { return recovery(dynamics.meshed, motion, number_of_levers(scene)); }))
         recorder.record(face);
     };
+    bool is_complete = false;
     record_steps(
         scene, recorder, timer, warnings, body != nullptr ? meshed_entries(dynamics.meshed, *body) : std::vector<Entry>(),
-        [&] { return run_transient(model, scene.drive, settings_of(scene, growing), write); },
         [&]
         {
+          const auto report = run_transient(model, scene.drive, settings_of(scene, growing), write);
+          is_complete       = true;
+          return report;
+        },
+        [&]
+        {
+          if (is_complete && estimates_errors(options))
+          {
+            const PhaseTimer::Scope scope(timer, "accuracy");
+            recorder.set_accuracy(transient_accuracy(scene, dynamics.meshed, recorder.recorded(), maker));
+          }
           if (fields)
             recorder.set_stress(fields->finish());
         });

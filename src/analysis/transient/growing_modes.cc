@@ -80,6 +80,16 @@ namespace sprag
       return matrix;
     }
 
+    /// The eigenvalue of such a step that turns, with the positive imaginary part: of its three roots two are the vibration's.
+    std::complex<double> root_of_step(const double spectral_radius, const double angle)
+    {
+      std::complex<double> result = 0.;
+      for (const auto &root : eigenpairs(amplification(generalised_alpha(spectral_radius, 1.), angle)))
+        if (root.value.imag() > 0. && std::abs(root.value) > std::abs(result))
+          result = root.value;
+      return result;
+    }
+
     double longest_step(const GrowingMode &mode, const double spectral_radius)
     {
       const double omega = 2. * M_PI * mode.frequency;
@@ -113,12 +123,13 @@ namespace sprag
 
   double algorithmic_damping(const double spectral_radius, const double angle)
   {
-    // Of the three roots the two that turn are the vibration's.
-    double size = 0.;
-    for (const auto &root : eigenpairs(amplification(generalised_alpha(spectral_radius, 1.), angle)))
-      if (root.value.imag() > 0.)
-        size = std::max(size, std::abs(root.value));
-    return std::max(0., -std::log(size) / angle);
+    const double size = std::abs(root_of_step(spectral_radius, angle));
+    return size > 0. ? std::max(0., -std::log(size) / angle) : std::numeric_limits<double>::infinity();
+  }
+
+  double algorithmic_slowing(const double spectral_radius, const double angle)
+  {
+    return angle > 0. ? 1. - std::arg(root_of_step(spectral_radius, angle)) / angle : 0.;
   }
 
   double longest_step(const std::vector<GrowingMode> &modes, const double spectral_radius)

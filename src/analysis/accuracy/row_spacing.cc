@@ -1,0 +1,69 @@
+#include "analysis/accuracy/row_spacing.h"
+
+#include "analysis/accuracy/sample_changes.h"
+#include "analysis/statics/closed_form.h"
+#include "results/row_statistics.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sprag
+{
+  namespace
+  {
+    std::vector<Row> closed_form_rows(Scene scene, const double step)
+    {
+      scene.analysis.step = step;
+      std::vector<Row> rows;
+      run_closed_form(scene, [&](const Row &row) { rows.push_back(row); });
+      return rows;
+    }
+
+    bool is_one_stroke(const Row &a, const Row &b)
+    {
+      return a[Column::v] * b[Column::v] > 0.;
+    }
+
+    /// Distance of every row from the straight line between its neighbours, over the column's peak.
+    double distance_from_lines(const std::vector<Row> &rows, const Column column)
+    {
+      double result = 0.;
+      for (std::size_t i = 1; i + 1 < rows.size(); ++i)
+      {
+        const double way = rows[i + 1][Column::x] - rows[i - 1][Column::x];
+        if (way == 0. || !is_one_stroke(rows[i - 1], rows[i + 1]))
+          continue;
+        const double share = (rows[i][Column::x] - rows[i - 1][Column::x]) / way;
+        const double line  = (1. - share) * rows[i - 1][column] + share * rows[i + 1][column];
+        result             = std::max(result, std::abs(rows[i][column] - line));
+      }
+      return result / largest(rows, column);
+    }
+
+    /// Of rows `step` apart.
+    double error_of(const Scene &scene, const double step, const bool wants_loop)
+    {
+      const auto halves  = closed_form_rows(scene, 0.5 * step);
+      const double lines = std::max(distance_from_lines(halves, Column::P), distance_from_lines(halves, Column::Q));
+      if (!wants_loop)
+        return lines;
+      const double loop = relative_change("loop_area", halves, closed_form_rows(scene, step));
+      return std::max(lines, 4. / 3. * loop);
+    }
+  } // namespace
+
+  double largest_row_spacing(const Scene &scene, const double error, const bool wants_loop)
+  {
+    const double longest = 0.25 * (scene.drive.maximum() - scene.drive.minimum());
+    double step          = longest;
+    // The error goes with the square of the step, but for what is coarse.
+    for (unsigned int i = 0; i < 8; ++i)
+    {
+      const double found = error_of(scene, step, wants_loop);
+      if (found <= error)
+        return step;
+      step *= std::max(0.25, 0.95 * std::sqrt(error / found));
+    }
+    return step;
+  }
+} // namespace sprag

@@ -1,0 +1,47 @@
+#include "analysis/accuracy/sample_changes.h"
+
+#include "results/row_statistics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace sprag
+{
+  namespace
+  {
+    double largest_change(const std::vector<Row> &samples, const std::vector<Row> &other, const Column column)
+    {
+      double result = 0.;
+      for (std::size_t i = 0; i < samples.size(); ++i)
+        result = std::max(result, std::abs(other[i][column] - samples[i][column]));
+      return result / largest(samples, column);
+    }
+
+    double change(const double value, const double other)
+    {
+      return std::abs((other - value) / value);
+    }
+  } // namespace
+
+  double work_of_drive(const std::vector<Row> &samples)
+  {
+    double result = 0.;
+    for (std::size_t i = 1; i < samples.size(); ++i)
+      result +=
+          0.5 * (samples[i - 1].drive_force() + samples[i].drive_force()) * (samples[i][Column::x] - samples[i - 1][Column::x]);
+    return result;
+  }
+
+  double relative_change(const std::string &quantity, const std::vector<Row> &samples, const std::vector<Row> &other)
+  {
+    if (quantity == "loop_area")
+      return change(work_of_drive(samples), work_of_drive(other));
+    if (quantity == "largest_pressure")
+      return change(largest(samples, Column::largest_pressure), largest(other, Column::largest_pressure));
+    static const std::map<std::string, Column> columns = { { "P", Column::P },
+                                                           { "Q", Column::Q },
+                                                           { "contact_width", Column::contact_width } };
+    return largest_change(samples, other, columns.at(quantity));
+  }
+} // namespace sprag

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "results/columns.h"
+
+#include <string>
+#include <vector>
+
+namespace sprag
+{
+  /// Returns the work of the drive over samples by the trapezoidal rule [N mm].
+  double work_of_drive(const std::vector<Row> &samples);
+
+  /// Returns by how much a quantity without inertia changes between two models' rows of the same samples: P, Q and contact_width
+  /// by the largest change over the largest value of the first model, largest_pressure and loop_area, the work between the
+  /// samples, by their own change. Throws std::out_of_range for other names.
+  double relative_change(const std::string &quantity, const std::vector<Row> &samples, const std::vector<Row> &other);
+} // namespace sprag

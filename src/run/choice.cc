@@ -1,0 +1,78 @@
+#include "run/choice.h"
+
+#include "run/expected_cost.h"
+#include "run/percent.h"
+#include "scene/read.h"
+
+#include <boost/algorithm/string/join.hpp>
+
+#include <functional>
+#include <ostream>
+
+namespace sprag
+{
+  namespace
+  {
+    constexpr double best_with_budget = 1e-4; ///< that a budget alone is spent on
+    constexpr double worst            = 0.5;
+    constexpr double relaxation       = 1.4; ///< of the target from try to try
+
+    bool pays(const Scene &scene, const Choice &choice)
+    {
+      const double budget = scene.accuracy.budget;
+      return budget == 0. || expected_cost(with_settings(scene, choice.settings)).cpu_seconds <= budget;
+    }
+
+    Choice cheap_enough(const Scene &scene, const std::function<Choice(double)> &meeting)
+    {
+      double target = scene.accuracy.target > 0. ? scene.accuracy.target : best_with_budget;
+      Choice choice = meeting(target);
+      if (pays(scene, choice))
+        return choice;
+      while (target < worst && !pays(scene, choice))
+        choice = meeting(target *= relaxation);
+      choice.limit = pays(scene, choice) ? "Accuracy/Budget pays no more." : "Even the coarsest costs more than Accuracy/Budget.";
+      return choice;
+    }
+  } // namespace
+
+  Scene with_settings(const Scene &scene, const std::vector<ChosenSetting> &settings)
+  {
+    std::vector<std::string> overrides;
+    for (const auto &setting : settings)
+      overrides.push_back(setting.parameter + '=' + setting.value);
+    return variant(scene, overrides);
+  }
+
+  std::string text_of(const std::vector<ChosenSetting> &settings)
+  {
+    std::string text;
+    for (const auto &setting : settings)
+      text += (text.empty() ? "" : "; ") + setting.parameter + " = " + setting.value;
+    return text;
+  }
+
+  Choice choose_settings(const Scene &scene)
+  {
+    if (scene.analysis.type == AnalysisType::quasi_static)
+    {
+      const StaticChoice all(scene);
+      return cheap_enough(scene, [&](const double target) { return all.meeting(target); });
+    }
+    const VibrationChoice all(scene);
+    return cheap_enough(scene, [&](const double target) { return all.meeting(target); });
+  }
+
+  void print_choice(std::ostream &stream, const Scene &scene, const Choice &choice)
+  {
+    stream << "Accuracy:     ";
+    if (scene.accuracy.target > 0.)
+      stream << percent(scene.accuracy.target) << " of ";
+    stream << boost::algorithm::join(scene.accuracy.quantities, ", ");
+    if (scene.accuracy.budget > 0.)
+      stream << " within " << scene.accuracy.budget << " s";
+    stream << " asked for, " << percent(choice.error) << " expected. " << choice.limit << '\n';
+    for (const auto &setting : choice.settings)
+      stream << "  " << setting.parameter << " = " << setting.value << ": " << setting.reason << '\n';
+  }
+} // namespace sprag

@@ -1,0 +1,75 @@
+#pragma once
+
+#include "scene/scene.h"
+
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+namespace sprag
+{
+  /// A parameter that was left open, the value chosen for it and why, a sentence.
+  struct ChosenSetting
+  {
+    std::string parameter; ///< "Mesh/Face size"
+    std::string value;
+    std::string reason;
+  };
+
+  /// Settings that meet a scene's Accuracy.
+  struct Choice
+  {
+    std::vector<ChosenSetting> settings;
+    double error = 0.; ///< that is expected of the worst quantity, relative
+    std::string limit; ///< why the target is not met, a sentence; empty where it is
+  };
+
+  /// Returns the scene with these settings.
+  Scene with_settings(const Scene &scene, const std::vector<ChosenSetting> &settings);
+
+  /// Chooses what the file leaves open so that Accuracy/Target is met, or of what Accuracy/Budget pays the most accurate. Makes
+  /// probes: models of the scene on coarser meshes. Throws AnalysisError where these have no equilibrium.
+  Choice choose_settings(const Scene &scene);
+
+  /// Chooses for a run without inertia to meet a relative error `target` > 0.
+  class StaticChoice
+  {
+  public:
+    /// Solves the probes.
+    explicit StaticChoice(const Scene &scene);
+
+    Choice meeting(double target) const;
+
+  private:
+    const Scene scene;
+    double face_size = 0.;                  ///< of the finer probe [mm]
+    double width     = 0.;                  ///< of the contact where P is largest [mm]
+    std::vector<double> errors;             ///< of the finer probe, of each quantity
+    std::vector<double> closed_form_errors; ///< of the closed form; infinite of what it does not tell
+
+    double longest_face(double target) const;
+  };
+
+  /// Chooses for a slide or a run in time.
+  class VibrationChoice
+  {
+  public:
+    /// Judges the slide by the probes.
+    explicit VibrationChoice(const Scene &scene);
+
+    Choice meeting(double target) const;
+
+  private:
+    const Scene scene;
+    double face_size  = 0.;                                   ///< of the finer probe [mm]
+    double mesh_error = 0.;                                   ///< of the finer probe, of the worst quantity
+    double beam_error = 0.;                                   ///< of the beam, likewise
+    std::vector<std::pair<unsigned int, double>> mode_errors; ///< of numbers of modes, falling
+  };
+
+  /// Returns "Mesh/Face size = 0.6; Analysis/Step = 2".
+  std::string text_of(const std::vector<ChosenSetting> &settings);
+
+  /// Prints what was chosen and why.
+  void print_choice(std::ostream &stream, const Scene &scene, const Choice &choice);
+} // namespace sprag

@@ -1,0 +1,158 @@
+#include "run/choice.h"
+
+#include "analysis/accuracy/error_estimate.h"
+#include "analysis/accuracy/row_spacing.h"
+#include "analysis/accuracy/sample_changes.h"
+#include "analysis/accuracy/slide_samples.h"
+#include "base/text.h"
+#include "fe/mesh/mesh.h"
+#include "fe/statics/lever_model.h"
+#include "run/coarser_scene.h"
+#include "run/percent.h"
+#include "run/report.h"
+#include "scene/accuracy.h"
+#include "scene/contact_reference.h"
+#include "scene/contact_width.h"
+#include "scene/lever_shape.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace sprag
+{
+  namespace
+  {
+    // Shares of the target that the causes of an error may use up.
+    constexpr double share_of_mesh  = 0.5;
+    constexpr double share_of_rows  = 0.3;
+    constexpr double share_of_model = 0.8;
+
+    constexpr double faces_of_probe      = 4.;   ///< across the contact where P is largest
+    constexpr double most_faces_of_probe = 300.; ///< along the way of the contact
+    constexpr double finest              = 16.;  ///< Mesh/Face size of the probe over that of a run
+
+    double order_of(const Scene &scene, const std::string &quantity)
+    {
+      return quantity == "largest_pressure" ? order_of_pressure(scene) : order_of_forces(scene);
+    }
+
+    bool is_of_forces(const std::string &quantity)
+    {
+      return quantity == "P" || quantity == "Q" || quantity == "loop_area";
+    }
+
+    /// States in full sliding over the first two strokes of a drive.
+    std::vector<Row> places_of(const Drive &drive)
+    {
+      std::vector<double> ends = { 0. };
+      for (const double time : drive.reversals())
+        if (ends.size() < 3)
+          ends.push_back(time);
+      if (ends.size() < 3)
+        ends.push_back(drive.duration());
+      std::vector<Row> result;
+      for (std::size_t stroke = 1; stroke < ends.size(); ++stroke)
+        for (const double share : stroke == 1 ? std::vector{ 0.3, 0.7, 0.98 } : std::vector{ 0.08, 0.4, 0.8 })
+        {
+          const auto point = drive.at(ends[stroke - 1] + share * (ends[stroke] - ends[stroke - 1]));
+          Row row;
+          row[Column::time] = point.time;
+          row[Column::x]    = point.x;
+          row[Column::v]    = point.v;
+          result.push_back(row);
+        }
+      return result;
+    }
+
+    std::vector<Row> probe(const Scene &scene, const std::vector<Row> &places)
+    {
+      Mesh mesh;
+      make_mesh(scene, mesh);
+      LeverModel levers(mesh, scene);
+      return repeated(levers, places, scene.drive.at(0.).x, { scene.analysis.step, scene.analysis.minimum_step, scene.contact });
+    }
+
+    std::vector<Row> of_closed_form(const Scene &scene, std::vector<Row> rows)
+    {
+      for (Row &row : rows)
+      {
+        add_closed_form(scene, row);
+        row[Column::P] = row[Column::P_closed_form];
+        row[Column::Q] = row[Column::Q_closed_form];
+      }
+      return rows;
+    }
+
+    Scene with_face_size(Scene scene, const double size)
+    {
+      scene.mesh.face_size = size;
+      return scene;
+    }
+  } // namespace
+
+  StaticChoice::StaticChoice(const Scene &given)
+      : scene(given)
+  {
+    const auto [from, to] = swept_contact(scene);
+    width                 = estimated_contact_width(scene, contact_reference(scene).P);
+    face_size             = std::max(width / faces_of_probe, (to - from) / most_faces_of_probe);
+    const Scene fine      = with_face_size(scene, face_size);
+    const auto places     = places_of(scene.drive);
+    const auto rows       = probe(fine, places);
+    const auto coarse     = probe(with_coarser_mesh(fine), places);
+    const auto closed     = of_closed_form(scene, rows);
+    for (const auto &quantity : scene.accuracy.quantities)
+    {
+      errors.push_back(relative_change(quantity, rows, coarse) * share_of_finer(coarser, order_of(scene, quantity)));
+      closed_form_errors.push_back(is_of_forces(quantity) ? relative_change(quantity, rows, closed)
+                                                          : std::numeric_limits<double>::infinity());
+    }
+  }
+
+  double StaticChoice::longest_face(const double target) const
+  {
+    // Beyond the coarser probe the contact may be narrower than a face.
+    double result = coarser * face_size;
+    for (std::size_t i = 0; i < errors.size(); ++i)
+      result = std::min(result, face_size * std::pow(share_of_mesh * target / std::max(errors[i], 1e-12),
+                                                     1. / order_of(scene, scene.accuracy.quantities[i])));
+    return std::max(result, face_size / finest);
+  }
+
+  Choice StaticChoice::meeting(const double target) const
+  {
+    const auto &wanted     = scene.accuracy.quantities;
+    const bool wants_loop  = std::count(wanted.begin(), wanted.end(), "loop_area") > 0;
+    const bool forces_only = std::all_of(wanted.begin(), wanted.end(), is_of_forces);
+    const double of_closed = *std::max_element(closed_form_errors.begin(), closed_form_errors.end());
+    const bool closed_form = scene.accuracy.is_model_open && of_closed <= share_of_model * target;
+    Choice choice;
+    if (scene.accuracy.is_model_open)
+      choice.settings.push_back({ "Analysis/Model", closed_form ? "closed form" : "finite element",
+                                  std::isfinite(of_closed) ? "the closed form is " + percent(of_closed) + " off a probe"
+                                                           : "the closed form does not tell what is wanted" });
+    if (closed_form)
+      choice.error = of_closed;
+    else if (is_open(scene, "Mesh/Face size") && scene.mesh.file.empty())
+    {
+      const double size = longest_face(target);
+      for (std::size_t i = 0; i < errors.size(); ++i)
+        choice.error = std::max(choice.error, errors[i] * std::pow(size / face_size, order_of(scene, wanted[i])));
+      choice.settings.push_back({ "Mesh/Face size", rounded_text(size),
+                                  "a probe with " + rounded_text(face_size) + " mm is " +
+                                      percent(*std::max_element(errors.begin(), errors.end())) + " off" });
+      if (choice.error > 1.01 * share_of_mesh * target)
+        choice.limit = "Faces of " + mm(size) + " are the shortest that a probe tells of.";
+    }
+    if (forces_only && !closed_form && is_open(scene, "Mesh/Faces in contact"))
+      choice.settings.push_back({ "Mesh/Faces in contact", "0", "no pressure is wanted" });
+    if (is_open(scene, "Analysis/Step"))
+    {
+      const double step = largest_row_spacing(scene, share_of_rows * target, wants_loop);
+      choice.settings.push_back({ "Analysis/Step", rounded_text(step), "lines between rows follow the closed form" });
+      choice.error += share_of_rows * target;
+    }
+    return choice;
+  }
+} // namespace sprag

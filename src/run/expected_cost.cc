@@ -1,0 +1,183 @@
+#include "run/expected_cost.h"
+
+#include "analysis/study/study_points.h"
+#include "analysis/transient/transient.h"
+#include "base/errors.h"
+#include "levers/dynamics.h"
+#include "run/memory.h"
+#include "run/recorder.h"
+#include "scene/analysis_use.h"
+#include "scene/contact_reference.h"
+#include "scene/contact_width.h"
+#include "scene/held_slide.h"
+#include "scene/mirrored_pair.h"
+#include "scene/read.h"
+
+#include <cmath>
+#include <limits>
+
+namespace sprag
+{
+  namespace
+  {
+    // CPU times as measured [s], N displacements, on the machine of slowness() = 1.
+    constexpr double start             = 0.2;
+    constexpr double model             = 5.5e-6; ///< times N
+    constexpr double telling_and_peaks = 8e-6;   ///< times N, without inertia
+    constexpr double static_step       = 1.3e-3;
+    constexpr double static_window     = 3.5e-10; ///< a step, times N^1.45
+    constexpr double general_step      = 2.3e-5;  ///< times N
+    constexpr double reduced_step      = 2e-5;
+    constexpr double basis             = 5.5e-7; ///< times N^1.5
+    constexpr double fields_in_time    = 1.2e-5; ///< times N
+    constexpr double condensed_step    = 2.5e-4;
+    constexpr double condensed_faces   = 7.5e-6; ///< a step, times the square of the faces in contact
+    constexpr double meshed_step       = 4.5e-7; ///< times N
+    constexpr double reduced_slide     = 1e-3;
+    constexpr double condensed_slide   = 0.03;
+    constexpr double meshed_slide      = 6e-5; ///< times N
+
+    constexpr double steps_of_reversal = 20.; ///< without inertia, through stick
+    constexpr double steps_of_mesh     = 2.;  ///< in time, over those of a beam
+    constexpr double elastic_cylinder  = 2.;  ///< a step with one over a step without
+    constexpr double second_lever      = 2.2; ///< the same
+
+    double parts(const Scene &scene)
+    {
+      return (scene.cylinder.type == CylinderType::rigid ? 1. : elastic_cylinder) *
+             (number_of_levers(scene) == 2 && scene.pair.type == PairType::full ? second_lever : 1.);
+    }
+
+    double without_inertia(const Scene &scene)
+    {
+      const double N     = expected_size(scene).displacements;
+      const double turns = 1. + static_cast<double>(scene.drive.reversals().size());
+      const double steps = expected_rows(scene) + steps_of_reversal * turns;
+      const bool linear  = scene.lever.material == MaterialModel::linear && scene.analysis.solution == Solution::automatic;
+      const double step  = linear ? static_step + static_window * std::pow(N, 1.45) : general_step * N;
+      return start + (model + telling_and_peaks) * N + steps * step * parts(scene);
+    }
+
+    /// Steps that a beam takes over at most one cycle, times the cycles.
+    double steps_in_time(Scene scene)
+    {
+      constexpr double most_steps = 2e5;
+      const double fixed          = scene.drive.duration() / scene.time.step;
+      if (scene.time.tolerance == 0. || expected_rows(scene) > most_steps)
+        return fixed;
+      if (is_meshed(scene.analysis.model))
+        scene.analysis.model = ModelType::beam;
+      DynamicsMaker maker(false);
+      const auto dynamics  = maker.make(scene);
+      const auto reference = contact_reference(scene);
+      return run_transient(dynamics.model(), scene.drive,
+                           { scene.time, reference.P, reference.stiffness, scene.geometry.cylinder_radius / 200. },
+                           [](const Motion &, const Row &) {})
+          .steps;
+    }
+
+    double in_time(const Scene &scene)
+    {
+      const double N     = expected_size(scene).displacements;
+      const double steps = steps_in_time(scene);
+      if (!is_meshed(scene.analysis.model))
+        return start + steps * reduced_step * parts(scene);
+      const double faces = estimated_contact_width(scene, contact_reference(scene).P) / scene.mesh.face_size;
+      const double step =
+          scene.analysis.model == ModelType::condensed ? condensed_step + condensed_faces * faces * faces : meshed_step * N;
+      const double taken = scene.time.tolerance > 0. ? steps_of_mesh * steps : steps;
+      return start + basis * std::pow(N, 1.5) + fields_in_time * N + taken * step * parts(scene);
+    }
+
+    /// Slides that an analysis of held ones judges: the slide, without its parts in turn, and along single parameters.
+    double slides_of(const Scene &scene)
+    {
+      double slides = 1.;
+      if (scene.analysis.type != AnalysisType::stability)
+        return slides;
+      if (scene.stability.roles)
+        slides += 6.;
+      for (const auto &range : critical_searches(scene).value_or(std::vector<ParameterRange>()))
+        slides += range.points;
+      return slides;
+    }
+
+    double a_slide(const Scene &scene)
+    {
+      switch (scene.analysis.model)
+      {
+      case ModelType::condensed:
+        return condensed_slide * parts(scene);
+      case ModelType::finite_element:
+        return meshed_slide * expected_size(scene).displacements * parts(scene);
+      default:
+        return reduced_slide * parts(scene);
+      }
+    }
+
+    double held(const Scene &scene)
+    {
+      const double N    = expected_size(scene).displacements;
+      const double mesh = is_meshed(scene.analysis.model) ? 1.5 * basis * std::pow(N, 1.5) : 0.;
+      return start + mesh + slides_of(scene) * a_slide(scene);
+    }
+
+    ExpectedCost of_study(const Scene &study)
+    {
+      ExpectedCost sum{ start, 0., {} };
+      for (const auto &point : points_of(study.study))
+        try
+        {
+          const auto run = expected_cost(scene_at(study, point));
+          sum.cpu_seconds += std::max(0., run.cpu_seconds - start);
+          sum.bytes   = std::max(sum.bytes, run.bytes);
+          sum.unknown = sum.unknown.empty() ? run.unknown : sum.unknown;
+        }
+        catch (const InputError &)
+        {
+          continue; // a row that says so
+        }
+      return sum;
+    }
+
+    double seconds_of(const Scene &scene)
+    {
+      switch (scene.analysis.type)
+      {
+      case AnalysisType::quasi_static:
+        return without_inertia(scene);
+      case AnalysisType::transient:
+        return in_time(scene);
+      case AnalysisType::modal:
+      case AnalysisType::stability:
+        return held(scene);
+      case AnalysisType::map:
+        return start + 2. * scene.map.first.points * scene.map.second.points * a_slide(scene);
+      default:
+        return std::numeric_limits<double>::quiet_NaN();
+      }
+    }
+  } // namespace
+
+  ExpectedCost expected_cost(const Scene &scene)
+  {
+    if (follows_formulas(scene))
+      return cost_of_formulas(scene);
+    if (scene.analysis.type == AnalysisType::study)
+      return of_study(scene);
+    ExpectedCost cost{ 0., expected_memory(scene), {} };
+    if (needs_mesh(scene) && !scene.mesh.file.empty())
+      cost.unknown = "the mesh is from a file.";
+    try
+    {
+      cost.cpu_seconds = slowness() * seconds_of(scene);
+    }
+    catch (const AnalysisError &error)
+    {
+      cost.unknown = error.what();
+    }
+    if (std::isnan(cost.cpu_seconds) && cost.unknown.empty())
+      cost.unknown = "it depends on what the run finds.";
+    return cost;
+  }
+} // namespace sprag

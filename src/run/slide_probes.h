@@ -1,0 +1,27 @@
+#pragma once
+
+#include "analysis/accuracy/error_estimate.h"
+#include "analysis/stability/stability.h"
+#include "fe/contact/face_contact_point.h"
+
+#include <functional>
+#include <optional>
+
+namespace sprag
+{
+  /// The slide of a scene by models that are less accurate, each in one respect.
+  struct SlideProbes
+  {
+    SlideStability coarse;                               ///< on a mesh of twice the Mesh/Face size
+    SlideStability soft;                                 ///< with a third of the penalty
+    std::optional<SlideStability> coarse_of_fewer_modes; ///< of a condensed lever, half of them on the coarse mesh
+  };
+
+  /// Judges the slide of a meshed scene, see held_scene(), by these models. The run's own mesh stays in the maker.
+  SlideProbes probe_slide(const Scene &scene, const ContactPenalties &penalties, DynamicsMaker &maker);
+
+  /// Returns the parts of the error of a value of the slide, relative to it, from what the probes change by Richardson; what
+  /// fewer modes change counts whole.
+  std::vector<ErrorPart> parts_of_slide(const Scene &scene, const SlideStability &found, const SlideProbes &probes,
+                                        const std::function<double(const SlideStability &)> &value);
+} // namespace sprag
