@@ -50,6 +50,49 @@ namespace sprag
                             const ContactFriction friction          = ContactFriction::sliding,
                             const dealii::Vector<double> *round_off = nullptr)
     {
+      if (const auto *forces = solve_from_last(drive, ratio, friction, round_off))
+        return forces;
+      // Between points that just touch Newton's method may go round in a circle; from a neighbour it comes another way.
+      const double nearby = 1e-3 * frame.geometries.front().cylinder_radius;
+      for (const double dx : { -nearby, nearby })
+        if (solve_from_last(moved(drive, dx), ratio, friction, nullptr) != nullptr)
+          if (const auto *forces = solve_from_last(drive, ratio, friction, round_off))
+            return forces;
+      return nullptr;
+    }
+
+    /// Slip speed of the deformable lever over that of the rigid one, by equilibria at a distance h [mm] to both sides.
+    double speed_ratio(const DrivePoint &drive, const double h)
+    {
+      const bool before = solve(moved(drive, -h), 1.) != nullptr;
+      const auto from   = last_sliding;
+      const bool after  = solve(moved(drive, h), 1.) != nullptr;
+      if (!before || !after)
+        return 1.;
+      const double slip = contact.mean_slip(found, from, drive.x - h, last_sliding, drive.x + h);
+      return slip / (2. * h * sliding_speed(frame.geometries.front(), drive.x, 1.));
+    }
+
+    /// Displacements of the ports in the last equilibrium.
+    const dealii::Vector<double> &last_ports() const
+    {
+      return last_sliding;
+    }
+
+  private:
+    Structure &structure;
+    Contact &contact;
+    typename Contact::Evaluation &found; ///< the model's
+    const LeverFrame &frame;
+    HubSpringExcess &hub_spring;
+    dealii::Vector<double> last_sliding; ///< ports of the last equilibrium, from which the next one starts
+    PortLoads last_forces;               ///< there
+    OfLevers last_sliding_theta{};       ///< inclinations of ideal contact there
+
+    /// See solve(), from the last equilibrium.
+    const PortForces *solve_from_last(const DrivePoint &drive, const double ratio, const ContactFriction friction,
+                                      const dealii::Vector<double> *round_off)
+    {
       structure.use_statics();
       const auto ideal            = ideal_inclinations(drive.x);
       const auto &near            = contact.reachable_ports(drive.x, ideal);
@@ -80,41 +123,13 @@ namespace sprag
       if (!found.within_reach)
       {
         contact.widen_reach();
-        return solve(drive, ratio, friction, round_off);
+        return solve_from_last(drive, ratio, friction, round_off);
       }
       last_sliding       = z;
       last_sliding_theta = ideal;
       last_forces        = { solved.forces->ports, solved.forces->values };
       return solved.forces;
     }
-
-    /// Slip speed of the deformable lever over that of the rigid one, by equilibria at a distance h [mm] to both sides.
-    double speed_ratio(const DrivePoint &drive, const double h)
-    {
-      const bool before = solve(moved(drive, -h), 1.) != nullptr;
-      const auto from   = last_sliding;
-      const bool after  = solve(moved(drive, h), 1.) != nullptr;
-      if (!before || !after)
-        return 1.;
-      const double slip = contact.mean_slip(found, from, drive.x - h, last_sliding, drive.x + h);
-      return slip / (2. * h * sliding_speed(frame.geometries.front(), drive.x, 1.));
-    }
-
-    /// Displacements of the ports in the last equilibrium.
-    const dealii::Vector<double> &last_ports() const
-    {
-      return last_sliding;
-    }
-
-  private:
-    Structure &structure;
-    Contact &contact;
-    typename Contact::Evaluation &found; ///< the model's
-    const LeverFrame &frame;
-    HubSpringExcess &hub_spring;
-    dealii::Vector<double> last_sliding; ///< ports of the last equilibrium, from which the next one starts
-    PortLoads last_forces;               ///< there
-    OfLevers last_sliding_theta{};       ///< inclinations of ideal contact there
 
     /// Inclinations of the levers in ideal contact [rad].
     OfLevers ideal_inclinations(const double x) const

@@ -43,10 +43,10 @@ namespace sprag
   private:
     const Scene scene;
     double face_size = 0.;                  ///< of the finer probe [mm]
-    double width     = 0.;                  ///< of the contact where P is largest [mm]
     std::vector<double> errors;             ///< of the finer probe, of each quantity
     std::vector<double> closed_form_errors; ///< of the closed form; infinite of what it does not tell
 
+    void solve_probes(double size);
     double longest_face(double target) const;
   };
 

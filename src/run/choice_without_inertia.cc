@@ -28,9 +28,11 @@ namespace sprag
     constexpr double share_of_rows  = 0.3;
     constexpr double share_of_model = 0.8;
 
-    constexpr double faces_of_probe      = 4.;   ///< across the contact where P is largest
-    constexpr double most_faces_of_probe = 300.; ///< along the way of the contact
-    constexpr double finest              = 16.;  ///< Mesh/Face size of the probe over that of a run
+    constexpr double faces_of_probe         = 4.;   ///< across the contact where P is largest
+    constexpr double most_faces_of_probe    = 300.; ///< along the way of the contact
+    constexpr double extrapolated           = 0.8;  ///< face size over a probe's, below which another probe is solved
+    constexpr unsigned int most_refinements = 2;
+    constexpr double finest                 = 16.; ///< Mesh/Face size of the probe over that of a run
 
     double order_of(const Scene &scene, const std::string &quantity)
     {
@@ -95,13 +97,23 @@ namespace sprag
       : scene(given)
   {
     const auto [from, to] = swept_contact(scene);
-    width                 = estimated_contact_width(scene, contact_reference(scene).P);
-    face_size             = std::max(width / faces_of_probe, (to - from) / most_faces_of_probe);
-    const Scene fine      = with_face_size(scene, face_size);
-    const auto places     = places_of(scene.drive);
-    const auto rows       = probe(fine, places);
-    const auto coarse     = probe(with_coarser_mesh(fine), places);
-    const auto closed     = of_closed_form(scene, rows);
+    const double width    = estimated_contact_width(scene, contact_reference(scene).P);
+    solve_probes(std::max(width / faces_of_probe, (to - from) / most_faces_of_probe));
+    const double target = scene.accuracy.target;
+    for (unsigned int i = 0; i < most_refinements && target > 0. && longest_face(target) < extrapolated * face_size; ++i)
+      solve_probes(longest_face(target));
+  }
+
+  void StaticChoice::solve_probes(const double size)
+  {
+    face_size         = size;
+    const Scene fine  = with_face_size(scene, size);
+    const auto places = places_of(scene.drive);
+    const auto rows   = probe(fine, places);
+    const auto coarse = probe(with_coarser_mesh(fine), places);
+    const auto closed = of_closed_form(scene, rows);
+    errors.clear();
+    closed_form_errors.clear();
     for (const auto &quantity : scene.accuracy.quantities)
     {
       errors.push_back(relative_change(quantity, rows, coarse) * share_of_finer(coarser, order_of(scene, quantity)));

@@ -102,10 +102,10 @@ namespace sprag
       if (scene.analysis.type != AnalysisType::quasi_static)
       {
         if (scene.analysis.model == ModelType::finite_element)
-          return { 12e3, 0. };
-        return { 0.8e3, scene.analysis.type == AnalysisType::modal ? 7. : 14. };
+          return { 16e3, 0. };
+        return { 2.5e3, scene.analysis.type == AnalysisType::modal ? 7. : 17. };
       }
-      return is_factorised_once(scene) ? Cost{ 1.4e3, 0. } : Cost{ 5e3, 0. };
+      return is_factorised_once(scene) ? Cost{ 2e3, 0. } : Cost{ 5e3, 0. };
     }
 
     double bytes_of_matrices(const Scene &scene)
@@ -121,7 +121,12 @@ namespace sprag
       return formatted(bytes < 99.5e9 ? "%.2g GB" : "%.3g GB", bytes / 1e9);
     }
 
-    constexpr double of_libraries = 0.15e9;
+    double of_libraries(const Scene &scene)
+    {
+      if (follows_formulas(scene))
+        return 0.013e9;
+      return needs_mesh(scene) ? 0.19e9 : 0.16e9;
+    }
   } // namespace
 
   ExpectedSize expected_size(const Scene &scene)
@@ -145,7 +150,7 @@ namespace sprag
 
   double expected_memory(const Scene &scene, const unsigned int processes)
   {
-    return processes * (of_libraries + bytes_of_matrices(scene)) + expected_rows(scene) * bytes_of_row;
+    return processes * (of_libraries(scene) + bytes_of_matrices(scene)) + expected_rows(scene) * bytes_of_row;
   }
 
   void require_memory(const Scene &scene, const unsigned int processes)

@@ -9,27 +9,36 @@ namespace sprag
 {
   namespace
   {
-    double ringing(const Row &row)
+    constexpr double rings = 0.1; ///< of the largest ringing, from which a row rings
+
+    double ringing_of(const Row &row)
     {
-      const double result = row[Column::P] - row[Column::P_quasi_static];
-      return std::isfinite(result) ? result : 0.;
+      return row[Column::P] - row[Column::P_quasi_static];
     }
   } // namespace
 
-  double change_by_frequency(const std::vector<Row> &rows, const Drive &drive)
+  std::vector<Row> ringing_rows(const std::vector<Row> &rows, const double begin, const double end)
   {
-    const auto &reversals = drive.reversals();
-    double result         = 0.;
-    for (std::size_t i = 1; i < rows.size(); ++i)
+    std::vector<Row> result;
+    for (const Row &row : rows)
+      if (row[Column::time] > begin && row[Column::time] <= end)
+        result.push_back(row);
+    const double least = rings * largest(result, ringing_of);
+    while (!result.empty() && !(std::abs(ringing_of(result.back())) >= least))
+      result.pop_back();
+    return result;
+  }
+
+  double change_by_frequency(const std::vector<Row> &ringing, const double time)
+  {
+    double result = 0.;
+    for (std::size_t i = 1; i < ringing.size(); ++i)
     {
-      const double time = rows[i][Column::time];
-      const double dt   = time - rows[i - 1][Column::time];
-      const auto next   = std::lower_bound(reversals.begin(), reversals.end(), time);
-      const double from = next == reversals.begin() ? 0. : *(next - 1);
-      if (dt > 0. && rows[i - 1][Column::time] >= from)
-        result = std::max(result, std::abs(ringing(rows[i]) - ringing(rows[i - 1])) / dt * (time - from));
+      const double dt     = ringing[i][Column::time] - ringing[i - 1][Column::time];
+      const double change = std::abs(ringing_of(ringing[i]) - ringing_of(ringing[i - 1]));
+      if (dt > 0. && std::isfinite(change))
+        result = std::max(result, change / dt * (ringing[i][Column::time] - time));
     }
-    const double peak = largest(rows, Column::P);
-    return peak > 0. ? result / peak : 0.;
+    return result;
   }
 } // namespace sprag
