@@ -56,7 +56,10 @@ namespace sprag
     {
       if (arguments.print_parameters)
         return false;
-      return scene.spring.type == SpringType::leaf || scene.analysis.type == AnalysisType::study || !follows_formulas(scene);
+      if (scene.spring.type == SpringType::leaf || scene.analysis.type == AnalysisType::study)
+        return true;
+      const bool tells_nothing = arguments.validate && arguments.quiet;
+      return tells_nothing ? needs_mesh(scene) : !follows_formulas(scene);
     }
 
     /// The arguments and the file are read again there.

@@ -30,9 +30,10 @@ namespace sprag
       if (arguments.validate)
       {
         require_memory(scene);
+        const auto warnings = validate(scene);
         if (!arguments.quiet && rank.is_first)
           print_expectations(scene);
-        return tell_validity(arguments, scene, validate(scene));
+        return tell_validity(arguments, scene, warnings);
       }
       if (!rank.is_alone && !works_in_parallel(scene.analysis.type))
         throw InputError("only Analysis/Type = map and study run in several processes: leave out mpirun");

@@ -17,21 +17,16 @@ namespace sprag
     constexpr double worst            = 0.5;
     constexpr double relaxation       = 1.4; ///< of the target from try to try
 
-    bool pays(const Scene &scene, const Choice &choice)
-    {
-      const double budget = scene.accuracy.budget;
-      return budget == 0. || expected_cost(with_settings(scene, choice.settings)).cpu_seconds <= budget;
-    }
-
     Choice cheap_enough(const Scene &scene, const std::function<Choice(double)> &meeting)
     {
       double target = scene.accuracy.target > 0. ? scene.accuracy.target : best_with_budget;
       Choice choice = meeting(target);
-      if (pays(scene, choice))
+      if (is_paid(scene, choice))
         return choice;
-      while (target < worst && !pays(scene, choice))
+      while (target < worst && !is_paid(scene, choice))
         choice = meeting(target *= relaxation);
-      choice.limit = pays(scene, choice) ? "Accuracy/Budget pays no more." : "Even the coarsest costs more than Accuracy/Budget.";
+      choice.limit =
+          is_paid(scene, choice) ? "Accuracy/Budget pays no more." : "Even the coarsest costs more than Accuracy/Budget.";
       return choice;
     }
   } // namespace
@@ -42,6 +37,12 @@ namespace sprag
     for (const auto &setting : settings)
       overrides.push_back(setting.parameter + '=' + setting.value);
     return variant(scene, overrides);
+  }
+
+  bool is_paid(const Scene &scene, const Choice &choice)
+  {
+    const double budget = scene.accuracy.budget;
+    return budget == 0. || expected_cost(with_settings(scene, choice.settings)).cpu_seconds <= budget;
   }
 
   std::string text_of(const std::vector<ChosenSetting> &settings)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "fe/contact/face_contact_point.h"
 #include "scene/scene.h"
 
 #include <iosfwd>
@@ -27,6 +28,9 @@ namespace sprag
   /// Returns the scene with these settings.
   Scene with_settings(const Scene &scene, const std::vector<ChosenSetting> &settings);
 
+  /// Returns whether Accuracy/Budget pays what a run with these settings is expected to cost.
+  bool is_paid(const Scene &scene, const Choice &choice);
+
   /// Chooses what the file leaves open so that Accuracy/Target is met, or of what Accuracy/Budget pays the most accurate. Makes
   /// probes: models of the scene on coarser meshes. Throws AnalysisError where these have no equilibrium.
   Choice choose_settings(const Scene &scene);
@@ -41,7 +45,8 @@ namespace sprag
     Choice meeting(double target) const;
 
   private:
-    const Scene scene;
+    Scene scene;
+    const bool enforcement_is_open;
     double face_size = 0.;                  ///< of the finer probe [mm]
     std::vector<double> errors;             ///< of the finer probe, of each quantity
     std::vector<double> closed_form_errors; ///< of the closed form; infinite of what it does not tell
@@ -61,10 +66,17 @@ namespace sprag
 
   private:
     const Scene scene;
-    double face_size  = 0.;                                   ///< of the finer probe [mm]
-    double mesh_error = 0.;                                   ///< of the finer probe, of the worst quantity
-    double beam_error = 0.;                                   ///< of the beam, likewise
-    std::vector<std::pair<unsigned int, double>> mode_errors; ///< of numbers of modes, falling
+    double face_size     = 0.;                                ///< of the finer probe [mm]
+    double mesh_error    = 0.;                                ///< of the finer probe, of the worst quantity
+    double beam_error    = 0.;                                ///< of the beam, likewise
+    double penalty_error = 0.;                                ///< of the probe's penalty, likewise
+    ContactPenalties penalties{};                             ///< of the probe
+    std::vector<std::pair<unsigned int, double>> mode_errors; ///< of numbers of modes
+
+    bool takes_beam(double target) const;
+    void add_mesh(double target, Choice &choice) const;
+    void add_penalty(double target, Choice &choice) const;
+    void add_modes(double target, Choice &choice) const;
   };
 
   /// Returns "Mesh/Face size = 0.6; Analysis/Step = 2".

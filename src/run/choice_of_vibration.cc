@@ -1,9 +1,12 @@
 #include "run/choice.h"
 
+#include "analysis/accuracy/dilation.h"
 #include "analysis/accuracy/error_estimate.h"
 #include "analysis/stability/stability.h"
 #include "base/errors.h"
 #include "base/text.h"
+#include "results/row_statistics.h"
+#include "run/beam_run.h"
 #include "run/coarser_scene.h"
 #include "run/percent.h"
 #include "scene/accuracy.h"
@@ -19,13 +22,15 @@ namespace sprag
   namespace
   {
     // Shares of the target that the causes of an error may use up.
-    constexpr double share_of_mesh  = 0.4;
-    constexpr double share_of_modes = 0.1;
-    constexpr double share_of_steps = 0.4;
-    constexpr double share_of_model = 0.8;
+    constexpr double share_of_mesh    = 0.3;
+    constexpr double share_of_penalty = 0.2;
+    constexpr double share_of_modes   = 0.1;
+    constexpr double share_of_steps   = 0.4;
+    constexpr double share_of_model   = 0.8;
 
-    constexpr double faces_of_probe = 3.; ///< across the contact where P is largest
-    constexpr double finest         = 8.; ///< Mesh/Face size of the probe over that of a run
+    constexpr double largest_factor = 20.; ///< of the automatic penalty, beyond which cells tilt
+    constexpr double faces_of_probe = 3.;  ///< across the contact where P is largest
+    constexpr double finest         = 8.;  ///< Mesh/Face size of the probe over that of a run
 
     double difference(const SlideStability &found, const SlideStability &other, const std::vector<std::string> &quantities)
     {
@@ -42,12 +47,24 @@ namespace sprag
       return result;
     }
 
-    /// In time the contact's frequency carries over to P: it rings with it.
     std::vector<std::string> probed_quantities(const Scene &scene)
     {
       if (scene.analysis.type == AnalysisType::transient)
         return { "frequency" };
       return scene.accuracy.quantities;
+    }
+
+    /// Error of the worst quantity wanted over that of the frequency with which P rings.
+    double error_over_frequency(const Scene &scene)
+    {
+      const auto &wanted = scene.accuracy.quantities;
+      if (scene.analysis.type != AnalysisType::transient || scene.drive.reversals().empty() ||
+          std::find(wanted.begin(), wanted.end(), "P") == wanted.end())
+        return 1.;
+      const auto rows    = beam_run(scene);
+      const double turn  = scene.drive.reversals().front();
+      const auto ringing = ringing_rows(rows, turn, rows.back()[Column::time]);
+      return std::max(1., change_by_frequency(ringing, turn) / largest(rows, Column::P));
     }
 
     Scene with_modes(Scene scene, const unsigned int modes)
@@ -60,54 +77,84 @@ namespace sprag
   VibrationChoice::VibrationChoice(const Scene &given)
       : scene(given)
   {
+    if (!is_meshed(scene.analysis.model))
+      return;
     const auto quantities = probed_quantities(scene);
+    const double factor   = error_over_frequency(scene);
     DynamicsMaker maker(true, 2);
     Scene fine          = held_scene(scene);
     fine.analysis.model = ModelType::condensed;
     face_size           = estimated_contact_width(scene, contact_reference(scene).P) / faces_of_probe;
     fine.mesh.face_size = face_size;
     const auto found    = judge(fine, maker);
-    mesh_error =
-        difference(found, judge(with_coarser_mesh(fine), maker), quantities) * share_of_finer(coarser, order_of_forces(scene));
+    const auto change   = [&](const Scene &other) { return factor * difference(found, judge(other, maker), quantities); };
+    penalties           = maker.make(fine).meshed.penalties;
+    penalty_error       = change(with_penalties(fine, penalties, 1. / softer)) * share_of_finer(softer, 1.);
+    for (unsigned int modes = 5; modes < fine.condensed.modes; modes *= 2)
+      mode_errors.emplace_back(modes, change(with_modes(fine, modes)));
+    mesh_error = change(with_coarser_mesh(with_penalties(fine, penalties, 1.))) * share_of_finer(coarser, order_of_forces(scene));
     if (scene.accuracy.is_model_open)
     {
       Scene beam          = fine;
       beam.analysis.model = ModelType::beam;
-      beam_error          = difference(found, judge(beam, maker), quantities);
+      beam_error          = change(beam);
     }
-    for (unsigned int modes = 5; modes < fine.condensed.modes; modes *= 2)
-      mode_errors.emplace_back(modes, difference(found, judge(with_modes(fine, modes), maker), quantities));
+  }
+
+  bool VibrationChoice::takes_beam(const double target) const
+  {
+    return scene.accuracy.is_model_open && beam_error <= share_of_model * target;
+  }
+
+  void VibrationChoice::add_mesh(const double target, Choice &choice) const
+  {
+    const double order = order_of_forces(scene);
+    const double ideal = face_size * std::pow(share_of_mesh * target / std::max(mesh_error, 1e-12), 1. / order);
+    const double size  = std::clamp(ideal, face_size / finest, coarser * face_size);
+    choice.error += mesh_error * std::pow(size / face_size, order);
+    choice.settings.push_back({ "Mesh/Face size", rounded_text(size),
+                                "a probe with " + rounded_text(face_size) + " mm is " + percent(mesh_error) + " off" });
+    if (ideal < size)
+      choice.limit = "Faces of " + mm(size) + " are the shortest that a probe tells of.";
+  }
+
+  void VibrationChoice::add_penalty(const double target, Choice &choice) const
+  {
+    const double factor = std::clamp(penalty_error / (share_of_penalty * target), 1., largest_factor);
+    choice.error += penalty_error / factor;
+    if (factor > 1.)
+      choice.settings.push_back({ "Contact/Penalty", rounded_text(factor * penalties.normal),
+                                  "with " + rounded_text(penalties.normal) + " N/mm3 it is " + percent(penalty_error) + " off" });
+  }
+
+  void VibrationChoice::add_modes(const double target, Choice &choice) const
+  {
+    for (const auto &[modes, error] : mode_errors)
+      if (error <= share_of_modes * target)
+      {
+        choice.error += error;
+        choice.settings.push_back({ "Condensed/Modes", std::to_string(modes), percent(error) + " off a probe with more" });
+        return;
+      }
   }
 
   Choice VibrationChoice::meeting(const double target) const
   {
     Choice choice;
-    const bool beam = scene.accuracy.is_model_open && beam_error <= share_of_model * target;
+    const bool beam = takes_beam(target);
     if (scene.accuracy.is_model_open)
       choice.settings.push_back(
           { "Analysis/Model", beam ? "beam" : "condensed", "the beam is " + percent(beam_error) + " off a condensed probe" });
-    const bool in_time = scene.analysis.type == AnalysisType::transient;
-    choice.error       = beam ? beam_error : 0.;
-    if (!beam && is_open(scene, "Mesh/Face size") && scene.mesh.file.empty())
-    {
-      const double order = order_of_forces(scene);
-      const double ideal = face_size * std::pow(share_of_mesh * target / std::max(mesh_error, 1e-12), 1. / order);
-      const double size  = std::clamp(ideal, face_size / finest, coarser * face_size);
-      choice.error       = mesh_error * std::pow(size / face_size, order);
-      choice.settings.push_back({ "Mesh/Face size", rounded_text(size),
-                                  "a probe with " + rounded_text(face_size) + " mm is " + percent(mesh_error) + " off" });
-      if (ideal < size)
-        choice.limit = "Faces of " + mm(size) + " are the shortest that a probe tells of.";
-    }
-    if (!beam && scene.analysis.model == ModelType::condensed && is_open(scene, "Condensed/Modes"))
-      for (const auto &[modes, error] : mode_errors)
-        if (error <= share_of_modes * target)
-        {
-          choice.error += error;
-          choice.settings.push_back({ "Condensed/Modes", std::to_string(modes), percent(error) + " off a probe with more" });
-          break;
-        }
-    if (in_time && is_open(scene, "Time/Tolerance") && is_open(scene, "Time/Step"))
+    const bool meshed = !beam && is_meshed(scene.analysis.model);
+    if (beam)
+      choice.error = beam_error;
+    if (meshed && is_open(scene, "Mesh/Face size") && scene.mesh.file.empty())
+      add_mesh(target, choice);
+    if (meshed && is_open(scene, "Contact/Penalty"))
+      add_penalty(target, choice);
+    if (meshed && scene.analysis.model == ModelType::condensed && is_open(scene, "Condensed/Modes"))
+      add_modes(target, choice);
+    if (scene.analysis.type == AnalysisType::transient && is_open(scene, "Time/Tolerance") && is_open(scene, "Time/Step"))
     {
       choice.error += share_of_steps * target;
       choice.settings.push_back({ "Time/Tolerance", rounded_text(share_of_steps * target), "errors of P are about as large" });

@@ -44,6 +44,9 @@ namespace sprag
       return quantity == "P" || quantity == "Q" || quantity == "loop_area";
     }
 
+    constexpr double largest_on_cylinder =
+        0.05; ///< Cylinder/Face size over its radius, coarse enough for a probe twice as coarse
+
     /// States in full sliding over the first two strokes of a drive.
     std::vector<Row> places_of(const Drive &drive)
     {
@@ -89,18 +92,25 @@ namespace sprag
     Scene with_face_size(Scene scene, const double size)
     {
       scene.mesh.face_size = size;
+      if (is_open(scene, "Cylinder/Face size"))
+        scene.cylinder.face_size = std::min(size, largest_on_cylinder * scene.geometry.cylinder_radius);
       return scene;
     }
   } // namespace
 
   StaticChoice::StaticChoice(const Scene &given)
       : scene(given)
+      , enforcement_is_open(scene.contact.enforcement == Enforcement::penalty && is_open(scene, "Contact/Enforcement") &&
+                            is_open(scene, "Contact/Penalty"))
   {
+    if (enforcement_is_open)
+      scene.contact.enforcement = Enforcement::augmented_lagrangian;
     const auto [from, to] = swept_contact(scene);
     const double width    = estimated_contact_width(scene, contact_reference(scene).P);
     solve_probes(std::max(width / faces_of_probe, (to - from) / most_faces_of_probe));
-    const double target = scene.accuracy.target;
-    for (unsigned int i = 0; i < most_refinements && target > 0. && longest_face(target) < extrapolated * face_size; ++i)
+    const double target   = scene.accuracy.target;
+    const auto is_too_far = [&] { return longest_face(target) < extrapolated * face_size && is_paid(scene, meeting(target)); };
+    for (unsigned int i = 0; i < most_refinements && target > 0. && is_too_far(); ++i)
       solve_probes(longest_face(target));
   }
 
@@ -154,9 +164,14 @@ namespace sprag
       choice.settings.push_back({ "Mesh/Face size", rounded_text(size),
                                   "a probe with " + rounded_text(face_size) + " mm is " +
                                       percent(*std::max_element(errors.begin(), errors.end())) + " off" });
+      if (scene.cylinder.type != CylinderType::rigid && is_open(scene, "Cylinder/Face size"))
+        choice.settings.push_back(
+            { "Cylinder/Face size", rounded_text(with_face_size(scene, size).cylinder.face_size), "as on the lever" });
       if (choice.error > 1.01 * share_of_mesh * target)
         choice.limit = "Faces of " + mm(size) + " are the shortest that a probe tells of.";
     }
+    if (enforcement_is_open && !closed_form)
+      choice.settings.push_back({ "Contact/Enforcement", "augmented Lagrangian", "it leaves no error of a penalty" });
     if (forces_only && !closed_form && is_open(scene, "Mesh/Faces in contact"))
       choice.settings.push_back({ "Mesh/Faces in contact", "0", "no pressure is wanted" });
     if (is_open(scene, "Analysis/Step"))

@@ -1,9 +1,8 @@
 #include "run/expected_cost.h"
 
 #include "analysis/study/study_points.h"
-#include "analysis/transient/transient.h"
 #include "base/errors.h"
-#include "levers/dynamics.h"
+#include "run/beam_run.h"
 #include "run/memory.h"
 #include "run/recorder.h"
 #include "scene/analysis_use.h"
@@ -29,13 +28,17 @@ namespace sprag
     constexpr double general_step      = 2.3e-5;  ///< times N
     constexpr double reduced_step      = 2e-5;
     constexpr double basis             = 5.5e-7; ///< times N^1.5
-    constexpr double fields_in_time    = 1.2e-5; ///< times N
-    constexpr double condensed_step    = 2.5e-4;
-    constexpr double condensed_faces   = 7.5e-6; ///< a step, times the square of the faces in contact
-    constexpr double meshed_step       = 4.5e-7; ///< times N
-    constexpr double reduced_slide     = 1e-3;
-    constexpr double condensed_slide   = 0.03;
-    constexpr double meshed_slide      = 6e-5; ///< times N
+    // Of it, what held slides need.
+    constexpr double basis_of_modes        = 0.4;
+    constexpr double basis_of_slide        = 0.8;
+    constexpr double basis_of_meshed_slide = 1.5;
+    constexpr double fields_in_time        = 1.2e-5; ///< times N
+    constexpr double condensed_step        = 2.5e-4;
+    constexpr double condensed_faces       = 7.5e-6; ///< a step, times the square of the faces in contact
+    constexpr double meshed_step           = 4.5e-7; ///< times N
+    constexpr double reduced_slide         = 1e-3;
+    constexpr double condensed_slide       = 0.03;
+    constexpr double meshed_slide          = 6e-5; ///< times N
 
     constexpr double judgements_of_cell = 0.4; ///< both ways, in models that are kept from cell to cell
     constexpr double steps_of_reversal  = 20.; ///< without inertia, through stick
@@ -59,22 +62,12 @@ namespace sprag
       return start + (model + telling_and_peaks) * N + steps * step * parts(scene);
     }
 
-    /// Steps that a beam takes over at most one cycle, times the cycles.
-    double steps_in_time(Scene scene)
+    double steps_in_time(const Scene &scene)
     {
-      constexpr double most_steps = 2e5;
-      const double fixed          = scene.drive.duration() / scene.time.step;
+      constexpr double most_steps = 2e5; // that are taken by a beam to count them
       if (scene.time.tolerance == 0. || expected_rows(scene) > most_steps)
-        return fixed;
-      if (is_meshed(scene.analysis.model))
-        scene.analysis.model = ModelType::beam;
-      DynamicsMaker maker(false);
-      const auto dynamics  = maker.make(scene);
-      const auto reference = contact_reference(scene);
-      return run_transient(dynamics.model(), scene.drive,
-                           { scene.time, reference.P, reference.stiffness, scene.geometry.cylinder_radius / 200. },
-                           [](const Motion &, const Row &) {})
-          .steps;
+        return scene.drive.duration() / scene.time.step;
+      return static_cast<double>(beam_run(scene).size());
     }
 
     double in_time(const Scene &scene)
@@ -118,8 +111,11 @@ namespace sprag
 
     double held(const Scene &scene)
     {
-      const double N    = expected_size(scene).displacements;
-      const double mesh = is_meshed(scene.analysis.model) ? 1.5 * basis * std::pow(N, 1.5) : 0.;
+      const double N     = expected_size(scene).displacements;
+      const double bases = scene.analysis.model == ModelType::finite_element ? 1.5
+                           : scene.analysis.type == AnalysisType::modal      ? 0.4
+                                                                             : 0.8;
+      const double mesh  = is_meshed(scene.analysis.model) ? bases * basis * std::pow(N, 1.5) : 0.;
       return start + mesh + slides_of(scene) * a_slide(scene);
     }
 

@@ -18,7 +18,7 @@ namespace sprag
   /// Estimates the number of rows of the table; of adaptive steps the fewest that there can be.
   double expected_rows(const Scene &scene);
 
-  /// Estimates the largest resident memory of a run on `processes` processes [bytes], 0.7 to 1.4 times what was measured:
+  /// Estimates the largest resident memory of a run on `processes` processes [bytes], within 1.3 times what was measured:
   /// libraries, matrices of the meshed parts and rows kept for the summary.
   double expected_memory(const Scene &scene, unsigned int processes = 1);
 

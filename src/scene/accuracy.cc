@@ -1,6 +1,6 @@
 #include "scene/accuracy.h"
 
-#include "scene/analysis_use.h"
+#include <boost/algorithm/string.hpp>
 
 namespace sprag
 {
@@ -15,8 +15,16 @@ namespace sprag
     return {};
   }
 
-  std::vector<std::string> usual_quantities_of(const AnalysisType type)
+  std::vector<std::string> quantities_meant(const std::string &text, const AnalysisType type)
   {
+    if (text != "auto")
+    {
+      std::vector<std::string> words;
+      boost::split(words, text, [](const char c) { return c == ','; });
+      for (auto &word : words)
+        boost::trim(word);
+      return words;
+    }
     if (type == AnalysisType::quasi_static)
       return { "P", "Q", "loop_area" };
     if (type == AnalysisType::transient)

@@ -12,8 +12,9 @@ namespace sprag
   /// Returns those that an analysis tells; none where it tells none.
   std::vector<std::string> quantities_of(AnalysisType type);
 
-  /// Returns those that Accuracy/Quantity = auto stands for.
-  std::vector<std::string> usual_quantities_of(AnalysisType type);
+  /// Returns those that a text of Accuracy/Quantity means: those that it names, or with auto those that an analysis is mostly
+  /// asked for.
+  std::vector<std::string> quantities_meant(const std::string &text, AnalysisType type);
 
   /// Returns whether a parameter, "Mesh/Face size", was left open: not given, or as auto.
   bool is_open(const Scene &scene, const std::string &parameter);

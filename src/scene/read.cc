@@ -5,7 +5,9 @@
 #include "base/table_file.h"
 #include "base/text.h"
 #include "scene/accuracy.h"
+#include "scene/analysis_use.h"
 #include "scene/check.h"
+#include "scene/discretisation.h"
 #include "scene/held_slide.h"
 #include "scene/sections.h"
 #include "scene/variation.h"
@@ -28,10 +30,6 @@ namespace sprag
       return rounded_text(value * (1. - 5e-6));
     }
 
-    /// Where pressures are told: that of model A is then within 3 % over the whole stroke. In time cells of 0.5 mm tilt under the
-    /// stiffer penalty, and P is 2 % off where the contact is 1.3 mm wide.
-    constexpr double driven_face_size = 0.25; ///< [mm]
-
     /// How the header of a table may call a column.
     std::vector<std::string> words_for(const std::string &column)
     {
@@ -42,25 +40,7 @@ namespace sprag
       return words.at(column);
     }
 
-    std::vector<std::string> words_of_list(const std::string &text)
-    {
-      std::vector<std::string> words;
-      boost::split(words, text, [](const char c) { return c == ','; });
-      for (auto &word : words)
-        boost::trim(word);
-      return words;
-    }
-
     const char *const time_tolerance = "Time/Tolerance";
-
-    /// Augmentations are cheap where the lever is factorised once. Chords of degree 1 need soft contact to follow a circle.
-    Enforcement automatic_enforcement(const Scene &scene)
-    {
-      const bool is_cheap = scene.analysis.type == AnalysisType::quasi_static && scene.lever.material == MaterialModel::linear &&
-                            scene.analysis.solution == Solution::automatic;
-      return is_cheap && scene.mesh.degree == 2 && !scene.contact.penalty ? Enforcement::augmented_lagrangian
-                                                                          : Enforcement::penalty;
-    }
 
     ParameterValues values_of(const Scene &scene)
     {
@@ -124,7 +104,7 @@ namespace sprag
         resolve("Condensed/Cache", input.scene.condensed.cache);
         make_time_tolerance();
         make_model();
-        make_discretisation();
+        make_discretisation(input);
       }
 
       /// Until it is chosen, the model is the dearest that a choice may end at.
@@ -142,25 +122,15 @@ namespace sprag
         const auto possible        = quantities_of(input.scene.analysis.type);
         if (accuracy.is_model_open && !accuracy.is_asked_for())
           report("Analysis/Model", "auto needs Accuracy/Target or Accuracy/Budget");
+        if (accuracy.is_asked_for() && follows_formulas(input.scene))
+          report("Analysis/Model", "must be auto or a model that solves for the contact where an accuracy is asked for");
         if (accuracy.is_asked_for() && possible.empty())
           report(accuracy.target > 0. ? "Accuracy/Target" : "Accuracy/Budget",
                  "counts only along the drive and for held slides, where errors are told");
-        accuracy.quantities =
-            accuracy.quantity == "auto" ? usual_quantities_of(input.scene.analysis.type) : words_of_list(accuracy.quantity);
+        accuracy.quantities = quantities_meant(accuracy.quantity, input.scene.analysis.type);
         for (const auto &name : accuracy.quantities)
           if (accuracy.is_asked_for() && std::find(possible.begin(), possible.end(), name) == possible.end())
             report("Accuracy/Quantity", "'" + name + "' is none of " + boost::algorithm::join(possible, ", "));
-      }
-
-      void make_discretisation()
-      {
-        Scene &scene                = input.scene;
-        const bool is_static        = scene.analysis.type == AnalysisType::quasi_static;
-        const bool is_driven        = is_static || scene.analysis.type == AnalysisType::transient;
-        scene.mesh.face_size        = input.face_size.value_or(is_driven ? driven_face_size : scene.mesh.face_size);
-        const double enough         = scene.mesh.degree == 1 ? 5. : 4.;
-        scene.mesh.faces_in_contact = input.faces_in_contact.value_or(is_static ? enough : 0.);
-        scene.contact.enforcement   = input.enforcement.value_or(automatic_enforcement(scene));
       }
 
       /// The printed parameters give a step, so that they must give the tolerance too.

@@ -1,5 +1,10 @@
+#include "analysis/accuracy/dilation.h"
 #include "analysis/accuracy/error_estimate.h"
+#include "analysis/accuracy/row_spacing.h"
+#include "analysis/accuracy/sample_changes.h"
 #include "analysis/accuracy/slide_samples.h"
+#include "scene/closed_form.h"
+#include "scenes.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -71,4 +76,50 @@ TEST(SlideSamples, LieWhereAllSlidesAndTheTurnIsForgotten)
   EXPECT_EQ(backward, 5u); // four and the one of the largest P
   EXPECT_EQ(samples[4][Column::x], 20.);
   EXPECT_TRUE(slide_samples({ row(0., 0., 1., 0.) }, 4).empty());
+}
+
+TEST(SampleChanges, AreRelativeToPeaksOrThemselves)
+{
+  std::vector<Row> rows = { row(0., 0., 1., 1.), row(1., 1., 1., 4.) };
+  for (Row &each : rows)
+    each[Column::Q] = 10. * each[Column::P];
+  auto other                         = rows;
+  other[0][Column::P]                = 1.2;
+  other[1][Column::largest_pressure] = 5.;
+  EXPECT_NEAR(relative_change("P", rows, other), 0.05, 1e-14);
+  EXPECT_NEAR(relative_change("largest_pressure", rows, other), 0.25, 1e-14);
+  EXPECT_DOUBLE_EQ(relative_change("Q", rows, other), 0.);
+  EXPECT_THROW(relative_change("theta", rows, other), std::out_of_range);
+}
+
+TEST(RowSpacing, GoesWithTheRootOfTheErrorAndHoldsIt)
+{
+  const Scene scene  = with_coulomb(model_a(), 0.73);
+  const double small = largest_row_spacing(scene, 1e-4, true);
+  EXPECT_NEAR(largest_row_spacing(scene, 4e-4, true) / small, 2., 0.3);
+  EXPECT_LE(largest_row_spacing(scene, 0.4, true), 0.25 * 65.);
+  // P of the closed form between two rows around x = 60 mm against the straight line, over the largest P, which is backward.
+  const auto P      = [&](const double x) { return closed_form(scene, x, -112.).P; };
+  const double line = 0.5 * (P(60. - 0.5 * small) + P(60. + 0.5 * small));
+  EXPECT_LE(std::abs(P(60.) - line) / P(65.), 1e-4);
+}
+
+TEST(ChangeByFrequency, IsTheLagOfADecayingVibration)
+{
+  // P = 10 + exp(-20 t) sin(w t) behind a reversal at t = 1 s: slower by a share d it changes by d w t exp(-20 t) at most.
+  const double omega = 2. * M_PI * 200., decay = 20.;
+  const auto vibration = [&](const double t, const double slow)
+  { return std::exp(-decay * t) * std::sin(omega * (1. - slow) * t); };
+  std::vector<Row> rows;
+  double largest_lag     = 0.;
+  constexpr double share = 1e-4;
+  for (double t = 0.; t < 0.5; t += 2e-5)
+  {
+    rows.push_back(row(1. + t, 0., -1., 10. + vibration(t, 0.)));
+    rows.back()[Column::P_quasi_static] = 10.;
+    largest_lag                         = std::max(largest_lag, std::abs(vibration(t, share) - vibration(t, 0.)));
+  }
+  const auto ringing = ringing_rows(rows, 1., 2.);
+  EXPECT_NEAR(ringing.back()[Column::time], 1. + std::log(10.) / decay, 0.01);
+  EXPECT_NEAR(share * change_by_frequency(ringing, 1.), largest_lag, 0.02 * largest_lag);
 }

@@ -35,6 +35,23 @@ SLIDES = [
     ("stability-a", {"Stability/Position": 30}),
     ("stability-a", {"Friction layer/Thickness": 2}),
 ]
+# In time, with the settings of the reference: shorter steps, for meshed levers a finer face and a stiffer penalty.
+SHORT_STEPS = {"Time/Tolerance": 1e-5}
+FINE_IN_TIME = {"Time/Tolerance": 1e-4, "Mesh/Face size": 0.125, "Contact/Penalty": 2e4}
+IN_TIME = [
+    ("reversal-a", {"Analysis/Model": "rigid"}, SHORT_STEPS),
+    ("reversal-a", {"Analysis/Model": "rigid", "Time/Step": 5e-5}, {"Time/Step": 5e-6}),
+    ("reversal-a", {"Analysis/Model": "beam", "Time/Tolerance": 2e-2}, SHORT_STEPS),
+    ("reversal-a", {"Analysis/Model": "condensed"}, FINE_IN_TIME),
+    ("reversal-a", {"Analysis/Model": "condensed", "Mesh/Face size": 0.5}, FINE_IN_TIME),
+    ("reversal-b", {"Analysis/Model": "beam"}, SHORT_STEPS),
+    ("reversal-b", {"Analysis/Model": "condensed"}, FINE_IN_TIME),
+    ("plate-reversal-a", {}, FINE_IN_TIME),
+    ("support-a", {}, SHORT_STEPS),
+    ("harmonic-a", {"Analysis/Model": "beam"}, SHORT_STEPS),
+    ("pair-reversal-a", {"Analysis/Model": "beam"}, SHORT_STEPS),
+]
+OF_RINGING = {"overshoot": "reversal_1_overshoot_P", "frequency": "reversal_1_frequency"}
 QUANTITIES = ("P", "Q", "loop_area", "largest_pressure", "contact_width")
 COLUMNS = ("P", "Q", "largest_pressure", "contact_width", "x", "v", "drive_work")
 OF_SLIDES = ("growth_rate", "frequency")
@@ -112,6 +129,23 @@ def slide_errors(sprag, scene, changes, folder, found):
     return {name: abs(found[name] / exact[name] - 1) for name in OF_SLIDES}
 
 
+def in_time(sprag, scene, changes, folder):
+    """Times, P and measures of the ringing of a run, what it tells of them and the share of the time that takes."""
+    run_scene(sprag, scene + ".prm", {"Output/Fields": "none", **changes}, folder, "--overwrite")
+    with h5py.File(Path(folder) / "result.h5") as file:
+        found = {name: float(file["summary/" + entry][()]) for name, entry in OF_RINGING.items()}
+        told = {name: float(file["accuracy/" + name][()]) for name in ("P", *OF_RINGING)}
+        share = float(file["meta/cpu_time_accuracy"][()]) / float(file["meta/cpu_time"][()])
+        return (file["table/time"][:], file["table/P"][:], found), told, share
+
+
+def errors_in_time(run, reference):
+    time, P, found = run
+    reference_time, reference_P, exact = reference
+    errors = {"P": np.abs(P - np.interp(time, reference_time, reference_P)).max() / reference_P.max()}
+    return {**errors, **{name: abs(found[name] / exact[name] - 1) for name in OF_RINGING}}
+
+
 def print_case(scene, changes, cost, told, errors):
     """Returns how many of the ratios are outside."""
     print(f"{scene} {changes or ''}: telling took {100 * cost:.0f} % of the run")
@@ -145,6 +179,10 @@ def main():
             found, told, cost = slide(arguments.sprag, scene, changes, folder)
             errors = slide_errors(arguments.sprag, scene, changes, folder, found)
             outside += print_case(scene, changes, cost, told, errors)
+        for scene, changes, finer in IN_TIME[: arguments.cases]:
+            run, told, cost = in_time(arguments.sprag, scene, changes, folder)
+            reference, _, _ = in_time(arguments.sprag, scene, {**changes, **finer}, folder)
+            outside += print_case(scene, changes, cost, told, errors_in_time(run, reference))
     print(f"{outside} of the ratios are outside of 0.5 ... 3")
 
 

@@ -17,7 +17,7 @@ MOST_LIBRARIES = 80  # HDF5 with MPI takes some 50
 LIGHT = {
     "version": (None, "--version"),
     "check of model A's closed form": ("closed-form-a", "--validate"),
-    "check of a beam": ("reversal-a", "--validate"),
+    "check of a beam that tells no cost": ("reversal-a", "--validate", "--quiet"),
     "parameters of a mesh": ("model-a", "--print-parameters"),
     "closed form": ("closed-form-a",),
     "closed form of a pair": ("pair-a", "--set", "Analysis/Model=closed form"),
@@ -27,6 +27,7 @@ LIGHT = {
 }
 HEAVY = {
     "beam": ("reversal-a",),
+    "check of a beam, whose steps are counted": ("reversal-a", "--validate"),
     "check of a mesh": ("model-a", "--validate"),
     "check of a leaf spring": ("leaf-a", "--set", "Analysis/Model=closed form", "--validate"),
 }

@@ -1,0 +1,75 @@
+#!/usr/bin/python3
+"""Prints what --validate expects of runs, CPU time and memory, against what they take; see README.md."""
+
+import argparse
+import os
+import re
+import subprocess
+import tempfile
+from pathlib import Path
+
+import h5py
+from runs import ROOT, add_program, print_row
+
+ALONE = {"Stability/Critical": "none", "Stability/Roles": "off"}
+CASES = [
+    ("model-a", {}),
+    ("model-a", {"Mesh/Face size": 1}),
+    ("model-a", {"Mesh/Face size": 0.0625}),
+    ("model-a", {"Analysis/Step": 0.1}),
+    ("model-b", {"Drive/Cycles": 4}),
+    ("cylinder-a", {}),
+    ("pair-a", {}),
+    ("plate-a", {}),
+    ("apparatus-a", {}),
+    ("closed-form-a", {}),
+    ("reversal-a", {}),
+    ("reversal-a", {"Analysis/Model": "condensed"}),
+    ("reversal-b", {"Analysis/Model": "condensed", "Mesh/Face size": 0.5}),
+    ("reversal-a", {"Analysis/Model": "finite element"}),
+    ("plate-reversal-a", {}),
+    ("pair-reversal-a", {}),
+    ("modal-a", {}),
+    ("stability-a", {}),
+    ("stability-a", {"Analysis/Model": "condensed", **ALONE}),
+    ("pair-stability-a", {}),
+    ("map-offset-inclination", {}),
+    ("map-friction-depth-a", {}),
+    ("study-a", {}),
+]
+WIDTHS = (56, 10, 10, 8, 10, 10, 8)
+
+
+def cpu_of(command):
+    before = os.times()
+    text = subprocess.run(command, check=True, capture_output=True, text=True).stdout
+    after = os.times()
+    return after.children_user + after.children_system - before.children_user - before.children_system, text
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    add_program(parser)
+    arguments = parser.parse_args()
+    print_row(("run", "expected s", "CPU s", "ratio", "expected GB", "GB", "ratio"), WIDTHS)
+    outside = 0
+    with tempfile.TemporaryDirectory() as folder:
+        for scene, changes in CASES:
+            command = [arguments.sprag, str(ROOT / "params" / (scene + ".prm")), *(f"--set={name}={value}" for name, value in changes.items())]
+            _, text = cpu_of([*command, "--validate"])
+            expected = re.search(r"about (\S+) s of CPU time, (\S+) GB", text)
+            seconds, gigabytes = (float(number) for number in expected.groups())
+            # A stored basis would be used.
+            cpu, _ = cpu_of([*command, "--overwrite", "--output", folder + "/out", "--set=Condensed/Cache=" + tempfile.mkdtemp(dir=folder)])
+            with h5py.File(Path(folder) / "out/result.h5") as file:
+                memory = float(file["meta/peak_memory"][()]) * 2**20 / 1e9
+            outside += not 0.5 <= seconds / cpu <= 2
+            outside += not 1 / 1.3 <= gigabytes / memory <= 1.3
+            name = scene + "".join(f" {value}" for value in changes.values())
+            print_row((name, f"{seconds:.2f}", f"{cpu:.2f}", f"{seconds / cpu:.2f}", f"{gigabytes:.2f}", f"{memory:.2f}",
+                       f"{gigabytes / memory:.2f}"), WIDTHS)
+    print(f"{outside} are beyond a factor of 2 in time or 1.3 in memory")
+
+
+if __name__ == "__main__":
+    main()

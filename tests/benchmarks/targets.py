@@ -1,0 +1,68 @@
+#!/usr/bin/python3
+"""Prints what it costs to ask for an accuracy: the CPU time of runs with Accuracy/Target, their true and their told errors, and the cheapest
+settings of a grid whose true error is within the target; see README.md."""
+
+import argparse
+import itertools
+import os
+import tempfile
+
+from effectivity import Run, true_errors
+from runs import add_program, print_row
+
+TARGETS = (0.1, 1e-2, 1e-3, 1e-4)
+OF_FORCES = ("P", "Q", "loop_area")
+CASES = [("model-a", OF_FORCES), ("model-b", OF_FORCES), ("model-a", ("largest_pressure",)), ("model-b", ("largest_pressure",))]
+FACE_SIZES = (0.125, 0.25, 0.5, 1, 2)
+STEPS = (0.5, 2, 8)
+FINE = {"Mesh/Face size": 0.0625, "Analysis/Step": 0.25, "Contact/Enforcement": "augmented Lagrangian"}
+WIDTHS = (34, 10, 10, 10, 10, 12, 8, 0)
+
+
+def cpu_of(work):
+    before = os.times()
+    result = work()
+    after = os.times()
+    return result, after.children_user + after.children_system - before.children_user - before.children_system
+
+
+def measured(sprag, scene, changes, quantities, reference, folder):
+    """CPU time, largest true and told error of a run."""
+    run, cpu = cpu_of(lambda: Run(sprag, scene, changes, folder))
+    errors = true_errors(run, reference)
+    return cpu, max(errors[name] for name in quantities), max(run.told[name] for name in quantities)
+
+
+def grid(sprag, scene, quantities, reference, folder):
+    """(CPU time, error, name) of all settings."""
+    found = []
+    for degree, size, step in itertools.product((1, 2), FACE_SIZES, STEPS):
+        for faces in (0, 4):
+            changes = {"Mesh/Degree": degree, "Mesh/Face size": size, "Analysis/Step": step, "Mesh/Faces in contact": faces}
+            try:
+                cpu, error, _ = measured(sprag, scene, changes, quantities, reference, folder)
+            except (RuntimeError, KeyError):
+                continue
+            found.append((cpu, error, f"degree {degree}, {size} mm, step {step}, {faces} faces"))
+    return found
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    add_program(parser)
+    arguments = parser.parse_args()
+    print_row(("asked for", "target", "CPU s", "true", "told", "cheapest s", "ratio", "with"), WIDTHS)
+    with tempfile.TemporaryDirectory() as folder:
+        for scene, quantities in CASES:
+            reference = Run(arguments.sprag, scene, FINE, folder)
+            settings = grid(arguments.sprag, scene, quantities, reference, folder)
+            for target in TARGETS:
+                asked = {"Accuracy/Target": target, "Accuracy/Quantity": ", ".join(quantities)}
+                cpu, error, told = measured(arguments.sprag, scene, asked, quantities, reference, folder)
+                cheap = min((each for each in settings if each[1] <= target), default=(float("nan"), 0, "none"))
+                print_row((scene + " " + ", ".join(quantities), f"{target:.2g}", f"{cpu:.2f}", f"{error:.1e}", f"{told:.1e}",
+                           f"{cheap[0]:.2f}", f"{cpu / cheap[0]:.2f}", cheap[2]), WIDTHS)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,80 @@
+#include "run/choice.h"
+
+#include "mpi_environment.h"
+#include "run/expected_cost.h"
+#include "scene/read.h"
+
+#include <filesystem>
+#include <gtest/gtest.h>
+
+using namespace sprag;
+
+namespace
+{
+  Scene asked(const std::string &name, std::vector<std::string> overrides)
+  {
+    overrides.push_back("Output/Fields=none");
+    return read_scene((std::filesystem::path(__FILE__).parent_path() / "../../params" / (name + ".prm")).string(), overrides);
+  }
+
+  std::string chosen(const Choice &choice, const std::string &parameter)
+  {
+    for (const auto &setting : choice.settings)
+      if (setting.parameter == parameter)
+        return setting.value;
+    return "";
+  }
+
+  double face_size(const Choice &choice)
+  {
+    return std::stod(chosen(choice, "Mesh/Face size"));
+  }
+} // namespace
+
+TEST(Choice, ClosedFormServesWhereItsErrorIsAdmitted)
+{
+  const Scene scene = asked("model-a", { "Accuracy/Target=0.05", "Analysis/Model=auto" });
+  EXPECT_EQ(chosen(choose_settings(scene), "Analysis/Model"), "closed form");
+  const Scene finer = asked("model-a", { "Accuracy/Target=0.005", "Analysis/Model=auto" });
+  EXPECT_EQ(chosen(choose_settings(finer), "Analysis/Model"), "finite element");
+  const Scene pressure =
+      asked("model-a", { "Accuracy/Target=0.05", "Analysis/Model=auto", "Accuracy/Quantity=largest_pressure" });
+  EXPECT_EQ(chosen(choose_settings(pressure), "Analysis/Model"), "finite element");
+}
+
+TEST(Choice, FacesAndStepsShrinkWithTheTarget)
+{
+  const StaticChoice choice(asked("model-a", { "Accuracy/Target=1e-3" }));
+  const auto loose = choice.meeting(1e-2), tight = choice.meeting(1e-4);
+  EXPECT_GT(face_size(loose), face_size(tight));
+  EXPECT_GT(std::stod(chosen(loose, "Analysis/Step")), 5. * std::stod(chosen(tight, "Analysis/Step")));
+  EXPECT_LE(tight.error, 1e-4);
+}
+
+TEST(Choice, WhatIsGivenIsKept)
+{
+  const auto choice = choose_settings(asked("model-a", { "Accuracy/Target=1e-3", "Mesh/Face size=0.5", "Analysis/Step=2" }));
+  EXPECT_EQ(chosen(choice, "Mesh/Face size"), "");
+  EXPECT_EQ(chosen(choice, "Analysis/Step"), "");
+}
+
+// The machine may be busier from one estimate to the next.
+TEST(Choice, BudgetIsKept)
+{
+  const Scene loose   = asked("model-a", { "Accuracy/Target=0.01" });
+  const double budget = 1.5 * expected_cost(with_settings(loose, choose_settings(loose).settings)).cpu_seconds;
+  const Scene scene   = asked("model-a", { "Accuracy/Target=1e-5", "Accuracy/Budget=" + std::to_string(budget) });
+  const auto choice   = choose_settings(scene);
+  EXPECT_LE(expected_cost(with_settings(scene, choice.settings)).cpu_seconds, 1.3 * budget);
+  EXPECT_NE(choice.limit.find("Accuracy/Budget"), std::string::npos);
+}
+
+TEST(Choice, ABeamServesWhereCoarse)
+{
+  const Scene scene = asked("reversal-a", { "Accuracy/Target=0.2", "Analysis/Model=auto" });
+  EXPECT_EQ(chosen(choose_settings(scene), "Analysis/Model"), "beam");
+  const Scene finer = asked("reversal-a", { "Accuracy/Target=0.01", "Analysis/Model=auto" });
+  const auto choice = choose_settings(finer);
+  EXPECT_EQ(chosen(choice, "Analysis/Model"), "condensed");
+  EXPECT_NEAR(std::stod(chosen(choice, "Time/Tolerance")), 0.004, 1e-9);
+}

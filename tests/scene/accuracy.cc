@@ -1,0 +1,88 @@
+#include "scene/accuracy.h"
+#include "scene/contact_width.h"
+#include "scene/read.h"
+
+#include "base/errors.h"
+
+#include <boost/algorithm/string/join.hpp>
+#include <filesystem>
+#include <gtest/gtest.h>
+
+using namespace sprag;
+
+namespace
+{
+  std::string scene_file(const std::string &name)
+  {
+    return (std::filesystem::path(__FILE__).parent_path() / "../../params" / (name + ".prm")).string();
+  }
+
+  std::string refusal(const std::vector<std::string> &overrides)
+  {
+    try
+    {
+      read_scene(scene_file("model-a"), overrides);
+    }
+    catch (const InputError &error)
+    {
+      return boost::algorithm::join(error.messages, "\n");
+    }
+    return "";
+  }
+} // namespace
+
+TEST(Accuracy, NamesAreThoseOfTheAnalysis)
+{
+  EXPECT_NE(refusal({ "Accuracy/Target=0.01", "Accuracy/Quantity=P, growth_rate" }).find("'growth_rate' is none of P, Q"),
+            std::string::npos);
+  EXPECT_NE(refusal({ "Analysis/Model=auto" }).find("auto needs Accuracy/Target"), std::string::npos);
+  EXPECT_NE(refusal({ "Accuracy/Target=0.01", "Analysis/Type=modal" }).find("Accuracy/Target"), std::string::npos);
+  EXPECT_EQ(refusal({ "Accuracy/Target=0.01", "Accuracy/Quantity=P, largest_pressure", "Analysis/Model=auto" }), "");
+}
+
+TEST(Accuracy, AutoAndWhatIsNotGivenAreOpen)
+{
+  const Scene scene = read_scene(scene_file("model-a"), { "Mesh/Face size=auto", "Analysis/Step=1" });
+  EXPECT_TRUE(is_open(scene, "Mesh/Face size"));
+  EXPECT_TRUE(is_open(scene, "Mesh/Faces in contact"));
+  EXPECT_FALSE(is_open(scene, "Analysis/Step"));
+}
+
+TEST(Accuracy, ContactIsEnforcedByMultipliersWhereThatIsCheap)
+{
+  const auto enforcement = [](const std::vector<std::string> &overrides)
+  { return read_scene(scene_file("model-a"), overrides).contact.enforcement; };
+  EXPECT_EQ(enforcement({}), Enforcement::augmented_lagrangian);
+  EXPECT_EQ(enforcement({ "Contact/Penalty=500" }), Enforcement::penalty);
+  EXPECT_EQ(enforcement({ "Mesh/Degree=1" }), Enforcement::penalty);
+  EXPECT_EQ(enforcement({ "Analysis/Type=transient", "Analysis/Model=condensed" }), Enforcement::penalty);
+  EXPECT_EQ(enforcement({ "Lever/Material=neo-Hookean", "Analysis/Plane=strain" }), Enforcement::penalty);
+  EXPECT_EQ(enforcement({ "Contact/Enforcement=penalty" }), Enforcement::penalty);
+}
+
+// Widths of hard contact on faces of 0.03125 mm, from tests/benchmarks/README.md; estimates need not be better than a fifth.
+TEST(FaceGrading, WidthsOfModelAAreEstimated)
+{
+  const Scene scene = read_scene(scene_file("model-a"));
+  EXPECT_NEAR(estimated_contact_width(scene, 1.52), 0.723, 0.15);
+  EXPECT_NEAR(estimated_contact_width(scene, 6.15), 1.356, 0.27);
+  EXPECT_NEAR(estimated_contact_width(scene, 14.7), 1.940, 0.39);
+}
+
+TEST(FaceGrading, ShortFacesLieWhereTheContactIsNarrow)
+{
+  const auto grading = face_grading(read_scene(scene_file("model-a")));
+  ASSERT_TRUE(grading);
+  EXPECT_DOUBLE_EQ(grading->longest, 0.25);
+  EXPECT_DOUBLE_EQ(grading->shortest, 0.0625);
+  EXPECT_LT(grading->begin, 175.);
+  EXPECT_GT(grading->begin, 160.);
+  EXPECT_GT(grading->end, 185.2); // of x = 0
+}
+
+TEST(FaceGrading, NoneWhereFacesAreShortEnoughOrFarTooLong)
+{
+  EXPECT_FALSE(face_grading(read_scene(scene_file("model-a"), { "Mesh/Faces in contact=0" })));
+  EXPECT_FALSE(face_grading(read_scene(scene_file("model-a"), { "Drive/Start=50", "Mesh/Face size=0.1" })));
+  EXPECT_FALSE(face_grading(read_scene(scene_file("model-a"), { "Mesh/Face size=4" })));
+}
