@@ -74,8 +74,8 @@ namespace sprag
     std::vector<std::pair<unsigned int, double>> mode_errors; ///< of numbers of modes
 
     bool takes_beam(double target) const;
-    void add_mesh(double target, Choice &choice) const;
-    void add_penalty(double target, Choice &choice) const;
+    double add_mesh(double target, Choice &choice) const;
+    void add_penalty(double target, double size, Choice &choice) const;
     void add_modes(double target, Choice &choice) const;
   };
 

@@ -10,6 +10,7 @@
 #include "run/coarser_scene.h"
 #include "run/percent.h"
 #include "scene/accuracy.h"
+#include "scene/check_parts.h"
 #include "scene/contact_reference.h"
 #include "scene/contact_width.h"
 #include "scene/held_slide.h"
@@ -28,7 +29,7 @@ namespace sprag
     constexpr double share_of_steps   = 0.4;
     constexpr double share_of_model   = 0.8;
 
-    constexpr double largest_factor = 20.; ///< of the automatic penalty, beyond which cells tilt
+    constexpr double stiffest       = 0.5; ///< penalty over the stiffest that a mesh takes
     constexpr double faces_of_probe = 3.;  ///< across the contact where P is largest
     constexpr double finest         = 8.;  ///< Mesh/Face size of the probe over that of a run
 
@@ -106,7 +107,7 @@ namespace sprag
     return scene.accuracy.is_model_open && beam_error <= share_of_model * target;
   }
 
-  void VibrationChoice::add_mesh(const double target, Choice &choice) const
+  double VibrationChoice::add_mesh(const double target, Choice &choice) const
   {
     const double order = order_of_forces(scene);
     const double ideal = face_size * std::pow(share_of_mesh * target / std::max(mesh_error, 1e-12), 1. / order);
@@ -116,11 +117,18 @@ namespace sprag
                                 "a probe with " + rounded_text(face_size) + " mm is " + percent(mesh_error) + " off" });
     if (ideal < size)
       choice.limit = "Faces of " + mm(size) + " are the shortest that a probe tells of.";
+    return size;
   }
 
-  void VibrationChoice::add_penalty(const double target, Choice &choice) const
+  void VibrationChoice::add_penalty(const double target, const double size, Choice &choice) const
   {
-    const double factor = std::clamp(penalty_error / (share_of_penalty * target), 1., largest_factor);
+    Scene sized          = scene;
+    sized.mesh.face_size = size;
+    const double most    = std::max(1., stiffest * largest_penalty(sized) / penalties.normal);
+    const double wanted  = std::max(1., penalty_error / (share_of_penalty * target));
+    const double factor  = std::min(wanted, most);
+    if (factor < wanted)
+      choice.limit = "A stiffer Contact/Penalty is too stiff for this mesh.";
     choice.error += penalty_error / factor;
     if (factor > 1.)
       choice.settings.push_back({ "Contact/Penalty", rounded_text(factor * penalties.normal),
@@ -148,10 +156,11 @@ namespace sprag
     const bool meshed = !beam && is_meshed(scene.analysis.model);
     if (beam)
       choice.error = beam_error;
+    double size = scene.mesh.face_size;
     if (meshed && is_open(scene, "Mesh/Face size") && scene.mesh.file.empty())
-      add_mesh(target, choice);
-    if (meshed && is_open(scene, "Contact/Penalty"))
-      add_penalty(target, choice);
+      size = add_mesh(target, choice);
+    if (meshed && is_open(scene, "Contact/Penalty") && scene.mesh.file.empty())
+      add_penalty(target, size, choice);
     if (meshed && scene.analysis.model == ModelType::condensed && is_open(scene, "Condensed/Modes"))
       add_modes(target, choice);
     if (scene.analysis.type == AnalysisType::transient && is_open(scene, "Time/Tolerance") && is_open(scene, "Time/Step"))

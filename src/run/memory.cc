@@ -108,12 +108,16 @@ namespace sprag
       return is_factorised_once(scene) ? Cost{ 2e3, 0. } : Cost{ 5e3, 0. };
     }
 
+    /// Matrices of plate and bar over those of the plate.
+    constexpr double bar_behind_plate = 1.5;
+
     double bytes_of_matrices(const Scene &scene)
     {
       const auto [displacements, ports] = expected_size(scene);
       const double levers               = scene.pair.type == PairType::full && !is_factorised_once(scene) ? 2. : 1.;
       const auto [each, copies]         = cost_of(scene);
-      return levers * (each * displacements + copies * 8. * ports * ports);
+      const double bar                  = scene.plate.type == PlateType::none ? 1. : bar_behind_plate;
+      return levers * bar * (each * displacements + copies * 8. * ports * ports);
     }
 
     std::string gigabytes(const double bytes)

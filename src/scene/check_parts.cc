@@ -16,18 +16,16 @@ namespace sprag
         return scene.layer.young_modulus;
       return scene.plate.type == PlateType::on_sensors ? scene.plate.young_modulus : scene.lever.young_modulus;
     }
-
-    /// Some 20 times the automatic penalty without inertia, ten times that in time. Beyond that single points between the nodes
-    /// carry the pressure on more and more of the way, then Newton's method fails, and a slide that is there is not found.
-    double largest_penalty(const Scene &scene)
-    {
-      constexpr double over_cells = 250., over_layer = 1200., over_cells_without_layer = 100.;
-      const double E = young_modulus_of_face(scene);
-      const double t = scene.layer.thickness;
-      const double h = scene.mesh.face_size;
-      return t > 0. ? std::max(over_cells * E / h, over_layer * E / t) : over_cells_without_layer * E / h;
-    }
   } // namespace
+
+  double largest_penalty(const Scene &scene)
+  {
+    constexpr double over_cells = 250., over_layer = 1200., over_cells_without_layer = 100.;
+    const double E = young_modulus_of_face(scene);
+    const double t = scene.layer.thickness;
+    const double h = scene.mesh.face_size;
+    return t > 0. ? std::max(over_cells * E / h, over_layer * E / t) : over_cells_without_layer * E / h;
+  }
 
   void check_penalty(const Scene &scene, Rules &rules)
   {

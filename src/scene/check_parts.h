@@ -16,6 +16,11 @@ namespace sprag
     }
   };
 
+  /// Returns the stiffest normal penalty that the face of a built-in mesh takes [N/mm^3]: some 20 times the automatic one without
+  /// inertia, ten times that in time. Beyond that single points between the nodes carry the pressure on more and more of the way,
+  /// then Newton's method fails, and a slide that is there is not found.
+  double largest_penalty(const Scene &scene);
+
   /// Checks that penalties are not stiffer than the friction face of a built-in mesh takes, see params/README.md.
   void check_penalty(const Scene &scene, Rules &rules);
 
