@@ -1,5 +1,7 @@
 #include "base/interrupt.h"
 
+#include "base/errors.h"
+
 #include <csignal>
 #include <initializer_list>
 
@@ -38,6 +40,12 @@ namespace sprag
   bool interrupted()
   {
     return asked != 0;
+  }
+
+  void end_if_interrupted()
+  {
+    if (interrupted())
+      throw AnalysisError(interruption);
   }
 
   void forget_signal_handlers()

@@ -14,6 +14,9 @@ namespace sprag
   /// Returns whether an end was asked for.
   bool interrupted();
 
+  /// Throws AnalysisError with the interruption's message if so.
+  void end_if_interrupted();
+
   /// Lets every signal do from now on what it does by default.
   void forget_signal_handlers();
 } // namespace sprag

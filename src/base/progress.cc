@@ -59,6 +59,12 @@ namespace sprag
   {
   }
 
+  void Progress::begin_at(const double done)
+  {
+    first         = std::clamp(done / total, 0., 1.);
+    logged_tenths = static_cast<int>(std::floor(10. * first + 1e-9));
+  }
+
   void Progress::update(const double done, const ProgressFields &fields)
   {
     const double share = std::clamp(done / total, 0., 1.);
@@ -91,8 +97,8 @@ namespace sprag
     const double elapsed = clock() - start;
     if (share >= 1.)
       text += "  " + duration_text(elapsed) + " in all";
-    else if (share > 0.)
-      text += "  " + duration_text(elapsed * (1. - share) / share) + " left";
+    else if (share > first)
+      text += "  " + duration_text(elapsed * (1. - share) / (share - first)) + " left";
     return text;
   }
 

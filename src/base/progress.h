@@ -52,6 +52,9 @@ namespace sprag
 
     Progress &operator=(Progress &&) = delete;
 
+    /// Says how much had been done, in another run, before this one began.
+    void begin_at(double done);
+
     void update(double done, const ProgressFields &fields);
 
     /// Shows the last update and ends the line. Nothing may follow.
@@ -67,6 +70,7 @@ namespace sprag
     const double total;
     const Clock clock;
     const double start;
+    double first      = 0.; ///< share that was done before
     double last_drawn = -std::numeric_limits<double>::infinity();
     int logged_tenths = 0;
     std::size_t width = 0; ///< of what stands in the terminal's line

@@ -248,6 +248,13 @@ namespace sprag
       return contact->face_state(found, motion.drive);
     }
 
+    void visit_history(Archive &archive) override
+    {
+      structure->visit_history(archive);
+      contact->visit_history(archive);
+      slides.visit_history(archive);
+    }
+
   private:
     const std::unique_ptr<Structure> structure;
     const std::unique_ptr<Contact> contact;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/archive.h"
 #include "model/contact_point.h"
 #include "model/generalised_alpha.h"
 #include "model/port_forces.h"
@@ -122,5 +123,9 @@ namespace sprag
     /// Points of the friction face and their tractions at the last motion; empty where there is no mesh.
     virtual FacePoints face_points() const                   = 0;
     virtual FaceState face_state(const Motion &motion) const = 0;
+
+    /// Visits what later steps and slides depend on, to the last bit, beside the motion that they begin with: what was found on
+    /// the way and is kept. A model that takes it from an archive goes on as the one it is of.
+    virtual void visit_history(Archive &archive) = 0;
   };
 } // namespace sprag

@@ -154,6 +154,12 @@ namespace sprag
       return joined_faces(contact[0]->face_state(found.of_lever[0], drive), contact[1]->face_state(found.of_lever[1], drive));
     }
 
+    void visit_history(Archive &archive)
+    {
+      for (const auto &of_lever : contact)
+        of_lever->visit_history(archive);
+    }
+
   private:
     const std::array<std::unique_ptr<Contact>, 2> contact;
     const PortLayout layout;

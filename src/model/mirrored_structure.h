@@ -168,6 +168,12 @@ namespace sprag
                       [&](const unsigned int part, const Motion &of) { return parts[part]->elastic_displacement(of); });
     }
 
+    void visit_history(Archive &archive)
+    {
+      for (const auto &part : parts)
+        part->visit_history(archive);
+    }
+
   private:
     const std::array<std::unique_ptr<Structure>, 2> parts;
     const bool alike;

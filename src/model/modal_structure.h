@@ -83,6 +83,11 @@ namespace sprag
 
     unsigned int n_modes() const;
 
+    /// What it keeps follows from the step at hand: there is nothing to visit.
+    void visit_history(Archive &)
+    {
+    }
+
   private:
     struct Step
     {

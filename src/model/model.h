@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/archive.h"
 #include "model/contact_point.h"
 #include "model/port_forces.h"
 #include "results/columns.h"
@@ -73,5 +74,9 @@ namespace sprag
     virtual FacePoints face_points() const = 0;
 
     virtual FaceState face_state(const State &trial) const = 0;
+
+    /// Visits what later steps depend on, to the last bit, beside the state that they begin with: what was found on the way and
+    /// is kept. A model that takes it from an archive goes on as the one it is of.
+    virtual void visit_history(Archive &archive) = 0;
   };
 } // namespace sprag

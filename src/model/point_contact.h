@@ -132,6 +132,11 @@ namespace sprag
       return {};
     }
 
+    /// There is none.
+    void visit_history(Archive &)
+    {
+    }
+
   private:
     /// The bent surface at a material coordinate, with derivatives along it.
     struct Surface;

@@ -7,6 +7,7 @@
 #include "model/linearisation.h"
 #include "model/port_newton.h"
 #include "model/port_step.h"
+#include "model/state_archive.h"
 #include "scene/closed_form.h"
 
 namespace sprag
@@ -77,6 +78,12 @@ namespace sprag
     const dealii::Vector<double> &last_ports() const
     {
       return last_sliding;
+    }
+
+    /// Visits the equilibrium from which the next one is sought.
+    void visit_history(Archive &archive)
+    {
+      archive(last_sliding, last_forces, last_sliding_theta);
     }
 
   private:

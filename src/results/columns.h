@@ -10,6 +10,8 @@
 
 namespace sprag
 {
+  class Archive;
+
   // One table for all fidelities. A model that cannot supply a quantity leaves NaN.
 
   enum class Column : std::size_t
@@ -140,6 +142,8 @@ namespace sprag
     double lateral_force() const;
 
   private:
+    friend void visit(Archive &archive, Row &row);
+
     std::array<double, n_columns> values;
     std::vector<double> of_second;
   };

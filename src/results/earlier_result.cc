@@ -22,13 +22,18 @@ namespace sprag
       return changed.tv_sec > since.tv_sec || (changed.tv_sec == since.tv_sec && changed.tv_nsec >= since.tv_nsec);
     }
 
+    bool is_finished(const std::optional<EarlierResult> &result)
+    {
+      return result && !result->status.empty();
+    }
+
     void write_end(const std::string &path, const std::string &parameters, const std::string &status)
     {
       const std::vector<Entry> meta = { { "version", std::string(SPRAG_VERSION), "", "of sprag" } };
       if (std::filesystem::exists(path))
       {
         hdf5::Handle file = hdf5::open_file(path, true);
-        if (H5Lexists(file.id(), "summary", H5P_DEFAULT) > 0)
+        if (hdf5::has(file, "summary"))
           return;
         add_entries(file, "summary", { status_entry(status) });
         add_entries(file, "meta", meta);
@@ -47,8 +52,8 @@ namespace sprag
       return {};
     const auto read = [&]
     {
-      const hdf5::Handle file = hdf5::open_file(path);
-      const auto status       = hdf5::read_text(file, "summary/status");
+      const hdf5::Handle file  = hdf5::open_to_read(path);
+      const std::string status = hdf5::has(file, "summary") ? hdf5::read_text(file, "summary/status") : "";
       return status + '\0' + hdf5::read_text(file, "parameters");
     };
     const auto answer = in_child_process(read, patience);
@@ -61,7 +66,7 @@ namespace sprag
   bool finish_abandoned(const std::string &path, const std::string &parameters, const std::string &status,
                         const std::timespec since)
   {
-    if (std::filesystem::exists(path) && (!is_newer(path, since) || earlier_result(path)))
+    if (std::filesystem::exists(path) && (!is_newer(path, since) || is_finished(earlier_result(path))))
       return false;
     const auto work = [&]
     {

@@ -6,14 +6,14 @@
 
 namespace sprag
 {
-  /// What a finished result file tells about its run.
+  /// What a result file tells about its run.
   struct EarlierResult
   {
     std::string parameters; ///< of the scene, in .prm form
-    std::string status;     ///< how the run ended
+    std::string status;     ///< how the run ended; empty where it did not
   };
 
-  /// Reads the result file at `path`; returns none where there is no such file, it is damaged, or its run was not finished.
+  /// Reads the result file at `path`; returns none where there is no such file or it is damaged.
   std::optional<EarlierResult> earlier_result(const std::string &path);
 
   /// Gives the result file that a run left unfinished a /summary with the status, so that it is no longer marked as being

@@ -79,28 +79,23 @@ namespace sprag
         throw AnalysisError(path + ": cannot be written");
     }
 
-    /// Behind the last one.
-    void append(const std::string &path, const std::string &text)
+    /// Behind the last grid.
+    void append(const std::string &path, const std::string &grid)
     {
       std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
       file.seekp(-static_cast<std::streamoff>(closing.size()), std::ios::end);
-      file << text << closing << std::flush;
+      file << grid << closing << std::flush;
       check(file, path);
     }
 
-    /// Before the first one that is later.
-    void insert(const std::string &path, const double time, const std::string &text)
+    void write_index(const std::string &path, const std::map<double, std::string> &grids)
     {
-      const std::string first = "      <Grid ", begin = "<Time Value=\"";
-      std::ifstream input(path, std::ios::binary);
-      std::string whole{ std::istreambuf_iterator<char>(input), {} };
-      std::size_t place = whole.find(first);
-      while (place != std::string::npos && std::stod(whole.substr(whole.find(begin, place) + begin.size(), 32)) < time)
-        place = whole.find(first, place + 1);
-      whole.insert(place == std::string::npos ? whole.size() - closing.size() : place, text);
-      std::ofstream output(path, std::ios::binary | std::ios::trunc);
-      output << whole << std::flush;
-      check(output, path);
+      std::ofstream file(path, std::ios::binary | std::ios::trunc);
+      file << opening;
+      for (const auto &[time, grid] : grids)
+        file << grid;
+      file << closing << std::flush;
+      check(file, path);
     }
   } // namespace
 
@@ -113,11 +108,7 @@ namespace sprag
       indices.push_back({ folder + "/" + mesh.name + ".xdmf", std::move(mesh) });
     write_mesh_file();
     for (const auto &index : indices)
-    {
-      std::ofstream file(index.path, std::ios::binary | std::ios::trunc);
-      file << opening << closing << std::flush;
-      check(file, index.path);
-    }
+      write_index(index.path, index.grids);
   }
 
   std::string FieldFiles::mesh_file() const
@@ -125,14 +116,35 @@ namespace sprag
     return name + (storage == FrameStorage::files ? "-mesh.h5" : ".h5");
   }
 
+  std::string FieldFiles::frame_file(const unsigned int frame) const
+  {
+    return name + formatted("-%04u.h5", frame);
+  }
+
+  void FieldFiles::visit_progress(Archive &archive)
+  {
+    archive(n_frames);
+    for (auto &index : indices)
+      archive(index.grids);
+    if (!archive.reads())
+      return;
+    for (unsigned int frame = 0; frame < n_frames; ++frame)
+      if (const auto path = folder + "/" + frame_file(frame); !std::filesystem::is_regular_file(path))
+        throw AnalysisError(path + " is gone, a frame of the run that was to go on: begin it anew by --overwrite");
+    for (unsigned int frame = n_frames; std::filesystem::remove(folder + "/" + frame_file(frame)); ++frame)
+      ;
+    for (const auto &index : indices)
+      write_index(index.path, index.grids);
+  }
+
   void FieldFiles::write_mesh_file() const
   {
     std::size_t bytes = overhead;
-    for (const auto &[path, mesh, last_time] : indices)
+    for (const auto &[path, mesh, grids] : indices)
       bytes += 3 * 8 * mesh.nodes.size() + 8 * mesh.cells.size() + bytes_of(mesh.fixed);
     require_space(folder + "/" + mesh_file(), bytes);
     auto file = hdf5::create_file(folder + "/" + mesh_file());
-    for (const auto &[path, mesh, last_time] : indices)
+    for (const auto &[path, mesh, grids] : indices)
     {
       const auto group = hdf5::create_group(file, mesh.name);
       describe(hdf5::write_rows(group, "nodes", in_space(mesh.nodes), 3), "mm",
@@ -146,10 +158,10 @@ namespace sprag
 
   void FieldFiles::write(const double time, const std::vector<std::vector<Field>> &fields, const std::vector<FrameFact> &facts)
   {
-    const auto number           = formatted("%04u", n_frames++);
+    const unsigned int frame    = n_frames++;
     const bool own_file         = storage == FrameStorage::files;
-    const std::string file_name = own_file ? name + "-" + number + ".h5" : mesh_file();
-    const std::string of_frame  = own_file ? "" : "frame-" + number;
+    const std::string file_name = own_file ? frame_file(frame) : mesh_file();
+    const std::string of_frame  = own_file ? "" : formatted("frame-%04u", frame);
     std::size_t bytes           = overhead;
     for (const auto &of_mesh : fields)
       bytes += bytes_of(of_mesh);
@@ -159,10 +171,10 @@ namespace sprag
       DiskReserve(folder + "/" + file_name).cover(bytes);
     auto file = own_file ? hdf5::create_file(folder + "/" + file_name) : hdf5::open_file(folder + "/" + file_name);
     {
-      std::optional<hdf5::Handle> frame;
+      std::optional<hdf5::Handle> group_of_frame;
       if (!own_file)
-        frame.emplace(hdf5::create_group(file, of_frame));
-      const auto &place = frame ? *frame : file;
+        group_of_frame.emplace(hdf5::create_group(file, of_frame));
+      const auto &place = group_of_frame ? *group_of_frame : file;
       hdf5::write_attribute(place, "time", time);
       for (const auto &fact : facts)
         hdf5::write_attribute(place, shown_name(fact.name, fact.unit), fact.value);
@@ -176,14 +188,14 @@ namespace sprag
     file.close();
     for (std::size_t i = 0; i < indices.size(); ++i)
     {
-      auto &index = indices[i];
-      const auto text =
+      auto &index        = indices[i];
+      const bool is_last = index.grids.empty() || time > index.grids.rbegin()->first;
+      const auto &text   = index.grids[time] =
           grid(index, time, file_name + ":/" + (own_file ? "" : of_frame + "/") + index.mesh.name, fields[i], facts);
-      if (time > index.last_time)
+      if (is_last)
         append(index.path, text);
       else
-        insert(index.path, time, text);
-      index.last_time = std::max(index.last_time, time);
+        write_index(index.path, index.grids);
     }
   }
 

@@ -1,6 +1,8 @@
 #pragma once
 
-#include <limits>
+#include "base/archive.h"
+
+#include <map>
 #include <string>
 #include <vector>
 
@@ -52,21 +54,27 @@ namespace sprag
   class FieldFiles
   {
   public:
+    /// Writes the meshes and empty indices.
     FieldFiles(std::string folder, std::string name, std::vector<FieldMesh> meshes, FrameStorage storage = FrameStorage::files);
 
     /// Adds a frame: fields of each mesh, in the order of the meshes. `time` [s] differs from those of the frames before.
     void write(double time, const std::vector<std::vector<Field>> &fields, const std::vector<FrameFact> &facts = {});
+
+    /// Visits what says which frames there are. Taken from an archive, later frames are removed; throws AnalysisError where one
+    /// of them is gone. To be used with FrameStorage::files.
+    void visit_progress(Archive &archive);
 
   private:
     struct Index
     {
       std::string path;
       FieldMesh mesh;
-      double last_time = -std::numeric_limits<double>::infinity(); ///< of the frames written [s]
+      std::map<double, std::string> grids = {}; ///< of the frames written, by their time [s]
     };
 
     void write_mesh_file() const;
     std::string mesh_file() const;
+    std::string frame_file(unsigned int frame) const;
     std::string grid(const Index &index, double time, const std::string &place, const std::vector<Field> &fields,
                      const std::vector<FrameFact> &facts) const;
 

@@ -106,6 +106,20 @@ namespace sprag::hdf5
     return Handle(checked("opening " + path, H5Fopen(path.c_str(), H5F_ACC_RDWR, access.id())), H5Fclose);
   }
 
+  Handle open_to_read(const std::string &path)
+  {
+    const Handle access = file_access();
+    hid_t file          = H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.id());
+    if (file < 0)
+      file = H5Fopen(path.c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, access.id());
+    return Handle(checked("opening " + path, file), H5Fclose);
+  }
+
+  bool has(const Handle &location, const std::string &name)
+  {
+    return H5Lexists(location.id(), name.c_str(), H5P_DEFAULT) > 0;
+  }
+
   std::string read_text(const Handle &location, const std::string &name)
   {
     const Handle dataset(checked("dataset " + name, H5Dopen2(location.id(), name.c_str(), H5P_DEFAULT)), H5Dclose);

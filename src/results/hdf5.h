@@ -18,6 +18,12 @@ namespace sprag::hdf5
   /// writer was killed.
   Handle open_file(const std::string &path, bool abandoned = false);
 
+  /// Opens an existing file for reading, also one that is being written or whose writer was killed.
+  Handle open_to_read(const std::string &path);
+
+  /// Returns whether there is such an object in a file or group.
+  bool has(const Handle &location, const std::string &name);
+
   /// Reads a scalar text.
   std::string read_text(const Handle &location, const std::string &name);
 

@@ -1,5 +1,7 @@
 #include "run/field_recorder.h"
 
+#include "model/state_archive.h"
+#include "results/row_archive.h"
 #include "scene/mirrored_pair.h"
 
 #include <algorithm>
@@ -44,20 +46,21 @@ namespace sprag
     }
   } // namespace
 
-  FieldRecorder::FieldRecorder(const Scene &of_scene, const Body &body, const std::optional<std::string> &folder,
-                               PhaseTimer &of_run)
+  FieldRecorder::FieldRecorder(const Scene &of_scene, const Body &body, Displacements of_source,
+                               const std::optional<std::string> &folder, PhaseTimer &of_run, const bool goes_on)
       : scene(of_scene)
       , timer(of_run)
       , fields(body)
+      , displacements(std::move(of_source))
       , peaks(fields)
       , hub_section(section_at_hub(fields))
       , last_x(scene.drive.at(0.).x)
   {
     if (folder)
-      frames.emplace(scene, body, *folder);
+      frames.emplace(scene, body, *folder, goes_on);
   }
 
-  bool FieldRecorder::record(const Row &row, const FaceState &face, const std::function<Displacements()> &keep)
+  bool FieldRecorder::record(const Row &row, const FaceState &face, const std::function<FieldSource()> &source)
   {
     if (row[Column::v] != 0.)
       direction = row[Column::v] > 0. ? 1 : -1;
@@ -65,11 +68,11 @@ namespace sprag
     last_x     = row[Column::x];
     peak_force = std::max(peak_force, largest_force(row));
 
-    std::shared_ptr<const Kept> state;
+    std::shared_ptr<Kept> state;
     const auto kept = [&]
     {
       if (!state)
-        state = std::make_shared<const Kept>(Kept{ row, face, direction, keep() });
+        state = std::make_shared<Kept>(Kept{ row, face, direction, source() });
       return state;
     };
     for (const auto &[estimate, value] : estimates(row, face))
@@ -132,18 +135,50 @@ namespace sprag
   void FieldRecorder::find(const Kept &kept, const bool frame)
   {
     const PhaseTimer::Scope scope(timer, "fields");
-    const auto displacements = kept.displacements();
-    for (unsigned int lever = 0; lever < displacements.size(); ++lever)
-      peaks.look_at(fields.at(displacements[lever]), kept.row[Column::x], kept.direction, lever);
+    const auto found = displacements(kept.source);
+    for (unsigned int lever = 0; lever < found.size(); ++lever)
+      peaks.look_at(fields.at(found[lever]), kept.row[Column::x], kept.direction, lever);
     if (!frame)
       return;
-    frames->write({ kept.row[Column::time], pose_of(kept.row), displacements, kept.face });
+    frames->write({ kept.row[Column::time], pose_of(kept.row), found, kept.face });
     written.push_back(kept.row[Column::time]);
+  }
+
+  void visit(Archive &archive, FieldSource &source)
+  {
+    auto &[coordinates, forces, face_force] = source;
+    archive(coordinates, forces, face_force);
+  }
+
+  void visit(Archive &archive, FieldRecorder::Kept &kept)
+  {
+    auto &[row, face, direction, source] = kept;
+    archive(row, face, direction, source);
+  }
+
+  void visit(Archive &archive, FieldRecorder::Best &best)
+  {
+    auto &[value, state] = best;
+    bool has_state       = state != nullptr;
+    archive(value, has_state);
+    if (!has_state)
+      return;
+    if (archive.reads())
+      state = std::make_shared<FieldRecorder::Kept>();
+    archive(*state);
+  }
+
+  void FieldRecorder::visit_progress(Archive &archive)
+  {
+    archive(travelled, last_frame, last_x, peak_force, direction, turned, written, best);
+    peaks.visit_progress(archive);
+    if (frames)
+      frames->visit_progress(archive);
   }
 
   std::vector<Entry> FieldRecorder::finish()
   {
-    std::map<double, std::pair<std::shared_ptr<const Kept>, bool>> left;
+    std::map<double, std::pair<std::shared_ptr<Kept>, bool>> left;
     const Best *largest = nullptr;
     for (const auto &[of, found] : best)
       if (found.state)

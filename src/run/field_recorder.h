@@ -3,6 +3,7 @@
 #include "base/phase_timer.h"
 #include "fe/fields/field_frames.h"
 #include "fe/fields/stress_peaks.h"
+#include "model/port_forces.h"
 
 #include <functional>
 #include <map>
@@ -11,6 +12,14 @@
 
 namespace sprag
 {
+  /// What the displacements of a state follow from, as far as its model needs it.
+  struct FieldSource
+  {
+    dealii::Vector<double> coordinates;
+    PortLoads forces;
+    dealii::Vector<double> face_force;
+  };
+
   /// Chooses the states of a run whose fields are found, writes those that are frames and looks at the stress of all. Frames
   /// (Output/Fields) are: turning points, the first state behind each in which the whole contact slides back (or 0.02 R behind
   /// it), the end, every interval if asked for, and the state of the largest P; but for the intervals only those in contact.
@@ -23,13 +32,18 @@ namespace sprag
   {
   public:
     /// Finds the elastic displacements of the body, one for each lever, in lever axes.
-    using Displacements = std::function<std::vector<dealii::Vector<double>>()>;
+    using Displacements = std::function<std::vector<dealii::Vector<double>>(const FieldSource &)>;
 
-    /// Scene and body must outlive the object. Without a folder it finds peaks alone.
-    FieldRecorder(const Scene &scene, const Body &body, const std::optional<std::string> &folder, PhaseTimer &timer);
+    /// Scene and body must outlive the object. Without a folder it finds peaks alone. A run that goes on has its first frames in
+    /// the folder already.
+    FieldRecorder(const Scene &scene, const Body &body, Displacements displacements, const std::optional<std::string> &folder,
+                  PhaseTimer &timer, bool goes_on = false);
 
-    /// Looks at an accepted step and returns whether it was written as a frame. `keep` makes what finds its fields later.
-    bool record(const Row &row, const FaceState &face, const std::function<Displacements()> &keep);
+    /// Looks at an accepted step and returns whether it was written as a frame. `source` makes what its fields follow from.
+    bool record(const Row &row, const FaceState &face, const std::function<FieldSource()> &source);
+
+    /// Visits what was looked at so far.
+    void visit_progress(Archive &archive);
 
     /// Finds the fields that are still to be found. Returns the peaks of stress for /summary.
     std::vector<Entry> finish();
@@ -39,9 +53,10 @@ namespace sprag
     {
       Row row;
       FaceState face;
-      int direction;
-      Displacements displacements;
+      int direction = 0;
+      FieldSource source;
     };
+    friend void visit(Archive &archive, Kept &kept);
 
     enum class Estimate
     {
@@ -60,6 +75,7 @@ namespace sprag
     const Scene &scene;
     PhaseTimer &timer;
     const BodyFields fields;
+    const Displacements displacements;
     StressPeaks peaks;
     std::optional<FieldFrames> frames;
     MeshPoint hub_section; ///< where the bending moment is taken, in lever axes
@@ -74,9 +90,10 @@ namespace sprag
 
     struct Best
     {
-      double value;
-      std::shared_ptr<const Kept> state;
+      double value = 0.;
+      std::shared_ptr<Kept> state;
     };
+    friend void visit(Archive &archive, Best &best);
     std::map<std::pair<Estimate, int>, Best> best; ///< of the estimates, each way
   };
 } // namespace sprag

@@ -2,6 +2,7 @@
 
 #include "base/errors.h"
 #include "results/earlier_result.h"
+#include "run/run_files.h"
 
 #include <cerrno>
 #include <chrono>
@@ -123,10 +124,12 @@ namespace sprag
       return;
     lock(folder);
     if (overwrite)
-      return;
+      return remove_checkpoint(folder);
     const auto earlier = earlier_result(folder + "/result.h5");
-    if (earlier && earlier->status == "completed" && earlier->parameters != parameters)
-      throw InputError("--output = " + folder + ": result.h5 there is the completed result of a run with other parameters. " +
-                       "Choose another folder, or replace it by --overwrite");
+    if (!earlier || earlier->parameters == parameters)
+      return;
+    const std::string kind = earlier->status == "completed" ? "completed" : "unfinished";
+    throw InputError("--output = " + folder + ": result.h5 there is the " + kind + " result of a run with other parameters. " +
+                     "Choose another folder, or replace it by --overwrite");
   }
 } // namespace sprag

@@ -2,6 +2,8 @@
 
 #include "base/append.h"
 #include "base/interrupt.h"
+#include "base/text.h"
+#include "results/row_archive.h"
 #include "results/stress_entries.h"
 #include "run/transient_report.h"
 #include "run/warnings.h"
@@ -24,25 +26,77 @@ namespace sprag
     return length + std::abs(drive.at(drive.duration()).x - x);
   }
 
-  Recorder::Recorder(const Scene &scene_, const RunOptions &options, PhaseTimer &timer, const FacePoints &points)
+  namespace
+  {
+    enum class RecordKind : std::uint64_t
+    {
+      row,
+      face
+    };
+
+    template <class Record>
+    void keep(RecordKind kind, const Record &record, Checkpoint *const checkpoint)
+    {
+      if (checkpoint == nullptr)
+        return;
+      Record copy = record;
+      checkpoint->record(kind, copy);
+    }
+  } // namespace
+
+  Recorder::Recorder(const Scene &scene_, const RunOptions &options, PhaseTimer &timer, const FacePoints &points,
+                     Checkpoint *const checkpoint_)
       : scene(scene_)
       , quiet(options.quiet)
       , writer(scene, options, timer, table_columns(scene.plate, scene.pair), points)
       , progress(std::cerr, progress_style(quiet), path_length(scene.drive))
       , stress(no_stress_peaks("the model has no mesh"))
+      , checkpoint(checkpoint_)
   {
+    if (checkpoint != nullptr && checkpoint->resumes())
+      take_over();
   }
 
-  void Recorder::record(const Row &incomplete)
+  void Recorder::take_over()
   {
-    Row row = incomplete;
+    for (Archive records = checkpoint->recorded(); !records.at_end();)
+    {
+      RecordKind kind{};
+      records(kind);
+      if (kind == RecordKind::row)
+      {
+        Row row;
+        records(row);
+        add(row);
+      }
+      else
+      {
+        FaceState face;
+        records(face);
+        writer.append(face);
+      }
+    }
+    taken_over = rows.size() - 1;
+    progress.begin_at(travel);
+    if (!quiet)
+      std::cout << "Goes on:      from t = " << rounded_text(rows.back()[Column::time])
+                << " s (x = " << mm(rows.back()[Column::x]) << "), step " << taken_over << " of an interrupted run\n"
+                << std::flush;
+  }
+
+  void Recorder::add(Row row)
+  {
     add_closed_form(scene, row);
     writer.append(row);
     if (!rows.empty())
       travel += std::abs(row[Column::x] - rows.back()[Column::x]);
-    rows.push_back(row);
-    if (interrupted())
-      throw AnalysisError(interruption);
+    rows.push_back(std::move(row));
+  }
+
+  void Recorder::record(const Row &row)
+  {
+    add(row);
+    keep(RecordKind::row, row, checkpoint);
     const double iterations = row[Column::iterations];
     progress.update(travel, { row[Column::x], row[Column::P], row[Column::Q],
                               std::isnan(iterations) ? 0u : static_cast<unsigned int>(iterations) });
@@ -51,9 +105,10 @@ namespace sprag
   void Recorder::record(const FaceState &face)
   {
     writer.append(face);
+    keep(RecordKind::face, face, checkpoint);
   }
 
-  std::vector<Entry> Recorder::finish(const std::string &status, const std::vector<Entry> &meta, Warnings &warnings)
+  std::vector<Entry> Recorder::finish(const std::string &status, std::vector<Entry> meta, Warnings &warnings)
   {
     progress.finish();
     const bool in_time = scene.analysis.type == AnalysisType::transient;
@@ -63,7 +118,11 @@ namespace sprag
     append(warnings, row_warnings(scene, rows));
     if (in_time)
       append(warnings, transient_warnings(scene, rows));
+    if (checkpoint != nullptr)
+      meta.push_back({ "steps_taken_over", static_cast<double>(taken_over), "1", "from an interrupted run of the scene" });
     auto end = writer.finish(status, { summary, meta, {}, accuracy_entries(accuracy) }, warnings);
+    if (checkpoint != nullptr && status != interruption)
+      checkpoint->remove();
     if (!quiet)
     {
       const auto cpu = std::find_if(end.meta.begin(), end.meta.end(), [](const Entry &e) { return e.name == "cpu_time"; });

@@ -2,6 +2,7 @@
 
 #include "base/progress.h"
 #include "run/accuracy_report.h"
+#include "run/checkpoint.h"
 #include "run/report.h"
 #include "run/result_writer.h"
 
@@ -11,8 +12,10 @@ namespace sprag
   class Recorder
   {
   public:
-    /// Makes the folder and result file. Throws InputError if they cannot be written.
-    Recorder(const Scene &scene, const RunOptions &options, PhaseTimer &timer, const FacePoints &points);
+    /// Makes the folder and result file. Throws InputError if they cannot be written. With a checkpoint what is recorded goes
+    /// there, too, and a run that goes on from it begins with what it holds.
+    Recorder(const Scene &scene, const RunOptions &options, PhaseTimer &timer, const FacePoints &points,
+             Checkpoint *checkpoint = nullptr);
 
     void record(const Row &row);
 
@@ -30,6 +33,12 @@ namespace sprag
       return rows;
     }
 
+    /// Returns the number of steps that were recorded by an interrupted run.
+    std::size_t steps_taken_over() const
+    {
+      return taken_over;
+    }
+
     /// Sets the errors that the run tells of its results; without a call it tells none.
     void set_accuracy(std::vector<ErrorEstimate> estimates)
     {
@@ -37,8 +46,8 @@ namespace sprag
     }
 
     /// Writes summary, meta and warnings, to which it adds those that follow from the rows, and prints the table at the end of a
-    /// run. Status and meta: see ResultWriter. Returns the summary.
-    std::vector<Entry> finish(const std::string &status, const std::vector<Entry> &meta, Warnings &warnings);
+    /// run. Status and meta: see ResultWriter. Removes the checkpoint of a run that was not interrupted. Returns the summary.
+    std::vector<Entry> finish(const std::string &status, std::vector<Entry> meta, Warnings &warnings);
 
   private:
     const Scene &scene;
@@ -49,6 +58,11 @@ namespace sprag
     std::vector<Entry> stress;
     std::vector<ErrorEstimate> accuracy;
     double travel = 0.;
+    Checkpoint *const checkpoint;
+    std::size_t taken_over = 0;
+
+    void add(Row row);
+    void take_over();
   };
 
   /// Returns the length of the drive's path [mm].

@@ -1,5 +1,6 @@
 #include "analysis/statics/closed_form.h"
 #include "analysis/transient/ideal_contact.h"
+#include "base/interrupt.h"
 #include "run/analyses.h"
 #include "run/recorder.h"
 #include "run/report.h"
@@ -10,12 +11,21 @@ namespace sprag
 {
   namespace
   {
+    auto record_until_interrupted(Recorder &recorder)
+    {
+      return [&recorder](const Row &row)
+      {
+        recorder.record(row);
+        end_if_interrupted();
+      };
+    }
+
     void run_without_inertia(const Scene &scene, const RunOptions &options, Warnings &warnings)
     {
       PhaseTimer timer;
       Recorder recorder(scene, options, timer, {});
       std::vector<Entry> summary;
-      finish_in_any_case([&] { run_closed_form(scene, [&](const Row &row) { recorder.record(row); }); },
+      finish_in_any_case([&] { run_closed_form(scene, record_until_interrupted(recorder)); },
                          [&](const std::string &status) { summary = recorder.finish(status, {}, warnings); });
       check_deviation(scene, summary);
     }
@@ -27,7 +37,7 @@ namespace sprag
       Recorder recorder(scene, options, timer, {});
       announce_model(scene, options);
       record_steps(scene, recorder, timer, warnings, {},
-                   [&] { return run_ideal_contact(scene, inertia, [&](const Row &row) { recorder.record(row); }); });
+                   [&] { return run_ideal_contact(scene, inertia, record_until_interrupted(recorder)); });
     }
   } // namespace
 

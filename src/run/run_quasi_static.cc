@@ -42,12 +42,18 @@ namespace sprag
 
     void drive_levers(const Scene &scene, const RunOptions &options, PhaseTimer &timer, LeverModel &levers, Warnings &warnings)
     {
-      Recorder recorder(scene, options, timer, levers.face_points());
+      Checkpoint checkpoint(scene, options);
+      Recorder recorder(scene, options, timer, levers.face_points(), &checkpoint);
       if (!options.quiet)
         print_model(scene, levers);
-      auto meta             = model_entries(scene, levers);
-      const bool has_frames = scene.output.fields != FieldOutput::none;
-      FieldRecorder fields(scene, levers.elastic_body(), has_frames ? std::optional(options.folder) : std::nullopt, timer);
+      auto meta                = model_entries(scene, levers);
+      const bool has_frames    = scene.output.fields != FieldOutput::none;
+      const auto displacements = [&levers](const FieldSource &source) {
+        return levers.body_displacements({ {}, source.coordinates, {}, source.forces });
+      };
+      FieldRecorder fields(scene, levers.elastic_body(), displacements, has_frames ? std::optional(options.folder) : std::nullopt,
+                           timer, checkpoint.resumes());
+      checkpoint.add_part([&](Archive &archive) { fields.visit_progress(archive); });
 
       const auto write = [&](const State &state, const Row &row)
       {
@@ -55,7 +61,7 @@ namespace sprag
         const auto face = levers.face_state(state);
         recorder.record(row);
         recorder.record(face);
-        fields.record(row, face, [&] { return [&levers, state] { return levers.body_displacements(state); }; });
+        fields.record(row, face, [&] { return FieldSource{ state.coordinates, state.forces, {} }; });
       };
       const QuasiStaticSettings settings{ scene.analysis.step, scene.analysis.minimum_step, scene.contact };
       double stick = 0.;
@@ -64,7 +70,7 @@ namespace sprag
           [&]
           {
             const PhaseTimer::Scope scope(timer, "steps_and_output");
-            stick = run_quasi_static(levers, scene.drive, settings, write);
+            stick = run_quasi_static(levers, scene.drive, settings, write, &checkpoint);
           },
           [&](const std::string &status)
           {

@@ -87,16 +87,16 @@ namespace sprag
       std::cout << std::flush;
     }
 
-    FieldRecorder::Displacements recovery(const MeshedDynamics &lever, const Motion &motion, const unsigned int levers)
+    FieldRecorder::Displacements recovery(const MeshedDynamics &lever, const unsigned int levers)
     {
-      Motion kept;
-      kept.coordinates = motion.coordinates;
-      kept.face_force  = motion.face_force;
-      return [&lever, kept, levers]
+      return [&lever, levers](const FieldSource &source)
       {
+        Motion motion;
+        motion.coordinates.position = source.coordinates;
+        motion.face_force           = source.face_force;
         std::vector<dealii::Vector<double>> result;
         for (unsigned int i = 0; i < levers; ++i)
-          result.push_back(lever.elastic_displacement(kept, i));
+          result.push_back(lever.elastic_displacement(motion, i));
         return result;
       };
     }
@@ -112,7 +112,8 @@ namespace sprag
     auto &model         = dynamics.model();
     const Body *body    = dynamics.lever ? dynamics.lever->body.get() : nullptr;
     const auto growing  = growing_modes_of(scene, maker);
-    Recorder recorder(scene, options, timer, model.face_points());
+    Checkpoint checkpoint(scene, options);
+    Recorder recorder(scene, options, timer, model.face_points(), &checkpoint);
     announce_model(scene, options);
     if (body != nullptr)
       announce(dynamics.meshed, *body, scene, options);
@@ -120,7 +121,11 @@ namespace sprag
     append(warnings, hidden_vibration_warnings(growing, scene.time));
     std::optional<FieldRecorder> fields;
     if (body != nullptr && scene.output.fields != FieldOutput::none)
-      fields.emplace(scene, *body, options.folder, timer);
+    {
+      fields.emplace(scene, *body, recovery(dynamics.meshed, number_of_levers(scene)), options.folder, timer,
+                     checkpoint.resumes());
+      checkpoint.add_part([&](Archive &archive) { fields->visit_progress(archive); });
+    }
     else if (body != nullptr)
       recorder.set_stress(no_stress_peaks("Output/Fields = none"));
 
@@ -130,7 +135,7 @@ namespace sprag
       if (!fields)
         return;
       const auto face = model.face_state(motion);
-      if (fields->record(row, face, [&] { return recovery(dynamics.meshed, motion, number_of_levers(scene)); }))
+      if (fields->record(row, face, [&] { return FieldSource{ motion.coordinates.position, {}, motion.face_force }; }))
         recorder.record(face);
     };
     bool is_complete = false;
@@ -138,7 +143,7 @@ namespace sprag
         scene, recorder, timer, warnings, body != nullptr ? meshed_entries(dynamics.meshed, *body) : std::vector<Entry>(),
         [&]
         {
-          const auto report = run_transient(model, scene.drive, settings_of(scene, growing), write);
+          const auto report = run_transient(model, scene.drive, settings_of(scene, growing), write, &checkpoint);
           is_complete       = true;
           return report;
         },

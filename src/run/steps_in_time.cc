@@ -3,6 +3,7 @@
 #include "base/append.h"
 #include "run/transient_report.h"
 
+#include <algorithm>
 #include <iostream>
 
 namespace sprag
@@ -25,7 +26,8 @@ namespace sprag
         [&](const std::string &status)
         {
           complete();
-          const double rate = seconds > 0. ? report.steps / seconds : 0.;
+          const double taken = static_cast<double>(report.steps) - static_cast<double>(recorder.steps_taken_over());
+          const double rate  = seconds > 0. ? std::max(0., taken) / seconds : 0.;
           recorder.finish(status, joined(facts, { { "steps_per_cpu_second", rate, "1/s", "accepted steps, output included" } }),
                           warnings);
         });

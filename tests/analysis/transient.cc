@@ -78,6 +78,10 @@ namespace
     {
       return inner->face_state(motion);
     }
+    void visit_history(Archive &archive) override
+    {
+      inner->visit_history(archive);
+    }
 
   private:
     const std::unique_ptr<DynamicModel> inner;

@@ -37,5 +37,9 @@ namespace sprag
     {
       return {};
     }
+
+    void visit_history(Archive & /*archive*/) override
+    {
+    }
   };
 } // namespace sprag

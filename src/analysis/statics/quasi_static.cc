@@ -2,11 +2,14 @@
 
 #include "base/errors.h"
 #include "base/text.h"
+#include "model/state_archive.h"
+#include "results/row_archive.h"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string>
+#include <tuple>
 
 namespace sprag
 {
@@ -212,6 +215,22 @@ namespace sprag
       return { std::move(now), rubs ? std::max(first_share * settings.step, settings.minimum_step) : settings.step };
     }
 
+    /// A run on its way, all that it goes on from beside what the model keeps.
+    struct Course
+    {
+      Progression now;
+      double dx = 0.; ///< of the next step [mm]
+      Passage passage;
+      double reported_stiffness = 0.; ///< see run_quasi_static()
+    };
+
+    void visit(Archive &archive, Course &course)
+    {
+      auto &[now, dx, passage, reported_stiffness] = course;
+      auto &[state, row]                           = now;
+      archive(state, row, dx, passage, reported_stiffness);
+    }
+
     /// The overlap once every point in contact sticks to where it was in the accepted state [mm].
     double balance_in_stick(Model &model, State &trial)
     {
@@ -292,16 +311,12 @@ namespace sprag
     return (after.friction_force() - before.friction_force()) / probe;
   }
 
-  double run_quasi_static(Model &model, const Drive &drive, const QuasiStaticSettings &settings, const StepSink &sink)
+  namespace
   {
-    auto [now, dx] = begin(model, drive, settings);
-    sink(now.state, now.row);
-
-    double reported_stiffness = 0.;
-    Passage passage;
-    while (now.state.drive.time < drive.duration())
+    void take_step(Model &model, const Drive &drive, const QuasiStaticSettings &settings, Course &course)
     {
-      const bool reversed = drive.turns_at(now.state.drive.time) || begins_backward(now.state.drive);
+      auto &[now, dx, passage, reported_stiffness] = course;
+      const bool reversed                          = drive.turns_at(now.state.drive.time) || begins_backward(now.state.drive);
       if (reversed)
       {
         const double stiffness = stick_stiffness(model, now.state);
@@ -314,9 +329,35 @@ namespace sprag
       if (sticking)
         dx = std::clamp(largest_share * passage.length, settings.minimum_step, dx);
       now = advance(model, drive, settings, now, reversed, sticking, dx);
-      sink(now.state, now.row);
-      dx = std::min(settings.step, growth * dx);
+      dx  = std::min(settings.step, growth * dx);
     }
-    return reported_stiffness;
+  } // namespace
+
+  double run_quasi_static(Model &model, const Drive &drive, const QuasiStaticSettings &settings, const StepSink &sink,
+                          ProgressKeeper *const keeper)
+  {
+    Course course;
+    const auto progress = [&](Archive &archive)
+    {
+      visit(archive, course);
+      model.visit_history(archive);
+    };
+    const auto hand_on = [&]
+    {
+      sink(course.now.state, course.now.row);
+      if (keeper != nullptr)
+        keeper->accept_step(progress);
+    };
+    if (keeper == nullptr || !keeper->take_up(progress))
+    {
+      std::tie(course.now, course.dx) = begin(model, drive, settings);
+      hand_on();
+    }
+    while (course.now.state.drive.time < drive.duration())
+    {
+      take_step(model, drive, settings, course);
+      hand_on();
+    }
+    return course.reported_stiffness;
   }
 } // namespace sprag

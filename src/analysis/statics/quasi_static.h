@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/progress_keeper.h"
 #include "model/model.h"
 #include "model/newton.h"
 #include "scene/scene.h"
@@ -45,6 +46,8 @@ namespace sprag
   /// Moves the model along the drive through equilibria, inertia left out. Steps are cut back where the equilibrium is not found
   /// and grow again; every reversal is hit exactly, and after it the steps resolve the passage through stick. Contact history is
   /// committed with accepted steps alone. Throws AnalysisError, after the last accepted step was handed on, where no step of the
-  /// least size succeeds. Returns stick_stiffness() at the first reversal, 0 if there is none.
-  double run_quasi_static(Model &model, const Drive &drive, const QuasiStaticSettings &settings, const StepSink &sink);
+  /// least size succeeds. Returns stick_stiffness() at the first reversal, 0 if there is none. Where the keeper has progress of
+  /// such a run, this one goes on from there, to the last bit as if it had not been interrupted.
+  double run_quasi_static(Model &model, const Drive &drive, const QuasiStaticSettings &settings, const StepSink &sink,
+                          ProgressKeeper *keeper = nullptr);
 } // namespace sprag

@@ -35,6 +35,18 @@ namespace sprag
     }
   } // namespace
 
+  void visit(Archive &archive, LedgerReport &report)
+  {
+    auto &[residual, largest_work, time, term] = report;
+    archive(residual, largest_work, time, term);
+  }
+
+  void visit(Archive &archive, EnergyLedger &ledger)
+  {
+    auto &[start, now, sum, largest_change, found] = ledger;
+    archive(start, now, sum, largest_change, found);
+  }
+
   double EnergyLedger::residual() const
   {
     return sum.drive - (total(now) - total(start)) - dissipated(sum);

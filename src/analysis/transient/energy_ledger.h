@@ -20,12 +20,14 @@ namespace sprag
     }
   };
 
+  void visit(Archive &archive, LedgerReport &report);
+
   /// Adds up the works of accepted steps:
   ///   residual = work of the drive - change of the stored energies - friction - damping - algorithmic dissipation.
   class EnergyLedger
   {
   public:
-    explicit EnergyLedger(const StoredEnergy &at_start)
+    explicit EnergyLedger(const StoredEnergy &at_start = {})
         : start(at_start)
         , now(at_start)
     {
@@ -44,10 +46,14 @@ namespace sprag
     }
 
   private:
-    const StoredEnergy start;
+    friend void visit(Archive &archive, EnergyLedger &ledger);
+
+    StoredEnergy start;
     StoredEnergy now;
     StepWork sum;
     double largest_change = 0.;
     LedgerReport found;
   };
+
+  void visit(Archive &archive, EnergyLedger &ledger);
 } // namespace sprag

@@ -64,8 +64,7 @@ namespace sprag
 
   const Row &HeldRun::step(const DrivePath &path)
   {
-    if (interrupted())
-      throw AnalysisError(interruption);
+    end_if_interrupted();
     const auto &at          = now.motion.drive;
     const double x          = at.x;
     const auto iterations   = advance(path, dt, 0);

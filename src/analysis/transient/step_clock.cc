@@ -48,4 +48,10 @@ namespace sprag
     if (!finished())
       begin_segment();
   }
+
+  void visit(Archive &archive, StepClock &clock)
+  {
+    auto &[ends, first, largest, wanted, segment, begin, count, passed] = clock;
+    archive(ends, first, largest, wanted, segment, begin, count, passed);
+  }
 } // namespace sprag

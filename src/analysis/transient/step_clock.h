@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/archive.h"
 #include "scene/drive.h"
 
 #include <vector>
@@ -42,6 +43,8 @@ namespace sprag
     void advance();
 
   private:
+    friend void visit(Archive &archive, StepClock &clock);
+
     void begin_segment();
 
     std::vector<double> ends; ///< of the segments
@@ -53,4 +56,6 @@ namespace sprag
     unsigned long count  = 1; ///< steps of the segment
     unsigned long passed = 0;
   };
+
+  void visit(Archive &archive, StepClock &clock);
 } // namespace sprag

@@ -3,6 +3,7 @@
 #include "analysis/transient/step_clock.h"
 #include "base/errors.h"
 #include "base/text.h"
+#include "model/state_archive.h"
 
 #include <algorithm>
 #include <cmath>
@@ -46,9 +47,16 @@ namespace sprag
       {
         double time, P, Q;
       };
-      std::vector<Sample> samples = { sample(drive.at(0., Drive::Side::after)) };
+      std::vector<Sample> samples = {};
 
-      /// Evaluates the model: to be called before the step to that time.
+      // Both evaluate the model.
+
+      void begin()
+      {
+        samples = { sample(drive.at(0., Drive::Side::after)) };
+      }
+
+      /// To be called before the step to that time.
       void extend(const double time)
       {
         while (samples.back().time < time)
@@ -172,23 +180,39 @@ namespace sprag
         clock.halve();
       }
     }
-  } // namespace
 
-  TransientReport run_transient(DynamicModel &model, const Drive &drive, const TransientSettings &settings,
-                                const MotionSink &sink)
-  {
-    QuasiStaticCurve quasi_static{ model, drive, settings.quasi_static_spacing };
-    Motion motion = model.initial_motion(drive.at(0., Drive::Side::after));
-    EnergyLedger ledger(model.stored_energy(motion));
-    Row first = observe(model, motion, ledger);
-    quasi_static.fill(first);
-    sink(motion, first);
-
-    TransientReport report;
-    StepControl control{ settings };
-    StepClock clock = make_clock(drive, settings);
-    while (!clock.finished())
+    /// A run on its way, all that it goes on from beside what the model keeps.
+    struct Course
     {
+      Motion motion;
+      EnergyLedger ledger;
+      StepControl control;
+      StepClock clock;
+      QuasiStaticCurve quasi_static;
+      TransientReport report;
+    };
+
+    void visit(Archive &archive, Course &course)
+    {
+      auto &[motion, ledger, control, clock, quasi_static, report] = course;
+      auto &[steps, rejected, largest_gap]                         = report;
+      archive(motion, ledger, control.error, control.small, clock, quasi_static.samples, steps, rejected, largest_gap);
+    }
+
+    Row begin(DynamicModel &model, const Drive &drive, Course &course)
+    {
+      course.quasi_static.begin();
+      course.motion = model.initial_motion(drive.at(0., Drive::Side::after));
+      course.ledger = EnergyLedger(model.stored_energy(course.motion));
+      Row row       = observe(model, course.motion, course.ledger);
+      course.quasi_static.fill(row);
+      return row;
+    }
+
+    /// Takes a step and returns its row.
+    Row take_step(DynamicModel &model, const Drive &drive, const TransientSettings &settings, Course &course)
+    {
+      auto &[motion, ledger, control, clock, quasi_static, report] = course;
       quasi_static.extend(clock.end_of_step());
       auto attempt    = advance(model, drive, motion, settings, control, clock);
       const double dx = attempt.outcome.motion->drive.x - motion.drive.x;
@@ -200,7 +224,6 @@ namespace sprag
       row[Column::iterations]     = attempt.iterations;
       row[Column::rejected_steps] = attempt.rejected;
       quasi_static.fill(row);
-      sink(motion, row);
 
       ++report.steps;
       report.rejected += attempt.rejected;
@@ -209,7 +232,30 @@ namespace sprag
       const bool recovers = settings.time.tolerance == 0. && attempt.rejected == 0;
       if ((control.wants_longer() || recovers) && clock.grow())
         control.small = 0;
+      return row;
     }
-    return report;
+  } // namespace
+
+  TransientReport run_transient(DynamicModel &model, const Drive &drive, const TransientSettings &settings,
+                                const MotionSink &sink, ProgressKeeper *const keeper)
+  {
+    Course course{ {}, EnergyLedger(), { settings }, make_clock(drive, settings), { model, drive, settings.quasi_static_spacing },
+                   {} };
+    const auto progress = [&](Archive &archive)
+    {
+      visit(archive, course);
+      model.visit_history(archive);
+    };
+    const auto hand_on = [&](const Row &row)
+    {
+      sink(course.motion, row);
+      if (keeper != nullptr)
+        keeper->accept_step(progress);
+    };
+    if (keeper == nullptr || !keeper->take_up(progress))
+      hand_on(begin(model, drive, course));
+    while (!course.clock.finished())
+      hand_on(take_step(model, drive, settings, course));
+    return course.report;
   }
 } // namespace sprag

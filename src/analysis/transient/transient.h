@@ -1,6 +1,7 @@
 #pragma once
 
 #include "analysis/transient/energy_ledger.h"
+#include "base/progress_keeper.h"
 #include "model/dynamic_model.h"
 #include "scene/scene.h"
 
@@ -36,7 +37,8 @@ namespace sprag
   /// the step adapts: it is halved and tried again where the local error of P, over force_scale, exceeds the tolerance, and
   /// doubled after steps with far smaller ones, up to 16 times Time/Step or the longest step; else it is Time/Step, or less by
   /// what makes a whole number of steps up to the next kink. A step without a solution is halved too. Throws AnalysisError, after
-  /// the last accepted step was handed on, where halving does not help.
+  /// the last accepted step was handed on, where halving does not help. Where the keeper has progress of such a run, this one
+  /// goes on from there, to the last bit as if it had not been interrupted.
   TransientReport run_transient(DynamicModel &model, const Drive &drive, const TransientSettings &settings,
-                                const MotionSink &sink);
+                                const MotionSink &sink, ProgressKeeper *keeper = nullptr);
 } // namespace sprag

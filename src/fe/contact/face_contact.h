@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/archive.h"
 #include "fe/body/elastic_body.h"
 #include "fe/contact/elastic_obstacle.h"
 #include "fe/contact/face_evaluation.h"
@@ -80,6 +81,13 @@ namespace sprag
     FacePoints face_points() const;
     FaceState face_state(const FaceEvaluation &found, const DrivePoint &drive) const;
 
+    /// Visits how far it reaches and where it was last.
+    void visit_history(Archive &archive)
+    {
+      archive(reach_factor);
+      face.visit_history(archive);
+    }
+
   private:
     static void begin(const dealii::Vector<double> &ports, double x, double duration, FaceEvaluation &found);
     FaceConfiguration configuration(const dealii::Vector<double> &ports, double x) const;
@@ -101,7 +109,7 @@ namespace sprag
 
     const ElasticBody<2> &body;
     FaceContactProperties properties;
-    const FacePatches<2> face;
+    FacePatches<2> face;
 
     // What evaluations work with; nothing of it is a result.
     mutable std::variant<RigidObstacle, ElasticObstacle> obstacle; ///< looks at one patch after the other

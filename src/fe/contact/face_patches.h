@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/archive.h"
 #include "fe/body/friction_face.h"
 #include "model/circle.h"
 
@@ -74,6 +75,12 @@ namespace sprag
 
     /// Returns the index of the patch that holds a point, by its index.
     unsigned int patch_of_point(unsigned int point) const;
+
+    /// Visits where the next search begins.
+    void visit_history(Archive &archive)
+    {
+      archive(known_centre, known_patch);
+    }
 
   private:
     struct Tree;

@@ -116,6 +116,19 @@ namespace sprag
       add(forces.values[a], response(forces.ports[a]));
   }
 
+  void EffectiveSystem::visit_history(Archive &archive)
+  {
+    PortSelection known;
+    for (const auto &of_port : responses)
+      known.push_back(of_port.first);
+    archive(credit, known);
+    if (!archive.reads())
+      return;
+    responses.clear();
+    for (const unsigned int port : known)
+      response(port);
+  }
+
   FullMatrix<double> EffectiveSystem::port_compliance() const
   {
     const auto &layout = ports.layout();

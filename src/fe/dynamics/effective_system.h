@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/archive.h"
 #include "fe/algebra/mumps.h"
 #include "fe/dynamics/lever_ports.h"
 #include "model/port_forces.h"
@@ -33,6 +34,9 @@ namespace sprag
     /// Adds the displacement of all coordinates by forces on ports, the support's excepted, increasing. Responses to single
     /// forces are kept where they are worth it.
     void add_response(const PortLoads &forces, dealii::Vector<double> &position) const;
+
+    /// Visits which responses are kept.
+    void visit_history(Archive &archive);
 
   private:
     dealii::Vector<double> response(const PortLoads &forces) const;

@@ -129,6 +129,23 @@ namespace sprag
     current = steps.back().get();
   }
 
+  void SparseStructure::visit_history(Archive &archive)
+  {
+    std::vector<StepWeights> weights;
+    for (const auto &step : steps)
+      weights.push_back(step->weights);
+    archive(weights);
+    if (archive.reads())
+    {
+      steps.clear();
+      current = nullptr;
+      for (const auto &of_step : weights)
+        steps.push_back(make_step(of_step));
+    }
+    for (const auto &step : steps)
+      step->system->visit_history(archive);
+  }
+
   PortCompliance SparseStructure::port_compliance(const EffectiveSystem &system, const double support_stiffness) const
   {
     PortCompliance result;

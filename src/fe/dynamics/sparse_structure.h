@@ -77,6 +77,9 @@ namespace sprag
     /// Elastic displacement of all degrees of freedom of the body, in lever axes [mm]. Of a pair's structure that of a lever.
     dealii::Vector<double> elastic_displacement(const Motion &motion, unsigned int lever = 0) const;
 
+    /// Visits the steps whose factors are kept, and what is kept with them.
+    void visit_history(Archive &archive);
+
   private:
     /// Products of a motion's position, velocity and acceleration (rates of the stiffnesses only where damping needs them).
     struct Products
@@ -93,7 +96,7 @@ namespace sprag
     struct Step
     {
       StepWeights weights{};
-      std::unique_ptr<const EffectiveSystem> system;
+      std::unique_ptr<EffectiveSystem> system;
       PortCompliance compliance;
     };
 

@@ -37,7 +37,7 @@ namespace sprag
     }
   };
 
-  FieldFrames::FieldFrames(const Scene &of_scene, const ElasticBody<2> &of_body, const std::string &folder)
+  FieldFrames::FieldFrames(const Scene &of_scene, const ElasticBody<2> &of_body, const std::string &folder, const bool goes_on)
       : scene(of_scene)
       , body(of_body)
       , fields(body)
@@ -45,7 +45,8 @@ namespace sprag
       , leaf(scene.spring.type == SpringType::leaf ? std::make_unique<LeafShapes>(scene) : nullptr)
       , blocks(device_blocks(scene, fields, fields_of(leaf)))
   {
-    remove_field_files(folder);
+    if (!goes_on)
+      remove_field_files(folder);
     auto mesh = device_mesh(scene, rest, blocks, fields, fields_of(leaf));
     mesh.name = "fields";
     files     = std::make_unique<FieldFiles>(folder, "fields", std::vector<FieldMesh>{ std::move(mesh), face_mesh() });

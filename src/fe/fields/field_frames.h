@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/archive.h"
 #include "fe/fields/device_mesh.h"
 #include "fe/fields/leaf_shapes.h"
 #include "results/result_file.h"
@@ -24,11 +25,18 @@ namespace sprag
   class FieldFrames
   {
   public:
-    /// Removes the fields of an earlier run from `folder`. Scene and body, which serves both levers of a pair, must outlive them.
-    FieldFrames(const Scene &scene, const ElasticBody<2> &body, const std::string &folder);
+    /// Removes the fields of an earlier run from `folder`, unless this one goes on from it, see visit_progress(). Scene and body,
+    /// which serves both levers of a pair, must outlive them.
+    FieldFrames(const Scene &scene, const ElasticBody<2> &body, const std::string &folder, bool goes_on = false);
 
     /// Adds a frame, of another time than those before.
     void write(const DeviceState &state);
+
+    /// Visits what says which frames there are, see FieldFiles.
+    void visit_progress(Archive &archive)
+    {
+      files->visit_progress(archive);
+    }
 
   private:
     struct Bodies;

@@ -39,6 +39,11 @@ namespace sprag
     }
   }
 
+  void StressPeaks::visit_progress(Archive &archive)
+  {
+    archive(peaks);
+  }
+
   std::vector<Entry> StressPeaks::entries(const unsigned int levers) const
   {
     const double missing = std::numeric_limits<double>::quiet_NaN();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/archive.h"
 #include "fe/fields/body_fields.h"
 #include "results/columns.h"
 #include "results/result_file.h"
@@ -22,6 +23,9 @@ namespace sprag
 
     /// Returns the entries of /summary for so many levers. They are NaN where nothing has been looked at.
     std::vector<Entry> entries(unsigned int levers) const;
+
+    /// Visits what was found so far.
+    void visit_progress(Archive &archive);
 
   private:
     struct Peak

@@ -1,6 +1,8 @@
 #include "fe/statics/full_stiffness.h"
 
+#include "base/errors.h"
 #include "fe/algebra/matrix_rows.h"
+#include "model/state_archive.h"
 
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
 
@@ -100,6 +102,8 @@ namespace sprag
 
   double FullStiffness::unbalance(const Vector<double> &coordinates, const PortForces &forces)
   {
+    if (!is_ordered)
+      first_coordinates = coordinates;
     matrix = 0.;
     residual.reinit(n_coordinates());
     for (unsigned int lever = 0; lever < ports.levers; ++lever)
@@ -142,8 +146,30 @@ namespace sprag
       to[places[lever * n + k]] += from[k];
   }
 
+  void FullStiffness::visit_history(Archive &archive)
+  {
+    bool known       = is_ordered;
+    auto coordinates = first_coordinates;
+    auto forces      = first_forces;
+    archive(known, coordinates, forces);
+    if (!archive.reads() || !known)
+      return;
+    try
+    {
+      unbalance(coordinates, forces);
+      correction(forces);
+    }
+    catch (const AnalysisError &)
+    {
+      // So it was, and the ordering was kept.
+    }
+  }
+
   Vector<double> FullStiffness::correction(const PortForces &forces)
   {
+    if (!is_ordered)
+      first_forces = forces;
+    is_ordered = true;
     for (unsigned int i = 0; i < forces.ports.size(); ++i)
       for (unsigned int j = 0; j < forces.ports.size(); ++j)
         if (forces.tangent(i, j) != 0.)

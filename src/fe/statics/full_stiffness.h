@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/archive.h"
 #include "fe/algebra/mumps.h"
 #include "fe/body/elastic_body.h"
 #include "fe/statics/port_springs.h"
@@ -40,6 +41,9 @@ namespace sprag
     std::vector<double> sensor_forces(unsigned int lever, const dealii::Vector<double> &coordinates,
                                       const PortLoads &forces) const;
 
+    /// Visits what the factors' ordering was found for, on which their round-off depends.
+    void visit_history(Archive &archive);
+
   private:
     unsigned int first_coordinate(unsigned int lever) const;
     void couple_ports(dealii::DynamicSparsityPattern &pattern) const;
@@ -55,5 +59,10 @@ namespace sprag
     dealii::PETScWrappers::SparseMatrix matrix;
     std::vector<std::size_t> places; ///< of the entries of each lever's body in the matrix
     dealii::Vector<double> residual; ///< forces on the ports less those of bodies and springs
+
+    // The first matrix that was factorised, which the factors are ordered for.
+    bool is_ordered = false;
+    dealii::Vector<double> first_coordinates;
+    PortForces first_forces;
   };
 } // namespace sprag

@@ -358,6 +358,13 @@ namespace sprag
     return levers.size() == 1 ? of_lever(levers[0]) : joined_faces(of_lever(levers[0]), of_lever(levers[1]));
   }
 
+  void LeverModel::visit_history(Archive &archive)
+  {
+    for (auto &lever : levers)
+      lever.contact.visit_history(archive);
+    std::visit([&](auto &s) { s.visit_history(archive); }, structure);
+  }
+
   void LeverModel::use_penalties(const ContactPenalties &penalties)
   {
     for (auto &lever : levers)

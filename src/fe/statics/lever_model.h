@@ -43,6 +43,7 @@ namespace sprag
     void observe(const State &trial, Row &row) const override;
     FacePoints face_points() const override;
     FaceState face_state(const State &trial) const override;
+    void visit_history(Archive &archive) override;
 
     const ContactPenalties &penalties() const;
 

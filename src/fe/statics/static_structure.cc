@@ -68,6 +68,7 @@ namespace sprag
 
   void StaticStructure::move_window(const PortSelection &wanted)
   {
+    window_for = wanted;
     window.clear();
     compliance            = {};
     const auto add_spring = [&](const unsigned int port, const double stiffness)
@@ -94,6 +95,16 @@ namespace sprag
     if (ports.sprung)
       add_spring(ports.support(), ports.levers * springs.support);
     mismatch.reinit(compliance.size());
+  }
+
+  void StaticStructure::visit_history(Archive &archive)
+  {
+    for (auto &face : faces)
+      face.visit_history(archive);
+    PortSelection wanted = window_for;
+    archive(wanted);
+    if (archive.reads() && !wanted.empty())
+      move_window(wanted);
   }
 
   std::array<StaticStructure::Section, 2> StaticStructure::sections_of(const unsigned int lever) const

@@ -51,6 +51,9 @@ namespace sprag
     std::vector<double> sensor_forces(unsigned int lever, const dealii::Vector<double> &coordinates,
                                       const PortLoads &forces) const;
 
+    /// Visits what it knows of the compliance.
+    void visit_history(Archive &archive);
+
   private:
     /// Ports of a face of a lever.
     struct Section
@@ -76,6 +79,7 @@ namespace sprag
 
     // The compliance is known in a window of whole tiles, a place for each of its ports.
     PortSelection window;
+    PortSelection window_for;        ///< ports that it was made for
     PortCompliance compliance;       ///< of the places
     dealii::Vector<double> mismatch; ///< G f - z
     PortSelection selected;          ///< ports it looks at

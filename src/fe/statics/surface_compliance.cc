@@ -80,8 +80,21 @@ namespace sprag
     return tile.first < tile.second ? entry(column, row) : tiles.at(tile)(row % tile_size, column % tile_size);
   }
 
+  void SurfaceCompliance::visit_history(Archive &archive)
+  {
+    auto known = searches;
+    archive(known);
+    if (!archive.reads())
+      return;
+    tiles.clear();
+    searches.clear();
+    for (const auto &together : known)
+      find(together);
+  }
+
   void SurfaceCompliance::find(const std::vector<Tile> &wanted)
   {
+    searches.push_back(wanted);
     // A row costs much, an entry little: the rows are those of ports that are new.
     std::map<unsigned int, PortSelection> columns; // by the tile of the rows, in the order of the degrees of freedom
     for (const auto &[first, second] : wanted)

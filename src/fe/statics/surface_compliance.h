@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/archive.h"
 #include "fe/algebra/mumps.h"
 #include "model/port_forces.h"
 
@@ -23,6 +24,9 @@ namespace sprag
     /// The compliance between some ports, which make up whole tiles.
     dealii::FullMatrix<double> among(const PortSelection &whole_tiles);
 
+    /// Visits which tiles are known. Those found together are found together again: the solver's round-off depends on that.
+    void visit_history(Archive &archive);
+
   private:
     using Tile = std::pair<unsigned int, unsigned int>; ///< of rows and columns, first >= second
 
@@ -35,5 +39,6 @@ namespace sprag
     const std::vector<unsigned int> dof_of_port;
     std::map<unsigned int, unsigned int> port_of_dof;
     std::map<Tile, dealii::FullMatrix<double>> tiles;
+    std::vector<std::vector<Tile>> searches; ///< the tiles found together
   };
 } // namespace sprag

@@ -1,0 +1,57 @@
+#include "model/state_archive.h"
+
+#include <algorithm>
+
+namespace sprag
+{
+  void visit(Archive &archive, dealii::Vector<double> &vector)
+  {
+    std::vector<double> values(vector.begin(), vector.end());
+    archive(values);
+    if (!archive.reads())
+      return;
+    vector.reinit(static_cast<unsigned int>(values.size()), true);
+    std::copy(values.begin(), values.end(), vector.begin());
+  }
+
+  void visit(Archive &archive, dealii::FullMatrix<double> &matrix)
+  {
+    std::size_t rows = matrix.m(), columns = matrix.n();
+    archive(rows, columns);
+    if (archive.reads())
+      matrix.reinit(rows, columns);
+    for (std::size_t i = 0; i < rows; ++i)
+      for (std::size_t j = 0; j < columns; ++j)
+        archive(matrix(i, j));
+  }
+
+  void visit(Archive &archive, Kinematic &coordinates)
+  {
+    auto &[position, velocity, acceleration] = coordinates;
+    archive(position, velocity, acceleration);
+  }
+
+  void visit(Archive &archive, PortLoads &loads)
+  {
+    auto &[ports, values] = loads;
+    archive(ports, values);
+  }
+
+  void visit(Archive &archive, PortForces &forces)
+  {
+    auto &[ports, values, tangent] = forces;
+    archive(ports, values, tangent);
+  }
+
+  void visit(Archive &archive, Motion &motion)
+  {
+    auto &[drive, coordinates, face_force, contact, forces] = motion;
+    archive(drive, coordinates, face_force, contact, forces);
+  }
+
+  void visit(Archive &archive, State &state)
+  {
+    auto &[drive, coordinates, contact, forces] = state;
+    archive(drive, coordinates, contact, forces);
+  }
+} // namespace sprag

@@ -1,0 +1,11 @@
+#pragma once
+
+#include "base/archive.h"
+#include "results/columns.h"
+#include "results/result_file.h"
+
+namespace sprag
+{
+  void visit(Archive &archive, Row &row);
+  void visit(Archive &archive, FaceState &face);
+} // namespace sprag

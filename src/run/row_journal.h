@@ -1,0 +1,49 @@
+#pragma once
+
+#include "base/archive.h"
+
+#include <optional>
+#include <string>
+
+namespace sprag
+{
+  /// What a run has recorded, in a file to which blocks with checksums are added, so that a checkpoint need not hold it.
+  class RowJournal
+  {
+  public:
+    /// Nothing is read or written yet.
+    explicit RowJournal(std::string path);
+    ~RowJournal();
+    RowJournal &operator=(RowJournal &&) = delete;
+
+    /// Begins with the first `size` bytes of the file, drops what follows and returns the records in them; none where they are
+    /// not as they were written.
+    std::optional<std::string> take_up(std::size_t size);
+
+    /// Adds a record, written with the next block.
+    template <class... Items>
+    void append(Items &...items)
+    {
+      pending(items...);
+      if (pending.bytes().size() > largest_block)
+        write();
+    }
+
+    /// Hands what was added to the system's disk. Throws AnalysisError where it cannot; it is then still to be written.
+    void write();
+
+    /// Returns the size of the file [bytes].
+    std::size_t size() const
+    {
+      return written;
+    }
+
+  private:
+    static constexpr std::size_t largest_block = 16 * 1024 * 1024;
+
+    const std::string path;
+    int file            = -1;
+    std::size_t written = 0;
+    Archive pending;
+  };
+} // namespace sprag
