@@ -7,16 +7,6 @@
 
 namespace sprag
 {
-  namespace
-  {
-    std::string checksum(const std::string &bytes)
-    {
-      Fingerprint sum;
-      sum.add(bytes);
-      return sum.text();
-    }
-  } // namespace
-
   void Archive::raw(void *data, const std::size_t size)
   {
     if (!reading)
@@ -37,6 +27,13 @@ namespace sprag
     if (reading && items > kept.size() - position)
       throw AnalysisError("an archive ends too early");
     return items;
+  }
+
+  std::string checksum(const std::string &bytes)
+  {
+    Fingerprint sum;
+    sum.add(bytes);
+    return sum.text();
   }
 
   std::string sealed(const std::string &bytes)

@@ -37,6 +37,12 @@ namespace sprag
       return kept;
     }
 
+    /// Forgets what was visited, and keeps the memory for what follows.
+    void clear()
+    {
+      kept.clear();
+    }
+
     /// Returns whether all bytes have been read.
     bool at_end() const
     {
@@ -102,6 +108,9 @@ namespace sprag
         entries = { all.begin(), all.end() };
     }
   };
+
+  /// Returns the checksum of bytes, always as long.
+  std::string checksum(const std::string &bytes);
 
   /// Returns bytes with their checksum behind them.
   std::string sealed(const std::string &bytes);

@@ -22,15 +22,6 @@ namespace sprag
   {
     constexpr double largest_share = 0.01; ///< of a run's time that checkpoints take
 
-    /// What progress means depends on the program to the last instruction.
-    std::string key_of(const Scene &scene)
-    {
-      Fingerprint key;
-      key.add(scene_key(scene));
-      key.add(content_fingerprint("/proc/self/exe"));
-      return key.text();
-    }
-
     double seconds_between()
     {
       const char *const given = std::getenv(checkpoint_variable);
@@ -65,13 +56,23 @@ namespace sprag
   Checkpoint::Checkpoint(const Scene &scene, const RunOptions &options)
       : is_kept(options.in_memory == nullptr)
       , folder(options.folder)
-      , key(is_kept ? key_of(scene) : "")
+      , key_of_scene(is_kept ? scene_key(scene) : "")
       , interval(seconds_between())
       , journal(folder + '/' + row_journal_name)
       , next(Clock::now() + std::chrono::duration_cast<Clock::duration>(interval))
   {
     if (is_kept)
       find();
+  }
+
+  /// What progress means depends on the program to the last instruction.
+  std::string Checkpoint::key() const
+  {
+    static const std::string program = content_fingerprint("/proc/self/exe");
+    Fingerprint sum;
+    sum.add(key_of_scene);
+    sum.add(program);
+    return sum.text();
   }
 
   void Checkpoint::find()
@@ -91,13 +92,14 @@ namespace sprag
       Content content;
       Archive archive(*bytes);
       archive(content);
-      if (content.key != key)
+      if (content.key != key())
         return drop("of another scene, of input files that held something else, or of another build of sprag");
       auto rows = journal.take_up(content.rows);
       if (!rows)
         return drop("its rows are damaged");
       progress_found = std::move(content.progress);
       rows_found     = std::move(*rows);
+      goes_on        = true;
     }
     else
       remove(); // what a run left that was killed before its first one
@@ -122,26 +124,45 @@ namespace sprag
   void Checkpoint::accept_step(const ProgressVisit &progress)
   {
     if (is_kept && (interrupted() || Clock::now() >= next))
-      try
-      {
-        write(progress);
-      }
-      catch (const AnalysisError &error)
-      {
-        if (!std::exchange(has_failed, true))
-          std::cerr << error.what() << "; the run goes on without" << std::endl;
-      }
+      try_to([&] { write(progress); });
     end_if_interrupted();
+  }
+
+  void Checkpoint::write_records()
+  {
+    try_to(
+        [&]
+        {
+          if (records)
+            records(journal);
+          journal.write();
+        });
+  }
+
+  void Checkpoint::try_to(const std::function<void()> &write)
+  {
+    try
+    {
+      write();
+    }
+    catch (const AnalysisError &error)
+    {
+      next = Clock::now() + std::chrono::duration_cast<Clock::duration>(interval);
+      if (!std::exchange(has_failed, true))
+        std::cerr << error.what() << "; the run goes on without" << std::endl;
+    }
   }
 
   void Checkpoint::write(const ProgressVisit &progress)
   {
     const auto begin = Clock::now();
+    if (records)
+      records(journal);
     journal.write();
     Archive archive;
     visit_all(progress, archive);
     Content content;
-    content.key      = key;
+    content.key      = key();
     content.rows     = journal.size();
     content.progress = archive.bytes();
     Archive whole;

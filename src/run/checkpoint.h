@@ -27,22 +27,23 @@ namespace sprag
     /// Returns whether the run goes on from an interrupted one.
     bool resumes() const
     {
-      return !progress_found.empty();
+      return goes_on;
     }
 
-    /// Hands over what the interrupted run has recorded, in the order of record().
+    /// Hands over what the interrupted run has recorded.
     Archive recorded()
     {
       return Archive(std::move(rows_found));
     }
 
-    /// Adds to what the run has recorded.
-    template <class... Items>
-    void record(Items &...items)
+    /// Sets what adds to the journal of rows all that the run has recorded since its last call.
+    void set_records(std::function<void(RowJournal &)> add_records)
     {
-      if (is_kept)
-        journal.append(items...);
+      records = std::move(add_records);
     }
+
+    /// Writes what was recorded, where a run cannot keep that much until the next checkpoint.
+    void write_records();
 
     /// Adds something to the progress, to be visited behind that of the analysis. To be called before the analysis begins.
     void add_part(ProgressVisit part)
@@ -56,21 +57,31 @@ namespace sprag
     /// Removes it from the folder, once the run is over.
     void remove() const;
 
+    /// Returns whether there is a checkpoint at all.
+    bool keeps() const
+    {
+      return is_kept;
+    }
+
   private:
     using Clock = std::chrono::steady_clock;
 
     const bool is_kept;
     const std::string folder;
-    const std::string key;
+    const std::string key_of_scene;
     const std::chrono::duration<double> interval;
     RowJournal journal;
+    std::function<void(RowJournal &)> records;
     std::vector<ProgressVisit> parts;
+    bool goes_on = false;
     std::string progress_found, rows_found;
     Clock::time_point next;
     bool has_failed = false;
 
+    std::string key() const;
     void find();
     void visit_all(const ProgressVisit &progress, Archive &archive) const;
+    void try_to(const std::function<void()> &write);
     void write(const ProgressVisit &progress);
   };
 } // namespace sprag

@@ -34,14 +34,8 @@ namespace sprag
       face
     };
 
-    template <class Record>
-    void keep(RecordKind kind, const Record &record, Checkpoint *const checkpoint)
-    {
-      if (checkpoint == nullptr)
-        return;
-      Record copy = record;
-      checkpoint->record(kind, copy);
-    }
+    /// In memory until they are in a journal.
+    constexpr std::size_t most_face_values = 2'000'000;
   } // namespace
 
   Recorder::Recorder(const Scene &scene_, const RunOptions &options, PhaseTimer &timer, const FacePoints &points,
@@ -53,8 +47,26 @@ namespace sprag
       , stress(no_stress_peaks("the model has no mesh"))
       , checkpoint(checkpoint_)
   {
-    if (checkpoint != nullptr && checkpoint->resumes())
+    if (checkpoint == nullptr)
+      return;
+    if (checkpoint->resumes())
       take_over();
+    checkpoint->set_records([this](RowJournal &journal) { add_records(journal); });
+  }
+
+  void Recorder::add_records(RowJournal &journal)
+  {
+    // Whatever append() throws, it has what it was given.
+    for (;;)
+      if (faces_kept < faces_to_keep.size() && faces_to_keep[faces_kept].first == rows_kept)
+        journal.append(RecordKind::face, faces_to_keep[faces_kept++].second);
+      else if (rows_kept < rows.size())
+        journal.append(RecordKind::row, rows[rows_kept++]);
+      else
+        break;
+    faces_to_keep.clear();
+    faces_kept          = 0;
+    face_values_to_keep = 0;
   }
 
   void Recorder::take_over()
@@ -76,6 +88,7 @@ namespace sprag
         writer.append(face);
       }
     }
+    rows_kept  = rows.size();
     taken_over = rows.size() - 1;
     progress.begin_at(travel);
     if (!quiet)
@@ -86,17 +99,17 @@ namespace sprag
 
   void Recorder::add(Row row)
   {
-    add_closed_form(scene, row);
     writer.append(row);
     if (!rows.empty())
       travel += std::abs(row[Column::x] - rows.back()[Column::x]);
     rows.push_back(std::move(row));
   }
 
-  void Recorder::record(const Row &row)
+  void Recorder::record(const Row &incomplete)
   {
+    Row row = incomplete;
+    add_closed_form(scene, row);
     add(row);
-    keep(RecordKind::row, row, checkpoint);
     const double iterations = row[Column::iterations];
     progress.update(travel, { row[Column::x], row[Column::P], row[Column::Q],
                               std::isnan(iterations) ? 0u : static_cast<unsigned int>(iterations) });
@@ -105,7 +118,12 @@ namespace sprag
   void Recorder::record(const FaceState &face)
   {
     writer.append(face);
-    keep(RecordKind::face, face, checkpoint);
+    if (checkpoint == nullptr || !checkpoint->keeps())
+      return;
+    faces_to_keep.emplace_back(rows.size(), face);
+    face_values_to_keep += 2 * face.pressure.size();
+    if (face_values_to_keep > most_face_values)
+      checkpoint->write_records();
   }
 
   std::vector<Entry> Recorder::finish(const std::string &status, std::vector<Entry> meta, Warnings &warnings)

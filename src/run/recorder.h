@@ -58,11 +58,17 @@ namespace sprag
     std::vector<Entry> stress;
     std::vector<ErrorEstimate> accuracy;
     double travel = 0.;
-    Checkpoint *const checkpoint;
+
+    Checkpoint *const checkpoint; ///< null without
     std::size_t taken_over = 0;
+    std::size_t rows_kept  = 0;                                   ///< in the checkpoint's journal
+    std::vector<std::pair<std::size_t, FaceState>> faces_to_keep; ///< with the number of rows before them
+    std::size_t faces_kept          = 0;                          ///< of these
+    std::size_t face_values_to_keep = 0;
 
     void add(Row row);
     void take_over();
+    void add_records(RowJournal &journal);
   };
 
   /// Returns the length of the drive's path [mm].

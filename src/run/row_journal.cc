@@ -66,20 +66,32 @@ namespace sprag
     return result;
   }
 
-  void RowJournal::write()
+  void RowJournal::write_block()
   {
     if (file < 0)
       file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, 0666);
-    Archive block;
-    std::string content = sealed(pending.bytes());
-    block(content);
-    if (file < 0 || !write_all(file, block.bytes()) || ::fdatasync(file) != 0)
-    {
-      const int reason = errno;
-      static_cast<void>(!::ftruncate(file, static_cast<off_t>(written)));
-      throw AnalysisError(path + " cannot be written: " + std::strerror(reason));
-    }
-    written += block.bytes().size();
-    pending = {};
+    const std::string sum = checksum(pending.bytes());
+    std::size_t length    = pending.bytes().size() + sum.size();
+    Archive head;
+    head(length);
+    for (const auto *const part : { &head.bytes(), &pending.bytes(), &sum })
+      if (file < 0 || !write_all(file, *part))
+        return fail();
+    written += head.bytes().size() + length;
+    pending.clear();
+  }
+
+  void RowJournal::write()
+  {
+    write_block();
+    if (::fdatasync(file) != 0)
+      fail();
+  }
+
+  void RowJournal::fail()
+  {
+    const int reason = errno;
+    static_cast<void>(!::ftruncate(file, static_cast<off_t>(written)));
+    throw AnalysisError(path + " cannot be written: " + std::strerror(reason));
   }
 } // namespace sprag

@@ -20,13 +20,13 @@ namespace sprag
     /// not as they were written.
     std::optional<std::string> take_up(std::size_t size);
 
-    /// Adds a record, written with the next block.
-    template <class... Items>
-    void append(Items &...items)
+    /// Adds a record, written with the next block. Throws as write() does, where it writes one.
+    template <class Kind, class Item>
+    void append(Kind kind, Item &item)
     {
-      pending(items...);
-      if (pending.bytes().size() > largest_block)
-        write();
+      pending(kind, item);
+      if (pending.bytes().size() > block_size)
+        write_block();
     }
 
     /// Hands what was added to the system's disk. Throws AnalysisError where it cannot; it is then still to be written.
@@ -39,11 +39,14 @@ namespace sprag
     }
 
   private:
-    static constexpr std::size_t largest_block = 16 * 1024 * 1024;
+    static constexpr std::size_t block_size = 1024 * 1024; ///< what a processor's cache holds
 
     const std::string path;
     int file            = -1;
     std::size_t written = 0;
-    Archive pending;
+    Archive pending; ///< the next block
+
+    void write_block();
+    void fail();
   };
 } // namespace sprag

@@ -130,13 +130,24 @@ class Victim:
         self.kills = self.ends = self.went_on = self.compared = 0
         self.unlike, self.said = [], []
 
+    def stamp(self):
+        """Tells one checkpoint from another."""
+        try:
+            status = os.stat(self.killed / "checkpoint")
+        except OSError:
+            return 0
+        return (status.st_ino, status.st_mtime_ns)
+
     def kill_once(self):
-        """Starts or goes on, and kills at a random moment the program, its working process, or both at once by a signal that it
-        notices. What ends before is compared, and another run begins."""
+        """Starts or goes on, and kills at a random moment, some time from the start or from a checkpoint: the program, its working
+        process, or both at once by a signal that it notices. What ends before is compared, and another run begins."""
         environment = self.chance.choice((OFTEN, OFTEN, ALWAYS))
         kind = self.chance.choice(("program", "worker", "interrupt"))
-        moment = self.chance.uniform(0.05, 1.0) * self.seconds
+        checkpoint = self.stamp() if self.chance.random() < 0.6 else None
         process = subprocess.Popen(self.command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment)
+        while checkpoint is not None and self.stamp() == checkpoint and process.poll() is None:
+            time.sleep(0.001)
+        moment = self.chance.uniform(0, 1.0 if checkpoint is None else 0.2) * self.seconds
         try:
             process.wait(moment)
         except subprocess.TimeoutExpired:
