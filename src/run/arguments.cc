@@ -15,7 +15,7 @@ namespace sprag
       app.add_option("--set", arguments.overrides, "\"Section/Name=value\": overrides a parameter of the file; may be repeated")
           ->allow_extra_args(false);
       app.add_option("--output", arguments.folder, "Folder for results; default output/NAME_OF_THE_FILE");
-      app.add_flag("--overwrite", arguments.overwrite, "Begin anew, whatever result is in that folder");
+      app.add_flag("--overwrite", arguments.overwrite, "Replace whatever result is in that folder, and begin anew");
       app.add_flag("--validate", arguments.validate, "Check the file and stop");
       app.add_flag("--print-parameters", arguments.print_parameters, "Print every parameter with its meaning and stop");
       app.add_flag("--quiet", arguments.quiet, "Print errors only");

@@ -4,6 +4,7 @@
 #include "base/errors.h"
 #include "base/fingerprint.h"
 #include "base/interrupt.h"
+#include "results/earlier_result.h"
 #include "run/run_files.h"
 #include "scene/scene_key.h"
 
@@ -55,6 +56,7 @@ namespace sprag
 
   Checkpoint::Checkpoint(const Scene &scene, const RunOptions &options)
       : is_kept(options.in_memory == nullptr)
+      , quiet(options.quiet)
       , folder(options.folder)
       , key_of_scene(is_kept ? scene_key(scene) : "")
       , interval(seconds_between())
@@ -103,6 +105,9 @@ namespace sprag
     }
     else
       remove(); // what a run left that was killed before its first one
+    if (const auto earlier = earlier_result(folder + "/result.h5");
+        !goes_on && !quiet && earlier && earlier->status != "completed")
+      std::cout << "Begins anew:  the result in the folder is unfinished and has no checkpoint\n" << std::flush;
   }
 
   void Checkpoint::visit_all(const ProgressVisit &progress, Archive &archive) const

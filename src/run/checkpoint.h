@@ -67,6 +67,7 @@ namespace sprag
     using Clock = std::chrono::steady_clock;
 
     const bool is_kept;
+    const bool quiet;
     const std::string folder;
     const std::string key_of_scene;
     const std::chrono::duration<double> interval;

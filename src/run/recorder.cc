@@ -35,7 +35,7 @@ namespace sprag
     };
 
     /// In memory until they are in a journal.
-    constexpr std::size_t most_face_values = 2'000'000;
+    constexpr std::size_t most_face_bytes = 64 * 1024 * 1024;
   } // namespace
 
   Recorder::Recorder(const Scene &scene_, const RunOptions &options, PhaseTimer &timer, const FacePoints &points,
@@ -65,8 +65,8 @@ namespace sprag
       else
         break;
     faces_to_keep.clear();
-    faces_kept          = 0;
-    face_values_to_keep = 0;
+    faces_kept         = 0;
+    face_bytes_to_keep = 0;
   }
 
   void Recorder::take_over()
@@ -83,8 +83,11 @@ namespace sprag
       }
       else
       {
+        std::string bytes;
         FaceState face;
-        records(face);
+        records(bytes);
+        Archive of_face(std::move(bytes));
+        of_face(face);
         writer.append(face);
       }
     }
@@ -120,9 +123,12 @@ namespace sprag
     writer.append(face);
     if (checkpoint == nullptr || !checkpoint->keeps())
       return;
-    faces_to_keep.emplace_back(rows.size(), face);
-    face_values_to_keep += 2 * face.pressure.size();
-    if (face_values_to_keep > most_face_values)
+    Archive archive;
+    FaceState copy = face;
+    archive(copy);
+    faces_to_keep.emplace_back(rows.size(), archive.bytes());
+    face_bytes_to_keep += archive.bytes().size();
+    if (face_bytes_to_keep > most_face_bytes)
       checkpoint->write_records();
   }
 

@@ -61,10 +61,10 @@ namespace sprag
 
     Checkpoint *const checkpoint; ///< null without
     std::size_t taken_over = 0;
-    std::size_t rows_kept  = 0;                                   ///< in the checkpoint's journal
-    std::vector<std::pair<std::size_t, FaceState>> faces_to_keep; ///< with the number of rows before them
-    std::size_t faces_kept          = 0;                          ///< of these
-    std::size_t face_values_to_keep = 0;
+    std::size_t rows_kept  = 0;                                     ///< in the checkpoint's journal
+    std::vector<std::pair<std::size_t, std::string>> faces_to_keep; ///< as bytes, with the number of rows before them
+    std::size_t faces_kept         = 0;                             ///< of these
+    std::size_t face_bytes_to_keep = 0;
 
     void add(Row row);
     void take_over();

@@ -79,6 +79,24 @@ TEST_P(FaceContactOn, TangentOfSteadySlidingIsTheDerivativeOfTheForces)
     }
 }
 
+// How far it looks is found on the way and outlasts a kill.
+TEST_P(FaceContactOn, ReachIsHistory)
+{
+  const auto given = properties(false, 0.);
+  FaceContact contact(body, given), fresh(body, given);
+  const OfLevers theta{ { given.rest_inclination } };
+  const auto narrow = contact.reachable_ports(1., theta);
+  contact.widen_reach();
+  const auto wide = contact.reachable_ports(1., theta);
+  Archive archive;
+  contact.visit_history(archive);
+  Archive kept(archive.bytes());
+  fresh.visit_history(kept);
+  EXPECT_TRUE(kept.at_end());
+  EXPECT_GT(wide.size(), narrow.size());
+  EXPECT_EQ(fresh.reachable_ports(1., theta), wide);
+}
+
 // What the ports, the drive and the turn of the cylinder do is stored or dissipated, up to third order in the movement of a step.
 // With a spectral radius of 0 forces are balanced where the step ends, but are not those of a step without inertia.
 TEST_P(FaceContactOn, WorksBalance)

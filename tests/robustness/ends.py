@@ -194,7 +194,8 @@ class Refused(EndsTest):
         self.refused(self.run_to_end(*COARSE), str(self.output), "another run writes there", f"process {self.working_process(first)}")
         first.kill()
         first.wait(TIMEOUT)
-        self.assertEqual(self.run_to_end(*COARSE).returncode, 0)
+        self.refused(self.run_to_end(*COARSE), "unfinished result of a run with other parameters")
+        self.assertEqual(self.run_to_end(*COARSE, "--overwrite").returncode, 0)
 
     def test_another_result(self):
         self.assertEqual(self.run_to_end(*CLOSED_FORM).returncode, 0)
