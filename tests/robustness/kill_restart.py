@@ -136,18 +136,20 @@ class Victim:
             status = os.stat(self.killed / "checkpoint")
         except OSError:
             return 0
-        return (status.st_ino, status.st_mtime_ns)
+        return status.st_mtime_ns
 
     def kill_once(self):
-        """Starts or goes on, and kills at a random moment, some time from the start or from a checkpoint: the program, its working
+        """Starts or goes on, and kills at a random moment, some time after the start or some checkpoints: the program, its working
         process, or both at once by a signal that it notices. What ends before is compared, and another run begins."""
         environment = self.chance.choice((OFTEN, OFTEN, ALWAYS))
         kind = self.chance.choice(("program", "worker", "interrupt"))
-        checkpoint = self.stamp() if self.chance.random() < self.share else None
+        checkpoints = self.chance.randint(2, 8) if self.chance.random() < self.share else 0
+        moment = self.chance.uniform(0, 0.2 if checkpoints else 1) * self.seconds
         process = subprocess.Popen(self.command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment)
-        while checkpoint is not None and self.stamp() == checkpoint and process.poll() is None:
+        seen = {self.stamp()}
+        while len(seen) <= checkpoints and process.poll() is None:
+            seen.add(self.stamp())
             time.sleep(0.001)
-        moment = self.chance.uniform(0, 1.0 if checkpoint is None else 0.2) * self.seconds
         try:
             process.wait(moment)
         except subprocess.TimeoutExpired:
