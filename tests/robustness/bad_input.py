@@ -325,8 +325,8 @@ class RunGoingOn(ProgramTest):
                 self.assertGreaterEqual(len(file["table/x"]), len(left))
                 self.assertIn("subsection Drive", file["parameters"].asstr()[()])
 
-        # A new run into the same folder starts afresh.
-        done = sprag(self.write(""), *COARSE, "--set", "Drive/Stroke=5", "--output", self.output)
+        # A new run into the same folder starts afresh if that is asked for.
+        done = sprag(self.write(""), *COARSE, "--set", "Drive/Stroke=5", "--output", self.output, "--overwrite")
         self.assertEqual(done.returncode, 0, done.stderr)
         with h5py.File(path, "r") as file:
             self.assertEqual(file["table/x"][:].max(), 5)
