@@ -179,6 +179,12 @@ namespace sprag
       next = std::max(next, end + std::chrono::duration_cast<Clock::duration>((end - begin) / largest_share));
   }
 
+  void Checkpoint::finish(const std::string &status) const
+  {
+    if (status != interruption && !is_wanted)
+      remove();
+  }
+
   void Checkpoint::remove() const
   {
     if (is_kept)

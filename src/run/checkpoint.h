@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/errors.h"
 #include "base/progress_keeper.h"
 #include "run/row_journal.h"
 #include "run/run.h"
@@ -54,8 +55,24 @@ namespace sprag
     bool take_up(const ProgressVisit &progress) override;
     void accept_step(const ProgressVisit &progress) override;
 
-    /// Removes it from the folder, once the run is over.
-    void remove() const;
+    /// Hands a step on. Where that fails, as on a full disk, the run is worth going on with once there is space.
+    template <class Work>
+    void hand_on(const Work &work)
+    {
+      try
+      {
+        work();
+      }
+      catch (const AnalysisError &)
+      {
+        is_wanted = true;
+        throw;
+      }
+    }
+
+    /// Removes it from the folder when the run has ended, completed or failed, but not where it was interrupted or could not hand
+    /// a step on.
+    void finish(const std::string &status) const;
 
     /// Returns whether there is a checkpoint at all.
     bool keeps() const
@@ -78,9 +95,11 @@ namespace sprag
     std::string progress_found, rows_found;
     Clock::time_point next;
     bool has_failed = false;
+    bool is_wanted  = false; ///< whatever becomes of the run
 
     std::string key() const;
     void find();
+    void remove() const;
     void visit_all(const ProgressVisit &progress, Archive &archive) const;
     void try_to(const std::function<void()> &write);
     void write(const ProgressVisit &progress);

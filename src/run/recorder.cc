@@ -145,8 +145,8 @@ namespace sprag
     if (checkpoint != nullptr)
       meta.push_back({ "steps_taken_over", static_cast<double>(taken_over), "1", "from an interrupted run of the scene" });
     auto end = writer.finish(status, { summary, meta, {}, accuracy_entries(accuracy) }, warnings);
-    if (checkpoint != nullptr && status != interruption)
-      checkpoint->remove();
+    if (checkpoint != nullptr)
+      checkpoint->finish(status);
     if (!quiet)
     {
       const auto cpu = std::find_if(end.meta.begin(), end.meta.end(), [](const Entry &e) { return e.name == "cpu_time"; });

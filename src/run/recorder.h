@@ -46,7 +46,7 @@ namespace sprag
     }
 
     /// Writes summary, meta and warnings, to which it adds those that follow from the rows, and prints the table at the end of a
-    /// run. Status and meta: see ResultWriter. Removes the checkpoint of a run that was not interrupted. Returns the summary.
+    /// run. Status and meta: see ResultWriter. Finishes the checkpoint. Returns the summary.
     std::vector<Entry> finish(const std::string &status, std::vector<Entry> meta, Warnings &warnings);
 
   private:

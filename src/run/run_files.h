@@ -6,9 +6,9 @@ namespace sprag
 {
   // Files of a run in its folder beside its results, until it is over.
 
-  inline constexpr char checkpoint_name[]      = "checkpoint";
-  inline constexpr char next_checkpoint_name[] = "checkpoint.new"; ///< while it is written
-  inline constexpr char row_journal_name[]     = "checkpoint.rows";
+  inline constexpr char checkpoint_name[]      = "run.checkpoint";
+  inline constexpr char next_checkpoint_name[] = "run.checkpoint.new"; ///< while it is written
+  inline constexpr char row_journal_name[]     = "run.journal";
 
   /// Removes what a run goes on from.
   void remove_checkpoint(const std::string &folder);

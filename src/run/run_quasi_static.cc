@@ -63,6 +63,7 @@ namespace sprag
         recorder.record(face);
         fields.record(row, face, [&] { return FieldSource{ state.coordinates, state.forces, {} }; });
       };
+      const auto hand_on = [&](const State &state, const Row &row) { checkpoint.hand_on([&] { write(state, row); }); };
       const QuasiStaticSettings settings{ scene.analysis.step, scene.analysis.minimum_step, scene.contact };
       double stick = 0.;
       std::vector<Entry> summary;
@@ -70,7 +71,7 @@ namespace sprag
           [&]
           {
             const PhaseTimer::Scope scope(timer, "steps_and_output");
-            stick = run_quasi_static(levers, scene.drive, settings, write, &checkpoint);
+            stick = run_quasi_static(levers, scene.drive, settings, hand_on, &checkpoint);
           },
           [&](const std::string &status)
           {

@@ -138,12 +138,13 @@ namespace sprag
       if (fields->record(row, face, [&] { return FieldSource{ motion.coordinates.position, {}, motion.face_force }; }))
         recorder.record(face);
     };
-    bool is_complete = false;
+    const auto hand_on = [&](const Motion &motion, const Row &row) { checkpoint.hand_on([&] { write(motion, row); }); };
+    bool is_complete   = false;
     record_steps(
         scene, recorder, timer, warnings, body != nullptr ? meshed_entries(dynamics.meshed, *body) : std::vector<Entry>(),
         [&]
         {
-          const auto report = run_transient(model, scene.drive, settings_of(scene, growing), write, &checkpoint);
+          const auto report = run_transient(model, scene.drive, settings_of(scene, growing), hand_on, &checkpoint);
           is_complete       = true;
           return report;
         },

@@ -8,6 +8,7 @@ import argparse
 import os
 import random
 import re
+import resource
 import shutil
 import signal
 import subprocess
@@ -133,7 +134,7 @@ class Victim:
     def stamp(self):
         """Tells one checkpoint from another."""
         try:
-            status = os.stat(self.killed / "checkpoint")
+            status = os.stat(self.killed / "run.checkpoint")
         except OSError:
             return 0
         return status.st_mtime_ns
@@ -221,7 +222,7 @@ class Checkpoints(RunTest):
         process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=OFTEN)
 
         def is_kept():
-            checkpoint, file = self.output / "checkpoint", self.output / after
+            checkpoint, file = self.output / "run.checkpoint", self.output / after
             if not (checkpoint.exists() and file.exists()):
                 return None
             return after == "." or checkpoint.stat().st_mtime_ns > file.stat().st_mtime_ns or None
@@ -234,7 +235,7 @@ class Checkpoints(RunTest):
     def completed(self, *options, changes=None):
         done = sprag(*self.command(changes), *options)
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertEqual([name for name in os.listdir(self.output) if name.startswith("checkpoint")], [])
+        self.assertEqual([name for name in os.listdir(self.output) if name.startswith("run.")], [])
         return done
 
     def expect_as_uninterrupted(self, changes=None):
@@ -277,7 +278,7 @@ class Checkpoints(RunTest):
         shutil.copytree(self.output, kept)
         half = lambda data: data[: len(data) // 2]  # noqa: E731
         flipped = lambda data: data[: len(data) // 2] + bytes([data[len(data) // 2] ^ 4]) + data[len(data) // 2 + 1 :]  # noqa: E731
-        for name, damage in (("checkpoint", half), ("checkpoint", flipped), ("checkpoint.rows", half), ("checkpoint.rows", flipped)):
+        for name, damage in (("run.checkpoint", half), ("run.checkpoint", flipped), ("run.journal", half), ("run.journal", flipped)):
             with self.subTest(name):
                 shutil.rmtree(self.output)
                 shutil.copytree(kept, self.output)
@@ -300,6 +301,24 @@ class Checkpoints(RunTest):
         self.table(31)
         done = self.completed("--quiet", changes=changes)
         self.assertIn("of input files that held something else", done.stderr)
+        self.expect_as_uninterrupted(changes)
+
+    def test_goes_on_after_a_full_disk(self):
+        changes = {"Analysis/Step": "0.05", "Output/Fields": "none"}
+        most = 1_400_000
+        full = subprocess.run(
+            [SPRAG, *map(str, self.command(changes)), "--quiet"],
+            capture_output=True,
+            text=True,
+            check=False,
+            timeout=TIMEOUT,
+            preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (most, most)),
+            env={**OFTEN, "OMPI_MCA_ess_singleton_isolated": "1"},
+        )
+        self.assertEqual(full.returncode, 1, full.stderr)
+        self.assertIn("File too large", full.stderr)
+        self.completed("--quiet", changes=changes)
+        self.assertGreater(taken_over(self.output), 0)
         self.expect_as_uninterrupted(changes)
 
     def test_lost_frame_is_told(self):
