@@ -22,5 +22,8 @@ namespace sprag
     /// Is to be called after each accepted step, when it was handed on and nothing of it is left to do. Throws AnalysisError when
     /// the run is interrupted.
     virtual void accept_step(const ProgressVisit &progress) = 0;
+
+    /// Is to be called behind the last step: what follows may take long, too.
+    virtual void end_steps(const ProgressVisit &progress) = 0;
   };
 } // namespace sprag

@@ -133,6 +133,13 @@ namespace sprag
     end_if_interrupted();
   }
 
+  void Checkpoint::end_steps(const ProgressVisit &progress)
+  {
+    const bool is_long = journal.size() > 0;
+    if (is_kept && is_long)
+      try_to([&] { write(progress); });
+  }
+
   void Checkpoint::write_records()
   {
     try_to(

@@ -54,6 +54,7 @@ namespace sprag
 
     bool take_up(const ProgressVisit &progress) override;
     void accept_step(const ProgressVisit &progress) override;
+    void end_steps(const ProgressVisit &progress) override;
 
     /// Hands a step on. Where that fails, as on a full disk, the run is worth going on with once there is space.
     template <class Work>

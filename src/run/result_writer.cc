@@ -1,6 +1,7 @@
 #include "run/result_writer.h"
 
 #include "base/append.h"
+#include "base/interrupt.h"
 #include "base/peak_memory.h"
 #include "results/entries.h"
 #include "run/in_memory.h"
@@ -36,6 +37,11 @@ namespace sprag
       return entries;
     }
   } // namespace
+
+  std::string status_at_end(const std::string &status)
+  {
+    return status == "completed" && interrupted() ? interruption : status;
+  }
 
   void require_folder(const RunOptions &options)
   {

@@ -62,6 +62,10 @@ namespace sprag
     }
   };
 
+  /// Returns the status of a run that ends, which is that of an interrupted one where it was interrupted behind its last step.
+  /// The caller is to throw that then.
+  std::string status_at_end(const std::string &status);
+
   /// Runs `steps`, then calls finish(status) whatever happened: with "completed", or with the message of an AnalysisError, which
   /// is thrown again.
   template <class Steps, class Finish>

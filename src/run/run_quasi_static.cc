@@ -84,7 +84,10 @@ namespace sprag
             meta.push_back(
                 { "stick_stiffness", stick, "N/mm",
                   "tangential stiffness of layer and penalty in stick at the first reversal, of both levers of a pair" });
-            summary = recorder.finish(status, meta, warnings);
+            const auto ending = status_at_end(status);
+            summary           = recorder.finish(ending, meta, warnings);
+            if (ending != status)
+              throw AnalysisError(ending);
           });
       check_deviation(scene, summary);
     }

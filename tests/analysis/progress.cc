@@ -132,6 +132,13 @@ namespace
       if (steps_left-- == 0)
         throw Killed();
     }
+
+    void end_steps(const ProgressVisit &progress) override
+    {
+      Archive archive;
+      progress(archive);
+      EXPECT_EQ(archive.bytes(), kept);
+    }
   };
 
   /// The rows of a run that is killed every `steps` steps, each part by a model of its own, and the number of parts.

@@ -358,6 +358,8 @@ namespace sprag
       take_step(model, drive, settings, course);
       hand_on();
     }
+    if (keeper != nullptr)
+      keeper->end_steps(progress);
     return course.reported_stiffness;
   }
 } // namespace sprag

@@ -256,6 +256,8 @@ namespace sprag
       hand_on(begin(model, drive, course));
     while (!course.clock.finished())
       hand_on(take_step(model, drive, settings, course));
+    if (keeper != nullptr)
+      keeper->end_steps(progress);
     return course.report;
   }
 } // namespace sprag
