@@ -38,6 +38,7 @@ QUICK = {
 }
 ALL = {
     **QUICK,
+    "accuracy asked for": ("model-a", {"Accuracy/Target": "0.05", "Drive/Stroke": "30", "Analysis/Step": "0.5"}),
     "neo-Hookean": ("neo-hookean-a", {"Mesh/Face size": "4", "Drive/Stroke": "6"}),
     "elastic cylinder": ("cylinder-a", {"Mesh/Face size": "4", "Drive/Stroke": "20", "Analysis/Step": "1"}),
     "pair without inertia": ("pair-a", {"Mesh/Face size": "4", "Drive/Stroke": "20", "Analysis/Step": "1"}),
