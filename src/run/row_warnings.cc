@@ -180,15 +180,16 @@ namespace sprag
                             rows.front()[Column::elastic_energy];
       const double springs =
           last[Column::P] * finite(last[Column::penetration]) + std::abs(last[Column::F]) * finite(last[Column::elastic_slip]);
-      const double open = std::abs(last[Column::drive_work] - last[Column::friction_work] - stored) - finite(springs);
-      const double work = std::max(std::abs(last[Column::drive_work]), std::abs(last[Column::friction_work]));
+      const double open     = std::abs(last[Column::drive_work] - last[Column::friction_work] - stored) - finite(springs);
+      const auto drive_work = [](const Row &row) { return std::abs(row[Column::drive_work]); };
+      const double work     = std::max(largest(rows, drive_work), std::abs(last[Column::friction_work]));
       if (!(open > largest_open_energy * work))
         return;
       const Row *longest = row_of_largest(rows, [](const Row &row) { return std::abs(row[Column::step]); });
       warnings.push_back({ "long_steps",
                            "Work of the drive, work of friction and stored energy differ by " + per_cent(open / work) +
-                               " of the work, with steps of up to " + mm(std::abs((*longest)[Column::step])) + "; admitted are " +
-                               per_cent(largest_open_energy) + '.',
+                               " of the largest work, with steps of up to " + mm(std::abs((*longest)[Column::step])) +
+                               "; admitted are " + per_cent(largest_open_energy) + '.',
                            "The works loop_area and friction_work are off by some ten times that share; P and Q are not.",
                            "Set Analysis/Step to a quarter of that length; if the gap remains, refine Mesh/Face size." });
     }

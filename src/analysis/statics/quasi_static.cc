@@ -35,6 +35,7 @@ namespace sprag
       unsigned int iterations    = 0;
       unsigned int augmentations = 0;
       std::string failure; ///< of the last attempt
+      std::string remedy;
     };
 
     /// Newton from the predictor; if it fails, once more from the stick predictor.
@@ -75,9 +76,14 @@ namespace sprag
       try
       {
         cost.failure = "Newton's method does not converge";
+        cost.remedy  = "Try a smaller friction coefficient or offset; if it is not the mechanics, a smaller Contact/Penalty or a "
+                       "finer Mesh/Face size.";
         if (!equilibrate(model, trial, stick_first, cost))
           return {};
-        cost.failure = "augmentation does not converge";
+        cost.failure =
+            "augmentation does not converge to Contact/Penetration tolerance = " + mm(settings.contact.penetration_tolerance) +
+            " in " + std::to_string(settings.contact.maximum_augmentations) + " augmentations";
+        cost.remedy = "Try a larger Contact/Penalty, Contact/Penetration tolerance or Contact/Maximum augmentations.";
         if (settings.contact.enforcement == Enforcement::augmented_lagrangian && !augment(model, trial, settings.contact, cost))
           return {};
       }
@@ -87,6 +93,7 @@ namespace sprag
         return {};
       }
       cost.failure = model.objection(trial);
+      cost.remedy  = "Try a smaller friction coefficient, Geometry/Interface offset or Drive/Stroke.";
       if (!cost.failure.empty())
         return {};
       return trial;
@@ -103,12 +110,11 @@ namespace sprag
       row[Column::step]           = dx;
     }
 
-    [[noreturn]] void give_up(const Row &last, const double dx, const std::string &failure)
+    [[noreturn]] void give_up(const Row &last, const double dx, const StepCost &cost)
     {
       throw AnalysisError("no equilibrium beyond x = " + mm(last[Column::x]) + " (v = " + rounded_text(last[Column::v]) +
-                          " mm/s, P = " + rounded_text(last[Column::P]) + " N): " + failure + " even in a step of " + mm(dx) +
-                          ". Try a smaller friction coefficient or offset; if it is not the mechanics, a smaller Contact/Penalty "
-                          "or a finer Mesh/Face size.");
+                          " mm/s, P = " + rounded_text(last[Column::P]) + " N): " + cost.failure + " even in a step of " +
+                          mm(dx) + ". " + cost.remedy);
     }
 
     /// A drive that goes back at once from where the cylinder was slid forward.
@@ -161,7 +167,7 @@ namespace sprag
       while (!next)
       {
         if (dx * cut < settings.minimum_step)
-          give_up(from.row, dx, cost.failure);
+          give_up(from.row, dx, cost);
         dx *= cut;
         next = solve_step(model, from.state, end_of_step(drive, time, dx), settings, sticking, cost);
       }

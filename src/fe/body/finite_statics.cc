@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace sprag
 {
@@ -16,8 +17,7 @@ namespace sprag
 
   namespace
   {
-    /// Of the unbalanced over all forces: some hundred times what round-off leaves of a body that bends by several times its
-    /// thickness.
+    /// Of the unbalanced over all forces. Of a body that bends by hundreds of times its thickness round-off leaves more.
     constexpr double tolerance = 1e-9;
 
     constexpr unsigned int most_iterations = 20;
@@ -141,13 +141,25 @@ namespace sprag
       const double size = internal.l2_norm() + loads.l2_norm();
       if (!std::isfinite(size))
         break;
-      if (residual.l2_norm() <= tolerance * size)
+      if (residual.l2_norm() <= std::max(tolerance * size, round_off(displacement)))
         return;
       band.solve(residual);
       displacement += expand(residual);
     }
     throw AnalysisError("Newton's method found no equilibrium of a body at finite strain in " + std::to_string(most_iterations) +
                         " iterations");
+  }
+
+  double FiniteStatics::round_off(const Vector<double> &displacement) const
+  {
+    const MatrixRows rows(tangent);
+    double sum = 0.;
+    for (PetscInt a = 0; a < rows.begin[rows.n]; ++a)
+    {
+      const double force = rows[a] * displacement[rows.column[a]];
+      sum += force * force;
+    }
+    return std::numeric_limits<double>::epsilon() * std::sqrt(sum);
   }
 
   Vector<double> FiniteStatics::stiffness_product(const Vector<double> &displacement) const

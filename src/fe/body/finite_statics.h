@@ -33,6 +33,10 @@ namespace sprag
       return internal;
     }
 
+    /// Returns how far the internal forces are uncertain because displacements are rounded [N]: the norm over all degrees of
+    /// freedom, about twice what Newton's method leaves unbalanced at its best.
+    double round_off(const dealii::Vector<double> &displacement) const;
+
     /// Returns how displacements change with those of held degrees of freedom (others in `of_held` count for nothing) and with
     /// the loads.
     dealii::Vector<double> response(const dealii::Vector<double> &of_held, const dealii::Vector<double> &of_loads) const;

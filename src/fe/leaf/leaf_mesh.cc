@@ -15,6 +15,9 @@ namespace sprag
 
   namespace
   {
+    /// Over the length. Of a leaf a tenth as thick round-off makes one that buckles at rest.
+    constexpr double thinnest = 1e-4;
+
     void refuse_impossible_shapes(const LeafSpring &leaf)
     {
       std::vector<std::string> mistakes;
@@ -27,6 +30,10 @@ namespace sprag
         refuse("Sagitta", leaf.sagitta);
       if (!(leaf.thickness < 0.5 * leaf.length))
         refuse("Thickness", leaf.thickness);
+      if (!(leaf.thickness >= thinnest * leaf.length))
+        mistakes.push_back("Leaf spring/Thickness = " + rounded_text(leaf.thickness) + ": must be at least " +
+                           rounded_text(thinnest) + " of Leaf spring/Length (" + rounded_text(thinnest * leaf.length) +
+                           " mm), or its stiffness is lost in round-off");
       if (!mistakes.empty())
         throw InputError(mistakes);
     }

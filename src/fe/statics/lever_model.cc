@@ -266,7 +266,8 @@ namespace sprag
     const double pressure = lever.found.overlap() * lever.contact.penalties().normal;
     const double limit    = largest_strain * body.friction_face().young_modulus;
     if (lever.properties.body.material == MaterialModel::linear && pressure > limit)
-      return "the pressure on the friction face exceeds " + rounded_text(limit) + " MPa, half of its Young's modulus";
+      return "the pressure on the friction face exceeds " + rounded_text(limit) +
+             " MPa, half of Young's modulus there (Friction layer or Lever/Young's modulus), which linear theory does not bear";
     return {};
   }
 
