@@ -1,0 +1,129 @@
+"""Runs at the extremes of the parameters: each meets the accuracy it tells, tells by a warning that it does not, or stops with a
+message that names limit and parameter. A row is a run; its reference comes from elsewhere: formulas, laws of scale, other steps or
+meshes. Exits 1 where one falls short. Environment: SPRAG, the program, and SPRAG_SOURCE, the sources.
+
+    /usr/bin/python3 extremes.py           # what answers within seconds
+    /usr/bin/python3 extremes.py --slow    # long runs alone
+    /usr/bin/python3 extremes.py --only mu # rows with this in their name
+    /usr/bin/python3 extremes.py --write   # all, and their table into tests/README.md
+"""
+
+import argparse
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from extreme_rows import QUICK, SLOW  # noqa: E402
+from extreme_runs import Run  # noqa: E402
+from runs import SOURCE, SPRAG  # noqa: E402
+
+HEADER = ("extreme", "outcome", "steps", "iterations a step", "rejected", "error", "admitted", "against", "warnings")
+BEGIN, END = "<!-- extremes: begin -->", "<!-- extremes: end -->"
+
+
+class Runner:
+    """Makes each run once; references are shared by rows."""
+
+    def __init__(self, folder):
+        self.folder = folder
+        self.made = {}
+
+    def run(self, scene, options, timeout):
+        key = (scene, tuple(options))
+        if key not in self.made:
+            self.made[key] = self.make(scene, options, timeout, self.folder / str(len(self.made)))
+        return self.made[key]
+
+    @staticmethod
+    def make(scene, options, timeout, output):
+        command = [SPRAG, SOURCE / "params" / f"{scene}.prm", "--output", output]
+        command += [word for option in ("Output/Fields=none", *options) for word in ("--set", option)]
+        done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=timeout, stdin=subprocess.DEVNULL)
+        return Run(done.returncode, done.stdout, done.stderr, output / "result.h5")
+
+
+def judged(runner, row):
+    """What stands in the table, and what falls short."""
+    try:
+        run = runner.run(row.scene, row.options, row.timeout)
+    except subprocess.TimeoutExpired:
+        return (row.name, "hangs"), [f"no end within {row.timeout} s"]
+    faults = run.values_that_are_no_numbers()
+    if run.status != row.status:
+        faults.append(f"exit status {run.status}, not {row.status}: {run.message}")
+    for words in row.says:
+        if words not in run.message:
+            faults.append(f"the message lacks '{words}': {run.message}")
+    missing = [name for name in row.warns if name not in run.warnings]
+    if missing:
+        faults.append(f"no warning {', '.join(missing)}, but {run.warnings}")
+    error = admitted = None
+    if row.check and run.status == 0:
+        error, admitted = row.check(run, lambda *other: runner.run(row.scene_of(*other), row.options_of(*other), row.timeout))
+        if row.limit is not None:
+            admitted = row.limit
+        if not error <= admitted:
+            faults.append(f"error {error:.2g} of {row.against}, admitted {admitted:.2g}")
+    return cells(row, run, error, admitted), faults
+
+
+def cells(row, run, error, admitted):
+    outcome = {0: "completed", 1: "stops", 2: "refused"}.get(run.status, f"exit status {run.status}")
+    if run.status:
+        outcome += ": " + run.reason.replace("|", "\\|")
+
+    def number(value, form="{:.2g}"):
+        return "" if value is None else form.format(value)
+
+    steps, iterations = run.count("steps"), run.count("iterations")
+    each = iterations / steps if steps and iterations is not None else None
+    told = number(admitted) + ("" if admitted is None or row.limit is not None else " told")
+    rejected = number(run.count("rejected_steps"), "{:.0f}")
+    warnings = ", ".join(f"`{name}`" for name in run.warnings)
+    return (row.name, outcome, number(steps, "{:.0f}"), number(each, "{:.1f}"), rejected, number(error), told, row.against, warnings)
+
+
+def table(lines):
+    return "\n".join("| " + " | ".join(line) + " |" for line in (HEADER, ("---",) * len(HEADER), *lines))
+
+
+def write(text):
+    path = SOURCE / "tests/README.md"
+    before, _, rest = path.read_text(encoding="utf-8").partition(BEGIN)
+    _, _, after = rest.partition(END)
+    path.write_text(f"{before}{BEGIN}\n{text}\n{END}{after}", encoding="utf-8")
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--slow", action="store_true")
+    parser.add_argument("--write", action="store_true")
+    parser.add_argument("--only", default="")
+    arguments = parser.parse_args()
+    rows = QUICK + SLOW if arguments.write else SLOW if arguments.slow else QUICK
+    rows = [row for row in rows if re.search(arguments.only, row.name)]
+    lines, short = [], 0
+    begin = time.monotonic()
+    with tempfile.TemporaryDirectory() as folder:
+        runner = Runner(Path(folder))
+        for row in rows:
+            line, faults = judged(runner, row)
+            lines.append(line)
+            print("| " + " | ".join(line) + " |", flush=True)
+            for fault in faults:
+                print(f"    FALLS SHORT, {row.name}: {fault}", flush=True)
+            short += bool(faults)
+    cpu = os.times().children_user + os.times().children_system
+    print(f"{len(rows)} rows, {short} fall short; {time.monotonic() - begin:.0f} s, {cpu:.0f} CPU s")
+    if arguments.write and not arguments.only:
+        write(table(lines))
+    return 1 if short else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,175 @@
+"""What a run of the program left, for tests/robustness/extremes.py, and what is compared with it."""
+
+import re
+
+import h5py
+import numpy as np
+
+# A run cannot have them: stresses without a mesh, what is found of a ringing that is none, slopes over too few rows, the way back of
+# a run that stops before it. /accuracy says in words why it tells no number.
+MAY_BE_NAN = re.compile(r"largest_\w*stress\w*|reversal_\d+_\w+|(representative_)?slope_\w+|deviation_\w+|largest_pressure\w*")
+OF_A_STEP = ("step", "time_step", "iterations", "augmentations", "rejected_steps")  # the first row ends none
+ALWAYS = ("time", "x", "v", "P", "Q", "F", "theta", "friction_work", "drive_work")
+
+
+class Run:
+    def __init__(self, status, output, message, path):
+        self.status = status
+        self.message = " ".join(re.sub(r"(?m)^ *\d+ %.*$", "", message).split())
+        self.told = output
+        self.summary, self.accuracy, self.table, self.warnings, self.face = {}, {}, {}, [], {}
+        if path.exists():
+            with h5py.File(path, "r") as file:
+                self.summary = values(file, "summary")
+                self.accuracy = values(file, "accuracy")
+                self.table = values(file, "table")
+                self.face = values(file, "face")
+                self.warnings = list(file.get("warnings", ()))
+
+    @property
+    def reason(self):
+        """The message's first sentence, without the program's name and the scene's."""
+        text = re.sub(r"^(sprag|--set|\S+\.prm(:\d+)?): ", "", self.message)
+        return re.split(r"\. (?=[A-Z])", text)[0]
+
+    def count(self, name):
+        return self.summary.get(name)
+
+    def values_that_are_no_numbers(self):
+        faults = [f"summary/{n} = {v}" for n, v in self.summary.items() if is_bad(v) and not MAY_BE_NAN.fullmatch(n)]
+        faults += [f"face/{n} has values that are no numbers" for n, v in self.face.items() if not np.isfinite(v).all()]
+        touched = self.table["P"] > 0 if "P" in self.table else None
+        for name, column in self.table.items():
+            if np.isinf(column).any() or (name in ALWAYS and np.isnan(column).any()):
+                faults.append(f"table/{name} has values that are no numbers")
+            if np.isnan(column).all() or touched is None or name.endswith(("_closed_form", "_quasi_static")):
+                continue
+            looked_at = column[1:] if name in OF_A_STEP else column[touched]
+            if np.isnan(looked_at).any():
+                faults.append(f"table/{name} is NaN in {np.isnan(looked_at).sum()} rows in contact")
+        return faults
+
+    def told_error(self, names):
+        return max((self.accuracy.get(name, np.nan) for name in names), default=np.nan)
+
+
+def values(file, group):
+    read = {name: data[()] for name, data in file.get(group, {}).items()}
+    return {name: value.decode() if isinstance(value, bytes) else value for name, value in read.items()}
+
+
+def is_bad(value):
+    return isinstance(value, (float, np.floating)) and not np.isfinite(value)
+
+
+def off(value, reference):
+    return abs(value - reference) / abs(reference)
+
+
+PEAKS = ("peak_P_forward", "peak_Q_forward", "peak_P_backward", "peak_Q_backward")
+
+
+def peaks(*other, names=PEAKS, scale=1.0):
+    """Largest difference from another run's numbers of the summary, times a factor; told are both runs' errors, twice, as what is
+    told may be half of the true one."""
+
+    def check(run, make):
+        reference = make(*other)
+        told = 2 * (run.told_error("PQ") + np.nan_to_num(reference.told_error("PQ")))
+        wanted = [name for name in names if name in run.summary]
+        return max(off(run.summary[name], scale * reference.summary[name]) for name in wanted), told
+
+    return check
+
+
+def deviation(run, _):
+    """From the closed form beside it, of P and Q on both strokes."""
+    return max(abs(value) for name, value in run.summary.items() if re.fullmatch(r"deviation_[PQ]_\w+", name)), np.nan
+
+
+def numbers(expected):
+    def check(run, _):
+        return max(off(run.summary[name], value) for name, value in expected.items()), np.nan
+
+    return check
+
+
+def equal_rows(*other, columns=("x", "P", "Q", "theta"), scales=None):
+    """Row by row, over each column's peak."""
+
+    def check(run, make):
+        reference = make(*other)
+        worst = 0.0
+        for name in columns:
+            factor = (scales or {}).get(name, 1.0)
+            a, b = run.table[name], factor * reference.table[name]
+            if a.shape != b.shape:
+                return np.inf, np.nan
+            worst = max(worst, np.abs(a - b).max() / np.abs(b).max())
+        return worst, np.nan
+
+    return check
+
+
+def pressure(*other, beyond):
+    """Of the largest pressure on the way where x > `beyond`, over what it is there in another run."""
+
+    def check(run, make):
+        reference = make(*other)
+        worst = 0.0
+        for sign in (1.0, -1.0):
+            mine, its = (way(r, sign, beyond) for r in (run, reference))
+            order = np.argsort(its[0])
+            there = np.interp(mine[0], its[0][order], its[1][order])
+            worst = max(worst, (np.abs(mine[1] - there) / there).max())
+        return worst, run.told_error(["largest_pressure"])
+
+    return check
+
+
+def way(run, sign, beyond):
+    """x and largest pressure of one stroke, without the passage through stick."""
+    x, v, p = (run.table[name] for name in ("x", "v", "largest_pressure"))
+    kept = (sign * v > 0) & (x > beyond) & (x < x.max() - (0 if sign > 0 else 2))
+    return x[kept], p[kept]
+
+
+def quasi_static_in_time(begin=0.0, end=1.0):
+    """P in time from what it is without inertia, over its peak, where both slide: outside of the given shares of time."""
+
+    def check(run, _):
+        t, P, slow = (run.table[name] for name in ("time", "P", "P_quasi_static"))
+        kept = (t < begin * t[-1]) | (t > end * t[-1])
+        return np.abs(P - slow)[kept].max() / slow.max(), np.nan
+
+    return check
+
+
+def closes(run, _):
+    """The last cycle from the one before, P and Q over their peaks, at equal places of the drive."""
+    t, x = run.table["time"], run.table["x"]
+    starts = np.flatnonzero(x == x.min())
+    assert len(starts) >= 3
+    one, two = slice(starts[-3], starts[-2] + 1), slice(starts[-2], starts[-1] + 1)
+    worst = 0.0
+    for name in ("P", "Q"):
+        column = run.table[name]
+        before = np.interp(t[two] - t[two][0], t[one] - t[one][0], column[one])
+        worst = max(worst, np.abs(column[two] - before).max() / np.abs(column).max())
+    return worst, np.nan
+
+
+def free_flight(inertia, stiffness):
+    """theta of a rigid lever after its last contact from the oscillation that its spring gives it, over its largest change."""
+
+    def check(run, _):
+        t, theta, touch = (run.table[name] for name in ("time", "theta", "P"))
+        last = np.flatnonzero(touch > 0)[-1] + 2
+        t, theta = t[last:] - t[last], theta[last:]
+        assert len(t) > 5
+        omega = np.sqrt(stiffness / inertia)
+        modes = np.column_stack((np.ones_like(t), np.cos(omega * t), np.sin(omega * t) / omega))
+        left = theta - modes @ np.linalg.lstsq(modes, theta, rcond=None)[0]
+        return np.abs(left).max() / np.ptp(theta), np.nan
+
+    return check
