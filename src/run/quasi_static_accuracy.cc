@@ -28,7 +28,7 @@ namespace sprag
     {
       std::vector<Row> run;
       std::vector<Row> coarse; ///< on the coarser mesh
-      std::vector<Row> soft;   ///< with the softer penalty; empty where the run augments
+      std::vector<Row> soft;   ///< with the softer penalty; empty where the run augments and has the automatic tangential one
     };
 
     Probes probe(const Scene &scene, LeverModel &levers, const std::vector<Row> &rows, const QuasiStaticSettings &settings)
@@ -42,9 +42,9 @@ namespace sprag
       make_mesh(coarse, mesh);
       LeverModel on_coarse(mesh, coarse);
       result.coarse = repeated(on_coarse, result.run, start, settings);
-      if (augments(scene))
+      if (augments(scene) && !scene.contact.tangential_penalty)
         return result;
-      levers.use_penalties({ penalties.normal / softer, penalties.tangential / softer });
+      levers.use_penalties({ augments(scene) ? penalties.normal : penalties.normal / softer, penalties.tangential / softer });
       result.soft = repeated(levers, result.run, start, settings);
       levers.use_penalties(penalties);
       return result;
@@ -57,13 +57,28 @@ namespace sprag
       ErrorEstimate result{ quantity, relative_to, { mesh_part(scene, change(probes.coarse), order) }, {} };
       if (!probes.soft.empty())
         result.parts.push_back(penalty_part(change(probes.soft)));
+      if (!probes.soft.empty() && augments(scene))
+        result.parts.back().remedy = "Try twice the Contact/Tangential penalty, or leave it at auto.";
       return result;
+    }
+
+    /// Of strokes that are one step: as of a parabola that is level at one of its ends.
+    double error_of_lone_steps(const std::vector<Row> &rows)
+    {
+      const auto turns_at = [&](const std::size_t i)
+      { return i == 0 || i + 1 == rows.size() || direction_of(rows[i][Column::v]) != direction_of(rows[i + 1][Column::v]); };
+      double error = 0.;
+      for (std::size_t i = 1; i < rows.size(); ++i)
+        if (turns_at(i - 1) && turns_at(i))
+          error +=
+              std::abs((rows[i].drive_force() - rows[i - 1].drive_force()) * (rows[i][Column::x] - rows[i - 1][Column::x])) / 6.;
+      return error;
     }
 
     /// What the trapezoidal rule adds to the work, by Richardson from steps taken two at a time.
     double error_of_trapezoids(const std::vector<Row> &rows)
     {
-      double error = 0.;
+      double error = error_of_lone_steps(rows);
       for (std::size_t i = 2; i < rows.size(); i += 2)
       {
         const std::vector<Row> both = { rows[i - 2], rows[i - 1], rows[i] };
@@ -73,8 +88,12 @@ namespace sprag
       return error;
     }
 
+    constexpr double least_loop = 1e-3; ///< over the largest work on the way; less is left of it without friction
+
     ErrorEstimate loop_area(const Scene &scene, const Probes &probes, const std::vector<Row> &rows)
     {
+      if (std::abs(rows.back()[Column::drive_work]) < least_loop * largest(rows, Column::drive_work))
+        return { "loop_area", "", {}, "No estimate: what is left of the drive's work is a difference of much larger ones." };
       auto result = estimate(scene, probes, "loop_area", "it");
       result.parts.push_back({ "step", std::abs(error_of_trapezoids(rows) / rows.back()[Column::drive_work]),
                                "Try an Analysis/Step 0.7 times as large." });

@@ -61,7 +61,8 @@ namespace sprag
     /// Peak among the rows whose friction has turned with the motion.
     double turned_peak(const Rows &rows, const Column column)
     {
-      return signed_peak(rows, [&](const Row &row) { return row[Column::F] * direction_of(row) >= 0. ? row[column] : 0.; });
+      return signed_peak(rows, [&](const Row &row)
+                         { return row[Column::friction_resultant] * direction_of(row) >= 0. ? row[column] : 0.; });
     }
 
     double deviation(const Rows &rows, const Column column, const Column reference)

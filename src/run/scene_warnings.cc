@@ -24,6 +24,10 @@ namespace sprag
     // Of hardened spring steels, whose proof stress is 1000 to 1600 MPa, less what many cycles cost: 0.4 % is 824 MPa.
     constexpr double largest_leaf_strain = 4e-3;
 
+    // With that many times the cylinder's sagitta between two points of the face P is 1 % off, with a tenth of that 10 %.
+    constexpr double least_opening     = 20.;
+    constexpr double points_of_element = 10.;
+
     bool follows_drive(const Scene &scene)
     {
       return scene.analysis.type == AnalysisType::quasi_static || scene.analysis.type == AnalysisType::transient;
@@ -127,6 +131,30 @@ namespace sprag
             "Set Analysis/Plane = strain." });
     }
 
+    /// Points that lie beside the cylinder do not feel it.
+    void add_opening(const Scene &scene, Warnings &warnings)
+    {
+      if (!follows_drive(scene) || !is_meshed(scene.analysis.model) || !scene.mesh.file.empty() ||
+          scene.pair.cylinder_offset != 0.)
+        return;
+      const double x       = scene.drive.maximum();
+      const auto contact   = kinematics(scene.geometry, x);
+      const double opening = contact.s * std::abs(contact.theta - kinematics(scene.geometry, 0.).theta);
+      const double spacing = scene.mesh.face_size / points_of_element;
+      const double sagitta = spacing * spacing / (8. * scene.geometry.cylinder_radius);
+      if (opening >= least_opening * sagitta)
+        return;
+      warnings.push_back(
+          { "contact_between_points",
+            "The cylinder opens the lever by no more than " + mm(opening) + " (at x = " + mm(x) +
+                "), but between the points at which the friction face feels it, every " + mm(spacing) + ", its circle rises by " +
+                mm(sagitta) + "; at least " + rounded_text(least_opening) + " times that are needed.",
+            "The cylinder sinks in between points: P, Q, theta and work too small, by 1 % to all of them, with places "
+            "without contact.",
+            "A smaller Mesh/Face size, a smaller Geometry/Interface offset or a longer Drive/Stroke; "
+            "Analysis/Model = closed form for a lever that hardly opens." });
+    }
+
     /// Whether the parameters of this section and name count in the scene.
     struct Dependent
     {
@@ -197,6 +225,7 @@ namespace sprag
     add_sensitivity(scene, warnings);
     add_leaf(scene, warnings);
     add_plane_stress(scene, warnings);
+    add_opening(scene, warnings);
     return warnings;
   }
 } // namespace sprag

@@ -287,3 +287,21 @@ TEST(SceneWarnings, PlaneStressOfALayer)
   other.analysis.model = ModelType::closed_form;
   EXPECT_EQ(names(scene_warnings(other)), Names{});
 }
+
+TEST(SceneWarnings, ACylinderThatHardlyOpensTheLever)
+{
+  Scene scene     = model_a();
+  const double R  = scene.geometry.cylinder_radius;
+  const auto near = [&](const double gap)
+  {
+    scene.geometry.interface_offset = R - gap;
+    return names(scene_warnings(scene));
+  };
+  scene.mesh.face_size = 0.25;
+  EXPECT_EQ(near(1e-3), Names{});
+  EXPECT_EQ(near(1e-5), Names{ "contact_between_points" });
+  scene.mesh.face_size = 0.025;
+  EXPECT_EQ(near(1e-5), Names{});
+  scene.analysis.model = ModelType::closed_form;
+  EXPECT_EQ(near(1e-9), Names{});
+}

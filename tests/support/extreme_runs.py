@@ -17,7 +17,7 @@ class Run:
         self.status = status
         self.message = " ".join(re.sub(r"(?m)^ *\d+ %.*$", "", message).split())
         self.told = output
-        self.summary, self.accuracy, self.table, self.warnings, self.face = {}, {}, {}, [], {}
+        self.summary, self.accuracy, self.table, self.face, self.warnings = {}, {}, {}, {}, []
         if path.exists():
             with h5py.File(path, "r") as file:
                 self.summary = values(file, "summary")
@@ -70,14 +70,58 @@ PEAKS = ("peak_P_forward", "peak_Q_forward", "peak_P_backward", "peak_Q_backward
 
 
 def peaks(*other, names=PEAKS, scale=1.0):
-    """Largest difference from another run's numbers of the summary, times a factor; told are both runs' errors, twice, as what is
-    told may be half of the true one."""
+    """Largest difference from another run's numbers of the summary, times a factor."""
+
+    def check(run, make):
+        reference = make(*other)
+        wanted = [name for name in names if reference.summary.get(name)]
+        return max(off(run.summary[name], scale * reference.summary[name]) for name in wanted), np.nan
+
+    return check
+
+
+def forces(*other, scale=1.0, length=1.0):
+    """Largest difference of P and Q from another run's, times a factor at x times another, over their peaks, without the passages through stick. Told
+    are both runs' errors, twice, as what is told may be half of the true one."""
 
     def check(run, make):
         reference = make(*other)
         told = 2 * (run.told_error("PQ") + np.nan_to_num(reference.told_error("PQ")))
-        wanted = [name for name in names if name in run.summary]
-        return max(off(run.summary[name], scale * reference.summary[name]) for name in wanted), told
+        worst = 0.0
+        for name in "PQ":
+            peak = np.abs(reference.table[name]).max()
+            for sign in (1.0, -1.0):
+                (x, mine), (its_x, its) = way(run, sign, name, length), way(reference, sign, name)
+                its_x = length * its_x
+                if len(x) and len(its_x) > 1:
+                    inside = (x >= its_x.min()) & (x <= its_x.max())
+                    worst = max(worst, np.abs(mine - scale * joined(its_x, its, x))[inside].max() / (scale * peak))
+        return worst, told
+
+    return check
+
+
+def joined(x, y, at):
+    """Cubics between samples, their slopes by differences."""
+    order = np.argsort(x)
+    x, y = x[order], y[order]
+    slope = np.gradient(y, x)
+    i = np.clip(np.searchsorted(x, at) - 1, 0, len(x) - 2)
+    h = x[i + 1] - x[i]
+    t = (at - x[i]) / h
+    return (
+        y[i] * (1 + 2 * t) * (1 - t) ** 2
+        + y[i + 1] * t**2 * (3 - 2 * t)
+        + h * slope[i] * t * (1 - t) ** 2
+        - h * slope[i + 1] * t**2 * (1 - t)
+    )
+
+
+def frequency(*other, scale):
+    """The lowest of the modes."""
+
+    def check(run, make):
+        return off(run.summary["frequency_1"], scale * make(*other).summary["frequency_1"]), np.nan
 
     return check
 
@@ -112,26 +156,25 @@ def equal_rows(*other, columns=("x", "P", "Q", "theta"), scales=None):
 
 
 def pressure(*other, beyond):
-    """Of the largest pressure on the way where x > `beyond`, over what it is there in another run."""
+    """The largest pressure on the way where x > `beyond`, over what it is there in another run."""
 
     def check(run, make):
         reference = make(*other)
         worst = 0.0
         for sign in (1.0, -1.0):
-            mine, its = (way(r, sign, beyond) for r in (run, reference))
-            order = np.argsort(its[0])
-            there = np.interp(mine[0], its[0][order], its[1][order])
-            worst = max(worst, (np.abs(mine[1] - there) / there).max())
-        return worst, run.told_error(["largest_pressure"])
+            (x, mine), (its_x, its) = (way(r, sign, "largest_pressure") for r in (run, reference))
+            there = joined(its_x, its, x)
+            worst = max(worst, (np.abs(mine - there) / there)[x > beyond].max())
+        return worst, np.nan
 
     return check
 
 
-def way(run, sign, beyond):
-    """x and largest pressure of one stroke, without the passage through stick."""
-    x, v, p = (run.table[name] for name in ("x", "v", "largest_pressure"))
-    kept = (sign * v > 0) & (x > beyond) & (x < x.max() - (0 if sign > 0 else 2))
-    return x[kept], p[kept]
+def way(run, sign, name, length=1.0):
+    """x and a column on one stroke, without the passage through stick."""
+    x, v, column = (run.table[name] for name in ("x", "v", name))
+    kept = (sign * v > 0) & (column != 0) & ((x < x.max() - 2 * length) if sign < 0 else True)
+    return x[kept], column[kept]
 
 
 def quasi_static_in_time(begin=0.0, end=1.0):
