@@ -284,6 +284,22 @@ TEST(LeafSpring, CoversTheDriveOfItsScene)
   EXPECT_GE(samples.back().turn, 1.5 * largest);
 }
 
+// What displacements of some mm are rounded by is bending by 1e-7 of that of such a leaf.
+TEST(LeafSpring, AsThinAsFoil)
+{
+  for (const double thickness : { 0.05, 0.01 })
+  {
+    const LeafSpring leaf    = leaf_of(LeafEnd::clamped, thickness);
+    const double expected    = beam_stiffness(leaf);
+    const MomentLaw law      = leaf_behaviour(leaf, PlaneState::stress, -0.01, 0.05).law;
+    const double at_end      = law.moment(0.05) / 0.05;
+    const double further_off = law.moment(0.02) / 0.02;
+    EXPECT_NEAR(law.linear_stiffness(), expected, 1e-3 * expected);
+    EXPECT_NEAR(at_end, expected, 1e-3 * expected);
+    EXPECT_NEAR(further_off, at_end, 1e-3 * expected);
+  }
+}
+
 TEST(LeafSpring, RefusesWhatItCannotDo)
 {
   LeafSpring leaf;
@@ -298,6 +314,9 @@ TEST(LeafSpring, RefusesWhatItCannotDo)
   {
     EXPECT_EQ(error.messages.size(), 2u);
   }
+  leaf           = LeafSpring();
+  leaf.thickness = 0.9e-4 * leaf.length;
+  EXPECT_THROW(leaf_behaviour(leaf, PlaneState::stress, -0.01, 0.01), InputError);
   // The joint of an arch, held along it, moves across: it snaps through.
   leaf           = LeafSpring();
   leaf.thickness = 0.5;

@@ -3,7 +3,7 @@ message that names limit and parameter. A row is a run; its reference comes from
 meshes. Exits 1 where one falls short. Environment: SPRAG, the program, and SPRAG_SOURCE, the sources.
 
     /usr/bin/python3 extremes.py           # what answers within seconds
-    /usr/bin/python3 extremes.py --slow    # long runs alone
+    /usr/bin/python3 extremes.py --slow    # dear ones alone
     /usr/bin/python3 extremes.py --only mu # rows with this in their name
     /usr/bin/python3 extremes.py --write   # all, and their table into tests/README.md
 """
@@ -14,11 +14,13 @@ import re
 import subprocess
 import sys
 import tempfile
+import threading
 import time
+from concurrent.futures import Future, ThreadPoolExecutor
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
-from extreme_rows import QUICK, SLOW  # noqa: E402
+from extreme_rows import ROWS  # noqa: E402
 from extreme_runs import Run  # noqa: E402
 from runs import SOURCE, SPRAG  # noqa: E402
 
@@ -32,12 +34,20 @@ class Runner:
     def __init__(self, folder):
         self.folder = folder
         self.made = {}
+        self.lock = threading.Lock()
 
     def run(self, scene, options, timeout):
         key = (scene, tuple(options))
-        if key not in self.made:
-            self.made[key] = self.make(scene, options, timeout, self.folder / str(len(self.made)))
-        return self.made[key]
+        with self.lock:
+            mine = key not in self.made
+            made = self.made.setdefault(key, Future())
+            output = self.folder / str(len(self.made))
+        if mine:
+            try:
+                made.set_result(self.make(scene, options, timeout, output))
+            except Exception as error:
+                made.set_exception(error)
+        return made.result()
 
     @staticmethod
     def make(scene, options, timeout, output):
@@ -62,6 +72,7 @@ def judged(runner, row):
     missing = [name for name in row.warns if name not in run.warnings]
     if missing:
         faults.append(f"no warning {', '.join(missing)}, but {run.warnings}")
+    faults += [f"warning {name}" for name in row.forbids if name in run.warnings]
     error = admitted = None
     if row.check and run.status == 0:
         error, admitted = row.check(run, lambda *other: runner.run(row.scene_of(*other), row.options_of(*other), row.timeout))
@@ -105,14 +116,13 @@ def main():
     parser.add_argument("--write", action="store_true")
     parser.add_argument("--only", default="")
     arguments = parser.parse_args()
-    rows = QUICK + SLOW if arguments.write else SLOW if arguments.slow else QUICK
+    rows = [row for row in ROWS if arguments.write or row.slow == arguments.slow]
     rows = [row for row in rows if re.search(arguments.only, row.name)]
     lines, short = [], 0
     begin = time.monotonic()
-    with tempfile.TemporaryDirectory() as folder:
+    with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor(os.cpu_count()) as pool:
         runner = Runner(Path(folder))
-        for row in rows:
-            line, faults = judged(runner, row)
+        for row, (line, faults) in zip(rows, pool.map(lambda row: judged(runner, row), rows)):
             lines.append(line)
             print("| " + " | ".join(line) + " |", flush=True)
             for fault in faults:

@@ -74,6 +74,20 @@ TEST(Report, StickAfterTheTurnsOfATableIsNoDeviation)
   }
 }
 
+// Without friction the tangential force is that of the lever's tilt and points one way on both strokes.
+TEST(Report, PeaksWithoutFriction)
+{
+  const Scene scene = moved_by(Drive(DriveProfile::triangle, 0., 65., 112., 1.));
+  auto rows         = rows_with_stick(scene, 1.);
+  for (Row &row : rows)
+  {
+    row[Column::F]                  = 0.01 * row[Column::P];
+    row[Column::friction_resultant] = 0.;
+  }
+  const auto summary = summary_of(scene, rows);
+  EXPECT_GT(value_of(summary, "peak_P_backward"), value_of(summary, "peak_P_forward"));
+}
+
 TEST(Report, SlopeIsToldWhereMuStaysAlone)
 {
   const auto slope = [](const Drive &drive, const std::string &way)

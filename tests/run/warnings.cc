@@ -116,6 +116,25 @@ TEST(RowWarnings, CoarseContact)
   EXPECT_EQ(names(row_warnings(scene, { first_row(), usual_row() })), Names{ "coarse_contact" });
 }
 
+TEST(RowWarnings, PressureOfSinglePoints)
+{
+  const auto with_peak = [](const double over_mean, const bool given, const double poisson_ratio)
+  {
+    Scene scene               = model_a();
+    scene.layer.poisson_ratio = poisson_ratio;
+    if (given)
+      scene.contact.penalty = 1e4;
+    const Row row = usual_row();
+    return names_with(Column::largest_pressure, over_mean * row[Column::P] / (row[Column::contact_width] * scene.lever.width),
+                      scene);
+  };
+  EXPECT_EQ(with_peak(1.55, true, 0.), Names{});
+  EXPECT_EQ(with_peak(1.65, true, 0.), Names{ "stiff_penalty" });
+  EXPECT_EQ(with_peak(1.65, false, 0.), Names{});
+  EXPECT_EQ(with_peak(1.9, true, 0.45), Names{});
+  EXPECT_EQ(with_peak(2.1, true, 0.45), Names{ "stiff_penalty" });
+}
+
 TEST(RowWarnings, ElasticSlipAgainstContactWidth)
 {
   expect_bound(Column::elastic_slip, 0.019 * 2.5, 0.021 * 2.5, "soft_tangential_penalty");
