@@ -81,8 +81,8 @@ def peaks(*other, names=PEAKS, scale=1.0):
 
 
 def forces(*other, scale=1.0, length=1.0):
-    """Largest difference of P and Q from another run's, times a factor at x times another, over their peaks, without the passages through stick. Told
-    are both runs' errors, twice, as what is told may be half of the true one."""
+    """Largest difference of P and Q from another run's, times a factor at x times another, over their peaks, without the passages
+    through stick. Told are both runs' errors, twice, as what is told may be half of the true one."""
 
     def check(run, make):
         reference = make(*other)
