@@ -284,17 +284,17 @@ TEST(LeafSpring, CoversTheDriveOfItsScene)
   EXPECT_GE(samples.back().turn, 1.5 * largest);
 }
 
-// What displacements of some mm are rounded by is bending by 1e-7 of that of such a leaf.
+// Displacements are rounded by what takes 1e-7 of the forces in so thin a leaf, and the stiffness at rest by 1e-3 at 0.05 mm.
 TEST(LeafSpring, AsThinAsFoil)
 {
-  for (const double thickness : { 0.05, 0.01 })
+  for (const double thickness : { 0.1, 0.05 })
   {
     const LeafSpring leaf    = leaf_of(LeafEnd::clamped, thickness);
     const double expected    = beam_stiffness(leaf);
     const MomentLaw law      = leaf_behaviour(leaf, PlaneState::stress, -0.01, 0.05).law;
     const double at_end      = law.moment(0.05) / 0.05;
     const double further_off = law.moment(0.02) / 0.02;
-    EXPECT_NEAR(law.linear_stiffness(), expected, 1e-3 * expected);
+    EXPECT_NEAR(law.linear_stiffness(), expected, 2e-3 * expected);
     EXPECT_NEAR(at_end, expected, 1e-3 * expected);
     EXPECT_NEAR(further_off, at_end, 1e-3 * expected);
   }
@@ -315,14 +315,23 @@ TEST(LeafSpring, RefusesWhatItCannotDo)
     EXPECT_EQ(error.messages.size(), 2u);
   }
   leaf           = LeafSpring();
-  leaf.thickness = 0.9e-4 * leaf.length;
+  leaf.thickness = 1.9e-4 * leaf.length;
   EXPECT_THROW(leaf_behaviour(leaf, PlaneState::stress, -0.01, 0.01), InputError);
-  // The joint of an arch, held along it, moves across: it snaps through.
-  leaf           = LeafSpring();
-  leaf.thickness = 0.5;
-  leaf.sagitta   = 10.;
-  leaf.end       = LeafEnd::guided;
-  leaf.axial     = LeafAxial::held;
-  EXPECT_THROW(leaf_behaviour(leaf, PlaneState::stress, -0.01, 0.2), AnalysisError);
-  EXPECT_NO_THROW(leaf_behaviour(leaf, PlaneState::stress, -0.01, 0.02));
+}
+
+// The joint of an arch, held along it, moves across. Its moment falls beyond a turn of 0.07 rad, which round-off must not end.
+TEST(LeafSpring, ArchBeyondItsLargestMoment)
+{
+  LeafSpring leaf;
+  leaf.thickness      = 0.5;
+  leaf.sagitta        = 10.;
+  leaf.end            = LeafEnd::guided;
+  leaf.axial          = LeafAxial::held;
+  const MomentLaw law = leaf_behaviour(leaf, PlaneState::stress, -0.01, 0.2).law;
+  const auto &all     = law.samples();
+  EXPECT_LT(law.moment(0.2), 0.9 * law.moment(0.07));
+  // The trapezoidal rule errs by the square of the steps.
+  for (std::size_t i = 1; i < all.size(); ++i)
+    EXPECT_NEAR(all[i].moment - all[i - 1].moment,
+                0.5 * (all[i].stiffness + all[i - 1].stiffness) * (all[i].turn - all[i - 1].turn), 1e-3 * law.moment(0.07));
 }

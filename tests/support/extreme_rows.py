@@ -166,7 +166,7 @@ def part_rows():
     leaf = ("Leaf spring/Thickness=0.05", *mu(0.73))
     k = 4.0 * 206000.0 * 40.0 * 0.05**3 / 12.0 / 100.0
     yield Row("leaf 0.05 mm", "leaf-a", leaf, numbers(Device(k=k).peaks(65.0, 0.73)), "eqs. 4 to 9, k = 4 EI/L", 2e-3)
-    yield refused("leaf 0.005 mm", "leaf-a", ("Leaf spring/Thickness=0.005",), "Leaf spring/Thickness = 0.005: must be at least 0.0001 of")
+    yield refused("leaf 0.005 mm", "leaf-a", ("Leaf spring/Thickness=0.005",), "Leaf spring/Thickness = 0.005: must be at least 0.0002 of")
     flat = ("Friction layer/Thickness=0.01", "Mesh/Face size=10")
     yield Row("elements 1000 times as long as high", "model-a", flat, deviation, "closed form", 0.005, warns=("coarse_contact",))
     yield Row("lever 0.5 mm", "model-a", ("Lever/Depth=0.5",), warns=("large_deflection",))
