@@ -301,7 +301,8 @@ def long_rows():
     for model in ("rigid", "condensed"):
         options = (*cycles, f"Analysis/Model={model}", "Mesh/Face size=2")
         options += ("Drive/Speed=5", "Drive/Reversal duration=0.02", "Time/Step=4e-3")
-        yield Row(f"1000 cycles in time, {model}", "reversal-a", options, closes, "the 100th cycle", 1e-8, timeout=1500, slow=True)
+        limit = 1e-8 if model == "rigid" else 1e-7  # of the forces Newton's method leaves 1e-8
+        yield Row(f"1000 cycles in time, {model}", "reversal-a", options, closes, "the 100th cycle", limit, timeout=1500, slow=True)
     steps = ("Time/Step=3.6e-6", "Analysis/Model=rigid")
     check = peaks(("Time/Tolerance=1e-3", "Analysis/Model=rigid"))
     yield Row("1e5 steps in time", "reversal-a", steps, check, "adaptive steps", 1e-3, timeout=1500, slow=True)
