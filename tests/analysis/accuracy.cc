@@ -87,6 +87,7 @@ TEST(SampleChanges, AreRelativeToPeaksOrThemselves)
   other[0][Column::P]                = 1.2;
   other[1][Column::largest_pressure] = 5.;
   EXPECT_NEAR(relative_change("P", rows, other), 0.05, 1e-14);
+  other[0][Column::largest_pressure] = 9.; // below half of the largest
   EXPECT_NEAR(relative_change("largest_pressure", rows, other), 0.25, 1e-14);
   EXPECT_DOUBLE_EQ(relative_change("Q", rows, other), 0.);
   EXPECT_THROW(relative_change("theta", rows, other), std::out_of_range);

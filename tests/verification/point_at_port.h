@@ -50,6 +50,10 @@ namespace sprag
     {
       return all;
     }
+    void visit_history(Archive &) const
+    {
+    }
+
     void widen_reach()
     {
     }

@@ -10,12 +10,19 @@ namespace sprag
 {
   namespace
   {
-    double largest_change(const std::vector<Row> &samples, const std::vector<Row> &other, const Column column)
+    // A single place may lie well by chance.
+    constexpr double near_peak = 0.5; ///< pressure of the samples that count, over the largest
+
+    /// Over all samples, or those with at least a share of the largest value.
+    double largest_change(const std::vector<Row> &samples, const std::vector<Row> &other, const Column column,
+                          const double share = 0.)
     {
-      double result = 0.;
+      const double peak = largest(samples, column);
+      double result     = 0.;
       for (std::size_t i = 0; i < samples.size(); ++i)
-        result = std::max(result, std::abs(other[i][column] - samples[i][column]));
-      return result / largest(samples, column);
+        if (std::abs(samples[i][column]) >= share * peak)
+          result = std::max(result, std::abs(other[i][column] - samples[i][column]));
+      return result / peak;
     }
 
     double change(const double value, const double other)
@@ -38,7 +45,7 @@ namespace sprag
     if (quantity == "loop_area")
       return change(work_of_drive(samples), work_of_drive(other));
     if (quantity == "largest_pressure")
-      return change(largest(samples, Column::largest_pressure), largest(other, Column::largest_pressure));
+      return largest_change(samples, other, Column::largest_pressure, near_peak);
     static const std::map<std::string, Column> columns = { { "P", Column::P },
                                                            { "Q", Column::Q },
                                                            { "contact_width", Column::contact_width } };

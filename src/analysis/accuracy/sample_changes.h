@@ -11,7 +11,7 @@ namespace sprag
   double work_of_drive(const std::vector<Row> &samples);
 
   /// Returns by how much a quantity without inertia changes between two models' rows of the same samples: P, Q and contact_width
-  /// by the largest change over the largest value of the first model, largest_pressure and loop_area, the work between the
-  /// samples, by their own change. Throws std::out_of_range for other names.
+  /// by the largest change over the largest value of the first model, largest_pressure likewise where it is at least half of
+  /// that, and loop_area, the work between the samples, by its own change. Throws std::out_of_range for other names.
   double relative_change(const std::string &quantity, const std::vector<Row> &samples, const std::vector<Row> &other);
 } // namespace sprag
