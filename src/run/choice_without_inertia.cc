@@ -24,7 +24,7 @@ namespace sprag
   namespace
   {
     // Shares of the target that the causes of an error may use up.
-    constexpr double share_of_mesh  = 0.5;
+    constexpr double share_of_mesh  = 0.35;
     constexpr double share_of_rows  = 0.3;
     constexpr double share_of_model = 0.8;
 

@@ -68,11 +68,18 @@ namespace
     return (1. - share) * (*below)[column] + share * (*above)[column];
   }
 
-  void expect_reference(const std::vector<Row> &rows)
+  /// Near x = 0, where the contact is less than three faces of 0.25 mm wide, with the friction of cork on aluminium, by the
+  /// augmented Lagrangian on faces of 0.03125 mm. Even faces of 0.25 mm are 3 to 5 % off.
+  const std::vector<Reference> narrow = {
+    { 1., 6., 0.04315, 0.484 },  { 1., 8., 0.05064, 0.561 },  { 1., 10., 0.05752, 0.631 },
+    { -1., 6., 0.05221, 0.577 }, { -1., 8., 0.06153, 0.674 }, { -1., 10., 0.07021, 0.753 }
+  };
+
+  void expect_reference(const std::vector<Row> &rows, const std::vector<Reference> &places, const double error)
   {
-    for (const auto &place : references)
+    for (const auto &place : places)
     {
-      EXPECT_NEAR(at(rows, place, Column::largest_pressure) / place.largest_pressure, 1., 0.02) << place.way << " " << place.x;
+      EXPECT_NEAR(at(rows, place, Column::largest_pressure) / place.largest_pressure, 1., error) << place.way << " " << place.x;
       EXPECT_NEAR(at(rows, place, Column::contact_width) / place.width, 1., 0.03) << place.way << " " << place.x;
     }
   }
@@ -114,7 +121,7 @@ namespace
     make_mesh(scene, triangulation);
     LeverModel model(triangulation, lever_properties(scene));
     const auto found = strokes(scene, model);
-    expect_reference(found.rows);
+    expect_reference(found.rows, references, 0.02);
     expect_smooth(found);
   }
 
@@ -172,4 +179,16 @@ TEST(ContactPressure, OfASecondLeverIsRecoveredToo)
     EXPECT_NEAR(resultant(found.weights, p) / row.of_second_lever(Column::P), 1., 3e-3); // P is normal to the undeformed face
     EXPECT_NE(row.of_second_lever(Column::largest_pressure), row[Column::largest_pressure]);
   }
+}
+
+TEST(ContactPressure, ShorterFacesResolveNarrowContacts)
+{
+  Scene scene                 = model_a();
+  scene.mesh.face_size        = 0.25;
+  scene.mesh.faces_in_contact = 4.;
+  scene.contact.enforcement   = Enforcement::augmented_lagrangian;
+  dealii::Triangulation<2> triangulation;
+  make_mesh(scene, triangulation);
+  LeverModel model(triangulation, lever_properties(scene));
+  expect_reference(strokes(scene, model).rows, narrow, 0.01);
 }
