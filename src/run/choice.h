@@ -53,6 +53,7 @@ namespace sprag
 
     void solve_probes(double size);
     double longest_face(double target) const;
+    void add_mesh(double target, Choice &choice) const;
   };
 
   /// Chooses for a slide or a run in time.

@@ -24,9 +24,10 @@ namespace sprag
   namespace
   {
     // Shares of the target that the causes of an error may use up.
-    constexpr double share_of_mesh  = 0.35;
-    constexpr double share_of_rows  = 0.3;
-    constexpr double share_of_model = 0.8;
+    constexpr double share_of_mesh            = 0.35;
+    constexpr double share_of_mesh_in_contact = 0.6; ///< of pressure and width, which rows hardly change
+    constexpr double share_of_rows            = 0.3;
+    constexpr double share_of_model           = 0.8;
 
     constexpr double faces_of_probe         = 4.;   ///< across the contact where P is largest
     constexpr double most_faces_of_probe    = 300.; ///< along the way of the contact
@@ -44,8 +45,12 @@ namespace sprag
       return quantity == "P" || quantity == "Q" || quantity == "loop_area";
     }
 
-    constexpr double largest_on_cylinder =
-        0.05; ///< Cylinder/Face size over its radius, coarse enough for a probe twice as coarse
+    double share_for(const std::string &quantity)
+    {
+      return is_of_forces(quantity) ? share_of_mesh : share_of_mesh_in_contact;
+    }
+
+    constexpr double largest_on_cylinder = 0.05; ///< Cylinder/Face size over its radius; a probe has twice that
 
     /// States in full sliding over the first two strokes of a drive.
     std::vector<Row> places_of(const Drive &drive)
@@ -137,9 +142,33 @@ namespace sprag
     // Beyond the coarser probe the contact may be narrower than a face.
     double result = coarser * face_size;
     for (std::size_t i = 0; i < errors.size(); ++i)
-      result = std::min(result, face_size * std::pow(share_of_mesh * target / std::max(errors[i], 1e-12),
-                                                     1. / order_of(scene, scene.accuracy.quantities[i])));
+    {
+      const auto &quantity = scene.accuracy.quantities[i];
+      const double share   = share_for(quantity) * target / std::max(errors[i], 1e-12);
+      result               = std::min(result, face_size * std::pow(share, 1. / order_of(scene, quantity)));
+    }
     return std::max(result, face_size / finest);
+  }
+
+  void StaticChoice::add_mesh(const double target, Choice &choice) const
+  {
+    const auto &wanted   = scene.accuracy.quantities;
+    const double size    = longest_face(target);
+    bool is_short_enough = true;
+    for (std::size_t i = 0; i < errors.size(); ++i)
+    {
+      const double error = errors[i] * std::pow(size / face_size, order_of(scene, wanted[i]));
+      choice.error       = std::max(choice.error, error);
+      is_short_enough    = is_short_enough && error <= 1.01 * share_for(wanted[i]) * target;
+    }
+    choice.settings.push_back({ "Mesh/Face size", rounded_text(size),
+                                "a probe with " + rounded_text(face_size) + " mm is " +
+                                    percent(*std::max_element(errors.begin(), errors.end())) + " off" });
+    if (scene.cylinder.type != CylinderType::rigid && is_open(scene, "Cylinder/Face size"))
+      choice.settings.push_back(
+          { "Cylinder/Face size", rounded_text(with_face_size(scene, size).cylinder.face_size), "as on the lever" });
+    if (!is_short_enough)
+      choice.limit = "Faces of " + mm(size) + " are the shortest that a probe tells of.";
   }
 
   Choice StaticChoice::meeting(const double target) const
@@ -157,19 +186,7 @@ namespace sprag
     if (closed_form)
       choice.error = of_closed;
     else if (is_open(scene, "Mesh/Face size") && scene.mesh.file.empty())
-    {
-      const double size = longest_face(target);
-      for (std::size_t i = 0; i < errors.size(); ++i)
-        choice.error = std::max(choice.error, errors[i] * std::pow(size / face_size, order_of(scene, wanted[i])));
-      choice.settings.push_back({ "Mesh/Face size", rounded_text(size),
-                                  "a probe with " + rounded_text(face_size) + " mm is " +
-                                      percent(*std::max_element(errors.begin(), errors.end())) + " off" });
-      if (scene.cylinder.type != CylinderType::rigid && is_open(scene, "Cylinder/Face size"))
-        choice.settings.push_back(
-            { "Cylinder/Face size", rounded_text(with_face_size(scene, size).cylinder.face_size), "as on the lever" });
-      if (choice.error > 1.01 * share_of_mesh * target)
-        choice.limit = "Faces of " + mm(size) + " are the shortest that a probe tells of.";
-    }
+      add_mesh(target, choice);
     if (enforcement_is_open && !closed_form)
       choice.settings.push_back({ "Contact/Enforcement", "augmented Lagrangian", "it leaves no error of a penalty" });
     if (forces_only && !closed_form && is_open(scene, "Mesh/Faces in contact"))
