@@ -47,6 +47,7 @@ namespace sprag
   private:
     Scene scene;
     const bool enforcement_is_open;
+    bool is_refined  = false;               ///< after the first probes
     double face_size = 0.;                  ///< of the finer probe [mm]
     std::vector<double> errors;             ///< of the finer probe, of each quantity
     std::vector<double> closed_form_errors; ///< of the closed form; infinite of what it does not tell

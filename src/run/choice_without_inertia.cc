@@ -116,7 +116,10 @@ namespace sprag
     const double target   = scene.accuracy.target;
     const auto is_too_far = [&] { return longest_face(target) < extrapolated * face_size && is_paid(scene, meeting(target)); };
     for (unsigned int i = 0; i < most_refinements && target > 0. && is_too_far(); ++i)
+    {
       solve_probes(longest_face(target));
+      is_refined = true;
+    }
   }
 
   void StaticChoice::solve_probes(const double size)
@@ -139,8 +142,8 @@ namespace sprag
 
   double StaticChoice::longest_face(const double target) const
   {
-    // Beyond the coarser probe the contact may be narrower than a face.
-    double result = coarser * face_size;
+    // Beyond the coarser of the first probes the contact may be narrower than a face; what a refined one found holds for itself.
+    double result = is_refined ? face_size : coarser * face_size;
     for (std::size_t i = 0; i < errors.size(); ++i)
     {
       const auto &quantity = scene.accuracy.quantities[i];
