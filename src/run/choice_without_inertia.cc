@@ -30,6 +30,7 @@ namespace sprag
     constexpr double share_of_model           = 0.8;
 
     constexpr double faces_of_probe         = 4.;   ///< across the contact where P is largest
+    constexpr double least_faces            = 3.;   ///< likewise, where pressure or width are wanted
     constexpr double most_faces_of_probe    = 300.; ///< along the way of the contact
     constexpr double extrapolated           = 0.8;  ///< face size over a probe's, below which another probe is solved
     constexpr unsigned int most_refinements = 2;
@@ -148,7 +149,9 @@ namespace sprag
     {
       const auto &quantity = scene.accuracy.quantities[i];
       const double share   = share_for(quantity) * target / std::max(errors[i], 1e-12);
-      result               = std::min(result, face_size * std::pow(share, 1. / order_of(scene, quantity)));
+      if (!is_of_forces(quantity))
+        result = std::min(result, face_size * faces_of_probe / least_faces);
+      result = std::min(result, face_size * std::pow(share, 1. / order_of(scene, quantity)));
     }
     return std::max(result, face_size / finest);
   }
