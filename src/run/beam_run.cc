@@ -1,8 +1,7 @@
 #include "run/beam_run.h"
 
-#include "analysis/transient/transient.h"
 #include "levers/dynamics.h"
-#include "scene/contact_reference.h"
+#include "run/steps_in_time.h"
 
 namespace sprag
 {
@@ -11,11 +10,9 @@ namespace sprag
     if (is_meshed(scene.analysis.model))
       scene.analysis.model = ModelType::beam;
     DynamicsMaker maker(false);
-    const auto dynamics  = maker.make(scene);
-    const auto reference = contact_reference(scene);
+    const auto dynamics = maker.make(scene);
     std::vector<Row> rows;
-    run_transient(dynamics.model(), scene.drive,
-                  { scene.time, reference.P, reference.stiffness, scene.geometry.cylinder_radius / 200. },
+    run_transient(dynamics.model(), scene.drive, transient_settings(scene),
                   [&](const Motion &, const Row &row) { rows.push_back(row); });
     return rows;
   }

@@ -18,7 +18,8 @@ namespace sprag
   /// Estimates the cost of what follows_formulas().
   ExpectedCost cost_of_formulas(const Scene &scene);
 
-  /// Returns how much longer than on the machine that the constants of estimates were measured on a short calculation takes here.
+  /// Returns how much longer than on the machine that the constants of estimates were measured on a short calculation takes here,
+  /// as found at the first call.
   double slowness();
 
   /// Prints the estimate in a line.

@@ -115,9 +115,9 @@ namespace sprag
     double held(const Scene &scene)
     {
       const double N        = expected_size(scene).displacements;
-      const double bases    = scene.analysis.model == ModelType::finite_element ? 1.5
-                              : scene.analysis.type == AnalysisType::modal      ? 0.4
-                                                                                : 0.8;
+      const double bases    = scene.analysis.model == ModelType::finite_element ? basis_of_meshed_slide
+                              : scene.analysis.type == AnalysisType::modal      ? basis_of_modes
+                                                                                : basis_of_slide;
       const double mesh     = is_meshed(scene.analysis.model) ? bases * basis * std::pow(N, 1.5) : 0.;
       const bool has_fields = is_meshed(scene.analysis.model) && scene.output.fields != FieldOutput::none;
       return start + mesh + slides_of(scene) * a_slide(scene) + (has_fields ? fields_of_modes : 0.);
@@ -138,11 +138,16 @@ namespace sprag
       }
     }
 
+    constexpr std::size_t most_estimates = 100; ///< of a study's runs; they stand for the others
+
     ExpectedCost of_study(const Scene &study)
     {
       ExpectedCost sum{ start, 0., {} };
-      for (const auto &point : points_of(study.study))
-        add_run([&] { return scene_at(study, point); }, sum);
+      const auto points        = points_of(study.study);
+      const std::size_t stride = 1 + points.size() / most_estimates;
+      for (std::size_t i = 0; i < points.size(); i += stride)
+        add_run([&] { return scene_at(study, points[i]); }, sum);
+      sum.cpu_seconds = start + static_cast<double>(stride) * (sum.cpu_seconds - start);
       if (!study.study.reference_values.empty())
         add_run([&] { return scene_of_reference(study); }, sum);
       return sum;

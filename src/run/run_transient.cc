@@ -10,7 +10,6 @@
 #include "run/recorder.h"
 #include "run/steps_in_time.h"
 #include "run/transient_accuracy.h"
-#include "scene/contact_reference.h"
 #include "scene/mirrored_pair.h"
 
 #include <algorithm>
@@ -22,13 +21,6 @@ namespace sprag
 {
   namespace
   {
-    TransientSettings settings_of(const Scene &scene, const std::vector<GrowingMode> &modes)
-    {
-      const auto reference = contact_reference(scene);
-      return { scene.time, reference.P, reference.stiffness, scene.geometry.cylinder_radius / 200.,
-               longest_step(modes, scene.time.spectral_radius) };
-    }
-
     /// What grows about the slides of the run. A model of its own is asked, condensed for finite elements, which find the lowest
     /// vibrations alone.
     std::vector<GrowingMode> growing_modes_of(Scene scene, DynamicsMaker &maker)
@@ -144,7 +136,7 @@ namespace sprag
         scene, recorder, timer, warnings, body != nullptr ? meshed_entries(dynamics.meshed, *body) : std::vector<Entry>(),
         [&]
         {
-          const auto report = run_transient(model, scene.drive, settings_of(scene, growing), hand_on, &checkpoint);
+          const auto report = run_transient(model, scene.drive, transient_settings(scene, growing), hand_on, &checkpoint);
           is_complete       = true;
           return report;
         },
