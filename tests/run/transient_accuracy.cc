@@ -1,0 +1,86 @@
+#include "run/transient_accuracy.h"
+
+#include "analysis/stability/stability.h"
+#include "analysis/transient/oscillation.h"
+#include "mpi_environment.h"
+#include "results/row_statistics.h"
+#include "run/beam_run.h"
+#include "scene/read.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <gtest/gtest.h>
+
+using namespace sprag;
+
+namespace
+{
+  Scene shipped(const std::string &name, const std::vector<std::string> &overrides)
+  {
+    return read_scene((std::filesystem::path(__FILE__).parent_path() / "../../params" / (name + ".prm")).string(), overrides);
+  }
+
+  /// P at a time, linear between rows.
+  double force_at(const std::vector<Row> &rows, const double time)
+  {
+    const auto after = std::lower_bound(rows.begin(), rows.end(), time,
+                                        [](const Row &row, const double value) { return row[Column::time] < value; });
+    if (after == rows.begin() || after == rows.end())
+      return after == rows.end() ? rows.back()[Column::P] : (*after)[Column::P];
+    const Row &a = *(after - 1), &b = *after;
+    const double share = (time - a[Column::time]) / (b[Column::time] - a[Column::time]);
+    return (1. - share) * a[Column::P] + share * b[Column::P];
+  }
+
+  std::vector<ErrorEstimate> told(const Scene &scene, const std::vector<Row> &rows)
+  {
+    DynamicsMaker maker(false);
+    return transient_accuracy(scene, {}, rows, maker);
+  }
+} // namespace
+
+TEST(TransientAccuracy, ToldErrorsAreThoseOfShorterSteps)
+{
+  const auto with_step = [](const std::string &step) {
+    return shipped("reversal-a", { "Analysis/Model=rigid", "Time/Step=" + step });
+  };
+  const Scene scene    = with_step("1e-4");
+  const auto rows      = beam_run(scene);
+  const auto exact     = beam_run(with_step("5e-6"));
+  double largest_error = 0.;
+  for (const Row &row : rows)
+    largest_error = std::max(largest_error, std::abs(row[Column::P] - force_at(exact, row[Column::time])));
+  const auto ringing    = [&](const std::vector<Row> &of) { return oscillations(of, scene.drive).front(); };
+  const double errors[] = { largest_error / largest(rows, Column::P),
+                            std::abs(ringing(rows).overshoot_P / ringing(exact).overshoot_P - 1.),
+                            std::abs(ringing(rows).frequency / ringing(exact).frequency - 1.) };
+  const auto estimates  = told(scene, rows);
+  ASSERT_EQ(estimates.size(), 3u);
+  for (unsigned int i = 0; i < 3; ++i)
+  {
+    EXPECT_GT(total_error(estimates[i]), 0.5 * errors[i]) << estimates[i].quantity;
+    EXPECT_LT(total_error(estimates[i]), 3. * errors[i]) << estimates[i].quantity;
+  }
+}
+
+TEST(TransientAccuracy, SaysInWordsWhereNothingTurns)
+{
+  const Scene scene = shipped("reversal-a", { "Analysis/Model=rigid", "Drive/Cycles=0.5" });
+  for (const auto &estimate : told(scene, beam_run(scene)))
+  {
+    EXPECT_TRUE(estimate.parts.empty());
+    EXPECT_NE(estimate.unknown.find("does not turn"), std::string::npos) << estimate.unknown;
+  }
+}
+
+// With this penalty Newton's method goes round in a circle from the last equilibrium, and the slide was told to be jammed.
+TEST(SteadySlides, AreSoughtFromTheirNeighboursToo)
+{
+  const Scene scene = shipped("reversal-b", { "Analysis/Type=stability", "Analysis/Model=condensed", "Mesh/Face size=0.25",
+                                              "Contact/Penalty=800", "Condensed/Modes=2" });
+  DynamicsMaker maker(false);
+  const auto found = judge(scene, maker);
+  EXPECT_EQ(found.kind, SlideKind::stable);
+  EXPECT_NEAR(found.growth_rate(), -39.4, 0.5);
+}
