@@ -1,7 +1,7 @@
 #include "run/beam_run.h"
 
 #include "levers/dynamics.h"
-#include "run/steps_in_time.h"
+#include "run/transient_settings.h"
 
 namespace sprag
 {

@@ -10,6 +10,7 @@
 #include "run/recorder.h"
 #include "run/steps_in_time.h"
 #include "run/transient_accuracy.h"
+#include "run/transient_settings.h"
 #include "scene/mirrored_pair.h"
 
 #include <algorithm>

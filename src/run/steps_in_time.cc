@@ -2,7 +2,6 @@
 
 #include "base/append.h"
 #include "run/transient_report.h"
-#include "scene/contact_reference.h"
 
 #include <algorithm>
 #include <iostream>
@@ -35,13 +34,6 @@ namespace sprag
           if (ending != status)
             throw AnalysisError(ending);
         });
-  }
-
-  TransientSettings transient_settings(const Scene &scene, const std::vector<GrowingMode> &growing)
-  {
-    const auto reference = contact_reference(scene);
-    return { scene.time, reference.P, reference.stiffness, scene.geometry.cylinder_radius / 200.,
-             longest_step(growing, scene.time.spectral_radius) };
   }
 
   void announce_model(const Scene &scene, const RunOptions &options)

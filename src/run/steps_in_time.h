@@ -1,6 +1,5 @@
 #pragma once
 
-#include "analysis/transient/growing_modes.h"
 #include "analysis/transient/transient.h"
 #include "run/recorder.h"
 
@@ -13,9 +12,6 @@ namespace sprag
   void record_steps(
       const Scene &scene, Recorder &recorder, PhaseTimer &timer, Warnings &warnings, const std::vector<Entry> &facts,
       const std::function<TransientReport()> &steps, const std::function<void()> &complete = [] {});
-
-  /// Returns the settings of a scene's run in time, whose steps follow the vibrations that grow.
-  TransientSettings transient_settings(const Scene &scene, const std::vector<GrowingMode> &growing = {});
 
   /// Prints what a run in time models, unless quiet.
   void announce_model(const Scene &scene, const RunOptions &options);
