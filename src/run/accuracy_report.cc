@@ -16,12 +16,17 @@ namespace sprag
       return text.str();
     }
 
-    std::string parts_text(const ErrorEstimate &estimate)
+    std::string text_of(const std::vector<ErrorPart> &parts)
     {
       std::string text;
-      for (const auto &part : estimate.parts)
+      for (const auto &part : parts)
         text += (text.empty() ? "" : ", ") + part.name + ' ' + percent(part.value);
       return text;
+    }
+
+    std::string left_out_text(const ErrorEstimate &estimate)
+    {
+      return estimate.left_out.empty() ? "" : " The model leaves out: " + text_of(estimate.left_out) + '.';
     }
   } // namespace
 
@@ -39,6 +44,9 @@ namespace sprag
       for (const auto &part : estimate.parts)
         entries.push_back({ estimate.quantity + '_' + part.name, part.value, "1",
                             "part of the error of " + estimate.quantity + ": " + part.remedy });
+      for (const auto &part : estimate.left_out)
+        entries.push_back({ estimate.quantity + '_' + part.name, part.value, "1",
+                            "left out of " + estimate.quantity + " by the model, not in its error: " + part.remedy });
     }
     return entries;
   }
@@ -53,8 +61,8 @@ namespace sprag
       if (estimate.parts.empty())
         stream << estimate.unknown << '\n';
       else
-        stream << std::setw(9) << percent(total_error(estimate)) << " of " << estimate.relative_to << ": " << parts_text(estimate)
-               << ". " << largest_part(estimate).remedy << '\n';
+        stream << std::setw(9) << percent(total_error(estimate)) << " of " << estimate.relative_to << ": "
+               << text_of(estimate.parts) << ". " << largest_part(estimate).remedy << left_out_text(estimate) << '\n';
     }
   }
 } // namespace sprag

@@ -58,14 +58,18 @@ namespace sprag
     /// Error of the worst quantity wanted over that of the frequency with which P rings.
     double error_over_frequency(const Scene &scene)
     {
-      const auto &wanted = scene.accuracy.quantities;
-      if (scene.analysis.type != AnalysisType::transient || scene.drive.reversals().empty() ||
-          std::find(wanted.begin(), wanted.end(), "P") == wanted.end())
-        return 1.;
+      const auto wants = [&](const std::string &quantity)
+      {
+        const auto &wanted = scene.accuracy.quantities;
+        return std::find(wanted.begin(), wanted.end(), quantity) != wanted.end();
+      };
+      const double least = wants("overshoot") ? 2. : 1.; // it goes with the square of the frequency
+      if (scene.analysis.type != AnalysisType::transient || scene.drive.reversals().empty() || !wants("P"))
+        return least;
       const auto rows    = beam_run(scene);
       const double turn  = scene.drive.reversals().front();
       const auto ringing = ringing_rows(rows, turn, rows.back()[Column::time]);
-      return std::max(1., change_by_frequency(ringing, turn) / largest(rows, Column::P));
+      return std::max(least, change_by_frequency(ringing, turn) / largest(rows, Column::P));
     }
 
     Scene with_modes(Scene scene, const unsigned int modes)

@@ -136,8 +136,14 @@ namespace sprag
   {
     const PhaseTimer::Scope scope(timer, "fields");
     const auto found = displacements(kept.source);
+    StressSample sample{ kept.row[Column::time], 0., 0. };
     for (unsigned int lever = 0; lever < found.size(); ++lever)
-      peaks.look_at(fields.at(found[lever]), kept.row[Column::x], kept.direction, lever);
+    {
+      const auto largest = peaks.look_at(fields.at(found[lever]), kept.row[Column::x], kept.direction, lever);
+      sample.lever       = std::max(sample.lever, largest[0]);
+      sample.layer       = std::max(sample.layer, largest[1]);
+    }
+    samples.push_back(sample);
     if (!frame)
       return;
     frames->write({ kept.row[Column::time], pose_of(kept.row), found, kept.face });
@@ -170,7 +176,7 @@ namespace sprag
 
   void FieldRecorder::visit_progress(Archive &archive)
   {
-    archive(travelled, last_frame, last_x, peak_force, direction, turned, written, best);
+    archive(travelled, last_frame, last_x, peak_force, direction, turned, written, samples, best);
     peaks.visit_progress(archive);
     if (frames)
       frames->visit_progress(archive);

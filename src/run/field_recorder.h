@@ -4,6 +4,7 @@
 #include "fe/fields/field_frames.h"
 #include "fe/fields/stress_peaks.h"
 #include "model/port_forces.h"
+#include "run/stress_sample.h"
 
 #include <functional>
 #include <map>
@@ -48,6 +49,12 @@ namespace sprag
     /// Finds the fields that are still to be found. Returns the peaks of stress for /summary.
     std::vector<Entry> finish();
 
+    /// Largest stress in each of the states whose fields were found so far, of all levers.
+    const std::vector<StressSample> &stress_samples() const
+    {
+      return samples;
+    }
+
   private:
     struct Kept
     {
@@ -77,6 +84,7 @@ namespace sprag
     const BodyFields fields;
     const Displacements displacements;
     StressPeaks peaks;
+    std::vector<StressSample> samples;
     std::optional<FieldFrames> frames;
     MeshPoint hub_section; ///< where the bending moment is taken, in lever axes
 

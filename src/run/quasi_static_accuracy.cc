@@ -7,16 +7,20 @@
 #include "fe/mesh/mesh.h"
 #include "results/row_statistics.h"
 #include "run/coarser_scene.h"
+#include "run/left_out_inertia.h"
 #include "run/peak_report.h"
+#include "run/stress_comparison.h"
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace sprag
 {
   namespace
   {
     constexpr unsigned int samples_of_stroke = 6;
+    constexpr double order_of_layer_stress   = 2.; ///< as measured
 
     bool augments(const Scene &scene)
     {
@@ -29,19 +33,36 @@ namespace sprag
       std::vector<Row> run;
       std::vector<Row> coarse; ///< on the coarser mesh
       std::vector<Row> soft;   ///< with the softer penalty; empty where the run augments and has the automatic tangential one
+      std::optional<StressChanges> stress; ///< on the coarser mesh
+      double pressure_with_stress = 0.;    ///< change of the pressure there in the states whose stress is known
     };
 
-    Probes probe(const Scene &scene, LeverModel &levers, const std::vector<Row> &rows, const QuasiStaticSettings &settings)
+    std::vector<Row> rows_at(const std::vector<double> &times, const std::vector<Row> &rows)
+    {
+      std::vector<Row> result;
+      for (const Row &row : rows)
+        if (std::find(times.begin(), times.end(), row[Column::time]) != times.end())
+          result.push_back(row);
+      return result;
+    }
+
+    Probes probe(const Scene &scene, LeverModel &levers, const std::vector<Row> &rows, const QuasiStaticSettings &settings,
+                 const std::vector<StressSample> &stresses)
     {
       Probes result;
-      result.run           = slide_samples(rows, samples_of_stroke);
+      result.run           = slide_samples(rows, samples_of_stroke, times_of(stresses));
       const double start   = rows.front()[Column::x];
       const auto penalties = levers.penalties();
       Mesh mesh;
       const Scene coarse = with_coarser_mesh(with_penalties(scene, penalties, 1.));
       make_mesh(coarse, mesh);
       LeverModel on_coarse(mesh, coarse);
-      result.coarse = repeated(on_coarse, result.run, start, settings);
+      StressComparison stress(on_coarse, stresses);
+      result.coarse    = repeated(on_coarse, result.run, start, settings, [&](const State &state) { stress.look_at(state); });
+      result.stress    = stress.changes();
+      const auto times = times_of(stresses);
+      result.pressure_with_stress =
+          result.stress ? relative_change("largest_pressure", rows_at(times, result.run), rows_at(times, result.coarse)) : 0.;
       if (augments(scene) && !scene.contact.tangential_penalty)
         return result;
       levers.use_penalties({ augments(scene) ? penalties.normal : penalties.normal / softer, penalties.tangential / softer });
@@ -100,6 +121,21 @@ namespace sprag
       return result;
     }
 
+    ErrorEstimate largest_stress(const Scene &scene, const Probes &probes)
+    {
+      if (!probes.stress)
+        return { "largest_stress", "", {}, "No estimate: no stress was found in a state in which the whole contact slides." };
+      auto lever  = mesh_part(scene, probes.stress->lever, order_of_forces(scene));
+      auto layer  = mesh_part(scene, probes.stress->layer, order_of_layer_stress);
+      layer.value = std::max(layer.value, mesh_part(scene, probes.pressure_with_stress, order_of_pressure(scene)).value);
+      lever.name  = "mesh_of_lever";
+      layer.name  = "mesh_of_layer";
+      ErrorEstimate result{ "largest_stress", "that of the lever or of the layer", { lever, layer }, {} };
+      if (!probes.soft.empty())
+        result.parts.push_back(penalty_part(relative_change("largest_pressure", probes.run, probes.soft)));
+      return result;
+    }
+
     constexpr double follows_pressure = 0.05; ///< error of the largest pressure to which a mesh follows it, see peak_report.h
 
     /// Width of the contact where its pressure is largest, in faces.
@@ -122,21 +158,21 @@ namespace sprag
     std::vector<ErrorEstimate> unknown(const std::string &reason)
     {
       std::vector<ErrorEstimate> result;
-      for (const char *const quantity : { "P", "Q", "loop_area", "largest_pressure", "contact_width" })
+      for (const char *const quantity : { "P", "Q", "loop_area", "largest_pressure", "contact_width", "largest_stress" })
         result.push_back({ quantity, "", {}, reason });
       return result;
     }
   } // namespace
 
   std::vector<ErrorEstimate> quasi_static_accuracy(const Scene &scene, LeverModel &levers, const std::vector<Row> &rows,
-                                                   const QuasiStaticSettings &settings)
+                                                   const QuasiStaticSettings &settings, const std::vector<StressSample> &stresses)
   {
     if (!scene.mesh.file.empty())
       return unknown(no_coarser_mesh);
     const auto penalties = levers.penalties();
     try
     {
-      const Probes probes = probe(scene, levers, rows, settings);
+      const Probes probes = probe(scene, levers, rows, settings, stresses);
       if (probes.run.size() < 2)
         return unknown("No estimate: there are no two states in which the whole contact slides.");
       const double faces       = faces_in_contact(scene, probes.run);
@@ -144,9 +180,17 @@ namespace sprag
       const bool all_follows   = expected_pressure_error(faces, scene.mesh.degree) <= follows_pressure;
       const auto told          = [&](const std::string &quantity, const std::string &relative_to, const bool is_followed)
       { return unless_narrow(estimate(scene, probes, quantity, relative_to), faces, is_followed); };
-      return { told("P", "its peak", forces_follow), told("Q", "its peak", forces_follow),
-               unless_narrow(loop_area(scene, probes, rows), faces, forces_follow), told("largest_pressure", "it", all_follows),
-               told("contact_width", "the largest one", all_follows) };
+      std::vector<ErrorEstimate> result = { told("P", "its peak", forces_follow),
+                                            told("Q", "its peak", forces_follow),
+                                            unless_narrow(loop_area(scene, probes, rows), faces, forces_follow),
+                                            told("largest_pressure", "it", all_follows),
+                                            told("contact_width", "the largest one", all_follows),
+                                            unless_narrow(largest_stress(scene, probes), faces, all_follows) };
+      const double inertia              = left_out_inertia(scene, rows);
+      for (auto &estimate : result)
+        if (estimate.quantity == "P" && !estimate.parts.empty())
+          estimate.left_out = { { "inertia", inertia, "Analysis/Type = transient has it." } };
+      return result;
     }
     catch (const AnalysisError &error)
     {

@@ -79,7 +79,7 @@ namespace sprag
             if (status == "completed" && estimates_errors(options))
             {
               const PhaseTimer::Scope scope(timer, "accuracy");
-              recorder.set_accuracy(quasi_static_accuracy(scene, levers, recorder.recorded(), settings));
+              recorder.set_accuracy(quasi_static_accuracy(scene, levers, recorder.recorded(), settings, fields.stress_samples()));
             }
             meta.push_back(
                 { "stick_stiffness", stick, "N/mm",

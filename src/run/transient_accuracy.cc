@@ -22,7 +22,7 @@ namespace sprag
     std::vector<ErrorEstimate> unknown(const std::string &reason)
     {
       std::vector<ErrorEstimate> result;
-      for (const char *const quantity : { "P", "overshoot", "frequency" })
+      for (const char *const quantity : { "P", "overshoot", "frequency", "decay" })
         result.push_back({ quantity, "", {}, "No estimate: " + reason });
       return result;
     }
@@ -107,7 +107,8 @@ namespace sprag
       const double between_rows = 1. - std::cos(0.5 * angle); // of a peak
       return { { "P", "its peak", with_step(times(of_frequency, lag), slowing * lag, step), {} },
                { "overshoot", "it", with_step(times(of_frequency, 2.), 2. * slowing + between_rows, step), {} },
-               { "frequency", "it", with_step(of_frequency, slowing, step), {} } };
+               { "frequency", "it", with_step(of_frequency, slowing, step), {} },
+               { "decay", "", {}, "No estimate: what mesh and step change is less than the scatter of the decay's fit." } };
     }
   } // namespace
 

@@ -7,9 +7,9 @@ namespace sprag
   std::vector<std::string> quantities_of(const AnalysisType type)
   {
     if (type == AnalysisType::quasi_static)
-      return { "P", "Q", "loop_area", "largest_pressure", "contact_width" };
+      return { "P", "Q", "loop_area", "largest_pressure", "contact_width", "largest_stress" };
     if (type == AnalysisType::transient)
-      return { "P", "frequency" };
+      return { "P", "overshoot", "frequency" };
     if (type == AnalysisType::stability || type == AnalysisType::sprag_slip)
       return { "growth_rate", "frequency" };
     return {};

@@ -314,11 +314,11 @@ namespace sprag
           "Target", settings.target, { 0., 0.5 }, "",
           "Relative error of Quantity that is wanted: what the file leaves open of model, mesh, step and modes follows "
           "from it; 0: nothing does");
-      section.text(
-          "Quantity", settings.quantity,
-          "What is to be as accurate: list of P, Q, loop_area, largest_pressure, contact_width without inertia, "
-          "growth_rate, frequency of held slides, P, frequency in time; auto: P, Q, loop_area, or growth_rate, frequency, "
-          "or P");
+      section.text("Quantity", settings.quantity,
+                   "What is to be as accurate: list of P, Q, loop_area, largest_pressure, contact_width, largest_stress "
+                   "without inertia, growth_rate, frequency of held slides, P, overshoot, frequency in time; auto: P, Q, "
+                   "loop_area, or growth_rate, frequency, "
+                   "or P");
       section.number("Budget", settings.budget, at_least(0.), "s",
                      "CPU time that the run may take; what fits best is chosen; 0: any");
     }

@@ -52,7 +52,8 @@ IN_TIME = [
     ("pair-reversal-a", {"Analysis/Model": "beam"}, SHORT_STEPS),
 ]
 OF_RINGING = {"overshoot": "reversal_1_overshoot_P", "frequency": "reversal_1_frequency"}
-QUANTITIES = ("P", "Q", "loop_area", "largest_pressure", "contact_width")
+QUANTITIES = ("P", "Q", "loop_area", "largest_pressure", "contact_width", "largest_stress")
+STRESSES = ("largest_lever_stress", "largest_layer_stress")
 COLUMNS = ("P", "Q", "largest_pressure", "contact_width", "x", "v", "drive_work")
 OF_SLIDES = ("growth_rate", "frequency")
 ALONE = {"Analysis/Model": "condensed", "Stability/Critical": "none", "Stability/Roles": "off", "Output/Fields": "none"}
@@ -69,6 +70,7 @@ class Run:
         with h5py.File(Path(folder) / "result.h5") as file:
             self.table = {name: file["table/" + name][:] for name in COLUMNS}
             self.told = {name: float(file["accuracy/" + name][()]) for name in QUANTITIES}
+            self.stresses = [float(file["summary/" + name][()]) for name in STRESSES]
             self.face_size = float(file["meta/face_size"][()])
             self.cost = float(file["meta/cpu_time_accuracy"][()]) / float(file["meta/cpu_time"][()])
         turn = int(np.argmax(self.table["x"]))
@@ -109,6 +111,7 @@ def true_errors(run, reference):
     errors["loop_area"] = abs(work(run) / work(reference) - 1)
     peak = lambda which: which.table["largest_pressure"].max()
     errors["largest_pressure"] = abs(peak(run) / peak(reference) - 1)
+    errors["largest_stress"] = max(abs(a / b - 1) for a, b in zip(run.stresses, reference.stresses))
     return errors
 
 

@@ -95,6 +95,49 @@ TEST(BodyFields, EachPartHasItsOwnStressUpToWhereItMeetsAnother)
   EXPECT_NEAR(area, 20. * 2.5, 1e-9);
 }
 
+namespace
+{
+  constexpr double cubic = 1e-5;
+
+  /// Strain cubic p_x^2 along.
+  struct Cubic : dealii::Function<2>
+  {
+    Cubic()
+        : dealii::Function<2>(2)
+    {
+    }
+    double value(const dealii::Point<2> &p, const unsigned int component) const override
+    {
+      return component == 0 ? cubic * p[0] * p[0] * p[0] / 3. : 0.;
+    }
+  };
+} // namespace
+
+/// At the Gauss points of a cell of length h the strain a x^2 is exact; the line through them is off by a (2/3)(h/2)^2 at the
+/// cell's ends, on both sides alike. Strains evaluated there would be off by twice that.
+TEST(BodyFields, StressIsContinuedFromTheGaussPointsAndMeetsItsNeighbour)
+{
+  Bar bar;
+  dealii::Triangulation<2> triangulation;
+  make_bar(bar, triangulation);
+  const ElasticBody<2> body(triangulation, bar_properties({}, 0.));
+  dealii::Vector<double> displacement(body.n_dofs());
+  dealii::VectorTools::interpolate(body.cell_mapping(), body.dofs(), Cubic(), displacement);
+  const BodyFields fields(body);
+  const auto nodal = fields.at(displacement);
+  const double h   = 20. / 8.;
+  for (unsigned int i = 0; i < nodal.size(); ++i)
+  {
+    const auto &node     = fields.nodes()[i];
+    const double modulus = node.part == material_id::layer ? 20. : 70000.;
+    const double x       = node.position[0];
+    const bool is_end    = std::abs(std::remainder(x, h)) < 1e-9;
+    const double half    = 0.5 * h;
+    const double error   = (is_end ? -2. : 1.) / 3. * half * half;
+    EXPECT_NEAR(nodal[i].stress[0][0] / modulus, cubic * (x * x + error), 1e-12) << x;
+  }
+}
+
 TEST(BodyFields, CurvedCellsHaveTheirNodesOnTheCircle)
 {
   const double radius = 56., core = 28.;

@@ -56,12 +56,14 @@ TEST(TransientAccuracy, ToldErrorsAreThoseOfShorterSteps)
                             std::abs(ringing(rows).overshoot_P / ringing(exact).overshoot_P - 1.),
                             std::abs(ringing(rows).frequency / ringing(exact).frequency - 1.) };
   const auto estimates  = told(scene, rows);
-  ASSERT_EQ(estimates.size(), 3u);
+  ASSERT_EQ(estimates.size(), 4u);
   for (unsigned int i = 0; i < 3; ++i)
   {
     EXPECT_GT(total_error(estimates[i]), 0.5 * errors[i]) << estimates[i].quantity;
     EXPECT_LT(total_error(estimates[i]), 3. * errors[i]) << estimates[i].quantity;
   }
+  EXPECT_EQ(estimates[3].quantity, "decay");
+  EXPECT_NE(estimates[3].unknown, "");
 }
 
 TEST(TransientAccuracy, SaysInWordsWhereNothingTurns)

@@ -16,10 +16,11 @@ namespace sprag
   /// The error that a run tells of one of its results.
   struct ErrorEstimate
   {
-    std::string quantity;         ///< name in /accuracy: P, Q, loop_area
-    std::string relative_to;      ///< what the error is a share of
-    std::vector<ErrorPart> parts; ///< empty where no estimate holds
-    std::string unknown;          ///< why no estimate holds, a sentence
+    std::string quantity;              ///< name in /accuracy: P, Q, loop_area
+    std::string relative_to;           ///< what the error is a share of
+    std::vector<ErrorPart> parts;      ///< empty where no estimate holds
+    std::string unknown;               ///< why no estimate holds, a sentence
+    std::vector<ErrorPart> left_out{}; ///< what the model leaves out, which no setting of it mends; not in the sum of the parts
   };
 
   /// Returns the sum of the parts, which says what is to be feared when none cancels another; NaN without parts.

@@ -44,7 +44,7 @@ namespace sprag
   {
     if (quantity == "loop_area")
       return change(work_of_drive(samples), work_of_drive(other));
-    if (quantity == "largest_pressure")
+    if (quantity == "largest_pressure" || quantity == "largest_stress")
       return largest_change(samples, other, Column::largest_pressure, near_peak);
     static const std::map<std::string, Column> columns = { { "P", Column::P },
                                                            { "Q", Column::Q },

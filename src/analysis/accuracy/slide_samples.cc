@@ -83,7 +83,7 @@ namespace sprag
     }
   } // namespace
 
-  std::vector<Row> slide_samples(const std::vector<Row> &rows, const unsigned int number)
+  std::vector<Row> slide_samples(const std::vector<Row> &rows, const unsigned int number, const std::vector<double> &times)
   {
     const double largest_force = largest(rows, Column::P);
     std::set<Index> chosen;
@@ -92,6 +92,9 @@ namespace sprag
     {
       const auto [sliding, end] = stroke_from(rows, begin, largest_force);
       choose_evenly(rows, sliding, number, chosen);
+      for (const Index i : sliding)
+        if (std::find(times.begin(), times.end(), rows[i][Column::time]) != times.end())
+          chosen.insert(i);
       begin = end;
     }
     std::vector<Row> result;
@@ -101,7 +104,7 @@ namespace sprag
   }
 
   std::vector<Row> repeated(Model &model, const std::vector<Row> &samples, const double start,
-                            const QuasiStaticSettings &settings)
+                            const QuasiStaticSettings &settings, const std::function<void(const State &)> &look)
   {
     std::vector<Row> result;
     if (samples.empty())
@@ -122,6 +125,7 @@ namespace sprag
         state = slid_to(model, state, half_way(state.drive, point), settings);
       state = slid_to(model, state, point, settings);
       result.push_back(observed(model, state));
+      look(state);
     }
     return result;
   }

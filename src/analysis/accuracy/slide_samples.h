@@ -2,17 +2,20 @@
 
 #include "analysis/statics/quasi_static.h"
 
+#include <functional>
 #include <vector>
 
 namespace sprag
 {
   /// Rows of a run without inertia at which its errors are sampled, by increasing time: at most `number` of each of the first two
-  /// strokes, evenly over the way on which the whole contact slides, and where P and the pressure are largest. Empty where
-  /// nothing slides.
-  std::vector<Row> slide_samples(const std::vector<Row> &rows, unsigned int number);
+  /// strokes, evenly over the way on which the whole contact slides, where P and the pressure are largest, and those of `times`
+  /// [s]. Empty where nothing slides.
+  std::vector<Row> slide_samples(const std::vector<Row> &rows, unsigned int number, const std::vector<double> &times = {});
 
   /// Repeats a run's samples in another model, which slides from each to the next in a single step, or in parts of it where no
-  /// equilibrium is found: sliding contact remembers little. Returns a row for each. `start` is where the run's drive began [mm].
-  /// Throws AnalysisError where the model cannot follow.
-  std::vector<Row> repeated(Model &model, const std::vector<Row> &samples, double start, const QuasiStaticSettings &settings);
+  /// equilibrium is found: sliding contact remembers little. Returns a row for each, and hands the states to `look`. `start` is
+  /// where the run's drive began [mm]. Throws AnalysisError where the model cannot follow.
+  std::vector<Row> repeated(
+      Model &model, const std::vector<Row> &samples, double start, const QuasiStaticSettings &settings,
+      const std::function<void(const State &)> &look = [](const State &) {});
 } // namespace sprag

@@ -21,6 +21,10 @@ namespace sprag
 
   /// Nodes of a body's cells for pictures. A cell of degree p has (p + 1)^2 of them, in p x p quadrilaterals, and shares them
   /// with no other cell, so that each side of a bond has its own stress.
+  ///
+  /// Strains are found at the Gauss points, where they are most exact, continued to the nodes by the polynomial through them, and
+  /// the stresses averaged over the cells of one material that meet in a node (Barlow 1976; Hinton and Campbell 1974). Cells at
+  /// the hub are averaged among themselves.
   class BodyFields
   {
   public:
@@ -55,9 +59,13 @@ namespace sprag
     std::vector<NodalField> at(const dealii::Vector<double> &displacement) const;
 
   private:
+    void average(std::vector<NodalField> &nodal) const;
+
     const ElasticBody<2> &body;
     const dealii::Quadrature<2> places; ///< of the nodes in the unit cell
     std::vector<Node> all_nodes;
     std::vector<unsigned int> quads;
+    std::vector<unsigned int> shared; ///< of a node: number of the place in its material that cells have in common
+    unsigned int n_shared = 0;
   };
 } // namespace sprag

@@ -2,6 +2,7 @@
 
 #include "results/stress_entries.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace sprag
@@ -24,8 +25,10 @@ namespace sprag
     return lever ? 0 : 1;
   }
 
-  void StressPeaks::look_at(const std::vector<NodalField> &nodal, const double x, const int direction, const unsigned int lever)
+  std::array<double, 3> StressPeaks::look_at(const std::vector<NodalField> &nodal, const double x, const int direction,
+                                             const unsigned int lever)
   {
+    std::array<double, 3> found{};
     for (unsigned int i = 0; i < nodal.size(); ++i)
     {
       const auto &node   = fields.nodes()[i];
@@ -33,10 +36,12 @@ namespace sprag
       if (!of_node)
         continue;
       const double stress = von_mises(nodal[i]);
+      found[*of_node]     = std::max(found[*of_node], stress);
       auto &peak          = peaks[*of_node];
       if (!peak || stress > peak->stress)
         peak = { stress, x, direction, lever, node.position };
     }
+    return found;
   }
 
   void StressPeaks::visit_progress(Archive &archive)

@@ -19,7 +19,8 @@ namespace sprag
     explicit StressPeaks(const BodyFields &fields);
 
     /// Looks at the fields of a state at x [mm]. `direction` is 1 forward and -1 backward, `lever` is 0 or of a pair 1.
-    void look_at(const std::vector<NodalField> &nodal, double x, int direction, unsigned int lever);
+    /// Returns the largest stresses found in it, in the order of stress_names [MPa].
+    std::array<double, 3> look_at(const std::vector<NodalField> &nodal, double x, int direction, unsigned int lever);
 
     /// Returns the entries of /summary for so many levers. They are NaN where nothing has been looked at.
     std::vector<Entry> entries(unsigned int levers) const;
