@@ -86,7 +86,7 @@ namespace sprag::hdf5
       const double missing = std::numeric_limits<double>::quiet_NaN();
       checked("fill value", H5Pset_fill_value(chunks.id(), H5T_NATIVE_DOUBLE, &missing));
       if (!row.empty())
-        checked("compression", H5Pset_deflate(chunks.id(), 4));
+        checked("compression", H5Pset_deflate(chunks.id(), 1));
       const Handle space = simple_space(with_rows(0, row), with_rows(H5S_UNLIMITED, row));
       return create_dataset(location, name, H5T_NATIVE_DOUBLE, space, chunks);
     }

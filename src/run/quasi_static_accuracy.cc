@@ -20,7 +20,6 @@ namespace sprag
   namespace
   {
     constexpr unsigned int samples_of_stroke = 6;
-    constexpr double order_of_layer_stress   = 2.; ///< as measured
 
     bool augments(const Scene &scene)
     {
@@ -126,7 +125,7 @@ namespace sprag
       if (!probes.stress)
         return { "largest_stress", "", {}, "No estimate: no stress was found in a state in which the whole contact slides." };
       auto lever  = mesh_part(scene, probes.stress->lever, order_of_forces(scene));
-      auto layer  = mesh_part(scene, probes.stress->layer, order_of_layer_stress);
+      auto layer  = mesh_part(scene, probes.stress->layer, scene.mesh.degree);
       layer.value = std::max(layer.value, mesh_part(scene, probes.pressure_with_stress, order_of_pressure(scene)).value);
       lever.name  = "mesh_of_lever";
       layer.name  = "mesh_of_layer";

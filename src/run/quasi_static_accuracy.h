@@ -14,9 +14,9 @@ namespace sprag
   /// Mesh/Face size with the same penalty, and on the run's own mesh with a third of the penalty. What changes tells the run's
   /// own error by Richardson: forces converge with the second power of the size, degree 1 with the power 1.6, pressures with the
   /// third, all with the first power of 1/penalty. The loop area's part of the step is that of the trapezoidal rule, from every
-  /// other row. Stresses are compared in the states whose fields were found and converge with the second power of the size; those
-  /// of the layer are told to be no better than the pressure on it is there. The lever's inertia, which such a run leaves out, is
-  /// told apart, by the closed form: J d^2(th)/dt^2 over the spring's moment.
+  /// other row. Stresses are compared in the states whose fields were found and converge with the power of the size that the
+  /// degree is; those of the layer are told to be no better than the pressure on it is there. The lever's inertia, which such a
+  /// run leaves out, is told apart, by the closed form: J d^2(th)/dt^2 over the spring's moment.
   ///
   /// `levers` is the run's model; it is left with its own penalties. `stresses` are those of the run.
   std::vector<ErrorEstimate> quasi_static_accuracy(const Scene &scene, LeverModel &levers, const std::vector<Row> &rows,
