@@ -136,12 +136,12 @@ namespace sprag
   {
     const PhaseTimer::Scope scope(timer, "fields");
     const auto found = displacements(kept.source);
-    StressSample sample{ kept.row[Column::time], 0., 0. };
+    StressSample sample;
     for (unsigned int lever = 0; lever < found.size(); ++lever)
     {
-      const auto largest = peaks.look_at(fields.at(found[lever]), kept.row[Column::x], kept.direction, lever);
-      sample.lever       = std::max(sample.lever, largest[0]);
-      sample.layer       = std::max(sample.layer, largest[1]);
+      const auto nodal = fields.at(found[lever]);
+      peaks.look_at(nodal, kept.row[Column::x], kept.direction, lever);
+      look_at(fields, nodal, kept.row, sample);
     }
     samples.push_back(sample);
     if (!frame)

@@ -57,7 +57,8 @@ namespace sprag
       make_mesh(coarse, mesh);
       LeverModel on_coarse(mesh, coarse);
       StressComparison stress(on_coarse, stresses);
-      result.coarse    = repeated(on_coarse, result.run, start, settings, [&](const State &state) { stress.look_at(state); });
+      result.coarse    = repeated(on_coarse, result.run, start, settings,
+                                  [&](const State &state, const Row &row) { stress.look_at(state, row); });
       result.stress    = stress.changes();
       const auto times = times_of(stresses);
       result.pressure_with_stress =
@@ -124,6 +125,11 @@ namespace sprag
     {
       if (!probes.stress)
         return { "largest_stress", "", {}, "No estimate: no stress was found in a state in which the whole contact slides." };
+      if (probes.stress->is_at_edge)
+        return { "largest_stress",
+                 "",
+                 {},
+                 "No estimate: in the layer the stress rises to a cusp where the contact ends; a finer mesh finds more of it." };
       auto lever  = mesh_part(scene, probes.stress->lever, order_of_forces(scene));
       auto layer  = mesh_part(scene, probes.stress->layer, scene.mesh.degree);
       layer.value = std::max(layer.value, mesh_part(scene, probes.pressure_with_stress, order_of_pressure(scene)).value);

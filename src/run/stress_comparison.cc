@@ -9,30 +9,26 @@ namespace sprag
 {
   namespace
   {
-    constexpr double near_peak = 0.5; ///< stress of the states that count, over the largest
-  }
+    constexpr double near_peak = 0.5;  ///< stress of the states that count, over the largest
+    constexpr double near_edge = 0.85; ///< stress at the contact's edge over the largest, from which a finer mesh finds it there
+  }                                    // namespace
 
   StressComparison::StressComparison(const LeverModel &other, const std::vector<StressSample> &run)
       : model(other)
       , samples(run)
       , fields(model.elastic_body())
-      , peaks(fields)
   {
   }
 
-  void StressComparison::look_at(const State &state)
+  void StressComparison::look_at(const State &state, const Row &row)
   {
     const auto of_run =
         std::find_if(samples.begin(), samples.end(), [&](const StressSample &sample) { return sample.time == state.drive.time; });
     if (of_run == samples.end())
       return;
-    StressSample found{ state.drive.time, 0., 0. };
+    StressSample found;
     for (const auto &displacement : model.body_displacements(state))
-    {
-      const auto largest = peaks.look_at(fields.at(displacement), state.drive.x, 0, 0);
-      found.lever        = std::max(found.lever, largest[0]);
-      found.layer        = std::max(found.layer, largest[1]);
-    }
+      sprag::look_at(fields, fields.at(displacement), row, found);
     pairs.push_back({ *of_run, found });
   }
 
@@ -49,7 +45,10 @@ namespace sprag
     };
     if (pairs.empty())
       return {};
-    return StressChanges{ change(&StressSample::lever), change(&StressSample::layer) };
+    const auto peak =
+        std::max_element(pairs.begin(), pairs.end(), [](const Pair &a, const Pair &b) { return a.run.layer < b.run.layer; });
+    return StressChanges{ change(&StressSample::lever), change(&StressSample::layer),
+                          peak->run.layer_edge > near_edge * peak->run.layer };
   }
 
   std::vector<double> times_of(const std::vector<StressSample> &samples)

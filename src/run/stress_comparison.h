@@ -1,6 +1,5 @@
 #pragma once
 
-#include "fe/fields/stress_peaks.h"
 #include "fe/statics/lever_model.h"
 #include "run/stress_sample.h"
 
@@ -14,6 +13,7 @@ namespace sprag
   {
     double lever;
     double layer;
+    bool is_at_edge; ///< whether the layer's is all but reached where the contact ends, see StressSample
   };
 
   /// Compares the largest stresses that a run found with those of another model in the same states.
@@ -24,7 +24,7 @@ namespace sprag
     StressComparison(const LeverModel &other, const std::vector<StressSample> &run);
 
     /// Looks at a state of the other model, which it evaluated last.
-    void look_at(const State &state);
+    void look_at(const State &state, const Row &row);
 
     /// Returns the largest changes over the states with at least half the largest stress, over that one: a single place may lie
     /// well by chance. None where no state of the run was looked at.
@@ -40,7 +40,6 @@ namespace sprag
     const LeverModel &model;
     const std::vector<StressSample> samples;
     const BodyFields fields;
-    StressPeaks peaks;
     std::vector<Pair> pairs;
   };
 

@@ -12,7 +12,7 @@ namespace sprag
 
   /// Returns by how much a quantity without inertia changes between two models' rows of the same samples: P, Q and contact_width
   /// by the largest change over the largest value of the first model, largest_pressure likewise where it is at least half of
-  /// that, largest_stress as the pressure which it follows, and loop_area, the work between the samples, by its own change. Throws
-  /// std::out_of_range for other names.
+  /// that, largest_stress as the pressure which it follows, and loop_area, the work between the samples, by its own change.
+  /// Throws std::out_of_range for other names.
   double relative_change(const std::string &quantity, const std::vector<Row> &samples, const std::vector<Row> &other);
 } // namespace sprag

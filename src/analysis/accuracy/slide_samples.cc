@@ -104,7 +104,7 @@ namespace sprag
   }
 
   std::vector<Row> repeated(Model &model, const std::vector<Row> &samples, const double start,
-                            const QuasiStaticSettings &settings, const std::function<void(const State &)> &look)
+                            const QuasiStaticSettings &settings, const std::function<void(const State &, const Row &)> &look)
   {
     std::vector<Row> result;
     if (samples.empty())
@@ -125,7 +125,7 @@ namespace sprag
         state = slid_to(model, state, half_way(state.drive, point), settings);
       state = slid_to(model, state, point, settings);
       result.push_back(observed(model, state));
-      look(state);
+      look(state, result.back());
     }
     return result;
   }

@@ -17,5 +17,5 @@ namespace sprag
   /// where the run's drive began [mm]. Throws AnalysisError where the model cannot follow.
   std::vector<Row> repeated(
       Model &model, const std::vector<Row> &samples, double start, const QuasiStaticSettings &settings,
-      const std::function<void(const State &)> &look = [](const State &) {});
+      const std::function<void(const State &, const Row &)> &look = [](const State &, const Row &) {});
 } // namespace sprag

@@ -2,20 +2,11 @@
 
 #include "results/stress_entries.h"
 
-#include <algorithm>
 #include <limits>
 
 namespace sprag
 {
-  StressPeaks::StressPeaks(const BodyFields &of)
-      : fields(of)
-  {
-    for (const auto &node : fields.nodes())
-      if (const auto of_node = region(node))
-        there[*of_node] = true;
-  }
-
-  std::optional<unsigned int> StressPeaks::region(const BodyFields::Node &node) const
+  std::optional<unsigned int> stress_region(const BodyFields::Node &node)
   {
     const bool lever = node.part == material_id::lever || node.part == material_id::web;
     if (!lever && node.part != material_id::layer)
@@ -25,23 +16,27 @@ namespace sprag
     return lever ? 0 : 1;
   }
 
-  std::array<double, 3> StressPeaks::look_at(const std::vector<NodalField> &nodal, const double x, const int direction,
-                                             const unsigned int lever)
+  StressPeaks::StressPeaks(const BodyFields &of)
+      : fields(of)
   {
-    std::array<double, 3> found{};
+    for (const auto &node : fields.nodes())
+      if (const auto of_node = stress_region(node))
+        there[*of_node] = true;
+  }
+
+  void StressPeaks::look_at(const std::vector<NodalField> &nodal, const double x, const int direction, const unsigned int lever)
+  {
     for (unsigned int i = 0; i < nodal.size(); ++i)
     {
       const auto &node   = fields.nodes()[i];
-      const auto of_node = region(node);
+      const auto of_node = stress_region(node);
       if (!of_node)
         continue;
       const double stress = von_mises(nodal[i]);
-      found[*of_node]     = std::max(found[*of_node], stress);
       auto &peak          = peaks[*of_node];
       if (!peak || stress > peak->stress)
         peak = { stress, x, direction, lever, node.position };
     }
-    return found;
   }
 
   void StressPeaks::visit_progress(Archive &archive)

@@ -10,6 +10,9 @@
 
 namespace sprag
 {
+  /// Returns where the stress of a node counts: 0 lever, 1 layer, 2 cells at the hub; none for other parts.
+  std::optional<unsigned int> stress_region(const BodyFields::Node &node);
+
   /// Largest von Mises stress in lever (web included) and layer over the states that are looked at. In the cells that the hub
   /// holds the stress of linear elasticity grows without bound with a finer mesh, so the lever's peak leaves them out and theirs
   /// is told by itself.
@@ -19,8 +22,7 @@ namespace sprag
     explicit StressPeaks(const BodyFields &fields);
 
     /// Looks at the fields of a state at x [mm]. `direction` is 1 forward and -1 backward, `lever` is 0 or of a pair 1.
-    /// Returns the largest stresses found in it, in the order of stress_names [MPa].
-    std::array<double, 3> look_at(const std::vector<NodalField> &nodal, double x, int direction, unsigned int lever);
+    void look_at(const std::vector<NodalField> &nodal, double x, int direction, unsigned int lever);
 
     /// Returns the entries of /summary for so many levers. They are NaN where nothing has been looked at.
     std::vector<Entry> entries(unsigned int levers) const;
@@ -37,9 +39,6 @@ namespace sprag
       unsigned int lever = 0;
       dealii::Point<2> place;
     };
-
-    /// Returns the region of a node: 0 lever, 1 layer, 2 hub; none for other parts.
-    std::optional<unsigned int> region(const BodyFields::Node &node) const;
 
     const BodyFields &fields;
     std::array<std::optional<Peak>, 3> peaks;
