@@ -8,6 +8,7 @@
 #include "run/outcome.h"
 #include "run/output_folder.h"
 #include "run/run.h"
+#include "run/run_log.h"
 #include "run/warnings.h"
 #include "scene/analysis_use.h"
 #include "scene/read.h"
@@ -43,6 +44,8 @@ namespace sprag
         return end.status;
       const std::string fate = fate_of(end);
       const bool unfinished  = finish(arguments, scene, fate, since);
+      if (unfinished)
+        add_to_log(folder_of(arguments, scene), fate);
       return ended_itself && !unfinished ? analysis_failed : tell(fate);
     }
 
@@ -70,7 +73,7 @@ namespace sprag
       become_neighbour("sprag-models", argv);
     }
 
-    void do_without_models(const Arguments &arguments, const Scene &scene)
+    void do_without_models(const Arguments &arguments, const Scene &scene, RunLog &log)
     {
       if (arguments.print_parameters)
       {
@@ -87,10 +90,13 @@ namespace sprag
       const std::string folder = folder_of(arguments, scene);
       claim_folder(folder, parameters_text(scene), arguments.overwrite);
       require_memory(scene);
-      run_by_formulas(scene, { folder, arguments.quiet });
+      RunOptions options{ folder, arguments.quiet };
+      options.verbose = arguments.verbose;
+      options.log     = &log;
+      run_by_formulas(scene, options);
     }
 
-    int run_looked_after(const Arguments &arguments, const std::timespec &since, char **argv)
+    int run_looked_after(const Arguments &arguments, const std::timespec &since, const int argc, char **argv)
     {
       if (arguments.file.empty() && arguments.print_parameters && arguments.overrides.empty())
       {
@@ -108,7 +114,8 @@ namespace sprag
         become_models(arguments, argv);
       hdf5::silence();
       catch_interrupts();
-      return exit_status_of(arguments, scene, since, {}, [&](const Scene &given) { do_without_models(arguments, given); });
+      RunLog log(argc, argv);
+      return exit_status_of(arguments, scene, since, {}, [&](const Scene &given) { do_without_models(arguments, given, log); });
     }
   } // namespace
 } // namespace sprag
@@ -124,7 +131,7 @@ int main(int argc, char **argv)
   {
     if (under_mpi() && !arguments.print_parameters)
       become_neighbour("sprag-models", argv);
-    return run_looked_after(arguments, since, argv);
+    return run_looked_after(arguments, since, argc, argv);
   }
   catch (const InputError &error)
   {

@@ -7,6 +7,7 @@
 #include "run/outcome.h"
 #include "run/output_folder.h"
 #include "run/run.h"
+#include "run/run_log.h"
 #include "scene/analysis_use.h"
 #include "scene/read.h"
 
@@ -25,7 +26,7 @@ namespace sprag
   {
     namespace MPI = dealii::Utilities::MPI;
 
-    void execute(const Arguments &arguments, const Scene &scene, const Rank &rank)
+    void execute(const Arguments &arguments, const Scene &scene, const Rank &rank, RunLog &log)
     {
       if (arguments.validate)
       {
@@ -48,7 +49,10 @@ namespace sprag
         claim();
       else
         on_first_rank(claim);
-      run(scene, { folder, arguments.quiet, rank.is_first });
+      RunOptions options{ folder, arguments.quiet, rank.is_first };
+      options.verbose = arguments.verbose;
+      options.log     = rank.is_first ? &log : nullptr;
+      run(scene, options);
     }
 
     /// Whether MPI is needed: by PETSc and meshes, or because processes share the work.
@@ -70,7 +74,8 @@ namespace sprag
       return { MPI::this_mpi_process(MPI_COMM_WORLD) == 0, MPI::n_mpi_processes(MPI_COMM_WORLD) == 1 };
     }
 
-    int exit_status(const Arguments &arguments, const std::optional<Scene> &scene, const std::timespec &since, const Rank &rank)
+    int exit_status(const Arguments &arguments, const std::optional<Scene> &scene, const std::timespec &since, const Rank &rank,
+                    RunLog &log)
     {
       try
       {
@@ -79,7 +84,7 @@ namespace sprag
                               {
                                 try
                                 {
-                                  execute(arguments, given, rank);
+                                  execute(arguments, given, rank, log);
                                 }
                                 catch (const dealii::ExceptionBase &error)
                                 {
@@ -115,6 +120,7 @@ int main(int argc, char **argv)
     {
       return tell(error);
     }
+  RunLog log(argc, argv);
   int no_arguments = 1;
   std::optional<dealii::Utilities::MPI::MPI_InitFinalize> mpi;
   if (!scene || needs_mpi(*scene))
@@ -122,5 +128,5 @@ int main(int argc, char **argv)
   dealii::MultithreadInfo::set_thread_limit(1);
   hdf5::silence();
   catch_interrupts();
-  return exit_status(arguments, scene, since, mpi ? rank_in_mpi() : Rank());
+  return exit_status(arguments, scene, since, mpi ? rank_in_mpi() : Rank(), log);
 }

@@ -1,21 +1,15 @@
 #include "run/accuracy_report.h"
 
+#include "run/percent.h"
+
 #include <cmath>
 #include <iomanip>
 #include <ostream>
-#include <sstream>
 
 namespace sprag
 {
   namespace
   {
-    std::string percent(const double error)
-    {
-      std::ostringstream text;
-      text << std::setprecision(2) << 100. * error << " %";
-      return text.str();
-    }
-
     std::string text_of(const std::vector<ErrorPart> &parts)
     {
       std::string text;

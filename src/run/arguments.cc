@@ -18,7 +18,8 @@ namespace sprag
       app.add_flag("--overwrite", arguments.overwrite, "Replace whatever result is in that folder, and begin anew");
       app.add_flag("--validate", arguments.validate, "Check the file and stop");
       app.add_flag("--print-parameters", arguments.print_parameters, "Print every parameter with its meaning and stop");
-      app.add_flag("--quiet", arguments.quiet, "Print errors only");
+      auto *const quiet = app.add_flag("--quiet", arguments.quiet, "Print errors only");
+      app.add_flag("--verbose", arguments.verbose, "Print every result that is in /summary")->excludes(quiet);
       app.add_option("--jobs", arguments.jobs, "Processes that work on a map or study; default: one a core")
           ->check(CLI::PositiveNumber);
       app.set_version_flag("--version", std::string("sprag " SPRAG_VERSION));

@@ -25,6 +25,7 @@ namespace sprag
     bool validate         = false;
     bool print_parameters = false;
     bool quiet            = false;
+    bool verbose          = false; ///< prints all results
     bool overwrite        = false;
     unsigned int jobs     = 0; ///< 0: as many as cores
   };

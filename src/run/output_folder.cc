@@ -3,6 +3,7 @@
 #include "base/errors.h"
 #include "results/earlier_result.h"
 #include "run/run_files.h"
+#include "run/run_log.h"
 
 #include <cerrno>
 #include <chrono>
@@ -106,14 +107,17 @@ namespace sprag
     refuse_what_is_no_file(folder);
   }
 
-  void prepare_folder(const std::string &folder)
+  void prepare_folder(const Scene &scene, const RunOptions &options)
   {
+    const auto &folder = options.folder;
     require_writable(folder);
     std::error_code error;
     fs::create_directories(folder, error);
     if (error)
       throw InputError("--output = " + folder + ": the folder cannot be made: " + error.message());
     lock(folder);
+    if (options.log != nullptr)
+      options.log->open(folder, scene);
   }
 
   void claim_folder(const std::string &folder, const std::string &parameters, const bool overwrite)

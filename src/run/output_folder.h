@@ -1,5 +1,7 @@
 #pragma once
 
+#include "run/run.h"
+
 #include <string>
 
 namespace sprag
@@ -14,6 +16,6 @@ namespace sprag
   /// Throws InputError if the folder could not be made or written to; makes nothing.
   void require_writable(const std::string &folder);
 
-  /// Makes the folder if needed; throws InputError if nothing can be written there.
-  void prepare_folder(const std::string &folder);
+  /// Makes the run's folder if needed and begins its log; throws InputError if nothing can be written there.
+  void prepare_folder(const Scene &scene, const RunOptions &options);
 } // namespace sprag

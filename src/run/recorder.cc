@@ -5,6 +5,7 @@
 #include "base/text.h"
 #include "results/row_archive.h"
 #include "results/stress_entries.h"
+#include "run/brief.h"
 #include "run/transient_report.h"
 #include "run/warnings.h"
 
@@ -42,6 +43,7 @@ namespace sprag
                      Checkpoint *const checkpoint_)
       : scene(scene_)
       , quiet(options.quiet)
+      , verbose(options.verbose)
       , writer(scene, options, timer, table_columns(scene.plate, scene.pair), points)
       , progress(std::cerr, progress_style(quiet), path_length(scene.drive))
       , stress(no_stress_peaks("the model has no mesh"))
@@ -147,12 +149,13 @@ namespace sprag
     auto end = writer.finish(status, { summary, meta, {}, accuracy_entries(accuracy) }, warnings);
     if (checkpoint != nullptr)
       checkpoint->finish(status);
-    if (!quiet)
+    if (!quiet && verbose)
     {
-      const auto cpu = std::find_if(end.meta.begin(), end.meta.end(), [](const Entry &e) { return e.name == "cpu_time"; });
-      print_summary(std::cout, joined(end.summary, { *cpu }));
+      print_summary(std::cout, end.summary);
       print_accuracy(std::cout, accuracy);
     }
+    else if (!quiet)
+      print_brief(std::cout, end.summary, accuracy, PhaseTimer::cpu_seconds());
     return end.summary;
   }
 } // namespace sprag

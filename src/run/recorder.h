@@ -52,6 +52,7 @@ namespace sprag
   private:
     const Scene &scene;
     const bool quiet;
+    const bool verbose;
     ResultWriter writer;
     Progress progress;
     std::vector<Row> rows;

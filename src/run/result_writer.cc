@@ -61,7 +61,7 @@ namespace sprag
       in_memory->found = {};
       return;
     }
-    prepare_folder(options.folder);
+    prepare_folder(scene, options);
     file.emplace(options.folder + "/result.h5", parameters_text(scene), points, columns);
   }
 

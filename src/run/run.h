@@ -8,6 +8,7 @@
 namespace sprag
 {
   struct InMemory;
+  class RunLog;
 
   struct RunOptions
   {
@@ -15,6 +16,8 @@ namespace sprag
     bool quiet          = false;
     bool is_first       = true;    ///< of several processes that run the scene together: it prints
     InMemory *in_memory = nullptr; ///< for a run that writes no files, in place of a folder; else null
+    bool verbose        = false;   ///< prints all of a summary
+    RunLog *log         = nullptr; ///< begins in the folder once that is made; null: none
     std::string chosen  = {};      ///< settings that follow from the scene's Accuracy, "Section/Name = VALUE; ..."
   };
 

@@ -204,7 +204,7 @@ namespace sprag
     on_first_rank(
         [&]
         {
-          prepare_folder(options.folder);
+          prepare_folder(scene, options);
           journal.emplace(options.folder + "/map.journal", "map", inputs_key(scene));
           announce(*journal, progress);
         });

@@ -96,7 +96,7 @@ namespace sprag
         [&]
         {
           require_possible_runs(scene);
-          prepare_folder(options.folder);
+          prepare_folder(scene, options);
           journal.emplace(options.folder + "/study.journal", "study", inputs_key(scene, files));
           announce(*journal, runs.size(), style);
         });

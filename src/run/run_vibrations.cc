@@ -72,12 +72,12 @@ namespace sprag
 
     /// The modes as fields for ParaView, mode-01.xdmf, ...
     void write_fields(const Scene &scene, const Dynamics &dynamics, const DevicePose &held, const std::vector<Eigenmode> &modes,
-                      const std::string &folder)
+                      const RunOptions &options)
     {
       if (!dynamics.lever || scene.output.fields == FieldOutput::none)
         return;
-      prepare_folder(folder);
-      remove_field_files(folder);
+      prepare_folder(scene, options);
+      remove_field_files(options.folder);
       const BodyFields fields(*dynamics.lever->body);
       unsigned int number = 0;
       for (const auto &mode : modes)
@@ -91,7 +91,7 @@ namespace sprag
           { return dynamics.meshed.elastic_displacement(as_motion(mode.mode, i), lever); };
           told.levers.push_back({ { { part(0), part(1) } }, shape.levers[lever].rotation });
         }
-        write_mode(scene, fields, held, told, ++number, folder);
+        write_mode(scene, fields, held, told, ++number, options.folder);
       }
     }
 
@@ -117,7 +117,7 @@ namespace sprag
         result.summary.push_back({ "frequency_" + std::to_string(i + 1), modes[i].mode.eigenvalue.imag() / (2. * M_PI), "Hz",
                                    "of the undamped mode" });
       result.groups = { mode_group(modes, model) };
-      write_fields(scene, dynamics, pose_of_slide(scene, model, *slide), modes, options.folder);
+      write_fields(scene, dynamics, pose_of_slide(scene, model, *slide), modes, options);
       return result;
     }
 
@@ -140,7 +140,7 @@ namespace sprag
         const auto modes    = reported(found.modes, scene.stability.modes);
         result.groups       = { mode_group(modes, dynamics.model()) };
         if (found.slide)
-          write_fields(scene, dynamics, pose_of_slide(scene, dynamics.model(), *found.slide), modes, options.folder);
+          write_fields(scene, dynamics, pose_of_slide(scene, dynamics.model(), *found.slide), modes, options);
         result.summary = slide_entries(found);
         if (found.slide)
           append(warnings, slide_warnings(scene, found.slide->drive, found.slide->forces.P, found.slide->indentation));

@@ -419,7 +419,7 @@ class Options(ProgramTest):
         done = sprag(self.write(CLOSED_FORM, "first try.prm"), cwd=self.folder)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertTrue((self.folder / "output" / "first try" / "result.h5").is_file())
-        self.assertIn("peak_P_forward", done.stdout)
+        self.assertIn("largest P", done.stdout)
 
 
 if __name__ == "__main__":

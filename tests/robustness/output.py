@@ -1,0 +1,103 @@
+"""What a run says: the lines that answer its question, everything with --verbose, and all of it again in run.log. Run with
+/usr/bin/python3; environment: SPRAG, the program, and SPRAG_SOURCE, the sources."""
+
+import os
+import sys
+import unittest
+from pathlib import Path
+
+import h5py
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from runs import SOURCE, RunTest, sprag  # noqa: E402
+
+SHORT = {
+    "model-a": ("Mesh/Face size=1", "Analysis/Step=4", "Output/Fields=none"),
+    "closed-form-a": (),
+    "reversal-a": ("Analysis/Model=rigid",),
+    "support-a": ("Analysis/Model=rigid",),
+}
+MANY_TURNS = ("Analysis/Model=rigid", "Contact/Type=ideal", "Drive/Cycles=10")
+MOST_LINES = 20
+
+
+class Output(RunTest):
+    def run_scene(self, scene, *options, **environment):
+        settings = [word for setting in SHORT[scene] for word in ("--set", setting)]
+        done = sprag(
+            SOURCE / "params" / f"{scene}.prm",
+            *settings,
+            *options,
+            "--output",
+            self.output,
+            "--overwrite",
+            env={**os.environ, **environment},
+        )
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done
+
+    def test_a_few_lines_say_what_applies(self):
+        for scene in SHORT:
+            with self.subTest(scene):
+                lines = self.run_scene(scene).stdout.partition("Warning:")[0].splitlines()
+                self.assertLess(len(lines), MOST_LINES)
+                self.assertFalse([line for line in lines if "nan" in line or "inf" in line.split()])
+                self.assertEqual(any("on the ground" in line for line in lines), scene == "support-a")
+                self.assertEqual(any("largest stress" in line for line in lines), scene == "model-a")
+
+    def test_the_peaks_printed_are_those_of_the_file(self):
+        words = next(line for line in self.run_scene("model-a").stdout.splitlines() if "largest P" in line).split()
+        with h5py.File(self.output / "result.h5") as file:
+            for printed, way in zip(words[2:4], ("forward", "backward")):
+                self.assertAlmostEqual(float(printed) / file[f"summary/peak_P_{way}"][()], 1, delta=1e-3)
+
+    def test_many_reversals_are_a_table_with_an_end(self):
+        settings = [word for setting in MANY_TURNS for word in ("--set", setting)]
+        lines = self.run_scene("reversal-a", *settings).stdout.splitlines()
+        with h5py.File(self.output / "result.h5") as file:
+            turns = sum(name.endswith("_verdict") for name in file["summary"])
+        self.assertGreater(turns, 12)
+        self.assertTrue(any(f"and {turns - 12} more in /summary" in line for line in lines), lines)
+
+    def test_verbose_prints_all(self):
+        text = self.run_scene("reversal-a", "--verbose").stdout
+        with h5py.File(self.output / "result.h5") as file:
+            for name in file["summary"]:
+                self.assertIn(name, text)
+
+    def test_verbose_and_quiet_exclude_each_other(self):
+        done = sprag(SOURCE / "params" / "fig10.prm", "--quiet", "--verbose")
+        self.assertEqual(done.returncode, 2)
+
+    def test_the_log_has_all_messages(self):
+        for scene in SHORT:
+            with self.subTest(scene):
+                done = self.run_scene(scene)
+                log = (self.output / "run.log").read_text()
+                self.assertRegex(log, r"\Asprag \d+\.\d+\.\d+, \d{4}-\d\d-\d\d \d\d:\d\d:\d\d ")
+                self.assertIn(f"{scene}.prm", log.splitlines()[1])
+                for setting in SHORT[scene]:
+                    self.assertIn(setting.replace("=", " = "), log)
+                for line in (done.stdout + done.stderr).splitlines():
+                    self.assertIn(line, log)
+
+    def test_of_a_progress_bar_the_log_has_the_last_line(self):
+        done = self.run_scene("reversal-a", SPRAG_TERMINAL="1")
+        self.assertGreater(done.stderr.count(" %  x "), 1)
+        self.assertEqual((self.output / "run.log").read_text().count(" %  x "), 1)
+
+    def test_the_log_tells_of_a_failure(self):
+        settings = (*SHORT["model-a"], "Analysis/Maximum deviation=1e-6")
+        words = [word for setting in settings for word in ("--set", setting)]
+        done = sprag(SOURCE / "params" / "model-a.prm", *words, "--output", self.output)
+        self.assertEqual(done.returncode, 1, done.stdout)
+        self.assertIn(done.stderr.splitlines()[-1], (self.output / "run.log").read_text())
+
+    def test_no_log_where_nothing_runs(self):
+        done = sprag(SOURCE / "params" / "model-a.prm", "--set", "Mesh/File=/nowhere.msh", "--output", self.output)
+        self.assertEqual(done.returncode, 2)
+        self.assertFalse(self.output.exists())
+
+
+if __name__ == "__main__":
+    unittest.main()
