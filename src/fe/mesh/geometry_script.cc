@@ -242,7 +242,10 @@ namespace sprag
 
   std::string mesh_script(const std::string &name)
   {
-    return SPRAG_MESHES "/" + name;
+    std::error_code error;
+    const auto program   = std::filesystem::read_symlink("/proc/self/exe", error);
+    const auto installed = program.parent_path() / SPRAG_INSTALLED_MESHES / name;
+    return std::filesystem::is_regular_file(installed, error) ? installed.lexically_normal().string() : SPRAG_MESHES "/" + name;
   }
 
   void read_gmsh(const std::string &file, const MeshConstants &constants, const MeshGroups &groups,

@@ -1,0 +1,67 @@
+"""An installed program needs nothing of its sources. Run with /usr/bin/python3; environment: SPRAG, the program in its build
+folder, and SPRAG_SOURCE, the sources."""
+
+import re
+import subprocess
+import sys
+import unittest
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from folders import FolderTest  # noqa: E402
+from runs import SOURCE, SPRAG, TIMEOUT  # noqa: E402
+
+CHEAP = ("--set", "Mesh/Face size=1", "--set", "Analysis/Step=8", "--set", "Output/Fields=none")
+
+
+class Install(FolderTest):
+
+    def setUp(self):
+        super().setUp()
+        self.prefix = self.folder / "prefix"
+        self.call("cmake", "--install", Path(SPRAG).parent, "--prefix", self.prefix)
+        self.data = self.prefix / "share" / "sprag"
+
+    def call(self, *command, status=0):
+        done = subprocess.run(
+            [*map(str, command)], capture_output=True, text=True, check=False, timeout=TIMEOUT, cwd=self.folder
+        )
+        self.assertEqual(done.returncode, status, done.stderr)
+        return done
+
+    def test_runs_and_draws_from_anywhere_with_its_own_meshes(self):
+        program, scene = self.prefix / "bin" / "sprag", self.data / "params" / "model-a.prm"
+        self.call(program, scene, *CHEAP, "--output", "here")
+        self.call(self.prefix / "bin" / "sprag-plot", "here")
+        self.assertTrue((self.folder / "here" / "forces-over-x.png").is_file(), list((self.folder / "here").iterdir()))
+        script = self.data / "meshes" / "lever.geo"
+        script.write_text("Physical Surface(")
+        told = self.call(program, scene, *CHEAP, "--output", "there", status=2).stderr
+        self.assertIn(str(script), told)
+
+    def test_nothing_of_it_names_the_sources(self):
+        for path in self.prefix.rglob("*"):
+            if path.is_file() and path.suffix in (".py", ".prm", ".geo", ".md"):
+                self.assertNotIn(str(SOURCE), path.read_text(), path)
+
+    def test_scenes_and_pages_are_all_there(self):
+        for folder, suffix, to in (("params", ".prm", self.data), ("meshes", ".geo", self.data), ("postprocess", ".py", self.data)):
+            for path in (SOURCE / folder).glob(f"*{suffix}"):
+                self.assertTrue((to / folder / path.name).is_file(), path)
+        pages = self.prefix / "share" / "doc" / "sprag"
+        for path in ("README.md", "params/README.md", "postprocess/README.md"):
+            self.assertTrue((pages / path).is_file(), path)
+
+
+class Version(unittest.TestCase):
+    def test_is_the_same_everywhere(self):
+        printed = subprocess.run([SPRAG, "--version"], capture_output=True, text=True, check=True).stdout.split()[1]
+        self.assertIn(f"\n## {printed} ", (SOURCE / "CHANGELOG.md").read_text())
+        self.assertIn(f"\nversion: {printed}\n", (SOURCE / "CITATION.cff").read_text())
+        tag = subprocess.run(["git", "-C", SOURCE, "describe", "--tags"], capture_output=True, text=True, check=False)
+        if tag.returncode == 0:
+            self.assertEqual(re.match(r"v?([0-9.]+)", tag.stdout).group(1), printed)
+
+
+if __name__ == "__main__":
+    unittest.main()
