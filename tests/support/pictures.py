@@ -6,7 +6,8 @@ from pathlib import Path
 
 from folders import FolderTest
 
-FOLDER = Path(__file__).resolve().parents[2] / "postprocess"
+SOURCE = Path(__file__).resolve().parents[2]
+FOLDER = SOURCE / "postprocess"
 sys.path.insert(0, str(FOLDER))
 
 
