@@ -195,4 +195,4 @@ def draw_feeds(axes, modes, most=4):
     axes.grid(axis="x", visible=False)
     if used:
         style = {"handlelength": 1, "columnspacing": 1.2, "borderaxespad": 0.3}
-        axes.legend(loc="lower right", bbox_to_anchor=(1, 1), ncol=len(used), **style)
+        axes.legend(loc="lower right", bbox_to_anchor=(1, 1), ncol=min(len(used), 3), **style)

@@ -10,6 +10,7 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 
 from pictures import PictureTest  # noqa: E402
+import forces  # noqa: E402
 import results  # noqa: E402
 
 
@@ -173,17 +174,15 @@ class PlotTest(PictureTest):
         self.expect_pictures(done, ["forces-over-time.png", "forces-over-x.png", "comparison.png"])
 
     def test_line_of_the_slope_only_where_there_is_one(self):
-        import plot
-
         for name, slope, lines in (("constant", 0.08, 1), ("changing", np.nan, 0)):
             with self.subTest(name):
                 file = new_file(self.folder / name)
                 fill_run(file, np.arange(0.0, 11))
                 finish(file, slope_forward=slope)
-                figure, axes = plot.plt.subplots()
-                plot.draw_slopes(axes, [results.read_result(self.folder / name)])
+                figure, axes = forces.plt.subplots()
+                forces.draw_slopes(axes, [results.read_result(self.folder / name)])
                 self.assertEqual(len(axes.lines), lines)
-                plot.plt.close(figure)
+                forces.plt.close(figure)
 
     def test_transient_run(self):
         for growth in (-40.0, 25.0):

@@ -19,6 +19,7 @@ from pictures import SOURCE  # puts the scripts on the path
 
 import plot  # noqa: E402
 from results import NotAResult, read_result  # noqa: E402
+from style import TWO_COLUMNS, plt, use_print_style  # noqa: E402
 
 # What makes a scene short; its pictures keep their kinds of curves.
 MAP = {"Map/First points": 17, "Map/Second points": 17, "Map/Bisections": 2}
@@ -48,7 +49,8 @@ SHORTER = {
     "stiff-b": {"Mesh/Face size": 0.25},
 }
 
-THUMBNAIL, CAPTION, COLUMNS = 560, 22, 6  # pixels
+WIDTH, CAPTION, GAP, COLUMNS = 560, 22, 10, 6  # pixels; a picture as wide as the page takes a column
+DPI = 200
 
 
 def run(sprag, scene, folder):
@@ -69,32 +71,36 @@ def draw(folder):
     for name, figure in plot.draw([read_result(folder)]).items():
         path = folder / f"{name}.png"
         wrong = problems(figure)
-        figure.savefig(path, dpi=200)
-        plot.plt.close(figure)
+        figure.savefig(path, dpi=DPI)
+        plt.close(figure)
         drawn.append((path, wrong))
     return drawn
 
 
 def sheet_of(pictures):
-    """One image of all; captions of those with a wrong layout are red."""
-    font = ImageFont.truetype(str(Path(plot.plt.matplotlib.get_data_path()) / "fonts/ttf/DejaVuSans.ttf"), 14)
-    tiles = [tile(path, wrong, font) for path, wrong in pictures]
-    rows = [tiles[begin : begin + COLUMNS] for begin in range(0, len(tiles), COLUMNS)]
-    heights = [max(image.height for image in row) for row in rows]
-    sheet = Image.new("RGB", (min(COLUMNS, len(tiles)) * THUMBNAIL, sum(heights)), "white")
-    for row, images in enumerate(rows):
-        for column, image in enumerate(images):
-            sheet.paste(image, (column * THUMBNAIL, sum(heights[:row])))
+    """One image of all in columns, all in one scale; captions of those with a wrong layout are red."""
+    font = ImageFont.truetype(str(Path(plt.matplotlib.get_data_path()) / "fonts/ttf/DejaVuSans.ttf"), 14)
+    filled = [0] * COLUMNS
+    places = []
+    for path, wrong in pictures:
+        image = tile(path, wrong, font)
+        column = filled.index(min(filled))
+        places.append((image, (column * WIDTH, filled[column])))
+        filled[column] += image.height
+    sheet = Image.new("RGB", (WIDTH * min(COLUMNS, len(places)), max(filled)), "white")
+    for image, place in places:
+        sheet.paste(image, place)
     return sheet
 
 
 def tile(path, wrong, font):
     picture = Image.open(path).convert("RGB")
-    picture = picture.resize((THUMBNAIL - 10, math.ceil(picture.height * (THUMBNAIL - 10) / picture.width)), Image.LANCZOS)
-    image = Image.new("RGB", (THUMBNAIL, picture.height + CAPTION + 10), "white")
-    image.paste(picture, (5, CAPTION))
+    shrunk = (WIDTH - GAP) / (TWO_COLUMNS * DPI)
+    picture = picture.resize((math.floor(picture.width * shrunk), math.floor(picture.height * shrunk)), Image.LANCZOS)
+    image = Image.new("RGB", (WIDTH, picture.height + CAPTION + GAP), "white")
+    image.paste(picture, (GAP // 2, CAPTION))
     words = f"{path.parent.name}: {path.stem}" + (f", {len(wrong)} wrong" if wrong else "")
-    ImageDraw.Draw(image).text((6, 2), words, fill="red" if wrong else "black", font=font)
+    ImageDraw.Draw(image).text((GAP // 2, 2), words, fill="red" if wrong else "black", font=font)
     return image
 
 
@@ -109,7 +115,7 @@ def read_arguments(arguments):
 
 def main(arguments=None):
     options = read_arguments(arguments)
-    plot.use_print_style()
+    use_print_style()
     scenes = [path for path in sorted((SOURCE / "params").glob("*.prm")) if not options.only or path.stem in options.only]
     options.results.mkdir(parents=True, exist_ok=True)
     pictures, failed = [], False

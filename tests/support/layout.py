@@ -8,8 +8,8 @@ from matplotlib.text import Annotation
 from matplotlib.transforms import Bbox
 
 TOUCHING = 0.7  # points by which boxes of texts may overlap: they have a margin of their own
-COVERED = 0.12  # of a curve's drawn length or of its points that a legend may cover
-ROUND_OFF = 1e-9  # range of a linear axis, in its unit and over its numbers, below which it shows round-off
+COVERED = 0.05  # of a curve's drawn length or of its points that a legend may cover
+ROUND_OFF = 1e-7  # range of a linear axis, in its unit (mm, N, s, rad), below which it shows round-off
 
 
 def problems(figure):
@@ -75,7 +75,7 @@ def round_off(axes):
     found = []
     for name, axis in (("abscissa", axes.xaxis), ("ordinate", axes.yaxis)):
         low, high = axis.get_view_interval()
-        if axis.get_scale() == "linear" and abs(high - low) < ROUND_OFF * max(1, abs(low), abs(high)):
+        if axis.get_scale() == "linear" and abs(high - low) < max(ROUND_OFF, 1e-9 * abs(low), 1e-9 * abs(high)):
             found.append(f"the {name} from {low:g} to {high:g} shows round-off")
     return found
 
