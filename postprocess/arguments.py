@@ -15,18 +15,19 @@ def add_folders(parser, number="+", what="result folder, holding result.h5"):
     parser.add_argument("folders", nargs=number, metavar="DIR", type=Path, help=what)
 
 
-def add_output(parser, metavar="FILE", default="beside the result"):
-    """-o and --format. The format is None where it is not given: then the ending of -o FILE tells it, or it is png."""
+def add_output(parser, metavar="FILE", default="beside the result", formats=FORMATS, usual="png"):
+    """-o and --format. The format is None where it is not given: then the ending of -o FILE tells it, or it is the usual one."""
+
+    def chosen(text):
+        parts = tuple(part.strip() for part in text.split(","))
+        unknown = sorted(set(parts) - set(formats))
+        if unknown:
+            raise argparse.ArgumentTypeError(f"unknown format {', '.join(unknown)}: {', '.join(formats[:-1])} or {formats[-1]}")
+        return parts
+
     parser.add_argument("-o", "--output", type=Path, metavar=metavar, help=f"where it goes; default: {default}")
-    parser.add_argument("--format", type=formats, metavar="FORMAT", help="png, pdf or svg, or several: png,pdf (png)")
-
-
-def formats(text):
-    chosen = tuple(part.strip() for part in text.split(","))
-    unknown = sorted(set(chosen) - set(FORMATS))
-    if unknown:
-        raise argparse.ArgumentTypeError(f"unknown format {', '.join(unknown)}: png, pdf or svg")
-    return chosen
+    words = f"{', '.join(formats)}, or several: {formats[0]},{formats[1]} ({usual})"
+    parser.add_argument("--format", type=chosen, metavar="FORMAT", help=words)
 
 
 def names_picture(path):

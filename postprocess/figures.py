@@ -1,7 +1,6 @@
 #!/usr/bin/python3
 """Makes the pictures of postprocess/pictures, Figs. 6 to 11 of the paper among them, by running the scenes of params/."""
 
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
@@ -14,18 +13,14 @@ from comparison import comparison
 from contact import contact
 from fields import fields
 from forces import forces_over_time, forces_over_x
+from program import ROOT, RunFailed, add_program, run_scene
 from results import NotAResult, read_result
 from slope import contact_law, slopes_over_coefficient, slopes_over_inclination
 from style import COLOURS, MARKERS, MILLIMETRE, ONE_COLUMN, look, plt, set_labels, use_print_style
 from transient import energy, reversal
 
-ROOT = Path(__file__).resolve().parent.parent
 PICTURES = ROOT / "postprocess" / "pictures"
 DPI = 110  # small enough to stand in a README
-
-
-class RunFailed(Exception):
-    """sprag did not finish a scene; the text says which and what it said."""
 
 
 class Runner:
@@ -39,20 +34,9 @@ class Runner:
         """The result of params/<scene>.prm; changes as {"Section/Name": value}, under another name then."""
         output = self.folder / (name or scene)
         if not output.exists():
-            self.carry_out(scene, output, changes or {})
+            print(f"{output.name} ...", file=sys.stderr)
+            run_scene(self.sprag, ROOT / "params" / f"{scene}.prm", output, changes or {})
         return read_result(output)
-
-    def carry_out(self, scene, output, changes):
-        print(f"{output.name} ...", file=sys.stderr)
-        command = [self.sprag, ROOT / "params" / f"{scene}.prm", "--output", output, "--quiet"]
-        for parameter, value in changes.items():
-            command += ["--set", f"{parameter}={value}"]
-        try:
-            done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
-        except OSError as error:
-            raise RunFailed(f"{self.sprag}: {error.strerror}") from error
-        if done.returncode != 0:
-            raise RunFailed(f"{scene}.prm: sprag ended with {done.returncode}\n{done.stdout.strip()}")
 
 
 def friction_over_speed(run):
@@ -182,7 +166,7 @@ FIGURES = {
 
 def read_arguments(arguments):
     parser = parser_of(__doc__)
-    parser.add_argument("--sprag", type=Path, default=ROOT / "build" / "sprag", help="the program (build/sprag)")
+    add_program(parser)
     add_output(parser, "PICTURE_DIR", "postprocess/pictures")
     parser.add_argument("--only", nargs="+", metavar="NAME", default=list(FIGURES), help="these pictures and the runs they need")
     options = parser.parse_args(arguments)
@@ -197,9 +181,9 @@ def main(arguments=None):
     use_print_style()
     try:
         with tempfile.TemporaryDirectory(prefix="sprag-figures-") as folder:
-            run = Runner(options.sprag.resolve(), Path(folder))
+            runner = Runner(options.sprag.resolve(), Path(folder))
             for name in options.only:
-                plot.save_all({name: FIGURES[name](run)}, options.output or PICTURES, options.format or ("png",), DPI)
+                plot.save_all({name: FIGURES[name](runner)}, options.output or PICTURES, options.format or ("png",), DPI)
     except (RunFailed, NotAResult, OSError) as error:
         print(f"figures.py: {error}", file=sys.stderr)
         return 1
