@@ -171,8 +171,9 @@ def draw_surroundings(axes, scenery):
     pivot, where = scenery.pose.pivot, scenery.pose
     axes.axhline(0.0, color="0.4", linewidth=0.6, linestyle=(0, (8, 2, 1.5, 2)), zorder=0)
     axes.plot(*pivot, "o", color="white", markeredgecolor="black", markersize=5, zorder=6)
-    box = {"facecolor": "white", "alpha": 0.7, "linewidth": 0, "pad": 0.8}
-    axes.annotate("pivot", pivot, xytext=(0, -8), textcoords="offset points", ha="center", va="top", fontsize=7, zorder=6, bbox=box)
+    if scenery.part == "all":
+        box = {"facecolor": "white", "alpha": 0.7, "linewidth": 0, "pad": 0.8}
+        axes.annotate("pivot", pivot, xytext=(0, -8), textcoords="offset points", ha="center", va="top", fontsize=7, zorder=6, bbox=box)
     length = 0.3 * scenery.radius * scenery.way
     axes.annotate("", (where.x + length, 0.0), (where.x, 0.0), arrowprops={"arrowstyle": "-|>", "linewidth": 1}, zorder=5)
 

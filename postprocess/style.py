@@ -59,6 +59,7 @@ def use_print_style():
             "font.size": 8,
             "axes.labelsize": 8,
             "axes.linewidth": 0.6,
+            "axes.formatter.limits": (-3, 5),
             "axes.grid": True,
             "axes.axisbelow": True,
             "grid.color": "0.88",
@@ -68,6 +69,7 @@ def use_print_style():
             "legend.frameon": False,
             "legend.handlelength": 2.8,
             "xtick.direction": "in",
+            "xtick.major.pad": 5,  # corners where both axes have a number
             "ytick.direction": "in",
             "pdf.fonttype": 42,
             "figure.constrained_layout.use": True,

@@ -47,7 +47,7 @@ def mode_shapes(modes, most=6):
         lowest = panels[(len(chosen) - 1 - column) // columns][column]
         lowest.set_xlabel(r"lever coordinate $\xi$ [mm]")
         lowest.tick_params(labelbottom=True)
-    figure.supylabel("deflection over the largest, rotation included", fontsize=8)
+    figure.supylabel("deflection over the largest,\nrotation included", fontsize=8, multialignment="center")
     return figure
 
 

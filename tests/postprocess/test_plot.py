@@ -216,22 +216,16 @@ class PlotTest(PictureTest):
         done = self.plot(*(path for path in self.folder.iterdir()))
         self.expect_pictures(done, ["forces-over-time.png", "forces-over-x.png", "comparison.png"])
 
-    def test_comparison_into_a_file(self):
-        make_run(self.folder / "a")
-        finish(make_transient(self.folder / "b"))
-        picture = self.pictures / "levels.png"
-        self.expect_pictures(self.plot(self.folder / "a", self.folder / "b", "-o", picture), ["levels.png"])
-
-    def test_picture_file_for_a_single_run(self):
+    def test_picture_file(self):
         make_run(self.folder / "a")
         done = self.plot(self.folder / "a", "--output", "levels.png")
         self.assertEqual(done.returncode, 2)
-        self.assertIn("several result folders", done.stderr)
+        self.assertIn("comparison.py", done.stderr)
 
     def test_sweep_and_run_do_not_mix(self):
         make_run(self.folder / "a")
         make_sweep(self.folder / "b", {"mu": np.linspace(0, 1.2, 5)})
-        self.expect_refusal(self.plot(self.folder / "a", self.folder / "b", "-o", "levels.png"), "by itself")
+        self.expect_refusal(self.plot(self.folder / "a", self.folder / "b"), "by itself")
 
     def test_sweep_over_coefficient(self):
         mu = np.linspace(0, 1.2, 5)

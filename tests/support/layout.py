@@ -164,7 +164,7 @@ def covered_curves(axes, renderer):
         return []
     box = contents_of_legend(legend, renderer)
     found = []
-    for line in axes.lines:
+    for line in (line for line in axes.lines if line.get_transform() == axes.transData):
         inside = covered_share(axes, line, box)
         if inside > COVERED:
             found.append(f"the legend covers {100 * inside:.0f} % of '{line.get_label()}'")
