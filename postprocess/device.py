@@ -36,9 +36,9 @@ EDGE = {"edgecolor": "0.2", "linewidth": 0.6}
 
 
 def draw_lever(axes, device, geometry, mirrored=False):
-    """Lever, layer, plate, sensors and leaf spring; a mirrored one below the mirror plane. Its mesh's places on the page."""
+    """Lever, layer, plate, sensors and leaf spring, of a mirrored one below the cylinder's path. Its mesh's places on the page."""
     points = geometry.place(device.frame.nodes)
-    turn = (lambda places: places * (1, -1) - (0, 2 * device.cylinder_height)) if mirrored else (lambda places: places)
+    turn = (lambda places: places * (1, -1)) if mirrored else (lambda places: places)
     points = turn(points)
     for part in ("hub", "lever", "web", "plate", "layer"):
         if device.frame.shown([part]).any():
@@ -91,7 +91,7 @@ def drawing(device, x=None):
     if x is None:
         x = device.largest_x if device.largest_x is not None else device.number("Drive/Stroke")
     geometry = device.geometry(x)
-    if not np.isfinite(geometry.theta) or geometry.s <= 0:
+    if not abs(geometry.theta) < np.pi / 2 or geometry.s <= 0:
         raise NotAResult(f"{device.name}: no contact at x = {x:g} mm")
     figure, axes = plt.subplots(figsize=(TWO_COLUMNS, 100 * MILLIMETRE))
     draw_cylinder(axes, device, geometry)
@@ -130,7 +130,7 @@ def draw_dimensions(axes, device, geometry, points):
     unit = pivot[0]
     lower = -1.2 * R - (0 if has_room(geometry) else 0.08 * unit)
     if device.is_pair:
-        lower = min(lower, -points[:, 1].max() - 2 * device.cylinder_height - 0.08 * unit)
+        lower = min(lower, -points[:, 1].max() - 0.08 * unit)
     axes.plot([-0.2 * unit, 1.15 * unit], [0, 0], **CENTRE_LINE, zorder=1)
     draw_radius(axes, geometry)
     if geometry.x > 0:
