@@ -41,7 +41,7 @@ def contact(result):
 
 def chosen_states(result, count=COUNT):
     """[(row of the face's steps, way, number of the position)] of states in contact, spread over x, the same x each way."""
-    face, ways = result.face, ways_of_states(result)
+    face, ways, slides = result.face, ways_of_states(result), sliding(result)
     pressed = np.flatnonzero(face.pressure.max(axis=1, initial=0) > 0)
     if len(pressed) == 0:
         return []
@@ -50,6 +50,7 @@ def chosen_states(result, count=COUNT):
     found = []
     for way in WAYS:
         rows = first_stroke_of(pressed, ways, way)
+        rows = rows[slides[rows] == way] if (slides[rows] == way).any() else rows
         for number, x in enumerate(wanted):
             if len(rows) and (best := rows[np.abs(face.x[rows] - x).argmin()]) is not None and abs(face.x[best] - x) <= near:
                 found.append((int(best), way, number))
@@ -69,14 +70,27 @@ def positions(x, count):
 
 def ways_of_states(result):
     """1 forward, -1 backward; a turning point belongs to the stroke that led to it."""
-    x, time = result.table["x"], result.table["time"]
+    x = result.table["x"]
     steps = np.sign(np.diff(x, prepend=x[0]))
     moving = np.flatnonzero(steps)
     if len(moving) == 0:
         return np.ones(len(result.face.time), dtype=int)
-    rows = np.abs(time[None, :] - result.face.time[:, None]).argmin(axis=1)
+    rows = rows_of_states(result)
     last = np.maximum(np.searchsorted(moving, rows, side="right") - 1, 0)
     return steps[moving[last]].astype(int)
+
+
+def rows_of_states(result):
+    """Of the table."""
+    return np.searchsorted(result.table["time"], result.face.time - 1e-9 * np.abs(result.face.time)).clip(max=len(result.table["time"]) - 1)
+
+
+def sliding(result):
+    """1 or -1 where the whole contact slides that way, 0 where it sticks in part, as behind a reversal; 0 where nothing tells."""
+    if not all(result.has(name) for name in ("normal_resultant", "friction_resultant", "mu")):
+        return np.zeros(len(result.face.time), dtype=int)
+    normal, friction, mu = (result.table[name][rows_of_states(result)] for name in ("normal_resultant", "friction_resultant", "mu"))
+    return np.where(np.abs(friction) >= 0.97 * mu * normal, np.sign(friction), 0).astype(int)
 
 
 def first_stroke_of(rows, ways, way):

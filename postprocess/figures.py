@@ -8,9 +8,11 @@ from pathlib import Path
 import numpy as np
 
 import plot
+from apparatus import device_of
 from arguments import add_output, parser_of
 from comparison import comparison
 from contact import contact
+from device import drawing
 from fields import fields
 from forces import forces_over_time, forces_over_x
 from program import ROOT, RunFailed, add_program, run_scene
@@ -100,6 +102,15 @@ def ladder(run):
     return comparison([run("reversal-a", model, changes={"Analysis/Model": model, **start}) for model in models])
 
 
+def depths(run):
+    """Reversals of levers of many depths."""
+    return comparison([run("reversal-a", f"depth {depth}", changes={"Lever/Depth": depth}) for depth in (6, 8, 12, 14, 16, 20, 25)])
+
+
+def device(scene, run):
+    return drawing(device_of(ROOT / "params" / f"{scene}.prm", run.sprag, None))
+
+
 def drawn(scene, picture):
     """One of the pictures that plot.py draws of a scene."""
     return lambda run: plot.draw([run(scene)])[picture]
@@ -126,7 +137,11 @@ FIGURES = {
     "fig-11": slopes_of_geometries,
     "contact": lambda run: contact(run("model-a")),
     "fields-a": lambda run: fields(run("model-a")),
-    # The apparatus.
+    # The device and the apparatus.
+    "device": lambda run: device("model-a", run),
+    "device-b": lambda run: device("model-b", run),
+    "device-apparatus": lambda run: device("apparatus-a", run),
+    "comparison-depth-a": depths,
     "apparatus-a": lambda run: fields(run("apparatus-a")),
     "cylinder-a": lambda run: fields(run("cylinder-a")),
     "plate-a": drawn("plate-a", "sensors"),
