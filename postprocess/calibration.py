@@ -5,6 +5,7 @@ import numpy as np
 from style import COLOURS, MILLIMETRE, TWO_COLUMNS, panel_letter, plt
 
 CURVES = (("", "meshed lever", COLOURS[0], "-"), ("_beam", "calibrated beam", COLOURS[1], (0, (5, 1.5))))
+WAYS = {1: (">", "forward"), -1: ("<", "backward")}
 STATES = (("free_frequency_", "free"), ("contact_frequency_", "contact"))
 
 
@@ -22,6 +23,9 @@ def calibration(result):
     draw_frequencies(panels[2], result.summary)
     for axes, letter in zip(panels, "abc"):
         panel_letter(axes, letter)
+    panels[0].legend()
+    ways = [plt.Line2D([], [], color="black", linestyle="", marker=marker, markersize=3) for marker, _ in WAYS.values()]
+    panels[1].legend(ways, [name for _, name in WAYS.values()])
     figure.suptitle(constants(result), fontsize=7)
     return figure
 
@@ -43,7 +47,7 @@ def unit(text):
 
 def draw_force(axes, result, column):
     table = result.table
-    for way, marker in ((1, ">"), (-1, "<")):
+    for way, (marker, _) in WAYS.items():
         rows = np.flatnonzero(table["direction"] == way)
         rows = rows[np.argsort(table["x"][rows])]
         for ending, name, colour, line in CURVES:
@@ -54,8 +58,7 @@ def draw_force(axes, result, column):
     axes.set_ylabel(f"${column}$ [{result.units[column]}]")
     deviation = result.summary.get(f"{column}_deviation")
     if deviation is not None:
-        axes.set_title(f"deviation {percent(deviation)} of the peak; ▷ forward, ◁ backward", loc="right", fontsize=7)
-    axes.legend()
+        axes.set_title(f"deviation {percent(deviation)} of the peak", loc="right", fontsize=7)
 
 
 def percent(share):

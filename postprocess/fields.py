@@ -1,14 +1,13 @@
 #!/usr/bin/python3
 """Draws one frame of a run's fields: the apparatus with the deformed mesh and its stress, the contact, the pressure there."""
 
-import argparse
 import sys
-from pathlib import Path
 
 import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.colors import LogNorm, Normalize
 
+from arguments import add_folders, add_output, parser_of, picture_paths, save
 from frames import PARTS, WAYS, chosen_frame, number, pose, read_frame, rest_inclination
 from results import NotAResult, read_result, script
 from style import COLOURS, MILLIMETRE, TWO_COLUMNS, plt, use_print_style
@@ -91,7 +90,7 @@ def draw_apparatus(axes, scenery, magnify):
     norm = norm_of([body.stress[body.shown(scenery.coloured)] for body, _ in bodies], each_by_itself(bodies, scenery))
     for body, where in bodies:
         mappable = draw_stress(axes, body, where, scenery.coloured, norm) or mappable_of(norm)
-        axes.add_collection(PolyCollection(where[body.outlines], facecolor="none", **GRID))
+        axes.add_collection(PolyCollection(where[large_cells(body, np.ptp(points, axis=0).max())], facecolor="none", **GRID))
         axes.add_collection(LineCollection(where[body.borders()], colors="black", linewidths=0.4, zorder=4))
     if magnify > 1:
         axes.add_collection(LineCollection(rest[frame.borders()], colors="0.55", linewidths=0.3, linestyles=":", zorder=1))
@@ -99,6 +98,12 @@ def draw_apparatus(axes, scenery, magnify):
     draw_surroundings(axes, scenery)
     set_view(axes, scenery, bodies)
     return mappable
+
+
+def large_cells(body, span, share=0.005):
+    """Outlines of cells whose lines would not hide the colours on a picture of that span."""
+    corners = body.nodes[body.outlines]
+    return body.outlines[np.ptp(corners, axis=1).min(axis=1) > share * span]
 
 
 def each_by_itself(bodies, scenery):
@@ -135,6 +140,7 @@ def draw_stress(axes, body, points, coloured, norm):
 
 def draw_cylinder(axes, scenery):
     where = (scenery.pose.x, 0.0)
+    axes.add_patch(plt.Circle(where, scenery.radius, facecolor="0.94", zorder=0.9, **EDGE))  # of a pair half of it is meshed
     core = number(scenery.result, "Cylinder", "Inner radius", 0.0) if scenery.elastic_cylinder else scenery.radius
     axes.add_patch(plt.Circle(where, core, facecolor="0.94", zorder=1, **EDGE))
     axes.plot(*where, "+", color="0.3", markersize=6, zorder=3)
@@ -165,8 +171,9 @@ def draw_surroundings(axes, scenery):
     pivot, where = scenery.pose.pivot, scenery.pose
     axes.axhline(0.0, color="0.4", linewidth=0.6, linestyle=(0, (8, 2, 1.5, 2)), zorder=0)
     axes.plot(*pivot, "o", color="white", markeredgecolor="black", markersize=5, zorder=6)
-    box = {"facecolor": "white", "alpha": 0.7, "linewidth": 0, "pad": 0.8}
-    axes.annotate("pivot", pivot, xytext=(0, -8), textcoords="offset points", ha="center", va="top", fontsize=7, zorder=6, bbox=box)
+    if scenery.part == "all":
+        box = {"facecolor": "white", "alpha": 0.7, "linewidth": 0, "pad": 0.8}
+        axes.annotate("pivot", pivot, xytext=(0, -8), textcoords="offset points", ha="center", va="top", fontsize=7, zorder=6, bbox=box)
     length = 0.3 * scenery.radius * scenery.way
     axes.annotate("", (where.x + length, 0.0), (where.x, 0.0), arrowprops={"arrowstyle": "-|>", "linewidth": 1}, zorder=5)
 
@@ -363,14 +370,14 @@ def magnification(text):
 
 
 def read_arguments(arguments):
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("folder", metavar="DIR", type=Path, help="result folder with fields (Output/Fields)")
+    parser = parser_of(__doc__)
+    add_folders(parser, 1, "result folder with fields (Output/Fields)")
     parser.add_argument("--x", type=float, help="position of the cylinder [mm]; default: the frame of the largest x")
     parser.add_argument("--way", choices=WAYS, help="of motion; default: either")
     parser.add_argument("--magnify", type=magnification, metavar="NUMBER|auto", help="elastic displacement in the whole (auto)")
     parser.add_argument("--magnify-contact", type=magnification, metavar="NUMBER|auto", help="distances at the contact (auto)")
     parser.add_argument("--part", choices=CHOICES, default="all", help="which is shown and coloured (all)")
-    parser.add_argument("-o", "--output", type=Path, metavar="FILE", help="default: fields.png or fields-x30-backward.png in the folder")
+    add_output(parser, default="fields.png or, as asked, fields-x30-backward.png in the folder")
     return parser.parse_args(arguments)
 
 
@@ -384,12 +391,10 @@ def default_name(options):
 def main(arguments=None):
     options = read_arguments(arguments)
     use_print_style()
-    result = read_result(options.folder)
+    (folder,) = options.folders
+    result = read_result(folder)
     figure = fields(result, options.x, options.way, options.magnify, options.part, options.magnify_contact)
-    path = options.output or options.folder / f"{default_name(options)}.png"
-    path.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(path, dpi=300)
-    print(path)
+    save(figure, picture_paths(options, folder / default_name(options)))
 
 
 if __name__ == "__main__":

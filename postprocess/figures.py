@@ -1,25 +1,28 @@
 #!/usr/bin/python3
 """Makes the pictures of postprocess/pictures, Figs. 6 to 11 of the paper among them, by running the scenes of params/."""
 
-import argparse
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
-import matplotlib.pyplot as plt
 import numpy as np
 
 import plot
+from apparatus import device_of
+from arguments import add_output, parser_of
+from comparison import comparison
+from contact import contact
+from device import drawing
 from fields import fields
+from forces import forces_over_time, forces_over_x
+from program import ROOT, RunFailed, add_program, run_scene
 from results import NotAResult, read_result
+from slope import contact_law, slopes_over_coefficient, slopes_over_inclination
+from style import COLOURS, MARKERS, MILLIMETRE, ONE_COLUMN, look, plt, set_labels, use_print_style
+from transient import energy, reversal
 
-ROOT = Path(__file__).resolve().parent.parent
+PICTURES = ROOT / "postprocess" / "pictures"
 DPI = 110  # small enough to stand in a README
-
-
-class RunFailed(Exception):
-    """sprag did not finish a scene; the text says which and what it said."""
 
 
 class Runner:
@@ -33,20 +36,9 @@ class Runner:
         """The result of params/<scene>.prm; changes as {"Section/Name": value}, under another name then."""
         output = self.folder / (name or scene)
         if not output.exists():
-            self.carry_out(scene, output, changes or {})
+            print(f"{output.name} ...", file=sys.stderr)
+            run_scene(self.sprag, ROOT / "params" / f"{scene}.prm", output, changes or {})
         return read_result(output)
-
-    def carry_out(self, scene, output, changes):
-        print(f"{output.name} ...", file=sys.stderr)
-        command = [self.sprag, ROOT / "params" / f"{scene}.prm", "--output", output, "--quiet"]
-        for parameter, value in changes.items():
-            command += ["--set", f"{parameter}={value}"]
-        try:
-            done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
-        except OSError as error:
-            raise RunFailed(f"{self.sprag}: {error.strerror}") from error
-        if done.returncode != 0:
-            raise RunFailed(f"{scene}.prm: sprag ended with {done.returncode}\n{done.stdout.strip()}")
 
 
 def friction_over_speed(run):
@@ -55,9 +47,9 @@ def friction_over_speed(run):
     result = run("closed-form-a", "friction", changes=changes)
     speed = np.abs(result.table["v_rel"])
     order = np.argsort(speed)
-    figure, axes = plt.subplots(figsize=(plot.ONE_COLUMN, 62 * plot.MILLIMETRE))
-    axes.plot(speed[order], result.table["mu"][order], **plot.look(0))
-    plot.set_labels(axes, result.units, "v_rel", "mu")
+    figure, axes = plt.subplots(figsize=(ONE_COLUMN, 62 * MILLIMETRE))
+    axes.plot(speed[order], result.table["mu"][order], **look(0))
+    set_labels(axes, result.units, "v_rel", "mu")
     axes.set_xlim(0, 900)
     axes.set_ylim(0, 1.2)
     return figure
@@ -72,11 +64,11 @@ def slopes_of_models(run):
     sweeps = sweeps_of_models(run)
     coefficient = experiment_coefficient(run)
     names = ("model A", "model B")
-    figure = plot.slopes_over_coefficient(sweeps, names)
+    figure = slopes_over_coefficient(sweeps, names)
     for axes, direction in zip(figure.axes, ("forward", "backward")):
         for index, sweep in enumerate(sweeps):
             slope = slope_at(sweep, coefficient, direction)
-            axes.plot(coefficient, slope, plot.MARKERS[index], color=plot.COLOURS[index], markersize=5)
+            axes.plot(coefficient, slope, MARKERS[index], color=COLOURS[index], markersize=5)
     return figure
 
 
@@ -85,12 +77,12 @@ def slopes_of_geometries(run):
     sweeps = sweeps_of_models(run)
     coefficient = experiment_coefficient(run)
     inclinations = [run(scene).table["theta"][0] for scene in ("closed-form-a", "closed-form-b")]
-    figure = plot.slopes_over_inclination(run("fig11"))
+    figure = slopes_over_inclination(run("fig11"))
     for axes, direction in zip(figure.axes, ("forward", "backward")):
         for index, name in enumerate("AB"):
             slope = slope_at(sweeps[index], coefficient, direction)
             position = np.degrees(inclinations[index])
-            axes.plot(position, slope, plot.MARKERS[index], color="black", markersize=4, label=f"model {name}", zorder=3)
+            axes.plot(position, slope, MARKERS[index], color="black", markersize=4, label=f"model {name}", zorder=3)
         axes.legend(title="$e/R$", title_fontsize=7)
     return figure
 
@@ -107,7 +99,16 @@ def ladder(run):
     """One scene at every fidelity."""
     models = ("closed form", "rigid", "beam", "condensed", "finite element")
     start = {"Drive/Start": 55}
-    return plot.comparison([run("reversal-a", model, changes={"Analysis/Model": model, **start}) for model in models])
+    return comparison([run("reversal-a", model, changes={"Analysis/Model": model, **start}) for model in models])
+
+
+def depths(run):
+    """Reversals of levers of many depths."""
+    return comparison([run("reversal-a", f"depth {depth}", changes={"Lever/Depth": depth}) for depth in (6, 8, 12, 14, 16, 20, 25)])
+
+
+def device(scene, run):
+    return drawing(device_of(ROOT / "params" / f"{scene}.prm", run.sprag, None))
 
 
 def drawn(scene, picture):
@@ -129,35 +130,39 @@ STUDIES = ("study-a", "study-b", "study-pressure-a", "study-reversal-a", "study-
 # Name -> what draws the picture once it is given a Runner.
 FIGURES = {
     "fig-06": friction_over_speed,
-    "fig-07": lambda run: plot.forces_over_time([run("model-a")]),
-    "fig-08": lambda run: plot.forces_over_x([run("model-a")]),
-    "fig-09": lambda run: plot.forces_over_x([run("model-b")]),
+    "fig-07": lambda run: forces_over_time([run("model-a")]),
+    "fig-08": lambda run: forces_over_x([run("model-a")]),
+    "fig-09": lambda run: forces_over_x([run("model-b")]),
     "fig-10": slopes_of_models,
     "fig-11": slopes_of_geometries,
-    "contact": lambda run: plot.contact(run("model-a")),
+    "contact": lambda run: contact(run("model-a")),
     "fields-a": lambda run: fields(run("model-a")),
-    # The apparatus.
+    # The device and the apparatus.
+    "device": lambda run: device("model-a", run),
+    "device-b": lambda run: device("model-b", run),
+    "device-apparatus": lambda run: device("apparatus-a", run),
+    "comparison-depth-a": depths,
     "apparatus-a": lambda run: fields(run("apparatus-a")),
     "cylinder-a": lambda run: fields(run("cylinder-a")),
     "plate-a": drawn("plate-a", "sensors"),
     "plate-reversal-a": drawn("plate-reversal-a", "sensors"),
     "pair-a": drawn("pair-a", "pair"),
-    "leaf-a": lambda run: plot.forces_over_x([run("leaf-a")]),
-    "leaf-b": lambda run: plot.forces_over_x([run("leaf-b")]),
+    "leaf-a": lambda run: forces_over_x([run("leaf-a")]),
+    "leaf-b": lambda run: forces_over_x([run("leaf-b")]),
     "calibration-a": drawn("calibration-a", "calibration"),
     "calibration-b": drawn("calibration-b", "calibration"),
     # Other laws, methods and limits.
     **{name: drawn(name, "forces-over-x") for name in ("coulomb-a", "neo-hookean-a", "augmented-lagrangian-a")},
     **{name: drawn(name, "forces-over-x") for name in ("stiff-a", "stiff-b")},
     # In time.
-    "support-a": lambda run: plot.reversal(run("support-a")),
-    "stribeck-a": lambda run: plot.forces_over_time([run("stribeck-a")]),
-    "reversal-a": lambda run: plot.reversal(run("reversal-a")),
-    "energy-a": lambda run: plot.energy(run("reversal-a")),
-    "sprag-slip-a": lambda run: plot.reversal(run("sprag-slip-a")),
-    "reversal-b": lambda run: plot.reversal(run("reversal-b")),
-    "harmonic-a": lambda run: plot.forces_over_x([run("harmonic-a")]),
-    "contact-law-a": lambda run: plot.contact_law(run("contact-law-a")),
+    "support-a": lambda run: reversal(run("support-a")),
+    "stribeck-a": lambda run: forces_over_time([run("stribeck-a")]),
+    "reversal-a": lambda run: reversal(run("reversal-a")),
+    "energy-a": lambda run: energy(run("reversal-a")),
+    "sprag-slip-a": lambda run: reversal(run("sprag-slip-a")),
+    "reversal-b": lambda run: reversal(run("reversal-b")),
+    "harmonic-a": lambda run: forces_over_x([run("harmonic-a")]),
+    "contact-law-a": lambda run: contact_law(run("contact-law-a")),
     "ladder-a": ladder,
     # Slides held at one x.
     "modes-a": drawn("modal-a", "modes"),
@@ -175,9 +180,9 @@ FIGURES = {
 
 
 def read_arguments(arguments):
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--sprag", type=Path, default=ROOT / "build" / "sprag", help="the program (build/sprag)")
-    parser.add_argument("--output", type=Path, default=ROOT / "postprocess" / "pictures", help="postprocess/pictures")
+    parser = parser_of(__doc__)
+    add_program(parser)
+    add_output(parser, "PICTURE_DIR", "postprocess/pictures")
     parser.add_argument("--only", nargs="+", metavar="NAME", default=list(FIGURES), help="these pictures and the runs they need")
     options = parser.parse_args(arguments)
     unknown = [name for name in options.only if name not in FIGURES]
@@ -188,12 +193,12 @@ def read_arguments(arguments):
 
 def main(arguments=None):
     options = read_arguments(arguments)
-    plot.use_print_style()
+    use_print_style()
     try:
         with tempfile.TemporaryDirectory(prefix="sprag-figures-") as folder:
-            run = Runner(options.sprag.resolve(), Path(folder))
+            runner = Runner(options.sprag.resolve(), Path(folder))
             for name in options.only:
-                plot.save({name: FIGURES[name](run)}, options.output, dpi=DPI)
+                plot.save_all({name: FIGURES[name](runner)}, options.output or PICTURES, options.format or ("png",), DPI)
     except (RunFailed, NotAResult, OSError) as error:
         print(f"figures.py: {error}", file=sys.stderr)
         return 1

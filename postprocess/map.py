@@ -7,7 +7,7 @@ import numpy as np
 from matplotlib.colors import SymLogNorm
 from matplotlib.patches import Patch
 
-from style import MILLIMETRE, TWO_COLUMNS, plt
+from style import MILLIMETRE, TWO_COLUMNS, parameter_label, plt
 
 KINDS = ("stable", "flutter", "divergence", "jammed", "inadmissible", "failed")
 JAMMED, INADMISSIBLE, FAILED = 3, 4, 5
@@ -18,18 +18,6 @@ LINES = {"flutter": "-", "divergence": (0, (5, 1.5)), "jammed": (0, (1.2, 1.2)),
 
 # The cells that were judged; between them the map is interpolated.
 JUDGED = {"color": "black", "markersize": 1.2, "alpha": 0.5, "markeredgewidth": 0}
-
-AXES = {
-    "Friction/Factor": r"friction factor",
-    "Friction/Coefficient": r"friction coefficient $\mu$",
-    "Lever/Depth": "lever depth",
-    "Stability/Position": "position $x$",
-    "Geometry/Interface offset": "offset $e$",
-    "Geometry/Pivot distance": "pivot distance $l$",
-    "Geometry/Pivot height": "pivot height $h$",
-    "Contact/Stiffness": "contact stiffness $k_c$",
-    "Drive/Speed": "speed $v$",
-}
 
 
 @dataclass
@@ -57,11 +45,6 @@ def read_map(result):
             units=tuple(axis["unit"] for axis in axes),
             values={name: data[:] for name, data in group.items()},
         )
-
-
-def axis_label(name, unit):
-    text = AXES.get(name, name.split("/")[1].lower())
-    return text if unit == "1" else f"{text} [{unit.replace('mm^n', 'mm$^n$')}]"
 
 
 # Boundaries
@@ -147,9 +130,9 @@ def stability_map(result):
             for line in lines:
                 axes.plot(*line, color="black", linestyle=LINES[KINDS[kind]], linewidth=1.1, solid_capstyle="round")
         axes.set_title(f"({letter}) {way}", loc="left", fontsize=8)
-        axes.set_xlabel(axis_label(chart.names[0], chart.units[0]))
+        axes.set_xlabel(parameter_label(chart.names[0], chart.units[0]))
         axes.grid(False)
-    second = axis_label(chart.names[1], chart.units[1])
+    second = parameter_label(chart.names[1], chart.units[1])
     panels[0].set_ylabel(r"inclination $\theta_0$ [deg]" if chart.theta_is_ordinate else second)
     bar = figure.colorbar(colours, ax=panels, aspect=30, pad=0.01, ticks=growth_ticks(norm))
     bar.ax.minorticks_off()

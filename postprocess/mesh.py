@@ -1,18 +1,16 @@
 #!/usr/bin/python3
 """Draws meshes, each part in a colour: of a result folder of sprag (with fields), or of an ASCII .msh file of version 2.2 or 4.1."""
 
-import argparse
 import sys
 from pathlib import Path
 
 import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
 
-import plot
+from arguments import add_output, parser_of, picture_paths, save
 from frames import number, pose, read_frame
 from results import NotAResult, read_result, script
-
-import matplotlib.pyplot as plt  # isort: skip (plot chooses what draws)
+from style import MILLIMETRE, TWO_COLUMNS, legend_on_top, plt, use_print_style
 
 FILLS = {
     "lever": "#cfe2f3",
@@ -187,7 +185,7 @@ def figure_of(mesh):
     low = min(low, 0)
     height = np.clip((high - low + 11) / (right - left + 8), 0.25, 0.8) * 152
     figure, (whole, zoom) = plt.subplots(
-        2, 1, figsize=(plot.TWO_COLUMNS, (height + 90) * plot.MILLIMETRE), height_ratios=(height, 65)
+        2, 1, figsize=(TWO_COLUMNS, (height + 90) * MILLIMETRE), height_ratios=(height, 65)
     )
     draw_parts(whole, mesh, 0.15)
     whole.set_xlim(left - 4, right + 4)
@@ -195,7 +193,7 @@ def figure_of(mesh):
     if set(mesh.parts) != {"cylinder"}:
         whole.plot(0, 0, "ko", markersize=4, label="pivot", zorder=4)
     handles, names = whole.get_legend_handles_labels()
-    plot.legend_on_top(figure, handles, names)
+    legend_on_top(figure, handles, names)
     whole.set_title(mesh.name, fontsize=8)
 
     draw_parts(zoom, mesh, 0.4)
@@ -210,18 +208,17 @@ def figure_of(mesh):
 
 @script
 def main(arguments=None):
-    parser = argparse.ArgumentParser(description=__doc__)
+    parser = parser_of(__doc__)
     parser.add_argument("meshes", nargs="+", type=Path, metavar="DIR|FILE.msh")
-    parser.add_argument("--output", type=Path, help="the picture; default mesh.png in the folder, or FILE.png beside the file")
+    add_output(parser, default="mesh.png in the folder, or FILE.png beside the file")
     options = parser.parse_args(arguments)
     if options.output and len(options.meshes) > 1:
-        parser.error("--output goes with one mesh only")
-    plot.use_print_style()
+        parser.error("-o goes with one mesh only")
+    use_print_style()
     for path in options.meshes:
         mesh = of_folder(path) if path.is_dir() else of_msh(path)
-        default = path / "mesh.png" if path.is_dir() else path.with_suffix(".png")
         figure = figure_of(mesh)
-        figure.savefig(options.output or default, dpi=DPI)
+        save(figure, picture_paths(options, path / "mesh" if path.is_dir() else path.with_suffix("")), DPI)
         plt.close(figure)
 
 

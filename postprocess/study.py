@@ -3,10 +3,9 @@
 from dataclasses import dataclass
 
 import numpy as np
-from matplotlib.colors import LogNorm, Normalize
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
-from style import COLOURS, LINES, MARKERS, MILLIMETRE, TWO_COLUMNS, panel_letter, plt
+from style import COLOURS, LINES, MARKERS, MILLIMETRE, TWO_COLUMNS, WIDE, legend_on_top, panel_letter, parameter_label, plt, scale_of
 
 # What is drawn of each Study/Type, as far as its runs have it.
 QUANTITIES = {
@@ -28,8 +27,6 @@ QUANTITIES = {
 }
 # Beyond them a bar tells colours apart.
 MOST_LINES = 7
-# Ends of an axis with this ratio want a logarithm.
-WIDE = 15
 
 
 @dataclass
@@ -50,11 +47,10 @@ class Varied:
 
     @property
     def label(self):
-        name = self.name.split("/")[1].lower()
-        return name if self.unit == "1" else f"{name} [{self.unit.replace('mm^n', 'mm$^n$')}]"
+        return parameter_label(self.name, self.unit)
 
     def said(self, text):
-        return f"{self.name.split('/')[1].lower()} {text}" if self.is_number or text == "auto" else text
+        return f"{parameter_label(self.name)} {text}" if self.is_number or text == "auto" else text
 
 
 def is_study(result):
@@ -127,19 +123,8 @@ def shades_of(parameter):
     if len(texts) <= MOST_LINES or not parameter.is_number:
         return {text: COLOURS[index % len(COLOURS)] for index, text in enumerate(texts)}, None
     numbers = {text: number for text, number in zip(parameter.texts, parameter.numbers)}
-    low, high = min(numbers.values()), max(numbers.values())
-    norm = LogNorm(low, high) if low > 0 and high / low > WIDE else Normalize(low, high)
-    scale = plt.cm.ScalarMappable(norm, "viridis")
+    scale = scale_of(numbers.values())
     return {text: scale.to_rgba(numbers[text]) for text in texts}, scale
-
-
-def legend_above(figure, handles, names):
-    """As many columns as the width takes."""
-    if not names:
-        return
-    columns = max(1, min(len(names), 120 // (max(map(len, names)) + 8)))
-    figure.suptitle("\n" * ((len(names) - 1) // columns) or " ", fontsize=7)  # keeps room
-    figure.legend(handles, names, loc="upper center", ncol=columns)
 
 
 def panels_for(count):
@@ -175,7 +160,7 @@ def curves(result):
         panel_letter(axes, letter)
     if bar is not None:
         figure.colorbar(bar[0], ax=panels, aspect=30, pad=0.01).set_label(bar[1])
-    legend_above(figure, *legend)
+    legend_on_top(figure, *legend)
     return figure
 
 
@@ -235,7 +220,7 @@ def trade(result):
     for handle in handles:
         handle.set(linestyle="", marker="s" if handle.get_marker() == "None" else handle.get_marker(), markersize=3.5)
     front = plt.Line2D([], [], color="black", linewidth=0.8)
-    legend_above(figure, [*handles, front], [*labels, f"front, labels: {sizes.label}"])
+    legend_on_top(figure, [*handles, front], [*labels, f"front, labels: {sizes.label}"])
     return figure
 
 

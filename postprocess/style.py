@@ -1,10 +1,13 @@
 """What all pictures share: sizes, colours and lines, symbols, axis labels."""
 
+import re
+
 import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402  (after the choice of what draws)
 import numpy as np  # noqa: E402
+from matplotlib.colors import ListedColormap, LogNorm, Normalize  # noqa: E402
 
 MILLIMETRE = 1 / 25.4
 ONE_COLUMN = 85 * MILLIMETRE
@@ -14,6 +17,9 @@ TWO_COLUMNS = 170 * MILLIMETRE
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
 LINES = ("-", (0, (6, 1.5)), (0, (6, 1.5, 1.2, 1.5)), (0, (3, 1.2)), (0, (3, 1, 1, 1, 1, 1)), (0, (8, 1, 2, 1)), (0, (1.5, 1)))
 MARKERS = ("o", "s", "^", "D", "v", "P", "X")
+
+# Ends of an axis with this ratio want a logarithm.
+WIDE = 15
 
 SYMBOLS = {
     "time": "$t$",
@@ -29,6 +35,23 @@ SYMBOLS = {
     "dimensionless_backward": r"$\bar C_Q = C_Q R\,l/k$",
 }
 
+# Parameters with a symbol of their own.
+PARAMETERS = {
+    "Friction/Factor": "friction factor",
+    "Friction/Coefficient": r"friction coefficient $\mu$",
+    "Lever/Depth": "lever depth",
+    "Stability/Position": "position $x$",
+    "Geometry/Cylinder radius": "radius $R$",
+    "Geometry/Interface offset": "offset $e$",
+    "Geometry/Pivot distance": "pivot distance $l$",
+    "Geometry/Pivot height": "pivot height $h$",
+    "Rotational spring/Stiffness": "spring stiffness $k$",
+    "Contact/Stiffness": "contact stiffness $k_c$",
+    "Drive/Speed": "speed $v$",
+}
+# Sections whose names of parameters say enough.
+OWN_NAMES = ("Analysis", "Drive", "Mesh", "Time", "Condensed", "Stability", "Geometry")
+
 
 def use_print_style():
     plt.rcParams.update(
@@ -36,6 +59,7 @@ def use_print_style():
             "font.size": 8,
             "axes.labelsize": 8,
             "axes.linewidth": 0.6,
+            "axes.formatter.limits": (-3, 5),
             "axes.grid": True,
             "axes.axisbelow": True,
             "grid.color": "0.88",
@@ -45,6 +69,7 @@ def use_print_style():
             "legend.frameon": False,
             "legend.handlelength": 2.8,
             "xtick.direction": "in",
+            "xtick.major.pad": 5,  # corners where both axes have a number
             "ytick.direction": "in",
             "pdf.fonttype": 42,
             "figure.constrained_layout.use": True,
@@ -63,7 +88,24 @@ def label(units, column):
     unit = units.get(column, "1")
     if unit in ("", "1"):
         return symbol
-    return f"{symbol} [{unit.replace('^2', '$^2$').replace('^3', '$^3$')}]"
+    return f"{symbol} [{in_maths(unit)}]"
+
+
+def with_unit(text, unit):
+    """A number and its unit, as in a legend."""
+    return text if unit in ("", "1") else f"{text} {in_maths(unit)}"
+
+
+def in_maths(unit):
+    """Powers raised."""
+    return re.sub(r"\^(-?\w+)", r"$^{\1}$", unit)
+
+
+def parameter_label(name, unit="1"):
+    """Of the parameter Section/Name, for an axis."""
+    section, _, own = name.partition("/")
+    text = PARAMETERS.get(name, own.lower() if section in OWN_NAMES else f"{section} {own}".lower())
+    return text if unit in ("", "1") else f"{text} [{in_maths(unit)}]"
 
 
 def set_labels(axes, units, over, column):
@@ -82,10 +124,21 @@ def show_legend(axes, **arguments):
 
 
 def legend_on_top(figure, handles, names):
-    """One legend of all panels, above them."""
-    columns = min(len(names), 5)
-    figure.suptitle("\n" * ((len(names) - 1) // columns) or " ", fontsize=7)  # keeps room
+    """One legend of all panels, above them, with as many columns as the width takes."""
+    if not names:
+        return
+    letters = 120 * figure.get_figwidth() / TWO_COLUMNS
+    columns = max(1, min(len(names), 5, int(letters // (max(map(len, names)) + 8))))
+    rows = -(-len(names) // columns)
+    figure.suptitle("\n" * round(1.25 * (rows - 1)) or " ", fontsize=8.5)  # keeps room
     figure.legend(handles, names, loc="upper center", ncol=columns)
+
+
+def scale_of(numbers):
+    """Colours of numbers, from dark to light; logarithmic where they are far apart."""
+    low, high = min(numbers), max(numbers)
+    norm = LogNorm(low, high) if low > 0 and high / low > WIDE else Normalize(low, high)
+    return plt.cm.ScalarMappable(norm, ListedColormap(plt.cm.viridis(np.linspace(0, 0.9, 256))))
 
 
 def envelope(time, values, begin, end, parts):

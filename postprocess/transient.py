@@ -127,6 +127,8 @@ def draw_spectrum(axes, result):
     axes.set_xlabel("frequency [Hz]")
     axes.set_ylabel(f"amplitude of $P$ [{result.units['P']}]")
     if len(frequencies) == 0:
+        axes.annotate("too short for a spectrum", (0.5, 0.5), xycoords="axes fraction", ha="center", va="center")
+        axes.set(xticks=[], yticks=[])
         return
     dominant = dominant_frequency(result, frequencies, amplitudes)
     end = np.clip(6 * dominant, 1000, frequencies[-1]) if np.isfinite(dominant) else min(2000, frequencies[-1])

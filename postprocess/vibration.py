@@ -47,7 +47,7 @@ def mode_shapes(modes, most=6):
         lowest = panels[(len(chosen) - 1 - column) // columns][column]
         lowest.set_xlabel(r"lever coordinate $\xi$ [mm]")
         lowest.tick_params(labelbottom=True)
-    figure.supylabel("deflection over the largest, rotation included", fontsize=8)
+    figure.supylabel("deflection over the largest,\nrotation included", fontsize=8, multialignment="center")
     return figure
 
 
@@ -195,4 +195,4 @@ def draw_feeds(axes, modes, most=4):
     axes.grid(axis="x", visible=False)
     if used:
         style = {"handlelength": 1, "columnspacing": 1.2, "borderaxespad": 0.3}
-        axes.legend(loc="lower right", bbox_to_anchor=(1, 1), ncol=len(used), **style)
+        axes.legend(loc="lower right", bbox_to_anchor=(1, 1), ncol=min(len(used), 3), **style)

@@ -5,13 +5,17 @@ import sys
 from pathlib import Path
 
 from folders import FolderTest
+from layout import problems
 
-FOLDER = Path(__file__).resolve().parents[2] / "postprocess"
+SOURCE = Path(__file__).resolve().parents[2]
+FOLDER = SOURCE / "postprocess"
 sys.path.insert(0, str(FOLDER))
 
 
 def draw(script, *arguments):
-    return subprocess.run(["/usr/bin/python3", FOLDER / script, *arguments], capture_output=True, text=True, check=False)
+    """Its stderr tells what is wrong with the layout, too."""
+    command = ["/usr/bin/python3", Path(__file__).parent / "checked.py", FOLDER / script, *arguments]
+    return subprocess.run(command, capture_output=True, text=True, check=False)
 
 
 class PictureTest(FolderTest):
@@ -34,6 +38,10 @@ class PictureTest(FolderTest):
         self.assertEqual(sorted(path.name for path in self.pictures.iterdir()), sorted(names))
         for path in self.pictures.iterdir():
             self.assertGreater(path.stat().st_size, 5000)
+
+    def expect_layout(self, figure):
+        """Nothing empty, cut, hidden or over one another."""
+        self.assertEqual(problems(figure), [])
 
     def expect_refusal(self, done, *words):
         self.assertEqual(done.returncode, 2)

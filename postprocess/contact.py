@@ -1,0 +1,160 @@
+"""The contact of a run of finite elements: pressure along the friction face each way, its width, and how deep the cylinder goes."""
+
+import numpy as np
+
+from style import COLOURS, MARKERS, MILLIMETRE, TWO_COLUMNS, legend_on_top, look, panel_letter, plt, set_labels, show_legend
+
+WAYS = {1: ("forward", "-"), -1: ("backward", (0, (3, 1.2)))}
+COUNT = 5  # positions of the cylinder of which the pressure is shown
+
+
+def contact(result):
+    """Pressure at a few x, along the face and about its own centre, of each way there is; contact width and depths over x."""
+    chosen = chosen_states(result)
+    ways = [way for way in WAYS if any(state[1] == way for state in chosen)]
+    rows = 3 if ways else 1
+    figure = plt.figure(figsize=(TWO_COLUMNS, (6 + 53 * rows) * MILLIMETRE))
+    grid = figure.add_gridspec(rows, 2)
+    panels = []
+    if ways:
+        panels.append(figure.add_subplot(grid[0, :]))
+        panels += [figure.add_subplot(grid[1, index] if len(ways) == 2 else grid[1, :]) for index in range(len(ways))]
+        draw_along_face(panels[0], result.face, chosen)
+        for axes, way in zip(panels[1:], ways):
+            draw_about_centre(axes, result.face, [state for state in chosen if state[1] == way])
+            top = panels[0].get_ylim()[1]
+            axes.set_ylim(-0.04 * top, top)
+        figure_legend(figure, result.face, chosen)
+    widths, depths = (figure.add_subplot(grid[rows - 1, column]) for column in range(2))
+    draw_widths(widths, result)
+    draw_depths(depths, result)
+    words = ["along the face: forward solid, backward dashed" if len(ways) == 2 else "along the face", *(WAYS[way][0] for way in ways)]
+    for axes, letter, text in zip((*panels, widths, depths), "abcde", [*words[: len(panels)], "", ""]):
+        panel_letter(axes, letter)
+        if text:
+            axes.set_title(f"({letter}) {text}", loc="left", fontsize=8)
+    return figure
+
+
+# Which states
+
+
+def chosen_states(result, count=COUNT):
+    """[(row of the face's steps, way, number of the position)] of states in contact, spread over x, the same x each way."""
+    face, ways, slides = result.face, ways_of_states(result), sliding(result)
+    pressed = np.flatnonzero(face.pressure.max(axis=1, initial=0) > 0)
+    if len(pressed) == 0:
+        return []
+    wanted = positions(face.x[pressed], count)
+    near = np.diff(wanted).min(initial=np.inf) / 2
+    found = []
+    for way in WAYS:
+        rows = first_stroke_of(pressed, ways, way)
+        rows = rows[slides[rows] == way] if (slides[rows] == way).any() else rows
+        for number, x in enumerate(wanted):
+            if len(rows) and (best := rows[np.abs(face.x[rows] - x).argmin()]) is not None and abs(face.x[best] - x) <= near:
+                found.append((int(best), way, number))
+    return found
+
+
+def positions(x, count):
+    """As many as are wanted from the smallest x to the largest, or those there are where they are few."""
+    far = x.max()
+    apart = [x.min()]
+    for value in np.sort(x):
+        if value - apart[-1] > 0.02 * abs(far):
+            apart.append(value)
+    apart[-1] = far if far - apart[-1] <= 0.02 * abs(far) else apart[-1]
+    return np.array(apart) if len(apart) <= count else np.linspace(max(x.min(), far / count), far, count)
+
+
+def ways_of_states(result):
+    """1 forward, -1 backward; a turning point belongs to the stroke that led to it."""
+    x = result.table["x"]
+    steps = np.sign(np.diff(x, prepend=x[0]))
+    moving = np.flatnonzero(steps)
+    if len(moving) == 0:
+        return np.ones(len(result.face.time), dtype=int)
+    rows = rows_of_states(result)
+    last = np.maximum(np.searchsorted(moving, rows, side="right") - 1, 0)
+    return steps[moving[last]].astype(int)
+
+
+def rows_of_states(result):
+    """Of the table."""
+    return np.searchsorted(result.table["time"], result.face.time - 1e-9 * np.abs(result.face.time)).clip(max=len(result.table["time"]) - 1)
+
+
+def sliding(result):
+    """1 or -1 where the whole contact slides that way, 0 where it sticks in part, as behind a reversal; 0 where nothing tells."""
+    if not all(result.has(name) for name in ("normal_resultant", "friction_resultant", "mu")):
+        return np.zeros(len(result.face.time), dtype=int)
+    normal, friction, mu = (result.table[name][rows_of_states(result)] for name in ("normal_resultant", "friction_resultant", "mu"))
+    return np.where(np.abs(friction) >= 0.97 * mu * normal, np.sign(friction), 0).astype(int)
+
+
+def first_stroke_of(rows, ways, way):
+    """Those of the first stroke that way; later ones repeat it."""
+    of_way = rows[ways[rows] == way]
+    if len(of_way) == 0:
+        return of_way
+    changed = np.flatnonzero(ways[of_way[0] :] != way)
+    end = of_way[0] + changed[0] if len(changed) else len(ways)
+    return of_way[of_way < end]
+
+
+def centre_of_pressure(face, step):
+    force = face.weight * face.pressure[step]
+    return np.sum(force * face.xi) / np.sum(force)
+
+
+def pressed_points(face, step):
+    """The points under pressure and one more on either side."""
+    pressed = np.flatnonzero(face.pressure[step] > 0)
+    return slice(max(pressed[0] - 1, 0), pressed[-1] + 2)
+
+
+# The panels
+
+
+def draw_along_face(axes, face, chosen):
+    for step, way, number in chosen:
+        patch = pressed_points(face, step)
+        axes.plot(face.xi[patch], face.pressure[step][patch], color=COLOURS[number], linestyle=WAYS[way][1], linewidth=1)
+    axes.set_ylim(bottom=0)
+    axes.set_xlabel(f"lever coordinate $\\xi$ [{face.units['xi']}]")
+    axes.set_ylabel(f"pressure [{face.units['pressure']}]")
+
+
+def draw_about_centre(axes, face, chosen):
+    for step, way, number in chosen:
+        patch = pressed_points(face, step)
+        xi, pressure, centre = face.xi[patch], face.pressure[step][patch], centre_of_pressure(face, step)
+        look_of_it = {"color": COLOURS[number], "linestyle": WAYS[way][1], "marker": MARKERS[number], "markersize": 2}
+        axes.plot(xi - centre, pressure, linewidth=0.8, **look_of_it)
+    axes.set_xlabel(f"$\\xi$ minus the centre of pressure [{face.units['xi']}]")
+    axes.set_ylabel(f"pressure [{face.units['pressure']}]")
+
+
+def figure_legend(figure, face, chosen):
+    names = {number: f"$x$ = {face.x[step]:.3g} {face.units['x']}" for step, _, number in reversed(chosen)}
+    numbers = sorted(names)
+    handles = [plt.Line2D([], [], color=COLOURS[number], marker=MARKERS[number], markersize=3) for number in numbers]
+    legend_on_top(figure, handles, [names[number] for number in numbers])
+
+
+def draw_widths(axes, result):
+    axes.plot(result.table["x"], result.table["contact_width"], **look(0))
+    set_labels(axes, result.units, "x", "contact_width")
+    axes.set_ylim(bottom=0)
+
+
+def draw_depths(axes, result):
+    """The layer's compression and the numerical overlap, which should be far smaller."""
+    for index, column in enumerate(("indentation", "penetration")):
+        depth = result.table[column]
+        if np.nanmax(depth, initial=0) > 0:
+            axes.semilogy(result.table["x"], np.where(depth > 0, depth, np.nan), label=column, **look(index))
+    set_labels(axes, result.units, "x", "penetration")
+    axes.set_ylabel(f"depth [{result.units['penetration']}]")
+    show_legend(axes)

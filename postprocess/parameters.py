@@ -1,0 +1,47 @@
+"""Reads the full list of parameters that a result holds and that `sprag FILE.prm --print-parameters` prints."""
+
+import re
+from typing import NamedTuple
+
+
+class Parameter(NamedTuple):
+    """The text of a value as used and its unit; "1" where it has none."""
+
+    text: str
+    unit: str
+
+    @property
+    def number(self):
+        """None where the text is no number."""
+        try:
+            return float(self.text)
+        except ValueError:
+            return None
+
+
+def parse(listing):
+    """{"Section/Name": Parameter}. The unit stands in brackets at the end of the comment above."""
+    found, section, comment = {}, [], ""
+    for line in (line.strip() for line in listing.replace("\\\n", " ").splitlines()):
+        if line.startswith("subsection "):
+            section.append(line[len("subsection ") :].strip())
+        elif line == "end":
+            section = section[:-1]
+        elif line.startswith("set "):
+            name, _, value = line[len("set ") :].partition("=")
+            unit = re.findall(r"\[([^\[\]]+)\](?=[:;])", comment)
+            text = value.split("#")[0].strip()
+            found["/".join((*section, name.strip()))] = Parameter(text, unit[-1] if unit and unit[-1] != "-" else "1")
+        comment = f"{comment} {line[1:].strip()}".strip() if line.startswith("#") else ""
+    return found
+
+
+def differing(listings):
+    """Names of what is not the same in all of the parsed lists, in their order. Where output goes makes no difference."""
+    names = dict.fromkeys(name for parameters in listings for name in parameters if not name.startswith("Output/"))
+    return [name for name in names if len({value_of(parameters.get(name)) for parameters in listings}) > 1]
+
+
+def value_of(parameter):
+    """1e3 and 1000 are the same."""
+    return parameter and (parameter.number if parameter.number is not None else parameter.text)

@@ -1,0 +1,35 @@
+"""Runs sprag for scripts that need results of their own."""
+
+import os
+import shutil
+import subprocess
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+
+
+class RunFailed(Exception):
+    """sprag did not finish a scene; the text says which and what it said."""
+
+
+def add_program(parser):
+    parser.add_argument("--sprag", type=Path, default=program(), metavar="FILE", help="the program (build/sprag, or the one on the path)")
+
+
+def program():
+    """What the environment names by SPRAG, the one built here, or the one on the path."""
+    built = ROOT / "build" / "sprag"
+    return Path(os.environ.get("SPRAG") or (built if built.exists() else shutil.which("sprag") or built))
+
+
+def run_scene(sprag, scene, output, changes):
+    """A scene with changes as {"Section/Name": value} into a folder. Throws RunFailed."""
+    command = [sprag, scene, "--output", output, "--quiet", "--overwrite"]
+    for parameter, value in changes.items():
+        command += ["--set", f"{parameter}={value}"]
+    try:
+        done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, text=True, check=False)
+    except OSError as error:
+        raise RunFailed(f"{sprag}: {error.strerror}") from error
+    if done.returncode != 0:
+        raise RunFailed(f"{Path(scene).name}: sprag ended with {done.returncode}\n{done.stdout.strip()}")

@@ -1,0 +1,147 @@
+"""What tells several results apart, and how a picture shows it: labels at the ends of the curves, a scale of colours or a legend."""
+
+from dataclasses import dataclass
+from typing import Optional
+
+import numpy as np
+from matplotlib import colormaps
+
+from parameters import differing, parse
+from results import NotAResult
+from style import LINES, legend_on_top, look, parameter_label, scale_of, with_unit
+
+MOST_RESULTS = 20
+MOST_LABELS = 5  # at the ends of curves; more are told apart by a scale or a legend
+FEW_NUMBERS = 3  # of a scale
+# Of the runs, not of the device.
+NUMERICAL = ("Analysis", "Mesh", "Contact", "Time", "Condensed", "Accuracy", "Beam")
+
+
+@dataclass
+class Several:
+    """Of each result its name and look."""
+
+    parameter: Optional[str]  # Section/Name of what differs
+    label: str  # of that parameter with its unit
+    others: int  # parameters that differ as well
+    values: Optional[np.ndarray]  # numbers of the parameter, where it is one
+    names: list
+    looks: list
+    scale: object = None  # of colours, instead of names
+
+    @property
+    def is_numerical(self):
+        """The runs differ in method alone, so that they have the same exact answer."""
+        return self.parameter is None or self.parameter.split("/")[0] in NUMERICAL
+
+    @property
+    def remark(self):
+        return f" ({self.others} more differ)" if self.others else ""
+
+    def explain(self, figure, panels, beside, further=()):
+        """Says which curve is which: at the right of the panel `beside`, or for all panels. `further`: handles and names more."""
+        handles, names = [list(part) for part in zip(*further)] if further else ([], [])
+        if self.scale is not None:
+            figure.colorbar(self.scale, ax=list(panels), aspect=30, pad=0.01).set_label(self.label + self.remark)
+        elif len(self.names) <= MOST_LABELS:
+            label_ends(beside, [line for line in beside.lines if line.get_label() in self.names])
+            if self.label:
+                beside.set_title(parameter_label(self.parameter) + self.remark, loc="right", fontsize=7)
+        else:
+            lines = {line.get_label(): line for line in beside.lines}
+            handles = [lines[name] for name in self.names if name in lines] + handles
+            names = [name for name in self.names if name in lines] + names
+        legend_on_top(figure, handles, names)
+
+
+def told_apart(results):
+    """Throws NotAResult where there are too many."""
+    if len(results) > MOST_RESULTS:
+        raise NotAResult(f"{len(results)} results: one picture tells up to {MOST_RESULTS} apart; a study compares more")
+    listings = [parse(result.parameters) for result in results]
+    name, looks = chosen(listings), looks_of(len(results))
+    if name is None:
+        return Several(None, "", 0, None, unique([result.name for result in results], results), looks)
+    found = [parameters.get(name) for parameters in listings]
+    unit = next(parameter.unit for parameter in found if parameter)
+    label, others = parameter_label(name, unit), len(differing(listings)) - 1
+    if not all(parameter and parameter.number is not None for parameter in found):
+        texts = [parameter.text if parameter else "default" for parameter in found]
+        return Several(name, label, others, None, unique(texts, results), looks)
+    values = np.array([parameter.number for parameter in found])
+    names = unique([with_unit(f"{value:g}", unit) for value in values], results)
+    if len(results) <= MOST_LABELS or len(np.unique(values)) < FEW_NUMBERS:
+        return Several(name, label, others, values, names, looks)
+    scale = scale_of(values)
+    return Several(name, label, others, values, names, [{"color": scale.to_rgba(value)} for value in values], scale)
+
+
+def chosen(listings):
+    """What has the most values, of the device rather than of the method, numbers rather than words: Section/Name, None where all is
+    the same."""
+
+    def rank(name):
+        found = [parameters.get(name) for parameters in listings]
+        different = len({parameter and parameter.text for parameter in found})
+        numbers = all(parameter and parameter.number is not None for parameter in found)
+        return different, name.split("/")[0] not in NUMERICAL, numbers
+
+    return max(differing(listings), key=rank, default=None)
+
+
+def unique(texts, results):
+    """With the folder where the text does not tell results apart."""
+    told = [text if texts.count(text) == 1 else f"{text} ({result.name})" if text != result.name else text for text, result in zip(texts, results)]
+    return [text if told.count(text) == 1 else f"{text} ({result.folder})" for text, result in zip(told, results)]
+
+
+def looks_of(count):
+    """Curves that words tell apart: seven looks by heart, beyond them as many colours as there are."""
+    if count <= len(LINES):
+        return [look(index) for index in range(count)]
+    colours = colormaps["tab20"]
+    return [{"color": colours(index % 20), "linestyle": LINES[index % 2]} for index in range(count)]
+
+
+# Labels at the ends of curves
+
+
+def label_ends(axes, lines, height=0.085):
+    """The name of each line right of the panel, at the height of its last point or beside its neighbours; once limits are set.
+
+    `height`: of a line of text, over the panel's.
+    """
+    ends = [(line, end) for line in lines if (end := last_point(axes, line)) is not None]
+    wanted = [axes.transAxes.inverted().transform(axes.transData.transform(end))[1] for _, end in ends]
+    for (line, end), place in zip(ends, spread(wanted, height)):
+        arrow = {"arrowstyle": "-", "color": line.get_color(), "linewidth": 0.5, "shrinkA": 0, "shrinkB": 1}
+        style = {"color": line.get_color(), "fontsize": 7, "va": "center", "annotation_clip": False}
+        axes.annotate(line.get_label(), end, xytext=(1.03, place), textcoords="axes fraction", arrowprops=arrow, **style)
+
+
+def last_point(axes, line):
+    """Of those within the panel, the last one near its right end: where a loop over x turns back."""
+    x, y = (np.asarray(values, dtype=float) for values in line.get_data())
+    (left, right), (low, high) = sorted(axes.get_xlim()), sorted(axes.get_ylim())
+    inside = np.flatnonzero((x >= left) & (x <= right) & (y >= low) & (y <= high))
+    if len(inside) == 0:
+        return None
+    last = inside[x[inside] >= x[inside].max() - 0.01 * (right - left)][-1]
+    return x[last], y[last]
+
+
+def spread(wanted, apart):
+    """Places between 0 and 1 near the wanted ones, at least that far from one another, in their order."""
+    order = np.argsort(wanted, kind="stable")
+    places = np.clip(np.asarray(wanted, dtype=float)[order], 0, 1)
+    for _ in range(200):
+        for i in range(1, len(places)):
+            overlap = apart - (places[i] - places[i - 1])
+            if overlap > 0:
+                places[i - 1] -= overlap / 2
+                places[i] += overlap / 2
+        if len(places) and (len(places) - 1) * apart <= 1:
+            places += max(0, -places[0]) - max(0, places[-1] - 1)
+    found = np.empty(len(places))
+    found[order] = places
+    return found

@@ -1,0 +1,198 @@
+"""What tells results apart, and pictures of many of them; on small files of the shape sprag writes; run with /usr/bin/python3."""
+
+import sys
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+
+from pictures import PictureTest, draw  # noqa: E402
+import comparison  # noqa: E402
+import forces  # noqa: E402
+import parameters  # noqa: E402
+import several  # noqa: E402
+from results import NotAResult, read_result  # noqa: E402
+from style import plt, use_print_style  # noqa: E402
+from test_plot import fill_run, finish, make_run, make_transient, new_file, put  # noqa: E402
+
+X = np.concatenate((np.arange(0.0, 11), np.arange(10.0, -1, -1)))
+LISTING = """# Listing of Parameters
+subsection Analysis
+  # Rigid or deformable: one of rigid |
+  # beam.
+  set Model = {model}
+end
+subsection Friction
+  # mu of the Coulomb law [-]: a number >= 0.
+  set Coefficient = {mu}  # default: 0.73
+end
+subsection Lever
+  # Of the metal, without the friction
+  # layer [mm]: a number > 0.
+  set Depth = {depth}
+end
+subsection Output
+  # Travel of x [mm]: a number > 0.
+  set Field interval = {interval}
+end
+"""
+
+
+def listing(**changes):
+    return LISTING.format(**{"model": "beam", "mu": "0.73", "depth": "20", "interval": "5", **changes})
+
+
+class SeveralTest(PictureTest):
+    def setUp(self):
+        super().setUp()
+        use_print_style()
+        self.addCleanup(plt.close, "all")
+
+    def run_of(self, name, factor=1.0, **changes):
+        """Without inertia; forces grow with the factor."""
+        file = new_file(self.folder / name)
+        del file["parameters"]
+        file["parameters"] = listing(**changes)
+        fill_run(file, X)
+        for column in ("P", "Q"):
+            file[f"table/{column}"][:] *= factor
+            del file[f"table/{column}_closed_form"]
+        finish(file, peak_P_forward=10 * factor, peak_P_backward=20 * factor, loop_area=100 * factor)
+        return read_result(self.folder / name)
+
+    def depths(self, number):
+        return [self.run_of(f"run{i}", 1 + i, depth=str(5 + 2 * i)) for i in range(number)]
+
+
+class ParametersTest(unittest.TestCase):
+    def test_values_and_units(self):
+        found = parameters.parse(listing())
+        self.assertEqual(found["Lever/Depth"], ("20", "mm"))
+        self.assertEqual(found["Friction/Coefficient"], ("0.73", "1"))
+        self.assertEqual((found["Analysis/Model"].text, found["Analysis/Model"].number), ("beam", None))
+
+    def test_what_differs(self):
+        same = [parameters.parse(text) for text in (listing(), listing(mu="7.3e-1", interval="3"))]
+        self.assertEqual(parameters.differing(same), [])
+        others = [*same, parameters.parse(listing(depth="6", model="rigid"))]
+        self.assertEqual(parameters.differing(others), ["Analysis/Model", "Lever/Depth"])
+
+
+class TellingApart(SeveralTest):
+    def test_few_by_names_with_units(self):
+        told = several.told_apart(self.depths(3))
+        self.assertEqual((told.parameter, told.names, told.scale), ("Lever/Depth", ["5 mm", "7 mm", "9 mm"], None))
+        self.assertFalse(told.is_numerical)
+
+    def test_many_by_a_scale(self):
+        told = several.told_apart(self.depths(20))
+        self.assertEqual(told.label, "lever depth [mm]")
+        self.assertEqual((told.scale.norm.vmin, told.scale.norm.vmax), (5, 43))
+        self.assertEqual(told.looks[3]["color"], told.scale.to_rgba(11))
+
+    def test_too_many(self):
+        with self.assertRaisesRegex(NotAResult, "21 results"):
+            several.told_apart(self.depths(21))
+
+    def test_words_and_folders_where_the_same_word_comes_twice(self):
+        results = [self.run_of(name, model=model) for name, model in (("a", "rigid"), ("b", "beam"), ("c", "beam"))]
+        told = several.told_apart(results)
+        self.assertEqual(told.names, ["rigid", "beam (b)", "beam (c)"])
+        self.assertTrue(told.is_numerical)
+
+    def test_nothing_differs(self):
+        told = several.told_apart([self.run_of("a"), self.run_of("b")])
+        self.assertEqual((told.parameter, told.names), (None, ["a", "b"]))
+
+    def test_the_parameter_with_most_values_and_how_many_others(self):
+        results = [self.run_of(str(i), depth=str(5 + i), mu="0.5" if i else "0.7") for i in range(3)]
+        told = several.told_apart(results)
+        self.assertEqual((told.parameter, told.others), ("Lever/Depth", 1))
+
+    def test_the_device_rather_than_the_method(self):
+        results = [self.run_of(str(i), depth=str(5 + i), model=model) for i, model in enumerate(("rigid", "beam"))]
+        self.assertEqual(several.told_apart(results).parameter, "Lever/Depth")
+
+    def test_labels_keep_their_distance_and_order(self):
+        places = several.spread([0.5, 0.51, 0.52, 0.9, 0.0], 0.1)
+        self.assertGreater(np.diff(np.sort(places)).min(), 0.099)
+        np.testing.assert_array_equal(np.argsort(places), [4, 0, 1, 2, 3])
+        self.assertTrue(((places >= -1e-9) & (places <= 1 + 1e-9)).all())
+
+    def test_a_loop_is_named_where_it_turns_back(self):
+        _, axes = plt.subplots()
+        (line,) = axes.plot((0, 5, 10, 10, 5, 0), (0, 1, 2, -4, -2, 0), label="a")
+        self.assertEqual(several.last_point(axes, line), (10, -4))
+        axes.set_xlim(0, 6)
+        self.assertEqual(several.last_point(axes, line), (5, -2))
+
+
+class Pictures(SeveralTest):
+    def test_few_devices_have_labels_at_their_curves(self):
+        figure = comparison.comparison(self.depths(3))
+        normal, tangential, *numbers = figure.axes
+        self.assertEqual([text.get_text() for text in tangential.texts], ["5 mm", "7 mm", "9 mm"])
+        self.assertEqual([text.get_color() for text in tangential.texts], [line.get_color() for line in tangential.lines[:3]])
+        self.assertIsNone(normal.get_legend())
+        np.testing.assert_allclose(numbers[1].lines[0].get_xydata(), [(5, 20), (7, 40), (9, 60)])
+        self.expect_layout(figure)
+
+    def test_many_devices_have_a_colour_bar(self):
+        figure = comparison.comparison(self.depths(20))
+        self.assertEqual(figure.axes[-1].get_ylabel(), "lever depth [mm]")
+        self.assertEqual(len(figure.axes[0].lines), 21)  # and the line of zero
+        self.assertEqual(figure.axes[1].texts[:], [])
+        self.expect_layout(figure)
+
+    def test_many_words_have_a_legend(self):
+        results = [self.run_of(f"a run {i}", 1 + i, model=f"model {i}") for i in range(12)]
+        figure = comparison.comparison(results)
+        self.assertEqual(len(figure.legends[0].get_texts()), 12)
+        self.expect_layout(figure)
+
+    def test_forces_of_many(self):
+        results = self.depths(12)
+        for figure in (forces.forces_over_x(results), forces.forces_over_time(results)):
+            self.assertEqual(figure.axes[-1].get_ylabel(), "lever depth [mm]")
+            self.expect_layout(figure)
+
+    def test_devices_in_time(self):
+        results = []
+        for i, growth in enumerate((-40.0, -30.0, 20.0)):
+            file = make_transient(self.folder / str(i), "beam", growth)
+            text = file["parameters"].asstr()[()]
+            del file["parameters"]
+            file["parameters"] = f"{text}subsection Lever\n  # Of the metal [mm]: a number > 0.\n  set Depth = {6 + i}\nend\n"
+            for name in ("peak_P_forward", "peak_P_backward", "loop_area"):
+                put(file.require_group("summary"), name, 1.0 + i, "N")
+            finish(file)
+            results.append(read_result(self.folder / str(i)))
+        figure = comparison.comparison(results)
+        self.assertEqual(len(figure.axes), 7)
+        self.assertEqual(figure.axes[2].get_ylabel(), "$Q$ [N]")
+        self.expect_layout(figure)
+
+    def test_levels_have_deviations_from_the_finest(self):
+        for model, growth in (("rigid", -30.0), ("finite element", -40.0), ("beam", 20.0)):
+            finish(make_transient(self.folder / model, model, growth))
+        figure = comparison.comparison([read_result(self.folder / name) for name in ("rigid", "finite element", "beam")])
+        self.assertEqual(figure.axes[2].get_title(loc="right"), "deviation from finite element")
+        self.assertEqual(len(figure.axes[2].lines), 2)
+        self.expect_layout(figure)
+
+    def test_script(self):
+        make_run(self.folder / "a")
+        finish(make_transient(self.folder / "b"))
+        for target, options, names in (
+            (self.pictures / "levels.pdf", (), ["levels.pdf"]),
+            (self.pictures / "all", ("--format", "png,svg"), ["all.png", "all.svg", "levels.pdf"]),
+        ):
+            done = draw("comparison.py", self.folder / "a", self.folder / "b", "-o", target, *options)
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+            self.assertEqual(sorted(path.name for path in self.pictures.iterdir()), names)
+
+
+if __name__ == "__main__":
+    unittest.main()

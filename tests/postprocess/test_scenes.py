@@ -1,0 +1,79 @@
+"""The layout of all pictures of scenes of params/ that run in a second or so; contact_sheet.py looks at those of every scene.
+Run with /usr/bin/python3."""
+
+import os
+import sys
+import unittest
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+
+from pictures import SOURCE, PictureTest  # noqa: E402
+import comparison  # noqa: E402
+import plot  # noqa: E402
+import program  # noqa: E402
+from results import read_result  # noqa: E402
+from style import plt, use_print_style  # noqa: E402
+
+SCENES = Path(os.environ.get("SPRAG_SOURCE", SOURCE)) / "params"
+COARSE = {"Mesh/Face size": 1}
+WITHOUT_FIELDS = {**COARSE, "Output/Fields": "none"}
+FORCES = {"forces-over-time", "forces-over-x"}
+IN_TIME = {*FORCES, "reversal", "energy"}
+# Scene -> its settings here and its pictures.
+PICTURES = {
+    "closed-form-a": ({}, FORCES),
+    "fig11": ({"Slope/Offset ratios": ", ".join(f"{i / 12:g}" for i in range(11))}, {"slope"}),
+    "model-b": (WITHOUT_FIELDS, {*FORCES, "contact"}),
+    "pair-a": (COARSE, {*FORCES, "contact", "fields", "pair"}),
+    "plate-reversal-a": (COARSE, {*IN_TIME, "contact", "fields", "sensors"}),
+    "plate-a": (WITHOUT_FIELDS, {*FORCES, "contact", "sensors"}),
+    "sprag-slip-a": ({}, IN_TIME),
+    "pair-stability-a": ({"Stability/Critical": "none"}, {"modes", "stability"}),
+    "modal-a": (COARSE, {"modes"}),
+    "calibration-a": (COARSE, {"calibration"}),
+    "map-friction-depth-a": ({"Map/First points": 5, "Map/Second points": 5, "Map/Coarsest": 1}, {"map"}),
+    "study-a": (
+        {"Study/Vary": "Mesh/Degree = 1, 2; Mesh/Face size = 1, 1.41, 2", "Study/Reference": "Mesh/Face size = 0.5"},
+        {"study", "trade"},
+    ),
+}
+
+
+class ScenesTest(PictureTest):
+    def setUp(self):
+        super().setUp()
+        use_print_style()
+        self.addCleanup(plt.close, "all")
+
+    def result_of(self, scene, changes, name=None):
+        folder = self.folder / (name or scene)
+        program.run_scene(program.program(), SCENES / f"{scene}.prm", folder, changes)
+        return read_result(folder)
+
+    def test_pictures(self):
+        for scene, (changes, names) in PICTURES.items():
+            pictures = plot.draw([self.result_of(scene, changes)])
+            self.assertEqual(set(pictures), names)
+            for name, figure in pictures.items():
+                with self.subTest(scene=scene, picture=name):
+                    self.expect_layout(figure)
+            plt.close("all")
+
+    def test_comparison_of_many_devices(self):
+        results = []
+        for offset in range(2, 54, 4):
+            results.append(self.result_of("closed-form-a", {"Geometry/Interface offset": offset}, f"e{offset}"))
+        figure = comparison.comparison(results)
+        self.assertEqual(figure.axes[-1].get_ylabel(), "offset $e$ [mm]")
+        self.expect_layout(figure)
+
+    def test_comparison_of_lever_depths_in_time(self):
+        results = [self.result_of("reversal-a", {"Lever/Depth": depth}, f"d{depth}") for depth in (6, 12, 20)]
+        figure = comparison.comparison(results)
+        self.assertIn("12 mm", [text.get_text() for text in figure.axes[1].texts])
+        self.expect_layout(figure)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,47 @@
+"""Every script is a program with --help, -o and --format; run with /usr/bin/python3."""
+
+import os
+import subprocess
+import sys
+import unittest
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+
+from pictures import FOLDER  # noqa: E402
+
+SCRIPTS = [path for path in sorted(FOLDER.glob("*.py")) if "def main(" in path.read_text(encoding="utf-8")]
+# Needs ParaView's own Python, which knows no h5py.
+PARAVIEW = "paraview_pictures.py"
+
+
+class ScriptsTest(unittest.TestCase):
+    def test_scripts_alone_are_executable(self):
+        names = {path.name for path in SCRIPTS}
+        self.assertLessEqual({"plot.py", "fields.py", "mesh.py", "comparison.py", "export.py", "device.py", "figures.py"}, names)
+        for path in FOLDER.glob("*.py"):
+            self.assertEqual(os.access(path, os.X_OK), path.name in names, path.name)
+
+    def test_they_choose_the_python_that_has_h5py(self):
+        for path in SCRIPTS:
+            first = path.read_text(encoding="utf-8").splitlines()[0]
+            self.assertEqual(first, "#!/usr/bin/env pvpython" if path.name == PARAVIEW else "#!/usr/bin/python3", path.name)
+
+    def test_help(self):
+        for path in (path for path in SCRIPTS if path.name != PARAVIEW):
+            with self.subTest(path.name):
+                done = subprocess.run([path, "--help"], capture_output=True, text=True, check=False)
+                self.assertEqual((done.returncode, done.stderr), (0, ""))
+                for word in ("usage: ", "-o", "--output", "--format"):
+                    self.assertIn(word, done.stdout)
+
+    def test_unknown_format(self):
+        for path in (path for path in SCRIPTS if path.name != PARAVIEW):
+            with self.subTest(path.name):
+                done = subprocess.run([path, "somewhere", "--format", "gif"], capture_output=True, text=True, check=False)
+                self.assertEqual(done.returncode, 2)
+                self.assertIn("unknown format gif: ", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
