@@ -87,7 +87,31 @@ for scene in scenes:
     if not re.search(r"(?<![\w-])" + re.escape(scene.name), described):
         report(scene, 1, "not in params/README.md")
 
+
+
+def anchor_of(heading):
+    return re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-")
+
+
+def check_links(page):
+    """Of a page: the files that its links name and the headings in them."""
+    for number, line in enumerate(page.read_text(encoding="utf-8").splitlines(), 1):
+        for link in re.findall(r"\]\(([^)\s]+)\)", line):
+            name, _, anchor = link.partition("#")
+            to = page.parent / name if name else page
+            if "://" in link:
+                continue
+            if not to.exists():
+                report(page, number, f"links to {name}, which is not there")
+            elif anchor and anchor not in map(anchor_of, re.findall(r"^#+ (.*)$", to.read_text(encoding="utf-8"), re.MULTILINE)):
+                report(page, number, f"links to {link}, where there is no such heading")
+
+
+pages = [*ROOT.glob("*.md"), *(path for path in own_files() if path.suffix == ".md")]
+for page in pages:
+    check_links(page)
+
 if n_sources == 0 or not scenes:
     problems.append(f"nothing to check in {ROOT}")
-print("\n".join(problems) or f"{n_sources} source files and {len(scenes)} scenes in order")
+print("\n".join(problems) or f"{n_sources} source files and {len(scenes)} scenes in order, links of {len(pages)} pages hold")
 sys.exit(bool(problems))
