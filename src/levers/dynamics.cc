@@ -50,6 +50,19 @@ namespace sprag
     return result;
   }
 
+  Dynamics DynamicsMaker::make_with_modes(const Scene &scene, const unsigned int modes)
+  {
+    Dynamics result;
+    result.lever = lever_of(scene);
+    const PhaseTimer::Scope scope(time, "model");
+    const auto &all   = result.lever->condensed;
+    const auto lowest = [&](const auto &basis)
+    { return basis ? std::make_shared<const CondensedBasis>(truncated(*basis, modes)) : nullptr; };
+    result.meshed = make_condensed_dynamics(scene, *result.lever->body, { lowest(all.lever), lowest(all.swinging) },
+                                            contact_reference(scene).relaxation);
+    return result;
+  }
+
   std::shared_ptr<const MeshedLever> DynamicsMaker::lever_of(const Scene &scene)
   {
     const auto key   = body_key(scene);

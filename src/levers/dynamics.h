@@ -46,6 +46,9 @@ namespace sprag
     /// Throws InputError for a mesh that cannot be used, AnalysisError if a factorisation fails.
     Dynamics make(const Scene &scene);
 
+    /// Makes a condensed scene's model with the lowest so many of its modes alone, at least one, by its own bases.
+    Dynamics make_with_modes(const Scene &scene, unsigned int modes);
+
     /// Measures the wall and CPU time spent on meshes and models.
     PhaseTimer &timer()
     {

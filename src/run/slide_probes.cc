@@ -1,6 +1,7 @@
 #include "run/slide_probes.h"
 
 #include "run/coarser_scene.h"
+#include "scene/held_slide.h"
 
 #include <cmath>
 
@@ -9,15 +10,16 @@ namespace sprag
   SlideProbes probe_slide(const Scene &scene, const ContactPenalties &penalties, DynamicsMaker &maker)
   {
     SlideProbes result;
-    result.soft = judge(with_penalties(scene, penalties, 1. / softer), maker);
-    DynamicsMaker of_coarse;
-    Scene coarse  = with_coarser_mesh(with_penalties(scene, penalties, 1.));
-    result.coarse = judge(coarse, of_coarse);
+    result.soft  = judge(with_penalties(scene, penalties, 1. / softer), maker);
+    Scene coarse = with_coarser_mesh(with_penalties(scene, penalties, 1.));
     if (scene.analysis.model == ModelType::condensed && scene.condensed.modes > 1)
     {
-      coarse.condensed.modes /= 2;
-      result.coarse_of_fewer_modes = judge(coarse, of_coarse);
+      coarse.condensed.modes = scene.condensed.modes / 2;
+      const auto dynamics    = maker.make_with_modes(scene, coarse.condensed.modes);
+      result.fewer_modes     = judge(dynamics.model(), held_drive(scene), scene.stability.modes);
     }
+    DynamicsMaker of_coarse;
+    result.coarse = judge(coarse, of_coarse);
     return result;
   }
 
@@ -26,10 +28,11 @@ namespace sprag
   {
     const auto difference = [&](const SlideStability &a, const SlideStability &b)
     { return std::abs((value(a) - value(b)) / value(found)); };
-    std::vector<ErrorPart> parts = { mesh_part(scene, difference(probes.coarse, found), order_of_forces(scene)),
+    const auto &on_mesh          = probes.fewer_modes ? *probes.fewer_modes : found;
+    std::vector<ErrorPart> parts = { mesh_part(scene, difference(probes.coarse, on_mesh), order_of_forces(scene)),
                                      penalty_part(difference(probes.soft, found)) };
-    if (probes.coarse_of_fewer_modes)
-      parts.push_back({ "modes", difference(*probes.coarse_of_fewer_modes, probes.coarse), "Try twice the Condensed/Modes." });
+    if (probes.fewer_modes)
+      parts.push_back({ "modes", difference(*probes.fewer_modes, found), "Try twice the Condensed/Modes." });
     return parts;
   }
 } // namespace sprag

@@ -12,9 +12,9 @@ namespace sprag
   /// The slide of a scene by models that are less accurate, each in one respect.
   struct SlideProbes
   {
-    SlideStability coarse;                               ///< on a mesh of twice the Mesh/Face size
-    SlideStability soft;                                 ///< with a third of the penalty
-    std::optional<SlideStability> coarse_of_fewer_modes; ///< of a condensed lever, half of them on the coarse mesh
+    SlideStability soft;                       ///< with a third of the penalty
+    std::optional<SlideStability> fewer_modes; ///< of a condensed lever with several, half of them
+    SlideStability coarse;                     ///< on a mesh of twice the Mesh/Face size, with as many modes as `fewer_modes`
   };
 
   /// Judges the slide of a meshed scene, see held_scene(), by these models. The run's own mesh stays in the maker.

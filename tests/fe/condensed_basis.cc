@@ -101,6 +101,24 @@ TEST(CondensedBasis, WithFewModesHasTheStaticsOfTheFiniteElements)
   }
 }
 
+TEST(CondensedBasis, TruncatedIsAsIfMadeWithFewerModes)
+{
+  const MeshedBar bar({});
+  const auto made = make_basis(*bar, settings_of(3));
+  const auto cut  = truncated(make_basis(*bar, settings_of(8)), 3);
+  ASSERT_EQ(cut.stiffness.size(), 3u);
+  for (unsigned int i = 0; i < 3; ++i)
+  {
+    EXPECT_NEAR(cut.stiffness[i], made.stiffness[i], 1e-7 * made.stiffness[i]);
+    EXPECT_NEAR(cut.layer_stiffness(i, i), made.layer_stiffness(i, i), 1e-6 * made.layer_stiffness.linfty_norm());
+  }
+  EXPECT_EQ(cut.shapes.n(), 3u);
+  EXPECT_EQ(cut.coordinate_shapes.m(), 3u);
+  auto difference = cut.face_compliance;
+  difference.add(-1., made.face_compliance);
+  EXPECT_LE(difference.linfty_norm(), 1e-8 * made.face_compliance.linfty_norm());
+}
+
 TEST(CondensedBasis, ItsElasticDisplacementIsThatOfTheFiniteElements)
 {
   const MeshedBar bar({});

@@ -246,6 +246,28 @@ namespace sprag
     return basis;
   }
 
+  CondensedBasis truncated(CondensedBasis basis, const unsigned int modes)
+  {
+    const auto all = static_cast<unsigned int>(basis.stiffness.size());
+    if (modes >= all)
+      return basis;
+    for (unsigned int i = 0; i < basis.face_compliance.m(); ++i)
+      for (unsigned int k = 0; k < basis.face_compliance.n(); ++k)
+        for (unsigned int j = modes; j < all; ++j)
+          basis.face_compliance(i, k) += basis.shapes(i, j) * basis.shapes(k, j) / basis.stiffness[j];
+    basis.stiffness.resize(modes);
+    const auto corner = [](const FullMatrix<double> &matrix, const std::size_t rows, const std::size_t columns)
+    {
+      FullMatrix<double> result(rows, columns);
+      result.fill(matrix);
+      return result;
+    };
+    basis.shapes            = corner(basis.shapes, basis.shapes.m(), modes);
+    basis.layer_stiffness   = corner(basis.layer_stiffness, modes, modes);
+    basis.coordinate_shapes = corner(basis.coordinate_shapes, modes, basis.coordinate_shapes.n());
+    return basis;
+  }
+
   ModalData modal_data(const CondensedBasis &basis, const LeverDynamics &constants)
   {
     const auto n_lever   = static_cast<unsigned int>(basis.stiffness.size());

@@ -42,6 +42,10 @@ namespace sprag
   /// Makes the basis without a cache.
   CondensedBasis make_basis(const ElasticBody<2> &body, const BasisSettings &settings);
 
+  /// Returns the basis that has only the lowest so many modes, at least one; what the others answer statically goes to the
+  /// residual compliance, as if it had been made so.
+  CondensedBasis truncated(CondensedBasis basis, unsigned int modes);
+
   /// The basis as the modes of a structure, with damping and support.
   ModalData modal_data(const CondensedBasis &basis, const LeverDynamics &constants);
 
