@@ -20,11 +20,11 @@ RUNS = {
     "plate-reversal-a": {**COARSE, "Drive/Start": 60},
     "fig11": {},
     "contact-law-a": COARSE,
-    "calibration-a": COARSE,
+    "calibration-a": {"Mesh/Face size": 4},
     "modal-a": COARSE,
     "pair-stability-a": {"Stability/Critical": "Friction/Factor 0.9 1.1"},
-    "map-friction-depth-a": {"Map/First points": 3, "Map/Second points": 3, "Map/Coarsest": 1, "Map/Bisections": 0},
-    "study-growth-a": {"Study/Vary": "Mesh/Face size = 1, 2", "Study/Reference": ""},
+    "map-friction-depth-a": {"Map/First points": 2, "Map/Second points": 2, "Map/Coarsest": 1, "Map/Bisections": 0},
+    "study-growth-a": {"Study/Vary": "Mesh/Face size = 2, 4", "Study/Reference": ""},
 }
 # Endings of names that stand for several.
 FAMILIES = (

@@ -16,7 +16,7 @@ from results import read_result  # noqa: E402
 from style import plt, use_print_style  # noqa: E402
 
 SCENES = Path(os.environ.get("SPRAG_SOURCE", SOURCE)) / "params"
-COARSE = {"Mesh/Face size": 1}
+COARSE = {"Mesh/Face size": 2}
 WITHOUT_FIELDS = {**COARSE, "Output/Fields": "none"}
 FORCES = {"forces-over-time", "forces-over-x"}
 IN_TIME = {*FORCES, "reversal", "energy"}
@@ -31,10 +31,10 @@ PICTURES = {
     "sprag-slip-a": ({}, IN_TIME),
     "pair-stability-a": ({"Stability/Critical": "none"}, {"modes", "stability"}),
     "modal-a": (COARSE, {"modes"}),
-    "calibration-a": (COARSE, {"calibration"}),
-    "map-friction-depth-a": ({"Map/First points": 5, "Map/Second points": 5, "Map/Coarsest": 1}, {"map"}),
+    "calibration-a": ({"Mesh/Face size": 4}, {"calibration"}),
+    "map-friction-depth-a": ({"Map/First points": 4, "Map/Second points": 4, "Map/Coarsest": 1, "Map/Bisections": 1}, {"map"}),
     "study-a": (
-        {"Study/Vary": "Mesh/Degree = 1, 2; Mesh/Face size = 1, 1.41, 2", "Study/Reference": "Mesh/Face size = 0.5"},
+        {"Study/Vary": "Mesh/Degree = 1, 2; Mesh/Face size = 2, 4", "Study/Reference": "Mesh/Face size = 1"},
         {"study", "trade"},
     ),
 }
