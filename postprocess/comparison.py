@@ -45,7 +45,7 @@ def check_steps(results):
     """Throws NotAResult where there are none that pictures could share."""
     for result in results:
         if result.is_sweep:
-            raise NotAResult(f"{result.folder}: a sweep of the slope is drawn by itself")
+            raise NotAResult(f"{result.folder}: has no steps to share a picture, a result of its type is drawn by itself")
         if len(result.table["time"]) == 0:
             reason = result.summary.get("status")
             raise NotAResult(f"{result.folder}: " + (f"no step was made: {reason}" if reason else "no step is finished yet"))
