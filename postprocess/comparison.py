@@ -14,7 +14,7 @@ import numpy as np
 from arguments import add_folders, add_output, parser_of, picture_paths, save
 from results import NotAResult, read_result, script
 from several import FEW_NUMBERS, told_apart
-from style import MILLIMETRE, TWO_COLUMNS, envelope, label, panel_letter, plt, use_print_style
+from style import MILLIMETRE, TWO_COLUMNS, envelope, is_signal, label, panel_letter, plt, use_print_style
 from transient import LEAD, WINDOW, has_reversal, is_transient, parameter, reversal_time, turning_points, zoom_end
 
 LEVELS = ("closed form", "rigid", "beam", "condensed", "finite element")  # from coarse to fine
@@ -45,7 +45,7 @@ def check_steps(results):
     """Throws NotAResult where there are none that pictures could share."""
     for result in results:
         if result.is_sweep:
-            raise NotAResult(f"{result.folder}: a sweep of the slope is drawn by itself")
+            raise NotAResult(f"{result.folder}: has no steps to share a picture, a result of its type is drawn by itself")
         if len(result.table["time"]) == 0:
             reason = result.summary.get("status")
             raise NotAResult(f"{result.folder}: " + (f"no step was made: {reason}" if reason else "no step is finished yet"))
@@ -168,11 +168,14 @@ def draw_deviations(axes, results, several, view):
         size[size == 0] = np.nan
         draw_curve(axes, *envelope(time, size, view.begin, view.end, view.parts), view, **look)
         highest = np.fmax(highest, np.fmax.reduce(size))
-    if highest > 0:
+    if is_signal(highest, 1):
         axes.set_yscale("log")
         axes.set_ylim(1e-5 * highest, 3 * highest)
     else:
-        axes.annotate("all the same", (0.5, 0.5), xycoords="axes fraction", ha="center")
+        for line in axes.lines[:]:
+            line.remove()
+        axes.annotate("all the same but for round-off", (0.5, 0.5), xycoords="axes fraction", ha="center")
+        axes.set_yticks([])
     if view.origin == 0:
         axes.set_ylabel(r"envelope of $|\Delta P|$ / peak of $P$")
         axes.set_title(f"deviation from {several.names[results.index(finest)]}", loc="right", fontsize=7)

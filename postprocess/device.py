@@ -134,7 +134,8 @@ def draw_dimensions(axes, device, geometry, points):
     axes.plot([-0.2 * unit, 1.15 * unit], [0, 0], **CENTRE_LINE, zorder=1)
     draw_radius(axes, geometry)
     if geometry.x > 0:
-        dimension(axes, (0, 0), (geometry.x, 0), f"$x$ = {geometry.x:.4g} mm", (0, lower))
+        below = {"away": (0, -7)} if geometry.x < 0.3 * unit else None  # the arrow is too short for words on it
+        dimension(axes, (0, 0), (geometry.x, 0), f"$x$ = {geometry.x:.4g} mm", (0, lower), words=below)
     dimension(axes, (0, 0), (unit, 0), f"$l$ = {unit:g} mm", (0, lower - 0.11 * unit))
     if pivot[1] != 0 and not device.is_pair:
         dimension(axes, (unit, 0), pivot, f"$h$ = {pivot[1]:.4g} mm".replace("-", "\N{MINUS SIGN}"), (0.24 * unit, 0), words={"ha": "left"})

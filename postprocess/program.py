@@ -13,13 +13,14 @@ class RunFailed(Exception):
 
 
 def add_program(parser):
-    parser.add_argument("--sprag", type=Path, default=program(), metavar="FILE", help="the program (build/sprag, or the one on the path)")
+    parser.add_argument("--sprag", type=Path, default=program(), metavar="FILE", help="the program (the one built or installed with this script)")
 
 
 def program():
-    """What the environment names by SPRAG, the one built here, or the one on the path."""
-    built = ROOT / "build" / "sprag"
-    return Path(os.environ.get("SPRAG") or (built if built.exists() else shutil.which("sprag") or built))
+    """What the environment names by SPRAG, the one built or installed with these scripts, or the one on the path."""
+    beside = (ROOT / "build" / "sprag", ROOT.parent.parent / "bin" / "sprag")
+    found = [path for path in beside if path.exists()]
+    return Path(os.environ.get("SPRAG") or (found[0] if found else shutil.which("sprag") or beside[0]))
 
 
 def run_scene(sprag, scene, output, changes):

@@ -4,12 +4,10 @@ import re
 
 import numpy as np
 
-from style import COLOURS, MILLIMETRE, TWO_COLUMNS, legend_on_top, look, panel_letter, plt
+from style import COLOURS, MILLIMETRE, TWO_COLUMNS, is_signal, legend_on_top, look, panel_letter, plt
 from transient import LEAD, has_reversal, is_transient, reversal_time, zoom_end
 
 PAIR = (("P", "$P$ at the contact", COLOURS[0], "-"), ("sensor_sum", "sum of the sensors", COLOURS[1], (0, (5, 1.5))))
-
-SOLVER_ERROR = 1e-7  # of P: a smaller difference is what equations are solved to, not a force
 
 
 def has_sensors(result):
@@ -27,8 +25,8 @@ def sensor_forces(result):
     Over x, forward and backward; with inertia over time, with a look at the first reversal.
     """
     unit = result.units["P"]
-    difference = np.nanmax(np.abs(result.table["sensor_sum"] - result.table["P"]))
-    apart = difference > SOLVER_ERROR * np.nanmax(np.abs(result.table["P"]))
+    difference = result.table["sensor_sum"] - result.table["P"]
+    apart = is_signal(difference, result.table["P"])
     figure, panels = draw_views(result, draw_column, 135 if apart else 104, (3, 3, 2) if apart else (3, 3))
     for axes, text in zip(panels[:, 0], (f"force [{unit}]", f"each sensor [{unit}]", f"sum less $P$ [{unit}]")):
         axes.set_ylabel(text)
@@ -36,7 +34,7 @@ def sensor_forces(result):
     more = panels[1, 0].get_legend_handles_labels()
     if not apart:
         handles.append(plt.Line2D([], [], linestyle=""))
-        names.append(f"sum and $P$ agree within {difference:.0e} {unit}")
+        names.append(f"sum and $P$ agree within {np.nanmax(np.abs(difference)):.0e} {unit}")
     legend_on_top(figure, handles + more[0], names + more[1])
     figure.align_ylabels()
     return figure

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
-from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter
 
 from style import COLOURS, LINES, MARKERS, MILLIMETRE, TWO_COLUMNS, WIDE, legend_on_top, panel_letter, parameter_label, plt, scale_of
 
@@ -174,9 +174,10 @@ def set_abscissa(axes, abscissa, shown):
 
 
 def plain_logarithms(axis):
-    """Numbers in place of powers: 1, 2, 5, 10 ... over less than two decades."""
+    """Numbers in place of powers: 1, 2, 5, 10 ... over less than two decades, round ones where not even two of these are in view."""
     low, high = axis.get_view_interval()
-    axis.set_major_locator(LogLocator(subs=(1, 2, 5) if high / low < 25 else (1,)))
+    few = MaxNLocator(3)
+    axis.set_major_locator(few if high / low < 5 else LogLocator(subs=(1, 2, 5) if high / low < 25 else (1,)))
     axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:.3g}"))
     axis.set_minor_formatter(NullFormatter())
 
@@ -231,7 +232,7 @@ def draw_front(axes, cost, error, front, sizes):
     taken = []
     for row in order:
         place = axes.transAxes.inverted().transform(axes.transData.transform((cost[row], error[row])))
-        if all(abs(place[0] - x) > 0.12 or abs(place[1] - y) > 0.08 for x, y in taken):
+        if all(abs(place[0] - x) > 0.2 or abs(place[1] - y) > 0.09 for x, y in taken):
             axes.annotate(sizes.texts[row], (cost[row], error[row]), xytext=(3, 3), textcoords="offset points", fontsize=6)
             taken.append(place)
 

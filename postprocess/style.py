@@ -20,6 +20,7 @@ MARKERS = ("o", "s", "^", "D", "v", "P", "X")
 
 # Ends of an axis with this ratio want a logarithm.
 WIDE = 15
+SOLVER_ERROR = 1e-7
 
 SYMBOLS = {
     "time": "$t$",
@@ -139,6 +140,11 @@ def scale_of(numbers):
     low, high = min(numbers), max(numbers)
     norm = LogNorm(low, high) if low > 0 and high / low > WIDE else Normalize(low, high)
     return plt.cm.ScalarMappable(norm, ListedColormap(plt.cm.viridis(np.linspace(0, 0.9, 256))))
+
+
+def is_signal(difference, whole):
+    """Whether a difference is more than what equations are solved to, measured by what it is a difference of."""
+    return np.nanmax(np.abs(difference), initial=0) > SOLVER_ERROR * np.nanmax(np.abs(whole), initial=0)
 
 
 def envelope(time, values, begin, end, parts):

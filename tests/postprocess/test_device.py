@@ -3,6 +3,7 @@
 import os
 import sys
 import unittest
+from functools import lru_cache
 from pathlib import Path
 
 import numpy as np
@@ -34,15 +35,20 @@ end
 """
 
 
+@lru_cache
+def device_of(scene):
+    return apparatus.device_of(scene, SPRAG, None)
+
+
 class DeviceTest(PictureTest):
     def setUp(self):
         super().setUp()
         use_print_style()
         self.addCleanup(plt.close, "all")
 
-    def drawn(self, scene, x=None):
-        self.device = apparatus.device_of(scene, SPRAG, x)
-        figure = device.drawing(self.device, x)
+    def drawn(self, scene):
+        self.device = device_of(scene)
+        figure = device.drawing(self.device)
         (self.axes,) = figure.axes
         self.expect_layout(figure)
 

@@ -8,7 +8,7 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 
-from pictures import PictureTest, problems  # noqa: E402
+from pictures import PictureTest, draw, problems  # noqa: E402
 from style import plt, use_print_style  # noqa: E402
 
 
@@ -97,6 +97,13 @@ class LayoutTest(PictureTest):
         self.panels[1].set_ylim(7.4e4 - 1e-9, 7.4e4 + 1e-9)
         self.panels[1].set_yticks(())
         self.expect("round-off")
+
+    def test_scripts_are_looked_at_while_they_draw(self):
+        script = self.folder / "script.py"
+        script.write_text("import matplotlib.pyplot as plt\nplt.subplots()\nplt.savefig('" + str(self.folder / "empty.png") + "')\n")
+        done = draw(script)
+        self.assertEqual(done.returncode, 0)
+        self.assertIn("layout of empty.png: panel 1 (without words): holds no data", done.stderr)
 
 
 if __name__ == "__main__":

@@ -11,6 +11,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 from pictures import PictureTest, draw  # noqa: E402
 import pair  # noqa: E402
 from results import read_result  # noqa: E402
+from style import use_print_style  # noqa: E402
 from test_plot import fill_run, finish, make_run, make_transient, new_file, put  # noqa: E402
 
 
@@ -20,6 +21,7 @@ def add_second_lever(file):
         if column not in table:
             put(table, column, 0.7 * table["P"][:], "N")
         put(table, f"{column}_2", share * table[column][:], "N")
+    put(table, "theta", np.full(len(table["P"]), 0.06), "rad")
     put(table, "swing", 1e-3 * np.ones(len(table["P"])), "rad")
     put(table, "lateral_force", -0.25 * table["P"][:], "N")
 
@@ -44,6 +46,10 @@ def curve(axes, name):
 
 
 class PairTest(PictureTest):
+    def setUp(self):
+        super().setUp()
+        use_print_style()
+
     def test_over_x_each_way(self):
         result = make_static(self.folder / "a")
         panels = pair.pair_of_levers(result).axes
@@ -68,6 +74,14 @@ class PairTest(PictureTest):
         self.assertLess(near[0], 0)
         self.assertGreater(near[-1], 0)
         self.expect_picture(draw("plot.py", self.folder / "a"), "pair")
+
+    def test_a_symmetric_pair_swings_by_round_off_alone(self):
+        result = make_static(self.folder / "a")
+        result.table["swing"] = 1e-16 * np.sin(result.table["x"])
+        figure = pair.pair_of_levers(result)
+        self.assertEqual([axes.get_ylabel() for axes in figure.axes[::2]], ["$P$ [N]", "$F$ [N]", "lateral force [N]"])
+        self.assertIn("swing: none but round-off", [text.get_text() for text in figure.legends[0].get_texts()])
+        self.expect_layout(figure)
 
     def test_no_second_lever_no_picture(self):
         make_run(self.folder / "a")

@@ -1,5 +1,5 @@
-"""The layout of all pictures of scenes of params/ that run in a second or so; contact_sheet.py looks at those of every scene.
-Run with /usr/bin/python3."""
+"""Scenes of params/ that run in a second or so: the layout of all their pictures, and that the pages name all that their results hold.
+contact_sheet.py looks at the pictures of every scene. Run with /usr/bin/python3."""
 
 import os
 import sys
@@ -10,13 +10,14 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 
 from pictures import SOURCE, PictureTest  # noqa: E402
 import comparison  # noqa: E402
+import pages  # noqa: E402
 import plot  # noqa: E402
 import program  # noqa: E402
 from results import read_result  # noqa: E402
 from style import plt, use_print_style  # noqa: E402
 
 SCENES = Path(os.environ.get("SPRAG_SOURCE", SOURCE)) / "params"
-COARSE = {"Mesh/Face size": 1}
+COARSE = {"Mesh/Face size": 2}
 WITHOUT_FIELDS = {**COARSE, "Output/Fields": "none"}
 FORCES = {"forces-over-time", "forces-over-x"}
 IN_TIME = {*FORCES, "reversal", "energy"}
@@ -29,15 +30,18 @@ PICTURES = {
     "plate-reversal-a": (COARSE, {*IN_TIME, "contact", "fields", "sensors"}),
     "plate-a": (WITHOUT_FIELDS, {*FORCES, "contact", "sensors"}),
     "sprag-slip-a": ({}, IN_TIME),
-    "pair-stability-a": ({"Stability/Critical": "none"}, {"modes", "stability"}),
+    "pair-stability-a": ({"Stability/Critical": "Friction/Factor 0.9 1.1"}, {"modes", "stability"}),
     "modal-a": (COARSE, {"modes"}),
-    "calibration-a": (COARSE, {"calibration"}),
-    "map-friction-depth-a": ({"Map/First points": 5, "Map/Second points": 5, "Map/Coarsest": 1}, {"map"}),
+    "calibration-a": ({"Mesh/Face size": 4}, {"calibration"}),
+    "contact-law-a": (COARSE, {"contact-law"}),
+    "map-friction-depth-a": ({"Map/First points": 4, "Map/Second points": 4, "Map/Coarsest": 1, "Map/Bisections": 1}, {"map"}),
     "study-a": (
-        {"Study/Vary": "Mesh/Degree = 1, 2; Mesh/Face size = 1, 1.41, 2", "Study/Reference": "Mesh/Face size = 0.5"},
+        {"Study/Vary": "Mesh/Degree = 1, 2; Mesh/Face size = 2, 4", "Study/Reference": "Mesh/Face size = 1"},
         {"study", "trade"},
     ),
 }
+# Whose columns are described by the files alone.
+OWN_COLUMNS = ("calibration-a", "study-a")
 
 
 class ScenesTest(PictureTest):
@@ -51,9 +55,14 @@ class ScenesTest(PictureTest):
         program.run_scene(program.program(), SCENES / f"{scene}.prm", folder, changes)
         return read_result(folder)
 
-    def test_pictures(self):
+    def test_pictures_and_names(self):
         for scene, (changes, names) in PICTURES.items():
-            pictures = plot.draw([self.result_of(scene, changes)])
+            result = self.result_of(scene, changes)
+            with self.subTest(scene=scene):
+                self.assertEqual(pages.unknown_entries(result), [])
+                if scene not in OWN_COLUMNS:
+                    self.assertEqual(pages.unknown_columns(result), [])
+            pictures = plot.draw([result])
             self.assertEqual(set(pictures), names)
             for name, figure in pictures.items():
                 with self.subTest(scene=scene, picture=name):

@@ -12,6 +12,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 from pictures import PictureTest  # noqa: E402
 import results  # noqa: E402
 import study  # noqa: E402
+from style import plt, use_print_style  # noqa: E402
 
 SIZES = ("0.5", "1", "2")
 DEGREES = ("1", "2")
@@ -88,6 +89,19 @@ class StudyTest(PictureTest):
         front = next(line for line in axes.lines if line.get_linestyle() == "-")
         self.assertTrue((np.diff(front.get_xdata()) >= 0).all())
         np.testing.assert_allclose(sorted(front.get_ydata()), sorted(100 * np.array([0.0025, 0.01, 0.04, 0.00125, 0.01])))
+
+    def test_labels_of_logarithms_stay_apart(self):
+        use_print_style()
+        for low in (0.14, 2.1):
+            for ratio in (1.1, 1.5, 3, 4.9, 5.1, 9, 20, 30, 1e4):
+                figure, axes = plt.subplots(figsize=(2, 2))
+                axes.loglog((low, low * ratio), (low, low * ratio), "o")
+                for axis in (axes.xaxis, axes.yaxis):
+                    study.plain_logarithms(axis)
+                with self.subTest(low=low, ratio=ratio):
+                    self.expect_layout(figure)
+                    self.assertGreaterEqual(sum(low <= tick <= low * ratio for tick in axes.get_xticks()), 1)
+                plt.close(figure)
 
     def test_pictures(self):
         self.expect_pictures(self.plot(make_study(self.folder / "run")), ["study.png", "trade.png"])

@@ -152,7 +152,8 @@ def outside(figure, shown, boxes, renderer):
 def contents_of_legend(legend, renderer):
     """Without the margin around."""
     boxes = [text.get_window_extent(renderer) for text in texts_of_legend(legend) if text.get_text()]
-    boxes += [handle.get_window_extent(renderer) for handle in legend.legendHandles if handle is not None]
+    handles = legend.legend_handles if hasattr(legend, "legend_handles") else legend.legendHandles  # before matplotlib 3.7
+    boxes += [handle.get_window_extent(renderer) for handle in handles if handle is not None]
     boxes = [box for box in boxes if np.isfinite(box.extents).all() and box.width + box.height > 0]
     return Bbox.union(boxes) if boxes else legend.get_window_extent(renderer)
 
