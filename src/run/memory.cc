@@ -1,5 +1,6 @@
 #include "run/memory.h"
 
+#include "analysis/isolation/isolation.h"
 #include "analysis/transient/transient.h"
 #include "base/available_memory.h"
 #include "base/errors.h"
@@ -145,6 +146,8 @@ namespace sprag
   {
     if (scene.analysis.type == AnalysisType::quasi_static)
       return path_length(scene.drive) / scene.analysis.step;
+    if (scene.analysis.type == AnalysisType::isolation)
+      return scene.isolation.duration / output_step(scene.isolation);
     if (scene.analysis.type != AnalysisType::transient)
       return 0.;
     const bool adaptive =

@@ -35,6 +35,6 @@ namespace sprag
         type == AnalysisType::transient && model == ModelType::rigid && scene.contact.type == ContactType::ideal;
     const bool is_closed =
         (type == AnalysisType::quasi_static || type == AnalysisType::transient) && model == ModelType::closed_form;
-    return type == AnalysisType::slope || is_closed || is_ideal;
+    return type == AnalysisType::slope || type == AnalysisType::isolation || is_closed || is_ideal;
   }
 } // namespace sprag

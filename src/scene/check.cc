@@ -291,6 +291,8 @@ namespace sprag
         check_sweep(scene, rules);
       if (rules.broken.empty() && can_lock(scene, use))
         locked(scene, rules);
+      if (rules.broken.empty() && use.type == AnalysisType::isolation)
+        check_isolation(scene, rules);
       return rules.broken;
     }
   } // namespace

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "analysis/isolation/isolation.h"
+#include "results/entries.h"
+#include "results/result_file.h"
+
+#include <vector>
+
+namespace sprag
+{
+  /// Lists the columns of the table of an isolation system.
+  const std::vector<ColumnInfo> &isolation_columns();
+
+  /// Returns the values of these columns; `is_before`: with the force just before a turn.
+  std::vector<double> isolation_row(const IsolationSettings &settings, const TableMotion &motion, bool is_before);
+
+  /// Sums up a run; with a harmonic base the harmonic balance stands beside it.
+  std::vector<Entry> isolation_summary(const Scene &scene, const IsolationFindings &found);
+
+  /// Returns what a run of an isolation system warns of.
+  Warnings isolation_warnings(const Scene &scene, const IsolationFindings &found);
+} // namespace sprag
