@@ -97,15 +97,15 @@ namespace sprag
     return side > 0 || now.z == 0. ? Range{ back, away } : Range{ -away, -back };
   }
 
-  /// How much more than friction can hold is needed to hold the table; round-off moves nothing.
+  /// How much more than friction can hold is needed to hold the table; what the errors of steps leave open moves nothing.
   double TableMotion::excess(const BasePoint &base) const
   {
     const auto [low, high] = friction_at_rest();
     const double needed    = force_needed(base);
-    const double round_off =
-        8. * epsilon *
-        (system.mass * std::abs(base.a) + system.stiffness * std::abs(now.z) + std::max(std::abs(low), std::abs(high)));
-    return std::max(needed - high, low - needed) - round_off;
+    const double share     = std::max(tolerance, 8. * epsilon);
+    const double doubt =
+        share * (system.mass * std::abs(base.a) + system.stiffness * std::abs(now.z) + std::max(std::abs(low), std::abs(high)));
+    return std::max(needed - high, low - needed) - doubt;
   }
 
   int TableMotion::way_out() const
@@ -383,7 +383,7 @@ namespace sprag
     take(taken, end);
     now.time       = event == TableEvent::none && now.time + taken >= end_of_step(until) * (1. - epsilon) ? end_of_step(until)
                                                                                                           : now.time + taken;
-    events_at_once = taken > 0. ? 0 : events_at_once + 1;
+    events_at_once = taken > 1e-9 * longest_step ? 0 : events_at_once + 1;
     if (events_at_once > 100)
       fail("the table turns again and again at one instant. Try an Initial displacement that is a little different");
     if (event == TableEvent::end)
