@@ -48,6 +48,12 @@ namespace sprag
     };
   }
 
+  StepPolynomial cubic(const StepEnd &begin, const StepEnd &end)
+  {
+    const double rise = end.value - begin.value;
+    return { begin.value, begin.first, 3. * rise - 2. * begin.first - end.first, begin.first + end.first - 2. * rise };
+  }
+
   StepPolynomial quartic(const std::vector<double> &y)
   {
     return { y[0], (-25. * y[0] + 48. * y[1] - 36. * y[2] + 16. * y[3] - 3. * y[4]) / 3.,

@@ -21,6 +21,9 @@ namespace sprag
   /// Returns the quintic through both ends.
   StepPolynomial quintic(const StepEnd &begin, const StepEnd &end);
 
+  /// Returns the cubic through values and first derivatives of both ends.
+  StepPolynomial cubic(const StepEnd &begin, const StepEnd &end);
+
   /// Returns the quartic through values at 0, 1/4, 1/2, 3/4 and 1.
   StepPolynomial quartic(const std::vector<double> &values);
 

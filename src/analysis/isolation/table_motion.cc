@@ -271,8 +271,10 @@ namespace sprag
     const double a0 = moving_acceleration(now.z, now.rate, base());
     const double a1 = moving_acceleration(end[0], end[1], system.base.at(now.time + h, piece));
     auto z          = quintic({ now.z, now.rate * h, a0 * h * h }, { end[0], end[1] * h, a1 * h * h });
-    auto rate       = derivative_of(z);
-    auto room       = z;
+    // In a short step z hardly changes, and round-off of the difference would turn its rate.
+    const bool is_short = h < 1e-2 * longest_step;
+    auto rate           = is_short ? cubic({ now.rate, a0 * h, 0. }, { end[1], a1 * h, 0. }) : derivative_of(z);
+    auto room           = z;
     for (double &c : rate)
       c *= direction;
     for (double &c : room)
