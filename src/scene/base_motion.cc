@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <complex>
 #include <memory>
 #include <random>
 
@@ -10,7 +11,8 @@ namespace sprag
 {
   namespace
   {
-    constexpr double full_turn = 2. * M_PI;
+    constexpr double full_turn           = 2. * M_PI;
+    constexpr double samples_of_a_period = 24.;
 
     BaseMotion at_rest()
     {
@@ -119,22 +121,93 @@ namespace sprag
       return lines;
     }
 
-    BaseMotion random(const IsolationSettings &settings)
+    /// The sum of all lines with its derivatives at an instant.
+    struct Shaking
     {
-      const auto lines = std::make_shared<const std::vector<Line>>(random_lines(settings));
-      BaseMotion motion;
-      motion.at = [lines](const double t, std::size_t)
+      double a, jerk, snap;
+    };
+
+    std::vector<Shaking> sampled(const std::vector<Line> &lines, const double step, const std::size_t samples)
+    {
+      std::vector<Shaking> result(samples, Shaking{ 0., 0., 0. });
+      for (const auto &[amplitude, w, phase] : lines)
+      {
+        constexpr std::size_t afresh    = 256; // so that round-off does not grow
+        const std::complex<double> turn = std::polar(1., w * step);
+        std::complex<double> value;
+        for (std::size_t i = 0; i < samples; ++i)
+        {
+          value = i % afresh == 0 ? std::polar(amplitude, w * step * static_cast<double>(i) + phase) : value * turn;
+          result[i].a += value.real();
+          result[i].jerk -= w * value.imag();
+          result[i].snap -= w * w * value.real();
+        }
+      }
+      return result;
+    }
+
+    /// A quintic of the acceleration over the share of a step, integrated from x and v at its beginning.
+    struct ShakingPiece
+    {
+      double x, v;
+      std::array<double, 6> c;
+
+      BasePoint at(const double share, const double h) const
       {
         BasePoint point{ 0., 0., 0., 0. };
-        for (const auto &[amplitude, w, phase] : *lines)
+        for (std::size_t k = c.size(); k-- > 0;)
         {
-          const double sine = amplitude * std::sin(w * t + phase), cosine = amplitude * std::cos(w * t + phase);
-          point.a += cosine;
-          point.jerk -= w * sine;
-          point.v += sine / w;
-          point.x -= cosine / (w * w);
+          const double n = static_cast<double>(k);
+          point.a        = point.a * share + c[k];
+          point.v        = point.v * share + c[k] / (n + 1.);
+          point.x        = point.x * share + c[k] / ((n + 1.) * (n + 2.));
+          if (k > 0)
+            point.jerk = point.jerk * share + n * c[k];
         }
-        return point;
+        return { x + h * share * (v + h * share * point.x), v + h * share * point.v, point.a, point.jerk / h };
+      }
+    };
+
+    std::array<double, 6> quintic(const Shaking &begin, const Shaking &end, const double h)
+    {
+      const double first = begin.jerk * h, half = 0.5 * begin.snap * h * h;
+      const double d0 = end.a - begin.a - first - half, d1 = (end.jerk - begin.jerk - begin.snap * h) * h;
+      const double d2 = (end.snap - begin.snap) * h * h;
+      return { { begin.a, first, half, 10. * d0 - 4. * d1 + 0.5 * d2, -15. * d0 + 7. * d1 - d2, 6. * d0 - 3. * d1 + 0.5 * d2 } };
+    }
+
+    /// x and v of the lines at t = 0, from where the pieces are integrated.
+    BasePoint beginning(const std::vector<Line> &lines)
+    {
+      BasePoint point{ 0., 0., 0., 0. };
+      for (const auto &[amplitude, w, phase] : lines)
+      {
+        point.v += amplitude * std::sin(phase) / w;
+        point.x -= amplitude * std::cos(phase) / (w * w);
+      }
+      return point;
+    }
+
+    /// Sampled so densely that quintics between the samples miss 1e-8 of the fastest line.
+    BaseMotion random(const IsolationSettings &settings)
+    {
+      const double h     = 1. / (samples_of_a_period * settings.highest_frequency);
+      const auto pieces  = static_cast<std::size_t>(settings.duration / h) + 1;
+      const auto lines   = random_lines(settings);
+      const auto samples = sampled(lines, h, pieces + 1);
+      const auto shaking = std::make_shared<std::vector<ShakingPiece>>();
+      BasePoint now      = beginning(lines);
+      BaseMotion motion;
+      for (std::size_t i = 0; i < pieces; ++i)
+      {
+        shaking->push_back({ now.x, now.v, quintic(samples[i], samples[i + 1], h) });
+        now = shaking->back().at(1., h);
+        motion.kinks.push_back(static_cast<double>(i + 1) * h);
+      }
+      motion.at = [shaking, h](const double t, const std::size_t piece)
+      {
+        const std::size_t i = std::min(piece, shaking->size() - 1);
+        return (*shaking)[i].at(t / h - static_cast<double>(i), h);
       };
       motion.shortest_period = 1. / settings.highest_frequency;
       return motion;

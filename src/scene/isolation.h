@@ -117,7 +117,7 @@ namespace sprag
     IsolationEnd end            = IsolationEnd::duration;
     double periodic_tolerance   = 1e-8;  ///< of a steady state, over the amplitude, > 0
     double tolerance            = 1e-12; ///< of a step, over the amplitude, > 0
-    std::optional<double> output_step;   ///< [s], > 0; none: a hundredth of the shorter of both periods
+    std::optional<double> output_step;   ///< [s], > 0; none: see output_step()
 
     // What the files hold.
     DamperLoop loop;

@@ -93,8 +93,10 @@ namespace sprag
                      "Of a steady state: what is left of the way to it, over the amplitude");
       section.number("Tolerance", settings.tolerance, { 1e-14, 1e-3 }, "",
                      "Error of a step in time, over the amplitude; events are met to round-off whatever it is");
-      section.number_or_auto("Output step", settings.output_step, above(0.), "s",
-                             "Between rows of the table, which events have too; auto: a hundredth of the shortest period");
+      section.number_or_auto(
+          "Output step", settings.output_step, above(0.), "s",
+          "Between rows of the table, which events have too; auto: a hundredth of the natural period, or a tenth of the "
+          "base's shortest where that is less");
     }
   } // namespace
 

@@ -208,7 +208,7 @@ namespace sprag
     if (settings.output_step)
       return *settings.output_step;
     const double natural = 2. * M_PI * std::sqrt(settings.mass / settings.stiffness);
-    return 0.01 * std::min(natural, base_motion(settings).shortest_period);
+    return std::min(0.01 * natural, 0.1 * base_motion(settings).shortest_period);
   }
 
   void run_isolation(const Scene &scene, IsolationFindings &findings, const RecordTable &record)

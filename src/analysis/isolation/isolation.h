@@ -45,6 +45,7 @@ namespace sprag
   /// or more energy is left open than Analysis/Maximum energy residual. Without `record` nothing is recorded.
   void run_isolation(const Scene &scene, IsolationFindings &findings, const RecordTable &record);
 
-  /// Returns the time between two rows [s].
+  /// Returns the time between two rows [s]: that given, or a hundredth of the natural period, and a tenth of the base's shortest
+  /// where that is less.
   double output_step(const IsolationSettings &settings);
 } // namespace sprag

@@ -27,12 +27,22 @@ namespace sprag
     return ratio < 1. && last * ratio / (1. - ratio) <= tolerance * amplitude && last <= 1e3 * tolerance * amplitude;
   }
 
+  /// A decay that turns seems to repeat after several periods first; close to the steady state all that is left is small.
+  unsigned int SteadyState::shortest(const unsigned int repeating, const double tolerance) const
+  {
+    const std::size_t last = instants.size() - 1;
+    for (unsigned int p = 1; p < repeating; ++p)
+      if (repeating % p == 0 && change(last, p) <= 4. * tolerance * instants[last].amplitude)
+        return p;
+    return repeating;
+  }
+
   std::optional<unsigned int> SteadyState::periods(const double tolerance) const
   {
     constexpr unsigned int most = 8;
     for (unsigned int p = 1; p <= most && 2 * p + 2 <= instants.size(); ++p)
       if (repeats(instants.size() - 1, p, tolerance) && repeats(instants.size() - 2, p, tolerance))
-        return p;
+        return shortest(p, tolerance);
     return {};
   }
 } // namespace sprag

@@ -26,6 +26,7 @@ namespace sprag
     std::vector<Instant> instants;
 
     double change(std::size_t instant, unsigned int periods) const;
+    unsigned int shortest(unsigned int repeating, double tolerance) const;
     bool repeats(std::size_t instant, unsigned int periods, double tolerance) const;
   };
 } // namespace sprag
