@@ -176,6 +176,10 @@ FIGURES = {
     **{name: drawn(name, "map") for name in MAPS},
     # What accuracy costs.
     **{name: drawn(name, "trade") for name in STUDIES},
+    "study-transmissibility-a": drawn("study-transmissibility-a", "transmissibility"),
+    "isolation-a-loop": drawn("isolation-a", "loop"),
+    "isolation-free-a": drawn("isolation-free-a", "motion"),
+    "isolation-ground-a": drawn("isolation-ground-a", "spectra"),
 }
 
 

@@ -58,8 +58,9 @@ namespace sprag
       Damper damper;
       damper.resistance = [=, friction = scene.friction, geometry = scene.geometry](const double y, const double speed, int away)
       {
-        const double x   = std::min(y, reach);
-        const auto state = closed_form(geometry, friction, law.moment(turn(x)), x, std::copysign(std::max(0., speed), away));
+        const auto contact  = kinematics(geometry, std::min(y, reach));
+        const double moment = law.moment(contact.theta - rest);
+        const auto state    = closed_form(geometry, friction, moment, contact, std::copysign(std::max(0., speed), away));
         return Resistance{ n * state.Q, n * std::abs(state.F * state.v_rel) };
       };
       damper.energy         = [=](const double y) { return n * law.energy(turn(y)); };
