@@ -4,10 +4,27 @@
 #include "run/report.h"
 #include "run/result_writer.h"
 
+#include <algorithm>
+#include <cmath>
 #include <iostream>
 
 namespace sprag
 {
+  namespace
+  {
+    /// Without the numbers that this base or damper does not have.
+    std::vector<Entry> known(std::vector<Entry> entries)
+    {
+      const auto is_unknown = [](const Entry &entry)
+      {
+        const double *const number = std::get_if<double>(&entry.value);
+        return number != nullptr && std::isnan(*number);
+      };
+      entries.erase(std::remove_if(entries.begin(), entries.end(), is_unknown), entries.end());
+      return entries;
+    }
+  } // namespace
+
   void run_isolation_scene(const Scene &scene, const RunOptions &options, Warnings &warnings)
   {
     PhaseTimer timer;
@@ -23,7 +40,7 @@ namespace sprag
                          append(warnings, isolation_warnings(scene, found));
                          const auto end = writer.finish(status, { isolation_summary(scene, found) }, warnings);
                          if (!options.quiet)
-                           print_summary(std::cout, end.summary);
+                           print_summary(std::cout, options.verbose ? end.summary : known(end.summary));
                        });
   }
 } // namespace sprag

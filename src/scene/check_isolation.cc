@@ -44,6 +44,11 @@ namespace sprag
       rules.need(settings.base != BaseMotionType::random || settings.highest_frequency > settings.lowest_frequency,
                  "Isolation/Highest frequency", { "Analysis/Type", "Isolation/Base motion", "Isolation/Lowest frequency" },
                  "must be more than Lowest frequency = " + rounded_text(settings.lowest_frequency) + " Hz");
+      constexpr double most_periods = 1e6; // of which each takes memory
+      rules.need(settings.base != BaseMotionType::random || settings.duration * settings.highest_frequency <= most_periods,
+                 "Isolation/Highest frequency", { "Analysis/Type", "Isolation/Base motion", "Isolation/Duration" },
+                 "must be at most " + rounded_text(most_periods / settings.duration) +
+                     " Hz: a random motion has at most 1e6 periods of it");
       rules.need(settings.end == IsolationEnd::duration || settings.base == BaseMotionType::harmonic, "Isolation/End",
                  { "Analysis/Type", "Isolation/Base motion" }, "must be duration but with Base motion = harmonic");
       if (settings.base != BaseMotionType::random || settings.spectrum != BaseSpectrum::table || settings.base_table.at.empty())

@@ -33,6 +33,13 @@ PICTURES = {
     "modal-a": (COARSE, {"modes"}),
     "calibration-a": (COARSE, {"calibration"}),
     "map-friction-depth-a": ({"Map/First points": 5, "Map/Second points": 5, "Map/Coarsest": 1}, {"map"}),
+    "isolation-a": ({}, {"motion", "loop"}),
+    "isolation-free-a": ({"Isolation/Damper": "constant friction"}, {"motion", "loop"}),
+    "isolation-ground-a": ({"Isolation/Duration": 20}, {"motion", "loop", "spectra"}),
+    "study-transmissibility-a": (
+        {"Study/Vary": "Isolation/Damper = lever, constant friction, Beucke; Isolation/Base frequency = 0.5 ... 2 : 9"},
+        {"study", "transmissibility"},
+    ),
     "study-a": (
         {"Study/Vary": "Mesh/Degree = 1, 2; Mesh/Face size = 1, 1.41, 2", "Study/Reference": "Mesh/Face size = 0.5"},
         {"study", "trade"},

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <boost/math/tools/roots.hpp>
+
 #include <optional>
 #include <vector>
 
@@ -38,4 +40,19 @@ namespace sprag
   /// Returns the first stretch without a turn on which the polynomial falls below 0 by more than round-off; none where it never
   /// does.
   std::optional<Bracket> first_fall(const StepPolynomial &polynomial);
+
+  /// The root of a function that is positive at `from` and negative at `to`, to round-off.
+  template <class Function>
+  double falling_root(const Function &function, const double from, const double to)
+  {
+    const double before = function(from), behind = function(to);
+    if (before <= 0.)
+      return from;
+    if (behind >= 0.)
+      return to;
+    boost::uintmax_t most = 100;
+    const auto found =
+        boost::math::tools::toms748_solve(function, from, to, before, behind, boost::math::tools::eps_tolerance<double>(), most);
+    return 0.5 * (found.first + found.second);
+  }
 } // namespace sprag
