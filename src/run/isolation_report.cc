@@ -87,7 +87,7 @@ namespace sprag
     return columns;
   }
 
-  std::vector<double> isolation_row(const IsolationSettings &settings, const TableMotion &motion, const bool is_before)
+  std::vector<double> isolation_row(const IsolationSettings &settings, const IsolatedTable &motion, const bool is_before)
   {
     const auto &state  = motion.state();
     const auto base    = motion.base();

@@ -2,7 +2,6 @@
 #include "run/analyses.h"
 #include "run/isolation_report.h"
 #include "run/report.h"
-#include "run/result_writer.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,22 +24,34 @@ namespace sprag
     }
   } // namespace
 
-  void run_isolation_scene(const Scene &scene, const RunOptions &options, Warnings &warnings)
+  void record_isolation(const Scene &scene, const RunOptions &options, PhaseTimer &timer, Warnings &warnings,
+                        const IsolationRun &follow)
   {
-    PhaseTimer timer;
     ResultWriter writer(scene, options, timer, isolation_columns());
     RecordTable record;
     if (options.in_memory == nullptr)
-      record = [&](const TableMotion &motion, const bool is_before)
-      { writer.append(isolation_row(scene.isolation, motion, is_before)); };
+      record = [&](const IsolatedTable &table, const bool is_before)
+      { writer.append(isolation_row(scene.isolation, table, is_before)); };
     IsolationFindings found;
-    finish_in_any_case([&] { run_isolation(scene, found, record); },
+    std::vector<Entry> facts;
+    finish_in_any_case([&] { facts = follow(found, record); },
                        [&](const std::string &status)
                        {
                          append(warnings, isolation_warnings(scene, found));
-                         const auto end = writer.finish(status, { isolation_summary(scene, found) }, warnings);
+                         const auto end = writer.finish(status, { isolation_summary(scene, found), facts }, warnings);
                          if (!options.quiet)
                            print_summary(std::cout, options.verbose ? end.summary : known(end.summary));
                        });
+  }
+
+  void run_isolation_scene(const Scene &scene, const RunOptions &options, Warnings &warnings)
+  {
+    PhaseTimer timer;
+    record_isolation(scene, options, timer, warnings,
+                     [&](IsolationFindings &found, const RecordTable &record)
+                     {
+                       run_isolation(scene, found, record);
+                       return std::vector<Entry>();
+                     });
   }
 } // namespace sprag

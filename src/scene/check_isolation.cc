@@ -1,4 +1,5 @@
 #include "base/text.h"
+#include "scene/analysis_use.h"
 #include "scene/check_parts.h"
 #include "scene/damper.h"
 
@@ -13,8 +14,12 @@ namespace sprag
     {
       if (scene.isolation.damper != DamperType::lever)
         return;
-      rules.need(scene.analysis.model == ModelType::closed_form, "Analysis/Model", { "Analysis/Type", "Isolation/Damper" },
-                 "must be closed form with Isolation/Damper = lever: levers of other models move no table");
+      rules.need(scene.analysis.model == ModelType::closed_form || scene.contact.type == ContactType::compliant, "Contact/Type",
+                 { "Analysis/Type", "Analysis/Model", "Isolation/Damper" },
+                 "must be compliant with Isolation/Damper = lever and a model in time");
+      rules.need(!isolates_by_model(scene) || std::abs(scene.isolation.initial_displacement) < scene.drive.maximum(),
+                 "Isolation/Initial displacement", { "Analysis/Type", "Analysis/Model", "Drive/Stroke", "Drive/Profile" },
+                 "must be less than Drive/Stroke = " + mm(scene.drive.maximum()) + " either way, for which the levers are made");
       rules.need(scene.support.type == SupportType::rigid, "Support/Type", { "Analysis/Type", "Isolation/Damper" },
                  "must be rigid with Isolation/Damper = lever");
     }

@@ -45,7 +45,7 @@ namespace sprag
     std::vector<TableState> turns;
     IsolationFindings found;
     run_isolation(scene, found,
-                  [&](const TableMotion &motion, const bool is_before)
+                  [&](const IsolatedTable &motion, const bool is_before)
                   {
                     if (is_before)
                       turns.push_back(motion.state());

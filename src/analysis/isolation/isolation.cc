@@ -23,12 +23,12 @@ namespace sprag
     class Follower
     {
     public:
-      Follower(const Scene &given, IsolationFindings &of_run, const RecordTable &recorder)
+      Follower(const Scene &given, IsolatedTable &table, IsolationFindings &of_run, const RecordTable &recorder)
           : scene(given)
           , settings(scene.isolation)
           , found(of_run)
           , record(recorder)
-          , motion(isolation_system(scene), settings.initial_displacement, settings.initial_velocity, settings.tolerance)
+          , motion(table)
           , is_harmonic(settings.base == BaseMotionType::harmonic)
           , between_rows(output_step(settings))
       {
@@ -88,7 +88,7 @@ namespace sprag
       const IsolationSettings &settings;
       IsolationFindings &found;
       const RecordTable &record;
-      TableMotion motion;
+      IsolatedTable &motion;
       const bool is_harmonic;
       const double between_rows;
       std::size_t rows           = 1;
@@ -211,9 +211,9 @@ namespace sprag
     return std::min(0.01 * natural, 0.1 * base_motion(settings).shortest_period);
   }
 
-  void run_isolation(const Scene &scene, IsolationFindings &findings, const RecordTable &record)
+  void run_isolation(const Scene &scene, IsolatedTable &table, IsolationFindings &findings, const RecordTable &record)
   {
-    Follower follower(scene, findings, record);
+    Follower follower(scene, table, findings, record);
     try
     {
       follower.follow();
@@ -225,5 +225,12 @@ namespace sprag
     }
     follower.conclude();
     follower.check_energy();
+  }
+
+  void run_isolation(const Scene &scene, IsolationFindings &findings, const RecordTable &record)
+  {
+    const auto &settings = scene.isolation;
+    TableMotion table(isolation_system(scene), settings.initial_displacement, settings.initial_velocity, settings.tolerance);
+    run_isolation(scene, table, findings, record);
   }
 } // namespace sprag

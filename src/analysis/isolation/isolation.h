@@ -39,10 +39,13 @@ namespace sprag
   };
 
   /// Takes the motion at the instants of the table; `is_before` tells that the force is still that before a turn.
-  using RecordTable = std::function<void(const TableMotion &, bool is_before)>;
+  using RecordTable = std::function<void(const IsolatedTable &, bool is_before)>;
 
-  /// Follows the scene's table to its end and fills in what it finds, also where it throws AnalysisError: the damper ends, locks,
-  /// or more energy is left open than Analysis/Maximum energy residual. Without `record` nothing is recorded.
+  /// Follows a table of the scene to its end and fills in what it finds, also where it throws AnalysisError: the damper ends,
+  /// locks, or more energy is left open than Analysis/Maximum energy residual. Without `record` nothing is recorded.
+  void run_isolation(const Scene &scene, IsolatedTable &table, IsolationFindings &findings, const RecordTable &record);
+
+  /// Does so with the damper that formulas give.
   void run_isolation(const Scene &scene, IsolationFindings &findings, const RecordTable &record);
 
   /// Returns the time between two rows [s]: that given, or a hundredth of the natural period, and a tenth of the base's shortest

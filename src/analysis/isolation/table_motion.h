@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scene/base_motion.h"
+#include "analysis/isolation/isolated_table.h"
 #include "scene/damper.h"
 
 #include <array>
@@ -22,91 +22,57 @@ namespace sprag
 
   IsolationSystem isolation_system(const Scene &scene);
 
-  /// What happened at the end of a step.
-  enum class TableEvent
-  {
-    none,
-    turn,    ///< z' = 0, and the table goes back at once
-    stop,    ///< z' = 0, and friction holds it
-    release, ///< it moves again
-    centre,  ///< z = 0
-    end      ///< of the damper's way
-  };
-
-  /// An instant of the motion, with integrals over time since the start or since reset_period().
-  struct TableState
-  {
-    double time        = 0.;
-    double z           = 0.; ///< [mm]
-    double rate        = 0.; ///< z' [mm/s]
-    double base_work   = 0.; ///< of the base on the table [N mm]
-    double dissipated  = 0.; ///< by the damper [N mm]
-    double square      = 0.; ///< of the table's acceleration, integrated [mm^2/s^3]
-    double cosine      = 0.; ///< of the acceleration times cos 2 pi f t of a harmonic base [mm/s]
-    double sine        = 0.;
-    double base_square = 0.; ///< of the base's acceleration, integrated [mm^2/s^3]
-  };
-
   /// The motion of a table from event to event. Between them it is smooth and followed by Runge-Kutta-Fehlberg 7(8) with steps of
   /// a given error; an event ends a step and is met to the round-off of time. While friction holds the table, z does not change.
-  class TableMotion
+  class TableMotion : public IsolatedTable
   {
   public:
     /// Begins at t = 0 with z and z'. `tolerance` is the error of a step over the amplitude.
     TableMotion(IsolationSystem system, double z, double rate, double tolerance);
 
-    /// Goes on by a step that ends at `until` or before, and tells what happened there. Throws AnalysisError where the damper
-    /// ends or locks; state() is that instant then.
-    TableEvent advance(double until);
+    TableEvent advance(double until) override;
 
-    const TableState &state() const
+    const TableState &state() const override
     {
       return now;
     }
 
-    bool rests() const
+    bool rests() const override
     {
       return direction == 0;
     }
 
-    /// Returns the damper's force f [N], while the table rests that which friction holds.
-    double damper_force() const;
+    double damper_force() const override;
 
-    /// Returns the force just before the last turn or stop.
-    double force_before_turn() const
+    double force_before_turn() const override
     {
       return last_force;
     }
 
-    /// Returns the table's acceleration z'' + x_b'' [mm/s^2].
-    double acceleration() const;
+    double acceleration() const override;
 
-    BasePoint base() const;
+    BasePoint base() const override;
 
-    double damper_energy() const;
+    double damper_energy() const override;
 
-    /// Returns the energy of table, spring and damper [N mm].
-    double energy() const;
+    double energy() const override;
 
-    /// Returns what the energies leave open since the start: base work less change of energy less what was dissipated [N mm].
-    double energy_residual() const;
+    double energy_residual() const override;
 
-    /// Largest |z''+ x_b''| [mm/s^2] and |z| [mm] since the start or reset_period(), between the ends of steps as well.
-    double largest_acceleration() const
+    double largest_acceleration() const override
     {
       return peak_acceleration;
     }
-    double largest_displacement() const
+    double largest_displacement() const override
     {
       return peak_displacement;
     }
-    double largest_base_acceleration() const
+    double largest_base_acceleration() const override
     {
       return peak_base;
     }
 
-    /// Begins new peaks and integrals of the acceleration.
-    void reset_period();
+    void reset_period() override;
 
   private:
     using Values = std::array<double, 8>;
