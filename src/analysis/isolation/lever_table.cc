@@ -17,7 +17,7 @@ namespace sprag
     constexpr double steps_of_natural_period = 200.;
 
     /// Behind its rest no lever follows the cylinder so far: there the place of the cylinder does not matter [mm].
-    constexpr double out_of_contact = -5.;
+    constexpr double out_of_contact = -10.;
 
     /// Without the last digits, so that steps of equal duration are so to the last bit and what a model prepares for one serves
     /// again.
@@ -41,7 +41,7 @@ namespace sprag
       , settings(given)
       , motion_of_base(base_motion(scene.isolation))
       , largest_z(scene.drive.maximum())
-      , sides{ { { outward, 1, {}, {} }, { inward, -1, {}, {} } } }
+      , sides{ { { outward, 1, {}, {}, true }, { inward, -1, {}, {}, true } } }
       , step(given.time.step)
       , tangent(given.contact_stiffness)
   {
@@ -77,7 +77,7 @@ namespace sprag
     auto weights        = generalised_alpha(settings.time.spectral_radius, h);
     weights.wants_error = settings.time.tolerance > 0.;
     const double z = now.z + way_of_table, rate = 2. * way_of_table / h - now.rate;
-    Trial trial{ z, rate, 0., 0., {}, {} };
+    Trial trial{ z, rate, 0., 0., {}, {}, {} };
     double row_force = 0.;
     for (unsigned int i = 0; i < sides.size(); ++i)
     {
@@ -92,6 +92,7 @@ namespace sprag
       Row row;
       side.model.observe(*outcome.motion, row);
       row_force += side.sign * levers * row.drive_force();
+      trial.touches[i] = row[Column::P] > 0.;
       trial.force += way != 0. ? side.sign * levers * outcome.work.drive / way : side.sign * levers * row.drive_force();
     }
     const double base_change = motion_of_base.at(now.time + h, piece).v - base().v;
@@ -113,7 +114,7 @@ namespace sprag
       if (!trial)
         return {};
       const double scale = std::abs(K * trial->z) + std::abs(trial->force) + std::abs(m * base().a) + settings.force_scale;
-      if (std::abs(trial->unbalanced) <= 1e-9 * scale)
+      if (std::abs(trial->unbalanced) <= 1e-8 * scale)
         return trial;
       if (i > 0 && way != last_way)
         tangent = (trial->unbalanced - last) / (way - last_way) - inertia - 0.5 * K;
@@ -124,11 +125,14 @@ namespace sprag
     return {};
   }
 
+  /// Of levers that touch: swinging out of contact the others move nothing.
   double LeverTable::error_of(const Trial &trial) const
   {
-    const double error =
-        std::max(trial.levers[0].error, trial.levers[1].error) * settings.contact_stiffness / settings.force_scale;
-    return error / std::pow(0.5 * settings.time.tolerance, 1.5);
+    double largest = 0.;
+    for (unsigned int i = 0; i < sides.size(); ++i)
+      if (trial.touches[i] || sides[i].touches)
+        largest = std::max(largest, trial.levers[i].error);
+    return largest * settings.contact_stiffness / settings.force_scale / std::pow(0.5 * settings.time.tolerance, 1.5);
   }
 
   TableEvent LeverTable::advance(const double until)
@@ -140,6 +144,12 @@ namespace sprag
     while (piece < motion_of_base.kinks.size() && motion_of_base.kinks[piece] <= now.time)
       ++piece;
     const double end = piece < motion_of_base.kinks.size() ? std::min(until, motion_of_base.kinks[piece]) : until;
+    // Instants that differ by round-off are one.
+    if (end - now.time < 1e-9 * settings.time.step)
+    {
+      now.time = end;
+      return TableEvent::none;
+    }
     for (;;)
     {
       // Whole steps up to the end, so that none is a sliver; few different durations.
@@ -186,8 +196,9 @@ namespace sprag
     {
       const auto &work = trial.levers[i].work;
       now.dissipated += levers * (work.friction + work.damping + work.algorithmic);
-      sides[i].motion = std::move(*trial.levers[i].motion);
-      sides[i].stored = trial.stored[i];
+      sides[i].motion  = std::move(*trial.levers[i].motion);
+      sides[i].stored  = trial.stored[i];
+      sides[i].touches = trial.touches[i];
     }
     now.z    = trial.z;
     now.rate = trial.rate;

@@ -89,6 +89,7 @@ namespace sprag
       int sign; ///< of z on which it works
       Motion motion;
       StoredEnergy stored;
+      bool touches;
     };
 
     /// A step of both levers to an end of the table's way.
@@ -97,6 +98,7 @@ namespace sprag
       double z, rate, force, unbalanced;
       std::array<StepOutcome, 2> levers;
       std::array<StoredEnergy, 2> stored;
+      std::array<bool, 2> touches;
     };
 
     const double m, K, levers;
