@@ -177,12 +177,13 @@ class ScenesTest(RunTest):
         for name, values in table.items():
             self.assertTrue(np.isfinite(values).all(), name)
         self.assertTrue((np.diff(table["time"]) >= 0).all())
-        self.assertTrue((np.diff(table["dissipated_energy"]) >= -1e-9).all())
         text = file["parameters"].asstr()[()]
         mass, stiffness = (float(parameter(text, "Isolation", name)) for name in ("Mass", "Stiffness"))
         balance = mass * table["table_acceleration"] + stiffness * table["z"] + table["damper_force"]
         self.assertLess(np.abs(balance).max(), 1e-10 * stiffness * np.abs(table["z"]).max())
-        self.assertLess(file["summary/energy_residual"][()], 1e-9)
+        in_time = model_of(file) != "closed form"
+        self.assertTrue(in_time or (np.diff(table["dissipated_energy"]) >= -1e-9).all())
+        self.assertLess(file["summary/energy_residual"][()], 1e-6 if in_time else 1e-9)
 
     def check_sprag_slip(self, file):
         self.check_groups(file, "sprag slip")

@@ -174,9 +174,13 @@ TEST(BaseMotion, DriftOfARecordIsTakenOff)
 TEST(IsolationInput, WhatCannotBeIsRefused)
 {
   EXPECT_EQ(mistakes_of(isolation), Messages{});
-  EXPECT_EQ(mistakes_of({ "Analysis/Type=isolation" }),
-            Messages{ "scene.prm: Analysis/Model = finite element: must be closed form with Isolation/Damper = lever: levers of "
-                      "other models move no table" });
+  EXPECT_EQ(mistakes_of({ "Analysis/Type=isolation", "Analysis/Model=beam" }), Messages{});
+  expect_refused({ "Analysis/Type=isolation", "Analysis/Model=rigid" }, { "Contact/Type=ideal" },
+                 "Contact/Type = ideal: must be compliant with Isolation/Damper = lever and a model in time");
+  expect_refused(
+      { "Analysis/Type=isolation", "Analysis/Model=beam" }, { "Isolation/Initial displacement=-70" },
+      "Isolation/Initial displacement = -70: must be less than Drive/Stroke = 65 mm either way, for which the levers are "
+      "made");
   EXPECT_EQ(mistakes_of(isolation, { "Isolation/Base motion=none" }),
             Messages{ "scene.prm: Isolation/Initial displacement = 0: must not be 0 mm with Base motion = none and no Initial "
                       "velocity: nothing moves" });
