@@ -176,6 +176,12 @@ FIGURES = {
     **{name: drawn(name, "map") for name in MAPS},
     # What accuracy costs.
     **{name: drawn(name, "trade") for name in STUDIES},
+    "study-transmissibility-a": drawn("study-transmissibility-a", "transmissibility"),
+    "study-offset-a": drawn("study-offset-a", "study"),
+    "isolation-sprag-slip-a": drawn("isolation-sprag-slip-a", "motion"),
+    "isolation-a-loop": drawn("isolation-a", "loop"),
+    "isolation-free-a": drawn("isolation-free-a", "motion"),
+    "isolation-ground-a": drawn("isolation-ground-a", "spectra"),
 }
 
 

@@ -11,6 +11,7 @@ from contact import contact
 from fields import fields
 from forces import forces_over_time, forces_over_x
 from frames import written_frames
+from isolation import is_isolation, is_transmissibility_study, isolation_pictures, transmissibility
 from map import is_map, stability_map
 from pair import has_pair, pair_of_levers
 from results import NotAResult, read_result, script
@@ -27,6 +28,8 @@ def draw(results):
     """{picture name: figure} for one or several results."""
     if len(results) == 1 and is_map(results[0]):
         return {"map": stability_map(results[0])}
+    if len(results) == 1 and is_study(results[0]) and is_transmissibility_study(results[0]):
+        return {**study_pictures(results[0]), "transmissibility": transmissibility(results[0])}
     if len(results) == 1 and is_study(results[0]):
         return study_pictures(results[0])
     if len(results) == 1 and is_calibration(results[0]):
@@ -40,6 +43,9 @@ def draw(results):
         return vibration_pictures(results[0])
     if len(results) == 1 and results[0].is_sweep:
         return {"slope": slope_sweep(results[0])}
+    if len(results) == 1 and is_isolation(results[0]):
+        check_steps(results)
+        return isolation_pictures(results[0])
     check_steps(results)
     pictures = {"forces-over-time": forces_over_time(results), "forces-over-x": forces_over_x(results)}
     return {**pictures, **(pictures_of_one(results[0]) if len(results) == 1 else {"comparison": comparison(results)})}

@@ -24,6 +24,7 @@ QUANTITIES = {
     "contact law": ("stiffness", "exponent", "rms_error"),
     "calibration": ("stiffness", "moment_of_inertia", "P_deviation", "Q_deviation"),
     "slope": ("critical_inclination",),
+    "isolation": ("transmissibility_peak", "transmissibility_rms", "largest_displacement", "residual_offset", "stops", "dissipated_energy"),
 }
 # Beyond them a bar tells colours apart.
 MOST_LINES = 7

@@ -30,6 +30,13 @@ namespace sprag
   /// Sweeps the representative slope C_Q.
   void run_slope(const Scene &scene, const RunOptions &options, Warnings &warnings);
 
+  /// Follows the table of an isolation system. Throws AnalysisError too where its damper ends or locks and where the energy
+  /// ledger leaves more open than Analysis/Maximum energy residual.
+  void run_isolation_scene(const Scene &scene, const RunOptions &options, Warnings &warnings);
+
+  /// Does so with levers of a model in time.
+  void run_isolation_by_models(const Scene &scene, const RunOptions &options, Warnings &warnings);
+
   /// Follows the drive in time with a model. Throws AnalysisError too where the energy ledger leaves more open than
   /// Analysis/Maximum energy residual.
   void run_transient_scene(const Scene &scene, const RunOptions &options, Warnings &warnings);

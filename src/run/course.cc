@@ -31,7 +31,9 @@ namespace sprag
     /// Before every run in which a cylinder is put somewhere, once nothing is left for which it could be refused.
     void announce_margin(const Scene &scene, const RunOptions &options, const FindMargin &margin)
     {
-      if (options.quiet || scene.analysis.type == AnalysisType::slope || scene.analysis.type == AnalysisType::study)
+      const auto type          = scene.analysis.type;
+      const bool follows_drive = type != AnalysisType::slope && type != AnalysisType::study && type != AnalysisType::isolation;
+      if (options.quiet || !follows_drive)
         return;
       require_writable(options.folder);
       if (options.is_first)

@@ -1,5 +1,6 @@
 #include "run/memory.h"
 
+#include "analysis/isolation/isolation.h"
 #include "analysis/transient/transient.h"
 #include "base/available_memory.h"
 #include "base/errors.h"
@@ -70,6 +71,8 @@ namespace sprag
 
     std::string step_parameter(const Scene &scene)
     {
+      if (scene.analysis.type == AnalysisType::isolation)
+        return "Isolation/Output step";
       return scene.analysis.type == AnalysisType::transient ? "Time/Step" : "Analysis/Step";
     }
 
@@ -78,6 +81,10 @@ namespace sprag
       const double rows = expected_rows(scene);
       if (rows <= most_rows)
         return;
+      if (scene.analysis.type == AnalysisType::isolation)
+        throw InputError("Isolation/Duration and " + step_parameter(scene) + " make " + rounded_text(rows) +
+                         " rows, of which a run may have " + rounded_text(most_rows) +
+                         ". Try longer steps or a shorter duration");
       throw InputError("The drive and " + step_parameter(scene) + " make " + rounded_text(rows) +
                        " rows or more, of which a run may have " + rounded_text(most_rows) +
                        ". Try longer steps, fewer cycles or a faster drive");
@@ -145,6 +152,8 @@ namespace sprag
   {
     if (scene.analysis.type == AnalysisType::quasi_static)
       return path_length(scene.drive) / scene.analysis.step;
+    if (scene.analysis.type == AnalysisType::isolation)
+      return scene.isolation.duration / output_step(scene.isolation);
     if (scene.analysis.type != AnalysisType::transient)
       return 0.;
     const bool adaptive =

@@ -45,6 +45,8 @@ namespace sprag
   {
     if (scene.analysis.type == AnalysisType::slope)
       run_slope(scene, options, warnings);
+    else if (scene.analysis.type == AnalysisType::isolation)
+      run_isolation_scene(scene, options, warnings);
     else if (scene.analysis.type == AnalysisType::transient)
       run_in_time(scene, options, warnings);
     else

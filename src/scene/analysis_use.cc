@@ -20,10 +20,16 @@ namespace sprag
     return type == AnalysisType::map || type == AnalysisType::study;
   }
 
+  bool isolates_by_model(const Scene &scene)
+  {
+    return scene.analysis.type == AnalysisType::isolation && scene.isolation.damper == DamperType::lever &&
+           scene.analysis.model != ModelType::closed_form;
+  }
+
   bool needs_mesh(const Scene &scene)
   {
     const AnalysisType type = scene.analysis.type;
-    if (runs_model(type))
+    if (runs_model(type) || isolates_by_model(scene))
       return is_meshed(scene.analysis.model);
     return type == AnalysisType::contact_law || type == AnalysisType::calibration;
   }
@@ -35,6 +41,6 @@ namespace sprag
         type == AnalysisType::transient && model == ModelType::rigid && scene.contact.type == ContactType::ideal;
     const bool is_closed =
         (type == AnalysisType::quasi_static || type == AnalysisType::transient) && model == ModelType::closed_form;
-    return type == AnalysisType::slope || is_closed || is_ideal;
+    return type == AnalysisType::slope || (type == AnalysisType::isolation && !isolates_by_model(scene)) || is_closed || is_ideal;
   }
 } // namespace sprag

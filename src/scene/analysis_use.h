@@ -13,10 +13,13 @@ namespace sprag
   /// Returns whether an analysis has pieces that several processes share.
   bool works_in_parallel(AnalysisType type);
 
+  /// Returns whether the table of an isolation system works against levers of a model in time.
+  bool isolates_by_model(const Scene &scene);
+
   /// Returns whether anything of the scene is meshed, apart from a leaf spring.
   bool needs_mesh(const Scene &scene);
 
-  /// Returns whether formulas give the results and no model is made: of the slope's sweep, the closed form, and in time the ideal
-  /// contact of a rigid lever.
+  /// Returns whether formulas give the results and no model is made: of the slope's sweep, an isolation system without such levers, the closed form,
+  /// and in time the ideal contact of a rigid lever.
   bool follows_formulas(const Scene &scene);
 } // namespace sprag

@@ -108,7 +108,8 @@ namespace sprag
       const AnalysisType type  = scene.analysis.type;
       const bool in_time       = type == AnalysisType::transient;
       const bool held          = holds_slide(type); ///< the slide, at one x
-      const bool transient     = in_time || held;   ///< with inertia
+      const bool isolated      = isolates_by_model(scene);
+      const bool transient     = in_time || held || isolated; ///< with inertia
       const bool follows_drive = runs_model(type);
       const bool calibrated    = type == AnalysisType::calibration;
       const bool positions = follows_drive || calibrated || type == AnalysisType::contact_law; ///< puts the cylinder somewhere
@@ -291,6 +292,8 @@ namespace sprag
         check_sweep(scene, rules);
       if (rules.broken.empty() && can_lock(scene, use))
         locked(scene, rules);
+      if (rules.broken.empty() && use.type == AnalysisType::isolation)
+        check_isolation(scene, rules);
       return rules.broken;
     }
   } // namespace

@@ -36,4 +36,7 @@ namespace sprag
   void check_cylinder(const Scene &scene, Rules &rules);
   void check_calibration(const Scene &scene, Rules &rules);
   void check_pair(const Scene &scene, Rules &rules);
+
+  /// Checks table, damper and base of an isolation system. The geometry must be in range.
+  void check_isolation(const Scene &scene, Rules &rules);
 } // namespace sprag

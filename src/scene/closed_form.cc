@@ -29,6 +29,11 @@ namespace sprag
       return (sign * coefficient * std::cos(theta) + sine) * dP * sine * sine / s;
     }
 
+    double sliding_speed(const Geometry &geometry, const Kinematics &contact, const double v)
+    {
+      return v * (std::cos(contact.theta) - geometry.interface_offset * contact.theta_x);
+    }
+
     /// mu while the drive moves at v and the cylinder slides along the lever at v_rel.
     FrictionValue sliding_friction(const FrictionLaw &friction, const double v, const double v_rel)
     {
@@ -87,8 +92,7 @@ namespace sprag
 
   double sliding_speed(const Geometry &geometry, const double x, const double v)
   {
-    const auto contact = kinematics(geometry, x);
-    return v * (std::cos(contact.theta) - geometry.interface_offset * contact.theta_x);
+    return sliding_speed(geometry, kinematics(geometry, x), v);
   }
 
   FrictionValue sliding_friction(const Scene &scene, const double x, const double v)
@@ -99,10 +103,16 @@ namespace sprag
   ClosedFormState closed_form(const Geometry &geometry, const FrictionLaw &friction, const double moment, const double x,
                               const double v)
   {
+    return closed_form(geometry, friction, moment, kinematics(geometry, x), v);
+  }
+
+  ClosedFormState closed_form(const Geometry &geometry, const FrictionLaw &friction, const double moment,
+                              const Kinematics &contact, const double v)
+  {
     ClosedFormState state;
     const double sign = std::copysign(1., v);
-    state.contact     = kinematics(geometry, x);
-    state.v_rel       = sliding_speed(geometry, x, v);
+    state.contact     = contact;
+    state.v_rel       = sliding_speed(geometry, contact, v);
     state.mu          = sliding_friction(friction, v, state.v_rel).coefficient;
     state.P           = moment / (state.contact.s + sign * state.mu * geometry.interface_offset);
     state.F           = sign * state.mu * state.P;

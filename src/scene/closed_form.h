@@ -43,6 +43,10 @@ namespace sprag
   /// Returns the state of any lever, which a moment presses on the cylinder [N mm].
   ClosedFormState closed_form(const Geometry &geometry, const FrictionLaw &friction, double moment, double x, double v);
 
+  /// Does so with a contact that is known.
+  ClosedFormState closed_form(const Geometry &geometry, const FrictionLaw &friction, double moment, const Kinematics &contact,
+                              double v);
+
   /// Returns the representative slope C_Q = dQ/dx at x = 0 [N/mm], eqs. 10-12 (with the sign of dth/dx mended), sign = +1 or -1.
   /// It is NaN where the lever locks at x = 0.
   double representative_slope(const Geometry &geometry, double spring_stiffness, double coefficient, int sign);

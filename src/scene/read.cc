@@ -9,6 +9,7 @@
 #include "scene/check.h"
 #include "scene/discretisation.h"
 #include "scene/held_slide.h"
+#include "scene/isolation_tables.h"
 #include "scene/sections.h"
 #include "scene/variation.h"
 
@@ -62,6 +63,7 @@ namespace sprag
         store();
         make_drive();
         make_friction();
+        make_isolation();
         check_unused();
         check();
         check_ranges();
@@ -102,6 +104,8 @@ namespace sprag
         resolve("Friction/Table", input.friction.table);
         resolve("Mesh/File", input.scene.mesh.file);
         resolve("Condensed/Cache", input.scene.condensed.cache);
+        resolve("Isolation/Loop table", input.scene.isolation.loop_file);
+        resolve("Isolation/Base table", input.scene.isolation.base_file);
         make_time_tolerance();
         make_model();
         make_discretisation(input);
@@ -169,6 +173,12 @@ namespace sprag
         else
           use_table("Friction/Table", friction.table, { "speed", "mu" },
                     [&law](const auto &table) { law.law = TabulatedFriction(table.first, table.second); });
+      }
+
+      void make_isolation()
+      {
+        if (input.scene.analysis.type == AnalysisType::isolation)
+          read_isolation_tables(input.scene.isolation, [this](const auto &name, const auto &rule) { report(name, rule); });
       }
 
       void check()

@@ -3,6 +3,7 @@
 #include "laws/friction.h"
 #include "scene/apparatus.h"
 #include "scene/drive.h"
+#include "scene/isolation.h"
 
 #include <map>
 #include <memory>
@@ -27,6 +28,7 @@ namespace sprag
     map,         ///< the same over a grid of two parameters
     sprag_slip,  ///< the steady slide perturbed, in time, against its eigenvalue; limit cycles
     calibration, ///< leaf thickness and added mass for a given k and J; constants of the reduced models for a mesh
+    isolation,   ///< a table on a spring and a damper over a base that moves
     study        ///< any of these but the map, run after run at other values of the parameters
   };
 
@@ -364,6 +366,7 @@ namespace sprag
     StudySettings study;
     SpragSlipSettings sprag_slip;
     CalibrationSettings calibration;
+    IsolationSettings isolation;
     AccuracySettings accuracy;
     std::string name; ///< file name without folder and ending
 

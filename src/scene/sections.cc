@@ -14,7 +14,8 @@ namespace sprag
                                                    { "modal", AnalysisType::modal },
                                                    { "stability", AnalysisType::stability },
                                                    { "sprag slip", AnalysisType::sprag_slip },
-                                                   { "calibration", AnalysisType::calibration } };
+                                                   { "calibration", AnalysisType::calibration },
+                                                   { "isolation", AnalysisType::isolation } };
 
     void analysis(Section section, SceneSettings &input)
     {
@@ -24,8 +25,8 @@ namespace sprag
                      "Follow the drive without inertia, sweep the representative slope C_Q, follow the drive with inertia, fit "
                      "the contact of rigid and beam to finite elements, find vibration modes at one x, judge whether the slide "
                      "there is stable, perturb it in time and follow it to its limit cycle, make parts that have a given k and J "
-                     "and tell the constants of the reduced models, judge slides over two parameters, or run any of these but "
-                     "the map at other values of any parameters");
+                     "and tell the constants of the reduced models, move the base of an isolation system, judge slides over two "
+                     "parameters, or run any of these but the map at other values of any parameters");
       section.choice("Model", input.model,
                      { { "auto", std::nullopt },
                        { "closed form", ModelType::closed_form },
@@ -346,6 +347,7 @@ namespace sprag
     map({ all, "Map" }, scene.map);
     study({ all, "Study" }, scene.study);
     sprag_slip({ all, "Sprag slip" }, scene.sprag_slip);
+    add_isolation_parameters(scene, all);
     accuracy({ all, "Accuracy" }, scene.accuracy);
     return all;
   }

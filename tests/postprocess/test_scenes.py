@@ -35,6 +35,13 @@ PICTURES = {
     "calibration-a": ({"Mesh/Face size": 4}, {"calibration"}),
     "contact-law-a": (COARSE, {"contact-law"}),
     "map-friction-depth-a": ({"Map/First points": 4, "Map/Second points": 4, "Map/Coarsest": 1, "Map/Bisections": 1}, {"map"}),
+    "isolation-a": ({}, {"motion", "loop"}),
+    "isolation-free-a": ({"Isolation/Damper": "constant friction"}, {"motion", "loop"}),
+    "isolation-ground-a": ({"Isolation/Duration": 20}, {"motion", "loop", "spectra"}),
+    "study-transmissibility-a": (
+        {"Study/Vary": "Isolation/Damper = lever, constant friction, Beucke; Isolation/Base frequency = 0.5 ... 2 : 9"},
+        {"study", "transmissibility"},
+    ),
     "study-a": (
         {"Study/Vary": "Mesh/Degree = 1, 2; Mesh/Face size = 2, 4", "Study/Reference": "Mesh/Face size = 1"},
         {"study", "trade"},

@@ -415,6 +415,21 @@ class Options(ProgramTest):
         with h5py.File(self.output / "result.h5", "r") as file:
             self.assertEqual(file["parameters"].asstr()[()], printed.stdout)
 
+    def test_a_lever_that_ends_stops_the_table_and_keeps_its_rows(self):
+        done = sprag(
+            self.write("subsection Analysis\n  set Type = isolation\n  set Model = closed form\nend\n"),
+            *("--set", "Isolation/Base amplitude=100", "--set", "Isolation/Base frequency=0.75", "--output", self.output),
+        )
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertIn("the cylinder reaches the lever's pivot", done.stderr)
+        self.assertIn("Try", done.stderr)
+        with h5py.File(self.output / "result.h5", "r") as file:
+            z = file["table/z"][:]
+            self.assertGreater(len(z), 20)
+            self.assertGreater(np.abs(z).max(), 100)
+            self.assertIn("pivot", file["summary/status"].asstr()[()])
+            self.assertGreater(file["summary/turns"][()], 0)
+
     def test_default_output_folder(self):
         done = sprag(self.write(CLOSED_FORM, "first try.prm"), cwd=self.folder)
         self.assertEqual(done.returncode, 0, done.stderr)

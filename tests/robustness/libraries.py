@@ -24,6 +24,7 @@ LIGHT = {
     "closed form in time": ("reversal-a", "--set", "Analysis/Model=closed form"),
     "ideal contact of a rigid lever": ("reversal-a", "--set", "Analysis/Model=rigid", "--set", "Contact/Type=ideal"),
     "slope": ("fig10",),
+    "levers of an isolation system": ("isolation-a",),
 }
 HEAVY = {
     "beam": ("reversal-a",),

@@ -24,6 +24,8 @@ CHANGES = {
     "onset-a": SHORT,
     "onset-b": {**SHORT, "Sprag slip/Turn": "45"},
     **{name: STUDY for name in ("study-a", "study-b", "study-pressure-a")},
+    "study-transmissibility-a": {"Study/Vary": "Isolation/Damper = lever, viscous; Isolation/Base frequency = 1, 2"},
+    "study-offset-a": {"Study/Vary": "Isolation/Damper = lever, constant friction; Isolation/Initial displacement = 20, 50"},
     "study-growth-a": {**STUDY, "Study/Vary": "Mesh/Face size = 5, 6, 8", "Condensed/Modes": "3"},
     "study-reversal-a": {
         "Study/Vary": "Mesh/Face size = 2, 3; Time/Tolerance = 1e-2",
@@ -160,11 +162,28 @@ class ScenesTest(RunTest):
         self.assertGreater(rows, 1)
         self.assertEqual(set(file["runs/outcome"].asstr()[:]), {"completed"})
         self.assertTrue((file["table/cpu_time"][:] > 0).all())
+        if parameter(file["parameters"].asstr()[()], "Study", "Type") == "isolation":
+            self.assertTrue((file["table/energy_residual"][:] < 1e-9).all())
+            return
         errors = [name for name in file["table"] if name.startswith("error_")]
         self.assertIn("error_all", errors)
         for name in errors:
             self.assertTrue((file["table"][name][:] > 0).all(), name)
         self.assertEqual(len(file["trade/run_all"]), 4)
+
+    def check_isolation(self, file):
+        table = {name: data[:] for name, data in file["table"].items()}
+        self.assertTrue({"time", "x_base", "z", "z_rate", "table_acceleration", "damper_force"} <= set(table))
+        for name, values in table.items():
+            self.assertTrue(np.isfinite(values).all(), name)
+        self.assertTrue((np.diff(table["time"]) >= 0).all())
+        text = file["parameters"].asstr()[()]
+        mass, stiffness = (float(parameter(text, "Isolation", name)) for name in ("Mass", "Stiffness"))
+        balance = mass * table["table_acceleration"] + stiffness * table["z"] + table["damper_force"]
+        self.assertLess(np.abs(balance).max(), 1e-10 * stiffness * np.abs(table["z"]).max())
+        in_time = model_of(file) != "closed form"
+        self.assertTrue(in_time or (np.diff(table["dissipated_energy"]) >= -1e-9).all())
+        self.assertLess(file["summary/energy_residual"][()], 1e-6 if in_time else 1e-9)
 
     def check_sprag_slip(self, file):
         self.check_groups(file, "sprag slip")
@@ -233,6 +252,7 @@ class ScenesTest(RunTest):
             "study": self.check_study,
             "sprag slip": self.check_sprag_slip,
             "calibration": self.check_calibration,
+            "isolation": self.check_isolation,
         }
         checks.get(kind, self.check_run)(file)
 

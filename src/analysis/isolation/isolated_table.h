@@ -1,0 +1,75 @@
+#pragma once
+
+#include "scene/base_motion.h"
+
+namespace sprag
+{
+  /// What happened at the end of a step.
+  enum class TableEvent
+  {
+    none,
+    turn,    ///< z' = 0, and the table goes back at once
+    stop,    ///< z' = 0, and friction holds it
+    release, ///< it moves again
+    centre,  ///< z = 0
+    end      ///< of the damper's way
+  };
+
+  /// An instant of the motion, with integrals over time since the start or since reset_period().
+  struct TableState
+  {
+    double time        = 0.;
+    double z           = 0.; ///< [mm]
+    double rate        = 0.; ///< z' [mm/s]
+    double base_work   = 0.; ///< of the base on the table [N mm]
+    double dissipated  = 0.; ///< by the damper [N mm]
+    double square      = 0.; ///< of the table's acceleration, integrated [mm^2/s^3]
+    double cosine      = 0.; ///< of the acceleration times cos 2 pi f t of a harmonic base [mm/s]
+    double sine        = 0.;
+    double base_square = 0.; ///< of the base's acceleration, integrated [mm^2/s^3]
+  };
+
+  /// A table on its spring and damper over a base that moves, at any fidelity of the damper.
+  class IsolatedTable
+  {
+  public:
+    virtual ~IsolatedTable() = default;
+
+    /// Goes on by a step that ends at `until` or before, and tells what happened there. Throws AnalysisError where the damper
+    /// ends or locks, or no step is found; state() is the last instant then.
+    virtual TableEvent advance(double until) = 0;
+
+    virtual const TableState &state() const = 0;
+
+    /// Returns whether friction holds the table, as far as the model resolves that.
+    virtual bool rests() const = 0;
+
+    /// Returns the damper's force f [N], while the table rests that which friction holds.
+    virtual double damper_force() const = 0;
+
+    /// Returns the force just before the last turn or stop.
+    virtual double force_before_turn() const = 0;
+
+    /// Returns the table's acceleration z'' + x_b'' [mm/s^2].
+    virtual double acceleration() const = 0;
+
+    virtual BasePoint base() const = 0;
+
+    virtual double damper_energy() const = 0;
+
+    /// Returns the energy of table, spring and damper [N mm].
+    virtual double energy() const = 0;
+
+    /// Returns what the energies leave open since the start: base work less change of energy less what was dissipated [N mm].
+    virtual double energy_residual() const = 0;
+
+    // Largest |z'' + x_b''| and |x_b''| [mm/s^2] and |z| [mm] since the start or reset_period(), between the ends of steps as
+    // well.
+    virtual double largest_acceleration() const      = 0;
+    virtual double largest_base_acceleration() const = 0;
+    virtual double largest_displacement() const      = 0;
+
+    /// Begins new peaks and integrals of the acceleration.
+    virtual void reset_period() = 0;
+  };
+} // namespace sprag

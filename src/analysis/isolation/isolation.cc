@@ -1,0 +1,236 @@
+#include "analysis/isolation/isolation.h"
+
+#include "analysis/isolation/steady_state.h"
+#include "base/errors.h"
+#include "base/interrupt.h"
+#include "base/text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+
+namespace sprag
+{
+  namespace
+  {
+    /// Of one period of a harmonic base.
+    struct Period
+    {
+      double peak, displacement, square, cosine, sine;
+      unsigned int stops;
+    };
+
+    class Follower
+    {
+    public:
+      Follower(const Scene &given, IsolatedTable &table, IsolationFindings &of_run, const RecordTable &recorder)
+          : scene(given)
+          , settings(scene.isolation)
+          , found(of_run)
+          , record(recorder)
+          , motion(table)
+          , is_harmonic(settings.base == BaseMotionType::harmonic)
+          , between_rows(output_step(settings))
+      {
+      }
+
+      void follow()
+      {
+        note();
+        write(false);
+        while (motion.state().time < settings.duration && !has_ended)
+        {
+          const double row = static_cast<double>(rows) * between_rows;
+          const double end = period_end();
+          go_on(std::min({ settings.duration, record ? row : settings.duration, end }));
+          if (motion.state().time >= row)
+            ++rows;
+          if (motion.state().time == end)
+            end_period();
+        }
+      }
+
+      void conclude()
+      {
+        note();
+        const auto &state = motion.state();
+        found.time        = state.time;
+        found.rests       = motion.rests();
+        found.base_work   = state.base_work;
+        found.dissipated  = state.dissipated;
+        if (motion.rests())
+          found.residual_offset = state.z;
+        else if (last_turns.size() == 2)
+          found.residual_offset = 0.5 * (last_turns[0] + last_turns[1]);
+        square += state.square;
+        found.rms_acceleration = state.time > 0. ? std::sqrt(square / state.time) : 0.;
+        found.energy_residual  = largest_energy > 0. ? largest_residual / largest_energy : 0.;
+        if (is_harmonic)
+          take_ratios_of_periods();
+        else if (motion.largest_base_acceleration() > 0.)
+        {
+          found.peak = motion.largest_acceleration() / motion.largest_base_acceleration();
+          found.rms  = std::sqrt(state.square / state.base_square);
+        }
+      }
+
+      void check_energy() const
+      {
+        const double most = scene.analysis.maximum_residual;
+        if (most > 0. && !(found.energy_residual <= most))
+          throw AnalysisError("The energy ledger leaves " + rounded_text(found.energy_residual) +
+                              " of the largest energy open, more than Analysis/Maximum energy residual = " + rounded_text(most) +
+                              ". Try a smaller Isolation/Tolerance");
+      }
+
+    private:
+      const Scene &scene;
+      const IsolationSettings &settings;
+      IsolationFindings &found;
+      const RecordTable &record;
+      IsolatedTable &motion;
+      const bool is_harmonic;
+      const double between_rows;
+      std::size_t rows           = 1;
+      unsigned int periods_ended = 0;
+      unsigned int period_stops  = 0;
+      bool has_ended             = false;
+      SteadyState steady;
+      std::deque<Period> periods; ///< the last
+      std::deque<double> last_turns;
+      double square           = 0.; ///< of the table's acceleration, of the periods that ended
+      double largest_energy   = 0.;
+      double largest_residual = 0.;
+
+      double period_end() const
+      {
+        return is_harmonic ? (periods_ended + 1) / settings.base_frequency : std::numeric_limits<double>::infinity();
+      }
+
+      void write(const bool is_before) const
+      {
+        if (record)
+          record(motion, is_before);
+      }
+
+      void note()
+      {
+        const auto &state          = motion.state();
+        const double largest       = std::max({ std::abs(state.base_work), state.dissipated, motion.energy() });
+        largest_energy             = std::max(largest_energy, largest);
+        largest_residual           = std::max(largest_residual, std::abs(motion.energy_residual()));
+        found.largest_displacement = std::max(found.largest_displacement, motion.largest_displacement());
+        found.largest_acceleration = std::max(found.largest_acceleration, motion.largest_acceleration());
+      }
+
+      void go_on(const double until)
+      {
+        do
+        {
+          const auto event = motion.advance(until);
+          end_if_interrupted();
+          note_event(event);
+        } while (motion.state().time < until);
+        note();
+        write(false);
+      }
+
+      void note_event(const TableEvent event)
+      {
+        if (event == TableEvent::none)
+          return;
+        const bool turns = event == TableEvent::turn || event == TableEvent::stop;
+        if (turns)
+        {
+          ++found.turns;
+          last_turns.push_back(motion.state().z);
+          if (last_turns.size() > 2)
+            last_turns.pop_front();
+          write(true);
+        }
+        if (event == TableEvent::stop)
+        {
+          ++found.stops;
+          ++period_stops;
+        }
+        note();
+        write(false);
+      }
+
+      void end_period()
+      {
+        const auto &state = motion.state();
+        periods.push_back({ motion.largest_acceleration(), motion.largest_displacement(), state.square, state.cosine, state.sine,
+                            period_stops });
+        if (periods.size() > 8)
+          periods.pop_front();
+        square += state.square;
+        steady.add(state.z, state.rate / (2. * M_PI * settings.base_frequency), motion.largest_displacement());
+        ++periods_ended;
+        period_stops = 0;
+        motion.reset_period();
+        const auto repeats = steady.periods(settings.periodic_tolerance);
+        if (repeats && !found.is_steady)
+          found.steady_from = state.time;
+        found.is_steady = repeats.has_value();
+        found.periods   = repeats.value_or(1);
+        has_ended       = repeats && settings.end == IsolationEnd::steady_state;
+      }
+
+      void take_ratios_of_periods()
+      {
+        found.periods = std::min<unsigned int>(found.periods, static_cast<unsigned int>(periods.size()));
+        if (found.periods == 0)
+          return;
+        Period sum{};
+        for (auto period = periods.end() - found.periods; period != periods.end(); ++period)
+        {
+          sum.peak         = std::max(sum.peak, period->peak);
+          sum.displacement = std::max(sum.displacement, period->displacement);
+          sum.square += period->square;
+          sum.cosine += period->cosine;
+          sum.sine += period->sine;
+          sum.stops += period->stops;
+        }
+        const double w = 2. * M_PI * settings.base_frequency, base = settings.base_amplitude * w * w;
+        const double time        = found.periods / settings.base_frequency;
+        found.relative_amplitude = sum.displacement;
+        found.peak               = sum.peak / base;
+        found.fundamental        = 2. / time * std::hypot(sum.cosine, sum.sine) / base;
+        found.rms                = std::sqrt(2. * sum.square / time) / base;
+        found.stops_a_period     = static_cast<double>(sum.stops) / found.periods;
+      }
+    };
+  } // namespace
+
+  double output_step(const IsolationSettings &settings)
+  {
+    if (settings.output_step)
+      return *settings.output_step;
+    const double natural = 2. * M_PI * std::sqrt(settings.mass / settings.stiffness);
+    return std::min(0.01 * natural, 0.1 * base_motion(settings).shortest_period);
+  }
+
+  void run_isolation(const Scene &scene, IsolatedTable &table, IsolationFindings &findings, const RecordTable &record)
+  {
+    Follower follower(scene, table, findings, record);
+    try
+    {
+      follower.follow();
+    }
+    catch (const AnalysisError &)
+    {
+      follower.conclude();
+      throw;
+    }
+    follower.conclude();
+    follower.check_energy();
+  }
+
+  void run_isolation(const Scene &scene, IsolationFindings &findings, const RecordTable &record)
+  {
+    const auto &settings = scene.isolation;
+    TableMotion table(isolation_system(scene), settings.initial_displacement, settings.initial_velocity, settings.tolerance);
+    run_isolation(scene, table, findings, record);
+  }
+} // namespace sprag

@@ -1,0 +1,126 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace sprag
+{
+  // A table on a restoring spring and a damper, whose base moves: Fig. 2 of the paper. z is its displacement relative to the
+  // base.
+
+  enum class DamperType
+  {
+    lever,             ///< inclined levers of the scene: a mirrored pair for each sign of z
+    constant_friction, ///< F0 against the motion
+    linear_friction,   ///< c |z| against the motion
+    beucke,            ///< viscous, constant and linear friction together
+    restoring_lever,   ///< a friction lever that the restoring spring presses
+    viscous,
+    loop, ///< Q over |z| on the way out and back, from a file
+    none
+  };
+
+  enum class BaseMotionType
+  {
+    none,
+    harmonic,
+    sweep,  ///< harmonic of a frequency that changes
+    shock,  ///< one pulse
+    random, ///< acceleration of a given spectrum
+    record  ///< acceleration from a file
+  };
+
+  enum class SweepForm
+  {
+    linear,
+    logarithmic
+  };
+
+  enum class ShockForm
+  {
+    half_sine, ///< of acceleration, half a period long
+    step       ///< of displacement, along half a cosine
+  };
+
+  enum class BaseSpectrum
+  {
+    kanai_tajimi,
+    table
+  };
+
+  /// Unit of an acceleration in a file.
+  enum class AccelerationUnit
+  {
+    from_file, ///< as the header says
+    mm_s2,
+    cm_s2,
+    m_s2,
+    g
+  };
+
+  enum class IsolationEnd
+  {
+    duration,
+    steady_state ///< once periods repeat, at the latest after the duration
+  };
+
+  /// Values over an increasing quantity, joined by lines.
+  struct Samples
+  {
+    std::vector<double> at;
+    std::vector<double> values;
+  };
+
+  /// The loop of a damper: Q over |z| [N, mm], both from the same |z| = 0 to the same largest.
+  struct DamperLoop
+  {
+    Samples out;
+    Samples back;
+  };
+
+  struct IsolationSettings
+  {
+    double mass         = 0.05; ///< of the table [t], > 0
+    double stiffness    = 1.1;  ///< of the restoring spring [N/mm], > 0
+    unsigned int levers = 2;    ///< for each sign of z
+
+    DamperType damper          = DamperType::lever;
+    double friction_force      = 5.;   ///< F0 [N], >= 0
+    double friction_slope      = 0.18; ///< c [N/mm], >= 0
+    double viscous_coefficient = 0.05; ///< [N s/mm], >= 0
+    double lever_ratio         = 0.25; ///< of the restoring lever: spring's arm over that of the normal force, >= 0
+    double friction_arm_ratio  = 0.;   ///< its arm of friction over that of the normal force, >= 0
+    std::string loop_file;
+
+    BaseMotionType base         = BaseMotionType::harmonic;
+    double base_amplitude       = 10.; ///< [mm], > 0
+    double base_frequency       = 1.;  ///< [Hz], > 0; of a sweep the first
+    double final_frequency      = 5.;  ///< of a sweep [Hz], > 0
+    SweepForm sweep             = SweepForm::logarithmic;
+    ShockForm shock             = ShockForm::half_sine;
+    BaseSpectrum spectrum       = BaseSpectrum::kanai_tajimi;
+    double rms_acceleration     = 200.; ///< of a Kanai-Tajimi ground [mm/s^2], > 0
+    double ground_frequency     = 2.5;  ///< [Hz], > 0
+    double ground_damping       = 0.6;  ///< of critical, > 0
+    double lowest_frequency     = 0.2;  ///< of a random motion [Hz], > 0
+    double highest_frequency    = 20.;  ///< [Hz]
+    unsigned int spectrum_lines = 200;
+    unsigned int seed           = 1;
+    std::string base_file;
+    AccelerationUnit unit = AccelerationUnit::from_file;
+    bool corrects_drift   = false;
+
+    double initial_displacement = 0.;  ///< z [mm]
+    double initial_velocity     = 0.;  ///< z' [mm/s]
+    double duration             = 20.; ///< [s], > 0
+    IsolationEnd end            = IsolationEnd::duration;
+    double periodic_tolerance   = 1e-8;  ///< of a steady state, over the amplitude, > 0
+    double tolerance            = 1e-12; ///< of a step, over the amplitude, > 0
+    std::optional<double> output_step;   ///< [s], > 0; none: see output_step()
+
+    // What the files hold.
+    DamperLoop loop;
+    Samples base_table; ///< acceleration over time [mm/s^2, s], or its spectrum over frequency [(mm/s^2)^2/Hz, Hz]
+  };
+} // namespace sprag

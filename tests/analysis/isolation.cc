@@ -1,0 +1,395 @@
+#include "analysis/isolation/harmonic_balance.h"
+#include "base/errors.h"
+#include "scene/closed_form.h"
+#include "support/isolated.h"
+
+#include <gtest/gtest.h>
+
+using namespace sprag;
+
+// The table on its spring against exact solutions: Coulomb friction (Den Hartog 1931), friction proportional to displacement
+// (Reid's damping), viscous damping, and a solution joined from exact pieces where friction stops the table.
+
+namespace
+{
+  const double w_n = std::sqrt(2. / 0.05); ///< of isolated() [1/s]
+
+  double base_frequency(const Scene &scene)
+  {
+    return 2. * M_PI * scene.isolation.base_frequency;
+  }
+
+  /// Constant friction on a base X sin(w t), each piece solved exactly: z = A cos(w_n t) + B sin(w_n t) + S sin(w t) - d F0/K.
+  class ExactStops
+  {
+  public:
+    explicit ExactStops(const Scene &scene)
+        : m(scene.isolation.mass)
+        , K(scene.isolation.stiffness)
+        , F0(scene.isolation.friction_force)
+        , X(scene.isolation.base_amplitude)
+        , w(base_frequency(scene))
+        , S(X * w * w / (K / m - w * w))
+    {
+    }
+
+    /// Places at which the table stops, until a time.
+    std::vector<double> stops(const double until)
+    {
+      std::vector<double> result;
+      for (double t = 0.; t < until;)
+      {
+        t = release(t);
+        t = end_of_slip(t);
+        if (t < until)
+          result.push_back(z);
+      }
+      return result;
+    }
+
+  private:
+    const double m, K, F0, X, w, S;
+    double z = 0.;
+    int d    = 1;
+
+    double needed(const double t) const
+    {
+      return m * X * w * w * std::sin(w * t) - K * z;
+    }
+
+    template <class Function>
+    static double root(const Function &f, double from, double to)
+    {
+      for (unsigned int i = 0; i < 200; ++i)
+      {
+        const double middle          = 0.5 * (from + to);
+        (f(middle) > 0. ? to : from) = middle;
+      }
+      return to;
+    }
+
+    double release(double t)
+    {
+      const double step = 1e-4 / w;
+      while (std::abs(needed(t)) <= F0)
+        t += step;
+      const double at =
+          std::abs(needed(t - step)) > F0 ? t : root([&](const double s) { return std::abs(needed(s)) - F0; }, t - step, t);
+      d = needed(t) > 0. ? 1 : -1;
+      return at;
+    }
+
+    double end_of_slip(const double begin)
+    {
+      const double n = std::sqrt(K / m), offset = -d * F0 / K;
+      const double C = z - offset - S * std::sin(w * begin), D = -S * w * std::cos(w * begin) / n;
+      const auto rate = [&](const double t)
+      { return n * (D * std::cos(n * (t - begin)) - C * std::sin(n * (t - begin))) + S * w * std::cos(w * t); };
+      const double step = 1e-3 / w;
+      double t          = begin + step;
+      while (d * rate(t) > 0.)
+        t += step;
+      t = root([&](const double s) { return -d * rate(s); }, t - step, t);
+      z = offset + C * std::cos(n * (t - begin)) + D * std::sin(n * (t - begin)) + S * std::sin(w * t);
+      return t;
+    }
+  };
+} // namespace
+
+TEST(Isolation, LinearFrictionDecaysByAFixedRatioAHalfCycle)
+{
+  for (const double gamma : { 0.05, 0.3, 0.8 })
+  {
+    Scene scene                          = isolated(DamperType::linear_friction);
+    scene.isolation.friction_slope       = gamma * scene.isolation.stiffness;
+    scene.isolation.initial_displacement = -40.;
+    const double ratio                   = std::sqrt((1. - gamma) / (1. + gamma));
+    const double half_period             = 0.5 * M_PI * (1. / std::sqrt(1. - gamma) + 1. / std::sqrt(1. + gamma)) / w_n;
+    double z = -40., time = 0.;
+    const auto turns = turns_of(scene);
+    ASSERT_GT(turns.size(), 10u);
+    for (const auto &turn : turns)
+    {
+      z *= -ratio;
+      time += half_period;
+      EXPECT_NEAR(turn.z / z, 1., 1e-9) << gamma;
+      EXPECT_NEAR(turn.time / time, 1., 1e-10) << gamma;
+    }
+    EXPECT_LT(findings_of(scene).energy_residual, 1e-11);
+  }
+}
+
+TEST(Isolation, LinearFrictionDissipatesTwiceTheSlopeTimesTheSquareOfTheAmplitude)
+{
+  for (const double amplitude : { 1e-3, 1., 100. })
+  {
+    const double gamma             = 0.4;
+    Scene scene                    = shaken(DamperType::linear_friction, 1.1);
+    scene.isolation.friction_slope = gamma * scene.isolation.stiffness;
+    scene.isolation.base_amplitude = amplitude;
+    const double period            = 1. / scene.isolation.base_frequency;
+    TableMotion motion(isolation_system(scene), 0., 0., 1e-13);
+    const auto go_to = [&](const double until)
+    {
+      while (motion.state().time < until)
+        motion.advance(until);
+    };
+    go_to(300. * period);
+    motion.reset_period();
+    const double before = motion.state().dissipated;
+    go_to(301. * period);
+    const double dissipated = motion.state().dissipated - before, X = motion.largest_displacement();
+    EXPECT_NEAR(dissipated / (2. * scene.isolation.friction_slope * X * X), 1., 1e-8);
+    const double loss_factor = dissipated / (2. * M_PI * 0.5 * scene.isolation.stiffness * X * X);
+    EXPECT_NEAR(loss_factor / (2. * gamma / M_PI), 1., 1e-8);
+  }
+}
+
+TEST(Isolation, ConstantFrictionLeavesTheOffsetOfTheHalfCycles)
+{
+  for (const double force : { 1., 3., 7.3, 11., 40. })
+    for (const double z0 : { 50., -31.7 })
+    {
+      Scene scene                          = isolated(DamperType::constant_friction);
+      scene.isolation.friction_force       = force;
+      scene.isolation.initial_displacement = z0;
+      scene.isolation.duration             = 40.;
+      const double K = scene.isolation.stiffness, y0 = std::abs(z0);
+      const double n      = std::ceil((y0 * K / force - 1.) / 2.);
+      const double offset = (z0 > 0. ? 1. : -1.) * std::pow(-1., n) * (y0 - 2. * n * force / K);
+      const auto found    = findings_of(scene);
+      EXPECT_EQ(found.turns, n);
+      EXPECT_EQ(found.stops, 1u);
+      EXPECT_TRUE(found.rests);
+      EXPECT_NEAR(found.residual_offset, offset, 1e-10);
+      EXPECT_NEAR(found.dissipated, 0.5 * K * (z0 * z0 - offset * offset), 1e-8);
+    }
+}
+
+TEST(Isolation, FrictionThatHoldsTheBeginningNeverLetsGo)
+{
+  Scene scene                          = isolated(DamperType::constant_friction);
+  scene.isolation.friction_force       = 10.;
+  scene.isolation.initial_displacement = 4.9;
+  const auto found                     = findings_of(scene);
+  EXPECT_EQ(found.residual_offset, 4.9);
+  EXPECT_EQ(found.turns, 0u);
+  EXPECT_EQ(found.energy_residual, 0.);
+}
+
+TEST(Isolation, ConstantFrictionIsLockedUpToTheForceOfTheBase)
+{
+  for (const double r : { 0.3, 1., 2.5 })
+  {
+    Scene scene                    = shaken(DamperType::constant_friction, r);
+    const double limit             = scene.isolation.stiffness * scene.isolation.base_amplitude * r * r;
+    scene.isolation.friction_force = limit * (1. + 1e-9);
+    auto found                     = findings_of(scene);
+    EXPECT_EQ(found.largest_displacement, 0.);
+    EXPECT_NEAR(found.peak, 1., 1e-9);
+    EXPECT_NEAR(found.fundamental, 1., 1e-9);
+    EXPECT_NEAR(found.rms, 1., 1e-9);
+    EXPECT_TRUE(found.is_steady);
+    scene.isolation.friction_force = limit * (1. - 1e-6);
+    found                          = findings_of(scene);
+    EXPECT_GT(found.largest_displacement, 0.);
+    EXPECT_GT(found.stops, 0u);
+  }
+}
+
+TEST(Isolation, SteadyStatesWithoutStopsAreDenHartogs)
+{
+  for (const auto &[r, share] : std::vector<std::pair<double, double>>{ { 0.6, 0.3 }, { 0.9, 0.5 }, { 1.3, 0.5 }, { 2., 0.3 } })
+  {
+    Scene scene                    = shaken(DamperType::constant_friction, r);
+    const double static_amplitude  = scene.isolation.base_amplitude * r * r; // of a force m w^2 X
+    scene.isolation.friction_force = share * scene.isolation.stiffness * static_amplitude;
+    const double V = 1. / (1. - r * r), beta = 1. / r;
+    const double U        = beta * std::sin(M_PI * beta) / (1. + std::cos(M_PI * beta));
+    const double expected = static_amplitude * std::sqrt(V * V - share * share * U * U);
+    const auto found      = findings_of(scene);
+    EXPECT_TRUE(found.is_steady) << r;
+    EXPECT_EQ(found.stops_a_period, 0.) << r;
+    EXPECT_NEAR(found.relative_amplitude / expected, 1., 1e-9) << r;
+    EXPECT_LT(found.energy_residual, 1e-11);
+  }
+}
+
+TEST(Isolation, StopsUnderAHarmonicBaseAreThoseOfExactPieces)
+{
+  for (const double r : { 0.21, 0.35, 0.7 })
+  {
+    Scene scene                    = shaken(DamperType::constant_friction, r);
+    scene.isolation.end            = IsolationEnd::duration;
+    scene.isolation.duration       = 12. / scene.isolation.base_frequency;
+    scene.isolation.friction_force = 0.6 * scene.isolation.stiffness * scene.isolation.base_amplitude * r * r;
+    const auto expected            = ExactStops(scene).stops(scene.isolation.duration);
+    const auto turns               = turns_of(scene);
+    ASSERT_EQ(turns.size(), expected.size()) << r;
+    ASSERT_GT(turns.size(), 20u);
+    for (std::size_t i = 0; i < turns.size(); ++i)
+      EXPECT_NEAR(turns[i].z, expected[i], 1e-9 * scene.isolation.base_amplitude) << r << ' ' << i;
+    EXPECT_EQ(findings_of(scene).stops > 20, r < 0.5) << r;
+  }
+}
+
+TEST(Isolation, RowsDoNotMoveEvents)
+{
+  Scene scene                    = shaken(DamperType::constant_friction, 0.21);
+  scene.isolation.end            = IsolationEnd::duration;
+  scene.isolation.friction_force = 0.6 * scene.isolation.stiffness * scene.isolation.base_amplitude * 0.21 * 0.21;
+  scene.isolation.duration       = 30.;
+  scene.isolation.output_step    = 30.;
+  const auto coarse              = turns_of(scene);
+  scene.isolation.output_step    = 1e-3;
+  const auto fine                = turns_of(scene);
+  ASSERT_EQ(coarse.size(), fine.size());
+  ASSERT_GT(coarse.size(), 10u);
+  for (std::size_t i = 0; i < fine.size(); ++i)
+    EXPECT_NEAR(coarse[i].time, fine[i].time, 1e-9);
+}
+
+TEST(Isolation, ViscousDampingHasTheTransmissibilityOfTheBooks)
+{
+  for (const double r : { 0.5, 1., 1.8 })
+  {
+    const double zeta                   = 0.15;
+    Scene scene                         = shaken(DamperType::viscous, r);
+    scene.isolation.viscous_coefficient = 2. * zeta * scene.isolation.mass * w_n;
+    const double q                      = std::pow(2. * zeta * r, 2);
+    const double expected               = std::sqrt((1. + q) / (std::pow(1. - r * r, 2) + q));
+    const auto found                    = findings_of(scene);
+    EXPECT_NEAR(found.fundamental, expected, 1e-9);
+    EXPECT_NEAR(found.rms, expected, 1e-9);
+    EXPECT_NEAR(found.peak, expected, 1e-6);
+    const auto balance = harmonic_balance(isolation_system(scene), scene.isolation.base_amplitude, base_frequency(scene));
+    ASSERT_EQ(balance.size(), 1u);
+    EXPECT_NEAR(balance.front().transmissibility, expected, 1e-10);
+  }
+}
+
+TEST(Isolation, HarmonicBalanceOfLinearFrictionIsThatOfALossFactor)
+{
+  const double gamma = 0.4, eta = 2. * gamma / M_PI;
+  for (const double r : { 0.5, 1., 1.8 })
+  {
+    Scene scene                    = shaken(DamperType::linear_friction, r);
+    scene.isolation.friction_slope = gamma * scene.isolation.stiffness;
+    const auto balance = harmonic_balance(isolation_system(scene), scene.isolation.base_amplitude, base_frequency(scene));
+    ASSERT_EQ(balance.size(), 1u);
+    const double expected = std::sqrt((1. + eta * eta) / (std::pow(1. - r * r, 2) + eta * eta));
+    EXPECT_NEAR(balance.front().transmissibility, expected, 1e-9);
+    EXPECT_NEAR(findings_of(scene).fundamental / expected, 1., 0.15); // which one harmonic is worth
+  }
+}
+
+TEST(Isolation, HarmonicBalanceTellsWhereFrictionHoldsTheTable)
+{
+  Scene scene        = shaken(DamperType::constant_friction, 2.);
+  const double limit = 0.25 * M_PI * scene.isolation.stiffness * scene.isolation.base_amplitude * 4.;
+  const auto motions = [&](const double force)
+  {
+    scene.isolation.friction_force = force;
+    return harmonic_balance(isolation_system(scene), scene.isolation.base_amplitude, base_frequency(scene));
+  };
+  EXPECT_EQ(motions(1.01 * limit).front().amplitude, 0.);
+  EXPECT_GT(motions(0.99 * limit).front().amplitude, 0.);
+}
+
+TEST(Isolation, LeversMeetTheLinearLawWhereZIsSmall)
+{
+  Scene scene            = isolated(DamperType::lever);
+  scene.friction.law     = CoulombFriction{ 0.73 };
+  scene.isolation.levers = 3;
+  const double forward   = representative_slope(scene.geometry, scene.spring.stiffness, 0.73, 1);
+  const double backward  = representative_slope(scene.geometry, scene.spring.stiffness, 0.73, -1);
+  EXPECT_NEAR(forward, 0.0804711777, 1e-9);
+  const double c = 1.5 * (forward - backward), k_e = 1.5 * (forward + backward);
+  const auto damper = damper_of(scene);
+  const double y    = 1e-6;
+  EXPECT_NEAR(damper.resistance(y, 1., 1).force, (k_e + c) * y, 1e-6 * c * y);
+  EXPECT_NEAR(damper.resistance(y, 1., -1).force, (k_e - c) * y, 1e-6 * c * y);
+
+  // Out and back the slopes differ: one half cycle shrinks by the root of their ratio.
+  scene.isolation.initial_displacement = 1e-4;
+  const double K = scene.isolation.stiffness, ratio = std::sqrt((K + k_e - c) / (K + k_e + c));
+  const auto turns = turns_of(scene);
+  ASSERT_GT(turns.size(), 5u);
+  EXPECT_NEAR(turns[0].z / -1e-4, ratio, 1e-5);
+  EXPECT_NEAR(turns[1].z / turns[0].z, -ratio, 1e-5);
+}
+
+TEST(Isolation, LeversKeepTheLedgerOfSpringAndFriction)
+{
+  Scene scene                        = shaken(DamperType::lever, 1.);
+  scene.isolation.base_amplitude     = 3.;
+  scene.isolation.periodic_tolerance = 1e-9;
+  const auto found                   = findings_of(scene);
+  EXPECT_TRUE(found.is_steady);
+  EXPECT_GT(found.dissipated, 1.);
+  EXPECT_LT(found.energy_residual, 1e-9);
+}
+
+TEST(Isolation, ARestoringLeverIsLinearFriction)
+{
+  Scene scene                        = isolated(DamperType::restoring_lever);
+  scene.friction.law                 = CoulombFriction{ 0.5 };
+  scene.isolation.lever_ratio        = 0.4;
+  scene.isolation.friction_arm_ratio = 0.;
+  const auto damper                  = damper_of(scene);
+  EXPECT_NEAR(damper.resistance(7., 3., 1).force, 0.5 * 0.4 * 2. * 7., 1e-12);
+  EXPECT_NEAR(damper.resistance(7., 3., -1).force, -0.5 * 0.4 * 2. * 7., 1e-12);
+  scene.isolation.friction_arm_ratio = 0.6;
+  EXPECT_NEAR(damper_of(scene).resistance(7., 3., 1).force, 2.8 / 1.3, 1e-12);
+  EXPECT_NEAR(damper_of(scene).resistance(7., 3., -1).force, -2.8 / 0.7, 1e-12);
+}
+
+TEST(Isolation, ALoopOfLinearFrictionIsLinearFriction)
+{
+  Scene scene                          = isolated(DamperType::linear_friction);
+  scene.isolation.friction_slope       = 0.5;
+  scene.isolation.initial_displacement = 30.;
+  const auto expected                  = turns_of(scene);
+  scene.isolation.damper               = DamperType::loop;
+  for (double y = 0.; y <= 40.; y += 8.)
+  {
+    for (auto *way : { &scene.isolation.loop.out, &scene.isolation.loop.back })
+      way->at.push_back(y);
+    scene.isolation.loop.out.values.push_back(0.5 * y);
+    scene.isolation.loop.back.values.push_back(-0.5 * y);
+  }
+  const auto turns = turns_of(scene);
+  ASSERT_EQ(turns.size(), expected.size());
+  for (std::size_t i = 0; i < turns.size(); ++i)
+    EXPECT_NEAR(turns[i].z / expected[i].z, 1., 1e-9);
+  EXPECT_LT(findings_of(scene).energy_residual, 1e-10);
+}
+
+TEST(Isolation, LeversThatEndOrLockStopTheRunAndKeepWhatWasFound)
+{
+  Scene scene                    = shaken(DamperType::lever, 1.);
+  scene.isolation.base_amplitude = 60.;
+  IsolationFindings found;
+  EXPECT_THROW(run_isolation(scene, found, {}), AnalysisError);
+  EXPECT_GT(found.time, 0.1);
+  EXPECT_NEAR(found.largest_displacement, damper_of(scene).reach, 1e-6);
+
+  scene                                = isolated(DamperType::lever);
+  scene.isolation.initial_displacement = 0.;
+  scene.isolation.initial_velocity     = 900.;
+  scene.friction.law                   = CoulombFriction{ 1.6 };
+  IsolationFindings locked;
+  EXPECT_THROW(run_isolation(scene, locked, {}), AnalysisError);
+  EXPECT_GT(locked.largest_displacement, 110.);
+}
+
+TEST(Isolation, ATableWithoutADamperConservesItsEnergy)
+{
+  Scene scene                          = isolated(DamperType::none);
+  scene.isolation.initial_displacement = 10.;
+  scene.isolation.initial_velocity     = -100.;
+  const auto found                     = findings_of(scene);
+  EXPECT_NEAR(found.largest_displacement, std::hypot(10., 100. / w_n), 1e-9);
+  EXPECT_EQ(found.dissipated, 0.);
+  EXPECT_LT(found.energy_residual, 1e-10);
+}

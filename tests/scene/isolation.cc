@@ -1,0 +1,251 @@
+#include "messages.h"
+#include "scene/base_motion.h"
+#include "scene/damper.h"
+#include "support/temporary_folder.h"
+
+#include <cmath>
+
+using namespace sprag;
+
+namespace
+{
+  IsolationSettings base_of(const BaseMotionType type)
+  {
+    IsolationSettings settings;
+    settings.base = type;
+    return settings;
+  }
+
+  /// Differences of x, v and a over a short time against v, a and the jerk, relative to the largest of each.
+  void expect_derivatives(const BaseMotion &motion, const double from, const double to)
+  {
+    const double h  = 1e-5;
+    double scale[3] = { 0., 0., 0. }, error[3] = { 0., 0., 0. };
+    std::size_t piece = 0;
+    for (unsigned int i = 1; i < 400; ++i)
+    {
+      const double t = from + (to - from) * i / 400.;
+      while (piece < motion.kinks.size() && motion.kinks[piece] <= t)
+        ++piece;
+      const bool near_kink =
+          (piece < motion.kinks.size() && motion.kinks[piece] < t + h) || (piece > 0 && motion.kinks[piece - 1] > t - h);
+      if (near_kink)
+        continue;
+      const auto before = motion.at(t - h, piece), now = motion.at(t, piece), behind = motion.at(t + h, piece);
+      const double found[3]    = { (behind.x - before.x) / (2. * h), (behind.v - before.v) / (2. * h),
+                                   (behind.a - before.a) / (2. * h) };
+      const double expected[3] = { now.v, now.a, now.jerk };
+      for (unsigned int k = 0; k < 3; ++k)
+      {
+        scale[k] = std::max(scale[k], std::abs(expected[k]));
+        error[k] = std::max(error[k], std::abs(found[k] - expected[k]));
+      }
+    }
+    for (unsigned int k = 0; k < 3; ++k)
+      EXPECT_LE(error[k], 1e-5 * scale[k] + 1e-9) << k;
+  }
+
+  Samples sine_record(const double drift)
+  {
+    Samples record;
+    for (unsigned int i = 0; i <= 2000; ++i)
+    {
+      const double t = 0.005 * i;
+      record.at.push_back(t);
+      record.values.push_back(100. * std::sin(2. * M_PI * t) + drift * (1. + t));
+    }
+    return record;
+  }
+
+  const Messages isolation  = { "Analysis/Type=isolation", "Isolation/Damper=constant friction" };
+  const Messages of_records = { "Analysis/Type=isolation", "Isolation/Damper=none", "Isolation/Base motion=record" };
+
+  /// What is said about a file of these rows, its folder left out.
+  std::string said_of(const Messages &scene, const std::string &parameter, const std::string &text)
+  {
+    const TemporaryFolder folder;
+    Messages overrides = scene;
+    overrides.push_back(parameter + "=" + folder.write("table.csv", text));
+    try
+    {
+      read_scene(folder.write("scene.prm", ""), overrides);
+    }
+    catch (const InputError &error)
+    {
+      return error.messages.front().substr(error.messages.front().find("table.csv") + 11);
+    }
+    return {};
+  }
+} // namespace
+
+TEST(BaseMotion, RatesAreDerivatives)
+{
+  for (const auto type : { BaseMotionType::none, BaseMotionType::harmonic, BaseMotionType::sweep, BaseMotionType::shock })
+    expect_derivatives(base_motion(base_of(type)), 0.01, 2.);
+  auto settings  = base_of(BaseMotionType::sweep);
+  settings.sweep = SweepForm::linear;
+  expect_derivatives(base_motion(settings), 0.01, 20.);
+  settings       = base_of(BaseMotionType::shock);
+  settings.shock = ShockForm::step;
+  expect_derivatives(base_motion(settings), 0.01, 2.);
+  settings            = base_of(BaseMotionType::record);
+  settings.base_table = sine_record(3.);
+  expect_derivatives(base_motion(settings), 0.01, 11.);
+  settings                   = base_of(BaseMotionType::random);
+  settings.highest_frequency = 5.;
+  expect_derivatives(base_motion(settings), 0.01, 19.);
+}
+
+TEST(BaseMotion, ASweepEndsAtItsFinalFrequency)
+{
+  for (const auto form : { SweepForm::linear, SweepForm::logarithmic })
+  {
+    auto settings     = base_of(BaseMotionType::sweep);
+    settings.sweep    = form;
+    const auto motion = base_motion(settings);
+    // Between two zeros of x at the end lies half a period.
+    double last = 0., before = 0.;
+    for (double t = settings.duration - 0.3; t < settings.duration; t += 1e-5)
+      if (motion.at(t, 0).x * motion.at(t + 1e-5, 0).x < 0.)
+      {
+        before = last;
+        last   = t;
+      }
+    EXPECT_NEAR(0.5 / (last - before), settings.final_frequency, 0.02 * settings.final_frequency);
+  }
+}
+
+TEST(BaseMotion, AShockEndsAtRestOrAtItsSpeed)
+{
+  auto settings    = base_of(BaseMotionType::shock);
+  const auto pulse = base_motion(settings);
+  const double w   = 2. * M_PI * settings.base_frequency;
+  EXPECT_NEAR(pulse.at(0.25 / settings.base_frequency, 0).a, settings.base_amplitude * w * w, 1e-9);
+  EXPECT_NEAR(pulse.at(pulse.end, 0).v, pulse.at(pulse.end, 1).v, 1e-9);
+  EXPECT_NEAR(pulse.at(pulse.end, 0).x, pulse.at(pulse.end, 1).x, 1e-9);
+  settings.shock  = ShockForm::step;
+  const auto step = base_motion(settings);
+  EXPECT_NEAR(step.at(step.end, 0).x, settings.base_amplitude, 1e-9);
+  EXPECT_EQ(step.at(5., 1).x, settings.base_amplitude);
+  EXPECT_EQ(step.at(5., 1).v, 0.);
+}
+
+TEST(BaseMotion, ARandomGroundHasItsRootMeanSquareAndItsSeed)
+{
+  auto settings     = base_of(BaseMotionType::random);
+  settings.duration = 100.;
+  const auto rms_of = [&]
+  {
+    const auto motion = base_motion(settings);
+    double sum        = 0.;
+    for (std::size_t i = 1; i < motion.kinks.size(); ++i)
+      sum += std::pow(motion.at(motion.kinks[i], i).a, 2);
+    return std::sqrt(sum / static_cast<double>(motion.kinks.size()));
+  };
+  EXPECT_NEAR(rms_of(), settings.rms_acceleration, 0.02 * settings.rms_acceleration);
+  const double first = base_motion(settings).at(0.3, 100).a;
+  EXPECT_EQ(base_motion(settings).at(0.3, 100).a, first);
+  settings.seed = 2;
+  EXPECT_NE(base_motion(settings).at(0.3, 100).a, first);
+
+  settings.spectrum   = BaseSpectrum::table;
+  settings.base_table = { { 1., 2., 4., 8. }, { 5., 5., 5., 5. } };
+  EXPECT_NEAR(rms_of(), std::sqrt(5. * 7.), 0.03 * std::sqrt(35.));
+}
+
+TEST(BaseMotion, KanaiTajimiIsWhiteNoiseFilteredByTheGround)
+{
+  EXPECT_EQ(kanai_tajimi(0., 2.5, 0.6), 1.);
+  EXPECT_NEAR(kanai_tajimi(2.5, 2.5, 0.6), 1. + 1. / (4. * 0.36), 1e-12);
+}
+
+TEST(BaseMotion, DriftOfARecordIsTakenOff)
+{
+  auto settings           = base_of(BaseMotionType::record);
+  settings.base_table     = sine_record(3.);
+  const double with_drift = base_motion(settings).at(10., 1999).v;
+  EXPECT_NEAR(with_drift, 3. * (10. + 50.), 0.1);
+  settings.corrects_drift = true;
+  const auto motion       = base_motion(settings);
+  EXPECT_LT(std::abs(motion.at(10., 1999).v), 100. / M_PI);
+  EXPECT_EQ(motion.at(10.5, 2000).a, 0.);
+}
+
+TEST(IsolationInput, WhatCannotBeIsRefused)
+{
+  EXPECT_EQ(mistakes_of(isolation), Messages{});
+  EXPECT_EQ(mistakes_of({ "Analysis/Type=isolation", "Analysis/Model=beam" }), Messages{});
+  expect_refused({ "Analysis/Type=isolation", "Analysis/Model=rigid" }, { "Contact/Type=ideal" },
+                 "Contact/Type = ideal: must be compliant with Isolation/Damper = lever and a model in time");
+  expect_refused(
+      { "Analysis/Type=isolation", "Analysis/Model=beam" }, { "Isolation/Initial displacement=-70" },
+      "Isolation/Initial displacement = -70: must be less than Drive/Stroke = 65 mm either way, for which the levers are "
+      "made");
+  EXPECT_EQ(mistakes_of(isolation, { "Isolation/Base motion=none" }),
+            Messages{ "scene.prm: Isolation/Initial displacement = 0: must not be 0 mm with Base motion = none and no Initial "
+                      "velocity: nothing moves" });
+  EXPECT_EQ(mistakes_of(isolation, { "Isolation/Base motion=record" }),
+            Messages{ "scene.prm: Isolation/Base table = : must name a file" });
+  EXPECT_EQ(mistakes_of(isolation, { "Isolation/Damper=loop" }),
+            Messages{ "scene.prm: Isolation/Loop table = : must name a file" });
+  expect_refused(isolation, { "Isolation/Mass=0" }, "Isolation/Mass = 0: must be a number > 0 [t]");
+  expect_refused(isolation, { "Isolation/Base motion=shock", "Isolation/End=steady state" },
+                 "Isolation/End = steady state: must be duration but with Base motion = harmonic");
+  expect_refused(isolation, { "Isolation/Base motion=random", "Isolation/Highest frequency=0.1" },
+                 "Isolation/Highest frequency = 0.1: must be more than Lowest frequency = 0.2 Hz");
+}
+
+TEST(IsolationInput, LeversThatEndOrLockAtTheBeginningAreRefused)
+{
+  const Messages levers = { "Analysis/Type=isolation", "Analysis/Model=closed form" };
+  expect_refused(levers, { "Isolation/Initial displacement=-130" },
+                 "Isolation/Initial displacement = -130: must be less than 129.5 mm either way, where the cylinder reaches the "
+                 "lever's pivot, or would slide the other way along the lever");
+  expect_refused(levers, { "Friction/Law=Coulomb", "Friction/Coefficient=1.6", "Isolation/Initial displacement=120" },
+                 "Isolation/Initial displacement = 120: must not be where the damper locks: friction holds the table there "
+                 "whatever pulls it back");
+}
+
+TEST(IsolationInput, RecordsNeedAUnit)
+{
+  const std::string rows = "0,1\n0.1,2\n0.2,3\n0.3,4\n";
+  EXPECT_NE(
+      said_of(of_records, "Isolation/Base table", "time,acceleration\n" + rows).find("unit of the acceleration is not known"),
+      std::string::npos);
+  EXPECT_EQ(said_of(of_records, "Isolation/Base table", "time [s], acceleration [m/s2]\n" + rows), "");
+  EXPECT_EQ(said_of({ of_records[0], of_records[1], of_records[2], "Isolation/Base unit=g" }, "Isolation/Base table", rows), "");
+  EXPECT_NE(said_of(of_records, "Isolation/Base table", "time [s], acceleration [V]\n" + rows).find("not known"),
+            std::string::npos);
+}
+
+TEST(IsolationInput, TheUnitOfARecordScalesIt)
+{
+  const TemporaryFolder folder;
+  const auto file = folder.write("record.csv", "time [s]; acceleration [g]\n0;0\n1;0.5\n2;0.5\n3;0\n");
+  const auto scene =
+      read_scene(folder.write("scene.prm", ""), { "Analysis/Type=isolation", "Isolation/Damper=none",
+                                                  "Isolation/Base motion=record", "Isolation/Base table=" + file });
+  EXPECT_NEAR(scene.isolation.base_table.values[1], 4903.325, 1e-9);
+  EXPECT_NEAR(base_motion(scene.isolation).at(1., 0).v, 0.5 * 4903.325, 1e-9);
+}
+
+TEST(IsolationInput, TablesThatCannotBeAreRefused)
+{
+  const auto says = [](const std::string &said, const std::string &part)
+  { EXPECT_NE(said.find(part), std::string::npos) << said; };
+  const Messages random = { "Analysis/Type=isolation", "Isolation/Damper=none", "Isolation/Base motion=random",
+                            "Isolation/Base spectrum=table", "Isolation/Base unit=m/s2" };
+  says(said_of(random, "Isolation/Base table", "1,1\n2,-1\n3,1\n4,1\n"), "row 2: density -1: must be >= 0");
+  says(said_of(random, "Isolation/Base table", "1,0\n2,0\n3,0\n4,0\n"), "must have a density above 0");
+  says(said_of(random, "Isolation/Base table", "1,0\n3,0\n2,0\n4,0\n"),
+       "row 3: frequency 2: must be more than in the row before");
+  says(said_of(random, "Isolation/Base table", "100,1\n200,1\n300,1\n400,1\n"), "must have densities between");
+  const Messages record = { "Analysis/Type=isolation", "Isolation/Damper=none", "Isolation/Base motion=record",
+                            "Isolation/Base unit=m/s2" };
+  says(said_of(record, "Isolation/Base table", "1,1\n2,1\n3,1\n4,1\n"), "row 1: time 1 s: must be 0");
+  const Messages loop = { "Analysis/Type=isolation", "Isolation/Damper=loop" };
+  says(said_of(loop, "Isolation/Loop table", "0,0\n1,1\n2,2\n3,3\n"), "on the way back: must have at least 4 rows");
+  says(said_of(loop, "Isolation/Loop table", "0,0\n1,1\n2,2\n3,3\n2,4\n1,3\n0,1\n"), "dissipates nothing");
+  says(said_of(loop, "Isolation/Loop table", "0,0\n1,1\n2,2\n3,3\n2,-2\n1,-1\n0.5,0\n"), "must be 0 at the end");
+  EXPECT_EQ(said_of(loop, "Isolation/Loop table", "0,0\n1,1\n2,2\n3,3\n2,-2\n1,-1\n0,0\n"), "");
+}
