@@ -19,7 +19,7 @@ namespace sprag
   /// Returns whether anything of the scene is meshed, apart from a leaf spring.
   bool needs_mesh(const Scene &scene);
 
-  /// Returns whether formulas give the results and no model is made: of the slope's sweep, an isolation system without such levers, the closed form,
-  /// and in time the ideal contact of a rigid lever.
+  /// Returns whether formulas give the results and no model is made: of the slope's sweep, an isolation system without such
+  /// levers, the closed form, and in time the ideal contact of a rigid lever.
   bool follows_formulas(const Scene &scene);
 } // namespace sprag

@@ -48,7 +48,7 @@ PICTURES = {
     ),
 }
 # Whose columns are described by the files alone.
-OWN_COLUMNS = ("calibration-a", "study-a")
+OWN_COLUMNS = ("calibration-a", "study-a", "study-transmissibility-a")
 
 
 class ScenesTest(PictureTest):

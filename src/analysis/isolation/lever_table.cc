@@ -28,6 +28,14 @@ namespace sprag
       return std::ldexp(std::round(std::ldexp(mantissa, 28)), exponent - 28);
     }
 
+    constexpr double same_place = 1e-7; ///< of the cylinder for a lever that touches nothing [mm]
+
+    /// Damping may take all pressure from a contact that is still closed.
+    bool touches(const Row &row)
+    {
+      return row[Column::P] > 0. || row[Column::penetration] > 0. || row[Column::indentation] > 0.;
+    }
+
     double sum_of(const StoredEnergy &energy)
     {
       return energy.kinetic + energy.spring + energy.elastic + energy.support + energy.contact;
@@ -72,7 +80,8 @@ namespace sprag
     return x < out_of_contact ? DrivePoint{ time, out_of_contact, 0., 0. } : DrivePoint{ time, x, side.sign * rate, 0. };
   }
 
-  std::optional<LeverTable::Trial> LeverTable::tried(const double h, const double way_of_table)
+  /// What a lever that touches nothing did in the trial before holds for this one as well where both end at the same place.
+  std::optional<LeverTable::Trial> LeverTable::tried(const double h, const double way_of_table, std::optional<Trial> before)
   {
     auto weights        = generalised_alpha(settings.time.spectral_radius, h);
     weights.wants_error = settings.time.tolerance > 0.;
@@ -81,9 +90,16 @@ namespace sprag
     double row_force = 0.;
     for (unsigned int i = 0; i < sides.size(); ++i)
     {
-      auto &side       = sides[i];
-      const auto to    = drive_of(side, now.time + h, z, rate);
-      auto &outcome    = trial.levers[i];
+      auto &side    = sides[i];
+      const auto to = drive_of(side, now.time + h, z, rate);
+      auto &outcome = trial.levers[i];
+      if (before && !before->touches[i] && !side.touches && std::abs(before->z - z) < same_place)
+      {
+        outcome               = std::move(before->levers[i]);
+        outcome.motion->drive = to;
+        trial.stored[i]       = before->stored[i];
+        continue;
+      }
       outcome          = side.model.step(side.motion, to, weights);
       const double way = to.x - side.motion.drive.x;
       if (!outcome.motion)
@@ -92,7 +108,7 @@ namespace sprag
       Row row;
       side.model.observe(*outcome.motion, row);
       row_force += side.sign * levers * row.drive_force();
-      trial.touches[i] = row[Column::P] > 0.;
+      trial.touches[i] = touches(row);
       trial.force += way != 0. ? side.sign * levers * outcome.work.drive / way : side.sign * levers * row.drive_force();
     }
     const double base_change = motion_of_base.at(now.time + h, piece).v - base().v;
@@ -107,10 +123,11 @@ namespace sprag
     const double inertia = 2. * m / (h * h);
     double way           = h * now.rate + 0.5 * h * h * (acceleration() - base().a);
     double last_way = 0., last = 0.;
+    std::optional<Trial> trial;
     for (unsigned int i = 0; i < most_iterations; ++i)
     {
       ++iterations;
-      auto trial = tried(h, way);
+      trial = tried(h, way, std::move(trial));
       if (!trial)
         return {};
       const double scale = std::abs(K * trial->z) + std::abs(trial->force) + std::abs(m * base().a) + settings.force_scale;

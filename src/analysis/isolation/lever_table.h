@@ -118,7 +118,7 @@ namespace sprag
     unsigned int steps       = 0;
 
     DrivePoint drive_of(const Side &side, double time, double z, double rate) const;
-    std::optional<Trial> tried(double h, double way_of_table);
+    std::optional<Trial> tried(double h, double way_of_table, std::optional<Trial> before);
     std::optional<Trial> solved(double h);
     double error_of(const Trial &trial) const;
     void accept(double h, Trial &trial);
