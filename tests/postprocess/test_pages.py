@@ -1,4 +1,4 @@
-"""The pages of postprocess lead to what there is; test_scenes.py holds the names on them against results. Run with /usr/bin/python3."""
+"""The pages of postprocess lead to what there is; test_scenes_slow.py holds the names on them against results. Run with /usr/bin/python3."""
 
 import os
 import re

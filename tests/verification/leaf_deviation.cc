@@ -123,7 +123,7 @@ namespace
   }
 } // namespace
 
-TEST(LeafDeviation, IsThatOfItsMomentLawBesideFlexure)
+TEST(LeafDeviationSlow, IsThatOfItsMomentLawBesideFlexure)
 {
   for (const std::string model : { "a", "b" })
   {

@@ -79,7 +79,7 @@ namespace
 } // namespace
 
 // Both levers do the same in the same order, whatever they are made of, and the joint adds nothing.
-TEST(MirroredPair, WithoutOffsetIsASingleLeverTwice)
+TEST(MirroredPairSlow, WithoutOffsetIsASingleLeverTwice)
 {
   const Scene linear                                        = coarse_scene();
   const std::vector<std::pair<std::string, Scene>> of_parts = { { "linear", linear },
