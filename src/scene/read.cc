@@ -111,10 +111,19 @@ namespace sprag
         make_discretisation(input);
       }
 
-      /// Until it is chosen, the model is the dearest that a choice may end at.
+      /// Until it is chosen, the model is the dearest that a choice may end at. Under a table levers are those of the closed form
+      /// unless another model is given; the printed parameters then give it.
       void make_model()
       {
-        Scene &scene                 = input.scene;
+        Scene &scene = input.scene;
+        const auto type =
+            scene.analysis.type == AnalysisType::study ? scene.study.type : scene.analysis.type; // of the runs themselves
+        if (type == AnalysisType::isolation && settings.given.count("Analysis/Model") == 0)
+        {
+          scene.analysis.model                   = ModelType::closed_form;
+          settings.given["Analysis/Model"].value = "closed form";
+          return;
+        }
         const bool is_static         = scene.analysis.type == AnalysisType::quasi_static;
         scene.accuracy.is_model_open = !input.model;
         scene.analysis.model         = input.model.value_or(is_static ? ModelType::finite_element : ModelType::condensed);

@@ -229,6 +229,19 @@ TEST(IsolationInput, TheUnitOfARecordScalesIt)
   EXPECT_NEAR(base_motion(scene.isolation).at(1., 0).v, 0.5 * 4903.325, 1e-9);
 }
 
+TEST(IsolationScene, LeversAreThoseOfTheClosedFormUnlessAnotherModelIsGiven)
+{
+  const auto model = [](const Messages &overrides) { return scene_of(overrides).analysis.model; };
+  EXPECT_EQ(model({ "Analysis/Type=isolation" }), ModelType::closed_form);
+  EXPECT_EQ(model({ "Analysis/Type=isolation", "Analysis/Model=beam" }), ModelType::beam);
+  EXPECT_EQ(model({ "Analysis/Type=study", "Study/Type=isolation", "Study/Vary=Isolation/Mass = 0.1, 0.2" }),
+            ModelType::closed_form);
+  EXPECT_EQ(model({ "Analysis/Type=transient", "Analysis/Model=beam" }), ModelType::beam);
+  const auto text = parameters_text(scene_of({ "Analysis/Type=isolation" }));
+  EXPECT_NE(text.find("set Model"), std::string::npos);
+  EXPECT_EQ(text.find("= finite element"), std::string::npos);
+}
+
 TEST(IsolationInput, TablesThatCannotBeAreRefused)
 {
   const auto says = [](const std::string &said, const std::string &part)
