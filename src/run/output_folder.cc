@@ -78,7 +78,8 @@ namespace sprag
     void refuse_what_is_no_file(const std::string &folder)
     {
       std::error_code ignored;
-      for (const char *name : { "result.h5", "map.journal", "study.journal", checkpoint_name, row_journal_name, "fields.xdmf" })
+      for (const char *name :
+           { "result.h5", map_journal_name, study_journal_name, checkpoint_name, row_journal_name, "fields.xdmf" })
       {
         const auto kind = fs::status(fs::path(folder) / name, ignored).type();
         if (kind == fs::file_type::directory)

@@ -20,10 +20,7 @@ namespace sprag
   /// Adds what the levers of a full pair do differently, and their force across the path; nothing for a single lever.
   void add_pair(const std::vector<Row> &rows, std::vector<Entry> &entries);
 
-  /// Returns the entry of this name; throws std::out_of_range if there is none.
-  const Entry &entry_of(const std::vector<Entry> &entries, const std::string &name);
-
-  /// Returns the value of an entry; throws as entry_of().
+  /// Returns the value of the entry of this name; throws std::out_of_range if there is none.
   double value_of(const std::vector<Entry> &entries, const std::string &name);
 
   /// Returns the largest deviation of P, Q and theta on both strokes in a summary [-]; NaN if one of them is unknown.

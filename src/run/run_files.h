@@ -9,6 +9,8 @@ namespace sprag
   inline constexpr char checkpoint_name[]      = "run.checkpoint";
   inline constexpr char next_checkpoint_name[] = "run.checkpoint.new"; ///< while it is written
   inline constexpr char row_journal_name[]     = "run.journal";
+  inline constexpr char map_journal_name[]     = "map.journal";
+  inline constexpr char study_journal_name[]   = "study.journal";
 
   /// Removes what a run goes on from.
   void remove_checkpoint(const std::string &folder);

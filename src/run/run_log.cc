@@ -139,7 +139,7 @@ namespace sprag
       return;
     std::error_code ignored;
     bool goes_on = false;
-    for (const char *const name : { checkpoint_name, row_journal_name, "map.journal", "study.journal" })
+    for (const char *const name : { checkpoint_name, row_journal_name, map_journal_name, study_journal_name })
       goes_on = goes_on || std::filesystem::exists(folder + '/' + name, ignored);
     record->file.open(log_in(folder), goes_on ? std::ios::app : std::ios::trunc);
     const auto head = record->text.find('\n', record->text.find('\n') + 1) + 1;

@@ -3,6 +3,7 @@
 #include "run/analyses.h"
 #include "run/report.h"
 #include "run/result_writer.h"
+#include "run/run_files.h"
 #include "scene/sections.h"
 
 #include <deal.II/base/mpi.h>
@@ -205,7 +206,7 @@ namespace sprag
         [&]
         {
           prepare_folder(scene, options);
-          journal.emplace(options.folder + "/map.journal", "map", inputs_key(scene));
+          journal.emplace(options.folder + '/' + map_journal_name, "map", inputs_key(scene));
           announce(*journal, progress);
         });
     MapTeam team(scene, journal ? &*journal : nullptr,

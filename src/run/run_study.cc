@@ -2,6 +2,7 @@
 #include "base/progress.h"
 #include "run/analyses.h"
 #include "run/result_writer.h"
+#include "run/run_files.h"
 #include "run/study_report.h"
 #include "run/study_runs.h"
 
@@ -97,7 +98,7 @@ namespace sprag
         {
           require_possible_runs(scene);
           prepare_folder(scene, options);
-          journal.emplace(options.folder + "/study.journal", "study", inputs_key(scene, files));
+          journal.emplace(options.folder + '/' + study_journal_name, "study", inputs_key(scene, files));
           announce(*journal, runs.size(), style);
         });
     std::optional<Progress> progress;

@@ -2,6 +2,8 @@
 
 #include "scene/base_motion.h"
 
+#include <cmath>
+
 namespace sprag
 {
   /// What happened at the end of a step.
@@ -39,7 +41,10 @@ namespace sprag
     /// ends or locks, or no step is found; state() is the last instant then.
     virtual TableEvent advance(double until) = 0;
 
-    virtual const TableState &state() const = 0;
+    const TableState &state() const
+    {
+      return now;
+    }
 
     /// Returns whether friction holds the table, as far as the model resolves that.
     virtual bool rests() const = 0;
@@ -61,15 +66,47 @@ namespace sprag
     virtual double energy() const = 0;
 
     /// Returns what the energies leave open since the start: base work less change of energy less what was dissipated [N mm].
-    virtual double energy_residual() const = 0;
+    double energy_residual() const
+    {
+      return now.base_work - (energy() - energy_at_start) - now.dissipated;
+    }
 
     // Largest |z'' + x_b''| and |x_b''| [mm/s^2] and |z| [mm] since the start or reset_period(), between the ends of steps as
     // well.
-    virtual double largest_acceleration() const      = 0;
-    virtual double largest_base_acceleration() const = 0;
-    virtual double largest_displacement() const      = 0;
+    double largest_acceleration() const
+    {
+      return peak_acceleration;
+    }
+    double largest_base_acceleration() const
+    {
+      return peak_base;
+    }
+    double largest_displacement() const
+    {
+      return peak_displacement;
+    }
 
     /// Begins new peaks and integrals of the acceleration.
-    virtual void reset_period() = 0;
+    void reset_period()
+    {
+      peak_acceleration = std::abs(acceleration());
+      peak_displacement = std::abs(now.z);
+      peak_base         = std::abs(base().a);
+      now.square = now.cosine = now.sine = now.base_square = 0.;
+    }
+
+  protected:
+    /// Begins the balance of energies and the first period, once the state at the start is set.
+    void begin()
+    {
+      energy_at_start = energy();
+      reset_period();
+    }
+
+    TableState now;
+    double peak_acceleration = 0., peak_displacement = 0., peak_base = 0.;
+
+  private:
+    double energy_at_start = 0.;
   };
 } // namespace sprag

@@ -65,8 +65,7 @@ namespace sprag
       force += side.sign * levers * row.drive_force();
       side.motion.drive = at;
     }
-    energy_at_start = energy();
-    reset_period();
+    begin();
   }
 
   BasePoint LeverTable::base() const
@@ -257,16 +256,4 @@ namespace sprag
     return 0.5 * m * speed * speed + 0.5 * K * now.z * now.z + damper_energy();
   }
 
-  double LeverTable::energy_residual() const
-  {
-    return now.base_work - (energy() - energy_at_start) - now.dissipated;
-  }
-
-  void LeverTable::reset_period()
-  {
-    peak_acceleration = std::abs(acceleration());
-    peak_displacement = std::abs(now.z);
-    peak_base         = std::abs(base().a);
-    now.square = now.cosine = now.sine = now.base_square = 0.;
-  }
 } // namespace sprag

@@ -25,11 +25,6 @@ namespace sprag
 
     TableEvent advance(double until) override;
 
-    const TableState &state() const override
-    {
-      return now;
-    }
-
     /// Sticking levers are elastic: z never stands still to the last digit.
     bool rests() const override
     {
@@ -54,22 +49,6 @@ namespace sprag
     BasePoint base() const override;
     double damper_energy() const override;
     double energy() const override;
-    double energy_residual() const override;
-    void reset_period() override;
-
-    double largest_acceleration() const override
-    {
-      return peak_acceleration;
-    }
-    double largest_base_acceleration() const override
-    {
-      return peak_base;
-    }
-    double largest_displacement() const override
-    {
-      return peak_displacement;
-    }
-
     /// Returns the share of the steps' Newton iterations a step, of the table alone.
     double iterations_a_step() const
     {
@@ -106,14 +85,11 @@ namespace sprag
     const BaseMotion motion_of_base;
     const double largest_z;
     std::array<Side, 2> sides;
-    TableState now;
     std::size_t piece = 0;
     double step;
     unsigned int small_errors = 0;
     double tangent; ///< of the levers' force by z [N/mm]
     double force             = 0.;
-    double energy_at_start   = 0.;
-    double peak_acceleration = 0., peak_displacement = 0., peak_base = 0.;
     unsigned long iterations = 0;
     unsigned int steps       = 0;
 

@@ -46,16 +46,7 @@ namespace sprag
     direction = rate != 0. ? sign_of(rate) : 0;
     if (rate == 0.)
       set_out(way_out());
-    energy_at_start = energy();
-    reset_period();
-  }
-
-  void TableMotion::reset_period()
-  {
-    peak_acceleration = std::abs(acceleration());
-    peak_displacement = std::abs(now.z);
-    peak_base         = std::abs(base().a);
-    now.square = now.cosine = now.sine = now.base_square = 0.;
+    begin();
   }
 
   Resistance TableMotion::resistance(const double z, const double rate) const
@@ -130,11 +121,6 @@ namespace sprag
   {
     const double speed = now.rate + base().v;
     return 0.5 * system.mass * speed * speed + 0.5 * system.stiffness * now.z * now.z + damper_energy();
-  }
-
-  double TableMotion::energy_residual() const
-  {
-    return now.base_work - (energy() - energy_at_start) - now.dissipated;
   }
 
   void TableMotion::derivatives(const Values &values, Values &rates, const double time) const

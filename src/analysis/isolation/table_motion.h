@@ -32,11 +32,6 @@ namespace sprag
 
     TableEvent advance(double until) override;
 
-    const TableState &state() const override
-    {
-      return now;
-    }
-
     bool rests() const override
     {
       return direction == 0;
@@ -57,38 +52,16 @@ namespace sprag
 
     double energy() const override;
 
-    double energy_residual() const override;
-
-    double largest_acceleration() const override
-    {
-      return peak_acceleration;
-    }
-    double largest_displacement() const override
-    {
-      return peak_displacement;
-    }
-    double largest_base_acceleration() const override
-    {
-      return peak_base;
-    }
-
-    void reset_period() override;
-
   private:
     using Values = std::array<double, 8>;
 
     const IsolationSystem system;
     const double tolerance;
     const double longest_step;
-    TableState now;
     std::size_t piece = 0; ///< of the base's motion
     int side          = 1; ///< sign of z
     int direction     = 0; ///< of z'; 0: the table rests
     double next_step;
-    double energy_at_start      = 0.;
-    double peak_acceleration    = 0.;
-    double peak_displacement    = 0.;
-    double peak_base            = 0.;
     double last_force           = 0.;
     unsigned int events_at_once = 0;
 
