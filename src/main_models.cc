@@ -3,6 +3,7 @@
 #include "base/guard.h"
 #include "base/hdf5_handle.h"
 #include "base/interrupt.h"
+#include "fe/solid/solid_body.h"
 #include "run/memory.h"
 #include "run/outcome.h"
 #include "run/output_folder.h"
@@ -36,8 +37,9 @@ namespace sprag
           print_expectations(scene);
         return tell_validity(arguments, scene, warnings);
       }
-      if (!rank.is_alone && !works_in_parallel(scene.analysis.type))
-        throw InputError("only Analysis/Type = map and study run in several processes: leave out mpirun");
+      if (!rank.is_alone && !works_in_parallel(scene.analysis.type) && !shares_body(scene))
+        throw InputError("only Analysis/Type = map and study, and Analysis/Dimension = 3, run in several processes: leave out "
+                         "mpirun");
       const std::string folder     = folder_of(arguments, scene);
       const unsigned int processes = rank.is_alone ? 1 : MPI::n_mpi_processes(MPI_COMM_WORLD);
       const auto claim             = [&]
@@ -49,9 +51,13 @@ namespace sprag
         claim();
       else
         on_first_rank(claim);
+      if (!rank.is_first && shares_body(scene))
+        return help_first_rank(scene, MPI_COMM_WORLD);
       RunOptions options{ folder, arguments.quiet, rank.is_first };
-      options.verbose = arguments.verbose;
-      options.log     = rank.is_first ? &log : nullptr;
+      options.verbose        = arguments.verbose;
+      options.log            = rank.is_first ? &log : nullptr;
+      const auto end_of_help = [](const void *) { call_others(SharedTask::end, MPI_COMM_WORLD); };
+      std::unique_ptr<const Scene, decltype(end_of_help)> helped(shares_body(scene) ? &scene : nullptr, end_of_help);
       run(scene, options);
     }
 

@@ -18,9 +18,10 @@ namespace sprag
   struct State
   {
     DrivePoint drive;
-    dealii::Vector<double> coordinates; ///< generalised coordinates of the model
-    std::vector<ContactMemory> contact; ///< of the contact points, as the model keeps them
-    PortLoads forces{};                 ///< on the ports of a meshed lever, which its displacements follow from
+    dealii::Vector<double> coordinates;            ///< generalised coordinates of the model
+    std::vector<ContactMemory> contact;            ///< of the contact points, as the model keeps them
+    PortLoads forces{};                            ///< on the ports of a meshed lever, which its displacements follow from
+    std::vector<PointMemory<2>> surface_contact{}; ///< of the contact points of a surface
   };
 
   /// Size of the unbalance at a trial state, and what a correction must be small against.
@@ -64,8 +65,8 @@ namespace sprag
     /// Multipliers of the next augmentation from the tractions of the last evaluation.
     virtual void augment(State &trial) const = 0;
 
-    /// Memory of the contact points at the end of the step that the last evaluation belongs to.
-    virtual std::vector<ContactMemory> memory() const = 0;
+    /// Gives a state the memory of the contact points at the end of the step that the last evaluation belongs to.
+    virtual void remember(State &state) const = 0;
 
     /// Fills the columns of mechanics from the last evaluation.
     virtual void observe(const State &trial, Row &row) const = 0;

@@ -151,6 +151,29 @@ namespace sprag
     return static_cast<unsigned int>(std::lower_bound(ports.begin(), ports.end(), port) - ports.begin());
   }
 
+  void sum_forces(const std::vector<PortForces> &loaded, std::vector<unsigned int> &place_of_port, PortForces &sum)
+  {
+    sum.ports.clear();
+    for (const auto &some : loaded)
+      sum.ports.insert(sum.ports.end(), some.ports.begin(), some.ports.end());
+    std::sort(sum.ports.begin(), sum.ports.end());
+    sum.ports.erase(std::unique(sum.ports.begin(), sum.ports.end()), sum.ports.end());
+    const auto n = static_cast<unsigned int>(sum.ports.size());
+    for (unsigned int a = 0; a < n; ++a)
+      place_of_port[sum.ports[a]] = a;
+
+    sum.values.reinit(n);
+    sum.tangent.reinit(n, n);
+    for (const auto &some : loaded)
+      for (unsigned int i = 0; i < some.ports.size(); ++i)
+      {
+        const unsigned int row = place_of_port[some.ports[i]];
+        sum.values[row] += some.values[i];
+        for (unsigned int j = 0; j < some.ports.size(); ++j)
+          sum.tangent(row, place_of_port[some.ports[j]]) += some.tangent(i, j);
+      }
+  }
+
   void add_ports(const std::vector<unsigned int> &others, PortForces &forces)
   {
     if (std::includes(forces.ports.begin(), forces.ports.end(), others.begin(), others.end()))

@@ -23,6 +23,9 @@ namespace sprag
   /// Gives forces further ports, increasing, where they are 0 so far.
   void add_ports(const std::vector<unsigned int> &others, PortForces &forces);
 
+  /// Sums up forces that share ports, whose own may come in any order. `place_of_port` is room for a number a port.
+  void sum_forces(const std::vector<PortForces> &loaded, std::vector<unsigned int> &place_of_port, PortForces &sum);
+
   /// Forces on some of the ports.
   struct PortLoads
   {

@@ -51,7 +51,7 @@ namespace sprag
 
   void visit(Archive &archive, State &state)
   {
-    auto &[drive, coordinates, contact, forces] = state;
-    archive(drive, coordinates, contact, forces);
+    auto &[drive, coordinates, contact, forces, surface_contact] = state;
+    archive(drive, coordinates, contact, forces, surface_contact);
   }
 } // namespace sprag

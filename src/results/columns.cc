@@ -116,12 +116,30 @@ namespace sprag
     return columns;
   }
 
-  std::vector<ColumnInfo> table_columns(const FrictionPlate &plate, const MirroredPair &pair)
+  const std::vector<ColumnInfo> &columns_across()
+  {
+    static const std::vector<ColumnInfo> columns = {
+      { "F_across", "N", "friction on the lever across its width, along zeta" },
+      { "centre_across", "mm", "zeta of the centre of pressure, from the middle of the lever's width" },
+      { "twisting_moment", "N mm",
+        "moment of the forces on the friction face that twists the lever, about the middle of its width: "
+        "positive where zeta > 0 is pressed more" },
+      { "turning_moment", "N mm",
+        "moment of friction on the lever in the plane of the face, about the middle of its width: "
+        "positive where zeta > 0 is drawn towards the pivot more" },
+      { "largest_pressure_zeta", "mm", "zeta where the pressure is largest" }
+    };
+    return columns;
+  }
+
+  std::vector<ColumnInfo> table_columns(const FrictionPlate &plate, const MirroredPair &pair, const unsigned int dimension)
   {
     std::vector<ColumnInfo> result = all_columns();
     add_sensors(plate, result);
     if (pair.type == PairType::full)
       add_pair(plate, result);
+    if (dimension == 3)
+      result.insert(result.end(), columns_across().begin(), columns_across().end());
     return result;
   }
 

@@ -82,7 +82,11 @@ namespace sprag
 
   /// Lists the columns of the table of a run: with a friction plate on sensors also sensor_1 ... sensor_n and sensor_sum; of a
   /// full pair those of the second lever, named ..._2, and swing, Q_pair and lateral_force.
-  std::vector<ColumnInfo> table_columns(const FrictionPlate &plate, const MirroredPair &pair);
+  /// In three dimensions those of columns_across().
+  std::vector<ColumnInfo> table_columns(const FrictionPlate &plate, const MirroredPair &pair, unsigned int dimension = 2);
+
+  /// Lists the columns that a run in three dimensions has beside the others.
+  const std::vector<ColumnInfo> &columns_across();
 
   /// Lists the columns that each lever of a pair has.
   const std::vector<Column> &columns_of_a_lever();
@@ -107,6 +111,7 @@ namespace sprag
     }
 
     std::vector<double> sensor_forces; ///< [N], positive in compression; empty where the model has none
+    std::vector<double> across;        ///< in the order of columns_across(); empty in a plane
 
     /// Makes this the row of a pair, whose first lever it was: energies, works and powers of both, what each lever has beside it.
     void add_second_lever(const Row &second);

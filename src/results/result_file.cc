@@ -164,6 +164,13 @@ namespace sprag
       {
         write_values(group, { "xi", "mm", "lever coordinate of the undeformed point, from the pivot" }, points.xi);
         write_values(group, { "weight", "mm^2", "area of the friction face carried by the point" }, points.weight);
+        if (points.zeta.empty())
+          return;
+        write_values(group, { "zeta", "mm", "lever coordinate of the undeformed point across the width, from its middle" },
+                     points.zeta);
+        across.emplace(create_series(
+            group, { "traction_across", "MPa", "friction traction on the lever along zeta, written steps x points" },
+            { points.xi.size() }));
       }
 
       void append(const FaceState &state)
@@ -172,11 +179,14 @@ namespace sprag
         x.append({ state.x });
         pressure.append(state.pressure);
         traction.append(state.traction);
+        if (across)
+          across->append(state.traction_across);
       }
 
     private:
       hdf5::Handle group;
       hdf5::Series time, x, pressure, traction;
+      std::optional<hdf5::Series> across;
     };
 
     /// The row in the order of table_columns(), NaN in place of sensors that the model has not.
@@ -186,7 +196,8 @@ namespace sprag
       const bool is_pair = !second.empty();
       const auto of_pair =
           is_pair ? std::vector<double>{ row.swing(), row.drive_force(), row.lateral_force() } : std::vector<double>();
-      const auto n_sensors  = (n_values - n_columns - second.size() - of_pair.size()) / (is_pair ? 2 : 1); // and their sum
+      const auto n_sensors =
+          (n_values - n_columns - second.size() - of_pair.size() - row.across.size()) / (is_pair ? 2 : 1); // and their sum
       const auto of_sensors = [&](const std::size_t lever)
       {
         std::vector<double> forces(n_sensors, std::numeric_limits<double>::quiet_NaN());
@@ -204,7 +215,7 @@ namespace sprag
       sprag::append(values, second);
       if (is_pair)
         sprag::append(values, of_sensors(1));
-      return joined(values, of_pair);
+      return joined(joined(values, of_pair), row.across);
     }
   } // namespace
 

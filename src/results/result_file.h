@@ -60,15 +60,17 @@ namespace sprag
   {
     std::vector<double> xi;     ///< along the lever, from the pivot [mm]
     std::vector<double> weight; ///< area of the face carried by the point [mm^2]
+    std::vector<double> zeta{}; ///< across the lever from the middle of its width; empty in a plane [mm]
   };
 
   /// State of the friction face at one written step, an entry per point of FacePoints.
   struct FaceState
   {
-    double time = 0.;             ///< [s]
-    double x    = 0.;             ///< [mm]
-    std::vector<double> pressure; ///< [MPa]
-    std::vector<double> traction; ///< friction on the lever along -d [MPa]
+    double time = 0.;                      ///< [s]
+    double x    = 0.;                      ///< [mm]
+    std::vector<double> pressure;          ///< [MPa]
+    std::vector<double> traction;          ///< friction on the lever along -d [MPa]
+    std::vector<double> traction_across{}; ///< and along zeta; empty in a plane [MPa]
 
     // Of a pair's second lever; empty without. Fields have them, /face does not.
     std::vector<double> pressure_2;

@@ -31,15 +31,15 @@ namespace sprag
 
   void visit(Archive &archive, Row &row)
   {
-    auto &[sensor_forces, values, of_second] = row;
-    archive(sensor_forces, values, of_second);
+    auto &[sensor_forces, across, values, of_second] = row;
+    archive(sensor_forces, across, values, of_second);
   }
 
   void visit(Archive &archive, FaceState &face)
   {
-    auto &[time, x, pressure, traction, pressure_2, traction_2] = face;
+    auto &[time, x, pressure, traction, traction_across, pressure_2, traction_2] = face;
     archive(time, x);
-    for (auto *const values : { &pressure, &traction, &pressure_2, &traction_2 })
+    for (auto *const values : { &pressure, &traction, &traction_across, &pressure_2, &traction_2 })
       visit(archive, Sparse{ *values });
   }
 } // namespace sprag

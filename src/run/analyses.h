@@ -27,6 +27,9 @@ namespace sprag
   /// Follows the drive without inertia by finite elements.
   void run_quasi_static_scene(const Scene &scene, const RunOptions &options, Warnings &warnings);
 
+  /// The same in three dimensions, with the help of the other ranks, see help_first_rank().
+  void run_solid_scene(const Scene &scene, const RunOptions &options, Warnings &warnings);
+
   /// Sweeps the representative slope C_Q.
   void run_slope(const Scene &scene, const RunOptions &options, Warnings &warnings);
 

@@ -95,6 +95,8 @@ namespace sprag
 
   void run_quasi_static_scene(const Scene &scene, const RunOptions &options, Warnings &warnings)
   {
+    if (scene.analysis.dimension == 3)
+      return run_solid_scene(scene, options, warnings);
     PhaseTimer timer;
     require_folder(options);
     const auto meshes         = static_meshes(options);

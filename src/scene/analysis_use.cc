@@ -20,6 +20,11 @@ namespace sprag
     return type == AnalysisType::map || type == AnalysisType::study;
   }
 
+  bool shares_body(const Scene &scene)
+  {
+    return scene.analysis.dimension == 3 && scene.analysis.type == AnalysisType::quasi_static;
+  }
+
   bool isolates_by_model(const Scene &scene)
   {
     return scene.analysis.type == AnalysisType::isolation && scene.isolation.damper == DamperType::lever &&

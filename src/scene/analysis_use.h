@@ -13,6 +13,9 @@ namespace sprag
   /// Returns whether an analysis has pieces that several processes share.
   bool works_in_parallel(AnalysisType type);
 
+  /// Returns whether several processes share the body of an analysis.
+  bool shares_body(const Scene &scene);
+
   /// Returns whether the table of an isolation system works against levers of a model in time.
   bool isolates_by_model(const Scene &scene);
 

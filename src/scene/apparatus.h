@@ -166,5 +166,13 @@ namespace sprag
     double poisson_ratio = 0.33;
     double density       = 2.7e-9;
     double face_size     = 0.25; ///< element length where it touches the lever [mm]
+
+    // In three dimensions.
+    double length       = 0.; ///< [mm], >= 0; 0: longer than the lever is wide
+    double position     = 0.; ///< of its middle across the width, from the lever's middle [mm]
+    double tilt         = 0.; ///< slope of its axis towards the lever [rad]
+    double skew         = 0.; ///< slope of its axis along x [rad]
+    double crown_radius = 0.; ///< of the barrel along the axis [mm], >= 0; 0: straight
+    double edge_radius  = 0.; ///< of the rounding at its ends [mm], >= 0; 0: sharp
   };
 } // namespace sprag

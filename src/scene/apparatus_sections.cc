@@ -65,6 +65,17 @@ namespace sprag
       section.length("Inner radius", settings.inner_radius, "Of the rigid core of a solid one, of a ring's shaft");
       add_material(section, settings);
       section.length("Face size", settings.face_size, "Element length where it touches the lever");
+      section.number("Length", settings.length, at_least(0.), "mm",
+                     "In three dimensions: of the cylinder; 0: longer than the lever is wide");
+      section.number("Position", settings.position, any_number(), "mm",
+                     "In three dimensions: of its middle across the width, from the lever's middle");
+      section.number("Tilt", settings.tilt, { -0.1, 0.1 }, "",
+                     "In three dimensions: slope of its axis towards the lever, 1 at 45 degrees");
+      section.number("Skew", settings.skew, { -0.1, 0.1 }, "", "In three dimensions: slope of its axis along x");
+      section.number("Crown radius", settings.crown_radius, at_least(0.), "mm",
+                     "In three dimensions: of a barrel along the axis; 0: straight");
+      section.number("Edge radius", settings.edge_radius, at_least(0.), "mm",
+                     "In three dimensions: of the rounding at both ends; 0: sharp");
     }
 
     void mirrored_pair(Section section, MirroredPair &settings)

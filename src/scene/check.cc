@@ -240,7 +240,8 @@ namespace sprag
     void settings(const Scene &scene, const Use &use, Rules &rules)
     {
       const AnalysisSettings &analysis = scene.analysis;
-      rules.need(analysis.dimension == 2, "Analysis/Dimension", {}, "must be 2: this version solves 2D problems only");
+      if (analysis.dimension == 3)
+        check_solid(scene, rules);
       rules.need(analysis.minimum_step <= analysis.step, "Analysis/Minimum step", { "Analysis/Step" },
                  "must not be more than Step = " + mm(analysis.step));
       model(scene, use, rules);

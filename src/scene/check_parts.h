@@ -37,6 +37,10 @@ namespace sprag
   void check_calibration(const Scene &scene, Rules &rules);
   void check_pair(const Scene &scene, Rules &rules);
 
+  /// Checks that three dimensions can be had for the scene, and the cylinder's place and shape across the width. To be called
+  /// for scenes of three dimensions.
+  void check_solid(const Scene &scene, Rules &rules);
+
   /// Checks table, damper and base of an isolation system. The geometry must be in range.
   void check_isolation(const Scene &scene, Rules &rules);
 } // namespace sprag

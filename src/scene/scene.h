@@ -200,6 +200,10 @@ namespace sprag
     double faces_in_contact = 0.;  ///< least number of faces across the contact, see face_grading(), >= 0
     unsigned int degree     = 2;   ///< 1 or 2
     std::string file;              ///< user's .geo or .msh; empty: the built-in lever
+
+    // In three dimensions.
+    unsigned int elements_across = 10;  ///< over the width, > 0
+    double growth_across         = 1.2; ///< of an element over the one beside it, from the edges to the middle, >= 1
   };
 
   enum class FieldOutput

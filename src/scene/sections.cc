@@ -216,6 +216,9 @@ namespace sprag
           "Least number of elements across the contact: where it is narrow the built-in bar's are shorter than "
           "Face size, down to a quarter; 0: none shorter; auto: without inertia 4, of degree 1 5, else 0");
       section.integer("Degree", settings.degree, { 1., 2. }, "Of the polynomials");
+      section.integer("Elements across", settings.elements_across, { 1., 200. }, "In three dimensions: elements over the width");
+      section.number("Growth across", settings.growth_across, { 1., 3. }, "",
+                     "In three dimensions: width of an element over the one beside it, from both edges to the middle");
       section.text("File", settings.file, "A .geo or .msh file instead of the built-in lever, relative to the folder of this one",
                    Rule::Kind::file);
     }

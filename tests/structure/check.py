@@ -13,7 +13,7 @@ ORDER = ["base", "laws", "scene", "results", "model", "fe", "levers", "analysis"
 UNSEEN = {"analysis": ["fe"]}
 # So do the rooms of a folder.
 ROOMS = {
-    "fe": ["algebra", "body", "mesh", "contact", "statics", "dynamics", "leaf", "fields"],
+    "fe": ["algebra", "body", "mesh", "contact", "statics", "solid", "dynamics", "leaf", "fields"],
     "analysis": ["statics", "accuracy", "transient", "isolation", "stability", "limit_cycle", "team", "map", "study", "calibration"],
 }
 CODE = {".cc", ".h", ".py", ".sh", ".geo", ".cmake", ".txt"}

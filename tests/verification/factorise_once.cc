@@ -72,7 +72,7 @@ namespace
       Row row;
       model.observe(trial, row);
       rows.push_back(row);
-      trial.contact = model.memory();
+      model.remember(trial);
       accepted      = trial;
     }
     return rows;

@@ -74,7 +74,7 @@ namespace sprag
     {
       if (auto next = solve_step(model, from, to, settings))
       {
-        next->contact = model.memory();
+        model.remember(*next);
         return *next;
       }
       if (halves == most_halves)

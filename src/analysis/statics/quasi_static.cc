@@ -171,8 +171,8 @@ namespace sprag
         dx *= cut;
         next = solve_step(model, from.state, end_of_step(drive, time, dx), settings, sticking, cost);
       }
-      next->contact = model.memory();
-      Row row       = observed(model, *next);
+      model.remember(*next);
+      Row row = observed(model, *next);
       add_work(from.row, reversed, row);
       row[Column::iterations]    = cost.iterations;
       row[Column::augmentations] = cost.augmentations;
@@ -189,8 +189,8 @@ namespace sprag
       auto settled = solve_step(model, state, state.drive, settings, false, cost);
       if (!settled)
         return false; // the first step tells why
-      settled->contact = model.memory();
-      state            = std::move(*settled);
+      model.remember(*settled);
+      state = std::move(*settled);
       return true;
     }
 

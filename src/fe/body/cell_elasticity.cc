@@ -137,4 +137,5 @@ namespace sprag
   }
 
   template class CellElasticity<2>;
+  template class CellElasticity<3>;
 } // namespace sprag

@@ -79,4 +79,5 @@ namespace sprag
   }
 
   template class DilatationSpace<2>;
+  template class DilatationSpace<3>;
 } // namespace sprag

@@ -19,6 +19,57 @@ namespace sprag
       return static_cast<unsigned int>(std::clamp(std::ceil(length / (2. * spacing)), 4., 24.));
     }
 
+    /// Integrates the pressure under a tilted cylinder, quadratic across the width, exactly.
+    constexpr unsigned int points_across = 3;
+
+    /// Along the first axis.
+    template <int dim, class Face>
+    double length_of(const Face &face)
+    {
+      if constexpr (dim == 2)
+        return face->diameter();
+      double first = face->vertex(0)[0], last = first;
+      for (const unsigned int v : face->vertex_indices())
+      {
+        first = std::min(first, face->vertex(v)[0]);
+        last  = std::max(last, face->vertex(v)[0]);
+      }
+      return last - first;
+    }
+
+    /// Whether the first direction of the face's own coordinates goes along the first axis.
+    template <int dim, class Face>
+    bool goes_along(const Face &face)
+    {
+      if constexpr (dim == 2)
+        return true;
+      else
+        return std::abs(face->vertex(1)[0] - face->vertex(0)[0]) > std::abs(face->vertex(2)[0] - face->vertex(0)[0]);
+    }
+
+    template <int dim>
+    Quadrature<dim - 1> quadrature_of(const unsigned int parts, const bool along)
+    {
+      const QIterated<1> dense(QGauss<1>(2), parts);
+      if constexpr (dim == 2)
+        return dense;
+      else
+      {
+        const QGauss<1> across(points_across);
+        return along ? QAnisotropic<2>(dense, across) : QAnisotropic<2>(across, dense);
+      }
+    }
+
+    /// Orders places along the first axis, those with the same coordinate up to round-off along the last.
+    template <int dim>
+    bool is_before(const Point<dim> &a, const Point<dim> &b)
+    {
+      const double same = 1e-9 * (1. + std::abs(a[0]));
+      if (dim == 2 || std::abs(a[0] - b[0]) > same)
+        return a[0] < b[0];
+      return a[dim - 1] < b[dim - 1];
+    }
+
     /// Collects the faces of cells one by one.
     template <int dim>
     struct Collector
@@ -34,34 +85,34 @@ namespace sprag
         FaceEdge<dim> edge;
         double length;
       };
-      std::vector<OfCell> cells                                 = {};
-      std::map<unsigned int, FEFaceValues<dim>> values_by_parts = {};
-      std::map<unsigned int, unsigned int> index_by_dof         = {};
-      FrictionFace<dim> result                                  = {};
+      std::vector<OfCell> cells                                                  = {};
+      std::map<std::pair<unsigned int, bool>, FEFaceValues<dim>> values_by_parts = {};
+      std::map<unsigned int, unsigned int> index_by_dof                          = {};
+      FrictionFace<dim> result                                                   = {};
 
       void add(const typename DoFHandler<dim>::active_cell_iterator &cell, const unsigned int f)
       {
-        const double length  = cell->face(f)->diameter();
+        const double length  = length_of<dim>(cell->face(f));
         result.depth         = std::max(result.depth, cell->measure() / cell->face(f)->measure());
         result.young_modulus = std::max(result.young_modulus, properties.constants.at(cell->material_id()).young_modulus);
 
-        auto &values = values_for(number_of_parts(length, properties.point_spacing));
+        auto &values = values_for(number_of_parts(length, properties.point_spacing), goes_along<dim>(cell->face(f)));
         values.reinit(cell, f);
         std::vector<FacePoint<dim>> points;
         for (const unsigned int q : values.quadrature_point_indices())
-          points.push_back({ values.quadrature_point(q), properties.width_of(cell->material_id()) * values.JxW(q), {} });
+          points.push_back({ values.quadrature_point(q), properties.width_of(cell->material_id()) * values.JxW(q), {}, {} });
         FaceEdge<dim> edge;
         add_nodes(cell, f, values, points, edge);
-        const auto is_before = [](const auto &a, const auto &b) { return a.position[0] < b.position[0]; };
-        std::sort(points.begin(), points.end(), is_before);
-        std::sort(edge.nodes.begin(), edge.nodes.end(), is_before);
+        const auto by_place = [](const auto &a, const auto &b) { return is_before(a.position, b.position); };
+        std::sort(points.begin(), points.end(), by_place);
+        std::sort(edge.nodes.begin(), edge.nodes.end(), by_place);
         cells.push_back({ std::move(points), std::move(edge), length });
       }
 
       FrictionFace<dim> face()
       {
         std::sort(cells.begin(), cells.end(),
-                  [](const auto &a, const auto &b) { return a.points.front().position[0] < b.points.front().position[0]; });
+                  [](const auto &a, const auto &b) { return is_before(a.points.front().position, b.points.front().position); });
         for (const auto &[points, edge, length] : cells)
         {
           const auto begin = static_cast<unsigned int>(result.points.size());
@@ -72,10 +123,12 @@ namespace sprag
         return result;
       }
 
-      FEFaceValues<dim> &values_for(const unsigned int parts)
+      FEFaceValues<dim> &values_for(const unsigned int parts, const bool along)
       {
-        const UpdateFlags flags = update_values | update_JxW_values | update_quadrature_points;
-        return values_by_parts.try_emplace(parts, mapping, fe, QIterated<dim - 1>(QGauss<1>(2), parts), flags).first->second;
+        const UpdateFlags flags =
+            update_values | update_JxW_values | update_quadrature_points | (dim == 3 ? update_gradients : update_default);
+        const auto quadrature = quadrature_of<dim>(parts, along);
+        return values_by_parts.try_emplace({ parts, along }, mapping, fe, quadrature, flags).first->second;
       }
 
       void add_nodes(const typename DoFHandler<dim>::active_cell_iterator &cell, const unsigned int f,
@@ -98,7 +151,11 @@ namespace sprag
             result.nodes.push_back({ position, dofs });
           edge.nodes.back().index = node.first->second;
           for (const unsigned int q : values.quadrature_point_indices())
+          {
             points[q].nodes.emplace_back(node.first->second, values.shape_value(in_cell, q));
+            if (dim == 3)
+              points[q].slopes.push_back(values.shape_grad(in_cell, q)[0]);
+          }
         }
       }
     };
@@ -118,5 +175,7 @@ namespace sprag
   }
 
   template FrictionFace<2> find_friction_face(const Mapping<2> &, const DoFHandler<2> &, const AffineConstraints<double> &,
+                                              const BodyProperties &, types::boundary_id);
+  template FrictionFace<3> find_friction_face(const Mapping<3> &, const DoFHandler<3> &, const AffineConstraints<double> &,
                                               const BodyProperties &, types::boundary_id);
 } // namespace sprag

@@ -28,6 +28,7 @@ namespace sprag
     dealii::Point<dim> position;                        ///< undeformed [mm]
     double weight;                                      ///< area of the face that it stands for [mm^2]
     std::vector<std::pair<unsigned int, double>> nodes; ///< indices of the free nodes that move it, and their shape functions
+    std::vector<double> slopes;                         ///< of those along the first axis, in three dimensions alone [1/mm]
   };
 
   /// The points of one cell's face.
@@ -35,10 +36,10 @@ namespace sprag
   {
     unsigned int begin; ///< index of the first
     unsigned int end;   ///< beyond the last
-    double length;      ///< diameter [mm]
+    double length;      ///< along the first axis [mm]
   };
 
-  /// All nodes of one cell's face, ordered along the first axis.
+  /// All nodes of one cell's face, ordered along the first axis, then the last.
   template <int dim>
   struct FaceEdge
   {
@@ -57,7 +58,7 @@ namespace sprag
   struct FrictionFace
   {
     std::vector<FaceNode<dim>> nodes;
-    std::vector<FacePoint<dim>> points; ///< patch by patch, ordered along the first axis
+    std::vector<FacePoint<dim>> points; ///< patch by patch, ordered along the first axis, then the last
     std::vector<FacePatch> patches;
     std::vector<FaceEdge<dim>> edges; ///< of the patches
     double young_modulus = 0.;        ///< largest of its cells [MPa]

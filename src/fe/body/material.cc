@@ -159,4 +159,12 @@ namespace sprag
   template Stress<2> stress_of(MaterialModel, const Lame &, const Tensor<2, 2> &);
   template Dilatation<2> dilatation(MaterialModel, const Tensor<2, 2> &);
   template Stress<2> stress_at_pressure(MaterialModel, double, const Tensor<2, 2> &, double);
+  template Stress<3> linear_elastic(const Lame &, const Tensor<2, 3> &);
+  template Stress<3> neo_hookean(const Lame &, const Tensor<2, 3> &);
+  template double neo_hookean_energy(const Lame &, const Tensor<2, 3> &);
+  template Stress<3> st_venant_kirchhoff(const Lame &, const Tensor<2, 3> &);
+  template double st_venant_kirchhoff_energy(const Lame &, const Tensor<2, 3> &);
+  template Stress<3> stress_of(MaterialModel, const Lame &, const Tensor<2, 3> &);
+  template Dilatation<3> dilatation(MaterialModel, const Tensor<2, 3> &);
+  template Stress<3> stress_at_pressure(MaterialModel, double, const Tensor<2, 3> &, double);
 } // namespace sprag

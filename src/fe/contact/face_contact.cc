@@ -107,7 +107,7 @@ namespace sprag
             statics.has_value() });
     visit_patches(near_step(step.memory, of_contact.law.balance, found),
                   [&](auto &below, const unsigned int patch) { step_patch(below, patch, of_contact, found); });
-    sum_forces(found);
+    sum_forces(found.sums.loaded, place_of_port, found.forces);
     found.sums.work.drive -= found.sums.force_on_obstacle * (step.to.x - step.from.x);
   }
 
@@ -201,32 +201,7 @@ namespace sprag
                     }
                     below.leave(found.sums);
                   });
-    sum_forces(found);
-  }
-
-  void FaceContact::sum_forces(FaceEvaluation &found) const
-  {
-    auto &summed       = found.forces;
-    const auto &loaded = found.sums.loaded;
-    summed.ports.clear();
-    for (const auto &of_patch : loaded)
-      summed.ports.insert(summed.ports.end(), of_patch.ports.begin(), of_patch.ports.end());
-    std::sort(summed.ports.begin(), summed.ports.end());
-    summed.ports.erase(std::unique(summed.ports.begin(), summed.ports.end()), summed.ports.end());
-    const auto n = static_cast<unsigned int>(summed.ports.size());
-    for (unsigned int a = 0; a < n; ++a)
-      place_of_port[summed.ports[a]] = a;
-
-    summed.values.reinit(n);
-    summed.tangent.reinit(n, n);
-    for (const auto &of_patch : loaded)
-      for (unsigned int i = 0; i < of_patch.ports.size(); ++i)
-      {
-        const unsigned int row = place_of_port[of_patch.ports[i]];
-        summed.values[row] += of_patch.values[i];
-        for (unsigned int j = 0; j < of_patch.ports.size(); ++j)
-          summed.tangent(row, place_of_port[of_patch.ports[j]]) += of_patch.tangent(i, j);
-      }
+    sum_forces(found.sums.loaded, place_of_port, found.forces);
   }
 
   const PortSelection &FaceContact::reachable_ports(const double x, const OfLevers &inclinations, const double travel)
@@ -279,7 +254,7 @@ namespace sprag
                     for (unsigned int q = face.patches[patch].begin; q < face.patches[patch].end; ++q)
                       below.place(add_point(patch, q, found));
                   });
-    sum_forces(found);
+    sum_forces(found.sums.loaded, place_of_port, found.forces);
     return {};
   }
 

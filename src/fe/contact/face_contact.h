@@ -104,7 +104,6 @@ namespace sprag
     void enter(const StepPlaces &places) const;
     FacePatches<2>::Indices near() const;
     static FacePointState<2> &add_point(unsigned int patch, unsigned int point, FaceEvaluation &found);
-    void sum_forces(FaceEvaluation &found) const;
     FacePatches<2>::Indices clip(FacePatches<2>::Indices near, FaceEvaluation &found) const;
 
     const ElasticBody<2> &body;

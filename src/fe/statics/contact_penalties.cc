@@ -17,11 +17,13 @@ namespace sprag
     /// with each of them. Linear cells meet a circle with their chords, whose pressures would show.
     constexpr double penalty_over_cells = 12.5;
 
-    double automatic_penalty(const FrictionFace<2> &face, const Enforcement enforcement, const double layer_thickness,
+    template <int dim>
+    double automatic_penalty(const FrictionFace<dim> &face, const Enforcement enforcement, const double layer_thickness,
                              const double longest)
     {
-      const double by_layer = penalty_factor * face.young_modulus / std::max(face.depth, layer_thickness);
-      if (face.edges.front().nodes.size() == 2)
+      constexpr unsigned int corners = dim == 2 ? 2 : 4;
+      const double by_layer          = penalty_factor * face.young_modulus / std::max(face.depth, layer_thickness);
+      if (face.edges.front().nodes.size() == corners)
         return by_layer;
       const auto shorter    = [](const FacePatch &a, const FacePatch &b) { return a.length < b.length; };
       const double shortest = std::min_element(face.patches.begin(), face.patches.end(), shorter)->length;
@@ -33,7 +35,8 @@ namespace sprag
     }
   } // namespace
 
-  ContactPenalties contact_penalties(const FrictionFace<2> &face, const ContactSettings &settings, const double layer_thickness,
+  template <int dim>
+  ContactPenalties contact_penalties(const FrictionFace<dim> &face, const ContactSettings &settings, const double layer_thickness,
                                      const std::optional<double> &over_layer, const double longest)
   {
     const double automatic = over_layer && settings.enforcement == Enforcement::penalty
@@ -52,4 +55,9 @@ namespace sprag
     const auto cylinder = contact_penalties(body.cylinder_face(), settings, 0., over_layer);
     return { std::min(lever.normal, cylinder.normal), std::min(lever.tangential, cylinder.tangential) };
   }
+
+  template ContactPenalties contact_penalties(const FrictionFace<2> &, const ContactSettings &, double,
+                                              const std::optional<double> &, double);
+  template ContactPenalties contact_penalties(const FrictionFace<3> &, const ContactSettings &, double,
+                                              const std::optional<double> &, double);
 } // namespace sprag

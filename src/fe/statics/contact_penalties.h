@@ -24,7 +24,8 @@ namespace sprag
   /// The settings' penalties, or `over_layer` E/depth, or without it what suits mesh and layer of a run without inertia or of the
   /// augmented Lagrangian. `longest` is the length of the longest cells where the contact passes, of a graded mesh [mm]; 0: they
   /// are as long as the shortest.
-  ContactPenalties contact_penalties(const FrictionFace<2> &face, const ContactSettings &settings, double layer_thickness,
+  template <int dim>
+  ContactPenalties contact_penalties(const FrictionFace<dim> &face, const ContactSettings &settings, double layer_thickness,
                                      const std::optional<double> &over_layer, double longest = 0.);
 
   /// The same of a body; with an elastic cylinder the softer of both faces counts.

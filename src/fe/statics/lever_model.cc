@@ -283,9 +283,9 @@ namespace sprag
     trial.contact = joined([](const Lever &lever) { return lever.multipliers.augmented(lever.found.points); });
   }
 
-  std::vector<ContactMemory> LeverModel::memory() const
+  void LeverModel::remember(State &state) const
   {
-    return joined(
+    state.contact = joined(
         [](const Lever &lever)
         {
           return lever.properties.contact.enforcement == Enforcement::augmented_lagrangian

@@ -39,7 +39,7 @@ namespace sprag
     double penetration() const override;
     std::string objection(const State &trial) const override;
     void augment(State &trial) const override;
-    std::vector<ContactMemory> memory() const override;
+    void remember(State &state) const override;
     void observe(const State &trial, Row &row) const override;
     FacePoints face_points() const override;
     FaceState face_state(const State &trial) const override;

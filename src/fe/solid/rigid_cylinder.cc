@@ -1,0 +1,139 @@
+#include "fe/solid/rigid_cylinder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace sprag
+{
+  using dealii::Point;
+  using dealii::Tensor;
+
+  namespace
+  {
+    double half_length_of(const Cylinder &cylinder)
+    {
+      return cylinder.length > 0. ? 0.5 * cylinder.length : std::numeric_limits<double>::infinity();
+    }
+
+    /// J^T v.
+    Tensor<1, 5> row(const std::array<Tensor<1, 3>, 5> &by_coordinate, const Tensor<1, 3> &vector)
+    {
+      Tensor<1, 5> result;
+      for (unsigned int i = 0; i < 5; ++i)
+        result[i] = by_coordinate[i] * vector;
+      return result;
+    }
+  } // namespace
+
+  RigidCylinder::RigidCylinder(const Geometry &geometry_, const Cylinder &cylinder)
+      : geometry(geometry_)
+      , half_length(half_length_of(cylinder))
+      , position(cylinder.position)
+      , edge_radius(cylinder.edge_radius)
+      , crown(cylinder.crown_radius > 0. ? 1. / cylinder.crown_radius : 0.)
+      , axis({ cylinder.skew, cylinder.tilt, 1. })
+      , upward({ 0., 1., 0. })
+  {
+    axis /= axis.norm();
+    upward -= (upward * axis) * axis;
+    upward /= upward.norm();
+    right = cross_product_3d(upward, axis);
+  }
+
+  RigidCylinder::Pose RigidCylinder::pose(const double x, const double theta)
+  {
+    return { x, theta, std::cos(theta), std::sin(theta) };
+  }
+
+  /// The world's axes are x, y (from the x-axis to the lever) and z (along zeta).
+  RigidCylinder::Place RigidCylinder::place_of(const Pose &pose, const Point<3> &point) const
+  {
+    const Vector from_centre({ geometry.pivot_distance - pose.x - point[0] * pose.cosine + point[1] * pose.sine,
+                               geometry.pivot_height + point[0] * pose.sine + point[1] * pose.cosine, point[2] - position });
+    const double along  = from_centre * axis;
+    const Vector across = from_centre - along * axis;
+    return { from_centre, along, across, across.norm() };
+  }
+
+  RigidCylinder::Profile RigidCylinder::profile(const double along) const
+  {
+    Profile result{ 0.5 * crown * along * along, crown * along, crown };
+    const double into_rounding = std::abs(along) - (half_length - edge_radius);
+    if (edge_radius == 0. || into_rounding <= 0.)
+      return result;
+    const double share = std::min(into_rounding / edge_radius, 0.999); // the end itself is a wall
+    const double root  = std::sqrt(1. - share * share);
+    result.value += edge_radius * (1. - root);
+    result.slope += std::copysign(share / root, along);
+    result.curvature += 1. / (edge_radius * root * root * root);
+    return result;
+  }
+
+  double RigidCylinder::beyond_ends(const double along) const
+  {
+    return std::abs(along) - half_length;
+  }
+
+  std::pair<double, Tensor<1, 3>> RigidCylinder::gap(const Pose &pose, const Point<3> &point) const
+  {
+    const auto at         = place_of(pose, point);
+    const auto shape      = profile(at.along);
+    const double gap      = at.radius - geometry.cylinder_radius + shape.value;
+    const double beyond   = beyond_ends(at.along);
+    const bool is_beyond  = beyond > gap;
+    const Vector gradient = is_beyond ? std::copysign(1., at.along) * axis : at.across / at.radius + shape.slope * axis;
+    const double c        = pose.cosine;
+    const double s        = pose.sine;
+    const auto in_lever   = Vector({ -gradient[0] * c + gradient[1] * s, gradient[0] * s + gradient[1] * c, gradient[2] });
+    return { is_beyond ? beyond : gap, in_lever };
+  }
+
+  std::array<double, 2> RigidCylinder::slips(const Pose &pose, const Point<3> &point) const
+  {
+    const auto at = place_of(pose, point);
+    return { { geometry.cylinder_radius * std::atan2(-(at.across * right), at.across * upward), at.along } };
+  }
+
+  SurfaceKinematics RigidCylinder::kinematics(const Pose &pose, const Point<3> &point) const
+  {
+    const auto at       = place_of(pose, point);
+    const auto shape    = profile(at.along);
+    const double R      = geometry.cylinder_radius;
+    const Vector normal = at.across / at.radius;
+    const Vector round  = cross_product_3d(axis, normal); // the way the angle about the axis grows
+
+    // The place by the coordinates. Its second derivatives are not zero by theta and a displacement, and by theta alone.
+    const double c = pose.cosine, s = pose.sine;
+    const std::array<Vector, 5> by{ { Vector({ -c, s, 0. }), Vector({ s, c, 0. }), Vector({ 0., 0., 1. }),
+                                      Vector({ point[0] * s + point[1] * c, point[0] * c - point[1] * s, 0. }),
+                                      Vector({ -1., 0., 0. }) } };
+    const Vector by_theta_xi({ s, c, 0. }), by_theta_eta({ c, -s, 0. });
+    const Vector by_theta_theta({ point[0] * c - point[1] * s, -point[0] * s - point[1] * c, 0. });
+    const auto bend = [&](const Vector &gradient, SurfaceKinematics::Curvature &curvature)
+    {
+      curvature[0][3] += gradient * by_theta_xi;
+      curvature[3][0] += gradient * by_theta_xi;
+      curvature[1][3] += gradient * by_theta_eta;
+      curvature[3][1] += gradient * by_theta_eta;
+      curvature[3][3] += gradient * by_theta_theta;
+    };
+
+    SurfaceKinematics result;
+    const Vector gap_gradient = normal + shape.slope * axis;
+    const auto along_normal = row(by, normal), along_round = row(by, round), along_axis = row(by, axis);
+    result.gap     = std::max(at.radius - R + shape.value, beyond_ends(at.along));
+    result.gap_row = along_normal + shape.slope * along_axis;
+    result.gap_curvature =
+        outer_product(along_round, along_round) / at.radius + shape.curvature * outer_product(along_axis, along_axis);
+    bend(gap_gradient, result.gap_curvature);
+
+    result.slip     = slips(pose, point);
+    result.slip_row = { { R / at.radius * along_round, along_axis } };
+    result.slip_curvature[0] =
+        -R / (at.radius * at.radius) * (outer_product(along_normal, along_round) + outer_product(along_round, along_normal));
+    bend(R / at.radius * round, result.slip_curvature[0]);
+    bend(axis, result.slip_curvature[1]);
+    return result;
+  }
+} // namespace sprag

@@ -1,0 +1,85 @@
+#pragma once
+
+#include "scene/scene.h"
+
+#include <deal.II/base/point.h>
+#include <deal.II/base/tensor.h>
+
+#include <array>
+
+namespace sprag
+{
+  /// Geometry of a point of the lever against the cylinder, in the coordinates (displacement along xi, eta and zeta, theta, x).
+  /// zeta counts across the lever's width from its middle. The first slip is that round the cylinder, the second along its axis.
+  struct SurfaceKinematics
+  {
+    static constexpr int n = 5;
+    using Row              = dealii::Tensor<1, n>;
+    using Curvature        = dealii::Tensor<2, n>;
+
+    double gap = 0.; ///< [mm], positive when open
+    Row gap_row;
+    Curvature gap_curvature;
+    std::array<double, 2> slip{}; ///< coordinates on the cylinder's surface [mm]
+    std::array<Row, 2> slip_row;
+    std::array<Curvature, 2> slip_curvature;
+  };
+
+  /// The damper's cylinder as a rigid body of finite length: its axis may lie out of true, by slopes towards the lever (tilt) and
+  /// along x (skew), it may be a barrel and have rounded ends. Distances are measured across the axis: barrel and rounding are
+  /// added to them as a profile over the place s along the axis, which is exact up to the square of their slope.
+  class RigidCylinder
+  {
+  public:
+    RigidCylinder(const Geometry &geometry, const Cylinder &cylinder);
+
+    /// The cylinder at its position x from the pivot frame's origin, before a lever inclined by theta.
+    struct Pose
+    {
+      double x;
+      double theta;
+      double cosine;
+      double sine;
+    };
+
+    static Pose pose(double x, double theta);
+
+    /// Returns gap and its gradient by the place of a point of the lever, in lever axes; beyond the cylinder's ends the gap is at
+    /// least the distance from them [mm].
+    std::pair<double, dealii::Tensor<1, 3>> gap(const Pose &pose, const dealii::Point<3> &point) const;
+
+    /// Returns the slip coordinates of a point [mm].
+    std::array<double, 2> slips(const Pose &pose, const dealii::Point<3> &point) const;
+
+    SurfaceKinematics kinematics(const Pose &pose, const dealii::Point<3> &point) const;
+
+  private:
+    using Vector = dealii::Tensor<1, 3>;
+
+    /// Where a point is seen from the cylinder, in the axes of the world.
+    struct Place
+    {
+      Vector from_centre;
+      double along;  ///< s [mm]
+      Vector across; ///< off the axis
+      double radius; ///< its length
+    };
+
+    /// How far the surface lies back at a place along the axis, and its derivatives.
+    struct Profile
+    {
+      double value = 0., slope = 0., curvature = 0.;
+    };
+
+    Place place_of(const Pose &pose, const dealii::Point<3> &point) const;
+    Profile profile(double along) const;
+    double beyond_ends(double along) const;
+
+    const Geometry geometry;
+    const double half_length; ///< infinite without ends [mm]
+    const double position;
+    const double edge_radius;
+    const double crown;         ///< curvature of the barrel [1/mm]
+    Vector axis, right, upward; ///< of the cylinder; the last two are the world's but for tilt and skew
+  };
+} // namespace sprag

@@ -1,0 +1,101 @@
+#pragma once
+
+#include "fe/body/friction_face.h"
+#include "fe/solid/first_rank.h"
+#include "fe/solid/shared_factors.h"
+#include "fe/solid/solid_mesh.h"
+
+#include <deal.II/fe/fe_system.h>
+#include <deal.II/fe/mapping_q1.h>
+
+namespace sprag
+{
+  /// The linear elastic lever in three dimensions, in axes in which its hub does not move. All ranks hold the mesh and the
+  /// numbers of its displacements; stiffness and factors are shared. Everything but construction is for the first rank.
+  class SolidBody
+  {
+  public:
+    /// To be called by all ranks with the plane mesh of the first, see extrude(); the first calls the others to it. Throws
+    /// AnalysisError where the factorisation fails.
+    SolidBody(const Scene &scene, const Mesh &plane, MPI_Comm ranks);
+    SolidBody &operator=(SolidBody &&) = delete;
+
+    unsigned int n_dofs() const
+    {
+      return dof_handler.n_dofs();
+    }
+
+    const dealii::DoFHandler<3> &dofs() const
+    {
+      return dof_handler;
+    }
+
+    const dealii::Mapping<3> &cell_mapping() const
+    {
+      return mapping;
+    }
+
+    const BodyProperties &body_properties() const
+    {
+      return properties;
+    }
+
+    bool is_held(const unsigned int dof) const
+    {
+      return constraints.is_constrained(dof);
+    }
+
+    const FrictionFace<3> &friction_face() const
+    {
+      return face;
+    }
+
+    /// Whether there is a layer of another material below the lever.
+    bool has_layer() const
+    {
+      return !number_in_layer.empty();
+    }
+
+    /// Returns the number of a degree of freedom for loads of respond_near(), -1 where it has none: with a layer of those of the
+    /// layer off its bond, else the degree of freedom itself where it is free.
+    int number_near(unsigned int dof) const;
+
+    /// Returns mass [t] and moment of inertia about the pivot [t mm^2] at the given density [t/mm^3], hub included.
+    std::array<double, 2> mass_and_inertia(double density) const;
+
+    /// Turns forces on the degrees of freedom [N] into displacements [mm].
+    void respond(std::vector<double> &loads) const;
+
+    /// Returns the displacements under sparse loads, one column after another.
+    std::vector<double> respond(SparseColumns loads) const;
+
+    /// Returns those of the layer on a rigid bond alone, by number_near(); without a layer those of the body.
+    std::vector<double> respond_near(SparseColumns loads) const;
+
+    /// Number of displacements in a column of respond_near().
+    unsigned int n_near() const;
+
+    /// Takes part in a solve of the first rank.
+    void take_part(SharedTask task) const;
+
+  private:
+    void hold_hub();
+    void number_layer();
+    void order_face_nodes();
+
+    const MPI_Comm ranks;
+    const BodyProperties properties;
+    SolidMesh mesh;
+    const dealii::FESystem<3> fe;
+    const dealii::MappingQ1<3> mapping;
+    dealii::DoFHandler<3> dof_handler;
+    dealii::AffineConstraints<double> constraints;
+    FrictionFace<3> face;
+    std::vector<int> number_in_layer;
+    SharedFactors factors;
+    SharedFactors factors_of_layer;
+  };
+
+  /// Builds the scene's body with the first rank and takes part in its solves until it ends. To be called by the others.
+  void help_first_rank(const Scene &scene, MPI_Comm ranks);
+} // namespace sprag

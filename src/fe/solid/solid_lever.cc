@@ -1,0 +1,253 @@
+#include "fe/solid/solid_lever.h"
+
+#include "base/errors.h"
+#include "base/text.h"
+#include "fe/statics/contact_penalties.h"
+#include "fe/statics/static_terms.h"
+#include "scene/contact_width.h"
+#include "scene/lever_shape.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sprag
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// Compression of the friction face beyond which linear elasticity says nothing.
+    constexpr double largest_strain = 0.5;
+
+    PortLayout ports_of(const SolidBody &body, const LeverProperties &properties)
+    {
+      PortLayout result{ 3 * static_cast<unsigned int>(body.friction_face().nodes.size()),
+                         properties.support_stiffness.has_value() };
+      result.has_inertia = false;
+      return result;
+    }
+
+    SurfaceContactProperties contact_properties(const SolidBody &body, const Scene &scene, const LeverProperties &properties,
+                                                const PortLayout &ports)
+    {
+      return { RigidCylinder(scene.geometry, scene.cylinder),
+               properties.centre,
+               properties.radius,
+               ports,
+               properties.spring.rest,
+               contact_penalties(body.friction_face(), properties.contact, properties.layer_thickness, properties.penalty_factor,
+                                 properties.longest_face) };
+    }
+
+    PortSprings springs_of(const LeverProperties &properties)
+    {
+      return { properties.spring.law.linear_stiffness(), properties.support_stiffness.value_or(0.), properties.spring.arm };
+    }
+
+    LayeredCompliance compliance_of(const SolidBody &body, const Scene &scene)
+    {
+      const double room        = 0.1 * scene.geometry.cylinder_radius;
+      const auto [first, last] = swept_contact(scene);
+      return { body, first - room, last + room, scene.layer.thickness };
+    }
+  } // namespace
+
+  SolidLever::SolidLever(const SolidBody &body_, const Scene &scene)
+      : body(body_)
+      , properties(lever_properties(scene))
+      , ports(ports_of(body, properties))
+      , compliance(compliance_of(body, scene))
+      , window(ports, springs_of(properties),
+               { { ports.surface, [this](const PortSelection &some) { return compliance.whole_tiles(some); },
+                   [this](const PortSelection &tiles) { return compliance.among(tiles); } } })
+      , contact(body.friction_face(), contact_properties(body, scene, properties, ports))
+      , view(body.friction_face(), contact)
+      , excess(ports, properties.spring.law)
+  {
+  }
+
+  State SolidLever::initial_state(const DrivePoint &drive) const
+  {
+    State state;
+    state.drive = drive;
+    state.coordinates.reinit(window.n_coordinates());
+    state.coordinates[ports.rotation()] = properties.ideal_theta(drive.x) - properties.spring.rest;
+    return state;
+  }
+
+  State SolidLever::begin_step(const State &accepted, const DrivePoint &end)
+  {
+    State trial    = accepted;
+    trial.drive    = end;
+    const double u = support_displacement(accepted);
+    trial.coordinates[ports.rotation()] += properties.ideal_theta(end.x - u) - properties.ideal_theta(accepted.drive.x - u);
+    start        = accepted.drive;
+    begin_forces = accepted.forces;
+    begin        = accepted.coordinates;
+    window.enter(reachable(trial));
+    window.set_faces(begin_forces, begin);
+    window.set_faces(begin_forces, trial.coordinates);
+    contact.begin_step({ begin, start.x });
+    return trial;
+  }
+
+  /// Ports within reach of the contact in a step that ends near `trial`, and those of the forces it begins with.
+  PortSelection SolidLever::reachable(const State &trial)
+  {
+    const double begin_x = start.x - (ports.sprung ? begin[ports.support()] : 0.);
+    const double x       = trial.drive.x - support_displacement(trial);
+    const double theta   = properties.spring.rest + turn(trial);
+    const double travel =
+        properties.centre(x, theta).xi - properties.centre(begin_x, properties.spring.rest + begin[ports.rotation()]).xi;
+    return united(begin_forces.ports, contact.reachable_ports(x, theta, std::abs(travel)));
+  }
+
+  Unbalance SolidLever::evaluate(State &trial, const FrictionMode mode)
+  {
+    evaluate_contact(trial, mode);
+    forces = found.forces;
+    excess.add_forces({ { turn(trial), 0. } }, !forces.ports.empty(), forces);
+    trial.forces = { forces.ports, forces.values };
+    return { window.unbalance(trial.coordinates, forces), found.compression };
+  }
+
+  void SolidLever::evaluate_contact(State &trial, const FrictionMode mode)
+  {
+    const auto terms = static_terms(properties.friction, properties.geometry, start, trial.drive, mode);
+    found.duration   = trial.drive.time - start.time;
+    contact.evaluate({ trial.coordinates, trial.drive.x }, trial.surface_contact, trial.drive.surface - start.surface, terms,
+                     found);
+    if (!found.within_reach)
+      widen_reach(trial, mode);
+  }
+
+  /// Evaluates again with more ports, which begin with what the forces there make of them.
+  void SolidLever::widen_reach(State &trial, const FrictionMode mode)
+  {
+    contact.widen_reach();
+    const auto entered = window.enter(reachable(trial));
+    window.set_faces(begin_forces, begin);
+    contact.begin_step({ begin, start.x });
+    for (const unsigned int port : entered)
+      trial.coordinates[port] = begin[port];
+    evaluate_contact(trial, mode);
+  }
+
+  Vector<double> SolidLever::correction()
+  {
+    return window.correction(forces);
+  }
+
+  double SolidLever::turn(const State &state) const
+  {
+    return state.coordinates[ports.rotation()];
+  }
+
+  double SolidLever::support_displacement(const State &state) const
+  {
+    return ports.sprung ? state.coordinates[ports.support()] : 0.;
+  }
+
+  double SolidLever::movement(const Vector<double> &correction) const
+  {
+    Vector<double> in_lengths = correction;
+    in_lengths[ports.rotation()] *= properties.spring.arm;
+    return window.largest(in_lengths);
+  }
+
+  double SolidLever::length_scale() const
+  {
+    return properties.spring.arm;
+  }
+
+  double SolidLever::penetration() const
+  {
+    return found.compression;
+  }
+
+  std::string SolidLever::objection(const State &trial) const
+  {
+    Row row;
+    view.observe(found, row);
+    const double s    = row[Column::s];
+    const double mu_e = row[Column::mu] * properties.interface_offset;
+    if (direction_of(trial.drive.v) < 0 && row[Column::F] < 0. && s <= mu_e)
+      return "the lever locks: moving back, s = " + rounded_text(s) + " mm <= mu e = " + rounded_text(mu_e) + " mm";
+    const double pressure = found.compression * contact.penalties().normal;
+    const double limit    = largest_strain * body.friction_face().young_modulus;
+    if (pressure > limit)
+      return "the pressure on the friction face exceeds " + rounded_text(limit) +
+             " MPa, half of Young's modulus there (Friction layer or Lever/Young's modulus), which linear theory does not bear";
+    return {};
+  }
+
+  void SolidLever::augment(State &) const
+  {
+    throw AnalysisError("the augmented Lagrangian method is one of two dimensions");
+  }
+
+  void SolidLever::remember(State &state) const
+  {
+    state.surface_contact = found.memory();
+  }
+
+  void SolidLever::observe(const State &trial, Row &row) const
+  {
+    const double theta         = properties.spring.rest + turn(trial);
+    const double u             = support_displacement(trial);
+    const double support       = properties.support_stiffness.value_or(0.);
+    row[Column::theta]         = theta;
+    row[Column::spring_energy] = properties.spring.law.energy(turn(trial));
+    view.observe(found, row);
+    row[Column::centre_offset]        = row[Column::s] - properties.centre(trial.drive.x - u, theta).xi;
+    row[Column::Q]                    = row[Column::P] * std::sin(theta) + row[Column::F] * std::cos(theta);
+    row[Column::support_displacement] = u;
+    row[Column::Q_support]            = ports.sprung ? support * u : row[Column::Q];
+    row[Column::support_energy]       = 0.5 * support * u * u;
+  }
+
+  FacePoints SolidLever::face_points() const
+  {
+    return view.points();
+  }
+
+  FaceState SolidLever::face_state(const State &trial) const
+  {
+    return view.state(found, trial.drive);
+  }
+
+  void SolidLever::visit_history(Archive &archive)
+  {
+    contact.visit_history(archive);
+    window.visit_history(archive);
+  }
+
+  Vector<double> SolidLever::body_displacement(const State &state) const
+  {
+    std::vector<double> loads(body.n_dofs(), 0.);
+    const auto &nodes = body.friction_face().nodes;
+    for (unsigned int i = 0; i < state.forces.ports.size(); ++i)
+      if (const unsigned int port = state.forces.ports[i]; ports.is_surface(port))
+        loads[nodes[port / 3].dofs[port % 3]] = state.forces.values[i];
+    body.respond(loads);
+    return { loads.begin(), loads.end() };
+  }
+
+  SolidLever::Exactness SolidLever::exactness(const State &state)
+  {
+    const auto whole  = body_displacement(state);
+    const auto &nodes = body.friction_face().nodes;
+    double largest = 0., work = 0., missed = 0., compression = 0.;
+    for (unsigned int i = 0; i < state.forces.ports.size(); ++i)
+      if (const unsigned int port = state.forces.ports[i]; ports.is_surface(port))
+      {
+        const double exact      = whole[nodes[port / 3].dofs[port % 3]];
+        const double difference = exact - state.coordinates[port];
+        largest                 = std::max(largest, std::abs(difference));
+        compression             = std::max(compression, std::abs(exact));
+        missed += difference * state.forces.values[i];
+        work += exact * state.forces.values[i];
+      }
+    return { compression > 0. ? largest / compression : 0., work > 0. ? missed / work : 0. };
+  }
+} // namespace sprag

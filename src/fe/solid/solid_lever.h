@@ -1,0 +1,82 @@
+#pragma once
+
+#include "fe/solid/layered_compliance.h"
+#include "fe/solid/surface_observation.h"
+#include "fe/statics/lever_properties.h"
+#include "fe/statics/port_window.h"
+#include "model/hub_spring.h"
+#include "model/model.h"
+
+namespace sprag
+{
+  /// A lever in three dimensions on its hub, rotational spring and support against the rigid cylinder, without inertia. It
+  /// follows the steps of LeverModel; all that differs is the body, its compliance, and that the contact slips in two directions.
+  /// To be made and used by the first rank.
+  class SolidLever : public Model
+  {
+  public:
+    /// The body must outlive this.
+    SolidLever(const SolidBody &body, const Scene &scene);
+
+    State initial_state(const DrivePoint &drive) const override;
+    State begin_step(const State &accepted, const DrivePoint &end) override;
+    Unbalance evaluate(State &trial, FrictionMode mode) override;
+    dealii::Vector<double> correction() override;
+    double movement(const dealii::Vector<double> &correction) const override;
+    double length_scale() const override;
+    double penetration() const override;
+    std::string objection(const State &trial) const override;
+    void augment(State &trial) const override;
+    void remember(State &state) const override;
+    void observe(const State &trial, Row &row) const override;
+    FacePoints face_points() const override;
+    FaceState face_state(const State &trial) const override;
+    void visit_history(Archive &archive) override;
+
+    const ContactPenalties &penalties() const
+    {
+      return contact.penalties();
+    }
+
+    const LayeredCompliance &face_compliance() const
+    {
+      return compliance;
+    }
+
+    /// Displacement of all degrees of freedom of the body in its axes [mm], by a back-substitution with the whole body.
+    dealii::Vector<double> body_displacement(const State &state) const;
+
+    /// What the compliance of the face leaves out in a state: the largest difference of a displacement from that of the whole
+    /// body, over the largest displacement by the layer's compression alone, and the share of P that goes with it.
+    struct Exactness
+    {
+      double displacement; ///< over the overlap and compression of the layer [-]
+      double force;        ///< of P, estimated by the mean difference where the contact presses [-]
+    };
+    Exactness exactness(const State &state);
+
+  private:
+    PortSelection reachable(const State &trial);
+    void evaluate_contact(State &trial, FrictionMode mode);
+    void widen_reach(State &trial, FrictionMode mode);
+    double turn(const State &state) const;
+    double support_displacement(const State &state) const;
+
+    const SolidBody &body;
+    const LeverProperties properties;
+    const PortLayout ports;
+    LayeredCompliance compliance;
+    PortWindow window;
+    SurfaceContact contact;
+    const SurfaceView view;
+    HubSpringExcess excess;
+
+    // The step.
+    DrivePoint start;
+    dealii::Vector<double> begin; ///< displacements of the ports
+    PortLoads begin_forces;
+
+    SurfaceEvaluation found;
+    PortForces forces; ///< of the contact and of the spring beyond its linear part, at the last evaluation
+  };
+} // namespace sprag

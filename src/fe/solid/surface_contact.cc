@@ -1,0 +1,321 @@
+#include "fe/solid/surface_contact.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sprag
+{
+  using dealii::Point;
+  using dealii::Tensor;
+  using dealii::Vector;
+
+  std::vector<SurfaceMemory> SurfaceEvaluation::memory() const
+  {
+    std::vector<SurfaceMemory> result;
+    for (const auto &point : points)
+      if (point.pressure > 0.)
+        result.push_back(point.memory);
+    return result;
+  }
+
+  /// What evaluates one patch after another.
+  struct SurfaceContact::Step
+  {
+    RigidCylinder::Pose pose;
+    double surface_run;
+    const StaticTerms &terms;
+    StepContactLaw law;
+    const std::vector<SurfaceMemory> &memory;
+    Patches::Nodal nodal{}; ///< displacements of the patch
+
+    const SurfaceMemory *memory_of(const unsigned int point) const
+    {
+      const auto is_before = [](const SurfaceMemory &entry, const unsigned int q) { return entry.point < q; };
+      const auto found     = std::lower_bound(memory.begin(), memory.end(), point, is_before);
+      return found != memory.end() && found->point == point ? &*found : nullptr;
+    }
+
+    double traction_of(const unsigned int point) const
+    {
+      const auto *const found = memory_of(point);
+      return found != nullptr ? found->traction[0] : 0.;
+    }
+  };
+
+  /// Forces of a patch and their derivatives: of the displacements of its nodes, of theta and of x.
+  struct SurfaceContact::Sums
+  {
+    Tensor<1, n_local> values;
+    Tensor<2, n_local> tangent;
+    bool touched = false;
+
+    void add(const Patches::Point &point, const unsigned int n_nodes, const Tensor<1, 5> &force, const Tensor<2, 5> &of_point)
+    {
+      touched = true;
+      for (unsigned int i = 0; i < 2; ++i)
+      {
+        values[n_displacements + i] += point.weight * force[3 + i];
+        for (unsigned int j = 0; j < 2; ++j)
+          tangent[n_displacements + i][n_displacements + j] += point.weight * of_point[3 + i][3 + j];
+      }
+      for (unsigned int a = 0; a < n_nodes; ++a)
+        for (unsigned int d = 0; d < 3; ++d)
+        {
+          const double weight = point.weight * point.shapes[a];
+          auto &row           = tangent[3 * a + d];
+          values[3 * a + d] += weight * force[d];
+          for (unsigned int j = 0; j < 2; ++j)
+          {
+            row[n_displacements + j] += weight * of_point[d][3 + j];
+            tangent[n_displacements + j][3 * a + d] += weight * of_point[3 + j][d];
+          }
+          for (unsigned int b = 0; b < n_nodes; ++b)
+            for (unsigned int e = 0; e < 3; ++e)
+              row[3 * b + e] += weight * point.shapes[b] * of_point[d][e];
+        }
+    }
+
+    /// Adds what changes with the slope of the slip round the cylinder along the face, as far as the face's direction goes with
+    /// it: `by_slope` the derivative of the force by that slope.
+    void add_slope(const Patches::Point &point, const std::vector<double> &slopes, const Tensor<1, 5> &by_slope,
+                   const Tensor<1, 5> &slip_row)
+    {
+      for (unsigned int b = 0; b < slopes.size(); ++b)
+        for (unsigned int e = 0; e < 3; ++e)
+        {
+          const double slope = point.weight * slip_row[e] * slopes[b];
+          for (unsigned int a = 0; a < slopes.size(); ++a)
+            for (unsigned int d = 0; d < 3; ++d)
+              tangent[3 * a + d][3 * b + e] += point.shapes[a] * by_slope[d] * slope;
+          for (unsigned int i = 0; i < 2; ++i)
+            tangent[n_displacements + i][3 * b + e] += by_slope[3 + i] * slope;
+        }
+    }
+  };
+
+  SurfaceContact::SurfaceContact(const FrictionFace<3> &face_, SurfaceContactProperties properties_)
+      : face(face_)
+      , properties(std::move(properties_))
+      , patches(face)
+      , place_of_port(properties.ports.size())
+  {
+    find_lines();
+  }
+
+  void SurfaceContact::find_lines()
+  {
+    std::map<long, std::vector<unsigned int>> by_zeta;
+    for (unsigned int q = 0; q < face.points.size(); ++q)
+      by_zeta[std::lround(1e6 * face.points[q].position[2])].push_back(q);
+    place_in_line.resize(face.points.size());
+    for (auto &[zeta, points] : by_zeta)
+    {
+      const auto by_xi = [&](const unsigned int a, const unsigned int b)
+      { return face.points[a].position[0] < face.points[b].position[0]; };
+      std::sort(points.begin(), points.end(), by_xi);
+      for (unsigned int i = 0; i < points.size(); ++i)
+        place_in_line[points[i]] = { static_cast<unsigned int>(points_of_line.size()), i };
+      points_of_line.push_back(std::move(points));
+    }
+  }
+
+  RigidCylinder::Pose SurfaceContact::pose_of(const SurfacePlace &place) const
+  {
+    const double u = properties.ports.sprung ? place.ports[properties.ports.support()] : 0.;
+    return RigidCylinder::pose(place.x - u, properties.rest_inclination + place.ports[properties.ports.rotation()]);
+  }
+
+  void SurfaceContact::begin_step(const SurfacePlace &begin)
+  {
+    begin_ports = begin.ports;
+    begin_x     = begin.x;
+    begin_pose  = pose_of(begin);
+    begin_slips.clear();
+  }
+
+  std::array<double, 2> SurfaceContact::slips_at_begin(const unsigned int point) const
+  {
+    const unsigned int of_patch = patches.patch_of_point(point);
+    const auto &patch           = patches.patches[of_patch];
+    auto &known                 = begin_slips[of_patch];
+    if (known.empty())
+    {
+      const auto nodal = Patches::nodal(patch, begin_ports);
+      for (unsigned int q = patch.begin; q < patch.end; ++q)
+        known.push_back(properties.cylinder.slips(begin_pose, Patches::position(patches.points[q], nodal)));
+    }
+    return known[point - patch.begin];
+  }
+
+  /// The gap is convex: over a patch it lies above its tangent at the first node. The margin covers bending.
+  SurfaceContact::Patches::Indices SurfaceContact::near(const SurfacePlace &place, const RigidCylinder::Pose &pose) const
+  {
+    const auto position = [&](const FaceEdge<3>::Node &node)
+    {
+      auto result = node.position;
+      if (node.index != FaceEdge<3>::held)
+        for (unsigned int d = 0; d < 3; ++d)
+          result[d] += place.ports[3 * node.index + d];
+      return result;
+    };
+    const auto distance = [&](const unsigned int patch)
+    {
+      const auto &nodes          = face.edges[patch].nodes;
+      const Point<3> first       = position(nodes.front());
+      const auto [gap, gradient] = properties.cylinder.gap(pose, first);
+      double fall                = 0.;
+      for (const auto &node : nodes)
+        fall = std::min(fall, gradient * (position(node) - first));
+      return gap + fall - 0.02 * patches.patches[patch].length;
+    };
+    const auto centre = properties.centre(pose.x, pose.theta);
+    return patches.find_near({ centre.xi, centre.eta, 0. }, distance);
+  }
+
+  void SurfaceContact::evaluate(const SurfacePlace &end, const std::vector<SurfaceMemory> &memory, const double surface_run,
+                                const StaticTerms &terms, SurfaceEvaluation &found)
+  {
+    StepContactLaw law;
+    law.normal     = { properties.penalties.normal, 1. };
+    law.tangential = properties.penalties.tangential;
+    law.friction   = terms.friction;
+    law.balance    = ForceBalance::end;
+    law.mode       = terms.mode;
+    law.weights.dt = terms.duration;
+    Step step{ pose_of(end), surface_run, terms, law, memory };
+
+    found.displacement = end.ports;
+    found.compression  = 0.;
+    found.points.clear();
+    std::vector<PortForces> loaded;
+    for (const unsigned int patch : clip(near(end, step.pose), found))
+    {
+      step.nodal = Patches::nodal(patches.patches[patch], end.ports);
+      Sums sums;
+      for (unsigned int q = patches.patches[patch].begin; q < patches.patches[patch].end; ++q)
+      {
+        auto &state = found.points.emplace_back();
+        state.index = q;
+        state.patch = patch;
+        evaluate_point(step, state, sums, found);
+      }
+      if (!sums.touched)
+        continue;
+      const auto coordinates = coordinates_of(patch);
+      loaded.push_back(
+          { ports_of(coordinates), row_on_ports(coordinates, sums.values), matrix_on_ports(coordinates, sums.tangent) });
+    }
+    sum_forces(loaded, place_of_port, found.forces);
+  }
+
+  void SurfaceContact::evaluate_point(const Step &step, FacePointState<3> &state, Sums &sums, SurfaceEvaluation &found) const
+  {
+    const auto &point    = patches.points[state.index];
+    state.position       = Patches::position(point, step.nodal);
+    state.gap            = properties.cylinder.gap(step.pose, state.position).first;
+    state.trial_pressure = -step.law.normal.stiffness * state.gap;
+    if (state.trial_pressure <= 0.)
+      return;
+    found.compression     = std::max(found.compression, -state.gap);
+    const auto placed     = properties.cylinder.kinematics(step.pose, state.position);
+    const auto begin      = slips_at_begin(state.index);
+    const auto *const was = step.memory_of(state.index);
+
+    StepKinematics<5, 2> kinematics;
+    kinematics.gap_begin = kinematics.gap_end = placed.gap;
+    kinematics.gap_row_end = kinematics.gap_row = placed.gap_row;
+    kinematics.gap_curvature                    = placed.gap_curvature;
+    for (unsigned int s = 0; s < 2; ++s)
+      kinematics.slip_change[s] = placed.slip[s] - begin[s];
+    kinematics.slip_change[0] += step.surface_run;
+    kinematics.slip_change_row = kinematics.slip_row = placed.slip_row;
+    kinematics.slip_curvature                        = placed.slip_curvature;
+
+    // Derivative of the deformed place along the undeformed face.
+    const auto &slopes = face.points[state.index].slopes;
+    Tensor<1, 5> direction({ 1., 0., 0., 0., 0. });
+    for (unsigned int i = 0; i < 3 * slopes.size(); ++i)
+      direction[i % 3] += slopes[i / 3] * step.nodal[i];
+    const auto shift         = shift_of(state.index, placed.slip_row[0] * direction, step);
+    kinematics.slip_shift[0] = shift.total();
+
+    const auto response = step_response(kinematics, was != nullptr ? *was : SurfaceMemory{}, step.law);
+
+    static_cast<PointTraction<2> &>(state) = response;
+    state.memory.point                     = state.index;
+    state.slip_change                      = step.terms.speed_ratio * kinematics.slip_change;
+    state.slip_change[0] += step.terms.speed_ratio * shift.slip;
+    state.elastic_slip = (response.traction - (was != nullptr && step.terms.augmented ? was->traction : Tensor<1, 2>())).norm() /
+                         step.law.tangential;
+    state.end_force = response.force;
+    auto tangent    = response.tangent;
+    Tensor<1, 5> by_slope;
+    for (unsigned int s = 0; s < 2; ++s)
+      by_slope -= shift.d_slope * response.d_shift[s][0] * placed.slip_row[s];
+    tangent += outer_product(by_slope, placed.slip_curvature[0] * direction);
+    sums.add(point, patches.patches[state.patch].n_nodes, response.force, tangent);
+    if (shift.d_slope != 0.)
+      sums.add_slope(point, slopes, by_slope, placed.slip_row[0]);
+  }
+
+  /// See slip_shift(): the place that had the same distance from the contact when the step began has the same zeta.
+  SlipShift SurfaceContact::shift_of(const unsigned int point, const double slope, const Step &step) const
+  {
+    const double travel = step.terms.travel;
+    const auto &line    = points_of_line[place_in_line[point].first];
+    const auto xi_of    = [&](const unsigned int q) { return face.points[q].position[0]; };
+    const double xi     = xi_of(point) - travel;
+    if (travel == 0. || line.size() < 2 || xi < xi_of(line.front()) || xi > xi_of(line.back()))
+      return {};
+    const auto after     = std::upper_bound(line.begin() + 1, line.end() - 1, xi,
+                                            [&](const double value, const unsigned int q) { return value < xi_of(q); });
+    const unsigned int a = *(after - 1), b = *after;
+    const double share     = (xi - xi_of(a)) / (xi_of(b) - xi_of(a));
+    const auto between     = [share](const double first, const double second) { return (1. - share) * first + share * second; };
+    const double slip      = slips_at_begin(point)[0] - between(slips_at_begin(a)[0], slips_at_begin(b)[0]) - travel * slope;
+    const double unwinding = between(step.traction_of(a), step.traction_of(b)) - step.traction_of(point);
+    return { slip, step.terms.augmented ? 0. : unwinding / step.law.tangential, -travel };
+  }
+
+  PortCoordinates SurfaceContact::coordinates_of(const unsigned int patch) const
+  {
+    PortCoordinates result;
+    const auto &of = patches.patches[patch];
+    for (unsigned int i = 0; i < 3 * of.n_nodes; ++i)
+      result.push_back({ i, 3 * of.nodes[i / 3] + i % 3, 1. });
+    add_frame(properties.ports, n_displacements, n_displacements + 1, result);
+    return result;
+  }
+
+  const PortSelection &SurfaceContact::reachable_ports(const double x, const double theta, const double travel)
+  {
+    constexpr double over_radius = 0.05;
+    constexpr double infinity    = std::numeric_limits<double>::max();
+    const double distance        = reach_factor * over_radius * properties.radius + travel;
+    const double xi              = properties.centre(x, theta).xi;
+    auto now = patches.patches_in({ { { xi - distance, -infinity, -infinity }, { xi + distance, infinity, infinity } } });
+    if (reachable.empty() || now != reached)
+    {
+      reached   = std::move(now);
+      reachable = patches.displacements_of(reached);
+      for (auto port = 3 * static_cast<unsigned int>(face.nodes.size()); port < properties.ports.size(); ++port)
+        reachable.push_back(port);
+    }
+    return reachable;
+  }
+
+  SurfaceContact::Patches::Indices SurfaceContact::clip(Patches::Indices near, SurfaceEvaluation &found) const
+  {
+    found.within_reach = reachable.empty() || std::includes(reached.begin(), reached.end(), near.begin(), near.end());
+    if (found.within_reach)
+      return near;
+    Patches::Indices result;
+    std::set_intersection(near.begin(), near.end(), reached.begin(), reached.end(), std::back_inserter(result));
+    return result;
+  }
+
+  void SurfaceContact::widen_reach()
+  {
+    reach_factor *= 2.;
+  }
+} // namespace sprag

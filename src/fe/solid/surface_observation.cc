@@ -1,0 +1,170 @@
+#include "fe/solid/surface_observation.h"
+
+#include "fe/contact/pressure_recovery.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sprag
+{
+  namespace
+  {
+    constexpr unsigned int parts_along = 4;
+  }
+
+  SurfaceView::SurfaceView(const FrictionFace<3> &face_, const SurfaceContact &contact_)
+      : face(face_)
+      , contact(contact_)
+      , part_of_point(face.points.size())
+      , line_of_point(face.points.size())
+  {
+    const auto &lines = contact.lines();
+    for (unsigned int i = 0; i < lines.size(); ++i)
+      for (const unsigned int point : lines[i])
+        line_of_point[point] = i;
+    for (const auto &patch : face.patches)
+    {
+      std::map<std::pair<unsigned int, unsigned int>, unsigned int> known; // by the quarter along xi and the line
+      const double first = face.points[patch.begin].position[0];
+      const double span  = face.points[patch.end - 1].position[0] - first;
+      for (unsigned int q = patch.begin; q < patch.end; ++q)
+      {
+        const auto &point  = face.points[q];
+        const auto quarter = static_cast<unsigned int>(
+            std::clamp(std::floor(parts_along * (point.position[0] - first) / span), 0., parts_along - 1.));
+        const auto number =
+            known.try_emplace({ quarter, line_of_point[q] }, static_cast<unsigned int>(parts.xi.size())).first->second;
+        if (number == parts.xi.size())
+        {
+          parts.xi.push_back(0.);
+          parts.zeta.push_back(point.position[2]);
+          parts.weight.push_back(0.);
+        }
+        part_of_point[q] = number;
+        parts.xi[number] += point.weight * point.position[0];
+        parts.weight[number] += point.weight;
+      }
+    }
+    for (std::size_t i = 0; i < parts.xi.size(); ++i)
+      parts.xi[i] /= parts.weight[i];
+  }
+
+  FacePoints SurfaceView::points() const
+  {
+    return parts;
+  }
+
+  FaceState SurfaceView::state(const SurfaceEvaluation &found, const DrivePoint &drive) const
+  {
+    const std::vector<double> nothing(parts.xi.size(), 0.);
+    FaceState result{ drive.time, drive.x, nothing, nothing, nothing, {}, {} };
+    for (const auto &point : found.points)
+    {
+      const unsigned int part = part_of_point[point.index];
+      const double share      = face.points[point.index].weight / parts.weight[part];
+      result.pressure[part] += share * point.pressure;
+      result.traction[part] += share * point.traction[0];
+      result.traction_across[part] += share * point.end_force[2];
+    }
+    return result;
+  }
+
+  void SurfaceView::observe(const SurfaceEvaluation &found, Row &row) const
+  {
+    row.across.assign(columns_across().size(), 0.);
+    observe_resultants(found, row);
+    observe_pressure(found, row);
+  }
+
+  void SurfaceView::observe_resultants(const SurfaceEvaluation &found, Row &row) const
+  {
+    double normal = 0., position = 0., zeta = 0., speed = 0., mu = 0., power = 0., energy = 0., active = 0.;
+    double elastic_slip = 0., penetration = 0., excess = 0., cone = 0., twisting = 0., turning = 0.;
+    dealii::Tensor<1, 3> force;
+    dealii::Tensor<1, 2> friction;
+    for (const auto &point : found.points)
+    {
+      penetration = std::max(penetration, -point.gap);
+      if (!(point.pressure > 0.))
+        continue;
+      const auto &of_face = face.points[point.index];
+      const double area   = of_face.weight;
+      double free         = 0.; // share of a force here that nodes take which the hub does not hold
+      dealii::Tensor<1, 3> moved;
+      for (const auto &[node, shape] : of_face.nodes)
+      {
+        free += shape;
+        for (unsigned int d = 0; d < 3; ++d)
+          moved[d] += shape * found.displacement[3 * node + d];
+      }
+      for (unsigned int d = 0; d < 3; ++d)
+      {
+        force[d] += area * free * point.end_force[d];
+        energy += 0.5 * area * point.end_force[d] * moved[d];
+      }
+      const auto rate = found.duration > 0. ? point.slip_change / found.duration : dealii::Tensor<1, 2>();
+      normal += area * point.pressure;
+      friction += area * point.traction;
+      position += area * point.pressure * point.position[0];
+      zeta += area * point.pressure * point.position[2];
+      twisting += area * point.end_force[1] * point.position[2];
+      turning -= area * point.end_force[0] * point.position[2];
+      speed += area * point.pressure * rate[0];
+      mu += area * point.pressure * point.mu;
+      power += area * (point.traction * rate);
+      active += 1.;
+      elastic_slip = std::max(elastic_slip, point.elastic_slip);
+      excess       = std::max(excess, point.traction.norm() - point.mu * point.pressure);
+      cone         = std::max(cone, point.mu * point.pressure);
+    }
+    row[Column::P]                  = force[1];
+    row[Column::F]                  = -force[0];
+    row[Column::normal_resultant]   = normal;
+    row[Column::friction_resultant] = friction[0];
+    row[Column::friction_power]     = power;
+    row[Column::elastic_energy]     = energy;
+    row[Column::active_points]      = active;
+    row[Column::elastic_slip]       = elastic_slip;
+    row[Column::penetration]        = penetration;
+    row[Column::cone_violation]     = cone > 0. ? excess / cone : 0.;
+    row.across[0]                   = force[2];
+    row.across[2]                   = twisting;
+    row.across[3]                   = turning;
+    if (normal == 0.)
+      return;
+    row[Column::s]  = position / normal;
+    row[Column::mu] = mu / normal;
+    row.across[1]   = zeta / normal;
+    if (found.duration > 0.)
+      row[Column::v_rel] = speed / normal;
+  }
+
+  /// Where it is largest the pressure is recovered as in a plane, along the points with that zeta.
+  void SurfaceView::observe_pressure(const SurfaceEvaluation &found, Row &row) const
+  {
+    row[Column::contact_width] = row[Column::largest_pressure] = 0.;
+    const auto by_pressure = [](const auto &a, const auto &b) { return a.pressure < b.pressure; };
+    const auto largest     = std::max_element(found.points.begin(), found.points.end(), by_pressure);
+    if (largest == found.points.end() || largest->pressure == 0.)
+      return;
+    const unsigned int line = line_of_point[largest->index];
+    PressureSamples samples;
+    for (const auto &point : found.points)
+      if (line_of_point[point.index] == line)
+      {
+        samples.xi.push_back(point.position[0]);
+        samples.weight.push_back(face.points[point.index].weight);
+        samples.pressure.push_back(point.pressure);
+        samples.trial.push_back(point.trial_pressure);
+        samples.cell.push_back(point.patch);
+      }
+    const auto &of_line              = contact.lines()[line];
+    samples.begin                    = face.points[of_line.front()].position[0];
+    samples.end                      = face.points[of_line.back()].position[0];
+    const auto recovered             = recover(samples);
+    row[Column::contact_width]       = recovered.width;
+    row[Column::largest_pressure]    = recovered.largest;
+    row[Column::largest_pressure_xi] = recovered.place;
+    row.across[4]                    = largest->position[2];
+  }
+} // namespace sprag

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "fe/solid/surface_contact.h"
+#include "results/columns.h"
+#include "results/result_file.h"
+
+namespace sprag
+{
+  /// A friction face as results show it: the means over parts of its cells, four along xi at each zeta of their points.
+  class SurfaceView
+  {
+  public:
+    /// Face and contact must outlive this.
+    SurfaceView(const FrictionFace<3> &face, const SurfaceContact &contact);
+
+    /// Fills the columns that follow from tractions and positions on the face.
+    void observe(const SurfaceEvaluation &found, Row &row) const;
+
+    FacePoints points() const;
+
+    FaceState state(const SurfaceEvaluation &found, const DrivePoint &drive) const;
+
+  private:
+    void observe_resultants(const SurfaceEvaluation &found, Row &row) const;
+    void observe_pressure(const SurfaceEvaluation &found, Row &row) const;
+
+    const FrictionFace<3> &face;
+    const SurfaceContact &contact;
+    std::vector<unsigned int> part_of_point;
+    std::vector<unsigned int> line_of_point; ///< points with the same zeta
+    FacePoints parts;
+  };
+} // namespace sprag

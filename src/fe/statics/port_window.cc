@@ -1,0 +1,136 @@
+#include "fe/statics/port_window.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+namespace sprag
+{
+  using namespace dealii;
+
+  PortWindow::PortWindow(const PortLayout &ports_, const PortSprings &springs_, std::vector<FaceResponse> faces_)
+      : ports(ports_)
+      , springs(springs_)
+      , faces(std::move(faces_))
+  {
+  }
+
+  unsigned int PortWindow::n_coordinates() const
+  {
+    return ports.size();
+  }
+
+  unsigned int PortWindow::coordinate(const unsigned int port) const
+  {
+    return port;
+  }
+
+  const Vector<double> &PortWindow::port_displacements(const Vector<double> &coordinates) const
+  {
+    return coordinates;
+  }
+
+  PortSelection PortWindow::enter(const PortSelection &wanted)
+  {
+    PortSelection entered;
+    std::set_difference(wanted.begin(), wanted.end(), selected.begin(), selected.end(), std::back_inserter(entered));
+    if (!std::includes(window.begin(), window.end(), wanted.begin(), wanted.end()))
+      move_window(wanted);
+    selected = wanted;
+    places   = places_of(wanted);
+    return entered;
+  }
+
+  void PortWindow::move_window(const PortSelection &wanted)
+  {
+    window_for = wanted;
+    window.clear();
+    compliance            = {};
+    const auto add_spring = [&](const unsigned int port, const double stiffness)
+    {
+      window.push_back(port);
+      compliance.append(1. / stiffness);
+    };
+    for (unsigned int lever = 0; lever < ports.levers; ++lever)
+    {
+      unsigned int first = ports.first(lever);
+      for (const auto &face : faces)
+      {
+        const auto begin = std::lower_bound(wanted.begin(), wanted.end(), first);
+        const auto end   = std::lower_bound(begin, wanted.end(), first + face.n_ports);
+        PortSelection of_face;
+        std::transform(begin, end, std::back_inserter(of_face), [&](const unsigned int port) { return port - first; });
+        const auto tiles = face.whole_tiles(of_face);
+        for (const unsigned int place : tiles)
+          window.push_back(first + place);
+        if (!tiles.empty())
+          compliance.append(face.among(tiles));
+        first += face.n_ports;
+      }
+      add_spring(ports.rotation(lever), springs.rotation);
+    }
+    if (ports.sprung)
+      add_spring(ports.support(), ports.levers * springs.support);
+    mismatch.reinit(compliance.size());
+  }
+
+  void PortWindow::visit_history(Archive &archive)
+  {
+    PortSelection wanted = window_for;
+    archive(wanted);
+    if (archive.reads() && !wanted.empty())
+      move_window(wanted);
+  }
+
+  PortSelection PortWindow::places_of(const std::vector<unsigned int> &of_ports) const
+  {
+    PortSelection result;
+    for (const unsigned int port : of_ports)
+      result.push_back(place_of(port, window));
+    return result;
+  }
+
+  void PortWindow::set_faces(const PortLoads &forces, Vector<double> &coordinates) const
+  {
+    Vector<double> displacements(mismatch.size());
+    add_response(compliance, places_of(forces.ports), forces.values, places, displacements);
+    for (const unsigned int place : places)
+      if (ports.is_surface(window[place]))
+        coordinates[window[place]] = displacements[place];
+  }
+
+  double PortWindow::unbalance(const Vector<double> &coordinates, const PortForces &forces)
+  {
+    for (const unsigned int place : places)
+      mismatch[place] = -coordinates[window[place]];
+    add_response(compliance, places_of(forces.ports), forces.values, places, mismatch);
+    double result = 0.;
+    for (const unsigned int place : places)
+      result += mismatch[place] * mismatch[place];
+    for (unsigned int lever = 0; lever < ports.levers; ++lever)
+    {
+      const double turn = mismatch[place_of(ports.rotation(lever), window)];
+      result += (springs.arm * springs.arm - 1.) * turn * turn;
+    }
+    return std::sqrt(result);
+  }
+
+  Vector<double> PortWindow::correction(const PortForces &forces) const
+  {
+    const auto in_window =
+        port_correction(compliance, { places_of(forces.ports), forces.values, forces.tangent }, places, mismatch);
+    Vector<double> result(n_coordinates());
+    for (const unsigned int place : places)
+      result[window[place]] = in_window[place];
+    return result;
+  }
+
+  double PortWindow::largest(const Vector<double> &coordinates) const
+  {
+    double result = 0.;
+    for (const unsigned int port : selected)
+      result = std::max(result, std::abs(coordinates[port]));
+    return result;
+  }
+
+} // namespace sprag

@@ -1,0 +1,135 @@
+#include "analysis/statics/quasi_static.h"
+#include "fe/solid/solid_lever.h"
+#include "run/analyses.h"
+#include "run/in_memory.h"
+#include "run/recorder.h"
+#include "run/report.h"
+
+#include <iostream>
+#include <optional>
+
+namespace sprag
+{
+  namespace
+  {
+    constexpr unsigned int states_checked = 12; ///< of a run, for what the compliance leaves out
+
+    std::vector<Entry> model_entries(const Scene &scene, const SolidBody &body, const SolidLever &lever)
+    {
+      const auto [mass, inertia] = body.mass_and_inertia(scene.lever.density);
+      const auto &[normal, slip] = lever.penalties();
+      return { { "cells", static_cast<double>(body.dofs().get_triangulation().n_active_cells()), "1", "cells of the mesh" },
+               { "degrees_of_freedom", static_cast<double>(body.n_dofs()), "1", "displacements, those of the hub included" },
+               { "face_points", static_cast<double>(body.friction_face().points.size()), "1",
+                 "integration points of the friction face" },
+               { "face_size", scene.mesh.face_size, "mm", "element length along the friction face in use, of the built-in mesh" },
+               { "bond_loads", static_cast<double>(lever.face_compliance().basis_size()), "1",
+                 "loads on the bond of the layer by which the answer of the lever behind it is found" },
+               { "penalty", normal, "N/mm^3", "normal penalty in use" },
+               { "tangential_penalty", slip, "N/mm^3", "tangential penalty in use" },
+               { "lever_mass", mass, "t", "mass of lever, layer and hub at the lever's density" },
+               { "lever_inertia", inertia, "t mm^2", "their moment of inertia about the pivot" } };
+    }
+
+    void print_model(const Scene &scene, const SolidBody &body, const SolidLever &lever)
+    {
+      std::cout << "Finite elements: " << body.n_dofs() << " displacements of degree " << scene.mesh.degree
+                << " in three dimensions, linear; " << body.friction_face().points.size() << " contact points; penalty "
+                << lever.penalties().normal << " N/mm^3\n"
+                << std::flush;
+    }
+
+    /// What the compliance of the face leaves out, the worst of some states.
+    class ExactnessCheck
+    {
+    public:
+      ExactnessCheck(SolidLever &of_lever, const double path)
+          : lever(of_lever)
+          , interval(path / states_checked)
+      {
+      }
+
+      void look_at(const State &state, const double travel)
+      {
+        if (travel < next || state.forces.ports.empty())
+          return;
+        next             = travel + interval;
+        const auto found = lever.exactness(state);
+        worst            = { std::max(worst.displacement, found.displacement), std::max(worst.force, std::abs(found.force)) };
+      }
+
+      std::vector<Entry> entries() const
+      {
+        return {
+          { "compliance_error", worst.displacement, "1",
+            "largest displacement of the face that its compliance leaves out against the whole body, over the largest one" },
+          { "compliance_work_error", worst.force, "1", "and of the work of the forces on it, over that work" }
+        };
+      }
+
+    private:
+      SolidLever &lever;
+      const double interval; ///< of travel between states looked at [mm]
+      double next = 0.;
+      SolidLever::Exactness worst{};
+    };
+
+    void drive_lever(const Scene &scene, const RunOptions &options, PhaseTimer &timer, const SolidBody &body, SolidLever &lever,
+                     Warnings &warnings)
+    {
+      Checkpoint checkpoint(scene, options);
+      Recorder recorder(scene, options, timer, lever.face_points(), &checkpoint);
+      if (!options.quiet)
+        print_model(scene, body, lever);
+      ExactnessCheck check(lever, path_length(scene.drive));
+      double travel    = 0.;
+      double last_x    = 0.;
+      const auto write = [&](const State &state, const Row &row)
+      {
+        const PhaseTimer::Scope scope(timer, "output");
+        recorder.record(row);
+        recorder.record(lever.face_state(state));
+        travel += std::abs(row[Column::x] - last_x);
+        last_x = row[Column::x];
+        const PhaseTimer::Scope of_check(timer, "exactness");
+        check.look_at(state, travel);
+      };
+      const auto hand_on = [&](const State &state, const Row &row) { checkpoint.hand_on([&] { write(state, row); }); };
+      const QuasiStaticSettings settings{ scene.analysis.step, scene.analysis.minimum_step, scene.contact };
+      double stick = 0.;
+      std::vector<Entry> summary;
+      finish_in_any_case(
+          [&]
+          {
+            const PhaseTimer::Scope scope(timer, "steps_and_output");
+            stick = run_quasi_static(lever, scene.drive, settings, hand_on, &checkpoint);
+          },
+          [&](const std::string &status)
+          {
+            auto meta = joined(model_entries(scene, body, lever), check.entries());
+            meta.push_back(
+                { "stick_stiffness", stick, "N/mm", "tangential stiffness of layer and penalty in stick at the first reversal" });
+            const auto ending = status_at_end(status);
+            summary           = recorder.finish(ending, meta, warnings);
+            if (ending != status)
+              throw AnalysisError(ending);
+          });
+      check_deviation(scene, summary);
+    }
+  } // namespace
+
+  void run_solid_scene(const Scene &scene, const RunOptions &options, Warnings &warnings)
+  {
+    PhaseTimer timer;
+    require_folder(options);
+    const auto meshes = static_meshes(options);
+    const Mesh *plane = nullptr;
+    timed(timer, "mesh", [&] { plane = &meshes->mesh_of(scene); });
+    const MPI_Comm ranks = options.in_memory ? MPI_COMM_SELF : MPI_COMM_WORLD; // those of a study run scenes of their own
+    std::optional<SolidBody> body;
+    timed(timer, "body", [&] { body.emplace(scene, *plane, ranks); });
+    std::optional<SolidLever> lever;
+    timed(timer, "model", [&] { lever.emplace(*body, scene); });
+    drive_lever(scene, options, timer, *body, *lever, warnings);
+  }
+} // namespace sprag

@@ -1,0 +1,52 @@
+#include "scene/check_parts.h"
+
+#include "base/text.h"
+
+#include <cmath>
+
+namespace sprag
+{
+  namespace
+  {
+    void what_there_is(const Scene &scene, Rules &rules)
+    {
+      const std::string in_plane = ": in three dimensions there is no other yet";
+      const auto need            = [&](const bool kept, const std::string &parameter, const std::string &word)
+      { rules.need(kept, parameter, { "Analysis/Dimension" }, "must be " + word + in_plane); };
+      const auto &analysis = scene.analysis;
+      const auto type      = analysis.type == AnalysisType::study ? scene.study.type : analysis.type;
+      need(type == AnalysisType::quasi_static, analysis.type == AnalysisType::study ? "Study/Type" : "Analysis/Type",
+           "quasi static");
+      need(analysis.model == ModelType::finite_element, "Analysis/Model", "finite element");
+      need(analysis.solution == Solution::automatic, "Analysis/Solution", "automatic");
+      need(scene.lever.material == MaterialModel::linear, "Lever/Material", "linear");
+      need(scene.lever.outline == LeverOutline::bar, "Lever/Outline", "bar");
+      need(scene.plate.type == PlateType::none, "Friction plate/Type", "none");
+      need(scene.cylinder.type == CylinderType::rigid, "Cylinder/Type", "rigid");
+      need(scene.pair.type == PairType::half, "Mirrored pair/Type", "half");
+      need(scene.contact.enforcement == Enforcement::penalty, "Contact/Enforcement", "penalty");
+    }
+
+    void cylinder_across(const Scene &scene, Rules &rules)
+    {
+      const auto &cylinder = scene.cylinder;
+      const double half    = 0.5 * scene.lever.width;
+      if (cylinder.length > 0.)
+      {
+        rules.need(std::abs(cylinder.position) < half + 0.5 * cylinder.length, "Cylinder/Position", { "Cylinder/Length" },
+                   "must leave a part of the cylinder over the lever, " + mm(-half) + " to " + mm(half) + " from its middle");
+        rules.need(cylinder.edge_radius <= 0.5 * cylinder.length, "Cylinder/Edge radius", { "Cylinder/Length" },
+                   "must be at most half of Length = " + mm(cylinder.length));
+      }
+      else
+        rules.need(cylinder.edge_radius == 0., "Cylinder/Edge radius", { "Cylinder/Length" },
+                   "must be 0 where Length = 0: the ends then lie beyond the lever");
+    }
+  } // namespace
+
+  void check_solid(const Scene &scene, Rules &rules)
+  {
+    what_there_is(scene, rules);
+    cylinder_across(scene, rules);
+  }
+} // namespace sprag
