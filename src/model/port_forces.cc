@@ -2,7 +2,9 @@
 
 #include "base/errors.h"
 
+#include <deal.II/lac/dynamic_sparsity_pattern.h>
 #include <deal.II/lac/lapack_full_matrix.h>
+#include <deal.II/lac/sparsity_tools.h>
 
 #include <algorithm>
 #include <numeric>
@@ -19,6 +21,59 @@ namespace sprag
     Places places_in(const PortCompliance::Block &block, const std::vector<unsigned int> &ports)
     {
       return { place_of(block.begin, ports), place_of(block.end(), ports) };
+    }
+
+    /// Product of a full matrix and one that couples each place with few others. Those are numbered so that they are close
+    /// (Cuthill and McKee), and only the rows counted that columns next to each other have.
+    void multiply_by_sparse(const FullMatrix<double> &full, const FullMatrix<double> &sparse, FullMatrix<double> &product)
+    {
+      constexpr unsigned int together = 48;
+      const auto n                    = static_cast<unsigned int>(sparse.n());
+      DynamicSparsityPattern pattern(n, n);
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int j = 0; j < n; ++j)
+          if (sparse(i, j) != 0. || i == j)
+          {
+            pattern.add(i, j);
+            pattern.add(j, i);
+          }
+      std::vector<types::global_dof_index> number(n);
+      SparsityTools::reorder_Cuthill_McKee(pattern, number);
+      std::vector<unsigned int> at(n), first(n, n), last(n, 0);
+      for (unsigned int i = 0; i < n; ++i)
+        at[number[i]] = i;
+      for (unsigned int i = 0; i < n; ++i)
+        for (auto other = pattern.begin(at[i]); other != pattern.end(at[i]); ++other)
+        {
+          first[i] = std::min(first[i], static_cast<unsigned int>(number[other->column()]));
+          last[i]  = std::max(last[i], static_cast<unsigned int>(number[other->column()]));
+        }
+      for (unsigned int begin = 0; begin < n; begin += together)
+      {
+        const unsigned int end  = std::min(n, begin + together);
+        const unsigned int low  = *std::min_element(first.begin() + begin, first.begin() + end);
+        const unsigned int high = *std::max_element(last.begin() + begin, last.begin() + end) + 1;
+        FullMatrix<double> of_full(n, high - low), of_sparse(high - low, end - begin), of_product(n, end - begin);
+        for (unsigned int i = 0; i < n; ++i)
+          for (unsigned int k = low; k < high; ++k)
+            of_full(i, k - low) = full(i, at[k]);
+        for (unsigned int k = low; k < high; ++k)
+          for (unsigned int j = begin; j < end; ++j)
+            of_sparse(k - low, j - begin) = sparse(at[k], at[j]);
+        of_full.mmult(of_product, of_sparse);
+        for (unsigned int i = 0; i < n; ++i)
+          for (unsigned int j = begin; j < end; ++j)
+            product(i, at[j]) = of_product(i, j - begin);
+      }
+    }
+
+    void multiply(const FullMatrix<double> &compliance, const FullMatrix<double> &tangent, FullMatrix<double> &product)
+    {
+      constexpr unsigned int many = 256; // from where the zeros of the tangent are worth the search for them
+      if (tangent.n() < many)
+        compliance.mmult(product, tangent);
+      else
+        multiply_by_sparse(compliance, tangent, product);
     }
 
     /// M = 1 - G df/dz on some of the ports. Forces on a block of ports follow its own displacements and few others, say the turn
@@ -119,7 +174,7 @@ namespace sprag
         for (unsigned int i = 0; i < n; ++i)
           for (unsigned int j = 0; j < n; ++j)
             loaded(i, j) = (*of.matrix)(ports[first + i] - of.begin, ports[first + j] - of.begin);
-        loaded.mmult(product, of_block);
+        multiply(loaded, of_block, product);
         for (unsigned int i = 0; i < n; ++i)
           for (unsigned int j = 0; j < n; ++j)
             block.matrix(i, j) = (i == j ? 1. : 0.) - product(i, j);

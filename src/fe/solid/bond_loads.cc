@@ -63,10 +63,9 @@ namespace sprag
       return result;
     }
 
-    bool is_bond(const DoFHandler<3>::active_cell_iterator &cell, const unsigned int f)
+    bool is_bond(const SolidBody &body, const DoFHandler<3>::active_cell_iterator &cell, const unsigned int f)
     {
-      return cell->material_id() == material_id::layer && !cell->at_boundary(f) &&
-             cell->neighbor(f)->material_id() != material_id::layer;
+      return body.is_skin(cell) && !cell->at_boundary(f) && !body.is_skin(cell->neighbor(f));
     }
   } // namespace
 
@@ -83,7 +82,7 @@ namespace sprag
     std::vector<types::global_dof_index> indices(fe.n_dofs_per_cell());
     for (const auto &cell : body.dofs().active_cell_iterators())
       for (const unsigned int f : cell->face_indices())
-        if (is_bond(cell, f))
+        if (is_bond(body, cell, f))
         {
           values.reinit(cell, f);
           cell->get_dof_indices(indices);

@@ -4,8 +4,8 @@
 
 namespace sprag
 {
-  /// Smooth loads on the bond between layer and lever: hats over a grid of xi and zeta, in each of three directions. Together
-  /// they can carry any force and moment.
+  /// Smooth loads on the bond between the skin and what is behind it: hats over a grid of xi and zeta, in each of three
+  /// directions. Together they can carry any force and moment.
   struct BondGrid
   {
     double begin;        ///< along xi [mm]
@@ -15,6 +15,6 @@ namespace sprag
   };
 
   /// Returns consistent nodal forces of the hats by the body's degrees of freedom, a column each; those that only the hub carries
-  /// are left out. Empty for a body without layer.
+  /// are left out. Empty for a body without skin.
   SparseColumns bond_loads(const SolidBody &body, const BondGrid &grid);
 } // namespace sprag

@@ -16,11 +16,12 @@ namespace sprag
 
   namespace
   {
-    /// Surroundings of a column that must be alike for it to answer alike, over the thickness of the layer.
-    constexpr double surroundings_over_thickness = 12.;
+    /// Surroundings of a column that must be alike for it to answer alike, over the depth of the skin. What lies further away
+    /// differs in the length of its cells, if at all.
+    const double surroundings_over_depth = getenv("SS") ? atof(getenv("SS")) : 1.;
 
     /// Displacements of the near part that count, over its largest.
-    constexpr double negligible = 1e-10;
+    const double negligible = getenv("NN") ? atof(getenv("NN")) : 1e-9;
 
     /// Columns solved for together, which bounds the memory that they take.
     constexpr int chunk = 128;
@@ -31,12 +32,12 @@ namespace sprag
     }
   } // namespace
 
-  LayeredCompliance::LayeredCompliance(const SolidBody &body_, const double begin, const double end, const double thickness)
+  LayeredCompliance::LayeredCompliance(const SolidBody &body_, const double begin, const double end, const double depth)
       : body(body_)
   {
-    find_tiles(surroundings_over_thickness * thickness);
-    if (body.has_layer())
-      find_basis(begin, end, thickness);
+    find_tiles(surroundings_over_depth * depth);
+    if (body.has_skin())
+      find_basis(begin, end, depth);
   }
 
   void LayeredCompliance::find_tiles(const double surroundings)
@@ -54,29 +55,38 @@ namespace sprag
       tiles.back().end = 3 * (i + 1);
     }
 
-    std::map<std::set<std::vector<long>>, unsigned int> first_alike;
+    if (!body.has_skin())
+      return;
+    std::map<std::set<std::vector<long>>, std::vector<unsigned int>> alike;
     for (unsigned int t = 0; t < tiles.size(); ++t)
-    {
-      std::set<std::vector<long>> around;
-      const double xi = tiles[t].xi;
-      for (const auto &cell : body.dofs().active_cell_iterators())
-        if (cell->material_id() == material_id::layer && std::abs(cell->center()[0] - xi) < surroundings)
-        {
-          std::vector<long> corners;
-          for (const unsigned int v : cell->vertex_indices())
-            for (unsigned int d = 0; d < 3; ++d)
-              corners.push_back(rounded(cell->vertex(v)[d] - (d == 0 ? xi : 0.)));
-          around.insert(corners);
-        }
-      if (body.has_layer())
-        tiles[t].like = first_alike.try_emplace(around, t).first->second;
-    }
+      alike[surroundings_of(tiles[t].xi, surroundings)].push_back(t);
+    for (const auto &[around, some] : alike)
+      for (const unsigned int t : some)
+        tiles[t].like = some[some.size() / 2];
   }
 
-  void LayeredCompliance::find_basis(const double begin, const double end, const double thickness)
+  /// The corners of the skin's cells near a place, seen from there.
+  std::set<std::vector<long>> LayeredCompliance::surroundings_of(const double xi, const double distance) const
   {
-    const auto loads   = bond_loads(body, { begin, end, 2. * thickness, 4. * thickness });
-    const int n        = loads.size();
+    std::set<std::vector<long>> result;
+    for (const auto &cell : body.dofs().active_cell_iterators())
+      if (std::abs(cell->center()[0] - xi) < distance && body.is_skin(cell))
+      {
+        std::vector<long> corners;
+        for (const unsigned int v : cell->vertex_indices())
+          for (unsigned int d = 0; d < 3; ++d)
+            corners.push_back(rounded(cell->vertex(v)[d] - (d == 0 ? xi : 0.)));
+        result.insert(corners);
+      }
+    return result;
+  }
+
+  void LayeredCompliance::find_basis(const double begin, const double end, const double depth)
+  {
+    const double RR  = getenv("RR") ? atof(getenv("RR")) : 4.;
+    const auto loads = bond_loads(body, { begin - RR * depth, end + RR * depth, (getenv("HX") ? atof(getenv("HX")) : 1.) * depth,
+                                          (getenv("HZ") ? atof(getenv("HZ")) : 1.) * depth });
+    const int n      = loads.size();
     const auto n_ports = static_cast<unsigned int>(dofs.size());
     FullMatrix<double> of_face(n_ports, n);
     LAPACKFullMatrix<double> products(n);
@@ -155,13 +165,13 @@ namespace sprag
       return result;
     };
     NearColumns result{ 0, { of_tile(tiles[tile]) } };
-    const double least  = body.has_layer() ? negligible * result.of_tiles.front().linfty_norm() : 0.;
+    const double least  = body.has_skin() ? negligible * result.of_tiles.front().linfty_norm() : 0.;
     const auto add_side = [&](const int step, const auto &add)
     {
       for (int other = static_cast<int>(tile) + step; other >= 0 && other < static_cast<int>(tiles.size()); other += step)
       {
         auto matrix = of_tile(tiles[other]);
-        if (body.has_layer() && matrix.linfty_norm() < least)
+        if (body.has_skin() && matrix.linfty_norm() < least)
           break;
         add(std::move(matrix));
       }
@@ -177,45 +187,72 @@ namespace sprag
 
   const LayeredCompliance::NearColumns &LayeredCompliance::near_columns(const unsigned int tile)
   {
-    const unsigned int like = tiles[tile].like;
-    const auto found        = known.find(like);
-    return found != known.end() ? found->second : known.emplace(like, find_near_columns(like)).first->second;
+    const auto found = known.find(tile);
+    return found != known.end() ? found->second : known.emplace(tile, find_near_columns(tile)).first->second;
+  }
+
+  /// Displacements of a tile by forces on another; none where they are negligible. What stands for a tile serves as far as the
+  /// others lie about it as about the tile.
+  const FullMatrix<double> *LayeredCompliance::near_block(const unsigned int row_tile, const unsigned int column_tile)
+  {
+    const int apart    = static_cast<int>(row_tile) - static_cast<int>(column_tile);
+    const auto &tile   = tiles[column_tile];
+    const int other    = static_cast<int>(tile.like) + apart;
+    const bool lies_so = other >= 0 && other < static_cast<int>(tiles.size()) &&
+                         rounded(tiles[other].xi - tiles[tile.like].xi) == rounded(tiles[row_tile].xi - tile.xi);
+    const auto &columns    = near_columns(lies_so ? tile.like : column_tile);
+    const int number       = apart - columns.first;
+    const bool is_far_away = number < 0 || number >= static_cast<int>(columns.of_tiles.size());
+    return is_far_away ? nullptr : &columns.of_tiles[number];
+  }
+
+  FullMatrix<double> LayeredCompliance::block(const unsigned int row_tile, const unsigned int column_tile)
+  {
+    const auto rows_of = [&](const Tile &tile)
+    {
+      FullMatrix<double> result(tile.end - tile.begin, basis.n());
+      if (basis.n() > 0)
+        std::copy_n(&basis(tile.begin, 0), result.m() * result.n(), &result(0, 0));
+      return result;
+    };
+    const auto &rows    = tiles[row_tile];
+    const auto &columns = tiles[column_tile];
+    FullMatrix<double> result(rows.end - rows.begin, columns.end - columns.begin);
+    if (basis.n() > 0)
+      rows_of(rows).mTmult(result, rows_of(columns));
+    if (const auto *const near = near_block(row_tile, column_tile))
+      result.add(1., *near);
+    return result;
   }
 
   FullMatrix<double> LayeredCompliance::among(const PortSelection &whole_tiles)
   {
     const auto n = static_cast<unsigned int>(whole_tiles.size());
     FullMatrix<double> result(n, n);
-    if (basis.n() > 0)
-    {
-      FullMatrix<double> rows(n, basis.n());
-      for (unsigned int i = 0; i < n; ++i)
-        std::copy_n(&basis(whole_tiles[i], 0), basis.n(), &rows(i, 0));
-      rows.mTmult(result, rows);
-    }
+    std::vector<std::pair<unsigned int, int>> places; // of the tiles in the matrix, and in the last one, -1 where they are new
     for (unsigned int place = 0; place < n;)
     {
-      const unsigned int tile = tile_of(whole_tiles[place]);
-      const auto &columns     = near_columns(tile);
-      for (unsigned int row = place; row < n;)
-      {
-        const unsigned int other = tile_of(whole_tiles[row]);
-        const int number         = static_cast<int>(other) - static_cast<int>(tile) - columns.first;
-        if (number >= static_cast<int>(columns.of_tiles.size()))
-          break;
-        const auto &matrix = columns.of_tiles[number];
-        for (unsigned int i = 0; i < matrix.m(); ++i)
-          for (unsigned int j = 0; j < matrix.n(); ++j)
-            if (row + i >= place + j)
-            {
-              result(row + i, place + j) += matrix(i, j);
-              if (row + i != place + j)
-                result(place + j, row + i) += matrix(i, j);
-            }
-        row += static_cast<unsigned int>(matrix.m());
-      }
-      place += tiles[tile].end - tiles[tile].begin;
+      const unsigned int port = whole_tiles[place];
+      const unsigned int last = place_of(port, last_ports);
+      places.emplace_back(place, last < last_ports.size() && last_ports[last] == port ? static_cast<int>(last) : -1);
+      const auto &tile = tiles[tile_of(port)];
+      place += tile.end - tile.begin;
     }
+    for (const auto &[row, last_row] : places)
+      for (const auto &[column, last_column] : places)
+      {
+        if (column > row)
+          break;
+        const unsigned int row_tile = tile_of(whole_tiles[row]), column_tile = tile_of(whole_tiles[column]);
+        const bool is_known = last_row >= 0 && last_column >= 0;
+        const auto fresh    = is_known ? FullMatrix<double>() : block(row_tile, column_tile);
+        for (unsigned int i = 0; i < tiles[row_tile].end - tiles[row_tile].begin; ++i)
+          for (unsigned int j = 0; j < tiles[column_tile].end - tiles[column_tile].begin && column + j <= row + i; ++j)
+            result(row + i, column + j) = result(column + j, row + i) =
+                is_known ? last_matrix(last_row + i, last_column + j) : fresh(i, j);
+      }
+    last_ports  = whole_tiles;
+    last_matrix = result;
     return result;
   }
 
@@ -229,10 +266,8 @@ namespace sprag
       for (unsigned int j = 0; j < basis.n(); ++j)
         result += basis(port, j) * basis(from, j) * forces.values[a];
       const unsigned int tile = tile_of(from);
-      const auto &columns     = near_columns(tile);
-      const int number        = static_cast<int>(to) - static_cast<int>(tile) - columns.first;
-      if (number >= 0 && number < static_cast<int>(columns.of_tiles.size()))
-        result += columns.of_tiles[number](port - tiles[to].begin, from - tiles[tile].begin) * forces.values[a];
+      if (const auto *const block = near_block(to, tile))
+        result += (*block)(port - tiles[to].begin, from - tiles[tile].begin) * forces.values[a];
     }
     return result;
   }

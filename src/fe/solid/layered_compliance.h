@@ -6,22 +6,24 @@
 #include <deal.II/lac/full_matrix.h>
 
 #include <map>
+#include <set>
 
 namespace sprag
 {
   /// Compliance G between the displacements of the friction face's nodes, three a node, the body held at its hub [mm/N].
   ///
-  /// With a layer it is that of the layer on a rigid bond, which is known exactly and dies away within some thicknesses, and the
-  /// answer of what is behind the bond to the forces that the layer hands on. They are smooth and what is behind is stiff: the
-  /// answer is found for loads on the bond, hats of some spacing in all three directions (attachment modes; Galerkin, so that
-  /// the part left out is never negative), and is symmetric, Z Z^T. Without a layer the near part is the whole body's and exact.
+  /// It is that of the body's skin on a rigid bond, which is known exactly and dies away within some depths, and the answer of
+  /// what is behind the bond to the forces that the skin hands on. They are smooth there: the answer is found for loads on the
+  /// bond, hats of some spacing in all three directions (attachment modes; Galerkin, so that the part left out is never
+  /// negative), and is symmetric, Z Z^T. Without a skin the near part is the whole body's and exact.
   ///
-  /// The near part is found in columns of nodes with the same xi, those whose surroundings in the layer are alike together.
+  /// The near part is found in columns of nodes with the same xi, once for those whose surroundings in the skin are alike.
   class LayeredCompliance
   {
   public:
-    /// `begin` ... `end`: part of the face where forces act, along xi [mm]. The body must outlive this.
-    LayeredCompliance(const SolidBody &body, double begin, double end, double thickness);
+    /// `begin` ... `end`: part of the face where forces act, along xi [mm]; `depth`: of the skin [mm]. The body must
+    /// outlive this.
+    LayeredCompliance(const SolidBody &body, double begin, double end, double depth);
 
     /// The columns of nodes that hold the given ports, as increasing ports. A port is a number among the face's displacements,
     /// sorted by the columns: see dof_of_port().
@@ -30,8 +32,8 @@ namespace sprag
     /// The compliance between some ports, which make up whole columns.
     dealii::FullMatrix<double> among(const PortSelection &whole_tiles);
 
-    /// Displacements of some ports by forces on others, those of the layer itself left out where they are further away than it
-    /// reaches [mm].
+    /// Displacements of some ports by forces on others, those of the skin left out where they are further away than it reaches
+    /// [mm].
     double displacement(unsigned int port, const PortLoads &forces);
 
     unsigned int basis_size() const
@@ -46,7 +48,7 @@ namespace sprag
       double xi;
       unsigned int begin; ///< its first port
       unsigned int end;   ///< beyond the last
-      unsigned int like;  ///< the first tile with the same surroundings
+      unsigned int like;  ///< one in the middle of those with the same surroundings
     };
 
     /// Displacements near a tile by unit forces on it: a matrix for each tile from `first` on, a column a force.
@@ -57,7 +59,10 @@ namespace sprag
     };
 
     void find_tiles(double surroundings);
+    std::set<std::vector<long>> surroundings_of(double xi, double distance) const;
     void find_basis(double begin, double end, double spacing);
+    const dealii::FullMatrix<double> *near_block(unsigned int row_tile, unsigned int column_tile);
+    dealii::FullMatrix<double> block(unsigned int row_tile, unsigned int column_tile);
     const NearColumns &near_columns(unsigned int tile);
     NearColumns find_near_columns(unsigned int tile) const;
     unsigned int tile_of(unsigned int port) const;
@@ -65,7 +70,11 @@ namespace sprag
     const SolidBody &body;
     std::vector<unsigned int> dofs; ///< of the ports
     std::vector<Tile> tiles;
-    std::map<unsigned int, NearColumns> known; ///< by the tile that stands for those alike
+    std::map<unsigned int, NearColumns> known; ///< by the tile
     dealii::FullMatrix<double> basis;          ///< Z, a row a port
+
+    // What was found last, most of which the next one holds too.
+    PortSelection last_ports;
+    dealii::FullMatrix<double> last_matrix;
   };
 } // namespace sprag

@@ -31,14 +31,21 @@ namespace sprag
     using Sharing = SolidMesh::Settings;
   } // namespace
 
+  double skin_depth(const Scene &scene)
+  {
+    return scene.layer.thickness + (getenv("DD") ? atof(getenv("DD")) : 0.08) * scene.geometry.cylinder_radius;
+  }
+
   SolidBody::SolidBody(const Scene &scene, const Mesh &plane, const MPI_Comm ranks_)
       : ranks(ranks_)
+      , interface_offset(scene.geometry.interface_offset)
+      , depth_of_skin(skin_depth(scene))
       , properties(solid_properties(scene))
       , mesh(ranks, SolidMesh::none, false, Sharing::partition_zorder)
       , fe(FE_Q<3>(properties.degree), 3)
       , dof_handler(mesh)
       , factors(ranks)
-      , factors_of_layer(ranks)
+      , factors_of_skin(ranks)
   {
     if (Utilities::MPI::this_mpi_process(ranks) == 0)
       call_others(SharedTask::build, ranks);
@@ -47,12 +54,12 @@ namespace sprag
     hold_hub();
     face = find_friction_face(mapping, dof_handler, constraints, properties, boundary_id::friction_face);
     order_face_nodes();
-    number_layer();
-    SymmetricEntries of_layer;
-    auto of_whole = assemble_stiffness({ mapping, dof_handler, constraints, properties }, number_in_layer, of_layer);
+    number_skin();
+    SymmetricEntries of_skin;
+    auto of_whole = assemble_stiffness({ mapping, dof_handler, constraints, properties }, number_in_skin, of_skin);
     factors.factorise(std::move(of_whole));
-    if (has_layer())
-      factors_of_layer.factorise(std::move(of_layer));
+    if (has_skin())
+      factors_of_skin.factorise(std::move(of_skin));
   }
 
   void SolidBody::hold_hub()
@@ -95,24 +102,25 @@ namespace sprag
           node.index = place[node.index];
   }
 
-  /// Numbers what belongs to the layer alone.
-  void SolidBody::number_layer()
+  /// Numbers what belongs to the skin alone.
+  void SolidBody::number_skin()
   {
-    std::vector<char> in_layer(n_dofs(), 0), elsewhere(n_dofs(), 0);
+    std::vector<char> in_skin(n_dofs(), 0), elsewhere(n_dofs(), 0);
     std::vector<types::global_dof_index> indices(fe.n_dofs_per_cell());
     for (const auto &cell : dof_handler.active_cell_iterators())
     {
       cell->get_dof_indices(indices);
       for (const auto index : indices)
-        (cell->material_id() == material_id::layer ? in_layer : elsewhere)[index] = 1;
+        (is_skin(cell) ? in_skin : elsewhere)[index] = 1;
     }
     int number = 0;
-    number_in_layer.assign(n_dofs(), -1);
+    number_in_skin.assign(n_dofs(), -1);
     for (unsigned int dof = 0; dof < n_dofs(); ++dof)
-      if (in_layer[dof] && !elsewhere[dof] && !is_held(dof))
-        number_in_layer[dof] = number++;
-    if (number == 0)
-      number_in_layer.clear();
+      if (in_skin[dof] && !elsewhere[dof] && !is_held(dof))
+        number_in_skin[dof] = number++;
+    const bool is_all = std::find(elsewhere.begin(), elsewhere.end(), 1) == elsewhere.end();
+    if (number == 0 || is_all)
+      number_in_skin.clear();
   }
 
   std::array<double, 2> SolidBody::mass_and_inertia(const double density) const
@@ -133,16 +141,21 @@ namespace sprag
     return result;
   }
 
+  bool SolidBody::is_skin(const DoFHandler<3>::active_cell_iterator &cell) const
+  {
+    return cell->material_id() != material_id::hub && cell->center()[1] < interface_offset + depth_of_skin;
+  }
+
   int SolidBody::number_near(const unsigned int dof) const
   {
-    if (has_layer())
-      return number_in_layer[dof];
+    if (has_skin())
+      return number_in_skin[dof];
     return is_held(dof) ? -1 : static_cast<int>(dof);
   }
 
   unsigned int SolidBody::n_near() const
   {
-    return has_layer() ? factors_of_layer.size() : n_dofs();
+    return has_skin() ? factors_of_skin.size() : n_dofs();
   }
 
   void SolidBody::respond(std::vector<double> &loads) const
@@ -159,15 +172,15 @@ namespace sprag
 
   std::vector<double> SolidBody::respond_near(SparseColumns loads) const
   {
-    if (!has_layer())
+    if (!has_skin())
       return respond(std::move(loads));
     call_others(SharedTask::solve_near, ranks);
-    return factors_of_layer.solve(std::move(loads));
+    return factors_of_skin.solve(std::move(loads));
   }
 
   void SolidBody::take_part(const SharedTask task) const
   {
-    (task == SharedTask::solve_whole ? factors : factors_of_layer).take_part();
+    (task == SharedTask::solve_whole ? factors : factors_of_skin).take_part();
   }
 
   void help_first_rank(const Scene &scene, const MPI_Comm ranks)

@@ -10,6 +10,10 @@
 
 namespace sprag
 {
+  /// Returns how far the skin of a lever reaches from its friction face [mm]: beyond the layer as far as the pressure of a
+  /// contact is more than its resultant.
+  double skin_depth(const Scene &scene);
+
   /// The linear elastic lever in three dimensions, in axes in which its hub does not move. All ranks hold the mesh and the
   /// numbers of its displacements; stiffness and factors are shared. Everything but construction is for the first rank.
   class SolidBody
@@ -50,14 +54,18 @@ namespace sprag
       return face;
     }
 
-    /// Whether there is a layer of another material below the lever.
-    bool has_layer() const
+    /// Returns whether a cell is of the skin: the friction layer and a strip of what is behind it, as far below the friction face
+    /// as skin_depth() says.
+    bool is_skin(const dealii::DoFHandler<3>::active_cell_iterator &cell) const;
+
+    /// Whether there is a skin and something behind it.
+    bool has_skin() const
     {
-      return !number_in_layer.empty();
+      return !number_in_skin.empty();
     }
 
-    /// Returns the number of a degree of freedom for loads of respond_near(), -1 where it has none: with a layer of those of the
-    /// layer off its bond, else the degree of freedom itself where it is free.
+    /// Returns the number of a degree of freedom for loads of respond_near(), -1 where it has none: with a skin of those of the
+    /// skin off its bond, else the degree of freedom itself where it is free.
     int number_near(unsigned int dof) const;
 
     /// Returns mass [t] and moment of inertia about the pivot [t mm^2] at the given density [t/mm^3], hub included.
@@ -69,7 +77,7 @@ namespace sprag
     /// Returns the displacements under sparse loads, one column after another.
     std::vector<double> respond(SparseColumns loads) const;
 
-    /// Returns those of the layer on a rigid bond alone, by number_near(); without a layer those of the body.
+    /// Returns those of the skin on a rigid bond alone, by number_near(); without a skin those of the body.
     std::vector<double> respond_near(SparseColumns loads) const;
 
     /// Number of displacements in a column of respond_near().
@@ -80,10 +88,12 @@ namespace sprag
 
   private:
     void hold_hub();
-    void number_layer();
+    void number_skin();
     void order_face_nodes();
 
     const MPI_Comm ranks;
+    const double interface_offset; ///< e [mm]
+    const double depth_of_skin;    ///< [mm]
     const BodyProperties properties;
     SolidMesh mesh;
     const dealii::FESystem<3> fe;
@@ -91,9 +101,9 @@ namespace sprag
     dealii::DoFHandler<3> dof_handler;
     dealii::AffineConstraints<double> constraints;
     FrictionFace<3> face;
-    std::vector<int> number_in_layer;
+    std::vector<int> number_in_skin;
     SharedFactors factors;
-    SharedFactors factors_of_layer;
+    SharedFactors factors_of_skin;
   };
 
   /// Builds the scene's body with the first rank and takes part in its solves until it ends. To be called by the others.

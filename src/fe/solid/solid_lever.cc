@@ -48,7 +48,7 @@ namespace sprag
     {
       const double room        = 0.1 * scene.geometry.cylinder_radius;
       const auto [first, last] = swept_contact(scene);
-      return { body, first - room, last + room, scene.layer.thickness };
+      return { body, first - room, last + room, skin_depth(scene) };
     }
   } // namespace
 
@@ -245,6 +245,8 @@ namespace sprag
         const double difference = exact - state.coordinates[port];
         largest                 = std::max(largest, std::abs(difference));
         compression             = std::max(compression, std::abs(exact));
+        if (getenv("DBG") && std::abs(nodes[port / 3].position[2]) < 1e-6)
+          printf("DBG %u %g %g %g %g\n", port % 3, nodes[port / 3].position[0], exact, difference, state.forces.values[i]);
         missed += difference * state.forces.values[i];
         work += exact * state.forces.values[i];
       }
