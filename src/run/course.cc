@@ -5,6 +5,7 @@
 #include "scene/mirrored_pair.h"
 
 #include <iostream>
+#include <set>
 
 namespace sprag
 {
@@ -28,12 +29,12 @@ namespace sprag
       return first.margin() <= second.margin() ? first : second;
     }
 
-    /// Before every run in which a cylinder is put somewhere, once nothing is left for which it could be refused.
+    /// Before every run in which friction moves a lever along the drive, once nothing is left for which it could be refused.
     void announce_margin(const Scene &scene, const RunOptions &options, const FindMargin &margin)
     {
-      const auto type          = scene.analysis.type;
-      const bool follows_drive = type != AnalysisType::slope && type != AnalysisType::study && type != AnalysisType::isolation;
-      if (options.quiet || !follows_drive)
+      static const std::set<AnalysisType> with_margin = { AnalysisType::quasi_static, AnalysisType::transient,
+                                                          AnalysisType::stability, AnalysisType::sprag_slip };
+      if (options.quiet || with_margin.count(scene.analysis.type) == 0)
         return;
       require_writable(options.folder);
       if (options.is_first)

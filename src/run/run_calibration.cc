@@ -2,6 +2,7 @@
 #include "base/append.h"
 #include "levers/prepared_scene.h"
 #include "run/analyses.h"
+#include "run/briefs.h"
 #include "run/report.h"
 #include "run/result_writer.h"
 #include "scene/read.h"
@@ -101,7 +102,10 @@ namespace sprag
     const auto end     = writer.finish("completed", { summary }, warnings);
     if (options.quiet)
       return;
-    print_summary(std::cout, end.summary);
+    if (options.verbose)
+      print_summary(std::cout, end.summary);
+    else
+      print_brief_of_calibration(std::cout, end.summary);
     std::cout << "\nScenes: " << options.folder << "/calibrated.prm, " << options.folder << "/beam.prm\n";
   }
 } // namespace sprag

@@ -1,5 +1,6 @@
 #include "analysis/statics/contact_law.h"
 #include "run/analyses.h"
+#include "run/briefs.h"
 #include "run/report.h"
 #include "run/result_writer.h"
 
@@ -40,7 +41,10 @@ namespace sprag
     const auto end = writer.finish("completed", { contact_law_entries(law) }, warnings);
     if (options.quiet)
       return;
-    print_summary(std::cout, end.summary);
+    if (options.verbose)
+      print_summary(std::cout, end.summary);
+    else
+      print_brief_of_contact_law(std::cout, end.summary);
     std::cout << std::setprecision(6)
               << "\nLines for the parameter file:\n\nsubsection Contact\n  set Stiffness = " << law.fit.stiffness
               << "\n  set Exponent  = " << law.fit.exponent << "\nend\n";

@@ -1,29 +1,13 @@
 #include "base/append.h"
 #include "run/analyses.h"
+#include "run/briefs.h"
 #include "run/isolation_report.h"
 #include "run/report.h"
 
-#include <algorithm>
-#include <cmath>
 #include <iostream>
 
 namespace sprag
 {
-  namespace
-  {
-    /// Without the numbers that this base or damper does not have.
-    std::vector<Entry> known(std::vector<Entry> entries)
-    {
-      const auto is_unknown = [](const Entry &entry)
-      {
-        const double *const number = std::get_if<double>(&entry.value);
-        return number != nullptr && std::isnan(*number);
-      };
-      entries.erase(std::remove_if(entries.begin(), entries.end(), is_unknown), entries.end());
-      return entries;
-    }
-  } // namespace
-
   void record_isolation(const Scene &scene, const RunOptions &options, PhaseTimer &timer, Warnings &warnings,
                         const IsolationRun &follow)
   {
@@ -39,8 +23,10 @@ namespace sprag
                        {
                          append(warnings, isolation_warnings(scene, found));
                          const auto end = writer.finish(status, { isolation_summary(scene, found), facts }, warnings);
-                         if (!options.quiet)
-                           print_summary(std::cout, options.verbose ? end.summary : known(end.summary));
+                         if (options.verbose)
+                           print_summary(std::cout, end.summary);
+                         else if (!options.quiet)
+                           print_brief_of_isolation(std::cout, end.summary);
                        });
   }
 

@@ -1,10 +1,12 @@
 #include "analysis/map/map_team.h"
+#include "base/append.h"
 #include "base/progress.h"
 #include "run/analyses.h"
+#include "run/brief_lines.h"
+#include "run/briefs.h"
 #include "run/report.h"
 #include "run/result_writer.h"
 #include "run/run_files.h"
-#include "scene/sections.h"
 
 #include <deal.II/base/mpi.h>
 
@@ -72,9 +74,7 @@ namespace sprag
 
     std::string unit_of(const std::string &name)
     {
-      SceneSettings settings;
-      const auto parameters = scene_parameters(settings);
-      const auto &unit      = find_parameter(parameters, name)->rule.unit;
+      const auto unit = unit_of_parameter(name);
       return unit.empty() ? "1" : unit;
     }
 
@@ -179,11 +179,16 @@ namespace sprag
     {
       const Group group = map_group(scene, map.grid, team.cells());
       ResultWriter writer(scene, options, team.cell_judge().timer(), boundary_columns(scene.map));
+      std::vector<std::vector<double>> boundary;
       for (const auto &point : map.boundary)
-        writer.append(boundary_row(scene.map, point));
+        boundary.push_back(boundary_row(scene.map, point));
+      for (const auto &row : boundary)
+        writer.append(row);
       const auto end = writer.finish(status, { summary_of_map(map, group, team.cells().size()), meta, { group } }, warnings);
-      if (!options.quiet)
+      if (options.verbose)
         print_summary(std::cout, end.summary);
+      else if (!options.quiet)
+        print_brief_of_map(std::cout, scene.map, boundary, joined(end.summary, meta));
     }
 
     void announce(const Journal &journal, MapProgress &progress)

@@ -1,5 +1,6 @@
 #include "analysis/statics/slope.h"
 #include "run/analyses.h"
+#include "run/brief_lines.h"
 #include "run/report.h"
 #include "run/result_writer.h"
 #include "scene/closed_form.h"
@@ -20,7 +21,10 @@ namespace sprag
     const std::vector<Entry> summary = { { "critical_inclination", std::atan(mu), "rad",
                                            "th0B = atan mu: steeper, the backward stroke no longer damps" } };
     const auto end                   = writer.finish("completed", { summary }, warnings);
-    if (!options.quiet)
+    if (options.verbose)
       print_summary(std::cout, end.summary);
+    else if (!options.quiet)
+      brief_line(std::cout, "critical inclination",
+                 Known(end.summary).quantity("critical_inclination") + ": steeper, the backward stroke no longer damps");
   }
 } // namespace sprag

@@ -1,6 +1,7 @@
 #include "base/progress.h"
 #include "base/text.h"
 #include "run/analyses.h"
+#include "run/briefs.h"
 #include "run/in_memory.h"
 #include "run/report.h"
 #include "run/result_writer.h"
@@ -211,8 +212,10 @@ namespace sprag
           progress.finish();
           const auto end =
               writer.finish(status, { sprag_slip_summary(found), {}, sprag_slip_groups(found, scene.sprag_slip) }, warnings);
-          if (!options.quiet)
+          if (options.verbose)
             print_summary(std::cout, end.summary);
+          else if (!options.quiet)
+            print_brief_of_sprag_slip(std::cout, end.summary);
         });
   }
 } // namespace sprag

@@ -1,8 +1,10 @@
 #include "analysis/team/team.h"
 #include "base/progress.h"
 #include "run/analyses.h"
+#include "run/report.h"
 #include "run/result_writer.h"
 #include "run/run_files.h"
+#include "run/study_print.h"
 #include "run/study_report.h"
 #include "run/study_runs.h"
 
@@ -80,9 +82,11 @@ namespace sprag
         groups.push_back(trade_group(scene.study, points, records, trade));
         groups.push_back(reference_group(records.at(points.size())));
       }
-      writer.finish(status, { study_summary(scene.study, points, records), meta, groups }, warnings);
+      const auto end = writer.finish(status, { study_summary(scene.study, points, records), meta, groups }, warnings);
+      if (options.verbose)
+        print_summary(std::cout, end.summary);
       if (!options.quiet)
-        print_study(std::cout, scene.study, points, records, trade);
+        print_study(std::cout, scene.study, points, records, trade, options.verbose);
     }
   } // namespace
 

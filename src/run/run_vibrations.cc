@@ -5,10 +5,12 @@
 #include "model/growth.h"
 #include "run/accuracy_report.h"
 #include "run/analyses.h"
+#include "run/brief_lines.h"
 #include "run/in_memory.h"
 #include "run/report.h"
 #include "run/result_writer.h"
 #include "run/vibration_accuracy.h"
+#include "run/vibration_print.h"
 #include "run/vibration_report.h"
 #include "run/warnings.h"
 #include "scene/held_slide.h"
@@ -147,12 +149,17 @@ namespace sprag
         const auto accuracy =
             estimates_errors(options) ? accuracy_of(held, found, dynamics.meshed, maker) : std::vector<ErrorEstimate>();
         result.accuracy = accuracy_entries(accuracy);
-        if (!options.quiet)
+        if (options.verbose)
         {
           print_summary(std::cout, result.summary);
           print_modes(std::cout, modes);
           print_growth(std::cout, modes);
           print_accuracy(std::cout, accuracy);
+        }
+        else if (!options.quiet)
+        {
+          print_slide(std::cout, found);
+          print_brief_errors(std::cout, accuracy);
         }
       }
       if (scene.stability.roles)
@@ -167,7 +174,7 @@ namespace sprag
         const auto critical = all_critical(scene, maker, options.quiet);
         append(result.summary, critical_entries(critical));
         if (!options.quiet)
-          print_critical(std::cout, critical);
+          print_critical(std::cout, critical, options.verbose);
       }
       return result;
     }
@@ -180,6 +187,8 @@ namespace sprag
     auto &maker         = *shared;
     const bool undamped = scene.analysis.type == AnalysisType::modal;
     const auto end      = undamped ? modal(scene, maker, options) : stability(scene, maker, options, warnings);
+    if (!options.quiet)
+      print_brief_cost(std::cout, Known(end.summary), PhaseTimer::cpu_seconds());
     ResultWriter(scene, options, maker.timer(), {}).finish("completed", end, warnings);
   }
 } // namespace sprag

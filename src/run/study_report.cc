@@ -8,27 +8,13 @@
 
 #include <algorithm>
 #include <limits>
-#include <map>
-#include <ostream>
 #include <set>
-#include <utility>
 
 namespace sprag
 {
   namespace
   {
-    constexpr double unknown                = std::numeric_limits<double>::quiet_NaN();
-    constexpr std::size_t most_runs_printed = 5; ///< of those that failed, and of those that were refused
-
-    /// Finished runs without the reference.
-    std::vector<const StudyRecord *> rows_of(const std::vector<StudyPoint> &points, const StudyRecords &records)
-    {
-      std::vector<const StudyRecord *> rows;
-      for (const auto &[run, record] : records)
-        if (run < points.size())
-          rows.push_back(&record);
-      return rows;
-    }
+    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
     bool has_numbers(const Rule &rule)
     {
@@ -102,13 +88,6 @@ namespace sprag
       }
     }
 
-    const Entry *find_entry(const StudyRecord &record, const std::string &name)
-    {
-      const auto &summary = record.found.summary;
-      const auto found    = std::find_if(summary.begin(), summary.end(), [&](const Entry &entry) { return entry.name == name; });
-      return found == summary.end() ? nullptr : &*found;
-    }
-
     /// All that any run tells, in the order in which it is met.
     std::vector<Entry> all_entries(const std::vector<const StudyRecord *> &rows)
     {
@@ -152,69 +131,34 @@ namespace sprag
           std::remove_if(columns.begin(), columns.end(), [&](const Column &column) { return !seen.insert(name(column)).second; }),
           columns.end());
     }
-
-    std::size_t count_of(const std::vector<const StudyRecord *> &rows, const RunOutcome outcome)
-    {
-      return static_cast<std::size_t>(
-          std::count_if(rows.begin(), rows.end(), [&](const StudyRecord *row) { return row->outcome == outcome; }));
-    }
-
-    std::string percent(const double share)
-    {
-      return rounded_text(leading_number(formatted("%.2g", 100. * share))->value) + " %";
-    }
-
-    void print_unfinished(std::ostream &stream, const StudySettings &study, const std::vector<StudyPoint> &points,
-                          const std::vector<const StudyRecord *> &rows, const RunOutcome outcome)
-    {
-      std::size_t printed = 0;
-      for (const auto *row : rows)
-        if (row->outcome == outcome && printed++ < most_runs_printed)
-          stream << "  " << outcome_name(outcome) << ": " << settings_text(study, points[row->run]) << ": " << row->reason
-                 << '\n';
-      if (printed > most_runs_printed)
-        stream << "  ... and " << printed - most_runs_printed << " more " << outcome_name(outcome) << '\n';
-    }
-
-    void print_recommended(std::ostream &stream, const StudySettings &study, const std::vector<StudyPoint> &points,
-                           const std::vector<const StudyRecord *> &rows, const MeasuredErrors &measured)
-    {
-      stream << "  " << measured.measure.name << '\n';
-      std::string accuracies;
-      for (std::size_t i = 0; i < recommended_accuracies.size(); ++i)
-      {
-        accuracies += (accuracies.empty() ? "" : ", ") + percent(recommended_accuracies[i]);
-        const auto row = measured.recommended[i];
-        if (i + 1 < recommended_accuracies.size() && measured.recommended[i + 1] == row)
-          continue;
-        accuracies.resize(std::max<std::size_t>(accuracies.size(), 10), ' ');
-        stream << "    within " << accuracies << "  "
-               << (row ? settings_text(study, points[rows[*row]->run]) + "; " + formatted("%.3g", rows[*row]->cpu_time) +
-                             " CPU s, error " + percent(measured.errors[*row])
-                       : std::string("none"))
-               << '\n';
-        accuracies.clear();
-      }
-    }
-    /// Of each measure over each size, from the least to the largest of all other settings.
-    void print_orders(std::ostream &stream, const std::vector<ObservedOrder> &orders)
-    {
-      std::map<std::pair<std::string, std::string>, std::pair<double, double>> ranges;
-      for (const auto &[measure, parameter, others, order] : orders)
-      {
-        auto &range = ranges.insert({ { parameter, measure }, { order, order } }).first->second;
-        range       = { std::min(range.first, order), std::max(range.second, order) };
-      }
-      for (const auto &[of, range] : ranges)
-        stream << "  observed order over " << of.first << " of " << of.second << ": " << formatted("%.2f", range.first)
-               << (range.first < range.second ? formatted(" ... %.2f", range.second) : "") << '\n';
-    }
   } // namespace
+
+  std::vector<const StudyRecord *> finished_rows(const std::vector<StudyPoint> &points, const StudyRecords &records)
+  {
+    std::vector<const StudyRecord *> rows;
+    for (const auto &[run, record] : records)
+      if (run < points.size())
+        rows.push_back(&record);
+    return rows;
+  }
+
+  const Entry *find_entry(const StudyRecord &record, const std::string &name)
+  {
+    const auto &summary = record.found.summary;
+    const auto found    = std::find_if(summary.begin(), summary.end(), [&](const Entry &entry) { return entry.name == name; });
+    return found == summary.end() ? nullptr : &*found;
+  }
+
+  std::size_t count_of(const std::vector<const StudyRecord *> &rows, const RunOutcome outcome)
+  {
+    return static_cast<std::size_t>(
+        std::count_if(rows.begin(), rows.end(), [&](const StudyRecord *row) { return row->outcome == outcome; }));
+  }
 
   StudyTable study_table(const StudySettings &study, const std::vector<StudyPoint> &points, const StudyRecords &records,
                          const StudyTrade &trade)
   {
-    const auto rows = rows_of(points, records);
+    const auto rows = finished_rows(points, records);
     StudyTable table;
     add_costs(rows, table);
     add_parameters(study, points, rows, table);
@@ -228,7 +172,7 @@ namespace sprag
   Group trade_group(const StudySettings &study, const std::vector<StudyPoint> &points, const StudyRecords &records,
                     const StudyTrade &trade)
   {
-    const auto rows = rows_of(points, records);
+    const auto rows = finished_rows(points, records);
     Group group{ "trade", { { { "accuracy", "1", "relative error admitted" }, {}, {} } } };
     group.datasets.front().values.assign(recommended_accuracies.begin(), recommended_accuracies.end());
     for (const auto &measured : trade.measured)
@@ -271,7 +215,7 @@ namespace sprag
 
   std::vector<Entry> study_summary(const StudySettings &study, const std::vector<StudyPoint> &points, const StudyRecords &records)
   {
-    const auto rows = rows_of(points, records);
+    const auto rows = finished_rows(points, records);
     double cpu      = 0.;
     for (const auto &[run, record] : records)
       cpu += record.cpu_spent;
@@ -287,27 +231,5 @@ namespace sprag
             outcome_name(reference->second.outcome) + (reference->second.reason.empty() ? "" : ": " + reference->second.reason),
             "", "the run that the others are compared with: " + study.reference });
     return entries;
-  }
-
-  void print_study(std::ostream &stream, const StudySettings &study, const std::vector<StudyPoint> &points,
-                   const StudyRecords &records, const StudyTrade &trade)
-  {
-    const auto rows = rows_of(points, records);
-    stream << "  " << rows.size() << " of " << points.size() << " runs: " << count_of(rows, RunOutcome::completed)
-           << " completed, " << count_of(rows, RunOutcome::failed) << " failed, " << count_of(rows, RunOutcome::refused)
-           << " refused\n";
-    print_unfinished(stream, study, points, rows, RunOutcome::failed);
-    print_unfinished(stream, study, points, rows, RunOutcome::refused);
-    const auto reference = records.find(points.size());
-    if (reference != records.end() && reference->second.outcome != RunOutcome::completed)
-      stream << "  no errors: the reference is " << outcome_name(reference->second.outcome) << ": " << reference->second.reason
-             << '\n';
-    if (trade.measured.empty())
-      return;
-    stream << "\nThe cheapest settings, against " << study.reference << " (" << formatted("%.3g", reference->second.cpu_time)
-           << " CPU s):\n";
-    for (const auto &measured : trade.measured)
-      print_recommended(stream, study, points, rows, measured);
-    print_orders(stream, trade.orders);
   }
 } // namespace sprag

@@ -3,11 +3,20 @@
 #include "analysis/study/study_trade.h"
 #include "results/result_file.h"
 
-#include <iosfwd>
+#include <string>
 #include <vector>
 
 namespace sprag
 {
+  /// Returns the finished runs of a study without its reference.
+  std::vector<const StudyRecord *> finished_rows(const std::vector<StudyPoint> &points, const StudyRecords &records);
+
+  /// Returns the number of those with this outcome.
+  std::size_t count_of(const std::vector<const StudyRecord *> &rows, RunOutcome outcome);
+
+  /// Returns an entry of a run's summary, null where it has none of this name.
+  const Entry *find_entry(const StudyRecord &record, const std::string &name);
+
   /// The finished runs of a study, a row each.
   struct StudyTable
   {
@@ -28,8 +37,4 @@ namespace sprag
 
   std::vector<Entry> study_summary(const StudySettings &study, const std::vector<StudyPoint> &points,
                                    const StudyRecords &records);
-
-  /// Prints how the runs ended and what is recommended.
-  void print_study(std::ostream &stream, const StudySettings &study, const std::vector<StudyPoint> &points,
-                   const StudyRecords &records, const StudyTrade &trade);
 } // namespace sprag

@@ -61,8 +61,8 @@ namespace sprag
         return "contact along the friction face by penalty";
       if (scene.analysis.model == ModelType::closed_form || scene.contact.type == ContactType::ideal)
         return "ideal contact, which cannot open";
-      return "contact P = " + rounded_text(scene.contact.stiffness) + " delta^" + rounded_text(scene.contact.exponent) +
-             ", which can open";
+      return "contact P = " + rounded_text(scene.contact.stiffness) +
+             " N/mm^n delta^n, n = " + rounded_text(scene.contact.exponent) + ", which can open";
     }
 
     std::string lever_text(const Scene &scene)

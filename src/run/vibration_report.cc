@@ -14,35 +14,13 @@ namespace sprag
 {
   namespace
   {
-    double frequency(const Eigenmode &mode)
-    {
-      return mode.mode.eigenvalue.imag() / (2. * M_PI);
-    }
-
-    bool grows(const Eigenmode &mode)
-    {
-      return mode.mode.eigenvalue.real() > smallest_growth * std::abs(mode.mode.eigenvalue);
-    }
-
-    SlideKind kind_of(const Eigenmode &mode)
-    {
-      if (!grows(mode))
-        return SlideKind::stable;
-      return mode.mode.eigenvalue.imag() > 0. ? SlideKind::flutter : SlideKind::divergence;
-    }
-
-    bool is_pair(const std::vector<Eigenmode> &modes)
-    {
-      return !modes.empty() && !std::isnan(modes.front().mirroring);
-    }
-
     using Value = std::function<double(const Eigenmode &)>;
 
     void append_numbers(const std::vector<Eigenmode> &modes, Group &group)
     {
       const auto add = [&](const ColumnInfo &info, const Value &value)
       { group.datasets.push_back(dataset_of(modes, info, value)); };
-      add({ "frequency", "Hz", "Im lambda / 2 pi" }, frequency);
+      add({ "frequency", "Hz", "Im lambda / 2 pi" }, frequency_of);
       add({ "growth_rate", "1/s", "Re lambda" }, [](const auto &mode) { return mode.mode.eigenvalue.real(); });
       add({ "damping_ratio", "1", "-Re lambda / |lambda|" },
           [](const auto &mode) { return -mode.mode.eigenvalue.real() / std::abs(mode.mode.eigenvalue); });
@@ -124,19 +102,29 @@ namespace sprag
       return critical.motion.empty() ? "" : ", the levers " + critical.motion;
     }
 
-    std::string padded(const double value, const int width)
-    {
-      std::ostringstream number;
-      number << std::setprecision(4) << (std::abs(value) < 1e-6 ? 0. : value);
-      const std::string text = std::isnan(value) ? "-" : number.str();
-      return std::string(static_cast<std::size_t>(std::max(1, width - static_cast<int>(text.size()))), ' ') + text;
-    }
-
-    std::string share(const double value)
-    {
-      return padded(std::round(1000. * value) / 10., 7);
-    }
   } // namespace
+
+  double frequency_of(const Eigenmode &mode)
+  {
+    return mode.mode.eigenvalue.imag() / (2. * M_PI);
+  }
+
+  bool grows(const Eigenmode &mode)
+  {
+    return mode.mode.eigenvalue.real() > smallest_growth * std::abs(mode.mode.eigenvalue);
+  }
+
+  SlideKind kind_of(const Eigenmode &mode)
+  {
+    if (!grows(mode))
+      return SlideKind::stable;
+    return mode.mode.eigenvalue.imag() > 0. ? SlideKind::flutter : SlideKind::divergence;
+  }
+
+  bool is_pair(const std::vector<Eigenmode> &modes)
+  {
+    return !modes.empty() && !std::isnan(modes.front().mirroring);
+  }
 
   std::vector<Eigenmode> reported(const std::vector<Eigenmode> &modes, const unsigned int number)
   {
@@ -159,37 +147,6 @@ namespace sprag
     if (!modes.empty())
       append_shapes(modes, model, group);
     return group;
-  }
-
-  void print_modes(std::ostream &stream, const std::vector<Eigenmode> &modes)
-  {
-    if (modes.empty())
-      return;
-    stream << "\n  frequency       energy [%] in\n"
-           << "       [Hz]  spring  lever  suppt contact" << (is_pair(modes) ? "  mirroring" : "") << '\n';
-    for (const auto &mode : modes)
-    {
-      const auto &e = mode.energy;
-      stream << padded(frequency(mode), 11) << ' ' << share(e.rotation) << share(e.bending) << share(e.support)
-             << share(e.contact) << (is_pair(modes) ? padded(mode.mirroring, 11) : "") << '\n';
-    }
-  }
-
-  void print_growth(std::ostream &stream, const std::vector<Eigenmode> &modes)
-  {
-    if (modes.empty())
-      return;
-    stream << "\n  frequency    growth  kind        growth [1/s] by friction on               friction's   damping of\n"
-           << "       [Hz]     [1/s]               rotation    bending   support  velocities   contact  structure\n";
-    for (const auto &mode : modes)
-    {
-      const auto &g    = mode.growth;
-      std::string kind = "  " + kind_name(kind_of(mode));
-      kind.resize(13, ' ');
-      stream << padded(frequency(mode), 11) << padded(mode.mode.eigenvalue.real(), 10) << kind << padded(g.friction_rotation, 10)
-             << padded(g.friction_bending, 11) << padded(g.friction_support, 10) << padded(g.friction_speed, 12)
-             << padded(g.contact_damping, 10) << padded(g.structure_damping, 11) << '\n';
-    }
   }
 
   std::vector<Entry> slide_entries(const SlideStability &found)
@@ -251,51 +208,5 @@ namespace sprag
                          "tried, those between where a growth rate peaks included" });
     }
     return result;
-  }
-
-  void print_roles(std::ostream &stream, const SlideStability &present, const std::vector<Role> &roles)
-  {
-    const bool pair = is_pair(present.modes);
-    stream << "\n                               verdict     growth [1/s]  frequency [Hz]" << (pair ? "  motion" : "") << '\n';
-    const auto line = [&](std::string name, std::string kind, const double growth, const double hertz, const std::string &motion)
-    {
-      std::replace(name.begin(), name.end(), '_', ' ');
-      name.resize(29, ' ');
-      kind.resize(10, ' ');
-      stream << "  " << name << kind << padded(growth, 14) << padded(hertz, 16) << (motion.empty() ? "" : "  " + motion) << '\n';
-    };
-    line("as it is", kind_name(present.kind), present.growth_rate(), present.frequency(), present.motion());
-    for (const auto &role : roles)
-      line(role.name, kind_name(role.kind), role.growth_rate, role.frequency, role.motion);
-  }
-
-  void print_critical(std::ostream &stream, const std::vector<CriticalSearch> &searches)
-  {
-    stream << "\nCritical values, everything else as it is:\n";
-    for (const auto &[range, first, changes, not_judged, spacing, more_values] : searches)
-    {
-      stream << "  " << range.name << " from " << rounded_text(range.from) << " to " << rounded_text(range.to) << ": "
-             << (first ? kind_name(*first) : "cannot be judged");
-      for (const auto &critical : changes)
-      {
-        const bool of_friction = range.name == "Friction/Factor" && !std::isnan(critical.mu);
-        stream << ", " << kind_name(critical.above) << " from " << rounded_text(critical.value)
-               << (of_friction ? " (mu = " + rounded_text(critical.mu) + ")" : "")
-               << (critical.motion.empty() ? "" : " (" + critical.motion + ")");
-      }
-      stream << (first && changes.empty() ? " throughout" : "");
-      if (first && !not_judged.empty())
-      {
-        const auto [least, most] = std::minmax_element(not_judged.begin(), not_judged.end());
-        stream << "; cannot be judged at " << rounded_text(*least)
-               << (*least < *most ? " to " + rounded_text(*most) + " (" + std::to_string(not_judged.size()) + " values)" : "");
-      }
-      stream << "; tried every " << rounded_text(spacing);
-      if (more_values > 0)
-        stream << " and " << more_values << " times between, where growth peaks";
-      stream << '\n';
-    }
-    if (!searches.empty())
-      stream << "  Islands narrower than what was tried may be missed: try a shorter range.\n";
   }
 } // namespace sprag

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """Prints what model A costs, both strokes: CPU time by phase over face size and degree, and ratios between methods. Run it on a
-machine that does nothing else; see README.md."""
+machine that does nothing else; see without-inertia.md."""
 
 import argparse
 import resource

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """Prints what runs tell of their errors (/accuracy) against their true errors, those against a reference on a mesh four times finer
-with the augmented Lagrangian method, of held slides with penalties extrapolated to none. See README.md."""
+with the augmented Lagrangian method, of held slides with penalties extrapolated to none. See told-errors.md."""
 
 import argparse
 import tempfile

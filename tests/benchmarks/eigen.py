@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Prints what the eigenvalues of a slide cost: wall and CPU time of making the model and of finding the slide and its vibrations, for
 beam, condensed lever and finite elements of two sizes, and ratios of the CPU times. Run it on a machine that does nothing else;
-see README.md."""
+see in-time.md."""
 
 import argparse
 import sys

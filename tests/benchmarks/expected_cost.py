@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Prints what --validate expects of runs, CPU time and memory, against what they take; see README.md."""
+"""Prints what --validate expects of runs, CPU time and memory, against what they take; see expected-cost.md."""
 
 import argparse
 import os

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Prints how the parts of a run grow with face size, steps, cycles and modes, and the power that theory expects; see README.md."""
+"""Prints how the parts of a run grow with face size, steps, cycles and modes, and the power that theory expects; see parts.md."""
 
 import argparse
 import tempfile

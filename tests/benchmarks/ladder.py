@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """Prints what each fidelity of a run in time costs and how far it is from hard contact, in one table: model A with a lever of
-6 mm, accepted steps per CPU second, no fields; then model A with 20 mm, whose ringing decays and can be compared. See README.md."""
+6 mm, accepted steps per CPU second, no fields; then model A with 20 mm, whose ringing decays and can be compared. See in-time.md."""
 
 import argparse
 import tempfile

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Prints how well a friction layer that hardly changes its volume is met: model A with Coefficient 0 in plane strain at x = 65 mm,
 against the same layer bonded to a rigid base, whose compliance is exact mode by mode (tests/verification/bonded_layer.py), pressed
-by the same force. See README.md.
+by the same force. See parts.md.
 
     tests/benchmarks/locking.py [PROGRAM]     # build/sprag if not given"""
 

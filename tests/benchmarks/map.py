@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """Prints what stability maps cost: seconds and cells of a 60 x 60 map over friction and lever depth, beam and condensed model,
-refined near the boundaries and every cell. Run it on a machine that does nothing else; see README.md."""
+refined near the boundaries and every cell. Run it on a machine that does nothing else; see in-time.md."""
 
 import argparse
 import sys

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """Prints how the largest pressure, the profile of the pressure and the width of the contact of model A converge, for penalty and
-augmented Lagrangian, against hard contact on a fine mesh; see README.md."""
+augmented Lagrangian, against hard contact on a fine mesh; see pressure.md."""
 
 import argparse
 import os

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """Prints what it costs to ask for an accuracy: the CPU time of runs with Accuracy/Target, their true and their told errors, and the cheapest
-settings of a grid whose true error is within the target; see README.md."""
+settings of a grid whose true error is within the target; see expected-cost.md."""
 
 import argparse
 import itertools

@@ -17,11 +17,6 @@ import test_plot  # noqa: E402
 import test_study  # noqa: E402
 import test_vibration  # noqa: E402
 
-try:
-    import pandas
-except ImportError:
-    pandas = None
-
 
 def rows_of(path, delimiter=","):
     with path.open(newline="", encoding="utf-8") as file:
@@ -63,14 +58,6 @@ class ExportTest(PictureTest):
         table = np.genfromtxt(folder / "table.csv", delimiter=",", names=True, deletechars="")
         self.assertEqual(table["x_[mm]"][1], 1 / 3)
         self.assertTrue(np.isnan(table["x_[mm]"][-1]))
-
-    @unittest.skipIf(pandas is None, "no pandas here")
-    def test_table_read_by_pandas(self):
-        folder = self.make_run()
-        self.export(folder)
-        table = pandas.read_csv(folder / "table.csv", float_precision="round_trip")
-        self.assertEqual(table["x [mm]"][1], 1 / 3)
-        self.assertTrue(np.isnan(table["x [mm]"].iloc[-1]))
 
     def test_decimal_comma(self):
         folder = self.make_run()

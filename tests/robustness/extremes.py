@@ -5,10 +5,11 @@ meshes. Exits 1 where one falls short. Environment: SPRAG, the program, and SPRA
     /usr/bin/python3 extremes.py           # what answers within seconds
     /usr/bin/python3 extremes.py --slow    # dear ones alone
     /usr/bin/python3 extremes.py --only mu # rows with this in their name
-    /usr/bin/python3 extremes.py --write   # all, and their table into tests/README.md
+    /usr/bin/python3 extremes.py --write   # all, and their table into extremes.csv
 """
 
 import argparse
+import csv
 import os
 import re
 import subprocess
@@ -25,7 +26,6 @@ from extreme_runs import Run  # noqa: E402
 from runs import SOURCE, SPRAG  # noqa: E402
 
 HEADER = ("extreme", "outcome", "steps", "iterations a step", "rejected", "error", "admitted", "against", "warnings")
-BEGIN, END = "<!-- extremes: begin -->", "<!-- extremes: end -->"
 
 
 class Runner:
@@ -86,7 +86,7 @@ def judged(runner, row):
 def cells(row, run, error, admitted):
     outcome = {0: "completed", 1: "stops", 2: "refused"}.get(run.status, f"exit status {run.status}")
     if run.status:
-        outcome += ": " + run.reason.replace("|", "\\|")
+        outcome += ": " + run.reason
 
     def number(value, form="{:.2g}"):
         return "" if value is None else form.format(value)
@@ -99,15 +99,9 @@ def cells(row, run, error, admitted):
     return (row.name, outcome, number(steps, "{:.0f}"), number(each, "{:.1f}"), rejected, number(error), told, row.against, warnings)
 
 
-def table(lines):
-    return "\n".join("| " + " | ".join(line) + " |" for line in (HEADER, ("---",) * len(HEADER), *lines))
-
-
-def write(text):
-    path = SOURCE / "tests/README.md"
-    before, _, rest = path.read_text(encoding="utf-8").partition(BEGIN)
-    _, _, after = rest.partition(END)
-    path.write_text(f"{before}{BEGIN}\n{text}\n{END}{after}", encoding="utf-8")
+def write(lines):
+    with open(SOURCE / "tests/robustness/extremes.csv", "w", encoding="utf-8", newline="") as table:
+        csv.writer(table, lineterminator="\n").writerows((HEADER, *lines))
 
 
 def main():
@@ -131,7 +125,7 @@ def main():
     cpu = os.times().children_user + os.times().children_system
     print(f"{len(rows)} rows, {short} fall short; {time.monotonic() - begin:.0f} s, {cpu:.0f} CPU s")
     if arguments.write and not arguments.only:
-        write(table(lines))
+        write(lines)
     return 1 if short else 0
 
 

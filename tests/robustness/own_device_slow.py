@@ -76,7 +76,7 @@ class OwnDevice(FolderTest):
         for way in ("forward", "backward"):
             self.assertAlmostEqual(self.result("strokes", "deviation_Q_" + way), 0.05, delta=0.013)
         self.assertEqual(self.result("slide", "verdict"), "flutter")
-        self.assertRegex(self.printed["own/slide"], r"Lever/Depth from 2 to 12: flutter, stable from (2\.9|3\.0)")
+        self.assertRegex(self.printed["own/slide"], r"Lever/Depth from 2 to 12 mm: flutter, stable from (2\.9|3\.0)")
         self.assertEqual(self.result("slide-4", "verdict"), "stable")
         self.assertIn("Friction/Factor from 0.5 to 2: stable throughout", self.printed["own/slide-4"])
         self.assertEqual(self.result("slide-tapered", "verdict"), "stable")

@@ -60,7 +60,7 @@ TEST(Accuracy, ContactIsEnforcedByMultipliersWhereThatIsCheap)
   EXPECT_EQ(enforcement({ "Contact/Enforcement=penalty" }), Enforcement::penalty);
 }
 
-// Widths of hard contact on faces of 0.03125 mm, from tests/benchmarks/README.md; estimates need not be better than a fifth.
+// Widths of hard contact on faces of 0.03125 mm, from tests/benchmarks/pressure.md; estimates need not be better than a fifth.
 TEST(FaceGrading, WidthsOfModelAAreEstimated)
 {
   const Scene scene = read_scene(scene_file("model-a"));

@@ -1,4 +1,5 @@
-"""Holds the shape of the sources: include directions, the bound on the dimension, file lengths, scenes all described."""
+"""Holds the shape of the sources: include directions, the bound on the dimension, file lengths, scenes all described, pages
+whose links hold and that are not too long."""
 
 import os
 import pathlib
@@ -19,6 +20,9 @@ ROOMS = {
 CODE = {".cc", ".h", ".py", ".sh", ".geo", ".cmake", ".txt"}
 MAX_LINES = 500
 MAX_LINES_OF_SOURCES = 400
+# Of a page as wc counts them. The reference of all parameters is looked into, not read.
+MAX_WORDS = 1500
+REFERENCES = [pathlib.Path("params/README.md")]
 # In pieces, or this file would find itself.
 UNFINISHED = re.compile(r"\b(TO" r"DO|FIX" r"ME)\b")
 
@@ -88,9 +92,14 @@ for scene in scenes:
         report(scene, 1, "not in params/README.md")
 
 
-
 def anchor_of(heading):
     return re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-")
+
+
+def check_words(page):
+    words = len(page.read_text(encoding="utf-8").split())
+    if words > MAX_WORDS and page.relative_to(ROOT) not in REFERENCES:
+        report(page, 1, f"{words} words; over {MAX_WORDS} a page wants to be two")
 
 
 def check_links(page):
@@ -110,6 +119,7 @@ def check_links(page):
 pages = [*ROOT.glob("*.md"), *(path for path in own_files() if path.suffix == ".md")]
 for page in pages:
     check_links(page)
+    check_words(page)
 
 if n_sources == 0 or not scenes:
     problems.append(f"nothing to check in {ROOT}")

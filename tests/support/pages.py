@@ -34,7 +34,7 @@ def family(name):
 
 def entries():
     """Of summaries, in families."""
-    found = written(PAGES["summary.md"]) | {"without_damping_..."}
+    found = written(PAGES["summary.md"]) | written(PAGES["summary-of-analyses.md"]) | {"without_damping_..."}
     stresses = [f"largest_{name}" for name in ("lever_stress", "layer_stress", "stress_at_hub")]
     found |= {f"{name}_{what}" for name in stresses for what in ("x", "xi", "eta", "direction", "lever")}
     found |= {f"deviation_{name}_{way}" for name in ("P", "Q", "theta") for way in ("forward", "backward")}

@@ -11,7 +11,7 @@ using namespace sprag;
 
 namespace
 {
-  // The formula of tests/README.md: closed form of a lever that bends, faced with a layer that yields, nu = 0.
+  // The formula of tests/deviation.md: closed form of a lever that bends, faced with a layer that yields, nu = 0.
 
   struct Layer
   {

@@ -80,15 +80,12 @@ namespace sprag
 
   std::string jamming_text(const JammingMargin &margin)
   {
-    std::string text = "Jamming:      closest moving " + std::string(direction_of(margin.v) < 0 ? "back" : "forward") +
-                       " at x = " + mm(margin.x) + ", " + rounded_text(std::abs(margin.v)) + " mm/s: s = " + mm(margin.s) +
-                       ", mu e = " + mm(margin.mu_e) + ", margin " + rounded_text(margin.margin()) + "; a rigid lever locks at " +
-                       (std::isfinite(margin.critical_mu) ? "mu = " + rounded_text(margin.critical_mu) : "no mu");
-    if (margin.flexible)
-      text += "; margin of the flexible one " + rounded_text(*margin.flexible);
+    const auto at_mu = [](const double mu) { return std::isfinite(mu) ? "mu = " + formatted("%.4g", mu) : "no mu"; };
+    std::string text = "Jamming:      margin " + formatted("%.4g", 100. * margin.flexible.value_or(margin.margin())) +
+                       " %, least at x = " + mm(margin.x) + " moving " + (direction_of(margin.v) < 0 ? "backward" : "forward") +
+                       "; a rigid lever locks at " + at_mu(margin.critical_mu);
     if (margin.flexible_critical_mu)
-      text +=
-          (margin.flexible ? ", jams at mu = " : "; the flexible one jams at mu = ") + rounded_text(*margin.flexible_critical_mu);
+      text += ", the flexible one at " + at_mu(*margin.flexible_critical_mu);
     return text;
   }
 } // namespace sprag
