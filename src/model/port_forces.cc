@@ -17,63 +17,79 @@ namespace sprag
   {
     using Places = std::pair<unsigned int, unsigned int>; // the first, and beyond the last
 
+    /// From so many on the zeros of a tangent are worth the search for them.
+    constexpr unsigned int many_ports = 256;
+
     /// Where the ports of a block stand among increasing ones.
     Places places_in(const PortCompliance::Block &block, const std::vector<unsigned int> &ports)
     {
       return { place_of(block.begin, ports), place_of(block.end(), ports) };
     }
 
-    /// Product of a full matrix and one that couples each place with few others. Those are numbered so that they are close
-    /// (Cuthill and McKee), and only the rows counted that columns next to each other have.
-    void multiply_by_sparse(const FullMatrix<double> &full, const FullMatrix<double> &sparse, FullMatrix<double> &product)
+    /// Numbers places so that those which a matrix couples are close (Cuthill and McKee), and finds how far they reach.
+    struct CloseOrder
+    {
+      std::vector<unsigned int> at;    ///< place by its number
+      std::vector<unsigned int> first; ///< number that the column of a number reaches
+      std::vector<unsigned int> last;
+
+      explicit CloseOrder(const FullMatrix<double> &matrix)
+      {
+        const auto n = static_cast<unsigned int>(matrix.n());
+        DynamicSparsityPattern pattern(n, n);
+        std::vector<types::global_dof_index> columns, number(n);
+        for (unsigned int i = 0; i < n; ++i)
+        {
+          columns.clear();
+          for (unsigned int j = 0; j < n; ++j)
+            if (matrix(i, j) != 0. || matrix(j, i) != 0. || i == j)
+              columns.push_back(j);
+          pattern.add_entries(i, columns.begin(), columns.end(), true);
+        }
+        SparsityTools::reorder_Cuthill_McKee(pattern, number);
+        at.resize(n);
+        first.assign(n, n);
+        last.assign(n, 0);
+        for (unsigned int i = 0; i < n; ++i)
+          at[number[i]] = i;
+        for (unsigned int i = 0; i < n; ++i)
+          for (auto other = pattern.begin(i); other != pattern.end(i); ++other)
+          {
+            const auto column = static_cast<unsigned int>(number[other->column()]);
+            first[number[i]]  = std::min(first[number[i]], column);
+            last[number[i]]   = std::max(last[number[i]], column);
+          }
+      }
+    };
+
+    /// Calls of_column(column, values) with each column of 1 - G A, where A couples each place with few others.
+    template <class OfColumn>
+    void subtract_sparse_product(const FullMatrix<double> &compliance, const FullMatrix<double> &tangent,
+                                 const OfColumn &of_column)
     {
       constexpr unsigned int together = 48;
-      const auto n                    = static_cast<unsigned int>(sparse.n());
-      DynamicSparsityPattern pattern(n, n);
-      for (unsigned int i = 0; i < n; ++i)
-        for (unsigned int j = 0; j < n; ++j)
-          if (sparse(i, j) != 0. || i == j)
-          {
-            pattern.add(i, j);
-            pattern.add(j, i);
-          }
-      std::vector<types::global_dof_index> number(n);
-      SparsityTools::reorder_Cuthill_McKee(pattern, number);
-      std::vector<unsigned int> at(n), first(n, n), last(n, 0);
-      for (unsigned int i = 0; i < n; ++i)
-        at[number[i]] = i;
-      for (unsigned int i = 0; i < n; ++i)
-        for (auto other = pattern.begin(at[i]); other != pattern.end(at[i]); ++other)
-        {
-          first[i] = std::min(first[i], static_cast<unsigned int>(number[other->column()]));
-          last[i]  = std::max(last[i], static_cast<unsigned int>(number[other->column()]));
-        }
+      const CloseOrder order(tangent);
+      const auto n = static_cast<unsigned int>(tangent.n());
       for (unsigned int begin = 0; begin < n; begin += together)
       {
         const unsigned int end  = std::min(n, begin + together);
-        const unsigned int low  = *std::min_element(first.begin() + begin, first.begin() + end);
-        const unsigned int high = *std::max_element(last.begin() + begin, last.begin() + end) + 1;
-        FullMatrix<double> of_full(n, high - low), of_sparse(high - low, end - begin), of_product(n, end - begin);
-        for (unsigned int i = 0; i < n; ++i)
-          for (unsigned int k = low; k < high; ++k)
-            of_full(i, k - low) = full(i, at[k]);
+        const unsigned int low  = *std::min_element(order.first.begin() + begin, order.first.begin() + end);
+        const unsigned int high = *std::max_element(order.last.begin() + begin, order.last.begin() + end) + 1;
+        // G is symmetric: its rows are its columns.
+        FullMatrix<double> rows(high - low, n), some(high - low, end - begin), product(end - begin, n);
         for (unsigned int k = low; k < high; ++k)
+        {
+          std::copy_n(&compliance(order.at[k], 0), n, &rows(k - low, 0));
           for (unsigned int j = begin; j < end; ++j)
-            of_sparse(k - low, j - begin) = sparse(at[k], at[j]);
-        of_full.mmult(of_product, of_sparse);
-        for (unsigned int i = 0; i < n; ++i)
-          for (unsigned int j = begin; j < end; ++j)
-            product(i, at[j]) = of_product(i, j - begin);
+            some(k - low, j - begin) = -tangent(order.at[k], order.at[j]);
+        }
+        some.Tmmult(product, rows);
+        for (unsigned int j = begin; j < end; ++j)
+        {
+          product(j - begin, order.at[j]) += 1.;
+          of_column(order.at[j], &product(j - begin, 0));
+        }
       }
-    }
-
-    void multiply(const FullMatrix<double> &compliance, const FullMatrix<double> &tangent, FullMatrix<double> &product)
-    {
-      constexpr unsigned int many = 256; // from where the zeros of the tangent are worth the search for them
-      if (tangent.n() < many)
-        compliance.mmult(product, tangent);
-      else
-        multiply_by_sparse(compliance, tangent, product);
     }
 
     /// M = 1 - G df/dz on some of the ports. Forces on a block of ports follow its own displacements and few others, say the turn
@@ -169,15 +185,25 @@ namespace sprag
         const auto [first, last] = block.places;
         const auto &of           = block.of_ports;
         const unsigned int n     = last - first;
-        FullMatrix<double> loaded(n), of_block(n), product(n);
+        FullMatrix<double> loaded(n), of_block(n), product(n < many_ports ? n : 0);
         of_block.fill(tangent, 0, 0, first, first);
         for (unsigned int i = 0; i < n; ++i)
+        {
+          const double *const row = &(*of.matrix)(ports[first + i] - of.begin, 0);
           for (unsigned int j = 0; j < n; ++j)
-            loaded(i, j) = (*of.matrix)(ports[first + i] - of.begin, ports[first + j] - of.begin);
-        multiply(loaded, of_block, product);
-        for (unsigned int i = 0; i < n; ++i)
-          for (unsigned int j = 0; j < n; ++j)
-            block.matrix(i, j) = (i == j ? 1. : 0.) - product(i, j);
+            loaded(i, j) = row[ports[first + j] - of.begin];
+        }
+        if (n < many_ports)
+        {
+          loaded.mmult(product, of_block);
+          for (unsigned int i = 0; i < n; ++i)
+            for (unsigned int j = 0; j < n; ++j)
+              block.matrix(i, j) = (i == j ? 1. : 0.) - product(i, j);
+        }
+        else
+          subtract_sparse_product(loaded, of_block,
+                                  [&](const unsigned int column, const double *const values)
+                                  { std::copy_n(values, n, &block.matrix(0, column)); });
         block.matrix.compute_lu_factorization();
         if (columns.empty())
           return;
@@ -187,7 +213,7 @@ namespace sprag
             for (unsigned int a = 0; a < n; ++a)
               if (const double force = tangent(first + a, columns[k]); force != 0.)
                 for (unsigned int i = 0; i < n; ++i)
-                  block.answers(i, k) -= loaded(i, a) * force;
+                  block.answers(i, k) -= loaded(a, i) * force; // G is symmetric
         block.matrix.solve(block.answers);
       }
 

@@ -37,6 +37,7 @@ namespace sprag
     inline constexpr dealii::types::boundary_id sensor_lever  = 6; ///< of the lever, towards the sensors
     inline constexpr dealii::types::boundary_id joint         = 7; ///< far end of a leaf spring
     inline constexpr dealii::types::boundary_id clamp         = 8; ///< of a leaf spring in the hub, which turns it
+    inline constexpr dealii::types::boundary_id symmetry      = 9; ///< of a half over the width: it does not move along zeta
   }                                                                // namespace boundary_id
 
   enum class ConnectorType

@@ -18,10 +18,10 @@ namespace sprag
   {
     /// Surroundings of a column that must be alike for it to answer alike, over the depth of the skin. What lies further away
     /// differs in the length of its cells, if at all.
-    const double surroundings_over_depth = getenv("SS") ? atof(getenv("SS")) : 1.;
+    constexpr double surroundings_over_depth = 0.3;
 
     /// Displacements of the near part that count, over its largest.
-    const double negligible = getenv("NN") ? atof(getenv("NN")) : 1e-9;
+    constexpr double negligible = 1e-9;
 
     /// Columns solved for together, which bounds the memory that they take.
     constexpr int chunk = 128;
@@ -70,7 +70,7 @@ namespace sprag
   {
     std::set<std::vector<long>> result;
     for (const auto &cell : body.dofs().active_cell_iterators())
-      if (std::abs(cell->center()[0] - xi) < distance && body.is_skin(cell))
+      if (body.is_skin(cell) && std::abs(cell->center()[0] - xi) < distance + 0.5 * cell->extent_in_direction(0))
       {
         std::vector<long> corners;
         for (const unsigned int v : cell->vertex_indices())
@@ -83,11 +83,10 @@ namespace sprag
 
   void LayeredCompliance::find_basis(const double begin, const double end, const double depth)
   {
-    const double RR  = getenv("RR") ? atof(getenv("RR")) : 4.;
-    const auto loads = bond_loads(body, { begin - RR * depth, end + RR * depth, (getenv("HX") ? atof(getenv("HX")) : 1.) * depth,
-                                          (getenv("HZ") ? atof(getenv("HZ")) : 1.) * depth });
-    const int n      = loads.size();
-    const auto n_ports = static_cast<unsigned int>(dofs.size());
+    constexpr double beyond = 4.; // how far what the skin hands on spreads, over its depth
+    const auto loads        = bond_loads(body, { begin - beyond * depth, end + beyond * depth, depth, depth });
+    const int n             = loads.size();
+    const auto n_ports      = static_cast<unsigned int>(dofs.size());
     FullMatrix<double> of_face(n_ports, n);
     LAPACKFullMatrix<double> products(n);
     for (int first = 0; first < n; first += chunk)
@@ -151,7 +150,8 @@ namespace sprag
     SparseColumns loads;
     for (unsigned int port = tiles[tile].begin; port < tiles[tile].end; ++port)
     {
-      loads.add(static_cast<unsigned int>(body.number_near(dofs[port])), 1.);
+      if (const int number = body.number_near(dofs[port]); number >= 0)
+        loads.add(static_cast<unsigned int>(number), 1.);
       loads.end_column();
     }
     const int n          = loads.size();
@@ -160,8 +160,9 @@ namespace sprag
     {
       FullMatrix<double> result(other.end - other.begin, n);
       for (unsigned int i = 0; i < result.m(); ++i)
-        for (unsigned int j = 0; j < result.n(); ++j)
-          result(i, j) = responses[j * static_cast<std::size_t>(body.n_near()) + body.number_near(dofs[other.begin + i])];
+        if (const int number = body.number_near(dofs[other.begin + i]); number >= 0)
+          for (unsigned int j = 0; j < result.n(); ++j)
+            result(i, j) = responses[j * static_cast<std::size_t>(body.n_near()) + number];
       return result;
     };
     NearColumns result{ 0, { of_tile(tiles[tile]) } };
@@ -225,32 +226,41 @@ namespace sprag
     return result;
   }
 
+  std::vector<unsigned int> LayeredCompliance::tiles_of(const PortSelection &whole_tiles) const
+  {
+    std::vector<unsigned int> result;
+    for (unsigned int place = 0; place < whole_tiles.size(); place += tiles[result.back()].end - tiles[result.back()].begin)
+      result.push_back(tile_of(whole_tiles[place]));
+    return result;
+  }
+
   FullMatrix<double> LayeredCompliance::among(const PortSelection &whole_tiles)
   {
     const auto n = static_cast<unsigned int>(whole_tiles.size());
     FullMatrix<double> result(n, n);
-    std::vector<std::pair<unsigned int, int>> places; // of the tiles in the matrix, and in the last one, -1 where they are new
-    for (unsigned int place = 0; place < n;)
-    {
-      const unsigned int port = whole_tiles[place];
-      const unsigned int last = place_of(port, last_ports);
-      places.emplace_back(place, last < last_ports.size() && last_ports[last] == port ? static_cast<int>(last) : -1);
-      const auto &tile = tiles[tile_of(port)];
-      place += tile.end - tile.begin;
-    }
-    for (const auto &[row, last_row] : places)
-      for (const auto &[column, last_column] : places)
-      {
-        if (column > row)
-          break;
-        const unsigned int row_tile = tile_of(whole_tiles[row]), column_tile = tile_of(whole_tiles[column]);
-        const bool is_known = last_row >= 0 && last_column >= 0;
-        const auto fresh    = is_known ? FullMatrix<double>() : block(row_tile, column_tile);
-        for (unsigned int i = 0; i < tiles[row_tile].end - tiles[row_tile].begin; ++i)
-          for (unsigned int j = 0; j < tiles[column_tile].end - tiles[column_tile].begin && column + j <= row + i; ++j)
-            result(row + i, column + j) = result(column + j, row + i) =
-                is_known ? last_matrix(last_row + i, last_column + j) : fresh(i, j);
-      }
+    // Most of it was found last time, in one piece.
+    const auto first =
+        std::find_if(whole_tiles.begin(), whole_tiles.end(),
+                     [&](const unsigned int port) { return std::binary_search(last_ports.begin(), last_ports.end(), port); });
+    const auto begin  = static_cast<unsigned int>(first - whole_tiles.begin());
+    const auto before = begin < n ? place_of(*first, last_ports) : 0;
+    unsigned int end  = begin;
+    while (end < n && before + end - begin < last_ports.size() && last_ports[before + end - begin] == whole_tiles[end])
+      ++end;
+    for (unsigned int row = begin; row < end; ++row)
+      std::copy_n(&last_matrix(before + row - begin, before), end - begin, &result(row, begin));
+
+    const auto all      = tiles_of(whole_tiles);
+    const auto is_known = [&](const unsigned int place) { return begin <= place && place < end; };
+    for (unsigned int i = 0, row = 0; i < all.size(); row += tiles[all[i]].end - tiles[all[i]].begin, ++i)
+      for (unsigned int j = 0, column = 0; j <= i; column += tiles[all[j]].end - tiles[all[j]].begin, ++j)
+        if (!is_known(row) || !is_known(column))
+        {
+          const auto fresh = block(all[i], all[j]);
+          for (unsigned int a = 0; a < fresh.m(); ++a)
+            for (unsigned int b = 0; b < fresh.n() && column + b <= row + a; ++b)
+              result(row + a, column + b) = result(column + b, row + a) = fresh(a, b);
+        }
     last_ports  = whole_tiles;
     last_matrix = result;
     return result;

@@ -66,6 +66,7 @@ namespace sprag
     const NearColumns &near_columns(unsigned int tile);
     NearColumns find_near_columns(unsigned int tile) const;
     unsigned int tile_of(unsigned int port) const;
+    std::vector<unsigned int> tiles_of(const PortSelection &whole_tiles) const;
 
     const SolidBody &body;
     std::vector<unsigned int> dofs; ///< of the ports

@@ -22,8 +22,8 @@ namespace sprag
     BodyProperties solid_properties(const Scene &scene)
     {
       auto result  = lever_properties(scene).body;
-      result.plane = PlaneState::strain; // its constants are those of the body
-      result.width = 1.;
+      result.plane = PlaneState::strain;                   // its constants are those of the body
+      result.width = is_symmetric_across(scene) ? 2. : 1.; // stiffness and areas of a half stand for the whole
       result.widths.clear();
       return result;
     }
@@ -33,7 +33,8 @@ namespace sprag
 
   double skin_depth(const Scene &scene)
   {
-    return scene.layer.thickness + (getenv("DD") ? atof(getenv("DD")) : 0.08) * scene.geometry.cylinder_radius;
+    constexpr double over_radius = 0.08;
+    return scene.layer.thickness + over_radius * scene.geometry.cylinder_radius;
   }
 
   SolidBody::SolidBody(const Scene &scene, const Mesh &plane, const MPI_Comm ranks_)
@@ -73,6 +74,8 @@ namespace sprag
         for (const auto index : indices)
           constraints.add_line(index);
       }
+    VectorTools::interpolate_boundary_values(dof_handler, boundary_id::symmetry, Functions::ZeroFunction<3>(3), constraints,
+                                             fe.component_mask(FEValuesExtractors::Scalar(2)));
     constraints.close();
   }
 
@@ -133,7 +136,7 @@ namespace sprag
       for (const unsigned int q : values.quadrature_point_indices())
       {
         const auto &place = values.quadrature_point(q);
-        const double mass = density * values.JxW(q);
+        const double mass = density * properties.width * values.JxW(q);
         result[0] += mass;
         result[1] += mass * (place[0] * place[0] + place[1] * place[1]);
       }

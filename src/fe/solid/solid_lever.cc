@@ -61,7 +61,7 @@ namespace sprag
                { { ports.surface, [this](const PortSelection &some) { return compliance.whole_tiles(some); },
                    [this](const PortSelection &tiles) { return compliance.among(tiles); } } })
       , contact(body.friction_face(), contact_properties(body, scene, properties, ports))
-      , view(body.friction_face(), contact)
+      , view(body.friction_face(), contact, is_symmetric_across(scene))
       , excess(ports, properties.spring.law)
   {
   }
@@ -228,7 +228,8 @@ namespace sprag
     const auto &nodes = body.friction_face().nodes;
     for (unsigned int i = 0; i < state.forces.ports.size(); ++i)
       if (const unsigned int port = state.forces.ports[i]; ports.is_surface(port))
-        loads[nodes[port / 3].dofs[port % 3]] = state.forces.values[i];
+        if (const unsigned int dof = nodes[port / 3].dofs[port % 3]; !body.is_held(dof))
+          loads[dof] = state.forces.values[i];
     body.respond(loads);
     return { loads.begin(), loads.end() };
   }
@@ -245,8 +246,6 @@ namespace sprag
         const double difference = exact - state.coordinates[port];
         largest                 = std::max(largest, std::abs(difference));
         compression             = std::max(compression, std::abs(exact));
-        if (getenv("DBG") && std::abs(nodes[port / 3].position[2]) < 1e-6)
-          printf("DBG %u %g %g %g %g\n", port % 3, nodes[port / 3].position[0], exact, difference, state.forces.values[i]);
         missed += difference * state.forces.values[i];
         work += exact * state.forces.values[i];
       }

@@ -1,15 +1,24 @@
 #include "fe/solid/solid_mesh.h"
 
+#include "fe/body/body_properties.h"
+
 #include <deal.II/base/mpi.h>
 #include <deal.II/grid/grid_generator.h>
 #include <deal.II/grid/grid_tools.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <tuple>
 
 namespace sprag
 {
   using namespace dealii;
+
+  bool is_symmetric_across(const Scene &scene)
+  {
+    return scene.cylinder.tilt == 0. && scene.cylinder.skew == 0. && scene.cylinder.position == 0.;
+  }
 
   std::vector<double> planes_across(const Scene &scene)
   {
@@ -23,7 +32,12 @@ namespace sprag
     for (const double size : sizes)
       result.push_back(result.back() + size / sum * width);
     result.back() = 0.5 * width;
-    return result;
+    if (!is_symmetric_across(scene))
+      return result;
+    const double round_off = 1e-9 * width;
+    std::vector<double> half{ 0. };
+    std::copy_if(result.begin(), result.end(), std::back_inserter(half), [&](const double zeta) { return zeta > round_off; });
+    return half;
   }
 
   namespace
@@ -46,12 +60,16 @@ namespace sprag
     }
 
     /// GridGenerator gives both ends ids of their own, which mean something else here.
-    void free_ends(const double half_width, SolidMesh &mesh)
+    void mark_ends(const double first, const double last, SolidMesh &mesh)
     {
+      const double round_off = 1e-9 * last;
       for (const auto &cell : mesh.active_cell_iterators())
         for (const auto &face : cell->face_iterators())
-          if (face->at_boundary() && std::abs(std::abs(face->center()[2]) - half_width) < 1e-9 * half_width)
-            face->set_boundary_id(0);
+        {
+          const double zeta = face->center()[2];
+          if (face->at_boundary() && (std::abs(zeta - first) < round_off || std::abs(zeta - last) < round_off))
+            face->set_boundary_id(first == 0. && std::abs(zeta) < round_off ? boundary_id::symmetry : 0);
+        }
     }
   } // namespace
 
@@ -59,7 +77,8 @@ namespace sprag
   {
     Mesh shared;
     share(plane, mesh.get_communicator(), shared);
-    GridGenerator::extrude_triangulation(shared, planes_across(scene), mesh);
-    free_ends(0.5 * scene.lever.width, mesh);
+    const auto planes = planes_across(scene);
+    GridGenerator::extrude_triangulation(shared, planes, mesh);
+    mark_ends(planes.front(), planes.back(), mesh);
   }
 } // namespace sprag

@@ -12,9 +12,10 @@ namespace sprag
     constexpr unsigned int parts_along = 4;
   }
 
-  SurfaceView::SurfaceView(const FrictionFace<3> &face_, const SurfaceContact &contact_)
+  SurfaceView::SurfaceView(const FrictionFace<3> &face_, const SurfaceContact &contact_, const bool half)
       : face(face_)
       , contact(contact_)
+      , is_half(half)
       , part_of_point(face.points.size())
       , line_of_point(face.points.size())
   {
@@ -127,16 +128,19 @@ namespace sprag
     row[Column::elastic_slip]       = elastic_slip;
     row[Column::penetration]        = penetration;
     row[Column::cone_violation]     = cone > 0. ? excess / cone : 0.;
-    row.across[0]                   = force[2];
-    row.across[2]                   = twisting;
-    row.across[3]                   = turning;
-    if (normal == 0.)
+    if (normal > 0.)
+    {
+      row[Column::s]  = position / normal;
+      row[Column::mu] = mu / normal;
+      if (found.duration > 0.)
+        row[Column::v_rel] = speed / normal;
+    }
+    if (is_half)
       return;
-    row[Column::s]  = position / normal;
-    row[Column::mu] = mu / normal;
-    row.across[1]   = zeta / normal;
-    if (found.duration > 0.)
-      row[Column::v_rel] = speed / normal;
+    row.across[0] = force[2];
+    row.across[2] = twisting;
+    row.across[3] = turning;
+    row.across[1] = normal > 0. ? zeta / normal : 0.;
   }
 
   /// Where it is largest the pressure is recovered as in a plane, along the points with that zeta.

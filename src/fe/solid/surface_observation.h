@@ -10,8 +10,8 @@ namespace sprag
   class SurfaceView
   {
   public:
-    /// Face and contact must outlive this.
-    SurfaceView(const FrictionFace<3> &face, const SurfaceContact &contact);
+    /// Face and contact must outlive this. `half`: the face is half of one which is the same on both sides of the middle.
+    SurfaceView(const FrictionFace<3> &face, const SurfaceContact &contact, bool half);
 
     /// Fills the columns that follow from tractions and positions on the face.
     void observe(const SurfaceEvaluation &found, Row &row) const;
@@ -26,6 +26,7 @@ namespace sprag
 
     const FrictionFace<3> &face;
     const SurfaceContact &contact;
+    const bool is_half;
     std::vector<unsigned int> part_of_point;
     std::vector<unsigned int> line_of_point; ///< points with the same zeta
     FacePoints parts;
