@@ -16,7 +16,7 @@ namespace sprag
       const FaceEvaluation &found;
     };
 
-    RecoveredPressure recovered(const FaceView &contact)
+    PressureSamples samples_of(const FaceView &contact)
     {
       const auto &face = contact.face;
       PressureSamples samples;
@@ -36,24 +36,7 @@ namespace sprag
       }
       samples.begin = face.points.front().position[0];
       samples.end   = face.points.back().position[0];
-      return recover(samples);
-    }
-
-    /// Length under pressure, the edges where the trial pressure, linear between the points, changes sign [mm].
-    double contact_width(const std::vector<FacePointState<2>> &points)
-    {
-      double width = 0.;
-      for (std::size_t q = 0; q + 1 < points.size(); ++q)
-      {
-        const double length = points[q + 1].position[0] - points[q].position[0];
-        const double left   = points[q].trial_pressure;
-        const double right  = points[q + 1].trial_pressure;
-        if (left > 0. && right > 0.)
-          width += length;
-        else if (left > 0. || right > 0.)
-          width += length * std::max(left, right) / (std::max(left, right) - std::min(left, right));
-      }
-      return width;
+      return samples;
     }
 
     /// Displacement along xi and eta of an integration point [mm].
@@ -196,8 +179,9 @@ namespace sprag
   void observe_face(const ElasticBody<2> &body, const FaceEvaluation &found, const double layer_thickness, Row &row)
   {
     const FaceView contact{ body.friction_face(), found };
-    const auto recovery           = recovered(contact);
-    row[Column::contact_width]    = recovery.is_fitted ? recovery.width : contact_width(contact.found.points);
+    const auto samples            = samples_of(contact);
+    const auto recovery           = recover(samples);
+    row[Column::contact_width]    = contact_width(samples, recovery);
     row[Column::largest_pressure] = recovery.largest;
     if (recovery.largest > 0.)
       row[Column::largest_pressure_xi] = recovery.place;
@@ -250,7 +234,7 @@ namespace sprag
     const std::size_t n = contact.face.points.size();
     result.pressure.resize(n);
     result.traction.resize(n);
-    const auto recovery = recovered(contact);
+    const auto recovery = recover(samples_of(contact));
     const auto traction = recovered_traction(contact, recovery.pressure);
     for (std::size_t i = 0; i < contact.found.points.size(); ++i)
     {

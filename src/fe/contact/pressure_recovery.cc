@@ -190,4 +190,22 @@ namespace sprag
     }
     return as_sampled(samples);
   }
+
+  double contact_width(const PressureSamples &samples, const RecoveredPressure &recovered)
+  {
+    if (recovered.is_fitted)
+      return recovered.width;
+    double width = 0.;
+    for (std::size_t q = 0; q + 1 < samples.xi.size(); ++q)
+    {
+      const double length = samples.xi[q + 1] - samples.xi[q];
+      const double left   = samples.trial[q];
+      const double right  = samples.trial[q + 1];
+      if (left > 0. && right > 0.)
+        width += length;
+      else if (left > 0. || right > 0.)
+        width += length * std::max(left, right) / (std::max(left, right) - std::min(left, right));
+    }
+    return width;
+  }
 } // namespace sprag

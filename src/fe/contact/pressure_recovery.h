@@ -37,4 +37,8 @@ namespace sprag
   /// Where this is not what touches (two contacts, a contact that reaches the face's end, fewer than ten samples, a misfit of
   /// more than a quarter) the samples themselves count.
   RecoveredPressure recover(const PressureSamples &samples);
+
+  /// Returns the length under pressure: that of the fit, or else between the places where the trial pressure, linear between the
+  /// samples, changes sign [mm].
+  double contact_width(const PressureSamples &samples, const RecoveredPressure &recovered);
 } // namespace sprag

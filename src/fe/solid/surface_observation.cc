@@ -166,7 +166,7 @@ namespace sprag
     samples.begin                    = face.points[of_line.front()].position[0];
     samples.end                      = face.points[of_line.back()].position[0];
     const auto recovered             = recover(samples);
-    row[Column::contact_width]       = recovered.width;
+    row[Column::contact_width]       = contact_width(samples, recovered);
     row[Column::largest_pressure]    = recovered.largest;
     row[Column::largest_pressure_xi] = recovered.place;
     row.across[4]                    = largest->position[2];
