@@ -10,6 +10,7 @@ namespace sprag
   {
     end,         ///< the run is over
     build,       ///< the body
+    release,     ///< it
     solve_whole, ///< with the factors of the whole body
     solve_near   ///< with those of its layer
   };

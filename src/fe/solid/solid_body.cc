@@ -29,6 +29,14 @@ namespace sprag
     }
 
     using Sharing = SolidMesh::Settings;
+
+    /// To come before anything that all ranks do together.
+    MPI_Comm called_to_build(const MPI_Comm ranks)
+    {
+      if (Utilities::MPI::this_mpi_process(ranks) == 0)
+        call_others(SharedTask::build, ranks);
+      return ranks;
+    }
   } // namespace
 
   double skin_depth(const Scene &scene)
@@ -38,7 +46,7 @@ namespace sprag
   }
 
   SolidBody::SolidBody(const Scene &scene, const Mesh &plane, const MPI_Comm ranks_)
-      : ranks(ranks_)
+      : ranks(called_to_build(ranks_))
       , interface_offset(scene.geometry.interface_offset)
       , depth_of_skin(skin_depth(scene))
       , properties(solid_properties(scene))
@@ -48,8 +56,6 @@ namespace sprag
       , factors(ranks)
       , factors_of_skin(ranks)
   {
-    if (Utilities::MPI::this_mpi_process(ranks) == 0)
-      call_others(SharedTask::build, ranks);
     extrude(scene, plane, mesh);
     dof_handler.distribute_dofs(fe);
     hold_hub();
@@ -61,6 +67,13 @@ namespace sprag
     factors.factorise(std::move(of_whole));
     if (has_skin())
       factors_of_skin.factorise(std::move(of_skin));
+  }
+
+  /// Mesh and factors are given back by all ranks together.
+  SolidBody::~SolidBody()
+  {
+    if (Utilities::MPI::this_mpi_process(ranks) == 0)
+      call_others(SharedTask::release, ranks);
   }
 
   void SolidBody::hold_hub()
@@ -194,6 +207,8 @@ namespace sprag
       {
         if (task == SharedTask::build)
           body = std::make_unique<SolidBody>(scene, Mesh(), ranks);
+        else if (task == SharedTask::release)
+          body.reset();
         else
           body->take_part(task);
       }

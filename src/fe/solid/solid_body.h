@@ -23,6 +23,7 @@ namespace sprag
     /// AnalysisError where the factorisation fails.
     SolidBody(const Scene &scene, const Mesh &plane, MPI_Comm ranks);
     SolidBody &operator=(SolidBody &&) = delete;
+    ~SolidBody();
 
     unsigned int n_dofs() const
     {
