@@ -27,6 +27,8 @@ namespace sprag
     constexpr double static_step       = 1.3e-3;
     constexpr double static_window     = 3.5e-10; ///< a step, times N^1.45
     constexpr double general_step      = 2.3e-5;  ///< times N
+    constexpr double solid_body        = 3.5e-7;  ///< times N^1.45, with the basis of its face and the checks of it
+    constexpr double solid_step        = 2e-9;    ///< times N^1.4
     constexpr double reduced_step      = 2e-5;
     constexpr double basis             = 5.5e-7; ///< times N^1.5
     // Of it, what held slides need.
@@ -62,6 +64,14 @@ namespace sprag
       const bool linear  = scene.lever.material == MaterialModel::linear && scene.analysis.solution == Solution::automatic;
       const double step  = linear ? static_step + static_window * std::pow(N, 1.45) : general_step * N;
       return start + (model + telling_and_peaks) * N + steps * step * parts(scene);
+    }
+
+    double in_three_dimensions(const Scene &scene)
+    {
+      const double N     = expected_size(scene).displacements;
+      const double turns = 1. + static_cast<double>(scene.drive.reversals().size());
+      const double steps = expected_rows(scene) + steps_of_reversal * turns;
+      return start + solid_body * std::pow(N, 1.45) + steps * solid_step * std::pow(N, 1.4);
     }
 
     double steps_in_time(const Scene &scene)
@@ -158,7 +168,7 @@ namespace sprag
       switch (scene.analysis.type)
       {
       case AnalysisType::quasi_static:
-        return without_inertia(scene);
+        return scene.analysis.dimension == 3 ? in_three_dimensions(scene) : without_inertia(scene);
       case AnalysisType::transient:
         return in_time(scene);
       case AnalysisType::modal:

@@ -6,6 +6,7 @@
 #include "base/errors.h"
 #include "base/text.h"
 #include "run/recorder.h"
+#include "scene/across.h"
 #include "scene/analysis_use.h"
 #include "scene/contact_width.h"
 #include "scene/lever_shape.h"
@@ -115,15 +116,20 @@ namespace sprag
       return is_factorised_once(scene) ? Cost{ 2e3, 0. } : Cost{ 5e3, 0. };
     }
 
+    /// Matrices that processes share over those of one.
+    constexpr double shared_over_whole = 1.2;
+
     /// Matrices of plate and bar over those of the plate.
     constexpr double bar_behind_plate = 1.5;
 
     double bytes_of_matrices(const Scene &scene)
     {
       const auto [displacements, ports] = expected_size(scene);
-      const double levers               = scene.pair.type == PairType::full && !is_factorised_once(scene) ? 2. : 1.;
-      const auto [each, copies]         = cost_of(scene);
-      const double bar                  = scene.plate.type == PlateType::none ? 1. : bar_behind_plate;
+      if (scene.analysis.dimension == 3)
+        return 215. * std::pow(displacements, 4. / 3.);
+      const double levers       = scene.pair.type == PairType::full && !is_factorised_once(scene) ? 2. : 1.;
+      const auto [each, copies] = cost_of(scene);
+      const double bar          = scene.plate.type == PlateType::none ? 1. : bar_behind_plate;
       return levers * bar * (each * displacements + copies * 8. * ports * ports);
     }
 
@@ -145,6 +151,11 @@ namespace sprag
     if (!needs_mesh(scene) || !scene.mesh.file.empty())
       return {};
     const double p = scene.mesh.degree, n = elements_along_face(scene), rows = rows_under_face(scene);
+    if (scene.analysis.dimension == 3)
+    {
+      const double across = 3. * (p * static_cast<double>(planes_across(scene).size() - 1) + 1.);
+      return { across * (p * n + 1.) * (p * rows + 1.), across * (p * n + 1.) };
+    }
     return { 2. * (p * n + 1.) * (p * rows + 1.) + 2. * p * p * cylinder_elements(scene), 2. * (p * n + 1.) };
   }
 
@@ -163,7 +174,10 @@ namespace sprag
 
   double expected_memory(const Scene &scene, const unsigned int processes)
   {
-    return processes * (of_libraries(scene) + bytes_of_matrices(scene)) + expected_rows(scene) * bytes_of_row;
+    const double rows = expected_rows(scene) * bytes_of_row;
+    if (shares_body(scene))
+      return processes * of_libraries(scene) + (processes == 1 ? 1. : shared_over_whole) * bytes_of_matrices(scene) + rows;
+    return processes * (of_libraries(scene) + bytes_of_matrices(scene)) + rows;
   }
 
   void require_memory(const Scene &scene, const unsigned int processes)

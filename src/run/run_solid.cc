@@ -49,8 +49,10 @@ namespace sprag
       {
       }
 
-      void look_at(const State &state, const double travel)
+      void look_at(const State &state, const double x)
       {
+        travel += std::abs(x - last_x);
+        last_x = x;
         if (travel < next || state.forces.ports.empty())
           return;
         next             = travel + interval;
@@ -68,9 +70,16 @@ namespace sprag
       }
 
     private:
+      friend void visit(Archive &archive, ExactnessCheck &check)
+      {
+        archive(check.next, check.travel, check.last_x, check.worst);
+      }
+
       SolidLever &lever;
       const double interval; ///< of travel between states looked at [mm]
-      double next = 0.;
+      double next   = 0.;
+      double travel = 0.;
+      double last_x = 0.;
       SolidLever::Exactness worst{};
     };
 
@@ -82,17 +91,14 @@ namespace sprag
       if (!options.quiet)
         print_model(scene, body, lever);
       ExactnessCheck check(lever, path_length(scene.drive));
-      double travel    = 0.;
-      double last_x    = 0.;
+      checkpoint.add_part([&](Archive &archive) { visit(archive, check); });
       const auto write = [&](const State &state, const Row &row)
       {
         const PhaseTimer::Scope scope(timer, "output");
         recorder.record(row);
         recorder.record(lever.face_state(state));
-        travel += std::abs(row[Column::x] - last_x);
-        last_x = row[Column::x];
         const PhaseTimer::Scope of_check(timer, "exactness");
-        check.look_at(state, travel);
+        check.look_at(state, row[Column::x]);
       };
       const auto hand_on = [&](const State &state, const Row &row) { checkpoint.hand_on([&] { write(state, row); }); };
       const QuasiStaticSettings settings{ scene.analysis.step, scene.analysis.minimum_step, scene.contact };

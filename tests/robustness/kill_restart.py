@@ -25,12 +25,17 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 from runs import SOURCE, SPRAG, TIMEOUT, RunTest, sprag  # noqa: E402
 
 QUASI_STATIC = {"Mesh/Face size": "2", "Analysis/Step": "0.5", "Drive/Stroke": "30", "Output/Fields": "interval"}
+SOLID = {
+    "Analysis/Dimension": "3", "Mesh/Face size": "4", "Mesh/Faces in contact": "0", "Mesh/Elements across": "2", "Cylinder/Tilt": "1e-4",
+    "Drive/Stroke": "20",
+}
 IN_TIME = {"Drive/Start": "63.5", "Mesh/Face size": "4", "Time/Tolerance": "1e-3", "Output/Fields": "interval", "Output/Field interval": "0.5"}
 REDUCED = {"Drive/Start": "62", "Time/Tolerance": "1e-6"}
 CONDENSED = {**IN_TIME, "Analysis/Model": "condensed", "Condensed/Modes": "8"}
 QUICK = {
     "quasi-static, penalty": ("model-a", QUASI_STATIC),
     "quasi-static, augmented": ("augmented-lagrangian-a", QUASI_STATIC),
+    "three dimensions": ("model-a", SOLID),
     "in time, rigid": ("reversal-a", {**REDUCED, "Analysis/Model": "rigid"}),
     "in time, beam": ("reversal-a", REDUCED),
     "in time, condensed": ("reversal-a", CONDENSED),

@@ -3,6 +3,7 @@
 #include "base/errors.h"
 #include "fe/solid/solid_stiffness.h"
 #include "fe/statics/lever_properties.h"
+#include "scene/across.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_q.h>

@@ -4,6 +4,7 @@
 #include "base/text.h"
 #include "fe/statics/contact_penalties.h"
 #include "fe/statics/static_terms.h"
+#include "scene/across.h"
 #include "scene/contact_width.h"
 #include "scene/lever_shape.h"
 

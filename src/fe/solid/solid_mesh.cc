@@ -1,44 +1,18 @@
 #include "fe/solid/solid_mesh.h"
 
 #include "fe/body/body_properties.h"
+#include "scene/across.h"
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/grid/grid_generator.h>
 #include <deal.II/grid/grid_tools.h>
 
-#include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <tuple>
 
 namespace sprag
 {
   using namespace dealii;
-
-  bool is_symmetric_across(const Scene &scene)
-  {
-    return scene.cylinder.tilt == 0. && scene.cylinder.skew == 0. && scene.cylinder.position == 0.;
-  }
-
-  std::vector<double> planes_across(const Scene &scene)
-  {
-    const unsigned int n = scene.mesh.elements_across;
-    const double width   = scene.lever.width;
-    std::vector<double> sizes(n);
-    double sum = 0.;
-    for (unsigned int i = 0; i < n; ++i)
-      sum += sizes[i] = std::pow(scene.mesh.growth_across, std::min(i, n - 1 - i));
-    std::vector<double> result{ -0.5 * width };
-    for (const double size : sizes)
-      result.push_back(result.back() + size / sum * width);
-    result.back() = 0.5 * width;
-    if (!is_symmetric_across(scene))
-      return result;
-    const double round_off = 1e-9 * width;
-    std::vector<double> half{ 0. };
-    std::copy_if(result.begin(), result.end(), std::back_inserter(half), [&](const double zeta) { return zeta > round_off; });
-    return half;
-  }
 
   namespace
   {

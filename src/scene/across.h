@@ -1,0 +1,15 @@
+#pragma once
+
+#include "scene/scene.h"
+
+#include <vector>
+
+namespace sprag
+{
+  /// Returns whether lever and cylinder are the same on both sides of the middle of the width, so that one half is enough.
+  bool is_symmetric_across(const Scene &scene);
+
+  /// Returns the planes between the elements across the width of three dimensions, from its middle, growing from both edges to
+  /// the middle [mm]; where it is symmetric those of one half.
+  std::vector<double> planes_across(const Scene &scene);
+} // namespace sprag
