@@ -20,6 +20,7 @@ from slope import contact_law, slope_sweep
 from sprag_slip import is_sprag_slip, sprag_slip_pictures
 from study import is_study, study_pictures
 from style import plt, use_print_style
+from surface import is_solid, surface
 from transient import energy, has_reversal, is_transient, reversal
 from vibration import vibration_pictures
 
@@ -53,7 +54,9 @@ def draw(results):
 
 def pictures_of_one(result):
     pictures = {}
-    if result.face is not None:
+    if is_solid(result):
+        pictures["contact"] = surface(result)
+    elif result.face is not None:
         pictures["contact"] = contact(result)
     if is_transient(result) and has_reversal(result):
         pictures["reversal"] = reversal(result)

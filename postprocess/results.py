@@ -45,6 +45,7 @@ class Face:
     pressure: np.ndarray
     traction: np.ndarray
     units: dict
+    zeta: Optional[np.ndarray] = None  # across the width, in three dimensions
 
 
 @dataclass
@@ -144,6 +145,7 @@ def _read_face(group):
         pressure=steps["pressure"][:, order],
         traction=steps["traction"][:, order],
         units=_attributes(group, "unit"),
+        zeta=group["zeta"][:][order] if "zeta" in group else None,
     )
 
 

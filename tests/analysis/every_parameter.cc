@@ -303,8 +303,7 @@ TEST(EveryParameter, BelongsToTheKeysOfSomeScene)
   for (const auto &parameter : declared())
     if (parameter.rule.kind != Rule::Kind::file && admitted.count(full_name(parameter)) == 0)
       missing.insert(full_name(parameter));
-  // There is one dimension to choose so far.
-  EXPECT_EQ(missing, std::set<std::string>{ "Analysis/Dimension" });
+  EXPECT_EQ(missing, std::set<std::string>());
 }
 
 TEST(EveryParameter, SparedOnesAreDeclared)

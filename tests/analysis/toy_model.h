@@ -73,11 +73,10 @@ namespace sprag
     {
     }
 
-    std::vector<ContactMemory> memory() const override
+    void remember(State &state) const override
     {
-      std::vector<ContactMemory> result(1);
-      result[0].traction[0] = x;
-      return result;
+      state.contact.assign(1, {});
+      state.contact[0].traction[0] = x;
     }
 
     void observe(const State & /*trial*/, Row &row) const override

@@ -37,7 +37,7 @@ namespace sprag
       {
         const double at = (k / 2 + 0.5 + (k % 2 == 0 ? -0.5 : 0.5) / std::sqrt(3.)) / parts;
         face.points.push_back(
-            { curve(vertices[i - 1] + at * (vertices[i] - vertices[i - 1])), width * length / (2. * parts), {} });
+            { curve(vertices[i - 1] + at * (vertices[i] - vertices[i - 1])), width * length / (2. * parts), {}, {} });
       }
       face.patches.push_back({ begin, begin + 2 * parts, length });
       face.edges.push_back(edge);

@@ -19,7 +19,7 @@ namespace
         const auto patch = static_cast<unsigned int>(face.patches.size());
         const double xi  = i + (i < first_apart ? 0. : apart);
         FaceEdge<3> edge;
-        FacePoint<3> point{ dealii::Point<3>(xi + 0.5, 0., j + 0.5), 1., {} };
+        FacePoint<3> point{ dealii::Point<3>(xi + 0.5, 0., j + 0.5), 1., {}, {} };
         for (unsigned int a = 0; a < 4; ++a)
         {
           edge.nodes.push_back({ dealii::Point<3>(xi + a / 2, 0., j + a % 2), 4 * patch + a });

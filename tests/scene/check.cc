@@ -53,8 +53,14 @@ TEST(CheckScene, ContactMustLieOnTheLever)
 
 TEST(CheckScene, WhatThisVersionCannotDoIsRefused)
 {
-  EXPECT_EQ(mistakes_of({ "Analysis/Dimension=3" }),
-            (Messages{ "--set: Analysis/Dimension = 3: must be 2: this version solves 2D problems only" }));
+  EXPECT_TRUE(mistakes_of({ "Analysis/Dimension=3" }).empty());
+  EXPECT_EQ(mistakes_of({ "Analysis/Dimension=3", "Analysis/Type=stability" }).size(), 1u);
+  EXPECT_EQ(mistakes_of({ "Analysis/Dimension=3", "Lever/Outline=frame", "Mirrored pair/Type=full", "Cylinder/Type=ring",
+                          "Contact/Enforcement=augmented Lagrangian" })
+                .size(),
+            4u);
+  EXPECT_EQ(
+      mistakes_of({ "Analysis/Dimension=3", "Cylinder/Length=10", "Cylinder/Position=26", "Cylinder/Edge radius=6" }).size(), 2u);
   EXPECT_EQ(mistakes_of({ "Analysis/Minimum step=2" }),
             (Messages{ "--set: Analysis/Minimum step = 2: must not be more than Step = 1 mm" }));
   EXPECT_TRUE(mistakes_of({ "Lever/Material=neo-Hookean", "Analysis/Plane=strain" }).empty());

@@ -40,7 +40,7 @@ namespace sprag
     for (const double x : { 5., 10., 15., 20. })
     {
       accepted         = solved(model, accepted, DrivePoint{ x / 112., x, 112. });
-      accepted.contact = model.memory();
+      model.remember(accepted);
     }
     return accepted;
   }

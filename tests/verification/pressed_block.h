@@ -89,7 +89,7 @@ namespace sprag
         if (!converged)
           break;
       }
-    trial.contact = model.memory();
+    model.remember(trial);
     return trial;
   }
 

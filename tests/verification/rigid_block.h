@@ -99,13 +99,12 @@ namespace sprag
       trial.contact[0].traction          = response.traction;
     }
 
-    std::vector<ContactMemory> memory() const override
+    void remember(State &state) const override
     {
-      std::vector<ContactMemory> result(1);
-      result[0].traction = response.traction;
+      state.contact.assign(1, {});
+      state.contact[0].traction = response.traction;
       if (properties.enforcement == Enforcement::augmented_lagrangian)
-        result[0].normal_multiplier = response.pressure;
-      return result;
+        state.contact[0].normal_multiplier = response.pressure;
     }
 
     /// P and F are normal force and friction, Q is the load along the first displacement.

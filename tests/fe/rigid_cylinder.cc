@@ -1,0 +1,105 @@
+#include "fe/solid/rigid_cylinder.h"
+
+#include "model/circle.h"
+#include "scenes.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
+
+using namespace sprag;
+
+namespace
+{
+  /// Out of true, a barrel with rounded ends.
+  Cylinder barrel()
+  {
+    Cylinder cylinder;
+    cylinder.length       = 40.;
+    cylinder.position     = 3.;
+    cylinder.tilt         = 0.02;
+    cylinder.skew         = -0.03;
+    cylinder.crown_radius = 900.;
+    cylinder.edge_radius  = 4.;
+    return cylinder;
+  }
+
+  using Coordinates = dealii::Tensor<1, 5>; // place along xi, eta, zeta, theta, x
+
+  SurfaceKinematics at(const RigidCylinder &cylinder, const Coordinates &q)
+  {
+    return cylinder.kinematics(RigidCylinder::pose(q[4], q[3]), dealii::Point<3>(q[0], q[1], q[2]));
+  }
+
+  /// Central differences of what a function tells of the kinematics.
+  template <class Of>
+  Coordinates differences(const RigidCylinder &cylinder, const Coordinates &q, const Of &of)
+  {
+    Coordinates result;
+    for (unsigned int i = 0; i < 5; ++i)
+    {
+      const double step = i == 3 ? 1e-6 : 1e-4;
+      auto before = q, after = q;
+      before[i] -= step;
+      after[i] += step;
+      result[i] = (of(at(cylinder, after)) - of(at(cylinder, before))) / (2. * step);
+    }
+    return result;
+  }
+} // namespace
+
+TEST(RigidCylinder, RowsAndCurvaturesAreDerivatives)
+{
+  const RigidCylinder cylinder(model_a().geometry, barrel());
+  for (const double zeta : { 2., 20.5, -14.6 }) // in the middle, and in both roundings
+  {
+    const Coordinates q({ 121., 45.57, zeta, 0.086, 64. });
+    const auto found = at(cylinder, q);
+    EXPECT_LT((differences(cylinder, q, [](const auto &k) { return k.gap; }) - found.gap_row).norm(), 1e-6);
+    for (unsigned int s = 0; s < 2; ++s)
+      EXPECT_LT((differences(cylinder, q, [s](const auto &k) { return k.slip[s]; }) - found.slip_row[s]).norm(), 1e-6);
+    for (unsigned int i = 0; i < 5; ++i)
+    {
+      EXPECT_LT((differences(cylinder, q, [i](const auto &k) { return k.gap_row[i]; }) - found.gap_curvature[i]).norm(), 1e-5);
+      for (unsigned int s = 0; s < 2; ++s)
+        EXPECT_LT(
+            (differences(cylinder, q, [i, s](const auto &k) { return k.slip_row[s][i]; }) - found.slip_curvature[s][i]).norm(),
+            1e-5);
+    }
+    const auto [gap, gradient] = cylinder.gap(RigidCylinder::pose(q[4], q[3]), dealii::Point<3>(q[0], q[1], q[2]));
+    EXPECT_NEAR(gap, found.gap, 1e-12);
+    for (unsigned int d = 0; d < 3; ++d)
+      EXPECT_NEAR(gradient[d], found.gap_row[d], 1e-12);
+  }
+}
+
+TEST(RigidCylinder, IsACircleInAPlaneWhereItIsTrue)
+{
+  const Geometry geometry = model_a().geometry;
+  const RigidCylinder cylinder(geometry, {});
+  const auto solid              = at(cylinder, Coordinates({ 121., 45.57, 7., 0.086, 64. }));
+  const auto plane              = moving_circle_contact(geometry, { 121., 45.57 }, 64., 0.086);
+  const unsigned int of_plane[] = { 0, 1, 3, 4 };
+  EXPECT_NEAR(solid.gap, plane.gap, 1e-12);
+  EXPECT_NEAR(solid.slip[0], plane.slip, 1e-12);
+  EXPECT_NEAR(solid.slip[1], 7., 1e-12);
+  for (unsigned int i = 0; i < 4; ++i)
+  {
+    EXPECT_NEAR(solid.gap_row[of_plane[i]], plane.gap_row[i], 1e-12);
+    EXPECT_NEAR(solid.slip_row[0][of_plane[i]], plane.slip_row[i], 1e-12);
+    for (unsigned int j = 0; j < 4; ++j)
+    {
+      EXPECT_NEAR(solid.gap_curvature[of_plane[i]][of_plane[j]], plane.gap_curvature[i][j], 1e-10);
+      EXPECT_NEAR(solid.slip_curvature[0][of_plane[i]][of_plane[j]], plane.slip_curvature[i][j], 1e-10);
+    }
+  }
+}
+
+TEST(RigidCylinder, BeyondItsEndsNothingTouches)
+{
+  Cylinder cylinder;
+  cylinder.length = 30.;
+  const RigidCylinder of(model_a().geometry, cylinder);
+  const auto pose = RigidCylinder::pose(64., 0.086);
+  EXPECT_LT(of.gap(pose, { 121., 45., 14.9 }).first, 0.);
+  EXPECT_NEAR(of.gap(pose, { 121., 45., 17. }).first, 2., 1e-12);
+}
