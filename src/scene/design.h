@@ -86,7 +86,7 @@ namespace sprag
     std::string demands = "damping slope = 0.1 +- 0.001";
     std::string aim     = "minimise largest force";
     std::string second_aim; ///< empty: none
-    std::string judges = "none";
+    std::string judges        = "none";
     unsigned int front_points = 11;   ///< of the front of two aims
     unsigned int positions    = 5;    ///< x at which beam and condensed judge the slide, each both ways
     bool judges_in_time       = true; ///< whether the last of beam and condensed follows the drive in time

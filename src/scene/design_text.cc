@@ -12,7 +12,8 @@ namespace sprag
 {
   namespace
   {
-    const std::set<std::string> free_sections = { "Geometry", "Lever", "Friction layer", "Rotational spring", "Contact", "Isolation" };
+    const std::set<std::string> free_sections = { "Geometry",          "Lever",   "Friction layer",
+                                                  "Rotational spring", "Contact", "Isolation" };
     const std::string free_friction           = "Friction/Factor";
 
     bool can_be_free(const Parameter &parameter)
@@ -159,8 +160,8 @@ namespace sprag
         const std::vector<std::pair<std::string, DesignJudge>> words = { { "table", DesignJudge::table },
                                                                          { "beam", DesignJudge::beam },
                                                                          { "condensed", DesignJudge::condensed } };
-        std::vector<std::string> names = { "none", "table", "beam", "condensed" };
-        const auto given               = split(settings.judges, ',');
+        std::vector<std::string> names                               = { "none", "table", "beam", "condensed" };
+        const auto given                                             = split(settings.judges, ',');
         if (given == std::vector<std::string>{ "none" })
           return;
         for (const auto &[word, judge] : words)

@@ -9,7 +9,7 @@
 using namespace sprag;
 
 // Levers whose best is known by hand. With e = 0, h = 0 and constant mu: s = l cos th0 at x = 0, th_x = tan th0/l, and
-// C_Q = (+-mu cos th0 + sin th0) k sin^2 th0/(l^2 cos^2 th0), so that c = mu k sin^2 th0/(l^2 cos th0) and k_e/c = tan th0/mu.
+// C_Q = (+-mu cos th0 + sin th0) k sin th0/s^2, so that c = mu k tan th0/l^2 and k_e/c = tan th0/mu.
 
 namespace
 {
@@ -17,9 +17,9 @@ namespace
 
   Scene design(const TemporaryFolder &folder, const std::vector<std::string> &changes)
   {
-    std::vector<std::string> all = { "Analysis/Type=design",          "Friction/Law=Coulomb",
-                                     "Friction/Coefficient=0.5",      "Geometry/Interface offset=0",
-                                     "Geometry/Cylinder radius=30",   "Geometry/Pivot distance=200",
+    std::vector<std::string> all = { "Analysis/Type=design",           "Friction/Law=Coulomb",
+                                     "Friction/Coefficient=0.5",       "Geometry/Interface offset=0",
+                                     "Geometry/Cylinder radius=30",    "Geometry/Pivot distance=200",
                                      "Rotational spring/Stiffness=5e4" };
     all.insert(all.end(), changes.begin(), changes.end());
     return read_scene(folder.write("scene.prm", ""), all);
@@ -38,15 +38,15 @@ namespace
 
   double damping_slope(const double k, const double l, const double theta)
   {
-    return mu * k * std::pow(std::sin(theta) / l, 2) / std::cos(theta);
+    return mu * k * std::tan(theta) / (l * l);
   }
 } // namespace
 
 TEST(Design, SteepestLeverWithinARatioOfSlopes)
 {
   const TemporaryFolder folder;
-  const auto found = best_of(design(folder, { "Design/Free=Geometry/Cylinder radius = 5 ... 100", "Design/Demands=slope ratio <= 1.8",
-                                              "Design/Aim=maximise damping slope" }));
+  const auto found = best_of(design(folder, { "Design/Free=Geometry/Cylinder radius = 5 ... 100",
+                                              "Design/Demands=slope ratio <= 1.8", "Design/Aim=maximise damping slope" }));
   ASSERT_TRUE(found.meets_all);
   const double theta = inclination_of_ratio(1.8);
   EXPECT_NEAR(found.lever.parameters[0], 200. * std::sin(theta), 1e-3 * 200. * std::sin(theta));
@@ -70,10 +70,11 @@ TEST(Design, LargestOffsetWithinAMarginToJamming)
 TEST(Design, ShortestLeverOfThreeFreeParameters)
 {
   const TemporaryFolder folder;
-  const auto found = best_of(design(
-      folder, { "Design/Free=Geometry/Cylinder radius = 15 ... 60; Geometry/Pivot distance = 90 ... 400; Rotational "
-                "spring/Stiffness = 1e3 ... 2e5",
-                "Design/Demands=damping slope = 0.1 +- 1e-5; slope ratio <= 1.8", "Design/Aim=minimise Geometry/Pivot distance" }));
+  const auto found = best_of(
+      design(folder, { "Design/Free=Geometry/Cylinder radius = 15 ... 60; Geometry/Pivot distance = 90 ... 400; Rotational "
+                       "spring/Stiffness = 1e3 ... 2e5",
+                       "Design/Demands=damping slope = 0.1 +- 1e-5; slope ratio <= 1.8",
+                       "Design/Aim=minimise Geometry/Pivot distance" }));
   ASSERT_TRUE(found.meets_all);
   // Short is steep, and steep at the smallest radius that the bounds and the way of the drive leave: l - 65 > R, but a lever of
   // R = 15 is at the bound of the ratio only at l = 15/sin th0 = 107 mm, where c follows from k.
@@ -94,7 +95,7 @@ TEST(Design, WhatCannotBeMetNamesTheDemandThatStopsIt)
   const auto found = best_lever(problem);
   EXPECT_FALSE(found.meets_all);
   EXPECT_GT(found.distance, 0.);
-  const auto stopping = obstacles(problem);
+  const auto stopping = stopping_demands(problem);
   ASSERT_EQ(stopping.size(), 2u);
   // Each of the two is met without the other; at the other's bound it can have so much.
   EXPECT_EQ(stopping[0].demand, 1u);
@@ -106,9 +107,9 @@ TEST(Design, WhatCannotBeMetNamesTheDemandThatStopsIt)
 TEST(Design, SearchIsRepeatable)
 {
   const TemporaryFolder folder;
-  const Scene scene = design(folder, { "Design/Free=Geometry/Cylinder radius = 5 ... 100; Rotational spring/Stiffness = 1e3 ... 2e5",
-                                       "Design/Demands=damping slope = 0.1 +- 1e-4; largest force <= 12",
-                                       "Design/Aim=minimise nonlinearity" });
+  const Scene scene =
+      design(folder, { "Design/Free=Geometry/Cylinder radius = 5 ... 100; Rotational spring/Stiffness = 1e3 ... 2e5",
+                       "Design/Demands=damping slope = 0.1 +- 1e-4; largest force <= 12", "Design/Aim=minimise nonlinearity" });
   const auto first = best_of(scene), second = best_of(scene);
   EXPECT_EQ(first.lever.parameters, second.lever.parameters);
 }
@@ -117,9 +118,9 @@ TEST(Design, FrontOfTwoAimsIsOfLeversThatNoneBeats)
 {
   const TemporaryFolder folder;
   // Over R alone c and the ratio of the slopes both grow: every R is on the front.
-  const Scene scene = design(folder, { "Design/Free=Geometry/Cylinder radius = 10 ... 60", "Design/Demands=",
-                                       "Design/Aim=maximise damping slope", "Design/Second aim=minimise slope ratio",
-                                       "Design/Front points=5" });
+  const Scene scene =
+      design(folder, { "Design/Free=Geometry/Cylinder radius = 10 ... 60", "Design/Demands=", "Design/Aim=maximise damping slope",
+                       "Design/Second aim=minimise slope ratio", "Design/Front points=5" });
   const auto front = front_of_aims(DesignProblem(scene));
   ASSERT_EQ(front.size(), 5u);
   EXPECT_NEAR(front.front().parameters[0], 60., 0.06);

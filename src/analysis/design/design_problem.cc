@@ -1,7 +1,7 @@
 #include "analysis/design/design_problem.h"
 
 #include "base/text.h"
-#include "scene/scene.h"
+#include "scene/read.h"
 
 #include <algorithm>
 #include <cmath>
@@ -27,8 +27,10 @@ namespace sprag
       return std::isnan(violation) ? most_counted : std::clamp(violation, -most_counted, most_counted);
     }
 
-    /// Demands are kept with this margin, so that the round-off of a scene's numbers breaks none.
-    constexpr double margin = 1e-7;
+    double room_of(const Demand &demand, const double room)
+    {
+      return demand.kind == DemandKind::equal ? std::min(room, 0.25 * demand.tolerance / scale_of(demand)) : room;
+    }
 
     std::vector<DesignQuantity> quantities_asked(const DesignSettings &design)
     {
@@ -55,6 +57,14 @@ namespace sprag
   {
     return term.quantity == DesignQuantity::parameter ? proposal.parameters.at(term.parameter)
                                                       : proposal.quantities[term.quantity];
+  }
+
+  std::vector<std::string> overrides_of(const Scene &design, const Proposal &lever)
+  {
+    std::vector<std::string> result;
+    for (std::size_t i = 0; i < lever.parameters.size(); ++i)
+      result.push_back(override_text(design.design.free_parameters[i].name, lever.parameters[i]));
+    return result;
   }
 
   DesignProblem::DesignProblem(const Scene &scene)
@@ -130,12 +140,15 @@ namespace sprag
       BoxProblem::Evaluation result{ most_counted, { counted(lever.rule.violation + least_room) } };
       const bool is_possible = lever.rule.violation < 0.;
       // What breaks a rule is farther away than what misses a demand, the more so the more it breaks it.
-      const auto take = [&](const double violation)
-      { result.constraints.push_back(is_possible ? counted(violation + margin) : counted(1. + lever.rule.violation)); };
+      const auto take = [&](const Demand &demand)
+      {
+        const double missed = violation_of(demand, value_of(demand.term, lever)) + room_of(demand, room);
+        result.constraints.push_back(is_possible ? counted(missed) : counted(1. + lever.rule.violation));
+      };
       for (const auto i : counting)
-        take(lever.violations[i]);
+        take(given.design.demanded[i]);
       if (limit)
-        take(violation_of(*limit, value_of(limit->term, lever)));
+        take(*limit);
       if (aim && is_possible)
         result.objective = (aim->maximises ? -1. : 1.) * value_of(aim->term, lever);
       if (!std::isfinite(result.objective))

@@ -28,6 +28,9 @@ namespace sprag
   /// Returns the value that a quantity or a free parameter has.
   double value_of(const DesignTerm &term, const Proposal &proposal);
 
+  /// Returns the lever's parameters as overrides of the scene of the design, "Section/Name=value".
+  std::vector<std::string> overrides_of(const Scene &design, const Proposal &lever);
+
   /// The levers of a scene between the bounds of its free parameters, by the closed form.
   class DesignProblem
   {
@@ -39,6 +42,10 @@ namespace sprag
 
     /// What is added to the closed form from now on: what a judge found above it.
     DesignQuantities corrections;
+
+    /// By how much demands are to be kept, over their targets: more where corrections are known to first order alone. Of a demand
+    /// with a tolerance it is at most a quarter of that.
+    double room = 1e-7;
 
     /// Counted with every lever from now on; empty: nothing.
     Dear dear;

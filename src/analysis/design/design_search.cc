@@ -55,15 +55,16 @@ namespace sprag
     return found_at(problem, best_in_box(problem.box(problem.settings().aims.front()), search_settings(problem)));
   }
 
-  Found best_lever_near(const DesignProblem &problem, const Proposal &start, const unsigned int evaluations)
+  Found best_dear_lever(const DesignProblem &problem, const unsigned int evaluations)
   {
-    return found_at(problem, best_near(problem.box(problem.settings().aims.front()), problem.place_of(start.parameters),
-                                       evaluations));
+    constexpr unsigned int starts = 2;
+    const SearchSettings few{ 5 * evaluations, starts, evaluations, problem.settings().seed };
+    return found_at(problem, best_in_box(problem.box(problem.settings().aims.front()), few));
   }
 
-  std::vector<Obstacle> obstacles(const DesignProblem &problem)
+  std::vector<StoppingDemand> stopping_demands(const DesignProblem &problem)
   {
-    std::vector<Obstacle> result;
+    std::vector<StoppingDemand> result;
     const auto &demands = problem.settings().demanded;
     for (std::size_t i = 0; i < demands.size(); ++i)
     {

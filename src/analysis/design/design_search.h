@@ -8,7 +8,7 @@
 namespace sprag
 {
   /// A demand without which the others can be met.
-  struct Obstacle
+  struct StoppingDemand
   {
     std::size_t demand;
     double attainable; ///< the value of its quantity that is closest to it where all others are met
@@ -26,12 +26,12 @@ namespace sprag
   /// Finds the lever that meets all demands and is best by the first aim.
   Found best_lever(const DesignProblem &problem);
 
-  /// Finds it near another, where evaluations are dear.
-  Found best_lever_near(const DesignProblem &problem, const Proposal &start, unsigned int evaluations);
+  /// Finds it with few evaluations, where they are dear: `evaluations` in each local search.
+  Found best_dear_lever(const DesignProblem &problem, unsigned int evaluations);
 
   /// Leaves out each demand in turn and returns those without which there is a lever; none where two or more exclude one
   /// another in pairs, or the rules that every lever keeps exclude all.
-  std::vector<Obstacle> obstacles(const DesignProblem &problem);
+  std::vector<StoppingDemand> stopping_demands(const DesignProblem &problem);
 
   /// Finds levers between the best by either of two aims, equally apart in what the second aim has: each the best by the first
   /// aim among those at least as good by the second one. Levers that another beats in both are left out.

@@ -29,27 +29,27 @@ namespace sprag
       double least = 1.;
       for (unsigned int i = 0; i <= intervals; ++i)
       {
-        const double x       = place(scene, i);
-        const double v       = -scene.drive.peak_speed();
-        const auto contact   = kinematics(scene.geometry, x);
-        const double mu      = sliding_friction(scene, x, v).coefficient;
-        least                = std::min(least, 1. - mu * scene.geometry.interface_offset / contact.s);
+        const double x     = place(scene, i);
+        const double v     = -scene.drive.peak_speed();
+        const auto contact = kinematics(scene.geometry, x);
+        const double mu    = sliding_friction(scene, x, v).coefficient;
+        least              = std::min(least, 1. - mu * scene.geometry.interface_offset / contact.s);
       }
       return least;
     }
 
     void add_slopes(const Scene &scene, DesignQuantities &result)
     {
-      const double v       = scene.drive.peak_speed();
-      const double mu      = sliding_friction(scene, 0., v).coefficient;
-      const double k       = scene.spring.stiffness;
-      const double out     = representative_slope(scene.geometry, k, mu, 1);
-      const double back    = representative_slope(scene.geometry, k, mu, -1);
+      const double v             = scene.drive.peak_speed();
+      const double mu            = sliding_friction(scene, 0., v).coefficient;
+      const double k             = scene.spring.stiffness;
+      const double out           = representative_slope(scene.geometry, k, mu, 1);
+      const double back          = representative_slope(scene.geometry, k, mu, -1);
       result[Q::forward_slope]   = out;
       result[Q::backward_slope]  = back;
       result[Q::damping_slope]   = 0.5 * (out - back);
       result[Q::restoring_slope] = 0.5 * (out + back);
-      result[Q::slope_ratio]     = out / -back;
+      result[Q::slope_ratio]     = ratio_of_ways(out, back);
       result[Q::friction_ratio]  = scene.isolation.levers * result[Q::damping_slope] / scene.isolation.stiffness;
     }
 
@@ -86,7 +86,7 @@ namespace sprag
         opening.push_back(out.Q - back.Q);
         largest_P = std::max({ largest_P, out.P, back.P });
       }
-      result[Q::force_ratio]          = forward.back() / -backward.back();
+      result[Q::force_ratio]          = ratio_of_ways(forward.back(), backward.back());
       result[Q::nonlinearity]         = std::max(nonlinearity_of(places, forward), nonlinearity_of(places, backward));
       result[Q::largest_force]        = std::max(largest_of(forward), largest_of(backward));
       result[Q::largest_normal_force] = largest_P;
@@ -165,6 +165,11 @@ namespace sprag
     for (std::size_t i = 0; i < x.size(); ++i)
       farthest = std::max(farthest, std::abs(forces[i] - products / squares * x[i]));
     return farthest / largest_of(forces);
+  }
+
+  double ratio_of_ways(const double forward, const double backward)
+  {
+    return backward < 0. ? forward / -backward : std::numeric_limits<double>::infinity();
   }
 
   DesignQuantities lever_quantities(const Scene &scene)

@@ -47,6 +47,9 @@ namespace sprag
   /// Returns the largest distance of forces from the best line through 0, over the largest force.
   double nonlinearity_of(const std::vector<double> &x, const std::vector<double> &forces);
 
+  /// Returns the ratio of forces or slopes forward and back; infinite where the way back does not damp.
+  double ratio_of_ways(double forward, double backward);
+
   /// Returns those quantities of a lever that keeps the rules which follow from the closed form on the stroke.
   DesignQuantities lever_quantities(const Scene &scene);
 

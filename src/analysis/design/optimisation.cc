@@ -122,8 +122,7 @@ namespace sprag
       return search;
     }
 
-    void approach_constraints(Evaluator &evaluator, const std::vector<double> &start, const unsigned int evaluations,
-                              const double step)
+    void approach_constraints(Evaluator &evaluator, std::vector<double> start, const unsigned int evaluations, const double step)
     {
       const std::size_t n = evaluator.of().dimension;
       const double most   = largest_of(evaluator.at(start.data()).constraints);
@@ -140,7 +139,7 @@ namespace sprag
       optimise(search, x);
     }
 
-    void improve(Evaluator &evaluator, const std::vector<double> &start, const unsigned int evaluations, const double step)
+    void improve(Evaluator &evaluator, std::vector<double> start, const unsigned int evaluations, const double step)
     {
       const std::size_t n = evaluator.of().dimension;
       auto search         = local_search(n, evaluations, step);
@@ -152,7 +151,7 @@ namespace sprag
     }
 
     /// Steps become shorter where the search begins anew, as it may stop at an edge between two constraints.
-    Optimum from_start(const BoxProblem &problem, const std::vector<double> &start, const unsigned int evaluations,
+    Optimum from_start(const BoxProblem &problem, std::vector<double> start, const unsigned int evaluations,
                        const bool only_approaches)
     {
       Evaluator evaluator(problem);
@@ -208,10 +207,5 @@ namespace sprag
   Optimum best_in_box(const BoxProblem &problem, const SearchSettings &settings)
   {
     return search_everywhere(problem, settings, false);
-  }
-
-  Optimum best_near(const BoxProblem &problem, const std::vector<double> &start, const unsigned int evaluations)
-  {
-    return from_start(problem, start, evaluations, false);
   }
 } // namespace sprag

@@ -22,7 +22,7 @@ namespace sprag
   struct SearchSettings
   {
     unsigned int evaluations = 4000; ///< of the global search
-    unsigned int starts      = 12;   ///< of local searches besides it
+    unsigned int starts      = 24;   ///< of local searches besides it
     unsigned int local       = 400;  ///< evaluations of a local search
     unsigned int seed        = 1;
   };
@@ -41,7 +41,4 @@ namespace sprag
   /// Finds the smallest objective where all constraints are kept, likewise; of a start that keeps none the nearest place that
   /// does is the beginning. Where there is no such place it is that of least_violation().
   Optimum best_in_box(const BoxProblem &problem, const SearchSettings &settings);
-
-  /// Finds the smallest objective from one start, without a global search.
-  Optimum best_near(const BoxProblem &problem, const std::vector<double> &start, unsigned int evaluations);
 } // namespace sprag

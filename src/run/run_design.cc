@@ -1,0 +1,201 @@
+#include "base/errors.h"
+#include "base/interrupt.h"
+#include "run/analyses.h"
+#include "run/design_report.h"
+#include "run/result_writer.h"
+#include "scene/read.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+
+namespace sprag
+{
+  namespace
+  {
+    constexpr double room_of_corrections  = 2e-4; ///< as they are known to first order alone
+    constexpr unsigned int near_one_lever = 60;   ///< dear evaluations of each local search
+
+    /// Proposes by the closed form and asks the judges.
+    class DesignRun
+    {
+    public:
+      DesignRun(const Scene &of_design, DesignFindings &found)
+          : scene(of_design)
+          , design(scene.design)
+          , findings(found)
+          , problem(scene)
+          , judges(scene)
+      {
+      }
+
+      void carry_out()
+      {
+        search([&] { findings.found = best_lever(problem); });
+        require_lever();
+        if (design.aims.size() > 1)
+          search([&] { findings.front = front_of_aims(problem); });
+        for (const auto judge : design.judged_by)
+          ask(judge);
+      }
+
+    private:
+      const Scene &scene;
+      const DesignSettings &design;
+      DesignFindings &findings;
+      DesignProblem problem;
+      DesignJudges judges;
+
+      template <class Search>
+      void search(const Search &find)
+      {
+        const double begin = PhaseTimer::cpu_seconds();
+        find();
+        findings.search_seconds += PhaseTimer::cpu_seconds() - begin;
+        findings.evaluations = problem.evaluations();
+        end_if_interrupted();
+      }
+
+      void require_lever()
+      {
+        if (findings.found->meets_all)
+          return;
+        if (!problem.dear)
+          search([&] { findings.stopping = stopping_demands(problem); });
+        findings.unmet = unmet_text(design, findings);
+        throw AnalysisError(findings.unmet);
+      }
+
+      bool is_timed(const DesignJudge judge) const
+      {
+        return design.judges_in_time && judge != DesignJudge::table && judge == design.judged_by.back();
+      }
+
+      void ask(const DesignJudge judge)
+      {
+        for (unsigned int round = 1;; ++round)
+        {
+          auto judgement  = judges.judge(judge, findings.found->lever, is_timed(judge));
+          judgement.round = round;
+          findings.judgements.push_back(judgement);
+          end_if_interrupted();
+          if (judgement.passes(design.demanded))
+            return;
+          const bool is_last = round == design.rounds;
+          if (is_last || (!judgement.failure.empty() && !misses_growth(judgement)))
+          {
+            findings.unmet = missed_text(design, judgement);
+            throw AnalysisError(findings.unmet);
+          }
+          learn(judgement);
+          propose_again();
+        }
+      }
+
+      /// An unstable or jamming lever, where stability is demanded and can be sought.
+      bool misses_growth(const Judgement &judgement) const
+      {
+        return demands_growth() && judgement.found[DesignQuantity::growth_rate] > 0.;
+      }
+
+      bool demands_growth() const
+      {
+        return std::any_of(design.demanded.begin(), design.demanded.end(),
+                           [](const Demand &demand) { return demand.term.quantity == DesignQuantity::growth_rate; });
+      }
+
+      /// From now on the closed form is corrected by what the judge found above it.
+      void learn(const Judgement &judgement)
+      {
+        problem.room = room_of_corrections;
+        for (const auto &info : design_quantities())
+        {
+          const auto quantity = info.quantity;
+          if (quantity == DesignQuantity::growth_rate || std::isnan(judgement.found[quantity]))
+            continue;
+          const double so_far           = problem.corrections[quantity];
+          const double by_closed_form   = judgement.lever.quantities[quantity] - (std::isnan(so_far) ? 0. : so_far);
+          problem.corrections[quantity] = judgement.found[quantity] - by_closed_form;
+        }
+        if (misses_growth(judgement))
+          learn_growth(judgement);
+      }
+
+      /// The closed form knows no growth: the beam is asked about every lever, corrected by what a dearer judge found above it.
+      void learn_growth(const Judgement &judgement)
+      {
+        if (judgement.judge != DesignJudge::beam)
+        {
+          const double of_beam = judges.growth_of_beam(problem.scene_at(judgement.lever.parameters));
+          const double above   = judgement.found[DesignQuantity::growth_rate] - of_beam;
+          if (std::isfinite(above))
+            problem.corrections[DesignQuantity::growth_rate] = above;
+        }
+        problem.dear = [this](const Scene &lever, DesignQuantities &quantities)
+        { quantities[DesignQuantity::growth_rate] = judges.growth_of_beam(lever); };
+      }
+
+      void propose_again()
+      {
+        search([&] { findings.found = problem.dear ? best_dear_lever(problem, near_one_lever) : best_lever(problem); });
+        require_lever();
+      }
+    };
+
+    void write_scene(const Scene &scene, const RunOptions &options, const Proposal &lever, const std::string &name)
+    {
+      auto changes = overrides_of(scene, lever);
+      changes.insert(changes.end(), { "Analysis/Type=quasi-static", "Analysis/Model=closed form" });
+      std::ofstream file(options.folder + '/' + name + ".prm");
+      file << parameters_text(variant(scene, changes));
+      if (!file)
+        throw AnalysisError("cannot write " + name + ".prm");
+    }
+
+    /// Those of an earlier run in the same folder.
+    void remove_scenes(const RunOptions &options)
+    {
+      const auto is_ours = [](const std::filesystem::path &path)
+      { return path.extension() == ".prm" && path.filename().string().rfind("design-", 0) == 0; };
+      std::vector<std::filesystem::path> ours;
+      for (const auto &entry : std::filesystem::directory_iterator(options.folder))
+        if (is_ours(entry.path()))
+          ours.push_back(entry.path());
+      for (const auto &path : ours)
+        std::filesystem::remove(path);
+    }
+
+    /// The lever found, or the nearest, and those of the front, ready to run.
+    void write_scenes(const Scene &scene, const RunOptions &options, const DesignFindings &findings)
+    {
+      if (findings.found && findings.found->lever.rule.violation < 0.)
+        write_scene(scene, options, findings.found->lever, findings.unmet.empty() ? "design-best" : "design-nearest");
+      for (std::size_t i = 0; i < findings.front.size(); ++i)
+        write_scene(scene, options, findings.front[i], "design-front-" + std::to_string(i + 1));
+    }
+  } // namespace
+
+  void run_design(const Scene &scene, const RunOptions &options, Warnings &warnings)
+  {
+    PhaseTimer timer;
+    const auto &design = scene.design;
+    ResultWriter writer(scene, options, timer, design_columns(design));
+    remove_scenes(options);
+    DesignFindings findings;
+    finish_in_any_case(
+        [&] { DesignRun(scene, findings).carry_out(); },
+        [&](const std::string &status)
+        {
+          if (findings.found)
+            writer.append(design_row(design, findings.found->lever));
+          for (const auto &lever : findings.front)
+            writer.append(design_row(design, lever));
+          write_scenes(scene, options, findings);
+          writer.finish(status, { design_summary(design, findings), {}, design_groups(design, findings) }, warnings);
+          if (!options.quiet)
+            print_design(std::cout, design, findings);
+        });
+  }
+} // namespace sprag
