@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace sprag
 {
@@ -113,23 +114,39 @@ namespace sprag
       return largest;
     }
 
+    /// Q of the closed form at the places, out and back.
+    std::pair<Slides, Slides> ideal_slides(const Scene &scene, const std::vector<double> &places)
+    {
+      const double v = scene.drive.peak_speed();
+      std::pair<Slides, Slides> result;
+      for (const double x : places)
+      {
+        result.first.Q.push_back(closed_form(scene, x, v).Q);
+        result.second.Q.push_back(closed_form(scene, x, -v).Q);
+      }
+      return result;
+    }
+
+    double opening_of(const Slides &out, const Slides &back)
+    {
+      return std::accumulate(out.Q.begin(), out.Q.end(), 0.) - std::accumulate(back.Q.begin(), back.Q.end(), 0.);
+    }
+
     void add_forces(const Scene &scene, const Slides &out, const Slides &back, DesignQuantities &found)
     {
       const auto places              = places_of(scene);
       found[Q::force_ratio]          = ratio_of_ways(out.Q.back(), back.Q.back());
-      found[Q::nonlinearity]         = std::max(nonlinearity_of(places, out.Q), nonlinearity_of(places, back.Q));
       found[Q::largest_force]        = std::max(largest_size(out.Q), largest_size(back.Q));
       found[Q::largest_normal_force] = std::max(largest_size(out.P), largest_size(back.P));
       found[Q::largest_pressure]     = layer_pressure(scene, found[Q::largest_normal_force]);
       found[Q::jamming_margin]       = back.jamming_margin;
-      double here = 0., ideal = 0.;
-      for (std::size_t i = 0; i < places.size(); ++i)
-      {
-        const double v = scene.drive.peak_speed();
-        here += out.Q[i] - back.Q[i];
-        ideal += closed_form(scene, places[i], v).Q - closed_form(scene, places[i], -v).Q;
-      }
-      found[Q::loop_area] = lever_quantities(scene)[Q::loop_area] * here / ideal;
+      // What depends on how closely the places stand is told by its ratio to that of the closed form at the same ones.
+      const auto ideal       = ideal_slides(scene, places);
+      const auto whole       = lever_quantities(scene);
+      found[Q::loop_area]    = whole[Q::loop_area] * opening_of(out, back) / opening_of(ideal.first, ideal.second);
+      found[Q::nonlinearity] = whole[Q::nonlinearity] *
+                               std::max(nonlinearity_of(places, out.Q), nonlinearity_of(places, back.Q)) /
+                               std::max(nonlinearity_of(places, ideal.first.Q), nonlinearity_of(places, ideal.second.Q));
     }
 
     void take_larger(double &value, const std::vector<Entry> &summary, const std::vector<std::string> &names)

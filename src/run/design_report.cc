@@ -119,6 +119,13 @@ namespace sprag
       return group;
     }
 
+    bool is_asked_for(const DesignSettings &design, const DesignQuantity quantity)
+    {
+      const auto is_it = [&](const auto &asked) { return asked.term.quantity == quantity; };
+      return std::any_of(design.demanded.begin(), design.demanded.end(), is_it) ||
+             std::any_of(design.aims.begin(), design.aims.end(), is_it);
+    }
+
     void print_judgements(std::ostream &stream, const DesignSettings &design, const std::vector<Judgement> &judgements)
     {
       for (const auto &judgement : judgements)
@@ -133,8 +140,8 @@ namespace sprag
         if (!passes)
           stream << "  " << lever_text(design, judgement.lever) << '\n';
         for (const auto &info : design_quantities())
-          if (!std::isnan(judgement.found[info.quantity]))
-            stream << "  " << padded(info.name, 22) << padded(rounded_text(judgement.found[info.quantity]), 12)
+          if (!std::isnan(judgement.found[info.quantity]) && is_asked_for(design, info.quantity))
+            stream << "  " << padded(info.name, 34) << padded(rounded_text(judgement.found[info.quantity]), 14)
                    << (std::isnan(judgement.lever.quantities[info.quantity])
                            ? std::string()
                            : "expected " + rounded_text(judgement.lever.quantities[info.quantity]) + unit_text(info.unit))
@@ -203,7 +210,10 @@ namespace sprag
 
   std::string unmet_text(const DesignSettings &design, const DesignFindings &findings)
   {
-    std::string text = "No lever within the bounds meets all demands. ";
+    std::string text = "No lever within the bounds meets all demands";
+    if (!findings.judgements.empty())
+      text += " when the closed form is corrected by what the judge " + judge_name(findings.judgements.back().judge) + " found";
+    text += ". ";
     if (findings.stopping.empty() && !(findings.found->lever.rule.violation < 0.))
       text += "Every lever breaks the rule that " + findings.found->lever.rule.text + ". ";
     else if (findings.stopping.empty())
@@ -254,7 +264,7 @@ namespace sprag
     {
       const double value = best_known(demand.term, lever, findings);
       stream << "  " << padded(demand.text, 34) << rounded_text(value) << unit_text(unit_of(design, demand.term))
-             << (violation_of(demand, value) <= 1e-9 ? "" : "  MISSED") << '\n';
+             << (std::isnan(value) || violation_of(demand, value) <= 1e-9 ? "" : "  MISSED") << '\n';
     }
     if (!findings.front.empty())
       stream << "  front of both aims: " << findings.front.size() << " levers\n";

@@ -111,14 +111,9 @@ namespace sprag
       {
         problem.room = room_of_corrections;
         for (const auto &info : design_quantities())
-        {
-          const auto quantity = info.quantity;
-          if (quantity == DesignQuantity::growth_rate || std::isnan(judgement.found[quantity]))
-            continue;
-          const double so_far           = problem.corrections[quantity];
-          const double by_closed_form   = judgement.lever.quantities[quantity] - (std::isnan(so_far) ? 0. : so_far);
-          problem.corrections[quantity] = judgement.found[quantity] - by_closed_form;
-        }
+          if (const double found = judgement.found[info.quantity];
+              info.quantity != DesignQuantity::growth_rate && !std::isnan(found))
+            problem.correct(info.quantity, problem.uncorrected(info.quantity, judgement.lever.quantities[info.quantity]), found);
         if (misses_growth(judgement))
           learn_growth(judgement);
       }
@@ -129,9 +124,8 @@ namespace sprag
         if (judgement.judge != DesignJudge::beam)
         {
           const double of_beam = judges.growth_of_beam(problem.scene_at(judgement.lever.parameters));
-          const double above   = judgement.found[DesignQuantity::growth_rate] - of_beam;
-          if (std::isfinite(above))
-            problem.corrections[DesignQuantity::growth_rate] = above;
+          if (std::isfinite(of_beam) && std::isfinite(judgement.found[DesignQuantity::growth_rate]))
+            problem.correct(DesignQuantity::growth_rate, of_beam, judgement.found[DesignQuantity::growth_rate]);
         }
         problem.dear = [this](const Scene &lever, DesignQuantities &quantities)
         { quantities[DesignQuantity::growth_rate] = judges.growth_of_beam(lever); };

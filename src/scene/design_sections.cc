@@ -19,7 +19,7 @@ namespace sprag
     section.text("Judges", settings.judges,
                  "What computes the lever found again: list of table (its levers' table in time), beam, condensed; or none");
     section.integer("Positions", settings.positions, { 2., 200. },
-                    "x from the drive's smallest to its largest at which beam and condensed judge the slide both ways");
+                    "x at which beam and condensed judge the slide both ways, equally apart up to the drive's largest");
     section.choice("Judge in time", settings.judges_in_time, { { "on", true }, { "off", false } },
                    "Whether the last of beam and condensed also follows the drive in time");
     section.integer("Rounds", settings.rounds, { 1., 20. },

@@ -20,6 +20,11 @@ namespace sprag
       return demand.tolerance > 0. ? demand.tolerance : 1.;
     }
 
+    double or_else(const double value, const double otherwise)
+    {
+      return std::isnan(value) ? otherwise : value;
+    }
+
     constexpr double most_counted = 10.; ///< violation of what is far off or unknown
 
     double counted(const double violation)
@@ -105,22 +110,25 @@ namespace sprag
       add_table_quantities(scene, asked, result.quantities);
       if (dear)
         dear(scene, result.quantities);
-      for (const auto &info : design_quantities())
-        if (!std::isnan(corrections[info.quantity]))
-          result.quantities[info.quantity] += corrections[info.quantity];
+      for (const auto &[quantity, name, unit, definition] : design_quantities())
+        result.quantities[quantity] =
+            or_else(factors[quantity], 1.) * result.quantities[quantity] + or_else(differences[quantity], 0.);
     }
     for (const auto &demand : given.design.demanded)
       result.violations.push_back(violation_of(demand, value_of(demand.term, result)));
     return result;
   }
 
-  std::vector<double> DesignProblem::place_of(const std::vector<double> &parameters) const
+  void DesignProblem::correct(const DesignQuantity quantity, const double by_closed_form, const double found)
   {
-    std::vector<double> place;
-    const auto &bounds = given.design.free_parameters;
-    for (std::size_t i = 0; i < bounds.size(); ++i)
-      place.push_back((parameters[i] - bounds[i].from) / (bounds[i].to - bounds[i].from));
-    return place;
+    const bool by_factor  = by_closed_form > 0. && found > 0. && quantity != DesignQuantity::growth_rate;
+    factors[quantity]     = by_factor ? found / by_closed_form : 1.;
+    differences[quantity] = by_factor ? 0. : found - by_closed_form;
+  }
+
+  double DesignProblem::uncorrected(const DesignQuantity quantity, const double corrected) const
+  {
+    return (corrected - or_else(differences[quantity], 0.)) / or_else(factors[quantity], 1.);
   }
 
   BoxProblem DesignProblem::box(const std::optional<DesignAim> &aim, const std::optional<std::size_t> &spared,

@@ -40,8 +40,12 @@ namespace sprag
 
     explicit DesignProblem(const Scene &scene);
 
-    /// What is added to the closed form from now on: what a judge found above it.
-    DesignQuantities corrections;
+    /// Makes the closed form meet from now on what a judge found of a lever: what is positive by a factor, the rest by a
+    /// difference. `by_closed_form` is without earlier corrections.
+    void correct(DesignQuantity quantity, double by_closed_form, double found);
+
+    /// Returns a quantity without the corrections.
+    double uncorrected(DesignQuantity quantity, double corrected) const;
 
     /// By how much demands are to be kept, over their targets: more where corrections are known to first order alone. Of a demand
     /// with a tolerance it is at most a quarter of that.
@@ -52,9 +56,6 @@ namespace sprag
 
     /// Returns the lever at a place of the unit cube of bounds.
     Proposal at(const std::vector<double> &place) const;
-
-    /// Returns the place of parameters, in the unit cube.
-    std::vector<double> place_of(const std::vector<double> &parameters) const;
 
     /// Returns the scene with the lever's parameters, unchecked.
     const Scene &scene_at(const std::vector<double> &parameters) const;
@@ -80,6 +81,8 @@ namespace sprag
     std::unique_ptr<SceneSettings> input; ///< whose scene the stores of the parameters write to
     std::vector<Parameter> free;
     std::vector<DesignQuantity> asked;
+    DesignQuantities factors;     ///< NaN: 1
+    DesignQuantities differences; ///< NaN: 0
     std::shared_ptr<std::size_t> count = std::make_shared<std::size_t>(0);
   };
 } // namespace sprag
