@@ -245,10 +245,13 @@ namespace sprag
     Warnings warnings;
     carry_out(scene, { {}, true, true, &in_memory }, warnings);
     const auto &summary = in_memory.found.summary;
+    const auto slides   = judgement.found;
     take_larger(judgement.found[Q::largest_force], summary, { "peak_Q_forward", "peak_Q_backward" });
     take_larger(judgement.found[Q::largest_normal_force], summary, { "peak_P_forward", "peak_P_backward" });
     if (is_meshed(scene.analysis.model))
       take_larger(judgement.found[Q::largest_pressure], summary, { "largest_pressure" });
+    for (const auto quantity : { Q::largest_force, Q::largest_normal_force, Q::largest_pressure })
+      judgement.overshoot[quantity] = judgement.found[quantity] / slides[quantity];
     judgement.in_time = true;
   }
 

@@ -15,6 +15,7 @@ namespace sprag
     bool in_time       = false; ///< whether the drive was followed in time
     Proposal lever;             ///< with what was expected of it
     DesignQuantities found;     ///< NaN of what the judge does not tell
+    DesignQuantities overshoot; ///< of those that are larger in time: over the value of the slides
     std::string failure;        ///< why it tells nothing; empty: it does
     double cpu_seconds = 0.;
 

@@ -15,8 +15,7 @@ namespace sprag
 {
   namespace
   {
-    constexpr double room_of_corrections  = 2e-4; ///< as they are known to first order alone
-    constexpr unsigned int near_one_lever = 60;   ///< dear evaluations of each local search
+    constexpr double room_of_corrections = 1e-3; ///< as they are known to first order, and of a mesh with its ripple
 
     /// Proposes by the closed form and asks the judges.
     class DesignRun
@@ -47,6 +46,7 @@ namespace sprag
       DesignFindings &findings;
       DesignProblem problem;
       DesignJudges judges;
+      DesignQuantities overshoot; ///< in time, of the last lever that was followed; NaN: none
 
       template <class Search>
       void search(const Search &find)
@@ -110,12 +110,21 @@ namespace sprag
       void learn(const Judgement &judgement)
       {
         problem.room = room_of_corrections;
-        for (const auto &info : design_quantities())
-          if (const double found = judgement.found[info.quantity];
-              info.quantity != DesignQuantity::growth_rate && !std::isnan(found))
-            problem.correct(info.quantity, problem.uncorrected(info.quantity, judgement.lever.quantities[info.quantity]), found);
-        if (misses_growth(judgement))
+        for (const auto &[quantity, name, unit, definition] : design_quantities())
+          if (quantity != DesignQuantity::growth_rate && !std::isnan(judgement.found[quantity]))
+            problem.correct(quantity, problem.uncorrected(quantity, judgement.lever.quantities[quantity]),
+                            in_time(quantity, judgement));
+        if (misses_growth(judgement) || problem.dear)
           learn_growth(judgement);
+      }
+
+      /// What the judge found, or of a lever that was not followed in time what it is expected to become there.
+      double in_time(const DesignQuantity quantity, const Judgement &judgement)
+      {
+        if (judgement.in_time)
+          overshoot[quantity] = judgement.overshoot[quantity];
+        const bool is_known = !judgement.in_time && !std::isnan(overshoot[quantity]);
+        return judgement.found[quantity] * (is_known ? overshoot[quantity] : 1.);
       }
 
       /// The closed form knows no growth: the beam is asked about every lever, corrected by what a dearer judge found above it.
@@ -133,8 +142,19 @@ namespace sprag
 
       void propose_again()
       {
-        search([&] { findings.found = problem.dear ? best_dear_lever(problem, near_one_lever) : best_lever(problem); });
+        search(
+            [&]
+            {
+              const auto near = is_stable_proposal() ? std::make_optional(findings.found->lever) : std::nullopt;
+              findings.found  = problem.dear ? best_dear_lever(problem, near) : best_lever(problem);
+            });
         require_lever();
+      }
+
+      /// Whether the last lever was found with the growth rates of the beam.
+      bool is_stable_proposal() const
+      {
+        return !std::isnan(findings.found->lever.quantities[DesignQuantity::growth_rate]);
       }
     };
 

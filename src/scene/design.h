@@ -90,7 +90,7 @@ namespace sprag
     unsigned int front_points = 11;   ///< of the front of two aims
     unsigned int positions    = 5;    ///< x at which beam and condensed judge the slide, each both ways
     bool judges_in_time       = true; ///< whether the last of beam and condensed follows the drive in time
-    unsigned int rounds       = 4;    ///< of proposals to a judge
+    unsigned int rounds       = 6;    ///< of proposals to a judge
     unsigned int evaluations  = 4000; ///< of the closed form in the global search
     unsigned int seed         = 1;
 

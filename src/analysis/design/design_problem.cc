@@ -131,6 +131,15 @@ namespace sprag
     return (corrected - or_else(differences[quantity], 0.)) / or_else(factors[quantity], 1.);
   }
 
+  std::vector<double> DesignProblem::place_of(const std::vector<double> &parameters) const
+  {
+    std::vector<double> place;
+    const auto &bounds = given.design.free_parameters;
+    for (std::size_t i = 0; i < bounds.size(); ++i)
+      place.push_back((parameters[i] - bounds[i].from) / (bounds[i].to - bounds[i].from));
+    return place;
+  }
+
   BoxProblem DesignProblem::box(const std::optional<DesignAim> &aim, const std::optional<std::size_t> &spared,
                                 const std::optional<Demand> &limit) const
   {

@@ -57,6 +57,9 @@ namespace sprag
     /// Returns the lever at a place of the unit cube of bounds.
     Proposal at(const std::vector<double> &place) const;
 
+    /// Returns the place of parameters, in the unit cube.
+    std::vector<double> place_of(const std::vector<double> &parameters) const;
+
     /// Returns the scene with the lever's parameters, unchecked.
     const Scene &scene_at(const std::vector<double> &parameters) const;
 

@@ -55,10 +55,11 @@ namespace sprag
     return found_at(problem, best_in_box(problem.box(problem.settings().aims.front()), search_settings(problem)));
   }
 
-  Found best_dear_lever(const DesignProblem &problem, const unsigned int evaluations)
+  Found best_dear_lever(const DesignProblem &problem, const std::optional<Proposal> &near)
   {
-    constexpr unsigned int starts = 2;
-    const SearchSettings few{ 5 * evaluations, starts, evaluations, problem.settings().seed };
+    SearchSettings few{ 600, 3, 150, problem.settings().seed, {} };
+    if (near)
+      few.near = problem.place_of(near->parameters);
     return found_at(problem, best_in_box(problem.box(problem.settings().aims.front()), few));
   }
 

@@ -26,8 +26,9 @@ namespace sprag
   /// Finds the lever that meets all demands and is best by the first aim.
   Found best_lever(const DesignProblem &problem);
 
-  /// Finds it with few evaluations, where they are dear: `evaluations` in each local search.
-  Found best_dear_lever(const DesignProblem &problem, unsigned int evaluations);
+  /// Finds it with few evaluations, as they are dear. `near`: a lever in whose neighbourhood it is looked for first, and where
+  /// one is found nowhere else; none: everywhere.
+  Found best_dear_lever(const DesignProblem &problem, const std::optional<Proposal> &near);
 
   /// Leaves out each demand in turn and returns those without which there is a lever; none where two or more exclude one
   /// another in pairs, or the rules that every lever keeps exclude all.

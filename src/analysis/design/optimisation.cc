@@ -182,6 +182,9 @@ namespace sprag
 
     Optimum search_everywhere(const BoxProblem &problem, const SearchSettings &settings, const bool only_approaches)
     {
+      if (!settings.near.empty())
+        if (const auto found = from_start(problem, settings.near, settings.local, only_approaches); found.violation <= 0.)
+          return found;
       const auto begin = global_start(problem, settings, only_approaches);
       auto best        = from_start(problem, begin, settings.local, only_approaches);
       std::mt19937 random(settings.seed);

@@ -25,6 +25,7 @@ namespace sprag
     unsigned int starts      = 24;   ///< of local searches besides it
     unsigned int local       = 400;  ///< evaluations of a local search
     unsigned int seed        = 1;
+    std::vector<double> near = {}; ///< a place whose neighbourhood is enough where constraints can be kept there; empty: none
   };
 
   struct Optimum
