@@ -216,7 +216,7 @@ namespace sprag
     text += ". ";
     if (findings.stopping.empty() && !(findings.found->lever.rule.violation < 0.))
       text += "Every lever breaks the rule that " + findings.found->lever.rule.text + ". ";
-    else if (findings.stopping.empty())
+    else if (findings.stopping.empty() && findings.each_left_out)
       text += "No single one stops it: two or more exclude others. ";
     for (const auto &[index, attainable, lever] : findings.stopping)
     {

@@ -16,6 +16,7 @@ namespace sprag
   {
     std::optional<Found> found; ///< by the closed form; of the last round with its corrections
     std::vector<StoppingDemand> stopping;
+    bool each_left_out = false;  ///< whether `stopping` is known
     std::vector<Proposal> front; ///< of two aims
     std::vector<Judgement> judgements;
     std::string unmet;            ///< why there is no lever, sentences; empty: there is one

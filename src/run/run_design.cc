@@ -62,7 +62,8 @@ namespace sprag
       {
         if (findings.found->meets_all)
           return;
-        if (!problem.dear)
+        findings.each_left_out = !problem.dear;
+        if (findings.each_left_out)
           search([&] { findings.stopping = stopping_demands(problem); });
         findings.unmet = unmet_text(design, findings);
         throw AnalysisError(findings.unmet);
@@ -142,19 +143,27 @@ namespace sprag
 
       void propose_again()
       {
-        search(
-            [&]
-            {
-              const auto near = is_stable_proposal() ? std::make_optional(findings.found->lever) : std::nullopt;
-              findings.found  = problem.dear ? best_dear_lever(problem, near) : best_lever(problem);
-            });
+        search([&] { findings.found = problem.dear ? best_stable_lever() : best_lever(problem); });
         require_lever();
       }
 
-      /// Whether the last lever was found with the growth rates of the beam.
-      bool is_stable_proposal() const
+      /// The best lever of the closed form may be stable as it is. Otherwise the beam is asked about every one, first near the
+      /// last that it was asked about.
+      Found best_stable_lever()
       {
-        return !std::isnan(findings.found->lever.quantities[DesignQuantity::growth_rate]);
+        std::optional<Proposal> near;
+        if (!std::isnan(findings.found->lever.quantities[DesignQuantity::growth_rate]))
+          near = findings.found->lever;
+        DesignProblem::Dear dear;
+        std::swap(dear, problem.dear);
+        auto found = best_lever(problem);
+        std::swap(dear, problem.dear);
+        if (!found.meets_all)
+          return found;
+        found.lever          = problem.at(problem.place_of(found.lever.parameters));
+        const bool is_stable = std::all_of(found.lever.violations.begin(), found.lever.violations.end(),
+                                           [](const double violation) { return violation <= 0.; });
+        return is_stable ? found : best_dear_lever(problem, near);
       }
     };
 

@@ -36,18 +36,21 @@ namespace sprag
       DesignSettings &settings;
       const std::vector<Parameter> &declared;
       const ReportMistake &report;
-      std::string reading = {};
+      std::string reading    = {};
+      mutable bool is_faulty = false;
 
       void mistake(const std::string &what) const
       {
+        is_faulty = true;
         report("Design/" + reading, what);
       }
 
       void read()
       {
+        reading = "Free";
         for (const auto &part : split(settings.free, ';'))
           read_free(part);
-        if (settings.free_parameters.empty())
+        if (settings.free_parameters.empty() && !is_faulty)
           mistake("must name a parameter and its bounds: Section/Name = FROM ... TO");
         reading = "Demands";
         for (const auto &part : split(settings.demands, ';'))
@@ -64,7 +67,6 @@ namespace sprag
 
       void read_free(const std::string &part)
       {
-        reading = "Free";
         if (part.empty())
           return;
         const auto equals = part.find('='), dots = part.find("...");
