@@ -83,6 +83,13 @@ namespace sprag
       free.push_back(*find_parameter(declared, parameter.name));
   }
 
+  bool DesignProblem::is_dear() const
+  {
+    return dear || std::any_of(asked.begin(), asked.end(),
+                               [](const DesignQuantity quantity)
+                               { return is_of_table(quantity) && quantity != DesignQuantity::friction_ratio; });
+  }
+
   const Scene &DesignProblem::scene_at(const std::vector<double> &parameters) const
   {
     for (std::size_t i = 0; i < free.size(); ++i)
@@ -168,8 +175,14 @@ namespace sprag
         take(*limit);
       if (aim && is_possible)
         result.objective = (aim->maximises ? -1. : 1.) * value_of(aim->term, lever);
-      if (!std::isfinite(result.objective))
-        result.objective = 1e30;
+      // A table that no lever holds is of no use, whatever else the lever is good for.
+      const bool is_finite = std::all_of(given.design.aims.begin(), given.design.aims.end(),
+                                         [&](const DesignAim &other) { return std::isfinite(value_of(other.term, lever)); });
+      if (!is_finite)
+      {
+        result.objective           = most_counted;
+        result.constraints.front() = std::max(result.constraints.front(), 1.);
+      }
       return result;
     };
     return problem;

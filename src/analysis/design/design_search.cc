@@ -9,9 +9,13 @@ namespace sprag
   {
     SearchSettings search_settings(const DesignProblem &problem)
     {
-      SearchSettings search;
-      search.evaluations = problem.settings().evaluations;
-      search.seed        = problem.settings().seed;
+      SearchSettings search{ problem.settings().evaluations, 24, 400, problem.settings().seed, {} };
+      if (problem.is_dear())
+      {
+        search.evaluations = std::min(search.evaluations, 600u);
+        search.starts      = 3;
+        search.local       = 150;
+      }
       return search;
     }
 
@@ -57,7 +61,7 @@ namespace sprag
 
   Found best_dear_lever(const DesignProblem &problem, const std::optional<Proposal> &near)
   {
-    SearchSettings few{ 600, 3, 150, problem.settings().seed, {} };
+    auto few = search_settings(problem);
     if (near)
       few.near = problem.place_of(near->parameters);
     return found_at(problem, best_in_box(problem.box(problem.settings().aims.front()), few));
