@@ -36,6 +36,7 @@ namespace sprag
   {
     rules.need(scene.drive.minimum() >= 0., "Drive/Table", {},
                "x must be >= 0 mm throughout, it falls to " + rounded_text(scene.drive.minimum()));
+    rules.need(scene.analysis.dimension == 2, "Analysis/Dimension", { "Analysis/Type" }, "must be 2 in a design");
     rules.need(scene.spring.type == SpringType::torsional, "Rotational spring/Type", { "Analysis/Type" },
                "must be torsional in a design, which finds k; Analysis/Type = calibration makes a leaf spring of it");
     rules.need(scene.pair.type == PairType::half, "Mirrored pair/Type", { "Analysis/Type" },

@@ -79,6 +79,7 @@ TEST(ReadDesign, MistakesNameTheNearestWord)
   told("Design/Second aim=minimise largest forc", "did you mean 'largest force'?");
   told("Design/Judges=beem", "'beem' is no judge beside others; did you mean 'beam'?");
   told("Design/Judges=table", "table counts only where transmissibility or relative amplitude is asked for");
+  told("Analysis/Dimension=3", "must be 2 in a design");
   told("Rotational spring/Type=leaf", "must be torsional in a design");
 }
 
