@@ -1,3 +1,4 @@
+#include "analysis/isolation/isolation.h"
 #include "analysis/stability/stability.h"
 #include "base/errors.h"
 #include "levers/prepared_scene.h"
@@ -104,6 +105,26 @@ TEST(RunDesign, AJudgeCorrectsTheClosedForm)
   const double Q = slide_at(best, 65., "backward", maker).slide->forces.Q;
   EXPECT_GE(std::abs(Q), 20.);
   EXPECT_LT(std::abs(Q), 20.1);
+}
+
+TEST(RunDesign, TheTableInTimeCorrectsTheHarmonicBalance)
+{
+  const TemporaryFolder folder;
+  run_in(folder, design(folder, { "Isolation/Base amplitude=5", "Isolation/Base frequency=0.75", "Isolation/Duration=100",
+                                  "Design/Free=Rotational spring/Stiffness = 1e4 ... 4e5", "Design/Judges=table",
+                                  "Design/Demands=transmissibility = 3 +- 0.01", "Design/Aim=minimise largest force" }));
+  const auto fundamental = [&](const Scene &lever)
+  {
+    IsolationFindings found;
+    run_isolation(lever, found, {});
+    return found.fundamental;
+  };
+  const Scene best = best_of(folder, { "Analysis/Type=isolation", "Isolation/End=steady state" });
+  EXPECT_NEAR(fundamental(best), 3., 0.01);
+  // By one harmonic it would be another lever.
+  DesignQuantities by_one_harmonic;
+  add_table_quantities(best, { DesignQuantity::transmissibility }, by_one_harmonic);
+  EXPECT_GT(by_one_harmonic[DesignQuantity::transmissibility], 3.1);
 }
 
 TEST(RunDesign, ThinnestStableLeverIsAtTheEdgeOfStability)
