@@ -95,16 +95,13 @@ namespace sprag
         }
       }
 
-      /// An unstable or jamming lever, where stability is demanded and can be sought.
+      /// A lever less stable than demanded, or jamming; where the demand is kept or there is none a search cannot help.
       bool misses_growth(const Judgement &judgement) const
       {
-        return demands_growth() && judgement.found[DesignQuantity::growth_rate] > 0.;
-      }
-
-      bool demands_growth() const
-      {
+        const double growth = judgement.found[DesignQuantity::growth_rate];
         return std::any_of(design.demanded.begin(), design.demanded.end(),
-                           [](const Demand &demand) { return demand.term.quantity == DesignQuantity::growth_rate; });
+                           [&](const Demand &demand)
+                           { return demand.term.quantity == DesignQuantity::growth_rate && violation_of(demand, growth) > 0.; });
       }
 
       /// From now on the closed form is corrected by what the judge found above it.

@@ -1,5 +1,7 @@
 #include "analysis/design/optimisation.h"
 
+#include "base/interrupt.h"
+
 #include <nlopt.hpp>
 
 #include <algorithm>
@@ -37,7 +39,8 @@ namespace sprag
       const BoxProblem::Evaluation &at(const double *first)
       {
         const std::vector<double> asked(first, first + problem.dimension);
-        if (asked == place)
+        // An interrupted search comes to its end without computing anything more.
+        if (asked == place || (interrupted() && !place.empty()))
           return last;
         place = asked;
         last  = problem.evaluate(place);
