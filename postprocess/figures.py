@@ -182,6 +182,7 @@ FIGURES = {
     "isolation-a-loop": drawn("isolation-a", "loop"),
     "isolation-free-a": drawn("isolation-free-a", "motion"),
     "isolation-ground-a": drawn("isolation-ground-a", "spectra"),
+    "design-front-machine": drawn("design-front-machine", "front"),
 }
 
 

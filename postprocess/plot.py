@@ -8,6 +8,7 @@ from arguments import add_folders, add_output, names_picture, parser_of, save
 from calibration import calibration, is_calibration
 from comparison import check_steps, comparison
 from contact import contact
+from design import design_pictures, is_design
 from fields import fields
 from forces import forces_over_time, forces_over_x
 from frames import written_frames
@@ -33,6 +34,8 @@ def draw(results):
         return {**study_pictures(results[0]), "transmissibility": transmissibility(results[0])}
     if len(results) == 1 and is_study(results[0]):
         return study_pictures(results[0])
+    if len(results) == 1 and is_design(results[0]):
+        return design_pictures(results[0])
     if len(results) == 1 and is_calibration(results[0]):
         return {"calibration": calibration(results[0])}
     if len(results) == 1 and "P_fitted" in results[0].table:

@@ -64,7 +64,8 @@ namespace sprag
     /// Whether MPI is needed: by PETSc and meshes, or because processes share the work.
     bool needs_mpi(const Scene &scene)
     {
-      return needs_mesh(scene) || scene.spring.type == SpringType::leaf || works_in_parallel(scene.analysis.type);
+      return needs_mesh(scene) || is_judged_by_mesh(scene) || scene.spring.type == SpringType::leaf ||
+             works_in_parallel(scene.analysis.type);
     }
 
     /// Settings for one process, kept where they are given: no daemon beside the program, no network and no devices looked for.

@@ -55,6 +55,10 @@ namespace sprag
   /// goes on when started again; result.h5 is written at the end.
   void run_map(const Scene &scene, const RunOptions &options, Warnings &warnings);
 
+  /// Finds the lever that meets the scene's demands and is best by its aim, asks the judges, and writes the lever's scene. Throws
+  /// AnalysisError too where no lever meets all demands, by the closed form or a judge.
+  void run_design(const Scene &scene, const RunOptions &options, Warnings &warnings);
+
   /// Runs the scene's Study/Type at other values of its parameters. All ranks of MPI call it, and it throws on all of them. Until
   /// the study is complete its runs are in `study.journal`, as those of a map; a run that fails or is refused is a row as any.
   void run_study(const Scene &scene, const RunOptions &options, Warnings &warnings);

@@ -4,6 +4,7 @@
 #include "results/row_statistics.h"
 #include "run/peak_report.h"
 #include "scene/closed_form.h"
+#include "scene/contact_width.h"
 
 #include <algorithm>
 #include <cmath>
@@ -252,19 +253,6 @@ namespace sprag
     if (layer.poisson_ratio > largest_ratio)
       return {};
     return strain_of_buckling * layer.young_modulus;
-  }
-
-  double layer_pressure(const Scene &scene, const double P)
-  {
-    const double t       = scene.layer.thickness;
-    const double nu      = scene.layer.poisson_ratio;
-    const double modulus = scene.analysis.plane == PlaneState::stress
-                               ? scene.layer.young_modulus / (1. - nu * nu)
-                               : scene.layer.young_modulus * (1. - nu) / ((1. + nu) * (1. - 2. * nu));
-    if (t == 0.)
-      return 0.;
-    const double half_width_at_unit_pressure = std::sqrt(2. * scene.geometry.cylinder_radius * t / modulus);
-    return std::pow(0.75 * P / (scene.lever.width * half_width_at_unit_pressure), 2. / 3.);
   }
 
   Warnings row_warnings(const Scene &scene, const std::vector<Row> &rows)

@@ -218,8 +218,8 @@ namespace sprag
   Warnings scene_warnings(const Scene &scene)
   {
     Warnings warnings;
-    // Each run of a study has its own.
-    if (scene.analysis.type == AnalysisType::study)
+    // Each run of a study has its own, and a lever that is to be found has none yet.
+    if (scene.analysis.type == AnalysisType::study || scene.analysis.type == AnalysisType::design)
       return warnings;
     add_defaults(scene, warnings);
     add_sensitivity(scene, warnings);

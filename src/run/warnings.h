@@ -23,9 +23,4 @@ namespace sprag
   /// cork buckle: 0.8 MPa of 20 MPa across the rings (Gibson, Easterling and Ashby, Proc. R. Soc. A 377 (1981) 99; Gibson and
   /// Ashby, Cellular Solids, table of cork). There is none without a layer and for other layers.
   std::optional<double> layer_strength(const FrictionLayer &layer);
-
-  /// Returns the largest pressure [MPa] under P [N], the layer an elastic foundation between cylinder and rigid lever: P = 4/3 w
-  /// a p with a^2 = 2 R t p/M, M Young's modulus of the layer held sideways. Within 3 % of finite elements for model A. It is 0
-  /// without a layer.
-  double layer_pressure(const Scene &scene, double P);
 } // namespace sprag

@@ -1,5 +1,6 @@
 #include "scene/analysis_use.h"
 
+#include <algorithm>
 #include <tuple>
 
 namespace sprag
@@ -29,6 +30,13 @@ namespace sprag
   {
     return scene.analysis.type == AnalysisType::isolation && scene.isolation.damper == DamperType::lever &&
            scene.analysis.model != ModelType::closed_form;
+  }
+
+  bool is_judged_by_mesh(const Scene &scene)
+  {
+    const auto &judges = scene.design.judged_by;
+    return scene.analysis.type == AnalysisType::design &&
+           std::find(judges.begin(), judges.end(), DesignJudge::condensed) != judges.end();
   }
 
   bool needs_mesh(const Scene &scene)

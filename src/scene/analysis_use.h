@@ -19,7 +19,10 @@ namespace sprag
   /// Returns whether the table of an isolation system works against levers of a model in time.
   bool isolates_by_model(const Scene &scene);
 
-  /// Returns whether anything of the scene is meshed, apart from a leaf spring.
+  /// Returns whether levers that a design proposes are meshed for a judge.
+  bool is_judged_by_mesh(const Scene &scene);
+
+  /// Returns whether anything of the scene is meshed, apart from a leaf spring and the levers of a design.
   bool needs_mesh(const Scene &scene);
 
   /// Returns whether formulas give the results and no model is made: of the slope's sweep, an isolation system without such

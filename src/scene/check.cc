@@ -304,8 +304,13 @@ namespace sprag
     // Each run of a study is checked by itself.
     if (scene.analysis.type == AnalysisType::study)
       return {};
-    const Use use{ scene };
     Rules rules;
+    if (scene.analysis.type == AnalysisType::design)
+    {
+      check_design(scene, rules);
+      return rules.broken;
+    }
+    const Use use{ scene };
     settings(scene, use, rules);
     auto of_levers = positions(scene_of_lever(scene, 0), use);
     // Of the second lever what is not said of the first already.

@@ -43,4 +43,7 @@ namespace sprag
 
   /// Checks table, damper and base of an isolation system. The geometry must be in range.
   void check_isolation(const Scene &scene, Rules &rules);
+
+  /// Checks what a design takes as it is. The lever is looked at where it is found, as it may lie anywhere within its bounds.
+  void check_design(const Scene &scene, Rules &rules);
 } // namespace sprag

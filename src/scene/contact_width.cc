@@ -52,4 +52,17 @@ namespace sprag
     const double end = kinematics(scene.geometry, from).s + room_behind * shortest;
     return FaceGrading{ kinematics(scene.geometry, x).s, end, longest, shortest };
   }
+
+  double layer_pressure(const Scene &scene, const double P)
+  {
+    const double t       = scene.layer.thickness;
+    const double nu      = scene.layer.poisson_ratio;
+    const double modulus = scene.analysis.plane == PlaneState::stress
+                               ? scene.layer.young_modulus / (1. - nu * nu)
+                               : scene.layer.young_modulus * (1. - nu) / ((1. + nu) * (1. - 2. * nu));
+    if (t == 0.)
+      return 0.;
+    const double half_width_at_unit_pressure = std::sqrt(2. * scene.geometry.cylinder_radius * t / modulus);
+    return std::pow(0.75 * P / (scene.lever.width * half_width_at_unit_pressure), 2. / 3.);
+  }
 } // namespace sprag

@@ -25,4 +25,9 @@ namespace sprag
   /// Mesh/Face size are short enough everywhere, and where they are twice too long even for the widest contact: of such a mesh
   /// forces are wanted alone.
   std::optional<FaceGrading> face_grading(const Scene &scene);
+
+  /// Returns the largest pressure [MPa] under P [N], the layer an elastic foundation between cylinder and rigid lever: P = 4/3 w
+  /// a p with a^2 = 2 R t p/M, M Young's modulus of the layer held sideways. Within 3 % of finite elements for model A. It is 0
+  /// without a layer.
+  double layer_pressure(const Scene &scene, double P);
 } // namespace sprag

@@ -7,6 +7,7 @@
 #include "scene/accuracy.h"
 #include "scene/analysis_use.h"
 #include "scene/check.h"
+#include "scene/design_text.h"
 #include "scene/discretisation.h"
 #include "scene/held_slide.h"
 #include "scene/isolation_tables.h"
@@ -184,10 +185,15 @@ namespace sprag
                     [&law](const auto &table) { law.law = TabulatedFriction(table.first, table.second); });
       }
 
+      /// A design may ask for what an isolated table does.
       void make_isolation()
       {
-        if (input.scene.analysis.type == AnalysisType::isolation)
-          read_isolation_tables(input.scene.isolation, [this](const auto &name, const auto &rule) { report(name, rule); });
+        const auto tell = [this](const auto &name, const auto &rule) { report(name, rule); };
+        const auto type = input.scene.analysis.type;
+        if (type == AnalysisType::isolation || type == AnalysisType::design)
+          read_isolation_tables(input.scene.isolation, tell);
+        if (type == AnalysisType::design)
+          read_design(input.scene.design, parameters, tell);
       }
 
       void check()

@@ -2,6 +2,7 @@
 
 #include "laws/friction.h"
 #include "scene/apparatus.h"
+#include "scene/design.h"
 #include "scene/drive.h"
 #include "scene/isolation.h"
 
@@ -29,7 +30,8 @@ namespace sprag
     sprag_slip,  ///< the steady slide perturbed, in time, against its eigenvalue; limit cycles
     calibration, ///< leaf thickness and added mass for a given k and J; constants of the reduced models for a mesh
     isolation,   ///< a table on a spring and a damper over a base that moves
-    study        ///< any of these but the map, run after run at other values of the parameters
+    design,      ///< the lever that meets demands, and the best of them by an aim
+    study        ///< any of these but map and design, run after run at other values of the parameters
   };
 
   enum class ModelType
@@ -371,6 +373,7 @@ namespace sprag
     SpragSlipSettings sprag_slip;
     CalibrationSettings calibration;
     IsolationSettings isolation;
+    DesignSettings design;
     AccuracySettings accuracy;
     std::string name; ///< file name without folder and ending
 

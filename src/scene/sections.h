@@ -64,4 +64,7 @@ namespace sprag
 
   /// Adds those of the isolation system.
   void add_isolation_parameters(Scene &scene, std::vector<Parameter> &all);
+
+  /// Adds those of what a lever is designed for.
+  void add_design_parameters(Scene &scene, std::vector<Parameter> &all);
 } // namespace sprag

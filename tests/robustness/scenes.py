@@ -26,6 +26,9 @@ CHANGES = {
     **{name: STUDY for name in ("study-a", "study-b", "study-pressure-a")},
     "study-transmissibility-a": {"Study/Vary": "Isolation/Damper = lever, viscous; Isolation/Base frequency = 1, 2"},
     "study-offset-a": {"Study/Vary": "Isolation/Damper = lever, constant friction; Isolation/Initial displacement = 20, 50"},
+    **{name: {"Design/Judges": "beam"} for name in ("design-a", "design-b")},
+    "design-machine": {"Design/Demands": "friction ratio = 0.5 +- 0.005; largest pressure <= 0.8", "Design/Judges": "none"},
+    "design-front-machine": {"Design/Front points": "3", "Design/Evaluations": "300"},
     "study-growth-a": {**STUDY, "Study/Vary": "Mesh/Face size = 5, 6, 8", "Condensed/Modes": "3"},
     "study-reversal-a": {
         "Study/Vary": "Mesh/Face size = 2, 3; Time/Tolerance = 1e-2",
@@ -185,6 +188,14 @@ class ScenesTest(RunTest):
         self.assertTrue(in_time or (np.diff(table["dissipated_energy"]) >= -1e-9).all())
         self.assertLess(file["summary/energy_residual"][()], 1e-6 if in_time else 1e-9)
 
+    def check_design(self, file):
+        self.assertEqual(file["summary/meets_demands"][()], 1)
+        self.assertTrue((file["table/largest_violation"][:] <= 1e-6).all())
+        found = sorted(Path(file.filename).parent.glob("design-*.prm"))
+        self.assertEqual(len(found), len(file["table/largest_violation"]))
+        for scene in found:
+            self.assertEqual(sprag(scene, "--validate").returncode, 0, scene)
+
     def check_sprag_slip(self, file):
         self.check_groups(file, "sprag slip")
         summary = {name: data[()] for name, data in file["summary"].items()}
@@ -253,6 +264,7 @@ class ScenesTest(RunTest):
             "sprag slip": self.check_sprag_slip,
             "calibration": self.check_calibration,
             "isolation": self.check_isolation,
+            "design": self.check_design,
         }
         checks.get(kind, self.check_run)(file)
 

@@ -1,5 +1,6 @@
 #include "run/warnings.h"
 #include "scene/closed_form.h"
+#include "scene/contact_width.h"
 #include "scenes.h"
 #include "support/row_of.h"
 

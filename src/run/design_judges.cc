@@ -1,0 +1,269 @@
+#include "run/design_judges.h"
+
+#include "analysis/isolation/isolation.h"
+#include "analysis/stability/stability.h"
+#include "base/append.h"
+#include "base/errors.h"
+#include "levers/prepared_scene.h"
+#include "run/analyses.h"
+#include "run/memory.h"
+#include "run/report.h"
+#include "scene/closed_form.h"
+#include "scene/contact_width.h"
+#include "scene/held_slide.h"
+#include "scene/read.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace sprag
+{
+  namespace
+  {
+    using Q = DesignQuantity;
+
+    constexpr double infinite = std::numeric_limits<double>::infinity();
+
+    /// Of the drive, from its smallest x: near enough to x = 0 for the slope, and far enough for a contact.
+    constexpr double share_for_slopes = 0.05;
+
+    std::vector<double> places_of(const Scene &scene)
+    {
+      std::vector<double> places;
+      const double from = scene.drive.minimum(), length = scene.drive.maximum() - from;
+      for (unsigned int i = 1; i <= scene.design.positions; ++i)
+        places.push_back(from + length * i / scene.design.positions);
+      return places;
+    }
+
+    SlideStability slide_at(Scene scene, const double x, const Direction direction, DynamicsMaker &maker)
+    {
+      scene.stability.position  = x;
+      scene.stability.direction = direction;
+      return judge(scene, maker);
+    }
+
+    double growth_of(const SlideStability &slide)
+    {
+      return slide.kind == SlideKind::jammed ? infinite : slide.growth_rate();
+    }
+
+    /// Forces of slides over those of the closed form.
+    struct Ratios
+    {
+      double forward, backward;
+    };
+
+    Ratios ratios_near_rest(const Scene &scene, DynamicsMaker &maker)
+    {
+      const double x  = scene.drive.minimum() + share_for_slopes * (scene.drive.maximum() - scene.drive.minimum());
+      const double v  = scene.drive.peak_speed();
+      const auto part = [&](const Direction direction, const double speed)
+      {
+        const auto found = slide_at(scene, x, direction, maker);
+        return found.slide ? found.slide->forces.Q / closed_form(scene, x, speed).Q : std::numeric_limits<double>::quiet_NaN();
+      };
+      return { part(Direction::forward, v), part(Direction::backward, -v) };
+    }
+
+    void add_slopes(const Scene &scene, const Ratios &ratios, DesignQuantities &found)
+    {
+      const auto ideal          = lever_quantities(scene);
+      const double out          = ratios.forward * ideal[Q::forward_slope];
+      const double back         = ratios.backward * ideal[Q::backward_slope];
+      found[Q::forward_slope]   = out;
+      found[Q::backward_slope]  = back;
+      found[Q::damping_slope]   = 0.5 * (out - back);
+      found[Q::restoring_slope] = 0.5 * (out + back);
+      found[Q::slope_ratio]     = ratio_of_ways(out, back);
+      found[Q::friction_ratio]  = scene.isolation.levers * found[Q::damping_slope] / scene.isolation.stiffness;
+    }
+
+    /// Q and P of slides at places, of one way.
+    struct Slides
+    {
+      std::vector<double> Q, P;
+      double growth_rate    = -infinite;
+      double jamming_margin = 1.;
+      bool all_unique       = true;
+    };
+
+    Slides slides_along(const Scene &scene, const Direction direction, DynamicsMaker &maker)
+    {
+      Slides result;
+      for (const double x : places_of(scene))
+      {
+        const auto found   = slide_at(scene, x, direction, maker);
+        result.growth_rate = std::max(result.growth_rate, growth_of(found));
+        result.all_unique  = result.all_unique && found.slide && found.kind != SlideKind::jammed;
+        if (!found.slide)
+          continue;
+        result.Q.push_back(found.slide->forces.Q);
+        result.P.push_back(found.slide->forces.P);
+        result.jamming_margin = std::min(result.jamming_margin, found.slide->margin);
+      }
+      return result;
+    }
+
+    double largest_size(const std::vector<double> &values)
+    {
+      double largest = 0.;
+      for (const double value : values)
+        largest = std::max(largest, std::abs(value));
+      return largest;
+    }
+
+    /// Q of the closed form at the places, out and back.
+    std::pair<Slides, Slides> ideal_slides(const Scene &scene, const std::vector<double> &places)
+    {
+      const double v = scene.drive.peak_speed();
+      std::pair<Slides, Slides> result;
+      for (const double x : places)
+      {
+        result.first.Q.push_back(closed_form(scene, x, v).Q);
+        result.second.Q.push_back(closed_form(scene, x, -v).Q);
+      }
+      return result;
+    }
+
+    double opening_of(const Slides &out, const Slides &back)
+    {
+      return std::accumulate(out.Q.begin(), out.Q.end(), 0.) - std::accumulate(back.Q.begin(), back.Q.end(), 0.);
+    }
+
+    void add_forces(const Scene &scene, const Slides &out, const Slides &back, DesignQuantities &found)
+    {
+      const auto places              = places_of(scene);
+      found[Q::force_ratio]          = ratio_of_ways(out.Q.back(), back.Q.back());
+      found[Q::largest_force]        = std::max(largest_size(out.Q), largest_size(back.Q));
+      found[Q::largest_normal_force] = std::max(largest_size(out.P), largest_size(back.P));
+      found[Q::largest_pressure]     = layer_pressure(scene, found[Q::largest_normal_force]);
+      found[Q::jamming_margin]       = back.jamming_margin;
+      // What depends on how closely the places stand is told by its ratio to that of the closed form at the same ones.
+      const auto ideal       = ideal_slides(scene, places);
+      const auto whole       = lever_quantities(scene);
+      found[Q::loop_area]    = whole[Q::loop_area] * opening_of(out, back) / opening_of(ideal.first, ideal.second);
+      found[Q::nonlinearity] = whole[Q::nonlinearity] *
+                               std::max(nonlinearity_of(places, out.Q), nonlinearity_of(places, back.Q)) /
+                               std::max(nonlinearity_of(places, ideal.first.Q), nonlinearity_of(places, ideal.second.Q));
+    }
+
+    void take_larger(double &value, const std::vector<Entry> &summary, const std::vector<std::string> &names)
+    {
+      for (const auto &name : names)
+        value = std::max(value, std::abs(value_of(summary, name)));
+    }
+  } // namespace
+
+  std::string judge_name(const DesignJudge judge)
+  {
+    return std::vector<std::string>{ "table", "beam", "condensed" }.at(static_cast<std::size_t>(judge));
+  }
+
+  double Judgement::violation(const std::vector<Demand> &demands) const
+  {
+    double largest = -infinite;
+    for (const auto &demand : demands)
+      if (demand.term.quantity != Q::parameter && !std::isnan(found[demand.term.quantity]))
+        largest = std::max(largest, violation_of(demand, found[demand.term.quantity]));
+    return largest;
+  }
+
+  DesignJudges::DesignJudges(const Scene &of_design)
+      : design(of_design)
+  {
+  }
+
+  Scene DesignJudges::scene_of(const Proposal &lever, const std::vector<std::string> &changes) const
+  {
+    const std::vector<std::string> without_fields = { "Output/Fields=none" };
+    return prepared(variant(design, joined(joined(changes, without_fields), overrides_of(design, lever))));
+  }
+
+  Judgement DesignJudges::judge(const DesignJudge by, const Proposal &lever, const bool in_time)
+  {
+    Judgement judgement;
+    judgement.judge    = by;
+    judgement.lever    = lever;
+    const double begin = PhaseTimer::cpu_seconds();
+    try
+    {
+      if (by == DesignJudge::table)
+        judge_table(judgement);
+      else
+        judge_slides(judgement);
+      if (in_time && judgement.passes(design.design.demanded))
+        follow_in_time(judgement);
+    }
+    catch (const AnalysisError &error)
+    {
+      judgement.failure = error.what();
+    }
+    catch (const InputError &error)
+    {
+      judgement.failure = error.what();
+    }
+    judgement.cpu_seconds = PhaseTimer::cpu_seconds() - begin;
+    return judgement;
+  }
+
+  void DesignJudges::judge_table(Judgement &judgement) const
+  {
+    const Scene scene = scene_of(judgement.lever, { "Analysis/Type=isolation", "Analysis/Model=closed form",
+                                                    "Isolation/Base motion=harmonic", "Isolation/End=steady state" });
+    IsolationFindings found;
+    run_isolation(scene, found, {});
+    judgement.found[Q::transmissibility]   = found.fundamental;
+    judgement.found[Q::relative_amplitude] = found.relative_amplitude;
+    if (!found.is_steady)
+      judgement.failure = "the table's motion does not repeat within Isolation/Duration";
+  }
+
+  void DesignJudges::judge_slides(Judgement &judgement)
+  {
+    const Scene scene = scene_of(judgement.lever, { "Analysis/Type=stability", "Analysis/Model=" + judge_name(judgement.judge),
+                                                    "Stability/Position=auto", "Stability/Critical=none" });
+    require_memory(scene);
+    auto &maker                     = *in_memory.dynamics;
+    const auto out                  = slides_along(scene, Direction::forward, maker);
+    const auto back                 = slides_along(scene, Direction::backward, maker);
+    judgement.found[Q::growth_rate] = std::max(out.growth_rate, back.growth_rate);
+    if (!out.all_unique || !back.all_unique)
+    {
+      judgement.failure = "there is no unique slide at some x of the stroke: the lever jams";
+      return;
+    }
+    add_slopes(scene, ratios_near_rest(scene, maker), judgement.found);
+    add_forces(scene, out, back, judgement.found);
+  }
+
+  void DesignJudges::follow_in_time(Judgement &judgement)
+  {
+    const Scene scene = scene_of(judgement.lever, { "Analysis/Type=transient", "Analysis/Model=" + judge_name(judgement.judge) });
+    require_memory(scene);
+    Warnings warnings;
+    carry_out(scene, { {}, true, true, &in_memory }, warnings);
+    const auto &summary = in_memory.found.summary;
+    const auto slides   = judgement.found;
+    take_larger(judgement.found[Q::largest_force], summary, { "peak_Q_forward", "peak_Q_backward" });
+    take_larger(judgement.found[Q::largest_normal_force], summary, { "peak_P_forward", "peak_P_backward" });
+    if (is_meshed(scene.analysis.model))
+      take_larger(judgement.found[Q::largest_pressure], summary, { "largest_pressure" });
+    for (const auto quantity : { Q::largest_force, Q::largest_normal_force, Q::largest_pressure })
+      judgement.overshoot[quantity] = judgement.found[quantity] / slides[quantity];
+    judgement.in_time = true;
+  }
+
+  double DesignJudges::growth_of_beam(const Scene &scene)
+  {
+    Scene beam          = scene;
+    beam.analysis.type  = AnalysisType::stability;
+    beam.analysis.model = ModelType::beam;
+    double largest      = -infinite;
+    for (const auto direction : { Direction::forward, Direction::backward })
+      for (const double x : places_of(scene))
+        largest = std::max(largest, growth_of(slide_at(beam, x, direction, *in_memory.dynamics)));
+    return largest;
+  }
+} // namespace sprag

@@ -1,0 +1,54 @@
+#pragma once
+
+#include "analysis/design/design_problem.h"
+#include "run/in_memory.h"
+
+#include <string>
+
+namespace sprag
+{
+  /// What a judge found of a lever that was proposed to it.
+  struct Judgement
+  {
+    DesignJudge judge  = DesignJudge::beam;
+    unsigned int round = 1;
+    bool in_time       = false; ///< whether the drive was followed in time
+    Proposal lever;             ///< with what was expected of it
+    DesignQuantities found;     ///< NaN of what the judge does not tell
+    DesignQuantities overshoot; ///< of those that are larger in time: over the value of the slides
+    std::string failure;        ///< why it tells nothing; empty: it does
+    double cpu_seconds = 0.;
+
+    /// Returns the largest violation of the demands on what the judge tells; minus infinity without such.
+    double violation(const std::vector<Demand> &demands) const;
+
+    bool passes(const std::vector<Demand> &demands) const
+    {
+      return failure.empty() && violation(demands) <= 0.;
+    }
+  };
+
+  std::string judge_name(DesignJudge judge);
+
+  /// Computes levers of a design again by dearer models. Forces come from steady slides at Design/Positions both ways, and one
+  /// near x = 0 for the slopes; in time from the drive followed once.
+  class DesignJudges
+  {
+  public:
+    explicit DesignJudges(const Scene &of_design);
+
+    Judgement judge(DesignJudge by, const Proposal &lever, bool in_time);
+
+    /// Returns the largest growth rate of all slides of a beam of this scene [1/s]; infinite where one of them is not unique.
+    double growth_of_beam(const Scene &scene);
+
+  private:
+    const Scene design;
+    InMemory in_memory;
+
+    Scene scene_of(const Proposal &lever, const std::vector<std::string> &changes) const;
+    void judge_table(Judgement &judgement) const;
+    void judge_slides(Judgement &judgement);
+    void follow_in_time(Judgement &judgement);
+  };
+} // namespace sprag

@@ -1,0 +1,103 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace sprag
+{
+  // What a lever must do, what of it is free, and what makes one better than another.
+
+  /// What is demanded of a lever or makes it better; names, units and definitions are in design_quantities().
+  enum class DesignQuantity
+  {
+    damping_slope,
+    restoring_slope,
+    forward_slope,
+    backward_slope,
+    friction_ratio,
+    slope_ratio,
+    force_ratio,
+    nonlinearity,
+    largest_force,
+    largest_normal_force,
+    largest_pressure,
+    loop_area,
+    jamming_margin,
+    reach,
+    inclination,
+    lever_length,
+    transmissibility,
+    relative_amplitude,
+    residual_offset,
+    growth_rate,
+    parameter ///< one of the free parameters
+  };
+
+  /// A parameter that is free between two bounds, by its --set name.
+  struct FreeParameter
+  {
+    std::string name;
+    double from = 0.;
+    double to   = 0.;
+    std::string unit;
+  };
+
+  struct DesignTerm
+  {
+    DesignQuantity quantity = DesignQuantity::damping_slope;
+    std::size_t parameter   = 0; ///< place among the free ones, of DesignQuantity::parameter
+  };
+
+  enum class DemandKind
+  {
+    at_most,
+    at_least,
+    equal ///< within a tolerance
+  };
+
+  struct Demand
+  {
+    DesignTerm term;
+    DemandKind kind  = DemandKind::at_most;
+    double target    = 0.;
+    double tolerance = 0.; ///< of `equal`, > 0
+    std::string text;      ///< as it was given, single-spaced
+  };
+
+  struct DesignAim
+  {
+    DesignTerm term;
+    bool maximises = false;
+    std::string text;
+  };
+
+  /// What computes a proposed lever again. Each is dearer than the one before it.
+  enum class DesignJudge
+  {
+    table, ///< the isolated table in time on levers of the closed form
+    beam,
+    condensed
+  };
+
+  struct DesignSettings
+  {
+    std::string free    = "Rotational spring/Stiffness = 1e4 ... 2e5";
+    std::string demands = "damping slope = 0.1 +- 0.001";
+    std::string aim     = "minimise largest force";
+    std::string second_aim; ///< empty: none
+    std::string judges        = "none";
+    unsigned int front_points = 11;   ///< of the front of two aims
+    unsigned int positions    = 5;    ///< x at which beam and condensed judge the slide, each both ways
+    bool judges_in_time       = true; ///< whether the last of beam and condensed follows the drive in time
+    unsigned int rounds       = 6;    ///< of proposals to a judge
+    unsigned int evaluations  = 4000; ///< of the closed form in the global search
+    unsigned int seed         = 1;
+
+    // What the texts say, see read_design().
+    std::vector<FreeParameter> free_parameters;
+    std::vector<Demand> demanded;
+    std::vector<DesignAim> aims;
+    std::vector<DesignJudge> judged_by;
+  };
+} // namespace sprag

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "scene/design.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace sprag
+{
+  // The quantities that a design can demand or aim at. Forces and slopes are of one lever.
+
+  struct DesignQuantityInfo
+  {
+    DesignQuantity quantity;
+    std::string name;
+    std::string unit; ///< "1" where dimensionless
+    std::string definition;
+  };
+
+  /// Lists all quantities but those of free parameters, in the order in which they are reported.
+  const std::vector<DesignQuantityInfo> &design_quantities();
+
+  const DesignQuantityInfo &info_of(DesignQuantity quantity);
+
+  std::optional<DesignQuantity> design_quantity_of(const std::string &name);
+
+  /// Returns whether a quantity is of the table on its levers, not of a lever alone.
+  bool is_of_table(DesignQuantity quantity);
+} // namespace sprag

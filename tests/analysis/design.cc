@@ -1,0 +1,136 @@
+#include "analysis/design/design_search.h"
+#include "base/errors.h"
+#include "scene/closed_form.h"
+#include "scene/read.h"
+#include "support/temporary_folder.h"
+
+#include <gtest/gtest.h>
+
+using namespace sprag;
+
+// Levers whose best is known by hand. With e = 0, h = 0 and constant mu: s = l cos th0 at x = 0, th_x = tan th0/l, and
+// C_Q = (+-mu cos th0 + sin th0) k sin th0/s^2, so that c = mu k tan th0/l^2 and k_e/c = tan th0/mu.
+
+namespace
+{
+  constexpr double mu = 0.5;
+
+  Scene design(const TemporaryFolder &folder, const std::vector<std::string> &changes)
+  {
+    std::vector<std::string> all = { "Analysis/Type=design",           "Friction/Law=Coulomb",
+                                     "Friction/Coefficient=0.5",       "Geometry/Interface offset=0",
+                                     "Geometry/Cylinder radius=30",    "Geometry/Pivot distance=200",
+                                     "Rotational spring/Stiffness=5e4" };
+    all.insert(all.end(), changes.begin(), changes.end());
+    return read_scene(folder.write("scene.prm", ""), all);
+  }
+
+  Found best_of(const Scene &scene)
+  {
+    return best_lever(DesignProblem(scene));
+  }
+
+  /// Largest inclination with this ratio of the slopes: (mu + tan)/(mu - tan) = r.
+  double inclination_of_ratio(const double ratio)
+  {
+    return std::atan(mu * (ratio - 1.) / (ratio + 1.));
+  }
+
+  double damping_slope(const double k, const double l, const double theta)
+  {
+    return mu * k * std::tan(theta) / (l * l);
+  }
+} // namespace
+
+TEST(Design, SteepestLeverWithinARatioOfSlopes)
+{
+  const TemporaryFolder folder;
+  const auto found = best_of(design(folder, { "Design/Free=Geometry/Cylinder radius = 5 ... 100",
+                                              "Design/Demands=slope ratio <= 1.8", "Design/Aim=maximise damping slope" }));
+  ASSERT_TRUE(found.meets_all);
+  const double theta = inclination_of_ratio(1.8);
+  EXPECT_NEAR(found.lever.parameters[0], 200. * std::sin(theta), 1e-3 * 200. * std::sin(theta));
+  EXPECT_NEAR(found.lever.quantities[DesignQuantity::damping_slope], damping_slope(5e4, 200., theta),
+              1e-3 * damping_slope(5e4, 200., theta));
+}
+
+TEST(Design, LargestOffsetWithinAMarginToJamming)
+{
+  const TemporaryFolder folder;
+  const auto found =
+      best_of(design(folder, { "Design/Free=Geometry/Interface offset = 0 ... 59", "Geometry/Cylinder radius=60",
+                               "Design/Demands=jamming margin >= 0.8", "Design/Aim=maximise Geometry/Interface offset" }));
+  ASSERT_TRUE(found.meets_all);
+  // mu e/s = 0.2 at x = 65 with s^2 = (l - x)^2 - (R - e)^2: a quadratic equation for e.
+  const double a = std::pow(mu / 0.2, 2) + 1., b = -2. * 60., c = 60. * 60. - 135. * 135.;
+  const double e = (-b + std::sqrt(b * b - 4. * a * c)) / (2. * a);
+  EXPECT_NEAR(found.lever.parameters[0], e, 1e-3 * e);
+}
+
+TEST(Design, ShortestLeverOfThreeFreeParameters)
+{
+  const TemporaryFolder folder;
+  const auto found = best_of(
+      design(folder, { "Design/Free=Geometry/Cylinder radius = 15 ... 60; Geometry/Pivot distance = 90 ... 400; Rotational "
+                       "spring/Stiffness = 1e3 ... 2e5",
+                       "Design/Demands=damping slope = 0.1 +- 1e-5; slope ratio <= 1.8",
+                       "Design/Aim=minimise Geometry/Pivot distance" }));
+  ASSERT_TRUE(found.meets_all);
+  // Short is steep, and steep at the smallest radius that the bounds and the way of the drive leave: l - 65 > R, but a lever of
+  // R = 15 is at the bound of the ratio only at l = 15/sin th0 = 107 mm, where c follows from k.
+  const double theta = inclination_of_ratio(1.8), l = 15. / std::sin(theta);
+  EXPECT_NEAR(found.lever.parameters[0], 15., 1e-3 * 15.);
+  EXPECT_NEAR(found.lever.parameters[1], l, 1e-3 * l);
+  const double k = 0.1 / damping_slope(1., l, theta);
+  EXPECT_NEAR(found.lever.parameters[2], k, 1e-3 * k);
+}
+
+TEST(Design, WhatCannotBeMetNamesTheDemandThatStopsIt)
+{
+  const TemporaryFolder folder;
+  const Scene scene = design(folder, { "Design/Free=Geometry/Cylinder radius = 5 ... 100",
+                                       "Design/Demands=inclination <= 60; slope ratio <= 1.2; damping slope >= 0.1",
+                                       "Design/Aim=minimise largest force" });
+  const DesignProblem problem(scene);
+  const auto found = best_lever(problem);
+  EXPECT_FALSE(found.meets_all);
+  EXPECT_GT(found.distance, 0.);
+  const auto stopping = stopping_demands(problem);
+  ASSERT_EQ(stopping.size(), 2u);
+  // Each of the two is met without the other; at the other's bound it can have so much.
+  EXPECT_EQ(stopping[0].demand, 1u);
+  EXPECT_EQ(stopping[1].demand, 2u);
+  const double largest = damping_slope(5e4, 200., inclination_of_ratio(1.2));
+  EXPECT_NEAR(stopping[1].attainable, largest, 1e-3 * largest);
+}
+
+TEST(Design, SearchIsRepeatable)
+{
+  const TemporaryFolder folder;
+  const Scene scene =
+      design(folder, { "Design/Free=Geometry/Cylinder radius = 5 ... 100; Rotational spring/Stiffness = 1e3 ... 2e5",
+                       "Design/Demands=damping slope = 0.1 +- 1e-4; largest force <= 12", "Design/Aim=minimise nonlinearity" });
+  const auto first = best_of(scene), second = best_of(scene);
+  EXPECT_EQ(first.lever.parameters, second.lever.parameters);
+}
+
+TEST(Design, FrontOfTwoAimsIsOfLeversThatNoneBeats)
+{
+  const TemporaryFolder folder;
+  // Over R alone c and the ratio of the slopes both grow: every R is on the front.
+  const Scene scene =
+      design(folder, { "Design/Free=Geometry/Cylinder radius = 10 ... 60", "Design/Demands=", "Design/Aim=maximise damping slope",
+                       "Design/Second aim=minimise slope ratio", "Design/Front points=5" });
+  const auto front = front_of_aims(DesignProblem(scene));
+  ASSERT_EQ(front.size(), 5u);
+  EXPECT_NEAR(front.front().parameters[0], 60., 0.06);
+  EXPECT_NEAR(front.back().parameters[0], 10., 0.06);
+  const auto ratio = [](const Proposal &lever) { return lever.quantities[DesignQuantity::slope_ratio]; };
+  for (std::size_t i = 1; i < front.size(); ++i)
+  {
+    EXPECT_LT(ratio(front[i]), ratio(front[i - 1]));
+    EXPECT_NEAR(ratio(front[0]) - ratio(front[i]), 0.25 * static_cast<double>(i) * (ratio(front[0]) - ratio(front[4])), 1e-3);
+    const double theta = std::asin(front[i].parameters[0] / 200.);
+    EXPECT_NEAR(front[i].quantities[DesignQuantity::damping_slope], damping_slope(5e4, 200., theta), 1e-9);
+  }
+}

@@ -1,0 +1,172 @@
+#include "analysis/isolation/isolation.h"
+#include "analysis/stability/stability.h"
+#include "base/errors.h"
+#include "levers/prepared_scene.h"
+#include "mpi_environment.h"
+#include "run/analyses.h"
+#include "run/design_judges.h"
+#include "run/report.h"
+#include "scene/read.h"
+#include "support/temporary_folder.h"
+
+#include <filesystem>
+#include <gtest/gtest.h>
+
+using namespace sprag;
+
+namespace
+{
+  Scene design(const TemporaryFolder &folder, const std::vector<std::string> &changes)
+  {
+    std::vector<std::string> all = { "Analysis/Type=design" };
+    all.insert(all.end(), changes.begin(), changes.end());
+    return read_scene(folder.write("scene.prm", ""), all);
+  }
+
+  std::string output_of(const TemporaryFolder &folder)
+  {
+    return (folder.path / "output").string();
+  }
+
+  void run_in(const TemporaryFolder &folder, const Scene &scene)
+  {
+    Warnings warnings;
+    run_design(scene, { output_of(folder), true }, warnings);
+  }
+
+  Scene best_of(const TemporaryFolder &folder, const std::vector<std::string> &changes = {})
+  {
+    return read_scene(output_of(folder) + "/design-best.prm", changes);
+  }
+
+  SlideStability slide_at(const Scene &lever, const double x, const std::string &way, DynamicsMaker &maker)
+  {
+    return judge(prepared(variant(lever, { override_text("Stability/Position", x), "Stability/Direction=" + way })), maker);
+  }
+
+  std::vector<Entry> in_time(const Scene &lever)
+  {
+    InMemory in_memory;
+    Warnings warnings;
+    carry_out(prepared(lever), { {}, true, true, &in_memory }, warnings);
+    return in_memory.found.summary;
+  }
+} // namespace
+
+TEST(RunDesign, WritesTheLeverAsASceneThatRuns)
+{
+  const TemporaryFolder folder;
+  run_in(folder, design(folder, { "Design/Free=Rotational spring/Stiffness = 1e4 ... 2e5", "Design/Aim=minimise largest force",
+                                  "Design/Demands=damping slope >= 0.12" }));
+  const Scene best = best_of(folder);
+  EXPECT_EQ(best.analysis.type, AnalysisType::quasi_static);
+  // Model A has 0.0898 N/mm with k = 7.4e4 N mm/rad.
+  const double c = lever_quantities(best)[DesignQuantity::damping_slope];
+  EXPECT_NEAR(c, 0.12, 1e-6);
+  EXPECT_NEAR(best.spring.stiffness,
+              7.4e4 * 0.12 /
+                  lever_quantities(variant(best, { "Rotational spring/Stiffness=7.4e4" }))[DesignQuantity::damping_slope],
+              1e-3 * best.spring.stiffness);
+  const auto summary = in_time(variant(best, { "Analysis/Type=quasi-static" }));
+  EXPECT_NEAR(value_of(summary, "representative_slope_forward") - value_of(summary, "representative_slope_backward"), 0.24, 1e-5);
+}
+
+TEST(RunDesign, WithoutALeverTheNearestIsKept)
+{
+  const TemporaryFolder folder;
+  const Scene scene = design(folder, { "Design/Free=Rotational spring/Stiffness = 1e4 ... 2e5",
+                                       "Design/Demands=damping slope >= 0.12; largest force <= 5" });
+  try
+  {
+    run_in(folder, scene);
+    ADD_FAILURE() << "a lever was found";
+  }
+  catch (const AnalysisError &error)
+  {
+    const std::string text = error.what();
+    EXPECT_NE(text.find("Without 'damping slope >= 0.12' the others can be met"), std::string::npos) << text;
+    EXPECT_NE(text.find("Without 'largest force <= 5' the others can be met"), std::string::npos) << text;
+  }
+  EXPECT_TRUE(std::filesystem::exists(output_of(folder) + "/result.h5"));
+  EXPECT_FALSE(std::filesystem::exists(output_of(folder) + "/design-best.prm"));
+  EXPECT_NO_THROW(read_scene(output_of(folder) + "/design-nearest.prm"));
+}
+
+TEST(RunDesign, AJudgeCorrectsTheClosedForm)
+{
+  const TemporaryFolder folder;
+  // A thin lever bends, so that it damps less than the closed form says.
+  run_in(folder, design(folder, { "Lever/Depth=6", "Design/Free=Rotational spring/Stiffness = 1e4 ... 2e5", "Design/Judges=beam",
+                                  "Design/Demands=largest force >= 20", "Design/Aim=minimise largest force",
+                                  "Design/Judge in time=off" }));
+  const Scene best = best_of(folder, { "Analysis/Type=stability", "Analysis/Model=beam" });
+  EXPECT_GT(lever_quantities(best)[DesignQuantity::largest_force], 20.2);
+  DynamicsMaker maker(false);
+  const double Q = slide_at(best, 65., "backward", maker).slide->forces.Q;
+  EXPECT_GE(std::abs(Q), 20.);
+  EXPECT_LT(std::abs(Q), 20.1);
+}
+
+TEST(RunDesign, TheTableInTimeCorrectsTheHarmonicBalance)
+{
+  const TemporaryFolder folder;
+  run_in(folder, design(folder, { "Isolation/Base amplitude=5", "Isolation/Base frequency=0.75", "Isolation/Duration=100",
+                                  "Design/Free=Rotational spring/Stiffness = 1e4 ... 4e5", "Design/Judges=table",
+                                  "Design/Demands=transmissibility = 3 +- 0.01", "Design/Aim=minimise largest force" }));
+  const auto fundamental = [&](const Scene &lever)
+  {
+    IsolationFindings found;
+    run_isolation(lever, found, {});
+    return found.fundamental;
+  };
+  const Scene best = best_of(folder, { "Analysis/Type=isolation", "Isolation/End=steady state" });
+  EXPECT_NEAR(fundamental(best), 3., 0.01);
+  // By one harmonic it would be another lever.
+  DesignQuantities by_one_harmonic;
+  add_table_quantities(best, { DesignQuantity::transmissibility }, by_one_harmonic);
+  EXPECT_GT(by_one_harmonic[DesignQuantity::transmissibility], 3.1);
+}
+
+TEST(RunDesign, ThinnestStableLeverIsAtTheEdgeOfStability)
+{
+  const TemporaryFolder folder;
+  run_in(folder, design(folder, { "Design/Free=Lever/Depth = 3 ... 20", "Design/Judges=beam", "Design/Demands=growth rate <= 0",
+                                  "Design/Aim=minimise Lever/Depth", "Design/Judge in time=off", "Design/Positions=2" }));
+  const double depth = best_of(folder).lever.depth;
+  DynamicsMaker maker(false);
+  const auto worst = [&](const double of_depth)
+  {
+    double growth = -1e30;
+    for (const double x : { 32.5, 65. })
+      for (const std::string way : { "forward", "backward" })
+        growth = std::max(growth, slide_at(best_of(folder, { "Analysis/Type=stability", "Analysis/Model=beam",
+                                                             override_text("Lever/Depth", of_depth) }),
+                                           x, way, maker)
+                                      .growth_rate());
+    return growth;
+  };
+  EXPECT_LE(worst(depth), 0.);
+  EXPECT_GT(worst(0.99 * depth), 0.);
+}
+
+TEST(RunDesignSlow, LeverIsConfirmedInTimeAndStableAtAllX)
+{
+  const TemporaryFolder folder;
+  std::vector<std::string> changes = { "Condensed/Cache=" + (folder.path / "cache").string() };
+  changes.insert(changes.end(),
+                 { "Design/Free=Geometry/Cylinder radius = 20 ... 80; Geometry/Interface offset = 0 ... 60; Geometry/Pivot "
+                   "distance = 100 ... 250; Rotational spring/Stiffness = 1e4 ... 2e5",
+                   "Design/Demands=damping slope = 0.089 +- 0.0005; slope ratio = 1 +- 0.02; jamming margin >= 0.5; nonlinearity "
+                   "<= 0.25; largest pressure <= 0.8; growth rate <= 0",
+                   "Design/Aim=minimise Geometry/Pivot distance", "Design/Judges=beam, condensed" });
+  run_in(folder, design(folder, changes));
+  const auto model = [&](const std::string &type) {
+    return best_of(folder, { "Analysis/Type=" + type, "Analysis/Model=condensed", "Output/Fields=none" });
+  };
+  DynamicsMaker maker(false);
+  const Scene held = model("stability");
+  for (unsigned int i = 1; i <= 13; ++i)
+    for (const std::string way : { "forward", "backward" })
+      EXPECT_EQ(slide_at(held, 5. * i, way, maker).kind, SlideKind::stable) << 5. * i << ' ' << way;
+  EXPECT_LE(value_of(in_time(model("transient")), "largest_pressure"), 0.8);
+}

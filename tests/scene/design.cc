@@ -1,0 +1,116 @@
+#include "messages.h"
+#include "scene/design_quantities.h"
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <set>
+
+using namespace sprag;
+
+namespace
+{
+  Messages design(const Messages &more)
+  {
+    Messages all = { "Analysis/Type=design" };
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  }
+
+  DesignSettings read(const Messages &more)
+  {
+    return scene_of(design(more)).design;
+  }
+} // namespace
+
+TEST(ReadDesign, TextsBecomeDemandsAndAims)
+{
+  const auto settings = read({ "Design/Free=Geometry/Cylinder radius = 20 ... 80; Rotational spring/Stiffness = 1e4 ... 2e5",
+                               "Design/Demands=damping slope = 0.1 +- 0.001; largest  force <= 40; jamming margin > 0.3; "
+                               "Geometry/Cylinder radius >= 30",
+                               "Design/Aim=maximise Rotational spring/Stiffness", "Design/Second aim=minimise largest force",
+                               "Design/Judges=condensed, beam" });
+  ASSERT_EQ(settings.free_parameters.size(), 2u);
+  EXPECT_EQ(settings.free_parameters[1].name, "Rotational spring/Stiffness");
+  EXPECT_EQ(settings.free_parameters[1].from, 1e4);
+  EXPECT_EQ(settings.free_parameters[1].to, 2e5);
+  EXPECT_EQ(settings.free_parameters[1].unit, "N mm/rad");
+  ASSERT_EQ(settings.demanded.size(), 4u);
+  EXPECT_EQ(settings.demanded[0].kind, DemandKind::equal);
+  EXPECT_EQ(settings.demanded[0].target, 0.1);
+  EXPECT_EQ(settings.demanded[0].tolerance, 0.001);
+  EXPECT_EQ(settings.demanded[1].term.quantity, DesignQuantity::largest_force);
+  EXPECT_EQ(settings.demanded[1].kind, DemandKind::at_most);
+  EXPECT_EQ(settings.demanded[1].text, "largest force <= 40");
+  EXPECT_EQ(settings.demanded[2].kind, DemandKind::at_least);
+  EXPECT_EQ(settings.demanded[3].term.quantity, DesignQuantity::parameter);
+  EXPECT_EQ(settings.demanded[3].term.parameter, 0u);
+  ASSERT_EQ(settings.aims.size(), 2u);
+  EXPECT_TRUE(settings.aims[0].maximises);
+  EXPECT_EQ(settings.aims[0].term.parameter, 1u);
+  EXPECT_FALSE(settings.aims[1].maximises);
+  // The cheaper judge comes first.
+  EXPECT_EQ(settings.judged_by, (std::vector<DesignJudge>{ DesignJudge::beam, DesignJudge::condensed }));
+}
+
+TEST(ReadDesign, MistakesNameTheNearestWord)
+{
+  const auto told = [](const std::string &setting, const std::string &message)
+  {
+    const auto all = mistakes("", design({ setting }));
+    ASSERT_EQ(all.size(), 1u) << setting;
+    EXPECT_NE(all.front().find(message), std::string::npos) << all.front();
+  };
+  told("Design/Free=Geometry/Cylinder radios = 20 ... 80",
+       "'Geometry/Cylinder radios' is no parameter that can be free; did you mean 'Geometry/Cylinder radius'?");
+  told("Design/Free=Drive/Stroke = 20 ... 80", "'Drive/Stroke' is no parameter that can be free");
+  told("Design/Free=Lever/Depth = 5", "'Lever/Depth = 5' must have the form Section/Name = FROM ... TO");
+  told("Design/Free=Lever/Depth = 20 ... 5", "Lever/Depth must have bounds of which the second is larger");
+  told("Design/Free=Lever/Depth = -1 ... 5", "Lever/Depth = -1 must be a number > 0");
+  told("Design/Free=Lever/Depth = 1 ... 5; Lever/Depth = 1 ... 5", "Lever/Depth must be there once only");
+  told("Design/Free=", "must name a parameter and its bounds");
+  told("Design/Demands=damping slpe >= 0.1",
+       "'damping slpe' is neither a quantity nor a free parameter; did you mean 'damping slope'?");
+  told("Design/Demands=damping slope = 0.1", "'damping slope = 0.1' must have a value and a tolerance > 0 behind =");
+  told("Design/Demands=damping slope 0.1", "'damping slope 0.1' must have the form QUANTITY <= VALUE");
+  told("Design/Demands=damping slope >= 0.1 N/mm", "must have a single number at its end");
+  told("Design/Demands=growth rate <= 0", "must have beam where a growth rate is asked for");
+  told("Design/Aim=reduce largest force", "must be minimise QUANTITY or maximise QUANTITY");
+  told("Design/Second aim=minimise largest forc", "did you mean 'largest force'?");
+  told("Design/Judges=beem", "'beem' is no judge beside others; did you mean 'beam'?");
+  told("Design/Judges=table", "table counts only where transmissibility or relative amplitude is asked for");
+  told("Analysis/Dimension=3", "must be 2 in a design");
+  told("Rotational spring/Type=leaf", "must be torsional in a design");
+}
+
+TEST(ReadDesign, QuantitiesOfTheTableNeedLevers)
+{
+  const Messages of_table = design({ "Design/Demands=transmissibility <= 3", "Isolation/Damper=viscous" });
+  const auto all          = mistakes("", of_table);
+  ASSERT_EQ(all.size(), 1u);
+  EXPECT_NE(all.front().find("Isolation/Damper"), std::string::npos) << all.front();
+  EXPECT_NE(mistakes("", design({ "Design/Demands=residual offset <= 1", "Isolation/Base motion=none" })), Messages());
+}
+
+TEST(ReadDesign, EveryQuantityHasOneName)
+{
+  std::set<std::string> names;
+  for (const auto &info : design_quantities())
+  {
+    EXPECT_TRUE(names.insert(info.name).second) << info.name;
+    EXPECT_EQ(design_quantity_of(info.name), info.quantity);
+    EXPECT_EQ(info_of(info.quantity).name, info.name);
+  }
+  EXPECT_EQ(names.size(), static_cast<std::size_t>(DesignQuantity::parameter));
+}
+
+TEST(ReadDesign, EveryQuantityStandsOnThePage)
+{
+  std::ifstream file(std::filesystem::path(__FILE__).parent_path() / "../../params/design.md");
+  const std::string page{ std::istreambuf_iterator<char>(file), {} };
+  for (const auto &info : design_quantities())
+  {
+    const std::string row = "| " + info.name + " | " + info.unit + " | " + info.definition + " |";
+    EXPECT_NE(page.find(row), std::string::npos) << row;
+  }
+}
