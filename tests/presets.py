@@ -42,6 +42,7 @@ RUNS = {
     "finite elements": ("model-a", SLIDE),
     "closed form": ("closed-form-b", SLIDE),
     "elastic cylinder": ("cylinder-a", SLIDE),
+    "three dimensions": ("solid-tilted-a", (*SLIDE, "Mesh/Face size=8", "Mesh/Elements across=2")),
     "slope": ("fig11", ("Slope/Number of points=5",)),
     "reversal, rigid": ("reversal-a", (*REVERSAL, "Analysis/Model=rigid")),
     "reversal, beam": ("reversal-a", REVERSAL),

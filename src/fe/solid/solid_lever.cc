@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace sprag
 {
@@ -45,6 +46,28 @@ namespace sprag
       return { properties.spring.law.linear_stiffness(), properties.support_stiffness.value_or(0.), properties.spring.arm };
     }
 
+    /// Nodes next to the middle of the width, along xi.
+    std::vector<unsigned int> middle_nodes(const FrictionFace<3> &face)
+    {
+      double closest = std::numeric_limits<double>::infinity();
+      for (const auto &node : face.nodes)
+        closest = std::min(closest, std::abs(node.position[2]));
+      std::vector<unsigned int> result;
+      for (unsigned int i = 0; i < face.nodes.size(); ++i)
+        if (const double zeta = face.nodes[i].position[2]; zeta >= 0. && zeta < closest + 1e-6)
+          result.push_back(i);
+      return result;
+    }
+
+    PortLoads on_surface(const PortLayout &ports, const PortLoads &forces)
+    {
+      PortLoads result{ {}, forces.values };
+      for (const unsigned int port : forces.ports)
+        if (ports.is_surface(port))
+          result.ports.push_back(port); // those of the face come first
+      return result;
+    }
+
     LayeredCompliance compliance_of(const SolidBody &body, const Scene &scene)
     {
       const double room        = 0.1 * scene.geometry.cylinder_radius;
@@ -58,6 +81,7 @@ namespace sprag
       , properties(lever_properties(scene))
       , ports(ports_of(body, properties))
       , compliance(compliance_of(body, scene))
+      , middle(middle_nodes(body.friction_face()))
       , window(ports, springs_of(properties),
                { { ports.surface, [this](const PortSelection &some) { return compliance.whole_tiles(some); },
                    [this](const PortSelection &tiles) { return compliance.among(tiles); } } })
@@ -201,10 +225,40 @@ namespace sprag
     row[Column::spring_energy] = properties.spring.law.energy(turn(trial));
     view.observe(found, row);
     row[Column::centre_offset]        = row[Column::s] - properties.centre(trial.drive.x - u, theta).xi;
+    row[Column::indentation]          = indentation(row, on_surface(ports, trial.forces));
     row[Column::Q]                    = row[Column::P] * std::sin(theta) + row[Column::F] * std::cos(theta);
     row[Column::support_displacement] = u;
     row[Column::Q_support]            = ports.sprung ? support * u : row[Column::Q];
     row[Column::support_energy]       = 0.5 * support * u * u;
+  }
+
+  /// Displacement along eta in the middle of the width, by the polynomial through three nodes [mm].
+  double SolidLever::deflection(const double xi, const PortLoads &on_face) const
+  {
+    const auto &nodes    = body.friction_face().nodes;
+    const auto xi_of     = [&](const std::size_t i) { return nodes[middle[i]].position[0]; };
+    const auto is_before = [&](const unsigned int node, const double value) { return nodes[node].position[0] < value; };
+    const auto found     = std::lower_bound(middle.begin(), middle.end(), xi, is_before) - middle.begin();
+    const auto first     = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(found - 1, 0, middle.size() - 3));
+    double result        = 0.;
+    for (std::size_t i = first; i < first + 3; ++i)
+    {
+      double share = 1.;
+      for (std::size_t j = first; j < first + 3; ++j)
+        if (j != i)
+          share *= (xi - xi_of(j)) / (xi_of(i) - xi_of(j));
+      result += share * compliance.displacement(3 * middle[i] + 1, on_face);
+    }
+    return result;
+  }
+
+  double SolidLever::indentation(const Row &row, const PortLoads &on_face) const
+  {
+    if (properties.layer_thickness == 0. || on_face.ports.empty())
+      return 0.;
+    const double s     = row[Column::s];
+    const double aside = 0.5 * row[Column::contact_width] + 4. * properties.layer_thickness;
+    return deflection(s, on_face) - 0.5 * (deflection(s - aside, on_face) + deflection(s + aside, on_face));
   }
 
   FacePoints SolidLever::face_points() const

@@ -61,11 +61,14 @@ namespace sprag
     void widen_reach(State &trial, FrictionMode mode);
     double turn(const State &state) const;
     double support_displacement(const State &state) const;
+    double deflection(double xi, const PortLoads &on_face) const;
+    double indentation(const Row &row, const PortLoads &on_face) const;
 
     const SolidBody &body;
     const LeverProperties properties;
     const PortLayout ports;
-    LayeredCompliance compliance;
+    mutable LayeredCompliance compliance; ///< remembers what it found
+    std::vector<unsigned int> middle;     ///< nodes of the face closest to the middle of the width, along xi
     PortWindow window;
     SurfaceContact contact;
     const SurfaceView view;

@@ -1,0 +1,54 @@
+"""A run in three dimensions by several processes of MPI: the same results, written once; other analyses refuse them."""
+
+import os
+import shutil
+import subprocess
+import sys
+import unittest
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from runs import SOURCE, SPRAG, TIMEOUT, RunTest  # noqa: E402
+
+SETTINGS = {
+    "Analysis/Dimension": "3", "Mesh/Face size": "4", "Mesh/Faces in contact": "0", "Mesh/Elements across": "3", "Cylinder/Tilt": "1e-4",
+    "Drive/Stroke": "15",
+}
+ALONE = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_rmaps_base_oversubscribe": "1"}
+
+
+def run(ranks, folder, changes):
+    sets = [part for name, value in changes.items() for part in ("--set", f"{name}={value}")]
+    mpi = ["mpirun", "-n", str(ranks)] if ranks > 1 else []
+    command = [*mpi, SPRAG, SOURCE / "params" / "model-a.prm", "--output", folder, *sets]
+    return subprocess.run(list(map(str, command)), capture_output=True, text=True, check=False, timeout=TIMEOUT, env=ALONE)
+
+
+@unittest.skipUnless(shutil.which("mpirun"), "needs mpirun")
+class Ranks(RunTest):
+    def test_do_not_change_what_is_found(self):
+        tables = []
+        for ranks in (1, 2):
+            folder = self.folder / str(ranks)
+            done = run(ranks, folder, SETTINGS)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual(done.stdout.count("100 %"), 1, done.stdout)
+            with h5py.File(folder / "result.h5") as file:
+                tables.append({name: file["table"][name][:] for name in ("P", "Q", "theta", "centre_across")})
+        for name, alone in tables[0].items():
+            self.assertEqual(len(alone), len(tables[1][name]))
+            apart = np.nanmax(np.abs(alone - tables[1][name])) / np.nanmax(np.abs(alone))
+            self.assertLess(apart, 1e-8 if name != "centre_across" else 1e-5, name)
+
+    def test_that_cannot_help_are_refused(self):
+        done = run(2, self.output, {})
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertEqual(done.stderr.count("leave out mpirun"), 1, done.stderr)
+        self.assertFalse(self.output.exists())
+
+
+if __name__ == "__main__":
+    unittest.main()
