@@ -44,6 +44,7 @@ namespace sprag
                                                       { AnalysisType::sprag_slip, run_sprag_slip },
                                                       { AnalysisType::calibration, run_calibration },
                                                       { AnalysisType::isolation, run_isolation_by_models },
+                                                      { AnalysisType::identification, run_identification },
                                                       { AnalysisType::study, run_study } };
     if (follows_formulas(scene))
       run_formulas(scene, options, warnings);

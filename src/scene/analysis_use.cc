@@ -31,10 +31,15 @@ namespace sprag
            scene.analysis.model != ModelType::closed_form;
   }
 
+  bool identifies_by_model(const Scene &scene)
+  {
+    return scene.analysis.type == AnalysisType::identification && scene.analysis.model != ModelType::closed_form;
+  }
+
   bool needs_mesh(const Scene &scene)
   {
     const AnalysisType type = scene.analysis.type;
-    if (runs_model(type) || isolates_by_model(scene))
+    if (runs_model(type) || isolates_by_model(scene) || identifies_by_model(scene))
       return is_meshed(scene.analysis.model);
     return type == AnalysisType::contact_law || type == AnalysisType::calibration;
   }

@@ -19,6 +19,9 @@ namespace sprag
   /// Returns whether the table of an isolation system works against levers of a model in time.
   bool isolates_by_model(const Scene &scene);
 
+  /// Returns whether a model corrects the closed form by which a measured stroke is identified.
+  bool identifies_by_model(const Scene &scene);
+
   /// Returns whether anything of the scene is meshed, apart from a leaf spring.
   bool needs_mesh(const Scene &scene);
 

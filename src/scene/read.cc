@@ -9,6 +9,7 @@
 #include "scene/check.h"
 #include "scene/discretisation.h"
 #include "scene/held_slide.h"
+#include "scene/identification_text.h"
 #include "scene/isolation_tables.h"
 #include "scene/sections.h"
 #include "scene/variation.h"
@@ -63,7 +64,7 @@ namespace sprag
         store();
         make_drive();
         make_friction();
-        make_isolation();
+        make_analyses();
         check_unused();
         check();
         check_ranges();
@@ -104,6 +105,7 @@ namespace sprag
         resolve("Friction/Table", input.friction.table);
         resolve("Mesh/File", input.scene.mesh.file);
         resolve("Condensed/Cache", input.scene.condensed.cache);
+        resolve("Identification/Table", input.scene.identification.table);
         resolve("Isolation/Loop table", input.scene.isolation.loop_file);
         resolve("Isolation/Base table", input.scene.isolation.base_file);
         make_time_tolerance();
@@ -112,13 +114,14 @@ namespace sprag
       }
 
       /// Until it is chosen, the model is the dearest that a choice may end at. Under a table levers are those of the closed form
-      /// unless another model is given; the printed parameters then give it.
+      /// unless another model is given, and so is the lever of a measured stroke; the printed parameters then give it.
       void make_model()
       {
         Scene &scene = input.scene;
         const auto type =
             scene.analysis.type == AnalysisType::study ? scene.study.type : scene.analysis.type; // of the runs themselves
-        if (type == AnalysisType::isolation && settings.given.count("Analysis/Model") == 0)
+        const bool is_closed = type == AnalysisType::isolation || type == AnalysisType::identification;
+        if (is_closed && settings.given.count("Analysis/Model") == 0)
         {
           scene.analysis.model                   = ModelType::closed_form;
           settings.given["Analysis/Model"].value = "closed form";
@@ -184,10 +187,14 @@ namespace sprag
                     [&law](const auto &table) { law.law = TabulatedFriction(table.first, table.second); });
       }
 
-      void make_isolation()
+      /// What the texts and tables of single analyses say.
+      void make_analyses()
       {
-        if (input.scene.analysis.type == AnalysisType::isolation)
-          read_isolation_tables(input.scene.isolation, [this](const auto &name, const auto &rule) { report(name, rule); });
+        const auto tell = [this](const auto &name, const auto &rule) { report(name, rule); };
+        if (const auto type = input.scene.analysis.type; type == AnalysisType::isolation)
+          read_isolation_tables(input.scene.isolation, tell);
+        else if (type == AnalysisType::identification)
+          read_identification(input.scene.identification, tell);
       }
 
       void check()

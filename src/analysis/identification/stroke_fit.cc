@@ -1,0 +1,90 @@
+#include "analysis/identification/stroke_fit.h"
+
+#include "base/errors.h"
+#include "scene/closed_form.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sprag
+{
+  namespace
+  {
+    constexpr double least_speed = 0.02; ///< over the peak; below that friction may be in stick
+    constexpr double impossible  = 1e6;  ///< standard deviations
+  }                                      // namespace
+
+  StrokeFit::StrokeFit(const Scene &of_lever, const MeasuredMotion &of_cylinder, const LeverUnknowns &of_fit)
+      : scene(of_lever)
+      , motion(of_cylinder)
+      , unknowns(of_fit)
+  {
+  }
+
+  std::vector<UsedValue> StrokeFit::used(const double window, const double lag) const
+  {
+    const auto &measured = scene.identification.measured;
+    std::vector<UsedValue> result;
+    for (std::size_t row = 0; row < measured.rows(); ++row)
+    {
+      const auto stroke = motion.stroke_at(row, lag);
+      const auto place  = motion.at(row, lag, stroke);
+      const bool slides =
+          motion.covers(row, lag, stroke) && place.x > 0. && std::abs(place.v) > least_speed * motion.peak_speed();
+      if (!slides || motion.travel(row, lag, stroke) <= window)
+        continue;
+      for (std::size_t channel = 0; channel < measured.channels.size(); ++channel)
+        if (const double value = measured.channels[channel].values[row]; !std::isnan(value))
+          result.push_back({ row, channel, stroke, value });
+    }
+    return result;
+  }
+
+  std::optional<double> StrokeFit::shown(const IdentifiedLever &lever, const ModelCorrection &correction, const std::size_t row,
+                                         const std::size_t channel, const std::size_t stroke) const
+  {
+    const auto place    = motion.at(row, lever.lag, stroke);
+    const int direction = motion.strokes()[stroke].direction;
+    const double v      = std::copysign(place.v, direction);
+    const double turn   = kinematics(lever.geometry, place.x).theta - kinematics(lever.geometry, 0.).theta;
+    const auto state    = closed_form(lever.geometry, lever.friction, lever.stiffness * turn, place.x, v);
+    const double arm    = state.contact.s + direction * state.mu * lever.geometry.interface_offset;
+    if (!(arm > 0.) || !std::isfinite(state.P) || state.mu < 0.)
+      return std::nullopt;
+    const auto more = correction(place.x, direction);
+    const bool is_Q = scene.identification.measured.channels[channel].force == MeasuredForce::drive;
+    return (is_Q ? state.Q + more.Q : state.P + more.P) + lever.offsets[channel];
+  }
+
+  std::vector<double> StrokeFit::in_units(const std::vector<double> &scaled) const
+  {
+    std::vector<double> result;
+    for (std::size_t i = 0; i < scaled.size(); ++i)
+      result.push_back(unknowns.numbers()[i].scale * scaled[i]);
+    return result;
+  }
+
+  std::vector<double> StrokeFit::residuals(const std::vector<double> &scaled, const std::vector<UsedValue> &values,
+                                           const std::vector<double> &deviations, const ModelCorrection &correction,
+                                           const std::vector<double> &weights) const
+  {
+    std::vector<double> result(values.size(), impossible);
+    try
+    {
+      const auto lever = unknowns.lever(in_units(scaled));
+      for (std::size_t i = 0; i < values.size(); ++i)
+      {
+        const auto &[row, channel, stroke, value] = values[i];
+        if (const auto force = shown(lever, correction, row, channel, stroke))
+          result[i] = (value - *force) / deviations[channel];
+        if (!weights.empty())
+          result[i] *= std::sqrt(weights[i]);
+      }
+    }
+    catch (const InputError &)
+    {
+      // No lever: a trial step that is refused for its large residuals.
+    }
+    return result;
+  }
+} // namespace sprag

@@ -1,0 +1,54 @@
+#pragma once
+
+#include "analysis/identification/lever_unknowns.h"
+#include "analysis/identification/model_correction.h"
+#include "base/nonlinear_least_squares.h"
+
+#include <optional>
+#include <vector>
+
+namespace sprag
+{
+  /// One measured force at one row.
+  struct UsedValue
+  {
+    std::size_t row;
+    std::size_t channel;
+    std::size_t stroke;
+    double value; ///< [N]
+  };
+
+  /// A lever against a measured stroke: which values count, and by how much the lever misses them.
+  class StrokeFit
+  {
+  public:
+    StrokeFit(const Scene &scene, const MeasuredMotion &motion, const LeverUnknowns &unknowns);
+
+    /// Returns the values that count with this window behind each turn [mm] and lag: x > 0, and a speed of more than 2 % of the
+    /// peak.
+    std::vector<UsedValue> used(double window, double lag) const;
+
+    /// Returns what a channel shows, offset and correction included [N]; none where the lever has no slide there.
+    std::optional<double> shown(const IdentifiedLever &lever, const ModelCorrection &correction, std::size_t row,
+                                std::size_t channel, std::size_t stroke) const;
+
+    /// Returns measured less shown over the standard deviation of the channel and times the square root of the weight, where
+    /// there are weights; large numbers where the lever has no slide.
+    std::vector<double> residuals(const std::vector<double> &scaled, const std::vector<UsedValue> &values,
+                                  const std::vector<double> &deviations, const ModelCorrection &correction,
+                                  const std::vector<double> &weights = {}) const;
+
+    /// Returns the unknowns in their units.
+    std::vector<double> in_units(const std::vector<double> &scaled) const;
+
+    const MeasuredMotion &way() const
+    {
+      return motion;
+    }
+
+  private:
+    const Scene &scene;
+    const MeasuredMotion &motion;
+    const LeverUnknowns &unknowns;
+  };
+} // namespace sprag
