@@ -11,6 +11,7 @@ from contact import contact
 from fields import fields
 from forces import forces_over_time, forces_over_x
 from frames import written_frames
+from identification import identification, is_identification
 from isolation import is_isolation, is_transmissibility_study, isolation_pictures, transmissibility
 from map import is_map, stability_map
 from pair import has_pair, pair_of_levers
@@ -32,6 +33,8 @@ def draw(results):
         return {**study_pictures(results[0]), "transmissibility": transmissibility(results[0])}
     if len(results) == 1 and is_study(results[0]):
         return study_pictures(results[0])
+    if len(results) == 1 and is_identification(results[0]):
+        return {"identification": identification(results[0])}
     if len(results) == 1 and is_calibration(results[0]):
         return {"calibration": calibration(results[0])}
     if len(results) == 1 and "P_fitted" in results[0].table:

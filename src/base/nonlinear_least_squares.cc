@@ -59,7 +59,7 @@ namespace sprag
     return result;
   }
 
-  LeastSquares least_squares(const Residuals &residuals, const std::vector<double> &start)
+  std::vector<double> least_squares(const Residuals &residuals, const std::vector<double> &start)
   {
     gsl_set_error_handler_off();
     auto parameters      = gsl_multifit_nlinear_default_parameters();
@@ -75,11 +75,9 @@ namespace sprag
 
     const auto begin = gsl_vector_const_view_array(start.data(), start.size());
     gsl_multifit_nlinear_init(&begin.vector, &problem, workspace.get());
-    int reason        = 0;
-    const int status  = gsl_multifit_nlinear_driver(most_rounds, 1e-10, 1e-14, 0., nullptr, nullptr, &reason, workspace.get());
-    const bool at_end = status == GSL_SUCCESS || status == GSL_ENOPROG; // no step lessens the sum any more
-    return { values_of(gsl_multifit_nlinear_position(workspace.get())),
-             static_cast<unsigned int>(gsl_multifit_nlinear_niter(workspace.get())), at_end };
+    int reason = 0;
+    gsl_multifit_nlinear_driver(most_rounds, 1e-10, 1e-14, 0., nullptr, nullptr, &reason, workspace.get());
+    return values_of(gsl_multifit_nlinear_position(workspace.get()));
   }
 
   SingularValues singular_values(const std::vector<double> &matrix, const std::size_t columns)

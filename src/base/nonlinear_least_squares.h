@@ -12,16 +12,10 @@ namespace sprag
   /// Returns d(residual i)/d(unknown j) at i * unknowns + j, by central differences.
   std::vector<double> jacobian(const Residuals &residuals, const std::vector<double> &unknowns);
 
-  struct LeastSquares
-  {
-    std::vector<double> unknowns;
-    unsigned int iterations = 0;
-    bool converged          = false;
-  };
-
   /// Finds the least sum of squares near `start` by the method of Levenberg and Marquardt in its trust region (GSL's
-  /// multifit_nlinear, with geodesic acceleration off). There are at least as many residuals as unknowns.
-  LeastSquares least_squares(const Residuals &residuals, const std::vector<double> &start);
+  /// multifit_nlinear, with geodesic acceleration off): where no step lessens it any more, or after 200
+  /// steps. There are at least as many residuals as unknowns.
+  std::vector<double> least_squares(const Residuals &residuals, const std::vector<double> &start);
 
   /// Singular values, decreasing, and directions of a matrix of few columns.
   struct SingularValues

@@ -73,12 +73,13 @@ namespace sprag
         values.push_back(measured.time[row]);
       const double direction = fit.way().strokes()[stroke].direction;
       values.insert(values.end(), { place.x, place.v, direction, used.count(row) > 0 ? 1. : 0. });
+      const bool is_known = fit.way().covers(row, lag, stroke) && place.x >= 0.;
+      const auto slide    = is_known ? fit.slide(found.lever, found.correction, row, stroke) : std::nullopt;
       for (std::size_t channel = 0; channel < measured.channels.size(); ++channel)
       {
-        const bool is_known = fit.way().covers(row, lag, stroke) && place.x >= 0.;
-        const auto shown    = is_known ? fit.shown(found.lever, found.correction, row, channel, stroke) : std::nullopt;
-        const double value  = measured.channels[channel].values[row];
-        values.insert(values.end(), { value, shown.value_or(unknown), value - shown.value_or(unknown) });
+        const double shown = slide ? fit.shown(found.lever, *slide, channel) : unknown;
+        const double value = measured.channels[channel].values[row];
+        values.insert(values.end(), { value, shown, value - shown });
       }
       result.push_back(values);
     }

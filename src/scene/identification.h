@@ -38,7 +38,7 @@ namespace sprag
   /// Rows of a measurement. Either time or x may be missing.
   struct MeasuredStroke
   {
-    std::vector<double> time; ///< [s], increasing; empty: unknown
+    std::vector<double> time; ///< [s], never falling; empty: unknown
     std::vector<double> x;    ///< [mm]; empty: by the drive
     std::vector<ForceChannel> channels;
 

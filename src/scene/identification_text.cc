@@ -173,8 +173,8 @@ namespace sprag
       if (stroke.rows() < fewest_rows)
         throw InputError("must have at least " + std::to_string(fewest_rows) + " rows, has " + std::to_string(stroke.rows()));
       for (std::size_t i = 0; i < stroke.time.size(); ++i)
-        if (std::isnan(stroke.time[i]) || (i > 0 && stroke.time[i] <= stroke.time[i - 1]))
-          throw InputError(row(i) + "time must be more than in the row before");
+        if (std::isnan(stroke.time[i]) || (i > 0 && stroke.time[i] < stroke.time[i - 1]))
+          throw InputError(row(i) + "time must not be less than in the row before");
       for (std::size_t i = 0; i < stroke.x.size(); ++i)
         if (std::isnan(stroke.x[i]))
           throw InputError(row(i) + "x is missing");

@@ -11,7 +11,9 @@ namespace sprag
   namespace
   {
     constexpr unsigned int most_rounds = 60;
-    constexpr double settled           = 1e-7; ///< change of a scaled unknown in a round
+    constexpr double settled           = 1e-6; ///< change of a scaled unknown in a round
+    constexpr double held_within       = 3.;   ///< scales of an unknown
+    constexpr double same_lag          = 0.5;  ///< rows; a lag that changes by less leaves the values chosen
     constexpr double corrected         = 1e-4; ///< change that the model is not asked again for
 
     /// Fits again and again, each time with the noise, weights, window and correction of the last fit.
@@ -26,6 +28,7 @@ namespace sprag
       {
         for (const auto &number : unknowns.numbers())
           scaled.push_back(number.start / number.scale);
+        start = scaled;
         for (const auto &channel : settings.measured.channels)
           deviations.push_back(deviation_of_neighbours(channel.values));
       }
@@ -52,9 +55,10 @@ namespace sprag
       const LeverUnknowns &unknowns;
       const StrokeFit fit;
       Identification result;
-      std::vector<double> scaled;
+      std::vector<double> scaled, start;
       std::vector<double> deviations; ///< of the channels, by which residuals are scaled
       std::vector<double> corrected_at;
+      std::optional<std::pair<double, double>> selected; ///< window and lag by which values were chosen
 
       void repeat()
       {
@@ -64,14 +68,22 @@ namespace sprag
           correct();
           select();
           const auto weights = robust_weights();
-          const auto found   = least_squares(
-              [&](const auto &at) { return fit.residuals(at, result.used, deviations, result.correction, weights); }, scaled);
-          scaled       = found.unknowns;
-          result.noise = noise_of(result.used, residuals(), deviations, settings.loss, scaled.size());
+          scaled             = least_squares([&](const auto &at) { return held_residuals(at, weights); }, scaled);
+          result.noise       = noise_of(result.used, residuals(), deviations, settings.loss, scaled.size());
           for (std::size_t i = 0; i < deviations.size(); ++i)
             deviations[i] = std::max(result.noise[i].deviation, 1e-12 * largest_of(i));
-          result.converged = found.converged && result.rounds > 0 && is_near(before, settled);
+          result.converged = result.rounds > 0 && is_near(before, settled);
         }
+      }
+
+      /// With a spring to where the search began for each unknown, so weak that it counts only for what the data do not tell:
+      /// that stays near its start.
+      std::vector<double> held_residuals(const std::vector<double> &at, const std::vector<double> &weights) const
+      {
+        auto all = fit.residuals(at, result.used, deviations, result.correction, weights);
+        for (std::size_t i = 0; i < at.size(); ++i)
+          all.push_back((at[i] - start[i]) / held_within);
+        return all;
       }
 
       bool is_near(const std::vector<double> &other, const double most) const
@@ -119,7 +131,11 @@ namespace sprag
 
       void select()
       {
-        result.used = fit.used(result.window, lever().lag);
+        const double lag = lever().lag;
+        if (selected && selected->first == result.window && std::abs(selected->second - lag) <= same_lag * fit.way().spacing())
+          return;
+        selected    = { result.window, lag };
+        result.used = fit.used(result.window, lag);
         if (result.used.size() < 3 * scaled.size())
           throw AnalysisError(std::to_string(result.used.size()) +
                               " values are left behind the reversals' windows, too few for " + std::to_string(scaled.size()) +

@@ -15,7 +15,8 @@ namespace sprag
 {
   namespace
   {
-    constexpr unsigned int polynomial_rows = 61; ///< of the table that a polynomial becomes
+    constexpr unsigned int polynomial_rows = 61;   ///< of the table that a polynomial becomes
+    constexpr double large_share           = 0.25; ///< of R - e and th0: a change that is large
     constexpr double beyond_peak           = 1.25;
 
     double root_mean_square(const std::vector<double> &values)
@@ -55,12 +56,12 @@ namespace sprag
         break;
       case Unknown::interface_offset:
         all.push_back({ "e", "mm", "from the pivot to the friction interface", geometry.interface_offset,
-                        geometry.cylinder_radius - geometry.interface_offset });
+                        large_share * (geometry.cylinder_radius - geometry.interface_offset) });
         break;
       case Unknown::inclination:
       {
         const double theta = kinematics(geometry, 0.).theta;
-        all.push_back({ "th0", "rad", "inclination at x = 0, by the pivot's height", theta, theta });
+        all.push_back({ "th0", "rad", "inclination at x = 0, by the pivot's height", theta, large_share * theta });
         break;
       }
       case Unknown::force_offsets:

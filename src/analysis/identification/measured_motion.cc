@@ -111,8 +111,8 @@ namespace sprag
   {
     const auto &[first, last, direction] = all[stroke];
     if (time.empty())
-      return row >= first && row <= last;
-    return time[row] - lag >= time[first] && time[row] - lag <= time[last];
+      return row > first && row < last;
+    return time[row] - lag > time[first] && time[row] - lag < time[last];
   }
 
   MeasuredMotion::Place MeasuredMotion::at(const std::size_t row, const double lag, const std::size_t stroke) const

@@ -36,7 +36,8 @@ namespace sprag
     /// Returns the stroke of what is measured in a row that comes a lag behind x [s].
     std::size_t stroke_at(std::size_t row, double lag) const;
 
-    /// Returns whether the cylinder was in the stroke a lag before the row.
+    /// Returns whether the cylinder was in the stroke a lag before the row, behind its first row and before its last:
+    /// which way it moves there nobody knows.
     bool covers(std::size_t row, double lag, std::size_t stroke) const;
 
     /// Returns where the cylinder was a lag before the row. Beyond the stroke's ends it goes on at their speed, so that a place

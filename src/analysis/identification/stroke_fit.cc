@@ -40,20 +40,26 @@ namespace sprag
     return result;
   }
 
-  std::optional<double> StrokeFit::shown(const IdentifiedLever &lever, const ModelCorrection &correction, const std::size_t row,
-                                         const std::size_t channel, const std::size_t stroke) const
+  std::optional<StrokeFit::Slide> StrokeFit::slide(const IdentifiedLever &lever, const ModelCorrection &correction,
+                                                   const std::size_t row, const std::size_t stroke) const
   {
     const auto place    = motion.at(row, lever.lag, stroke);
     const int direction = motion.strokes()[stroke].direction;
     const double v      = std::copysign(place.v, direction);
-    const double turn   = kinematics(lever.geometry, place.x).theta - kinematics(lever.geometry, 0.).theta;
-    const auto state    = closed_form(lever.geometry, lever.friction, lever.stiffness * turn, place.x, v);
-    const double arm    = state.contact.s + direction * state.mu * lever.geometry.interface_offset;
+    const auto contact  = kinematics(lever.geometry, place.x);
+    const double moment = lever.stiffness * (contact.theta - kinematics(lever.geometry, 0.).theta);
+    const auto state    = closed_form(lever.geometry, lever.friction, moment, contact, v);
+    const double arm    = contact.s + direction * state.mu * lever.geometry.interface_offset;
     if (!(arm > 0.) || !std::isfinite(state.P) || state.mu < 0.)
       return std::nullopt;
     const auto more = correction(place.x, direction);
+    return Slide{ state.P + more.P, state.Q + more.Q };
+  }
+
+  double StrokeFit::shown(const IdentifiedLever &lever, const Slide &slide, const std::size_t channel) const
+  {
     const bool is_Q = scene.identification.measured.channels[channel].force == MeasuredForce::drive;
-    return (is_Q ? state.Q + more.Q : state.P + more.P) + lever.offsets[channel];
+    return (is_Q ? slide.Q : slide.P) + lever.offsets[channel];
   }
 
   std::vector<double> StrokeFit::in_units(const std::vector<double> &scaled) const
@@ -72,11 +78,14 @@ namespace sprag
     try
     {
       const auto lever = unknowns.lever(in_units(scaled));
+      std::optional<Slide> of_row;
       for (std::size_t i = 0; i < values.size(); ++i)
       {
         const auto &[row, channel, stroke, value] = values[i];
-        if (const auto force = shown(lever, correction, row, channel, stroke))
-          result[i] = (value - *force) / deviations[channel];
+        if (i == 0 || row != values[i - 1].row)
+          of_row = slide(lever, correction, row, stroke);
+        if (of_row)
+          result[i] = (value - shown(lever, *of_row, channel)) / deviations[channel];
         if (!weights.empty())
           result[i] *= std::sqrt(weights[i]);
       }

@@ -28,9 +28,19 @@ namespace sprag
     /// peak.
     std::vector<UsedValue> used(double window, double lag) const;
 
-    /// Returns what a channel shows, offset and correction included [N]; none where the lever has no slide there.
-    std::optional<double> shown(const IdentifiedLever &lever, const ModelCorrection &correction, std::size_t row,
-                                std::size_t channel, std::size_t stroke) const;
+    /// Forces of the lever, correction included [N].
+    struct Slide
+    {
+      double P;
+      double Q;
+    };
+
+    /// Returns the forces at a row; none where the lever has no slide there.
+    std::optional<Slide> slide(const IdentifiedLever &lever, const ModelCorrection &correction, std::size_t row,
+                               std::size_t stroke) const;
+
+    /// Returns what a channel shows of them, offset included [N].
+    double shown(const IdentifiedLever &lever, const Slide &slide, std::size_t channel) const;
 
     /// Returns measured less shown over the standard deviation of the channel and times the square root of the weight, where
     /// there are weights; large numbers where the lever has no slide.
