@@ -5,6 +5,7 @@ Identification (params/identification.md) reads the table. One plans a measureme
 """
 
 import sys
+from pathlib import Path
 
 import numpy as np
 
@@ -40,7 +41,7 @@ def write(table, path):
 @script
 def main(arguments=None):
     parser = parser_of(__doc__)
-    parser.add_argument("folder", help="result folder of a run along a drive")
+    parser.add_argument("folder", type=Path, help="result folder of a run along a drive")
     parser.add_argument("-o", "--output", required=True, help="CSV file to write")
     parser.add_argument("--rate", type=float, default=500.0, help="rows a second (default 500)")
     parser.add_argument("--noise", type=float, default=0.1, help="standard deviation of P and Q [N] (default 0.1)")
