@@ -1,9 +1,9 @@
+#include "base/text.h"
 #include "messages.h"
 #include "scene/identification_text.h"
 #include "support/temporary_folder.h"
 
 #include <cmath>
-#include <hdf5.h>
 
 using namespace sprag;
 

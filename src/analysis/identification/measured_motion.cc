@@ -140,6 +140,11 @@ namespace sprag
     return all[stroke].direction * (at(row, lag, stroke).x - x[all[stroke].first]);
   }
 
+  double MeasuredMotion::length(const std::size_t stroke) const
+  {
+    return std::abs(x[all[stroke].last] - x[all[stroke].first]);
+  }
+
   double MeasuredMotion::spacing() const
   {
     return time.size() < 2 ? 0. : (time.back() - time.front()) / static_cast<double>(time.size() - 1);

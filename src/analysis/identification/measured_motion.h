@@ -47,6 +47,9 @@ namespace sprag
     /// Returns how far the cylinder has gone in the stroke a lag before the row [mm].
     double travel(std::size_t row, double lag, std::size_t stroke) const;
 
+    /// Returns the distance between the ends of a stroke [mm].
+    double length(std::size_t stroke) const;
+
     double peak_speed() const
     {
       return fastest;

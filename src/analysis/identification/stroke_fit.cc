@@ -1,6 +1,7 @@
 #include "analysis/identification/stroke_fit.h"
 
 #include "base/errors.h"
+#include "scene/analysis_use.h"
 #include "scene/closed_form.h"
 
 #include <algorithm>
@@ -10,14 +11,25 @@ namespace sprag
 {
   namespace
   {
-    constexpr double least_speed = 0.02; ///< over the peak; below that friction may be in stick
-    constexpr double impossible  = 1e6;  ///< standard deviations
-  }                                      // namespace
+    constexpr double least_speed   = 0.02; ///< over the peak; below that friction may be in stick
+    constexpr double end_of_stroke = 0.02; ///< of its length: there the drive slows down to turn
+    constexpr double impossible    = 1e6;  ///< standard deviations
+
+    /// Returns the second derivative of theta over x: theta_x = sin^2 th / ((R - e) cos th - h) [rad/mm^2].
+    double curvature(const Geometry &geometry, const Kinematics &contact)
+    {
+      const double sine  = std::sin(contact.theta);
+      const double arm   = geometry.cylinder_radius - geometry.interface_offset;
+      const double below = arm * std::cos(contact.theta) - geometry.pivot_height;
+      return contact.theta_x * sine * (2. * std::cos(contact.theta) * below + arm * sine * sine) / (below * below);
+    }
+  } // namespace
 
   StrokeFit::StrokeFit(const Scene &of_lever, const MeasuredMotion &of_cylinder, const LeverUnknowns &of_fit)
       : scene(of_lever)
       , motion(of_cylinder)
       , unknowns(of_fit)
+      , inertia(identifies_by_model(scene) ? scene.lever.moment_of_inertia : 0.)
   {
   }
 
@@ -31,7 +43,8 @@ namespace sprag
       const auto place  = motion.at(row, lag, stroke);
       const bool slides =
           motion.covers(row, lag, stroke) && place.x > 0. && std::abs(place.v) > least_speed * motion.peak_speed();
-      if (!slides || motion.travel(row, lag, stroke) <= window)
+      const double travel = motion.travel(row, lag, stroke);
+      if (!slides || travel <= window || travel > (1. - end_of_stroke) * motion.length(stroke))
         continue;
       for (std::size_t channel = 0; channel < measured.channels.size(); ++channel)
         if (const double value = measured.channels[channel].values[row]; !std::isnan(value))
@@ -47,7 +60,8 @@ namespace sprag
     const int direction = motion.strokes()[stroke].direction;
     const double v      = std::copysign(place.v, direction);
     const auto contact  = kinematics(lever.geometry, place.x);
-    const double moment = lever.stiffness * (contact.theta - kinematics(lever.geometry, 0.).theta);
+    const double spring = lever.stiffness * (contact.theta - kinematics(lever.geometry, 0.).theta);
+    const double moment = spring + inertia * curvature(lever.geometry, contact) * v * v;
     const auto state    = closed_form(lever.geometry, lever.friction, moment, contact, v);
     const double arm    = contact.s + direction * state.mu * lever.geometry.interface_offset;
     if (!(arm > 0.) || !std::isfinite(state.P) || state.mu < 0.)

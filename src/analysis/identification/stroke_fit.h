@@ -24,8 +24,8 @@ namespace sprag
   public:
     StrokeFit(const Scene &scene, const MeasuredMotion &motion, const LeverUnknowns &unknowns);
 
-    /// Returns the values that count with this window behind each turn [mm] and lag: x > 0, and a speed of more than 2 % of the
-    /// peak.
+    /// Returns the values that count with this window behind each turn [mm] and lag: x > 0, a speed of more than 2 % of the
+    /// peak, and not the last 2 % of a stroke, in which the drive slows down to turn.
     std::vector<UsedValue> used(double window, double lag) const;
 
     /// Forces of the lever, correction included [N].
@@ -60,5 +60,6 @@ namespace sprag
     const Scene &scene;
     const MeasuredMotion &motion;
     const LeverUnknowns &unknowns;
+    const double inertia; ///< J, which a steady speed already turns unevenly [t mm^2]; 0 for the closed form
   };
 } // namespace sprag

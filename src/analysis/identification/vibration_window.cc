@@ -21,15 +21,6 @@ namespace sprag
       double squares = 0.;
     };
 
-    double smallest_travel(const MeasuredMotion &motion)
-    {
-      double smallest = INFINITY;
-      for (const auto &stroke : motion.strokes())
-        smallest = std::min(smallest, std::abs(motion.at(stroke.last, 0., &stroke - motion.strokes().data()).x -
-                                               motion.at(stroke.first, 0., &stroke - motion.strokes().data()).x));
-      return smallest;
-    }
-
     double most_of_noise(const ChannelNoise &noise, const std::size_t rows)
     {
       const double of_group = std::max(1., static_cast<double>(rows) / noise.correlation);
@@ -40,7 +31,10 @@ namespace sprag
 
   double largest_window(const MeasuredMotion &motion)
   {
-    return 0.25 * smallest_travel(motion);
+    double shortest = motion.length(0);
+    for (std::size_t stroke = 1; stroke < motion.strokes().size(); ++stroke)
+      shortest = std::min(shortest, motion.length(stroke));
+    return 0.25 * shortest;
   }
 
   VibrationWindow vibration_window(const StrokeFit &fit, const std::vector<std::pair<UsedValue, double>> &residuals,
