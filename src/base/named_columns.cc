@@ -129,12 +129,14 @@ namespace sprag
 
       double value_of(const std::string &cell)
       {
+        if (cell.empty() || cell == "nan" || cell == "NaN")
+          return missing;
         const auto value = leading_number(cell);
         if (value && value->rest.empty())
           return value->value;
         if (const auto pointed = with_decimal_point(cell))
           mistake(cell + ": numbers need a decimal point: " + *pointed);
-        else if (!cell.empty() && cell != "nan" && cell != "NaN")
+        else
           mistake(cell + ": must be a number");
         return missing;
       }

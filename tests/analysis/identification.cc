@@ -198,7 +198,7 @@ TEST(Identification, FindsATableOfFriction)
   Scene scene                          = truth;
   scene.friction.law                   = CoulombFriction{ 0.6 };
   scene.identification.sought          = { Unknown::friction_table };
-  scene.identification.friction_speeds = { 10., 40., 70., 100., 130., 170. };
+  scene.identification.friction_speeds = { 5., 35., 70., 110., 150., 185. };
   scene.identification.measured        = measured(sampled(truth, 1e-3), { 0.02, 0. }, 1);
   const auto found                     = identified(scene);
   for (const double speed : { 40., 70., 100., 130. })
@@ -238,15 +238,16 @@ TEST(Identification, HubersLossBearsOutliers)
   const auto spoilt = [&](const unsigned int seed)
   {
     auto stroke = measured(rows, { 0.2, 0. }, seed);
-    for (std::size_t i = 0; i < stroke.rows(); i += 25)
+    for (std::size_t i = stroke.rows() / 2; i < stroke.rows(); i += 12) // of the way back
       stroke.channels[1].values[i] += 20.;
     return stroke;
   };
   scene.identification.measured = spoilt(1);
-  EXPECT_FALSE(holds(number(identified(scene), "mu"), 0.73));
-  scene.identification.loss = IdentificationLoss::huber;
-  const auto found          = identified(scene);
+  const double by_squares       = number(identified(scene), "mu").deviation;
+  scene.identification.loss     = IdentificationLoss::huber;
+  const auto found              = identified(scene);
   EXPECT_NEAR(number(found, "mu").value, 0.73, 5e-3);
+  EXPECT_LT(number(found, "mu").deviation, by_squares / 3.);
   EXPECT_NEAR(found.noise[1].deviation, 0.2, 0.03);
 }
 
@@ -280,9 +281,7 @@ protected:
 
   static Scene scene_of_beam()
   {
-    Scene scene       = in_time(with_coulomb(model_a(), 0.73), ModelType::beam);
-    scene.lever.depth = 12.;
-    return scene;
+    return with_lever(in_time(with_coulomb(model_a(), 0.73), ModelType::beam), 20., 9541.32, 1.45485);
   }
 
   Scene scene(const ModelType model) const
@@ -307,7 +306,7 @@ TEST_F(IdentificationInTime, LeavesTheVibrationOutAndCorrectsFlexure)
 TEST_F(IdentificationInTime, TellsKTooLowWhereFlexureIsNotCorrected)
 {
   Scene rigid                   = scene(ModelType::closed_form);
-  rigid.identification.measured = measured(rows, { 0.2, 0. }, 1);
+  rigid.identification.measured = measured(rows, { 0.05, 0. }, 1);
   const auto found              = number(identified(rigid), "k");
   EXPECT_LT(found.high, 7.4e4);
 }

@@ -72,17 +72,18 @@ TEST_F(RunIdentification, WritesALawOfFrictionAsATable)
 {
   run(identification({ "Identification/Unknowns=mu table", "Identification/Friction speeds=60, 80, 100, 120" }), output);
   const auto found = read_scene(output + "/identified.prm", {});
-  EXPECT_EQ(std::get<TabulatedFriction>(found.friction.law).knots().size(), 4u);
+  EXPECT_TRUE(std::holds_alternative<TabulatedFriction>(found.friction.law));
   EXPECT_NEAR(sliding_friction(found, 30., 112.).coefficient, 0.73, 1e-3);
   EXPECT_TRUE(std::filesystem::exists(output + "/identified-friction.csv"));
 }
 
 TEST_F(RunIdentification, WarnsOfWhatTheDataCannotTell)
 {
-  const auto warnings = run(identification({ "Identification/Unknowns=mu polynomial", "Friction/Speed=drive" }), output);
+  const auto warnings =
+      run(identification({ "Identification/Unknowns=mu table", "Identification/Friction speeds=200, 300, 400, 500" }), output);
   ASSERT_FALSE(warnings.empty());
   EXPECT_EQ(warnings.front().name, "indistinct_unknowns");
-  EXPECT_NE(warnings.front().found.find("mu_0, mu_1 and mu_2 apart"), std::string::npos) << warnings.front().found;
+  EXPECT_NE(warnings.front().found.find("do not tell mu_at_500."), std::string::npos) << warnings.front().found;
 }
 
 TEST_F(RunIdentification, KeepsWhyNothingWasFound)

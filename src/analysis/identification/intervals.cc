@@ -14,6 +14,7 @@ namespace sprag
   {
     constexpr double huber             = 1.345; ///< standard deviations; 95 % as good as least squares for normal noise
     constexpr double unknown_from      = 0.5;   ///< half-width of an interval over the scale of what is unknown then
+    constexpr double slowest_decay     = 0.98;  ///< of the autocorrelation from row to row
     constexpr double weak_from         = 0.98;  ///< correlation of two unknowns
     constexpr double part_of_largest   = 0.2;   ///< components of a direction that name their unknowns
     constexpr double smallest_singular = 1e-10; ///< over the largest: what is below is round-off
@@ -36,15 +37,18 @@ namespace sprag
       std::size_t longest = 0;
       for (const auto &stroke : strokes)
         longest = std::max(longest, stroke.size());
-      double sum = 1.;
+      double sum = 1., last = 0., rate = 0.;
       for (std::size_t distance = 1; distance < longest / 2; ++distance)
       {
         const double found = autocorrelation(strokes, distance);
         if (found < 2. / std::sqrt(rows))
           break;
         sum += 2. * found;
+        last = found;
+        rate = distance == 1 ? found : rate;
       }
-      return sum;
+      // What follows decays as from the first row to the second.
+      return sum + 2. * last * rate / (1. - std::min(rate, slowest_decay));
     }
 
     std::vector<std::string> names_in(const SingularValues &singular, const std::size_t direction,
@@ -139,7 +143,6 @@ namespace sprag
                                      const std::size_t unknowns)
   {
     std::vector<ChannelNoise> result(deviations.size());
-    const double free_share = 1. - static_cast<double>(unknowns) / static_cast<double>(values.size());
     for (std::size_t channel = 0; channel < result.size(); ++channel)
     {
       std::vector<std::vector<double>> strokes;
@@ -164,6 +167,9 @@ namespace sprag
       if (sizes.empty())
         continue;
       noise.correlation = correlation_of(strokes, noise.rows);
+      // The fit has taken its share of the independent ones.
+      const double taken      = static_cast<double>(unknowns) * noise.correlation / static_cast<double>(values.size());
+      const double free_share = 1. - std::min(taken, 0.9);
       if (loss == IdentificationLoss::squares)
         noise.deviation = deviations[channel] * std::sqrt(squares / noise.rows / free_share);
       else

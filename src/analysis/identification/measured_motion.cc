@@ -89,11 +89,14 @@ namespace sprag
     std::vector<double> result;
     for (std::size_t row = stroke.first; row <= stroke.last; ++row)
     {
-      const auto from = row > stroke.first + each_way ? row - each_way : stroke.first;
-      const auto to   = std::min(row + each_way, stroke.last) + 1;
+      // As many rows each way: the line's slope is then good to second order where the speed changes.
+      const auto room = std::max<std::size_t>(1, std::min({ each_way, row - stroke.first, stroke.last - row }));
+      const auto from = std::max(row, stroke.first + room) - room;
+      const auto to   = std::min(row + room, stroke.last) + 1;
       const auto part = [&](const std::vector<double> &values)
       { return std::vector<double>(values.begin() + from, values.begin() + to); };
-      result.push_back(to - from < 2 ? 0. : fitted_line(part(time), part(x)).slope);
+      const auto times = part(time);
+      result.push_back(times.back() > times.front() ? fitted_line(times, part(x)).slope : 0.);
     }
     return result;
   }
