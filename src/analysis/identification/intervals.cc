@@ -14,6 +14,7 @@ namespace sprag
   {
     constexpr double huber             = 1.345; ///< standard deviations; 95 % as good as least squares for normal noise
     constexpr double unknown_from      = 0.5;   ///< half-width of an interval over the scale of what is unknown then
+    constexpr double deviation_of_lost = 1e6;   ///< scales of an unknown that the data do not feel at all
     constexpr double slowest_decay     = 0.98;  ///< of the autocorrelation from row to row
     constexpr double weak_from         = 0.98;  ///< correlation of two unknowns
     constexpr double part_of_largest   = 0.2;   ///< components of a direction that name their unknowns
@@ -90,10 +91,10 @@ namespace sprag
       }
       for (std::size_t a = 0; a < n; ++a)
       {
-        const double least = smallest_singular * singular.values[0];
-        inverse[a]         = 1. / std::max(singular.values[a], least);
-        if (singular.values[a] <= least)
-          middle[a * n + a] = 1.; // what nothing is known of
+        const bool is_lost = singular.values[a] <= smallest_singular * singular.values[0];
+        inverse[a]         = is_lost ? deviation_of_lost : 1. / singular.values[a];
+        if (is_lost)
+          middle[a * n + a] = 1.;
       }
       for (std::size_t i = 0; i < n; ++i)
         for (std::size_t j = 0; j < n; ++j)
