@@ -69,7 +69,7 @@ def draw_residual(axes, result, force):
     for side in (-2, 2):
         axes.axhline(side * noise, color="black", linewidth=0.6, linestyle=(0, (4, 3)))
     left = np.abs(table[f"{force}_residual"][table["used"] > 0])
-    axes.set_ylim(*(1.45 * max(left.max(), 2 * noise) * np.array((-1, 1))))
+    axes.set_ylim(*(1.7 * max(left.max(), 2 * noise) * np.array((-1, 1))))
     axes.set_xlabel("$x$ [mm]")
     axes.set_ylabel(label_of(force, "measured less fitted "))
 
@@ -109,5 +109,6 @@ def draw_correlation(axes, group):
     axes.set_yticks(range(len(names)), words)
     for (row, column), value in np.ndenumerate(matrix):
         colour = "white" if abs(value) > 0.6 else "black"
-        axes.annotate(f"{value:.2f}", (column, row), ha="center", va="center", fontsize=6 if len(names) < 7 else 4.5, color=colour)
+        text = f"{value:.3f}" if 0.99 < abs(value) < 0.9995 else f"{value:.2f}"
+        axes.annotate(text, (column, row), ha="center", va="center", fontsize=6 if len(names) < 7 else 4.5, color=colour)
     axes.set_ylabel("correlation of the unknowns")

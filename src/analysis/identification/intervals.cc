@@ -204,7 +204,8 @@ namespace sprag
         result.correlation[i * n + j] = covariances[i * n + j] / std::sqrt(covariances[i * n + i] * covariances[j * n + j]);
     }
     tell_indistinct(covariances, unknowns, result);
-    tell_weak(unknowns, result);
+    if (result.indistinct.empty())
+      tell_weak(unknowns, result);
     result.singular.left.clear();
     return result;
   }

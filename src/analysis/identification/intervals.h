@@ -39,7 +39,7 @@ namespace sprag
     double quantile = 0.;                ///< of Student's t for the confidence asked for, two-sided
     double freedom  = 0.;                ///< degrees of freedom: effective rows less unknowns, at least 1
     std::vector<std::string> indistinct; ///< sentences: what the data cannot find or tell apart
-    std::vector<std::string> weak;       ///< sentences: what they tell apart badly
+    std::vector<std::string> weak;       ///< sentences: what they tell apart badly, where they tell all
   };
 
   /// `jacobian` is that of residuals over the deviations of `noise`, without weights.
