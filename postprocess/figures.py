@@ -151,6 +151,7 @@ FIGURES = {
     "leaf-b": lambda run: forces_over_x([run("leaf-b")]),
     "calibration-a": drawn("calibration-a", "calibration"),
     "calibration-b": drawn("calibration-b", "calibration"),
+    "identification-a": drawn("identification-a", "identification"),
     # Other laws, methods and limits.
     **{name: drawn(name, "forces-over-x") for name in ("coulomb-a", "neo-hookean-a", "augmented-lagrangian-a")},
     **{name: drawn(name, "forces-over-x") for name in ("stiff-a", "stiff-b")},

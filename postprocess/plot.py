@@ -12,6 +12,7 @@ from design import design_pictures, is_design
 from fields import fields
 from forces import forces_over_time, forces_over_x
 from frames import written_frames
+from identification import identification, is_identification
 from isolation import is_isolation, is_transmissibility_study, isolation_pictures, transmissibility
 from map import is_map, stability_map
 from pair import has_pair, pair_of_levers
@@ -36,6 +37,8 @@ def draw(results):
         return study_pictures(results[0])
     if len(results) == 1 and is_design(results[0]):
         return design_pictures(results[0])
+    if len(results) == 1 and is_identification(results[0]):
+        return {"identification": identification(results[0])}
     if len(results) == 1 and is_calibration(results[0]):
         return {"calibration": calibration(results[0])}
     if len(results) == 1 and "P_fitted" in results[0].table:

@@ -68,6 +68,10 @@ namespace sprag
   /// ledger leaves more open than Analysis/Maximum energy residual.
   void run_sprag_slip(const Scene &scene, const RunOptions &options, Warnings &warnings);
 
+  /// Finds what the scene asks for from its measured stroke and writes the scene with it. Throws AnalysisError too where nothing
+  /// can be found.
+  void run_identification(const Scene &scene, const RunOptions &options, Warnings &warnings);
+
   /// Makes parts that have the k and J asked for and finds the constants of the reduced models for them.
   void run_calibration(const Scene &scene, const RunOptions &options, Warnings &warnings);
 } // namespace sprag

@@ -45,6 +45,7 @@ namespace sprag
                                                       { AnalysisType::calibration, run_calibration },
                                                       { AnalysisType::isolation, run_isolation_by_models },
                                                       { AnalysisType::design, run_design },
+                                                      { AnalysisType::identification, run_identification },
                                                       { AnalysisType::study, run_study } };
     if (follows_formulas(scene))
       run_formulas(scene, options, warnings);

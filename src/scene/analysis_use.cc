@@ -39,10 +39,15 @@ namespace sprag
            std::find(judges.begin(), judges.end(), DesignJudge::condensed) != judges.end();
   }
 
+  bool identifies_by_model(const Scene &scene)
+  {
+    return scene.analysis.type == AnalysisType::identification && scene.analysis.model != ModelType::closed_form;
+  }
+
   bool needs_mesh(const Scene &scene)
   {
     const AnalysisType type = scene.analysis.type;
-    if (runs_model(type) || isolates_by_model(scene))
+    if (runs_model(type) || isolates_by_model(scene) || identifies_by_model(scene))
       return is_meshed(scene.analysis.model);
     return type == AnalysisType::contact_law || type == AnalysisType::calibration;
   }

@@ -22,6 +22,9 @@ namespace sprag
   /// Returns whether levers that a design proposes are meshed for a judge.
   bool is_judged_by_mesh(const Scene &scene);
 
+  /// Returns whether a model corrects the closed form by which a measured stroke is identified.
+  bool identifies_by_model(const Scene &scene);
+
   /// Returns whether anything of the scene is meshed, apart from a leaf spring and the levers of a design.
   bool needs_mesh(const Scene &scene);
 

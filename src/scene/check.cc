@@ -109,13 +109,15 @@ namespace sprag
       const bool in_time       = type == AnalysisType::transient;
       const bool held          = holds_slide(type); ///< the slide, at one x
       const bool isolated      = isolates_by_model(scene);
-      const bool transient     = in_time || held || isolated; ///< with inertia
+      const bool corrected     = identifies_by_model(scene);
+      const bool transient     = in_time || held || isolated || corrected; ///< of models with inertia
       const bool follows_drive = runs_model(type);
       const bool calibrated    = type == AnalysisType::calibration;
-      const bool positions = follows_drive || calibrated || type == AnalysisType::contact_law; ///< puts the cylinder somewhere
-      const bool meshed    = needs_mesh(scene);
-      const bool lever     = meshed || (transient && scene.analysis.model != ModelType::closed_form); ///< has dimensions
-      const bool own_mesh  = meshed && !scene.mesh.file.empty();
+      const bool positions =
+          follows_drive || corrected || calibrated || type == AnalysisType::contact_law; ///< puts the cylinder somewhere
+      const bool meshed   = needs_mesh(scene);
+      const bool lever    = meshed || (transient && scene.analysis.model != ModelType::closed_form); ///< has dimensions
+      const bool own_mesh = meshed && !scene.mesh.file.empty();
     };
 
     void mesh_and_material(const Scene &scene, const Use &use, Rules &rules)
@@ -295,6 +297,8 @@ namespace sprag
         locked(scene, rules);
       if (rules.broken.empty() && use.type == AnalysisType::isolation)
         check_isolation(scene, rules);
+      if (rules.broken.empty() && use.type == AnalysisType::identification)
+        check_identification(scene, rules);
       return rules.broken;
     }
   } // namespace

@@ -41,6 +41,9 @@ namespace sprag
   /// for scenes of three dimensions.
   void check_solid(const Scene &scene, Rules &rules);
 
+  /// Checks the lever and the way of a measured stroke. The geometry must be in range.
+  void check_identification(const Scene &scene, Rules &rules);
+
   /// Checks table, damper and base of an isolation system. The geometry must be in range.
   void check_isolation(const Scene &scene, Rules &rules);
 

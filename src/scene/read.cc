@@ -10,6 +10,7 @@
 #include "scene/design_text.h"
 #include "scene/discretisation.h"
 #include "scene/held_slide.h"
+#include "scene/identification_text.h"
 #include "scene/isolation_tables.h"
 #include "scene/sections.h"
 #include "scene/variation.h"
@@ -64,7 +65,7 @@ namespace sprag
         store();
         make_drive();
         make_friction();
-        make_isolation();
+        make_analyses();
         check_unused();
         check();
         check_ranges();
@@ -105,6 +106,7 @@ namespace sprag
         resolve("Friction/Table", input.friction.table);
         resolve("Mesh/File", input.scene.mesh.file);
         resolve("Condensed/Cache", input.scene.condensed.cache);
+        resolve("Identification/Table", input.scene.identification.table);
         resolve("Isolation/Loop table", input.scene.isolation.loop_file);
         resolve("Isolation/Base table", input.scene.isolation.base_file);
         make_time_tolerance();
@@ -113,13 +115,14 @@ namespace sprag
       }
 
       /// Until it is chosen, the model is the dearest that a choice may end at. Under a table levers are those of the closed form
-      /// unless another model is given; the printed parameters then give it.
+      /// unless another model is given, and so is the lever of a measured stroke; the printed parameters then give it.
       void make_model()
       {
         Scene &scene = input.scene;
         const auto type =
             scene.analysis.type == AnalysisType::study ? scene.study.type : scene.analysis.type; // of the runs themselves
-        if (type == AnalysisType::isolation && settings.given.count("Analysis/Model") == 0)
+        const bool is_closed = type == AnalysisType::isolation || type == AnalysisType::identification;
+        if (is_closed && settings.given.count("Analysis/Model") == 0)
         {
           scene.analysis.model                   = ModelType::closed_form;
           settings.given["Analysis/Model"].value = "closed form";
@@ -185,8 +188,8 @@ namespace sprag
                     [&law](const auto &table) { law.law = TabulatedFriction(table.first, table.second); });
       }
 
-      /// A design may ask for what an isolated table does.
-      void make_isolation()
+      /// What the texts and tables of single analyses say. A design may ask for what an isolated table does.
+      void make_analyses()
       {
         const auto tell = [this](const auto &name, const auto &rule) { report(name, rule); };
         const auto type = input.scene.analysis.type;
@@ -194,6 +197,8 @@ namespace sprag
           read_isolation_tables(input.scene.isolation, tell);
         if (type == AnalysisType::design)
           read_design(input.scene.design, parameters, tell);
+        if (type == AnalysisType::identification)
+          read_identification(input.scene.identification, tell);
       }
 
       void check()

@@ -4,6 +4,7 @@
 #include "scene/apparatus.h"
 #include "scene/design.h"
 #include "scene/drive.h"
+#include "scene/identification.h"
 #include "scene/isolation.h"
 
 #include <map>
@@ -23,15 +24,16 @@ namespace sprag
     quasi_static,
     slope,
     transient,
-    contact_law, ///< indentation by finite elements, from which the contact law of the reduced models is fitted
-    modal,       ///< undamped modes of the lever at one x, out of contact or in it
-    stability,   ///< eigenvalues of the steady slide, what feeds them, and where it loses stability or jams
-    map,         ///< the same over a grid of two parameters
-    sprag_slip,  ///< the steady slide perturbed, in time, against its eigenvalue; limit cycles
-    calibration, ///< leaf thickness and added mass for a given k and J; constants of the reduced models for a mesh
-    isolation,   ///< a table on a spring and a damper over a base that moves
-    design,      ///< the lever that meets demands, and the best of them by an aim
-    study        ///< any of these but map and design, run after run at other values of the parameters
+    contact_law,    ///< indentation by finite elements, from which the contact law of the reduced models is fitted
+    modal,          ///< undamped modes of the lever at one x, out of contact or in it
+    stability,      ///< eigenvalues of the steady slide, what feeds them, and where it loses stability or jams
+    map,            ///< the same over a grid of two parameters
+    sprag_slip,     ///< the steady slide perturbed, in time, against its eigenvalue; limit cycles
+    calibration,    ///< leaf thickness and added mass for a given k and J; constants of the reduced models for a mesh
+    isolation,      ///< a table on a spring and a damper over a base that moves
+    identification, ///< friction, spring and geometry from a measured stroke
+    design,         ///< the lever that meets demands, and the best of them by an aim
+    study           ///< any of these but map and design, run after run at other values of the parameters
   };
 
   enum class ModelType
@@ -374,6 +376,7 @@ namespace sprag
     CalibrationSettings calibration;
     IsolationSettings isolation;
     DesignSettings design;
+    IdentificationSettings identification;
     AccuracySettings accuracy;
     std::string name; ///< file name without folder and ending
 

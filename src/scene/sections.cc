@@ -20,16 +20,17 @@ namespace sprag
     void analysis(Section section, SceneSettings &input)
     {
       AnalysisSettings &settings = input.scene.analysis;
-      section.choice(
-          "Type", settings.type,
-          joined(types_of_a_run,
-                 { { "map", AnalysisType::map }, { "design", AnalysisType::design }, { "study", AnalysisType::study } }),
-          "Follow the drive without inertia, sweep the representative slope C_Q, follow the drive with inertia, fit "
-          "the contact of rigid and beam to finite elements, find vibration modes at one x, judge whether the slide "
-          "there is stable, perturb it in time and follow it to its limit cycle, make parts that have a given k and J "
-          "and tell the constants of the reduced models, move the base of an isolation system, judge slides over two "
-          "parameters, find the lever that meets demands, or run any of these but the last two at other values of any "
-          "parameters");
+      section.choice("Type", settings.type,
+                     joined(types_of_a_run, { { "map", AnalysisType::map },
+                                              { "identification", AnalysisType::identification },
+                                              { "design", AnalysisType::design },
+                                              { "study", AnalysisType::study } }),
+                     "Follow the drive without inertia, sweep the representative slope C_Q, follow the drive with inertia, fit "
+                     "the contact of rigid and beam to finite elements, find vibration modes at one x, judge whether the slide "
+                     "there is stable, perturb it in time and follow it to its limit cycle, make parts that have a given k and J "
+                     "and tell the constants of the reduced models, move the base of an isolation system, judge slides over two "
+                     "parameters, find friction, spring and geometry from a measured stroke, find the lever that meets demands, "
+                     "or run any of these but the last three at other values of any parameters");
       section.choice("Model", input.model,
                      { { "auto", std::nullopt },
                        { "closed form", ModelType::closed_form },
@@ -355,6 +356,7 @@ namespace sprag
     sprag_slip({ all, "Sprag slip" }, scene.sprag_slip);
     add_isolation_parameters(scene, all);
     add_design_parameters(scene, all);
+    add_identification_parameters(scene, all);
     accuracy({ all, "Accuracy" }, scene.accuracy);
     return all;
   }

@@ -159,6 +159,7 @@ namespace
     return scene_of(folder, { "Mesh/File=" + folder.write("lever.geo", mesh_script()), "Drive/Profile=table",
                               "Drive/Table=" + folder.write("drive.csv", drive_table(60.)), "Friction/Law=table",
                               "Friction/Table=" + folder.write("mu.csv", friction_table(0.5)),
+                              "Identification/Table=" + folder.write("stroke.csv", drive_table(3.)),
                               "Isolation/Base table=" + folder.write("base.csv", drive_table(1.)),
                               "Isolation/Loop table=" + folder.write("loop.csv", drive_table(2.)) });
   }
@@ -330,13 +331,14 @@ TEST(EveryParameter, FilesCountByWhatTheyHold)
                                                                                     { "mu.csv", friction_table(0.51) },
                                                                                     { "base.csv", drive_table(1.1) },
                                                                                     { "loop.csv", drive_table(2.1) },
+                                                                                    { "stroke.csv", drive_table(3.1) },
                                                                                     { "lever.geo", mesh_script() + "// more\n" },
                                                                                     { "depth.geo", "h = 21;\n" } })
   {
     folder.write(file, text);
     const Scene changed = variant(scene, {});
     EXPECT_NE(scene_key(changed), key) << file;
-    EXPECT_EQ(body_key(changed) == body, file == "mu.csv" || file == "base.csv" || file == "loop.csv") << file;
+    EXPECT_EQ(body_key(changed) == body, file != "drive.csv" && file.find(".geo") == std::string::npos) << file;
     expect_shared_is_fresh(scene, changed, file);
     from_files(folder);
     EXPECT_EQ(scene_key(scene), key) << file;

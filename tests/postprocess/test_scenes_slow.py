@@ -33,6 +33,7 @@ PICTURES = {
     "pair-stability-a": ({"Stability/Critical": "Friction/Factor 0.9 1.1"}, {"modes", "stability"}),
     "modal-a": (COARSE, {"modes"}),
     "calibration-a": ({"Mesh/Face size": 4}, {"calibration"}),
+    "identification-a": ({}, {"identification"}),
     "contact-law-a": (COARSE, {"contact-law"}),
     "map-friction-depth-a": ({"Map/First points": 4, "Map/Second points": 4, "Map/Coarsest": 1, "Map/Bisections": 1}, {"map"}),
     "isolation-a": ({}, {"motion", "loop"}),
@@ -48,7 +49,7 @@ PICTURES = {
     ),
 }
 # Whose columns are described by the files alone.
-OWN_COLUMNS = ("calibration-a", "study-a", "study-transmissibility-a")
+OWN_COLUMNS = ("calibration-a", "identification-a", "study-a", "study-transmissibility-a")
 
 
 class ScenesTest(PictureTest):

@@ -252,6 +252,13 @@ class ScenesTest(RunTest):
         for scene in ("calibrated", "beam"):
             self.assertEqual(sprag(Path(file.filename).parent / f"{scene}.prm", "--validate").returncode, 0)
 
+    def check_identification(self, file):
+        summary = {name: data[()] for name, data in file["summary"].items()}
+        for name, truth in {"mu": 0.73, "k": 7.4e4, "e": 45.6, "th0": 0.0560941}.items():
+            self.assertTrue(summary[f"{name}_low"] <= truth <= summary[f"{name}_high"], name)
+        self.assertEqual(summary["indistinct"], b"")
+        self.assertEqual(sprag(Path(file.filename).parent / "identified.prm", "--validate").returncode, 0)
+
     def check(self, file):
         kind = parameter(file["parameters"].asstr()[()], "Analysis", "Type")
         checks = {
@@ -265,6 +272,7 @@ class ScenesTest(RunTest):
             "calibration": self.check_calibration,
             "isolation": self.check_isolation,
             "design": self.check_design,
+            "identification": self.check_identification,
         }
         checks.get(kind, self.check_run)(file)
 

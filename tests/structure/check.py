@@ -15,7 +15,7 @@ UNSEEN = {"analysis": ["fe"]}
 # So do the rooms of a folder.
 ROOMS = {
     "fe": ["algebra", "body", "mesh", "contact", "statics", "solid", "dynamics", "leaf", "fields"],
-    "analysis": ["statics", "accuracy", "transient", "isolation", "stability", "limit_cycle", "team", "map", "study", "calibration", "design"],
+    "analysis": ["statics", "accuracy", "transient", "isolation", "stability", "limit_cycle", "team", "map", "study", "calibration", "identification", "design"],
 }
 CODE = {".cc", ".h", ".py", ".sh", ".geo", ".cmake", ".txt"}
 MAX_LINES = 500

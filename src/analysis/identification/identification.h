@@ -1,0 +1,35 @@
+#pragma once
+
+#include "analysis/identification/intervals.h"
+
+#include <string>
+#include <vector>
+
+namespace sprag
+{
+  struct FoundNumber
+  {
+    UnknownNumber number;
+    double value;
+    double deviation; ///< standard deviation
+    double low, high; ///< ends of the interval
+  };
+
+  /// What a measured stroke says.
+  struct Identification
+  {
+    std::vector<FoundNumber> found;
+    std::vector<ChannelNoise> noise; ///< of the channels of the measurement
+    Knowledge knowledge;
+    IdentifiedLever lever;
+    ModelCorrection correction;
+    std::vector<UsedValue> used;
+    double window       = 0.;    ///< left out behind each turn [mm]
+    bool window_is_full = false; ///< whether one from the data ends where no more may be left out
+    unsigned int rounds = 0;     ///< of fits, with new noise, window and correction
+    bool converged      = false;
+  };
+
+  /// Finds the unknowns of the scene's stroke. Throws AnalysisError where too few values are left.
+  Identification identify(const Scene &scene, const MeasuredMotion &motion, const LeverUnknowns &unknowns);
+} // namespace sprag

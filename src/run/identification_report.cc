@@ -1,0 +1,185 @@
+#include "run/identification_report.h"
+
+#include "base/text.h"
+#include "run/brief_lines.h"
+#include "scene/closed_form.h"
+#include "scene/identification_text.h"
+
+#include <boost/algorithm/string/join.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <ostream>
+#include <set>
+
+namespace sprag
+{
+  namespace
+  {
+    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+    std::string word_of(const ForceChannel &channel)
+    {
+      return word_for(force_words(), channel.force);
+    }
+
+    /// An interval's half-width to two digits.
+    std::string half_width(const FoundNumber &found)
+    {
+      return formatted("%.2g", found.high - found.value);
+    }
+
+    std::string remedy_of_indistinct()
+    {
+      return "Measure both directions, over more of the stroke, P beside Q, or at other speeds; or leave one of them out of "
+             "Identification/Unknowns and give its value.";
+    }
+  } // namespace
+
+  std::vector<ColumnInfo> identification_columns(const MeasuredStroke &measured)
+  {
+    std::vector<ColumnInfo> result;
+    if (!measured.time.empty())
+      result.push_back({ "time", "s", "as measured" });
+    result.insert(result.end(), { { "x", "mm", "position of the cylinder that the forces belong to, the lag taken off" },
+                                  { "v", "mm/s", "its speed" },
+                                  { "direction", "1", "1 forward, -1 back" },
+                                  { "used", "1", "1: the row counted" } });
+    for (const auto &channel : measured.channels)
+    {
+      const auto word = word_of(channel);
+      result.push_back({ word, "N", "as measured" });
+      result.push_back({ word + "_fitted", "N", "of the lever found, offset included" });
+      result.push_back({ word + "_residual", "N", "measured less fitted" });
+    }
+    return result;
+  }
+
+  std::vector<std::vector<double>> identification_rows(const MeasuredStroke &measured, const StrokeFit &fit,
+                                                       const Identification &found)
+  {
+    std::set<std::size_t> used;
+    for (const auto &value : found.used)
+      used.insert(value.row);
+    std::vector<std::vector<double>> result;
+    const double lag = found.lever.lag;
+    for (std::size_t row = 0; row < measured.rows(); ++row)
+    {
+      const auto stroke = fit.way().stroke_at(row, lag);
+      const auto place  = fit.way().at(row, lag, stroke);
+      std::vector<double> values;
+      if (!measured.time.empty())
+        values.push_back(measured.time[row]);
+      const double direction = fit.way().strokes()[stroke].direction;
+      values.insert(values.end(), { place.x, place.v, direction, used.count(row) > 0 ? 1. : 0. });
+      const bool is_known = fit.way().covers(row, lag, stroke) && place.x >= 0.;
+      const auto slide    = is_known ? fit.slide(found.lever, found.correction, row, stroke) : std::nullopt;
+      for (std::size_t channel = 0; channel < measured.channels.size(); ++channel)
+      {
+        const double shown = slide ? fit.shown(found.lever, *slide, channel) : unknown;
+        const double value = measured.channels[channel].values[row];
+        values.insert(values.end(), { value, shown, value - shown });
+      }
+      result.push_back(values);
+    }
+    return result;
+  }
+
+  std::vector<Entry> identification_summary(const Scene &scene, const Identification &found)
+  {
+    std::vector<Entry> result;
+    const auto percent = formatted("%.4g %%", 100. * scene.identification.confidence);
+    for (const auto &one : found.found)
+    {
+      const auto &[name, unit, meaning, start, scale] = one.number;
+      result.push_back({ name, one.value, unit, meaning });
+      result.push_back({ name + "_low", one.low, unit, "lower end of its interval of " + percent });
+      result.push_back({ name + "_high", one.high, unit, "upper end" });
+      result.push_back({ name + "_deviation", one.deviation, unit, "its standard deviation" });
+    }
+    result.push_back({ "theta0", kinematics(found.lever.geometry, 0.).theta, "rad", "inclination at x = 0 of the lever found" });
+    const auto &channels = scene.identification.measured.channels;
+    for (std::size_t i = 0; i < channels.size(); ++i)
+    {
+      const auto word = word_of(channels[i]);
+      result.push_back({ "noise_" + word, found.noise[i].deviation, "N", "standard deviation of its residuals" });
+      result.push_back({ "values_" + word, found.noise[i].rows, "1", "values of it that count" });
+      result.push_back({ "effective_values_" + word, found.noise[i].effective_rows(), "1",
+                         "independent values that would tell as much: fewer where residuals are not white" });
+    }
+    result.push_back({ "reversal_window", found.window, "mm", "travel left out behind the beginning and each reversal" });
+    result.push_back({ "degrees_of_freedom", found.knowledge.freedom, "1", "effective values less unknowns" });
+    result.push_back({ "rounds", static_cast<double>(found.rounds), "1", "fits, each with noise and window of the one before" });
+    result.push_back({ "indistinct", boost::algorithm::join(found.knowledge.indistinct, " "), "",
+                       "what the data cannot tell, empty where they tell all" });
+    result.push_back({ "weak", boost::algorithm::join(found.knowledge.weak, " "), "", "what they tell apart badly" });
+    return result;
+  }
+
+  std::vector<Group> identification_groups(const Identification &found)
+  {
+    const auto n         = found.found.size();
+    const auto &known    = found.knowledge;
+    const auto value     = [](const FoundNumber &one) { return one.value; };
+    const auto deviation = [](const FoundNumber &one) { return one.deviation; };
+    const auto scale     = [](const FoundNumber &one) { return one.number.scale; };
+    Group group{ "identification",
+                 { dataset_of(found.found, { "values", "", "of the unknowns, in the order of names" }, value),
+                   dataset_of(found.found, { "deviations", "", "their standard deviations" }, deviation),
+                   dataset_of(found.found, { "scales", "", "changes of them that are large, by which the next are scaled" },
+                              scale),
+                   { { "correlation", "1", "of each two unknowns" }, known.correlation, { n, n } },
+                   { { "singular_values", "1", "of the Jacobian of scaled unknowns over the noise, decreasing" },
+                     known.singular.values,
+                     {} },
+                   { { "directions", "1", "components of the scaled unknowns, a column each singular value" },
+                     known.singular.directions,
+                     { n, n } } } };
+    TextDataset names{ "names", "of the unknowns", {} };
+    for (const auto &one : found.found)
+      names.values.push_back(one.number.name);
+    group.texts.push_back(names);
+    return { group };
+  }
+
+  Warnings identification_warnings(const Identification &found)
+  {
+    Warnings warnings;
+    const auto &indistinct = found.knowledge.indistinct;
+    if (!indistinct.empty())
+      warnings.push_back({ "indistinct_unknowns", boost::algorithm::join(indistinct, " "),
+                           "Their values are hardly better than where the search began, and the intervals, which a straight "
+                           "line through the model gives, are only a sign of it.",
+                           remedy_of_indistinct() });
+    if (found.window_is_full)
+      warnings.push_back(
+          { "long_vibration",
+            "Residuals are larger than noise up to a quarter of a stroke behind a turn, the most that is left out.",
+            "Vibration, or what the lever cannot follow, may go on behind it and bias the values.",
+            "Give a longer Identification/Reversal window, or look at the residuals for another model." });
+    if (!found.converged)
+      warnings.push_back({ "not_converged", "The fit still changes after " + std::to_string(found.rounds) + " rounds.",
+                           "Values and intervals are those of the last round.",
+                           "Start from other values, or take fewer unknowns." });
+    return warnings;
+  }
+
+  void print_identification(std::ostream &stream, const Scene &scene, const Identification &found)
+  {
+    for (const auto &one : found.found)
+      brief_line(stream, one.number.name,
+                 with_unit(one.value, "") + " +- " + half_width(one) + (one.number.unit == "1" ? "" : " " + one.number.unit));
+    const auto &channels = scene.identification.measured.channels;
+    for (std::size_t i = 0; i < channels.size(); ++i)
+      brief_line(stream, "noise of " + word_of(channels[i]),
+                 with_unit(found.noise[i].deviation, "N") + ", " + formatted("%.0f", found.noise[i].rows) + " values worth " +
+                     formatted("%.0f", found.noise[i].effective_rows()) + " independent ones");
+    brief_line(stream, "left out",
+               mm(found.window) + " behind the beginning and each reversal" +
+                   (scene.identification.window ? "" : ", from the data"));
+    for (const auto &sentence : found.knowledge.weak)
+      brief_line(stream, "", sentence);
+    stream << "+- is half of the interval of " << formatted("%.4g", 100. * scene.identification.confidence) << " %\n";
+  }
+} // namespace sprag

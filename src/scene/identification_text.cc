@@ -1,0 +1,240 @@
+#include "scene/identification_text.h"
+
+#include "base/errors.h"
+#include "base/named_columns.h"
+#include "base/text.h"
+
+#include <boost/algorithm/string/join.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace sprag
+{
+  namespace
+  {
+    using Names = std::vector<std::string>;
+
+    constexpr std::size_t fewest_rows = 20;
+
+    const char *const table_parameter    = "Identification/Table";
+    const char *const unknowns_parameter = "Identification/Unknowns";
+
+    const std::vector<Unknown> of_friction = { Unknown::friction_constant, Unknown::friction_polynomial, Unknown::friction_table,
+                                               Unknown::friction_factor };
+
+    template <class T>
+    Names words_of(const Choices<T> &choices)
+    {
+      Names result;
+      for (const auto &choice : choices)
+        result.push_back(choice.first);
+      return result;
+    }
+
+    template <class T>
+    bool contains(const std::vector<T> &all, const T &one)
+    {
+      return std::find(all.begin(), all.end(), one) != all.end();
+    }
+
+    /// Reads words separated by commas.
+    template <class T>
+    std::vector<T> read_list(const std::string &text, const Choices<T> &choices, const std::string &parameter,
+                             const std::string &what, const ReportMistake &report)
+    {
+      std::vector<T> result;
+      const Names words = words_of(choices);
+      for (const auto &given : split(text, ','))
+      {
+        const auto word = single_spaced(given);
+        if (!contains(words, word))
+          report(parameter, "'" + word + "' is no " + what + did_you_mean(nearest(word, words)) + "; there are " +
+                                boost::algorithm::join(words, ", "));
+        else if (contains(result, value_for(choices, word)))
+          report(parameter, "names '" + word + "' twice");
+        else
+          result.push_back(value_for(choices, word));
+      }
+      if (result.empty())
+        report(parameter, "must name at least one " + what);
+      return result;
+    }
+
+    void read_unknowns(IdentificationSettings &settings, const ReportMistake &report)
+    {
+      settings.sought           = read_list(settings.unknowns, unknown_words(), unknowns_parameter, "unknown", report);
+      const auto is_of_friction = [](const Unknown unknown) { return contains(of_friction, unknown); };
+      if (std::count_if(settings.sought.begin(), settings.sought.end(), is_of_friction) > 1)
+        report(unknowns_parameter, "can have one of mu, mu polynomial, mu table and friction factor");
+      const auto &speeds = settings.friction_speeds;
+      const bool grows   = std::adjacent_find(speeds.begin(), speeds.end(), std::greater_equal<>()) == speeds.end();
+      if (contains(settings.sought, Unknown::friction_table) && (speeds.size() < 4 || !grows))
+        report("Identification/Friction speeds", "must be at least 4 speeds that increase");
+    }
+
+    /// Factor to mm, s and N.
+    double factor_of(const NamedColumn &column, const Choices<double> &units)
+    {
+      const auto words = words_of(units);
+      if (column.unit.empty())
+        throw InputError("column '" + column.name + "' has no unit: write it in brackets, as in '" + column.name + " [" +
+                         words.front() + "]', or as the dataset's attribute 'unit'");
+      if (!contains(words, column.unit))
+        throw InputError("column '" + column.name + "': unit '" + column.unit + "' must be one of " +
+                         boost::algorithm::join(words, ", "));
+      return value_for(units, column.unit);
+    }
+
+    /// Puts the columns that are known into the stroke.
+    class StrokeReader
+    {
+    public:
+      explicit StrokeReader(const std::string &file)
+      {
+        Names wanted = { "time", "t", "x", "P", "Q", "sensor_sum" };
+        for (unsigned int i = 1; i <= most_sensors; ++i)
+          wanted.push_back("sensor_" + std::to_string(i));
+        for (auto &column : read_named_columns(file, wanted, found))
+          if (!columns.emplace(column.name, column).second)
+            throw InputError("has two columns '" + column.name + "'");
+      }
+
+      MeasuredStroke stroke(const std::vector<MeasuredForce> &wanted, const bool all)
+      {
+        MeasuredStroke result;
+        const Choices<double> seconds = { { "s", 1. }, { "ms", 1e-3 } };
+        result.time                   = values("time", seconds);
+        if (result.time.empty())
+          result.time = values("t", seconds);
+        result.x = values("x", { { "mm", 1. }, { "cm", 10. }, { "m", 1000. } });
+        for (const auto &[word, force] : force_words())
+        {
+          if (!all && !contains(wanted, force))
+            continue;
+          if (auto forces = values_of(force); !forces.empty())
+            result.channels.push_back({ force, std::move(forces) });
+          else if (!all)
+            throw InputError("has no column for " + word + ": it has " + boost::algorithm::join(found, ", "));
+        }
+        if (result.channels.empty())
+          throw InputError("has no column P, Q, sensor_sum or sensor_1: it has " + boost::algorithm::join(found, ", "));
+        if (result.rows() == 0)
+          throw InputError("has no column time or x: it has " + boost::algorithm::join(found, ", "));
+        return result;
+      }
+
+    private:
+      static constexpr unsigned int most_sensors = 16;
+      Names found;
+      std::map<std::string, NamedColumn> columns;
+
+      std::vector<double> values(const std::string &name, const Choices<double> &units) const
+      {
+        const auto column = columns.find(name);
+        if (column == columns.end())
+          return {};
+        const double factor = factor_of(column->second, units);
+        auto result         = column->second.values;
+        for (double &value : result)
+          value *= factor;
+        return result;
+      }
+
+      std::vector<double> values_of(const MeasuredForce force) const
+      {
+        const Choices<double> newtons = { { "N", 1. }, { "mN", 1e-3 }, { "kN", 1000. } };
+        if (force == MeasuredForce::normal)
+          return values("P", newtons);
+        if (force == MeasuredForce::drive)
+          return values("Q", newtons);
+        auto sum = values("sensor_sum", newtons);
+        for (unsigned int i = 1; sum.empty() || i > 1; ++i)
+        {
+          const auto one = values("sensor_" + std::to_string(i), newtons);
+          if (one.empty())
+            break;
+          sum.resize(one.size(), 0.);
+          for (std::size_t row = 0; row < one.size(); ++row)
+            sum[row] += one[row];
+        }
+        return sum;
+      }
+    };
+
+    std::string row(const std::size_t index)
+    {
+      return "row " + std::to_string(index + 1) + ": ";
+    }
+
+    void need_usable(const MeasuredStroke &stroke)
+    {
+      if (stroke.rows() < fewest_rows)
+        throw InputError("must have at least " + std::to_string(fewest_rows) + " rows, has " + std::to_string(stroke.rows()));
+      for (std::size_t i = 0; i < stroke.time.size(); ++i)
+        if (std::isnan(stroke.time[i]) || (i > 0 && stroke.time[i] < stroke.time[i - 1]))
+          throw InputError(row(i) + "time must not be less than in the row before");
+      for (std::size_t i = 0; i < stroke.x.size(); ++i)
+        if (std::isnan(stroke.x[i]))
+          throw InputError(row(i) + "x is missing");
+      for (const auto &channel : stroke.channels)
+      {
+        const auto is_missing = [](const double value) { return std::isnan(value); };
+        const auto gaps       = std::count_if(channel.values.begin(), channel.values.end(), is_missing);
+        if (stroke.rows() - gaps < fewest_rows)
+          throw InputError(word_for(force_words(), channel.force) + " must have at least " + std::to_string(fewest_rows) +
+                           " values");
+      }
+    }
+  } // namespace
+
+  const Choices<Unknown> &unknown_words()
+  {
+    static const Choices<Unknown> all = { { "mu", Unknown::friction_constant },
+                                          { "mu polynomial", Unknown::friction_polynomial },
+                                          { "mu table", Unknown::friction_table },
+                                          { "friction factor", Unknown::friction_factor },
+                                          { "k", Unknown::stiffness },
+                                          { "e", Unknown::interface_offset },
+                                          { "th0", Unknown::inclination },
+                                          { "offsets", Unknown::force_offsets },
+                                          { "lag", Unknown::lag } };
+    return all;
+  }
+
+  const Choices<MeasuredForce> &force_words()
+  {
+    static const Choices<MeasuredForce> all = { { "P", MeasuredForce::normal },
+                                                { "Q", MeasuredForce::drive },
+                                                { "sensors", MeasuredForce::sensors } };
+    return all;
+  }
+
+  void read_identification(IdentificationSettings &settings, const ReportMistake &report)
+  {
+    read_unknowns(settings, report);
+    const bool all = settings.forces == "auto";
+    std::vector<MeasuredForce> forces;
+    if (!all)
+      forces = read_list(settings.forces, force_words(), "Identification/Forces", "force", report);
+    if (settings.table.empty())
+      return report(table_parameter, "must name a file");
+    if (!all && forces.empty())
+      return;
+    try
+    {
+      auto stroke = StrokeReader(settings.table).stroke(forces, all);
+      need_usable(stroke);
+      settings.measured = std::move(stroke);
+    }
+    catch (const InputError &error)
+    {
+      for (const auto &message : error.messages)
+        report(table_parameter, message);
+      return;
+    }
+    if (settings.measured.time.empty() && contains(settings.sought, Unknown::lag))
+      report(unknowns_parameter, "lag needs a column time in Identification/Table");
+  }
+} // namespace sprag

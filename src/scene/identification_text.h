@@ -1,0 +1,15 @@
+#pragma once
+
+#include "base/choices.h"
+#include "scene/identification.h"
+#include "scene/isolation_tables.h"
+
+namespace sprag
+{
+  /// The words for unknowns and forces in scenes and reports.
+  const Choices<Unknown> &unknown_words();
+  const Choices<MeasuredForce> &force_words();
+
+  /// Reads the texts of the settings and the table, whose path is absolute or empty, and reports what is wrong with them.
+  void read_identification(IdentificationSettings &settings, const ReportMistake &report);
+} // namespace sprag

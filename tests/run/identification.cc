@@ -1,0 +1,96 @@
+#include "base/errors.h"
+#include "levers/prepared_scene.h"
+#include "mpi_environment.h"
+#include "results/hdf5.h"
+#include "run/analyses.h"
+#include "scene/closed_form.h"
+#include "scene/read.h"
+#include "support/temporary_folder.h"
+
+#include <cmath>
+#include <filesystem>
+#include <gtest/gtest.h>
+
+using namespace sprag;
+
+namespace
+{
+  using Changes = std::vector<std::string>;
+
+  class RunIdentification : public ::testing::Test
+  {
+  protected:
+    const TemporaryFolder folder;
+    const std::string output = (folder.path / "output").string();
+
+    void SetUp() override
+    {
+      // What model A without inertia does is the measurement.
+      const auto device = read(
+          { "Analysis/Type=quasi-static", "Analysis/Model=closed form", "Friction/Law=Coulomb", "Friction/Coefficient=0.73" });
+      run(device, (folder.path / "measured").string());
+    }
+
+    Scene read(const Changes &changes) const
+    {
+      return read_scene(folder.write("scene.prm", ""), changes);
+    }
+
+    Scene identification(const Changes &more) const
+    {
+      Changes all = { "Analysis/Type=identification", "Friction/Law=Coulomb", "Friction/Coefficient=0.5",
+                      "Identification/Table=measured/result.h5" };
+      all.insert(all.end(), more.begin(), more.end());
+      return read(all);
+    }
+
+    static Warnings run(const Scene &scene, const std::string &into)
+    {
+      Warnings warnings;
+      carry_out(prepared(scene), { into, true }, warnings);
+      return warnings;
+    }
+  };
+} // namespace
+
+TEST_F(RunIdentification, WritesTheSceneWithWhatItFound)
+{
+  const auto warnings = run(identification({ "Identification/Unknowns=mu, k, e, th0", "Rotational spring/Stiffness=6e4",
+                                             "Geometry/Interface offset=45" }),
+                            output);
+  EXPECT_TRUE(warnings.empty());
+  const auto found = read_scene(output + "/identified.prm", {});
+  EXPECT_EQ(found.analysis.type, AnalysisType::quasi_static);
+  EXPECT_NEAR(std::get<CoulombFriction>(found.friction.law).coefficient, 0.73, 1e-5);
+  EXPECT_NEAR(found.spring.stiffness, 7.4e4, 1.);
+  EXPECT_NEAR(found.geometry.interface_offset, 45.6, 1e-3);
+  EXPECT_NEAR(found.geometry.pivot_height, 0., 1e-3);
+  EXPECT_NEAR(kinematics(found.geometry, 0.).theta, 0.0560941, 1e-5);
+}
+
+TEST_F(RunIdentification, WritesALawOfFrictionAsATable)
+{
+  run(identification({ "Identification/Unknowns=mu table", "Identification/Friction speeds=60, 80, 100, 120" }), output);
+  const auto found = read_scene(output + "/identified.prm", {});
+  EXPECT_TRUE(std::holds_alternative<TabulatedFriction>(found.friction.law));
+  EXPECT_NEAR(sliding_friction(found, 30., 112.).coefficient, 0.73, 1e-3);
+  EXPECT_TRUE(std::filesystem::exists(output + "/identified-friction.csv"));
+}
+
+TEST_F(RunIdentification, WarnsOfWhatTheDataCannotTell)
+{
+  const auto warnings =
+      run(identification({ "Identification/Unknowns=mu table", "Identification/Friction speeds=200, 300, 400, 500" }), output);
+  ASSERT_FALSE(warnings.empty());
+  EXPECT_EQ(warnings.front().name, "indistinct_unknowns");
+  EXPECT_NE(warnings.front().found.find("do not tell mu_at_500."), std::string::npos) << warnings.front().found;
+}
+
+TEST_F(RunIdentification, KeepsWhyNothingWasFound)
+{
+  EXPECT_THROW(run(identification({ "Identification/Unknowns=mu", "Identification/Reversal window=64.9" }), output),
+               AnalysisError);
+  const auto status = hdf5::read_text(hdf5::open_file(output + "/result.h5"), "summary/status");
+  EXPECT_NE(status.find("too few for 1 unknowns"), std::string::npos) << status;
+  EXPECT_FALSE(std::filesystem::exists(output + "/identified.prm"));
+}
