@@ -5,13 +5,11 @@
 #include "base/table_file.h"
 #include "base/text.h"
 #include "scene/accuracy.h"
+#include "scene/analysis_texts.h"
 #include "scene/analysis_use.h"
 #include "scene/check.h"
-#include "scene/design_text.h"
 #include "scene/discretisation.h"
 #include "scene/held_slide.h"
-#include "scene/identification_text.h"
-#include "scene/isolation_tables.h"
 #include "scene/sections.h"
 #include "scene/variation.h"
 
@@ -65,7 +63,7 @@ namespace sprag
         store();
         make_drive();
         make_friction();
-        make_analyses();
+        read_analysis_texts(input.scene, parameters, [this](const auto &name, const auto &rule) { report(name, rule); });
         check_unused();
         check();
         check_ranges();
@@ -186,19 +184,6 @@ namespace sprag
         else
           use_table("Friction/Table", friction.table, { "speed", "mu" },
                     [&law](const auto &table) { law.law = TabulatedFriction(table.first, table.second); });
-      }
-
-      /// What the texts and tables of single analyses say. A design may ask for what an isolated table does.
-      void make_analyses()
-      {
-        const auto tell = [this](const auto &name, const auto &rule) { report(name, rule); };
-        const auto type = input.scene.analysis.type;
-        if (type == AnalysisType::isolation || type == AnalysisType::design)
-          read_isolation_tables(input.scene.isolation, tell);
-        if (type == AnalysisType::design)
-          read_design(input.scene.design, parameters, tell);
-        if (type == AnalysisType::identification)
-          read_identification(input.scene.identification, tell);
       }
 
       void check()

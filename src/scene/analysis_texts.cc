@@ -1,0 +1,19 @@
+#include "scene/analysis_texts.h"
+
+#include "scene/design_text.h"
+#include "scene/identification_text.h"
+
+namespace sprag
+{
+  void read_analysis_texts(Scene &scene, const std::vector<Parameter> &declared, const ReportMistake &report)
+  {
+    // A design may ask for what an isolated table does.
+    const auto type = scene.analysis.type;
+    if (type == AnalysisType::isolation || type == AnalysisType::design)
+      read_isolation_tables(scene.isolation, report);
+    if (type == AnalysisType::design)
+      read_design(scene.design, declared, report);
+    if (type == AnalysisType::identification)
+      read_identification(scene.identification, report);
+  }
+} // namespace sprag
