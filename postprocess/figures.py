@@ -155,6 +155,8 @@ FIGURES = {
     # Other laws, methods and limits.
     **{name: drawn(name, "forces-over-x") for name in ("coulomb-a", "neo-hookean-a", "augmented-lagrangian-a")},
     **{name: drawn(name, "forces-over-x") for name in ("stiff-a", "stiff-b")},
+    # Three dimensions.
+    "solid-tilted-a": drawn("solid-tilted-a", "contact"),
     # In time.
     "support-a": lambda run: reversal(run("support-a")),
     "stribeck-a": lambda run: forces_over_time([run("stribeck-a")]),
