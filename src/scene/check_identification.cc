@@ -13,8 +13,6 @@ namespace sprag
     {
       rules.need(scene.spring.type == SpringType::torsional, "Rotational spring/Type", { "Analysis/Type" },
                  "must be torsional where k is identified");
-      rules.need(scene.pair.type != PairType::full, "Mirrored pair/Type", { "Analysis/Type" },
-                 "must not be full: one lever is identified");
       rules.need(scene.support.type == SupportType::rigid, "Support/Type", { "Analysis/Type" },
                  "must be rigid where a lever is identified");
       rules.need(scene.analysis.model != ModelType::finite_element, "Analysis/Model", { "Analysis/Type" },
@@ -41,7 +39,9 @@ namespace sprag
       rules.need(!identifies_by_model(scene) || most <= scene.drive.maximum() + room, "Drive/Stroke",
                  { "Analysis/Type", "Analysis/Model", "Drive/Profile" },
                  "must reach the largest x measured, " + mm(most) + ", where a model corrects the closed form");
-      rules.need(has_x || measured.time.back() <= 1.001 * scene.drive.duration(), "Identification/Table",
+      if (has_x)
+        return;
+      rules.need(measured.time.back() <= 1.001 * scene.drive.duration(), "Identification/Table",
                  { "Analysis/Type", "Drive/Profile", "Drive/Start", "Drive/Stroke", "Drive/Speed", "Drive/Cycles" },
                  "goes on to " + rounded_text(measured.time.back()) + " s, the drive ends at " +
                      rounded_text(scene.drive.duration()) + " s: give a column x or the drive");

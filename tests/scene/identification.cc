@@ -168,7 +168,7 @@ TEST_F(ReadIdentification, RefusesAnApparatusThatItDoesNotIdentify)
   const auto expect_refusal = [&](const std::string &change, const std::string &part)
   { expect_mistake(part, header + rows(), { change }); };
   expect_refusal("Rotational spring/Type=leaf", "must be torsional");
-  expect_refusal("Mirrored pair/Type=full", "must not be full");
+  expect_refusal("Mirrored pair/Type=full", "must be half");
   expect_refusal("Support/Type=sprung", "must be rigid");
   expect_refusal("Analysis/Model=finite element", "must be closed form, rigid, beam or condensed");
 }
