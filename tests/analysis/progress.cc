@@ -178,18 +178,25 @@ TEST(Archive, KeepsEveryField)
     EXPECT_EQ(forces.ports, loads.ports);
     EXPECT_EQ(forces.values, loads.values);
   }
-  const State state{ drive_of(3.), vector_of({ 9., -0. }), memory, loads };
+  PointMemory<2> on_surface;
+  on_surface.traction = dealii::Tensor<1, 2>({ 0.1, -0.2 });
+  on_surface.point    = 7;
+  const State state{ drive_of(3.), vector_of({ 9., -0. }), memory, loads, { on_surface } };
   {
-    const auto &[drive, coordinates, contact, forces] = restored(state);
+    const auto &[drive, coordinates, contact, forces, surface_contact] = restored(state);
+    ASSERT_EQ(surface_contact.size(), 1u);
+    EXPECT_EQ(surface_contact[0].traction, on_surface.traction);
+    EXPECT_EQ(surface_contact[0].point, 7u);
     EXPECT_TRUE(same_bytes(drive, state.drive));
     EXPECT_EQ(coordinates, state.coordinates);
     EXPECT_TRUE(std::signbit(coordinates[1]));
     EXPECT_TRUE(same_bytes(contact, memory));
     EXPECT_EQ(forces.values, loads.values);
   }
-  const FaceState face{ 1., 2., { 3., 4. }, { 5. }, { 6., 7., 8. }, { 9. } };
+  const FaceState face{ 1., 2., { 3., 4. }, { 5. }, { 10., 0. }, { 6., 7., 8. }, { 9. } };
   {
-    const auto &[time, x, pressure, traction, pressure_2, traction_2] = restored(face);
+    const auto &[time, x, pressure, traction, traction_across, pressure_2, traction_2] = restored(face);
+    EXPECT_EQ(traction_across, face.traction_across);
     EXPECT_EQ(time, 1.);
     EXPECT_EQ(x, 2.);
     EXPECT_EQ(pressure, face.pressure);

@@ -58,7 +58,7 @@ namespace
 
   FaceState face_state(const double time)
   {
-    return { time, 112. * time, { 0., time, 0. }, { 0., 0.5 * time, 0. }, {}, {} };
+    return { time, 112. * time, { 0., time, 0. }, { 0., 0.5 * time, 0. }, {}, {}, {} };
   }
 
   void write_rows(ResultFile &file, const int n_rows)

@@ -238,8 +238,8 @@ namespace sprag
     const auto &nodes    = body.friction_face().nodes;
     const auto xi_of     = [&](const std::size_t i) { return nodes[middle[i]].position[0]; };
     const auto is_before = [&](const unsigned int node, const double value) { return nodes[node].position[0] < value; };
-    const auto found     = std::lower_bound(middle.begin(), middle.end(), xi, is_before) - middle.begin();
-    const auto first     = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(found - 1, 0, middle.size() - 3));
+    const auto after     = std::lower_bound(middle.begin(), middle.end(), xi, is_before) - middle.begin();
+    const auto first     = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(after - 1, 0, middle.size() - 3));
     double result        = 0.;
     for (std::size_t i = first; i < first + 3; ++i)
     {
