@@ -223,6 +223,9 @@ class ScenesTest(RunTest):
         if parameter(text, "Mirrored pair", "Type") == "full":
             self.check_pair(table)
             expected |= {name for name in table if name.endswith("_2")} | {"swing", "Q_pair", "lateral_force"}
+        if parameter(text, "Analysis", "Dimension") == "3":
+            expected |= {"F_across", "centre_across", "twisting_moment", "turning_moment", "largest_pressure_zeta"}
+            self.assertLess(file["meta/compliance_error"][()], 1e-3)
         self.assertEqual(set(table), expected)
         if has_plate:
             self.assertTrue(np.isfinite(table["sensor_sum"][:]).all())
