@@ -35,7 +35,7 @@ class Ranks(RunTest):
             folder = self.folder / str(ranks)
             done = run(ranks, folder, SETTINGS)
             self.assertEqual(done.returncode, 0, done.stderr)
-            self.assertEqual(done.stdout.count("100 %"), 1, done.stdout)
+            self.assertEqual(done.stdout.count("largest P"), 1, done.stdout)
             with h5py.File(folder / "result.h5") as file:
                 tables.append({name: file["table"][name][:] for name in ("P", "Q", "theta", "centre_across")})
         for name, alone in tables[0].items():

@@ -39,7 +39,7 @@ namespace sprag
     State accepted = model.initial_state({ 0., 0., 112. });
     for (const double x : { 5., 10., 15., 20. })
     {
-      accepted         = solved(model, accepted, DrivePoint{ x / 112., x, 112. });
+      accepted = solved(model, accepted, DrivePoint{ x / 112., x, 112. });
       model.remember(accepted);
     }
     return accepted;

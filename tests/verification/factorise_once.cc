@@ -73,7 +73,7 @@ namespace
       model.observe(trial, row);
       rows.push_back(row);
       model.remember(trial);
-      accepted      = trial;
+      accepted = trial;
     }
     return rows;
   }

@@ -99,8 +99,9 @@ namespace
   };
 } // namespace
 
-// Layer and bending take from each lever of a pair what they take from a single one, to which tests/deviation.md gives the formula.
-// Off the middle a lever carries up to a fifth more than a single one: the indentation grows as P^(2/3), its share of P falls.
+// Layer and bending take from each lever of a pair what they take from a single one, to which tests/deviation.md gives the
+// formula. Off the middle a lever carries up to a fifth more than a single one: the indentation grows as P^(2/3), its share of P
+// falls.
 TEST_P(PairOfLevers, DeviateFromTheirClosedFormAsASingleLeverDoes)
 {
   const auto of_single = [](const Column column, const Column reference)

@@ -10,7 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <map>
 
 namespace sprag
 {
@@ -46,16 +46,15 @@ namespace sprag
       return { properties.spring.law.linear_stiffness(), properties.support_stiffness.value_or(0.), properties.spring.arm };
     }
 
-    /// Nodes next to the middle of the width, along xi.
-    std::vector<unsigned int> middle_nodes(const FrictionFace<3> &face)
+    std::vector<std::vector<unsigned int>> lines_along(const FrictionFace<3> &face)
     {
-      double closest = std::numeric_limits<double>::infinity();
-      for (const auto &node : face.nodes)
-        closest = std::min(closest, std::abs(node.position[2]));
-      std::vector<unsigned int> result;
+      std::map<long, std::vector<unsigned int>> by_zeta;
       for (unsigned int i = 0; i < face.nodes.size(); ++i)
-        if (const double zeta = face.nodes[i].position[2]; zeta >= 0. && zeta < closest + 1e-6)
-          result.push_back(i);
+        by_zeta[std::lround(1e6 * face.nodes[i].position[2])].push_back(i);
+      std::vector<std::vector<unsigned int>> result;
+      for (const auto &line : by_zeta)
+        if (line.second.size() >= 3)
+          result.push_back(line.second);
       return result;
     }
 
@@ -81,7 +80,7 @@ namespace sprag
       , properties(lever_properties(scene))
       , ports(ports_of(body, properties))
       , compliance(compliance_of(body, scene))
-      , middle(middle_nodes(body.friction_face()))
+      , node_lines(lines_along(body.friction_face()))
       , window(ports, springs_of(properties),
                { { ports.surface, [this](const PortSelection &some) { return compliance.whole_tiles(some); },
                    [this](const PortSelection &tiles) { return compliance.among(tiles); } } })
@@ -232,14 +231,22 @@ namespace sprag
     row[Column::support_energy]       = 0.5 * support * u * u;
   }
 
-  /// Displacement along eta in the middle of the width, by the polynomial through three nodes [mm].
-  double SolidLever::deflection(const double xi, const PortLoads &on_face) const
+  const std::vector<unsigned int> &SolidLever::line_at(const double zeta) const
   {
     const auto &nodes    = body.friction_face().nodes;
-    const auto xi_of     = [&](const std::size_t i) { return nodes[middle[i]].position[0]; };
+    const auto distance  = [&](const auto &line) { return std::abs(nodes[line.front()].position[2] - zeta); };
+    const auto is_closer = [&](const auto &a, const auto &b) { return distance(a) < distance(b); };
+    return *std::min_element(node_lines.begin(), node_lines.end(), is_closer);
+  }
+
+  /// Displacement along eta on a line of nodes, by the polynomial through three of them [mm].
+  double SolidLever::deflection(const std::vector<unsigned int> &line, const double xi, const PortLoads &on_face) const
+  {
+    const auto &nodes    = body.friction_face().nodes;
+    const auto xi_of     = [&](const std::size_t i) { return nodes[line[i]].position[0]; };
     const auto is_before = [&](const unsigned int node, const double value) { return nodes[node].position[0] < value; };
-    const auto after     = std::lower_bound(middle.begin(), middle.end(), xi, is_before) - middle.begin();
-    const auto first     = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(after - 1, 0, middle.size() - 3));
+    const auto after     = std::lower_bound(line.begin(), line.end(), xi, is_before) - line.begin();
+    const auto first     = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(after - 1, 0, line.size() - 3));
     double result        = 0.;
     for (std::size_t i = first; i < first + 3; ++i)
     {
@@ -247,18 +254,21 @@ namespace sprag
       for (std::size_t j = first; j < first + 3; ++j)
         if (j != i)
           share *= (xi - xi_of(j)) / (xi_of(i) - xi_of(j));
-      result += share * compliance.displacement(3 * middle[i] + 1, on_face);
+      result += share * compliance.displacement(3 * line[i] + 1, on_face);
     }
     return result;
   }
 
+  /// Where the pressure is largest.
   double SolidLever::indentation(const Row &row, const PortLoads &on_face) const
   {
-    if (properties.layer_thickness == 0. || on_face.ports.empty())
+    if (properties.layer_thickness == 0. || on_face.ports.empty() || node_lines.empty())
       return 0.;
+    const auto &line   = line_at(row.across[4]);
     const double s     = row[Column::s];
     const double aside = 0.5 * row[Column::contact_width] + 4. * properties.layer_thickness;
-    return deflection(s, on_face) - 0.5 * (deflection(s - aside, on_face) + deflection(s + aside, on_face));
+    const auto at      = [&](const double xi) { return deflection(line, xi, on_face); };
+    return at(s) - 0.5 * (at(s - aside) + at(s + aside));
   }
 
   FacePoints SolidLever::face_points() const

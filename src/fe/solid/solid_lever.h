@@ -61,14 +61,15 @@ namespace sprag
     void widen_reach(State &trial, FrictionMode mode);
     double turn(const State &state) const;
     double support_displacement(const State &state) const;
-    double deflection(double xi, const PortLoads &on_face) const;
+    const std::vector<unsigned int> &line_at(double zeta) const;
+    double deflection(const std::vector<unsigned int> &line, double xi, const PortLoads &on_face) const;
     double indentation(const Row &row, const PortLoads &on_face) const;
 
     const SolidBody &body;
     const LeverProperties properties;
     const PortLayout ports;
-    mutable LayeredCompliance compliance; ///< remembers what it found
-    std::vector<unsigned int> middle;     ///< nodes of the face closest to the middle of the width, along xi
+    mutable LayeredCompliance compliance;              ///< remembers what it found
+    std::vector<std::vector<unsigned int>> node_lines; ///< nodes of the face with the same zeta, along xi; three and more
     PortWindow window;
     SurfaceContact contact;
     const SurfaceView view;
