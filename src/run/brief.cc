@@ -1,5 +1,6 @@
 #include "run/brief.h"
 
+#include "base/append.h"
 #include "run/brief_lines.h"
 #include "run/percent.h"
 
@@ -37,14 +38,16 @@ namespace sprag
     std::vector<Entry> with_deviations(std::vector<Entry> entries)
     {
       const Known known(entries);
+      std::vector<Entry> deviations; // apart, as what is known points to the entries
       for (const auto &way : ways)
       {
         double largest = 0.;
         for (const std::string of : { "P_", "Q_", "theta_" })
           largest = std::max(largest, known.number("deviation_" + of + way).value_or(0.));
         if (largest > 0.)
-          entries.push_back({ "deviation_" + way, 100. * largest, "%", "" });
+          deviations.push_back({ "deviation_" + way, 100. * largest, "%", "" });
       }
+      append(entries, deviations);
       return entries;
     }
 

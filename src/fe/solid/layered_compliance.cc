@@ -112,6 +112,7 @@ namespace sprag
     }
 
     // B^T K^-1 B = L L^T, Z = (K^-1 B)_face L^-T.
+    products.set_property(LAPACKSupport::symmetric);
     products.compute_cholesky_factorization();
     LAPACKFullMatrix<double> lower(n), transposed(n, n_ports);
     for (int i = 0; i < n; ++i)
