@@ -12,7 +12,7 @@ namespace sprag
     build,       ///< the body
     release,     ///< it
     solve_whole, ///< with the factors of the whole body
-    solve_near   ///< with those of its layer
+    solve_near   ///< with those of its skin
   };
 
   /// Calls the others to a task. To be called by the first rank.

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <set>
 
 namespace sprag
@@ -43,8 +42,6 @@ namespace sprag
   void LayeredCompliance::find_tiles(const double surroundings)
   {
     const auto &nodes = body.friction_face().nodes;
-    std::vector<unsigned int> order(nodes.size());
-    std::iota(order.begin(), order.end(), 0u);
     for (const auto &node : nodes)
       dofs.insert(dofs.end(), node.dofs.begin(), node.dofs.end());
     for (unsigned int i = 0; i < nodes.size(); ++i)

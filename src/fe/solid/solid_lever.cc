@@ -192,7 +192,7 @@ namespace sprag
   std::string SolidLever::objection(const State &trial) const
   {
     Row row;
-    view.observe(found, row);
+    view.observe_resultants(found, row);
     const double s    = row[Column::s];
     const double mu_e = row[Column::mu] * properties.interface_offset;
     if (direction_of(trial.drive.v) < 0 && row[Column::F] < 0. && s <= mu_e)

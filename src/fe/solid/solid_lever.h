@@ -46,12 +46,11 @@ namespace sprag
     /// Displacement of all degrees of freedom of the body in its axes [mm], by a back-substitution with the whole body.
     dealii::Vector<double> body_displacement(const State &state) const;
 
-    /// What the compliance of the face leaves out in a state: the largest difference of a displacement from that of the whole
-    /// body, over the largest displacement by the layer's compression alone, and the share of P that goes with it.
+    /// What the compliance of the face leaves out in a state, against a solve with the whole body where forces act.
     struct Exactness
     {
-      double displacement; ///< over the overlap and compression of the layer [-]
-      double force;        ///< of P, estimated by the mean difference where the contact presses [-]
+      double displacement; ///< largest difference over the largest displacement [-]
+      double force;        ///< work of the forces on the differences over that on the displacements [-]
     };
     Exactness exactness(const State &state);
 

@@ -16,12 +16,14 @@ namespace sprag
     /// Fills the columns that follow from tractions and positions on the face.
     void observe(const SurfaceEvaluation &found, Row &row) const;
 
+    /// Fills those of them that are sums over the points under pressure.
+    void observe_resultants(const SurfaceEvaluation &found, Row &row) const;
+
     FacePoints points() const;
 
     FaceState state(const SurfaceEvaluation &found, const DrivePoint &drive) const;
 
   private:
-    void observe_resultants(const SurfaceEvaluation &found, Row &row) const;
     void observe_pressure(const SurfaceEvaluation &found, Row &row) const;
 
     const FrictionFace<3> &face;
