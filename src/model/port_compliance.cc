@@ -6,6 +6,11 @@ namespace sprag
 {
   using dealii::FullMatrix;
 
+  unsigned int place_of(const unsigned int port, const std::vector<unsigned int> &ports)
+  {
+    return static_cast<unsigned int>(std::lower_bound(ports.begin(), ports.end(), port) - ports.begin());
+  }
+
   void PortCompliance::append(std::shared_ptr<const FullMatrix<double>> matrix)
   {
     diagonal.push_back({ size(), std::move(matrix) });

@@ -7,6 +7,9 @@
 
 namespace sprag
 {
+  /// The place where a port stands, or would stand, among increasing ones.
+  unsigned int place_of(unsigned int port, const std::vector<unsigned int> &ports);
+
   /// Compliance G of the ports of a linear structure: the displacement of each by a unit force on each, symmetric. Ports that
   /// follow each other make up blocks, and those of different blocks feel nothing of each other: the levers of a pair, say, and
   /// the support.
@@ -21,6 +24,12 @@ namespace sprag
       unsigned int end() const
       {
         return begin + static_cast<unsigned int>(matrix->m());
+      }
+
+      /// The place of its first port among increasing ones, and that beyond the last.
+      std::pair<unsigned int, unsigned int> places_among(const std::vector<unsigned int> &ports) const
+      {
+        return { place_of(begin, ports), place_of(end(), ports) };
       }
     };
 

@@ -17,9 +17,6 @@ namespace sprag
     dealii::FullMatrix<double> tangent;
   };
 
-  /// The place where a port stands, or would stand, among increasing ones.
-  unsigned int place_of(unsigned int port, const std::vector<unsigned int> &ports);
-
   /// Gives forces further ports, increasing, where they are 0 so far.
   void add_ports(const std::vector<unsigned int> &others, PortForces &forces);
 

@@ -1,5 +1,6 @@
 #include "analysis/statics/quasi_static.h"
 #include "fe/solid/solid_lever.h"
+#include "model/state_archive.h"
 #include "run/analyses.h"
 #include "run/in_memory.h"
 #include "run/recorder.h"
@@ -39,48 +40,46 @@ namespace sprag
                 << std::flush;
     }
 
-    /// What the compliance of the face leaves out, the worst of some states.
-    class ExactnessCheck
+    /// Some states of a run, for what the compliance of the face leaves out in them.
+    class Samples
     {
     public:
-      ExactnessCheck(SolidLever &of_lever, const double path)
-          : lever(of_lever)
-          , interval(path / states_checked)
+      explicit Samples(const double path)
+          : interval(path / states_checked)
       {
       }
 
-      void look_at(const State &state, const double x)
+      void look_at(const SolidLever &lever, const State &state)
       {
-        travel += std::abs(x - last_x);
-        last_x = x;
+        travel += std::abs(state.drive.x - last_x);
+        last_x = state.drive.x;
         if (travel < next || state.forces.ports.empty())
           return;
-        next             = travel + interval;
-        const auto found = lever.exactness(state);
-        worst            = { std::max(worst.displacement, found.displacement), std::max(worst.force, std::abs(found.force)) };
+        next = travel + interval;
+        of_face.push_back(lever.sample(state));
       }
 
-      std::vector<Entry> entries() const
+      std::vector<Entry> entries(const SolidLever &lever) const
       {
+        const auto worst = lever.exactness(of_face);
         return {
           { "compliance_error", worst.displacement, "1",
             "largest displacement of the face that its compliance leaves out against the whole body, over the largest one" },
-          { "compliance_work_error", worst.force, "1", "and of the work of the forces on it, over that work" }
+          { "compliance_work_error", worst.work, "1", "and of the work of the forces on it, over that work" }
         };
       }
 
     private:
-      friend void visit(Archive &archive, ExactnessCheck &check)
+      friend void visit(Archive &archive, Samples &samples)
       {
-        archive(check.next, check.travel, check.last_x, check.worst);
+        archive(samples.next, samples.travel, samples.last_x, samples.of_face);
       }
 
-      SolidLever &lever;
       const double interval; ///< of travel between states looked at [mm]
       double next   = 0.;
       double travel = 0.;
       double last_x = 0.;
-      SolidLever::Exactness worst{};
+      std::vector<FaceSample> of_face;
     };
 
     void drive_lever(const Scene &scene, const RunOptions &options, PhaseTimer &timer, const SolidBody &body, SolidLever &lever,
@@ -90,15 +89,14 @@ namespace sprag
       Recorder recorder(scene, options, timer, lever.face_points(), &checkpoint);
       if (!options.quiet)
         print_model(scene, body, lever);
-      ExactnessCheck check(lever, path_length(scene.drive));
-      checkpoint.add_part([&](Archive &archive) { visit(archive, check); });
+      Samples samples(path_length(scene.drive));
+      checkpoint.add_part([&](Archive &archive) { visit(archive, samples); });
       const auto write = [&](const State &state, const Row &row)
       {
         const PhaseTimer::Scope scope(timer, "output");
         recorder.record(row);
         recorder.record(lever.face_state(state));
-        const PhaseTimer::Scope of_check(timer, "exactness");
-        check.look_at(state, row[Column::x]);
+        samples.look_at(lever, state);
       };
       const auto hand_on = [&](const State &state, const Row &row) { checkpoint.hand_on([&] { write(state, row); }); };
       const QuasiStaticSettings settings{ scene.analysis.step, scene.analysis.minimum_step, scene.contact };
@@ -112,7 +110,8 @@ namespace sprag
           },
           [&](const std::string &status)
           {
-            auto meta = joined(model_entries(scene, body, lever), check.entries());
+            auto meta = model_entries(scene, body, lever);
+            timed(timer, "exactness", [&] { meta = joined(meta, samples.entries(lever)); });
             meta.push_back(
                 { "stick_stiffness", stick, "N/mm", "tangential stiffness of layer and penalty in stick at the first reversal" });
             const auto ending = status_at_end(status);

@@ -41,7 +41,7 @@ namespace
                        {
                          rows.push_back(row);
                          if (rows.size() == 10)
-                           exactness = lever.exactness(state);
+                           exactness = lever.exactness({ lever.sample(state) });
                        });
     }
 

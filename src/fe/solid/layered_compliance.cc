@@ -190,19 +190,40 @@ namespace sprag
     return found != known.end() ? found->second : known.emplace(tile, find_near_columns(tile)).first->second;
   }
 
-  /// Displacements of a tile by forces on another; none where they are negligible. What stands for a tile serves as far as the
-  /// others lie about it as about the tile.
-  const FullMatrix<double> *LayeredCompliance::near_block(const unsigned int row_tile, const unsigned int column_tile)
+  /// The tile whose columns serve for another's: what stands for it where the row lies about both alike.
+  unsigned int LayeredCompliance::stand_in(const unsigned int row_tile, const unsigned int column_tile) const
   {
-    const int apart    = static_cast<int>(row_tile) - static_cast<int>(column_tile);
     const auto &tile   = tiles[column_tile];
-    const int other    = static_cast<int>(tile.like) + apart;
+    const int other    = static_cast<int>(tile.like) + static_cast<int>(row_tile) - static_cast<int>(column_tile);
     const bool lies_so = other >= 0 && other < static_cast<int>(tiles.size()) &&
                          rounded(tiles[other].xi - tiles[tile.like].xi) == rounded(tiles[row_tile].xi - tile.xi);
-    const auto &columns    = near_columns(lies_so ? tile.like : column_tile);
-    const int number       = apart - columns.first;
+    return lies_so ? tile.like : column_tile;
+  }
+
+  /// Displacements of a tile by forces on another; none where they are negligible.
+  const FullMatrix<double> *LayeredCompliance::near_block(const unsigned int row_tile, const unsigned int column_tile)
+  {
+    const auto &columns    = near_columns(stand_in(row_tile, column_tile));
+    const int number       = static_cast<int>(row_tile) - static_cast<int>(column_tile) - columns.first;
     const bool is_far_away = number < 0 || number >= static_cast<int>(columns.of_tiles.size());
     return is_far_away ? nullptr : &columns.of_tiles[number];
+  }
+
+  /// Displacement of a port by forces on each, of the skin alone.
+  const std::vector<double> &LayeredCompliance::near_row(const unsigned int port)
+  {
+    const auto [found, is_new] = known_rows.try_emplace(port, dofs.size());
+    if (const int own = body.number_near(dofs[port]); is_new && own >= 0)
+    {
+      SparseColumns load;
+      load.add(static_cast<unsigned int>(own), 1.);
+      load.end_column();
+      const auto response = body.respond_near(std::move(load));
+      for (unsigned int i = 0; i < dofs.size(); ++i)
+        if (const int number = body.number_near(dofs[i]); number >= 0)
+          found->second[i] = response[number];
+    }
+    return found->second;
   }
 
   FullMatrix<double> LayeredCompliance::block(const unsigned int row_tile, const unsigned int column_tile)
@@ -264,18 +285,33 @@ namespace sprag
     return result;
   }
 
-  double LayeredCompliance::displacement(const unsigned int port, const PortLoads &forces)
+  Vector<double> LayeredCompliance::displacements(const PortSelection &ports, const PortLoads &forces)
   {
-    double result         = 0.;
+    Vector<double> amplitudes(basis_size()), result(static_cast<unsigned int>(ports.size()));
+    for (unsigned int a = 0; a < forces.ports.size(); ++a)
+      for (unsigned int j = 0; j < basis.n(); ++j)
+        amplitudes[j] += basis(forces.ports[a], j) * forces.values[a];
+    for (unsigned int i = 0; i < ports.size(); ++i)
+    {
+      for (unsigned int j = 0; j < basis.n(); ++j)
+        result[i] += basis(ports[i], j) * amplitudes[j];
+      result[i] += near_displacement(ports[i], forces);
+    }
+    return result;
+  }
+
+  /// Where other tiles' columns do not serve, a row costs less than all columns.
+  double LayeredCompliance::near_displacement(const unsigned int port, const PortLoads &forces)
+  {
     const unsigned int to = tile_of(port);
+    double result         = 0.;
     for (unsigned int a = 0; a < forces.ports.size(); ++a)
     {
-      const unsigned int from = forces.ports[a];
-      for (unsigned int j = 0; j < basis.n(); ++j)
-        result += basis(port, j) * basis(from, j) * forces.values[a];
-      const unsigned int tile = tile_of(from);
-      if (const auto *const block = near_block(to, tile))
-        result += (*block)(port - tiles[to].begin, from - tiles[tile].begin) * forces.values[a];
+      const unsigned int by = forces.ports[a], from = tile_of(by);
+      if (stand_in(to, from) != tiles[from].like)
+        result += near_row(port)[by] * forces.values[a];
+      else if (const auto *const block = near_block(to, from))
+        result += (*block)(port - tiles[to].begin, by - tiles[from].begin) * forces.values[a];
     }
     return result;
   }

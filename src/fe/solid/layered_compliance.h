@@ -34,7 +34,7 @@ namespace sprag
 
     /// Displacements of some ports by forces on others, those of the skin left out where they are further away than it reaches
     /// [mm].
-    double displacement(unsigned int port, const PortLoads &forces);
+    dealii::Vector<double> displacements(const PortSelection &ports, const PortLoads &forces);
 
     unsigned int basis_size() const
     {
@@ -61,6 +61,9 @@ namespace sprag
     void find_tiles(double surroundings);
     std::set<std::vector<long>> surroundings_of(double xi, double distance) const;
     void find_basis(double begin, double end, double spacing);
+    unsigned int stand_in(unsigned int row_tile, unsigned int column_tile) const;
+    const std::vector<double> &near_row(unsigned int port);
+    double near_displacement(unsigned int port, const PortLoads &forces);
     const dealii::FullMatrix<double> *near_block(unsigned int row_tile, unsigned int column_tile);
     dealii::FullMatrix<double> block(unsigned int row_tile, unsigned int column_tile);
     const NearColumns &near_columns(unsigned int tile);
@@ -72,7 +75,8 @@ namespace sprag
     std::vector<unsigned int> dofs; ///< of the ports
     std::vector<Tile> tiles;
     std::map<unsigned int, NearColumns> known; ///< by the tile
-    dealii::FullMatrix<double> basis;          ///< Z, a row a port
+    std::map<unsigned int, std::vector<double>> known_rows;
+    dealii::FullMatrix<double> basis; ///< Z, a row a port
 
     // What was found last, most of which the next one holds too.
     PortSelection last_ports;

@@ -30,7 +30,8 @@ namespace sprag
     set(5, 0);
     set(7, 4); // PORD, which is best for long bodies
     set(14, memory_relaxation);
-    set(18, 3); // entries where they are
+    set(15, -3); // ordered by nodes
+    set(18, 3);  // entries where they are
     set(27, together);
     set(28, 1);
   }

@@ -63,11 +63,10 @@ namespace sprag
     face = find_friction_face(mapping, dof_handler, constraints, properties, boundary_id::friction_face);
     order_face_nodes();
     number_skin();
-    SymmetricEntries of_skin;
-    auto of_whole = assemble_stiffness({ mapping, dof_handler, constraints, properties }, number_in_skin, of_skin);
-    factors.factorise(std::move(of_whole));
+    auto stiffness = assemble_stiffness({ mapping, dof_handler, constraints, properties }, number_in_skin);
+    factors.factorise(std::move(stiffness.whole));
     if (has_skin())
-      factors_of_skin.factorise(std::move(of_skin));
+      factors_of_skin.factorise(std::move(stiffness.part));
   }
 
   /// Mesh and factors are given back by all ranks together.
@@ -119,7 +118,7 @@ namespace sprag
           node.index = place[node.index];
   }
 
-  /// Numbers what belongs to the skin alone.
+  /// Numbers what belongs to the skin alone, all three displacements of its nodes.
   void SolidBody::number_skin()
   {
     std::vector<char> in_skin(n_dofs(), 0), elsewhere(n_dofs(), 0);
@@ -133,7 +132,7 @@ namespace sprag
     int number = 0;
     number_in_skin.assign(n_dofs(), -1);
     for (unsigned int dof = 0; dof < n_dofs(); ++dof)
-      if (in_skin[dof] && !elsewhere[dof] && !is_held(dof))
+      if (in_skin[dof] && !elsewhere[dof])
         number_in_skin[dof] = number++;
     const bool is_all = std::find(elsewhere.begin(), elsewhere.end(), 1) == elsewhere.end();
     if (number == 0 || is_all)
@@ -165,9 +164,9 @@ namespace sprag
 
   int SolidBody::number_near(const unsigned int dof) const
   {
-    if (has_skin())
-      return number_in_skin[dof];
-    return is_held(dof) ? -1 : static_cast<int>(dof);
+    if (is_held(dof))
+      return -1;
+    return has_skin() ? number_in_skin[dof] : static_cast<int>(dof);
   }
 
   unsigned int SolidBody::n_near() const

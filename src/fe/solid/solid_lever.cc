@@ -239,22 +239,23 @@ namespace sprag
     return *std::min_element(node_lines.begin(), node_lines.end(), is_closer);
   }
 
-  /// Displacement along eta on a line of nodes, by the polynomial through three of them [mm].
-  double SolidLever::deflection(const std::vector<unsigned int> &line, const double xi, const PortLoads &on_face) const
+  /// The displacement along eta between the nodes of a line by those of three of them: their ports and shares.
+  PortLoads SolidLever::interpolation(const std::vector<unsigned int> &line, const double xi) const
   {
     const auto &nodes    = body.friction_face().nodes;
     const auto xi_of     = [&](const std::size_t i) { return nodes[line[i]].position[0]; };
     const auto is_before = [&](const unsigned int node, const double value) { return nodes[node].position[0] < value; };
     const auto after     = std::lower_bound(line.begin(), line.end(), xi, is_before) - line.begin();
     const auto first     = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(after - 1, 0, line.size() - 3));
-    double result        = 0.;
+    PortLoads result{ {}, Vector<double>(3) };
     for (std::size_t i = first; i < first + 3; ++i)
     {
       double share = 1.;
       for (std::size_t j = first; j < first + 3; ++j)
         if (j != i)
           share *= (xi - xi_of(j)) / (xi_of(i) - xi_of(j));
-      result += share * compliance.displacement(3 * line[i] + 1, on_face);
+      result.ports.push_back(3 * line[i] + 1);
+      result.values[static_cast<unsigned int>(i - first)] = share;
     }
     return result;
   }
@@ -267,7 +268,11 @@ namespace sprag
     const auto &line   = line_at(row.across[4]);
     const double s     = row[Column::s];
     const double aside = 0.5 * row[Column::contact_width] + 4. * properties.layer_thickness;
-    const auto at      = [&](const double xi) { return deflection(line, xi, on_face); };
+    const auto at      = [&](const double xi)
+    {
+      const auto shares = interpolation(line, xi);
+      return shares.values * compliance.displacements(shares.ports, on_face);
+    };
     return at(s) - 0.5 * (at(s - aside) + at(s + aside));
   }
 
@@ -299,21 +304,46 @@ namespace sprag
     return { loads.begin(), loads.end() };
   }
 
-  SolidLever::Exactness SolidLever::exactness(const State &state)
+  FaceSample SolidLever::sample(const State &state) const
   {
-    const auto whole  = body_displacement(state);
+    FaceSample result{ on_surface(ports, state.forces), {} };
+    auto &[forces_there, displacements] = result;
+    displacements.reinit(static_cast<unsigned int>(forces_there.ports.size()));
+    for (unsigned int i = 0; i < displacements.size(); ++i)
+      displacements[i] = state.coordinates[forces_there.ports[i]];
+    return result;
+  }
+
+  SolidLever::Exactness SolidLever::exactness(const std::vector<FaceSample> &samples) const
+  {
     const auto &nodes = body.friction_face().nodes;
-    double largest = 0., work = 0., missed = 0., compression = 0.;
-    for (unsigned int i = 0; i < state.forces.ports.size(); ++i)
-      if (const unsigned int port = state.forces.ports[i]; ports.is_surface(port))
+    const auto dof_of = [&](const unsigned int port) { return nodes[port / 3].dofs[port % 3]; };
+    SparseColumns loads;
+    for (const auto &[acting, displacements] : samples)
+    {
+      for (unsigned int i = 0; i < acting.ports.size(); ++i)
+        if (const unsigned int dof = dof_of(acting.ports[i]); !body.is_held(dof))
+          loads.add(dof, acting.values[i]);
+      loads.end_column();
+    }
+    const auto of_whole = body.respond(std::move(loads));
+
+    Exactness result{};
+    for (std::size_t k = 0; k < samples.size(); ++k)
+    {
+      const auto &[acting, displacements] = samples[k];
+      double difference = 0., largest = 0., missed = 0., work = 0.;
+      for (unsigned int i = 0; i < acting.ports.size(); ++i)
       {
-        const double exact      = whole[nodes[port / 3].dofs[port % 3]];
-        const double difference = exact - state.coordinates[port];
-        largest                 = std::max(largest, std::abs(difference));
-        compression             = std::max(compression, std::abs(exact));
-        missed += difference * state.forces.values[i];
-        work += exact * state.forces.values[i];
+        const double exact = of_whole[k * body.n_dofs() + dof_of(acting.ports[i])];
+        difference         = std::max(difference, std::abs(exact - displacements[i]));
+        largest            = std::max(largest, std::abs(exact));
+        missed += (exact - displacements[i]) * acting.values[i];
+        work += exact * acting.values[i];
       }
-    return { compression > 0. ? largest / compression : 0., work > 0. ? missed / work : 0. };
+      result.displacement = std::max(result.displacement, largest > 0. ? difference / largest : 0.);
+      result.work         = std::max(result.work, work > 0. ? std::abs(missed) / work : 0.);
+    }
+    return result;
   }
 } // namespace sprag

@@ -9,6 +9,9 @@
 
 namespace sprag
 {
+  /// Forces on the ports of the face, and the displacements of these ports.
+  using FaceSample = std::pair<PortLoads, dealii::Vector<double>>;
+
   /// A lever in three dimensions on its hub, rotational spring and support against the rigid cylinder, without inertia. It
   /// follows the steps of LeverModel; all that differs is the body, its compliance, and that the contact slips in two directions.
   /// To be made and used by the first rank.
@@ -46,13 +49,16 @@ namespace sprag
     /// Displacement of all degrees of freedom of the body in its axes [mm], by a back-substitution with the whole body.
     dealii::Vector<double> body_displacement(const State &state) const;
 
-    /// What the compliance of the face leaves out in a state, against a solve with the whole body where forces act.
+    /// Returns a state's forces on the face and the displacements where they act.
+    FaceSample sample(const State &state) const;
+
+    /// What the compliance of the face leaves out, against a solve with the whole body, the worst of some states.
     struct Exactness
     {
       double displacement; ///< largest difference over the largest displacement [-]
-      double force;        ///< work of the forces on the differences over that on the displacements [-]
+      double work;         ///< of the forces on the differences over that on the displacements [-]
     };
-    Exactness exactness(const State &state);
+    Exactness exactness(const std::vector<FaceSample> &samples) const;
 
   private:
     PortSelection reachable(const State &trial);
@@ -61,7 +67,7 @@ namespace sprag
     double turn(const State &state) const;
     double support_displacement(const State &state) const;
     const std::vector<unsigned int> &line_at(double zeta) const;
-    double deflection(const std::vector<unsigned int> &line, double xi, const PortLoads &on_face) const;
+    PortLoads interpolation(const std::vector<unsigned int> &line, double xi) const;
     double indentation(const Row &row, const PortLoads &on_face) const;
 
     const SolidBody &body;

@@ -2,11 +2,6 @@
 
 #include "fe/body/cell_elasticity.h"
 
-#include <deal.II/dofs/dof_tools.h>
-#include <deal.II/lac/dynamic_sparsity_pattern.h>
-#include <deal.II/lac/petsc_sparse_matrix.h>
-#include <deal.II/lac/sparsity_tools.h>
-
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -29,96 +24,66 @@ namespace sprag
       return result;
     }
 
-    void reinit(const StiffnessSource &source, PETScWrappers::MPI::SparseMatrix &matrix)
-    {
-      const IndexSet &owned = source.dof_handler.locally_owned_dofs();
-      const MPI_Comm ranks  = source.dof_handler.get_communicator();
-      DynamicSparsityPattern pattern(source.dof_handler.n_dofs(), source.dof_handler.n_dofs());
-      std::vector<types::global_dof_index> indices(source.dof_handler.get_fe().n_dofs_per_cell());
-      for (const auto &cell : source.dof_handler.active_cell_iterators())
-        if (cell->is_locally_owned())
-        {
-          cell->get_dof_indices(indices);
-          source.constraints.add_entries_local_to_global(indices, pattern, true);
-        }
-      SparsityTools::distribute_sparsity_pattern(pattern, owned, ranks,
-                                                 DoFTools::extract_locally_relevant_dofs(source.dof_handler));
-      matrix.reinit(owned, owned, pattern, ranks);
-    }
-
-    void assemble(const StiffnessSource &source, PETScWrappers::MPI::SparseMatrix &matrix)
-    {
-      const auto &fe       = source.dof_handler.get_fe();
-      const unsigned int n = fe.n_dofs_per_cell();
-      CellElasticity<3> elasticity(source.mapping, fe, source.properties);
-      const Vector<double> at_rest(n);
-      Vector<double> no_forces(n);
-      std::map<std::vector<long>, FullMatrix<double>> known;
-      std::vector<types::global_dof_index> indices(n);
-      for (const auto &cell : source.dof_handler.active_cell_iterators())
-      {
-        if (!cell->is_locally_owned() || cell->material_id() == material_id::hub)
-          continue;
-        const auto [found, is_new] = known.try_emplace(likeness(cell), n, n);
-        if (is_new)
-        {
-          elasticity.reinit(cell, at_rest);
-          elasticity.assemble(found->second, no_forces);
-        }
-        cell->get_dof_indices(indices);
-        source.constraints.distribute_local_to_global(found->second, indices, matrix);
-      }
-      const IndexSet &owned = source.dof_handler.locally_owned_dofs();
-      for (const auto &line : source.constraints.get_lines())
-        if (owned.is_element(line.index))
-          matrix.add(line.index, line.index, 1.);
-      matrix.compress(VectorOperation::add);
-    }
-
-    /// Calls of_entry(row, column, value) for this rank's part of the upper triangle.
-    template <class OfEntry>
-    void visit_upper_triangle(const Mat matrix, const OfEntry &of_entry)
-    {
-      PetscInt begin = 0, end = 0;
-      MatGetOwnershipRange(matrix, &begin, &end);
-      for (PetscInt row = begin; row < end; ++row)
-      {
-        PetscInt entries          = 0;
-        const PetscInt *columns   = nullptr;
-        const PetscScalar *values = nullptr;
-        MatGetRow(matrix, row, &entries, &columns, &values);
-        for (PetscInt k = 0; k < entries; ++k)
-          if (columns[k] >= row && (values[k] != 0. || columns[k] == row))
-            of_entry(row, columns[k], values[k]);
-        MatRestoreRow(matrix, row, &entries, &columns, &values);
-      }
-    }
-
     void add(const int row, const int column, const double value, SymmetricEntries &entries)
     {
       entries.row.push_back(row + 1);
       entries.column.push_back(column + 1);
       entries.value.push_back(value);
     }
+
+    /// Adds a cell's part of the upper triangle on those of its displacements that have numbers.
+    void add(const FullMatrix<double> &of_cell, const std::vector<int> &numbers, SymmetricEntries &entries)
+    {
+      for (unsigned int i = 0; i < numbers.size(); ++i)
+        for (unsigned int j = 0; j <= i && numbers[i] >= 0; ++j)
+          if (numbers[j] >= 0 && of_cell(i, j) != 0.)
+            add(std::min(numbers[i], numbers[j]), std::max(numbers[i], numbers[j]), of_cell(i, j), entries);
+    }
   } // namespace
 
-  SymmetricEntries assemble_stiffness(const StiffnessSource &source, const std::vector<int> &number_in_part,
-                                      SymmetricEntries &of_part)
+  SolidStiffness assemble_stiffness(const StiffnessSource &source, const std::vector<int> &number_in_part)
   {
-    PETScWrappers::MPI::SparseMatrix matrix;
-    reinit(source, matrix);
-    assemble(source, matrix);
+    const auto &fe       = source.dof_handler.get_fe();
+    const unsigned int n = fe.n_dofs_per_cell();
+    CellElasticity<3> elasticity(source.mapping, fe, source.properties);
+    const Vector<double> at_rest(n);
+    Vector<double> no_forces(n);
+    std::map<std::vector<long>, FullMatrix<double>> known;
+    std::vector<types::global_dof_index> indices(n);
+    std::vector<int> in_whole(n), in_part(n, -1);
 
-    SymmetricEntries result;
-    result.size  = source.dof_handler.n_dofs();
-    of_part.size = number_in_part.empty() ? 0 : 1 + *std::max_element(number_in_part.begin(), number_in_part.end());
-    visit_upper_triangle(matrix,
-                         [&](const PetscInt row, const PetscInt column, const double value)
-                         {
-                           add(row, column, value, result);
-                           if (of_part.size > 0 && number_in_part[row] >= 0 && number_in_part[column] >= 0)
-                             add(number_in_part[row], number_in_part[column], value, of_part);
-                         });
+    SolidStiffness result;
+    result.whole.size = source.dof_handler.n_dofs();
+    result.part.size  = number_in_part.empty() ? 0 : 1 + *std::max_element(number_in_part.begin(), number_in_part.end());
+    for (const auto &cell : source.dof_handler.active_cell_iterators())
+    {
+      if (!cell->is_locally_owned() || cell->material_id() == material_id::hub)
+        continue;
+      const auto [found, is_new] = known.try_emplace(likeness(cell), n, n);
+      if (is_new)
+      {
+        elasticity.reinit(cell, at_rest);
+        elasticity.assemble(found->second, no_forces);
+      }
+      cell->get_dof_indices(indices);
+      for (unsigned int i = 0; i < n; ++i)
+      {
+        const bool is_free = !source.constraints.is_constrained(indices[i]);
+        in_whole[i]        = is_free ? static_cast<int>(indices[i]) : -1;
+        if (result.part.size > 0)
+          in_part[i] = is_free ? number_in_part[indices[i]] : -1;
+      }
+      add(found->second, in_whole, result.whole);
+      if (result.part.size > 0)
+        add(found->second, in_part, result.part);
+    }
+    for (const auto index : source.dof_handler.locally_owned_dofs())
+      if (source.constraints.is_constrained(index))
+      {
+        add(static_cast<int>(index), static_cast<int>(index), 1., result.whole);
+        if (result.part.size > 0 && number_in_part[index] >= 0)
+          add(number_in_part[index], number_in_part[index], 1., result.part);
+      }
     return result;
   }
 } // namespace sprag

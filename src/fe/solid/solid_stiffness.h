@@ -18,8 +18,13 @@ namespace sprag
     const BodyProperties &properties;
   };
 
+  struct SolidStiffness
+  {
+    SymmetricEntries whole; ///< unit entries for held degrees of freedom
+    SymmetricEntries part;  ///< likewise
+  };
+
   /// Returns this rank's entries of the stiffness of a body without load, and of the part of it between those degrees of freedom
   /// that `number_in_part` numbers from 0, -1 elsewhere; without numbers there is no part. To be called by all ranks.
-  SymmetricEntries assemble_stiffness(const StiffnessSource &source, const std::vector<int> &number_in_part,
-                                      SymmetricEntries &of_part);
+  SolidStiffness assemble_stiffness(const StiffnessSource &source, const std::vector<int> &number_in_part);
 } // namespace sprag
