@@ -41,12 +41,35 @@ namespace sprag
       result.reduced = make_reduced_lever(scene);
       return result;
     }
+    if (scene.analysis.dimension == 3)
+      return make_solid(scene);
     result.lever = lever_of(scene);
     const PhaseTimer::Scope scope(time, "model");
     const double relaxation = contact_reference(scene).relaxation;
     result.meshed           = scene.analysis.model == ModelType::condensed
                                   ? make_condensed_dynamics(scene, *result.lever->body, result.lever->condensed, relaxation)
                                   : make_finite_element_dynamics(scene, *result.lever->body, result.lever->elements, relaxation);
+    return result;
+  }
+
+  Dynamics DynamicsMaker::make_solid(const Scene &scene)
+  {
+    if (const auto key = body_key(scene); key != solid.first)
+    {
+      Mesh plane;
+      make_mesh(scene, plane);
+      const PhaseTimer::Scope scope(time, "basis");
+      solid = { key, std::make_shared<const SolidInTime>(make_solid_in_time(scene, plane)) };
+    }
+    const PhaseTimer::Scope scope(time, "model");
+    Dynamics result;
+    result.solid                    = solid.second;
+    result.reduced                  = make_solid_dynamics(scene, *result.solid, contact_reference(scene).relaxation);
+    const auto &modes               = result.solid->modes;
+    result.meshed.density_factor    = modes.density_factor;
+    result.meshed.lever_mass        = modes.total_mass;
+    result.meshed.moment_of_inertia = modes.moment_of_inertia;
+    result.meshed.n_coordinates     = static_cast<unsigned int>(modes.stiffness.size());
     return result;
   }
 

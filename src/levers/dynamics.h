@@ -2,6 +2,7 @@
 
 #include "base/phase_timer.h"
 #include "fe/dynamics/dynamic_face_lever.h"
+#include "fe/solid/solid_dynamics.h"
 
 #include <deque>
 #include <memory>
@@ -23,7 +24,8 @@ namespace sprag
   /// A scene's model in time at its fidelity.
   struct Dynamics
   {
-    std::shared_ptr<const MeshedLever> lever; ///< null where there is no mesh
+    std::shared_ptr<const MeshedLever> lever; ///< null where there is no mesh in a plane
+    std::shared_ptr<const SolidInTime> solid; ///< null where there is none in three dimensions
     MeshedDynamics meshed;                    ///< facts of the mesh; its model is `model`'s owner there
     std::unique_ptr<DynamicModel> reduced;
 
@@ -64,11 +66,14 @@ namespace sprag
   private:
     const bool store;
     const std::size_t kept;
-    std::deque<std::pair<std::string, std::shared_ptr<const MeshedLever>>> levers; ///< by body_key(), the last one used first
+    // By body_key(), the last one used first.
+    std::deque<std::pair<std::string, std::shared_ptr<const MeshedLever>>> levers;
+    std::pair<std::string, std::shared_ptr<const SolidInTime>> solid;
     double saved = 0.;
     PhaseTimer time;
 
     std::shared_ptr<const MeshedLever> lever_of(const Scene &scene);
     std::shared_ptr<const MeshedLever> make_lever(const Scene &scene);
+    Dynamics make_solid(const Scene &scene);
   };
 } // namespace sprag

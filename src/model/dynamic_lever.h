@@ -80,7 +80,8 @@ namespace sprag
           rate = drifted.velocity;
           rate.add(weights.rate(), z, -weights.rate(), drifted.position);
         }
-        contact->evaluate(PortStep{ accepted.drive, accepted.contact, to, begin, z, rate, weights }, found);
+        contact->evaluate(
+            PortStep{ accepted.drive, accepted.contact, to, begin, z, rate, weights, &accepted.surface_contact }, found);
         coupling.add_forces(begin, z, weights, found.forces);
         hub_spring.add_forces(turned, turns_of(frame.ports, z), weights, found.forces);
         return found.forces;
@@ -188,7 +189,7 @@ namespace sprag
       add_real_part(size, eigenmode.ports, ports);
       add_real_part(size * eigenmode.mode.eigenvalue, eigenmode.ports, rates);
       contact->evaluate_sliding(SlidingState{ ports, slide.drive, slide.speed, &rates, slide.friction }, found);
-      motion.contact = found.memory();
+      remember(found.memory(), motion);
       return motion;
     }
 
@@ -312,7 +313,7 @@ namespace sprag
       // A cylinder out of the mirror plane presses on one lever from the beginning.
       if (frame.ports.levers == 2 && overlaps(structure->port_positions(motion), drive))
         return pressed_at_rest(drive, ContactFriction::none);
-      motion.contact = contact->touch(structure->port_positions(motion), drive, found);
+      remember(contact->touch(structure->port_positions(motion), drive, found), motion);
       return motion;
     }
 
@@ -383,9 +384,9 @@ namespace sprag
     /// Adds to a motion what the structure does not know: drive, memory of the contact and its forces.
     Motion completed(Motion motion, const DrivePoint &drive, const PortForces &forces) const
     {
-      motion.drive   = drive;
-      motion.contact = found.memory();
-      motion.forces  = { forces.ports, forces.values };
+      motion.drive  = drive;
+      motion.forces = { forces.ports, forces.values };
+      remember(found.memory(), motion);
       return motion;
     }
   };

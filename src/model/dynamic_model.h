@@ -22,7 +22,18 @@ namespace sprag
     dealii::Vector<double> face_force; ///< elastic forces in the static face shapes [N]; empty without such shapes
     std::vector<ContactMemory> contact;
     PortLoads forces; ///< of the step that led here: where the search for the next ones starts
+    std::vector<PointMemory<2>> surface_contact; ///< in three dimensions, in place of `contact`
   };
+
+  // What a contact remembers, of a line or of a surface.
+  inline void remember(std::vector<ContactMemory> memory, Motion &motion)
+  {
+    motion.contact = std::move(memory);
+  }
+  inline void remember(std::vector<PointMemory<2>> memory, Motion &motion)
+  {
+    motion.surface_contact = std::move(memory);
+  }
 
   struct PortState
   {

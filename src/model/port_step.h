@@ -14,5 +14,6 @@ namespace sprag
     const dealii::Vector<double> &end;
     const dealii::Vector<double> &end_rate;
     StepWeights weights;
+    const std::vector<PointMemory<2>> *surface_memory = nullptr; ///< of the contact of a surface, in place of `memory`
   };
 } // namespace sprag

@@ -45,8 +45,8 @@ namespace sprag
 
   void visit(Archive &archive, Motion &motion)
   {
-    auto &[drive, coordinates, face_force, contact, forces] = motion;
-    archive(drive, coordinates, face_force, contact, forces);
+    auto &[drive, coordinates, face_force, contact, forces, surface_contact] = motion;
+    archive(drive, coordinates, face_force, contact, forces, surface_contact);
   }
 
   void visit(Archive &archive, State &state)

@@ -59,6 +59,16 @@ namespace sprag
 
     /// In a pair 1 where the levers mirror each other, -1 where the second does the opposite and both swing the same way.
     double mirroring = std::numeric_limits<double>::quiet_NaN();
+
+    /// In three dimensions the shares of the kinetic energy that lie in motion as in a plane, in twisting and in motion along the
+    /// cylinder's axis; NaN else.
+    struct AcrossShares
+    {
+      double plane    = std::numeric_limits<double>::quiet_NaN();
+      double twisting = std::numeric_limits<double>::quiet_NaN();
+      double sideways = std::numeric_limits<double>::quiet_NaN();
+    };
+    AcrossShares across{};
   };
 
   /// Points along the lever and how a mode moves them in lever axes [mm per unit of the mode].

@@ -122,11 +122,23 @@ namespace sprag
     /// Matrices of plate and bar over those of the plate.
     constexpr double bar_behind_plate = 1.5;
 
+    /// Modes, and matrices of the part of the face that a contact in three dimensions can reach, as many as a run in time keeps.
+    double bytes_of_solid_modes(const Scene &scene, const double displacements, const double ports)
+    {
+      if (scene.analysis.type == AnalysisType::quasi_static)
+        return 0.;
+      const double room    = 2. * (0.1 * scene.geometry.cylinder_radius + 4. * scene.layer.thickness);
+      const double reached = holds_slide(scene.analysis.type)
+                                 ? ports * std::min(1., room / scene.mesh.face_size / elements_along_face(scene))
+                                 : ports;
+      return 8. * (3. * scene.condensed.modes * displacements + 10. * reached * reached);
+    }
+
     double bytes_of_matrices(const Scene &scene)
     {
       const auto [displacements, ports] = expected_size(scene);
       if (scene.analysis.dimension == 3)
-        return 215. * std::pow(displacements, 4. / 3.);
+        return 215. * std::pow(displacements, 4. / 3.) + bytes_of_solid_modes(scene, displacements, ports);
       const double levers       = scene.pair.type == PairType::full && !is_factorised_once(scene) ? 2. : 1.;
       const auto [each, copies] = cost_of(scene);
       const double bar          = scene.plate.type == PlateType::none ? 1. : bar_behind_plate;

@@ -143,7 +143,7 @@ namespace sprag
         },
         [&]
         {
-          if (is_complete && estimates_errors(options))
+          if (is_complete && estimates_errors(options) && !dynamics.solid)
           {
             const PhaseTimer::Scope scope(timer, "accuracy");
             recorder.set_accuracy(transient_accuracy(scene, dynamics.meshed, recorder.recorded(), maker));

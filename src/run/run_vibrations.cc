@@ -44,10 +44,10 @@ namespace sprag
 
     std::vector<Entry> meshed_entries(const Dynamics &dynamics)
     {
-      if (!dynamics.lever)
+      if (!dynamics.lever && !dynamics.solid)
         return {};
-      return { { "degrees_of_freedom", static_cast<double>(dynamics.lever->body->n_dofs()), "1",
-                 "displacements, those of the hub included" },
+      const auto n_dofs = dynamics.lever ? dynamics.lever->body->n_dofs() : dynamics.solid->body->n_dofs();
+      return { { "degrees_of_freedom", static_cast<double>(n_dofs), "1", "displacements, those of the hub included" },
                { "coordinates", static_cast<double>(dynamics.meshed.n_coordinates), "1",
                  "generalised coordinates of the model" } };
     }
@@ -110,7 +110,9 @@ namespace sprag
         throw AnalysisError("no equilibrium at x = " + mm(held_drive(undamped).x) + ". Try another Stability/Position.");
       const bool in_contact = scene.stability.contact != HeldContact::open;
       const auto found      = timed(maker, [&] { return model.vibrations(*slide, in_contact, scene.stability.modes); });
-      const auto modes      = reported(found, scene.stability.modes);
+      auto modes            = reported(found, scene.stability.modes);
+      if (dynamics.solid)
+        tell_motion(dynamics.solid->modes, modes);
       if (!options.quiet)
         print_modes(std::cout, modes);
       RunEnd result;
@@ -139,16 +141,18 @@ namespace sprag
         const auto dynamics = maker.make(held);
         found               = timed(maker, [&] { return judge(dynamics.model(), held_drive(scene), scene.stability.modes); });
         result.meta         = meshed_entries(dynamics);
-        const auto modes    = reported(found.modes, scene.stability.modes);
-        result.groups       = { mode_group(modes, dynamics.model()) };
+        auto modes          = reported(found.modes, scene.stability.modes);
+        if (dynamics.solid)
+          tell_motion(dynamics.solid->modes, modes);
+        result.groups = { mode_group(modes, dynamics.model()) };
         if (found.slide)
           write_fields(scene, dynamics, pose_of_slide(scene, dynamics.model(), *found.slide), modes, options);
         result.summary = slide_entries(found);
         if (found.slide)
           append(warnings, slide_warnings(scene, found.slide->drive, found.slide->forces.P, found.slide->indentation));
-        const auto accuracy =
-            estimates_errors(options) ? accuracy_of(held, found, dynamics.meshed, maker) : std::vector<ErrorEstimate>();
-        result.accuracy = accuracy_entries(accuracy);
+        const auto accuracy = estimates_errors(options) && !dynamics.solid ? accuracy_of(held, found, dynamics.meshed, maker)
+                                                                           : std::vector<ErrorEstimate>();
+        result.accuracy     = accuracy_entries(accuracy);
         if (options.verbose)
         {
           print_summary(std::cout, result.summary);

@@ -94,6 +94,13 @@ namespace sprag
       return kind_name(found.kind) + (found.growth_rate() > 0. ? ", grows by " : ", dies out by at least ") + growth() + at() +
              (found.motion().empty() ? "" : ", the levers " + found.motion());
     }
+
+    std::string motion_of(const Eigenmode::AcrossShares &across)
+    {
+      if (across.plane > 0.5)
+        return "in the plane";
+      return across.twisting > across.sideways ? "twisting" : "sideways";
+    }
   } // namespace
 
   void print_modes(std::ostream &stream, const std::vector<Eigenmode> &modes)
@@ -104,13 +111,14 @@ namespace sprag
     stream << "  frequency [Hz]";
     for (const auto &column : columns)
       stream << padded(column.name + " [%]", 13);
-    stream << (is_pair(modes) ? "    mirroring [1]" : "") << "\n";
+    stream << (is_pair(modes) ? "    mirroring [1]" : "") << (is_solid(modes) ? "  motion" : "") << "\n";
     for (const auto &mode : modes)
     {
       stream << cell(frequency_of(mode), 16);
       for (const auto &column : columns)
         stream << cell(std::round(1000. * mode.energy.*column.share) / 10., 13);
-      stream << (is_pair(modes) ? cell(mode.mirroring, 17) : "") << '\n';
+      stream << (is_pair(modes) ? cell(mode.mirroring, 17) : "") << (is_solid(modes) ? "  " + motion_of(mode.across) : "")
+             << '\n';
     }
   }
 

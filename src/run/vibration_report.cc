@@ -32,6 +32,15 @@ namespace sprag
         add({ "mirroring", "1", "1 where the levers of a pair mirror each other, -1 where both swing the same way" },
             [](const auto &mode) { return mode.mirroring; });
 
+      const auto across = [&](const std::string &name, double Eigenmode::AcrossShares::*share, const std::string &what)
+      {
+        if (is_solid(modes))
+          add({ name, "1", "share of the kinetic energy in " + what }, [share](const auto &mode) { return mode.across.*share; });
+      };
+      across("plane", &Eigenmode::AcrossShares::plane, "motion as in a plane");
+      across("twisting", &Eigenmode::AcrossShares::twisting, "twisting");
+      across("sideways", &Eigenmode::AcrossShares::sideways, "motion along the cylinder's axis");
+
       const auto energy = [&](const std::string &name, double EnergyShares::*share, const std::string &where)
       {
         add({ "energy_" + name, "1", "share of the potential energy " + where },
@@ -124,6 +133,11 @@ namespace sprag
   bool is_pair(const std::vector<Eigenmode> &modes)
   {
     return !modes.empty() && !std::isnan(modes.front().mirroring);
+  }
+
+  bool is_solid(const std::vector<Eigenmode> &modes)
+  {
+    return !modes.empty() && !std::isnan(modes.front().across.plane);
   }
 
   std::vector<Eigenmode> reported(const std::vector<Eigenmode> &modes, const unsigned int number)

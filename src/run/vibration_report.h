@@ -17,6 +17,9 @@ namespace sprag
   /// Judges a mode: stable, flutter or divergence.
   SlideKind kind_of(const Eigenmode &mode);
 
+  /// Returns whether they are of a lever in three dimensions.
+  bool is_solid(const std::vector<Eigenmode> &modes);
+
   /// Whether these are the modes of two levers.
   bool is_pair(const std::vector<Eigenmode> &modes);
 

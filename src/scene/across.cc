@@ -1,5 +1,7 @@
 #include "scene/across.h"
 
+#include "scene/analysis_use.h"
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -8,7 +10,7 @@ namespace sprag
 {
   bool is_symmetric_across(const Scene &scene)
   {
-    return scene.cylinder.tilt == 0. && scene.cylinder.skew == 0. && scene.cylinder.position == 0.;
+    return !holds_slide(scene.analysis.type) && scene.cylinder.tilt == 0. && scene.cylinder.skew == 0. && scene.cylinder.position == 0.;
   }
 
   std::vector<double> planes_across(const Scene &scene)

@@ -8,6 +8,15 @@ namespace sprag
 {
   namespace
   {
+    template <class Need>
+    void with_inertia(const Scene &scene, const Need &need)
+    {
+      need(scene.analysis.model == ModelType::condensed, "Analysis/Model", "condensed with inertia");
+      need(scene.lever.tip_mass == 0., "Lever/Tip mass", "0");
+      need(scene.spring.type == SpringType::torsional, "Rotational spring/Type", "torsional");
+      need(scene.stability.critical == "none" || scene.analysis.type != AnalysisType::stability, "Stability/Critical", "none");
+    }
+
     void what_there_is(const Scene &scene, Rules &rules)
     {
       const std::string in_plane = ": in three dimensions there is no other yet";
@@ -15,9 +24,13 @@ namespace sprag
       { rules.need(kept, parameter, { "Analysis/Dimension" }, "must be " + word + in_plane); };
       const auto &analysis = scene.analysis;
       const auto type      = analysis.type == AnalysisType::study ? scene.study.type : analysis.type;
-      need(type == AnalysisType::quasi_static, analysis.type == AnalysisType::study ? "Study/Type" : "Analysis/Type",
-           "quasi static");
-      need(analysis.model == ModelType::finite_element, "Analysis/Model", "finite element");
+      const bool is_static = type == AnalysisType::quasi_static;
+      need(is_static || type == AnalysisType::modal || type == AnalysisType::stability || type == AnalysisType::transient,
+           analysis.type == AnalysisType::study ? "Study/Type" : "Analysis/Type", "quasi-static, modal, stability or transient");
+      if (is_static)
+        need(analysis.model == ModelType::finite_element, "Analysis/Model", "finite element without inertia");
+      else
+        with_inertia(scene, need);
       need(analysis.solution == Solution::automatic, "Analysis/Solution", "automatic");
       need(scene.lever.material == MaterialModel::linear, "Lever/Material", "linear");
       need(scene.lever.outline == LeverOutline::bar, "Lever/Outline", "bar");

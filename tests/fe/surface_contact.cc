@@ -76,6 +76,11 @@ namespace
       return found;
     }
 
+    SurfaceContact &surface()
+    {
+      return *contact;
+    }
+
     /// Force along eta and its moment about the middle of the width.
     std::array<double, 2> pressed_by(const double overlap)
     {
@@ -206,5 +211,92 @@ TEST(SurfaceContact, TheTangentIsTheDerivativeOfTheForces)
     difference /= 2. * step;
     difference -= slope;
     EXPECT_LT(difference.l2_norm(), 1e-4 * slope.l2_norm()) << friction; // points at the edge change their state on the way
+  }
+}
+
+// Of friction that changes with the speed. Displacements are those of a slide at rest; points at the edge of the contact change
+// their state on the way.
+TEST(SurfaceContact, SlidingIsLinearisedByDisplacementsAndVelocities)
+{
+  Cylinder cylinder = tilted(6e-4);
+  cylinder.skew     = 2e-3;
+  Bed bed(cylinder, 12.5, 6);
+  auto ports = bed.pressed(0.03);
+  for (unsigned int port = 0; port < bed.ports.surface; ++port)
+    ports[port] += 1e-3 * std::sin(1.3 * port);
+  const auto rates = random_vector(bed.ports.size(), 20., 3);
+  const FrictionLaw friction{ StribeckFriction{ 0.9, 0.6, 30., 1., 1e-3 } };
+  const DrivePoint drive{ 0., Bed::x, 112., 0. };
+  const double speed = 100.;
+  const auto change  = random_vector(bed.ports.size(), 1., 1);
+  for (const bool of_rates : { false, true })
+  {
+    const auto at_rest = dealii::Vector<double>(bed.ports.size());
+    const auto &moving = of_rates ? rates : at_rest;
+    SurfaceEvaluation found;
+    const auto linear = bed.surface().linearise({ ports, drive, speed, &moving, ContactFriction::sliding }, friction, found);
+    const double step = of_rates ? 1e-3 : 1e-7;
+    const auto forces = [&](const double side)
+    {
+      auto at = ports, with = moving;
+      (of_rates ? with : at).add(side * step, change);
+      SurfaceEvaluation result;
+      bed.surface().slide({ at, drive, speed, &with, ContactFriction::sliding }, friction, result);
+      EXPECT_EQ(result.forces.ports, linear.ports);
+      return result.forces.values;
+    };
+    dealii::Vector<double> of_ports(static_cast<unsigned int>(linear.ports.size())), slope(of_ports.size());
+    for (unsigned int i = 0; i < of_ports.size(); ++i)
+      of_ports[i] = change[linear.ports[i]];
+    (of_rates ? linear.damping() : linear.stiffness()).vmult(slope, of_ports);
+    EXPECT_GT(slope.l2_norm(), 0.);
+    auto difference = forces(1.);
+    difference -= forces(-1.);
+    difference /= 2. * step;
+    difference -= slope;
+    EXPECT_LT(difference.l2_norm(), (of_rates ? 1e-7 : 1e-4) * slope.l2_norm()) << of_rates;
+  }
+}
+
+// The tangent of a step in time, and forces that balance between its ends: pressure does the work of its springs.
+TEST(SurfaceContact, AStepInTimeHasItsTangent)
+{
+  Cylinder cylinder = tilted(6e-4);
+  cylinder.skew     = 2e-3;
+  Bed bed(cylinder, 12.5, 6);
+  const auto begin = bed.pressed(0.02);
+  const StepWeights weights{ 1e-4, 0., 0., 0.25, 0.5 };
+  const DrivePoint from{ 0., Bed::x - 0.7, 112., 0. }, to{ 1e-4, Bed::x, 112., 0. };
+  for (const double friction : { 0.4, 50. }) // slips, sticks
+  {
+    const auto evaluated = [&](const dealii::Vector<double> &end)
+    {
+      SurfaceEvaluation found;
+      const std::vector<ContactMemory> none;
+      bed.surface().evaluate(PortStep{ from, none, to, { begin, {}, {} }, end, {}, weights }, { CoulombFriction{ friction } },
+                             found);
+      return found;
+    };
+    auto end = bed.pressed(0.03);
+    for (unsigned int port = 0; port < bed.ports.surface; ++port)
+      end[port] += 1e-3 * std::sin(1.3 * port);
+    const auto found  = evaluated(end);
+    const auto change = random_vector(bed.ports.size(), 1., 1);
+    const double step = 1e-7;
+    auto before = end, after = end;
+    before.add(-step, change);
+    after.add(step, change);
+    const auto low = evaluated(before), high = evaluated(after);
+    ASSERT_EQ(low.forces.ports, found.forces.ports);
+    ASSERT_EQ(high.forces.ports, found.forces.ports);
+    dealii::Vector<double> of_ports(static_cast<unsigned int>(found.forces.ports.size())), slope(of_ports.size());
+    for (unsigned int i = 0; i < of_ports.size(); ++i)
+      of_ports[i] = change[found.forces.ports[i]];
+    found.forces.tangent.vmult(slope, of_ports);
+    auto difference = high.forces.values;
+    difference -= low.forces.values;
+    difference /= 2. * step;
+    difference -= slope;
+    EXPECT_LT(difference.l2_norm(), 1e-4 * slope.l2_norm()) << friction;
   }
 }

@@ -26,6 +26,8 @@ namespace sprag
       result.plane = PlaneState::strain;                   // its constants are those of the body
       result.width = is_symmetric_across(scene) ? 2. : 1.; // stiffness and areas of a half stand for the whole
       result.widths.clear();
+      if (scene.analysis.type != AnalysisType::quasi_static)
+        result.point_spacing = scene.geometry.cylinder_radius / 1000.; // as of levers in a plane in time
       return result;
     }
 
@@ -118,17 +120,18 @@ namespace sprag
           node.index = place[node.index];
   }
 
-  /// Numbers what belongs to the skin alone, all three displacements of its nodes.
+  /// Numbers what belongs to the skin alone, all three displacements of its nodes. A lever that is no deeper has none.
   void SolidBody::number_skin()
   {
     std::vector<char> in_skin(n_dofs(), 0), elsewhere(n_dofs(), 0);
     std::vector<types::global_dof_index> indices(fe.n_dofs_per_cell());
     for (const auto &cell : dof_handler.active_cell_iterators())
-    {
-      cell->get_dof_indices(indices);
-      for (const auto index : indices)
-        (is_skin(cell) ? in_skin : elsewhere)[index] = 1;
-    }
+      if (cell->material_id() != material_id::hub)
+      {
+        cell->get_dof_indices(indices);
+        for (const auto index : indices)
+          (is_skin(cell) ? in_skin : elsewhere)[index] = 1;
+      }
     int number = 0;
     number_in_skin.assign(n_dofs(), -1);
     for (unsigned int dof = 0; dof < n_dofs(); ++dof)

@@ -10,20 +10,17 @@ namespace sprag
 {
   using namespace dealii;
 
+  std::vector<long> likeness(const DoFHandler<3>::active_cell_iterator &cell)
+  {
+    std::vector<long> result{ static_cast<long>(cell->material_id()) };
+    for (const unsigned int v : cell->vertex_indices())
+      for (unsigned int d = 0; d < 3; ++d)
+        result.push_back(std::lround(1e6 * (cell->vertex(v)[d] - cell->vertex(0)[d])));
+    return result;
+  }
+
   namespace
   {
-    using Cell = DoFHandler<3>::active_cell_iterator;
-
-    /// Material and shape of a cell up to a shift, in steps of a nanometre: cells that are alike share a stiffness.
-    std::vector<long> likeness(const Cell &cell)
-    {
-      std::vector<long> result{ static_cast<long>(cell->material_id()) };
-      for (const unsigned int v : cell->vertex_indices())
-        for (unsigned int d = 0; d < 3; ++d)
-          result.push_back(std::lround(1e6 * (cell->vertex(v)[d] - cell->vertex(0)[d])));
-      return result;
-    }
-
     void add(const int row, const int column, const double value, SymmetricEntries &entries)
     {
       entries.row.push_back(row + 1);

@@ -9,6 +9,9 @@
 
 namespace sprag
 {
+  /// Material and shape of a cell up to a shift, in steps of a nanometre: cells that are alike share stiffness and mass.
+  std::vector<long> likeness(const dealii::DoFHandler<3>::active_cell_iterator &cell);
+
   /// What a linear stiffness is made of.
   struct StiffnessSource
   {

@@ -1,4 +1,6 @@
-#include "fe/solid/surface_contact.h"
+#include "fe/solid/surface_sums.h"
+
+#include "base/errors.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +13,8 @@ namespace sprag
 
   std::vector<SurfaceMemory> SurfaceEvaluation::memory() const
   {
+    if (beyond_face)
+      throw AnalysisError("the contact reaches the end of the friction face, or of the part of it that is looked at");
     std::vector<SurfaceMemory> result;
     for (const auto &point : points)
       if (point.pressure > 0.)
@@ -39,57 +43,6 @@ namespace sprag
     {
       const auto *const found = memory_of(point);
       return found != nullptr ? found->traction[0] : 0.;
-    }
-  };
-
-  /// Forces of a patch and their derivatives: of the displacements of its nodes, of theta and of x.
-  struct SurfaceContact::Sums
-  {
-    Tensor<1, n_local> values;
-    Tensor<2, n_local> tangent;
-    bool touched = false;
-
-    void add(const Patches::Point &point, const unsigned int n_nodes, const Tensor<1, 5> &force, const Tensor<2, 5> &of_point)
-    {
-      touched = true;
-      for (unsigned int i = 0; i < 2; ++i)
-      {
-        values[n_displacements + i] += point.weight * force[3 + i];
-        for (unsigned int j = 0; j < 2; ++j)
-          tangent[n_displacements + i][n_displacements + j] += point.weight * of_point[3 + i][3 + j];
-      }
-      for (unsigned int a = 0; a < n_nodes; ++a)
-        for (unsigned int d = 0; d < 3; ++d)
-        {
-          const double weight = point.weight * point.shapes[a];
-          auto &row           = tangent[3 * a + d];
-          values[3 * a + d] += weight * force[d];
-          for (unsigned int j = 0; j < 2; ++j)
-          {
-            row[n_displacements + j] += weight * of_point[d][3 + j];
-            tangent[n_displacements + j][3 * a + d] += weight * of_point[3 + j][d];
-          }
-          for (unsigned int b = 0; b < n_nodes; ++b)
-            for (unsigned int e = 0; e < 3; ++e)
-              row[3 * b + e] += weight * point.shapes[b] * of_point[d][e];
-        }
-    }
-
-    /// Adds what changes with the slope of the slip round the cylinder along the face, as far as the face's direction goes with
-    /// it: `by_slope` the derivative of the force by that slope.
-    void add_slope(const Patches::Point &point, const std::vector<double> &slopes, const Tensor<1, 5> &by_slope,
-                   const Tensor<1, 5> &slip_row)
-    {
-      for (unsigned int b = 0; b < slopes.size(); ++b)
-        for (unsigned int e = 0; e < 3; ++e)
-        {
-          const double slope = point.weight * slip_row[e] * slopes[b];
-          for (unsigned int a = 0; a < slopes.size(); ++a)
-            for (unsigned int d = 0; d < 3; ++d)
-              tangent[3 * a + d][3 * b + e] += point.shapes[a] * by_slope[d] * slope;
-          for (unsigned int i = 0; i < 2; ++i)
-            tangent[n_displacements + i][3 * b + e] += by_slope[3 + i] * slope;
-        }
     }
   };
 
@@ -130,21 +83,30 @@ namespace sprag
     begin_ports = begin.ports;
     begin_x     = begin.x;
     begin_pose  = pose_of(begin);
-    begin_slips.clear();
+    begin_points.clear();
   }
 
-  std::array<double, 2> SurfaceContact::slips_at_begin(const unsigned int point) const
+  const SurfaceContact::BeginPoint &SurfaceContact::at_begin(const unsigned int point) const
   {
     const unsigned int of_patch = patches.patch_of_point(point);
     const auto &patch           = patches.patches[of_patch];
-    auto &known                 = begin_slips[of_patch];
+    auto &known                 = begin_points[of_patch];
     if (known.empty())
     {
       const auto nodal = Patches::nodal(patch, begin_ports);
       for (unsigned int q = patch.begin; q < patch.end; ++q)
-        known.push_back(properties.cylinder.slips(begin_pose, Patches::position(patches.points[q], nodal)));
+      {
+        const auto place = Patches::position(patches.points[q], nodal);
+        known.push_back(
+            { place, properties.cylinder.gap(begin_pose, place).first, properties.cylinder.slips(begin_pose, place) });
+      }
     }
     return known[point - patch.begin];
+  }
+
+  const std::array<double, 2> &SurfaceContact::slips_at_begin(const unsigned int point) const
+  {
+    return at_begin(point).slips;
   }
 
   /// The gap is convex: over a patch it lies above its tangent at the first node. The margin covers bending.
@@ -185,6 +147,7 @@ namespace sprag
     Step step{ pose_of(end), surface_run, terms, law, memory };
 
     found.displacement = end.ports;
+    found.x            = end.x;
     found.compression  = 0.;
     found.points.clear();
     std::vector<PortForces> loaded;
@@ -193,32 +156,41 @@ namespace sprag
       step.nodal = Patches::nodal(patches.patches[patch], end.ports);
       Sums sums;
       for (unsigned int q = patches.patches[patch].begin; q < patches.patches[patch].end; ++q)
-      {
-        auto &state = found.points.emplace_back();
-        state.index = q;
-        state.patch = patch;
-        evaluate_point(step, state, sums, found);
-      }
-      if (!sums.touched)
-        continue;
-      const auto coordinates = coordinates_of(patch);
-      loaded.push_back(
-          { ports_of(coordinates), row_on_ports(coordinates, sums.values), matrix_on_ports(coordinates, sums.tangent) });
+        evaluate_point(step, add_point(patch, q, step.nodal, step.pose, found), sums, found);
+      add_patch(patch, sums, loaded);
     }
     sum_forces(loaded, place_of_port, found.forces);
   }
 
+  FacePointState<3> &SurfaceContact::add_point(const unsigned int patch, const unsigned int point, const Patches::Nodal &nodal,
+                                               const RigidCylinder::Pose &pose, SurfaceEvaluation &found) const
+  {
+    auto &state          = found.points.emplace_back();
+    state.index          = point;
+    state.patch          = patch;
+    state.position       = Patches::position(patches.points[point], nodal);
+    state.gap            = properties.cylinder.gap(pose, state.position).first;
+    state.trial_pressure = -properties.penalties.normal * state.gap;
+    return state;
+  }
+
+  void SurfaceContact::add_patch(const unsigned int patch, const Sums &sums, std::vector<PortForces> &loaded) const
+  {
+    if (!sums.touched)
+      return;
+    const auto coordinates = coordinates_of(patch);
+    loaded.push_back(
+        { ports_of(coordinates), row_on_ports(coordinates, sums.values), matrix_on_ports(coordinates, sums.tangent) });
+  }
+
   void SurfaceContact::evaluate_point(const Step &step, FacePointState<3> &state, Sums &sums, SurfaceEvaluation &found) const
   {
-    const auto &point    = patches.points[state.index];
-    state.position       = Patches::position(point, step.nodal);
-    state.gap            = properties.cylinder.gap(step.pose, state.position).first;
-    state.trial_pressure = -step.law.normal.stiffness * state.gap;
+    const auto &point = patches.points[state.index];
     if (state.trial_pressure <= 0.)
       return;
     found.compression     = std::max(found.compression, -state.gap);
     const auto placed     = properties.cylinder.kinematics(step.pose, state.position);
-    const auto begin      = slips_at_begin(state.index);
+    const auto &begin     = slips_at_begin(state.index);
     const auto *const was = step.memory_of(state.index);
 
     StepKinematics<5, 2> kinematics;

@@ -29,19 +29,35 @@ namespace sprag
   struct SurfaceEvaluation
   {
     dealii::Vector<double> displacement;   ///< of the ports
+    double x           = 0.;               ///< of the drive [mm]
     double duration    = 0.;               ///< of the step; 0: no slip speed [s]
     bool within_reach  = true;             ///< whether the contact was within the ports that it may reach
     bool beyond_face   = false;            ///< whether it reaches the end of the face along xi
     double compression = 0.;               ///< of the contact springs, the largest [mm]
+    double stored      = 0.;               ///< energy of the contact springs; in time alone [N mm]
+    StepWork works;                        ///< of the step; in time alone
     std::vector<FacePointState<3>> points; ///< of the patches near the cylinder, by increasing point
     PortForces forces;
 
-    /// Returns the memory of the points in contact, by increasing point.
+    /// Returns the memory of the points in contact, by increasing point. Throws AnalysisError beyond the face.
     std::vector<SurfaceMemory> memory() const;
+
+    const StepWork &work() const
+    {
+      return works;
+    }
+    double energy() const
+    {
+      return stored;
+    }
+    double overlap() const
+    {
+      return compression;
+    }
   };
 
-  /// Contact of a rigid cylinder along the friction face of a body in three dimensions, without inertia, by the penalty method:
-  /// pressure and, in two directions, friction at the points of the face at the end of a step.
+  /// Contact of a rigid cylinder along the friction face of a body in three dimensions by the penalty method: pressure and, in
+  /// two directions, friction at the points of the face.
   class SurfaceContact
   {
   public:
@@ -51,10 +67,30 @@ namespace sprag
     /// Sets the accepted state in which the following steps begin.
     void begin_step(const SurfacePlace &begin);
 
-    /// Evaluates the step that ends at `end`. `memory`: of the points in contact where it begins. `surface_run`: of the cylinder
-    /// by turning [mm].
+    /// Evaluates the step without inertia that ends at `end`. `memory`: of the points in contact where it begins. `surface_run`:
+    /// of the cylinder by turning [mm].
     void evaluate(const SurfacePlace &end, const std::vector<SurfaceMemory> &memory, double surface_run, const StaticTerms &terms,
                   SurfaceEvaluation &found);
+
+    /// Evaluates a step in time.
+    void evaluate(const PortStep &step, const FrictionLaw &friction, SurfaceEvaluation &found);
+
+    /// Evaluates steady sliding: the cylinder's surface runs round its axis at the slide's speed.
+    void slide(const SlidingState &sliding, const FrictionLaw &friction, SurfaceEvaluation &found);
+
+    /// The same, with its forces linearised on their ports. What the spring of stick delays is left out: at a speed v it takes
+    /// mu p / (v times its stiffness), microseconds.
+    PortPerturbation linearise(const SlidingState &sliding, const FrictionLaw &friction, SurfaceEvaluation &found);
+
+    /// Evaluates the contact at rest without force.
+    void touch(const SurfacePlace &place, SurfaceEvaluation &found);
+
+    /// By how much a small change of the ports changes gap and slip round the cylinder at a point of an evaluation [mm].
+    std::array<double, 2> change_at(const FacePointState<3> &point, const SurfaceEvaluation &found,
+                                    const dealii::Vector<double> &change_of_ports) const;
+
+    /// The slip coordinate round the cylinder of a point of an evaluation, in another configuration [mm].
+    double slip_at(const FacePointState<3> &point, const SurfacePlace &place) const;
 
     /// Returns the ports near the cylinder, see FaceContact::reachable_ports().
     const PortSelection &reachable_ports(double x, double theta, double travel);
@@ -87,6 +123,16 @@ namespace sprag
 
     struct Sums;
     struct Step;
+    struct StepInTime;
+    struct Sliding;
+
+    /// A point where a step begins.
+    struct BeginPoint
+    {
+      dealii::Point<3> position;
+      double gap;
+      std::array<double, 2> slips;
+    };
 
     void find_lines();
     RigidCylinder::Pose pose_of(const SurfacePlace &place) const;
@@ -94,7 +140,17 @@ namespace sprag
     void evaluate_patch(unsigned int patch, Step &step, SurfaceEvaluation &found) const;
     void evaluate_point(const Step &step, FacePointState<3> &state, Sums &sums, SurfaceEvaluation &found) const;
     SlipShift shift_of(unsigned int point, double slope, const Step &step) const;
-    std::array<double, 2> slips_at_begin(unsigned int point) const;
+    void evaluate_point(const StepInTime &step, FacePointState<3> &state, Sums &sums, SurfaceEvaluation &found) const;
+    void slide_point(Sliding &sliding, FacePointState<3> &state, SurfaceEvaluation &found) const;
+    void slide(Sliding &sliding, SurfaceEvaluation &found);
+    dealii::Tensor<1, 2> slip_rates(const Sliding &sliding, const Patches::Point &point, const SurfaceKinematics &placed,
+                                    FacePointState<3> &state) const;
+    void add_patch(unsigned int patch, const Sums &sums, std::vector<PortForces> &loaded) const;
+    bool reaches_end(const SurfaceEvaluation &found) const;
+    FacePointState<3> &add_point(unsigned int patch, unsigned int point, const Patches::Nodal &nodal,
+                                 const RigidCylinder::Pose &pose, SurfaceEvaluation &found) const;
+    const BeginPoint &at_begin(unsigned int point) const;
+    const std::array<double, 2> &slips_at_begin(unsigned int point) const;
     PortCoordinates coordinates_of(unsigned int patch) const;
     Patches::Indices clip(Patches::Indices near, SurfaceEvaluation &found) const;
 
@@ -107,7 +163,7 @@ namespace sprag
     dealii::Vector<double> begin_ports;
     double begin_x = 0.;
     RigidCylinder::Pose begin_pose{};
-    mutable std::map<unsigned int, std::vector<std::array<double, 2>>> begin_slips; ///< by patches
+    mutable std::map<unsigned int, std::vector<BeginPoint>> begin_points; ///< by patches
 
     std::vector<unsigned int> place_of_port; ///< among those summed
     PortSelection reachable;

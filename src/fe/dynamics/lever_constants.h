@@ -1,0 +1,14 @@
+#pragma once
+
+#include "fe/dynamics/inertial_matrices.h"
+#include "fe/dynamics/sparse_structure.h"
+
+namespace sprag
+{
+  /// The masses of a scene's meshed lever.
+  LeverInertia inertia_of(const Scene &scene);
+
+  /// Spring, damping and support of a scene's meshed lever. `relaxation`: damping over stiffness of the friction layer [s];
+  /// `lever_mass`: what moves with a sprung support [t].
+  LeverDynamics constants_of(const Scene &scene, double relaxation, double lever_mass);
+} // namespace sprag

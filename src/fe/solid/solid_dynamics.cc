@@ -1,0 +1,133 @@
+#include "fe/solid/solid_dynamics.h"
+
+#include "fe/dynamics/condensed_basis.h"
+#include "fe/dynamics/lever_constants.h"
+#include "fe/solid/face_window.h"
+#include "fe/solid/solid_contact.h"
+#include "fe/statics/contact_penalties.h"
+#include "fe/statics/lever_properties.h"
+#include "model/dynamic_lever.h"
+#include "scene/across.h"
+#include "scene/analysis_use.h"
+#include "scene/held_slide.h"
+#include "scene/lever_shape.h"
+#include "scene/mirrored_pair.h"
+
+#include <algorithm>
+
+namespace sprag
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// The part of the face where the contact may come, with what it is looked at beside: of a held slide about its place, else
+    /// of the whole drive.
+    FaceWindow reached_face(const Scene &scene, const FrictionFace<3> &face)
+    {
+      constexpr double over_radius = 0.1;
+      const double room            = over_radius * scene.geometry.cylinder_radius + 4. * scene.layer.thickness;
+      if (!holds_slide(scene.analysis.type))
+      {
+        const auto [first, last] = swept_contact(scene);
+        return window_of(face, first - room, last + room);
+      }
+      const auto drive = held_drive(scene);
+      const double xi  = cylinder_centre(scene.geometry, drive.x, kinematics(scene.geometry, drive.x).theta).xi;
+      return window_of(face, xi - room, xi + room);
+    }
+
+    PortSelection ports_of(const FaceWindow &window)
+    {
+      PortSelection result(3 * window.face.nodes.size());
+      for (unsigned int i = 0; i < result.size(); ++i)
+        result[i] = 3 * window.first_node + i;
+      return result;
+    }
+
+    /// Shapes of the modes on the ports of the window, the hub's rotation and the momentum.
+    FullMatrix<double> port_shapes(const SolidModes &modes, const FaceWindow &window)
+    {
+      const auto &nodes  = window.face.nodes;
+      const auto surface = static_cast<unsigned int>(3 * nodes.size());
+      const auto m       = static_cast<unsigned int>(modes.stiffness.size());
+      FullMatrix<double> result(surface + 3, m);
+      for (unsigned int j = 0; j < m; ++j)
+      {
+        for (unsigned int i = 0; i < surface; ++i)
+          result(i, j) = modes.displacements[j][nodes[i / 3].dofs[i % 3]];
+        result(surface, j)     = modes.rotation[j];
+        result(surface + 1, j) = modes.momentum[j][1];
+        result(surface + 2, j) = modes.momentum[j][0];
+      }
+      return result;
+    }
+
+    /// The basis as of a lever in a plane whose face is the window.
+    CondensedBasis basis_on(const FaceWindow &window, const SolidInTime &lever, const double spring_stiffness)
+    {
+      CondensedBasis result;
+      result.stiffness         = lever.modes.stiffness;
+      result.shapes            = port_shapes(lever.modes, window);
+      result.layer_stiffness   = lever.modes.layer_stiffness;
+      result.density_factor    = lever.modes.density_factor;
+      result.lever_mass        = lever.modes.total_mass;
+      result.moment_of_inertia = lever.modes.moment_of_inertia;
+
+      const auto of_face = lever.compliance->among(ports_of(window));
+      const auto n = static_cast<unsigned int>(of_face.m()), m = static_cast<unsigned int>(result.stiffness.size());
+      FullMatrix<double> at_ports(n + 1, m), scaled(n + 1, m);
+      for (unsigned int i = 0; i <= n; ++i)
+        for (unsigned int j = 0; j < m; ++j)
+        {
+          at_ports(i, j) = result.shapes(i, j);
+          scaled(i, j)   = -result.shapes(i, j) / result.stiffness[j];
+        }
+      result.face_compliance.reinit(n + 1, n + 1);
+      scaled.mTmult(result.face_compliance, at_ports);
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int j = 0; j < n; ++j)
+          result.face_compliance(i, j) += of_face(i, j);
+      result.face_compliance(n, n) += 1. / spring_stiffness;
+      result.face_compliance.symmetrize();
+      return result;
+    }
+
+    SurfaceContactProperties contact_properties(const Scene &scene, const FrictionFace<3> &face, const PortLayout &ports)
+    {
+      using namespace penalty_over_layer;
+      const double factor = scene.mesh.degree == 1 ? in_time_linear : in_time;
+      return { RigidCylinder(scene.geometry, scene.cylinder),
+               [geometry = scene.geometry](const double x, const double theta) { return cylinder_centre(geometry, x, theta); },
+               scene.geometry.cylinder_radius,
+               ports,
+               rest_inclination(scene),
+               contact_penalties(face, scene.contact, scene.layer.thickness, factor) };
+    }
+  } // namespace
+
+  SolidInTime make_solid_in_time(const Scene &scene, const Mesh &plane)
+  {
+    SolidInTime result;
+    result.body              = std::make_unique<const SolidBody>(scene, plane, MPI_COMM_SELF);
+    const double room        = 0.1 * scene.geometry.cylinder_radius;
+    const auto [first, last] = swept_contact(scene);
+    result.compliance        = std::make_unique<LayeredCompliance>(*result.body, first - room, last + room, skin_depth(scene));
+    result.modes             = solid_modes(*result.body, inertia_of(scene), scene.spring.stiffness, scene.condensed.modes);
+    return result;
+  }
+
+  std::unique_ptr<DynamicModel> make_solid_dynamics(const Scene &scene, const SolidInTime &lever, const double relaxation)
+  {
+    auto window       = reached_face(scene, lever.body->friction_face());
+    const auto basis  = basis_on(window, lever, scene.spring.stiffness);
+    auto structure    = std::make_unique<ModalStructure>(modal_data(basis, constants_of(scene, relaxation, basis.lever_mass)));
+    const auto ports  = structure->ports();
+    const auto &whole = lever.body->friction_face();
+    auto properties   = contact_properties(scene, whole, ports);
+    auto contact      = std::make_unique<SolidContact>(std::move(window.face), std::move(properties), scene.friction,
+                                                  scene.layer.thickness, is_symmetric_across(scene));
+    return std::make_unique<DynamicLever<ModalStructure, SolidContact>>(std::move(structure), std::move(contact),
+                                                                        lever_frame(scene, ports, basis.lever_mass));
+  }
+} // namespace sprag

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "fe/solid/layered_compliance.h"
+#include "fe/solid/solid_modes.h"
+#include "model/dynamic_model.h"
+
+#include <memory>
+
+namespace sprag
+{
+  /// A lever in three dimensions at rest, to be shared by models that differ in friction, damping, drive and contact.
+  struct SolidInTime
+  {
+    std::unique_ptr<const SolidBody> body;
+    std::unique_ptr<LayeredCompliance> compliance; ///< remembers what it found
+    SolidModes modes;
+  };
+
+  /// Makes body, compliance and the scene's number of modes from the plane mesh. Throws AnalysisError if a factorisation fails.
+  SolidInTime make_solid_in_time(const Scene &scene, const Mesh &plane);
+
+  /// The condensed model of a scene: modes, and the static answer of the part of the face that the contact can reach.
+  /// `relaxation`: damping over stiffness of the friction layer [s]. The lever must outlive it.
+  std::unique_ptr<DynamicModel> make_solid_dynamics(const Scene &scene, const SolidInTime &lever, double relaxation);
+} // namespace sprag

@@ -1,0 +1,58 @@
+#pragma once
+
+#include "fe/dynamics/inertial_matrices.h"
+#include "fe/solid/solid_body.h"
+#include "model/vibration.h"
+
+#include <list>
+
+namespace sprag
+{
+  /// Masses of a body in three dimensions, applied cell by cell, and of what turns with its hub.
+  class SolidMass
+  {
+  public:
+    /// Scales the densities to the moment of inertia, as InertialMatrices does. The body must outlive this.
+    SolidMass(const SolidBody &body, const LeverInertia &inertia);
+
+    /// Returns the mass times a displacement of all degrees of freedom, the held ones included.
+    dealii::Vector<double> operator()(const dealii::Vector<double> &displacement) const;
+
+    /// Displacement of a degree of freedom by a unit of rigid rotation about the pivot [mm].
+    const dealii::Vector<double> &arms() const
+    {
+      return rotation_arms;
+    }
+
+    /// Returns the sum of forces or impulses along an axis.
+    double sum_along(unsigned int axis, const dealii::Vector<double> &of_dofs) const;
+
+    /// Returns where the kinetic energy of a motion lies, given by the displacement of all degrees of freedom. A body that is not
+    /// the same on both sides of the middle has no such shares.
+    Eigenmode::AcrossShares shares(const dealii::Vector<double> &displacement) const;
+
+    double hub               = 0.; ///< moment of inertia of what turns with the hub besides [t mm^2]
+    double density_factor    = 1.;
+    double total_mass        = 0.; ///< [t]
+    double moment_of_inertia = 0.; ///< about the pivot [t mm^2]
+
+  private:
+    struct Cell
+    {
+      const dealii::FullMatrix<double> *mass; ///< between the nodes, for each direction
+      double density;                         ///< times the symmetric half's share
+      std::vector<std::array<unsigned int, 3>> dofs;
+    };
+
+    void find_cells(const SolidBody &body);
+    void find_arms(const SolidBody &body);
+    void find_mirrored(const std::vector<dealii::Point<3>> &places);
+
+    std::list<dealii::FullMatrix<double>> masses; ///< of unit density, one for cells that are alike
+    std::vector<Cell> cells;
+    std::vector<dealii::types::material_id> materials; ///< of the cells
+    dealii::Vector<double> rotation_arms;
+    std::vector<char> component;
+    std::vector<unsigned int> mirrored; ///< by a degree of freedom that on the other side of the middle
+  };
+} // namespace sprag

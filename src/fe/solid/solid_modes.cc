@@ -1,0 +1,295 @@
+#include "fe/solid/solid_modes.h"
+
+#include "base/errors.h"
+#include "base/text.h"
+#include "fe/body/cell_elasticity.h"
+#include "fe/solid/solid_mass.h"
+#include "fe/solid/solid_stiffness.h"
+
+#include <algorithm>
+#include <cmath>
+#include <slepceps.h>
+
+namespace sprag
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// Of |phi - omega^2 K^-1 M phi| over |phi|, times omega^2 over that of the lowest mode, by which round-off grows there.
+    constexpr double largest_residual = 1e-10;
+
+    void check(const PetscErrorCode code)
+    {
+      if (code != 0)
+        throw AnalysisError("the eigenvalue solver failed (PETSc error " + std::to_string(code) + ")");
+    }
+
+    /// The lever in its free elastic displacements and last the rotation of its hub. There the stiffness is that of the body and
+    /// of the spring, which feel nothing of each other.
+    class FreeLever
+    {
+    public:
+      FreeLever(const SolidBody &body_, const SolidMass &mass_, const double spring_)
+          : body(body_)
+          , mass(mass_)
+          , spring(spring_)
+      {
+        for (unsigned int dof = 0; dof < body.n_dofs(); ++dof)
+          if (!body.is_held(dof))
+            free.push_back(dof);
+      }
+
+      PetscInt size() const
+      {
+        return static_cast<PetscInt>(free.size()) + 1;
+      }
+
+      Vector<double> elastic(const double *const q) const
+      {
+        Vector<double> result(body.n_dofs());
+        for (std::size_t i = 0; i < free.size(); ++i)
+          result[free[i]] = q[i];
+        return result;
+      }
+
+      /// Mass times the total displacement of a motion.
+      Vector<double> impulse(const double *const q) const
+      {
+        auto total = elastic(q);
+        total.add(q[free.size()], mass.arms());
+        return mass(total);
+      }
+
+      void multiply_mass(const double *const q, double *const result) const
+      {
+        const auto impulses = impulse(q);
+        for (std::size_t i = 0; i < free.size(); ++i)
+          result[i] = impulses[free[i]];
+        result[free.size()] = mass.arms() * impulses + mass.hub * q[free.size()];
+      }
+
+      /// K^-1 f.
+      void deform(const double *const forces, double *const result) const
+      {
+        std::vector<double> loads(body.n_dofs(), 0.);
+        for (std::size_t i = 0; i < free.size(); ++i)
+          loads[free[i]] = forces[i];
+        body.respond(loads);
+        for (std::size_t i = 0; i < free.size(); ++i)
+          result[i] = loads[free[i]];
+        result[free.size()] = forces[free.size()] / spring;
+      }
+
+    private:
+      const SolidBody &body;
+      const SolidMass &mass;
+      const double spring;
+      std::vector<unsigned int> free;
+    };
+
+    template <class Of>
+    PetscErrorCode applied(const Vec from, Vec to, const Of &of)
+    {
+      const PetscScalar *q = nullptr;
+      PetscScalar *result  = nullptr;
+      VecGetArrayRead(from, &q);
+      VecGetArray(to, &result);
+      of(q, result);
+      VecRestoreArray(to, &result);
+      return VecRestoreArrayRead(from, &q);
+    }
+
+    PetscErrorCode multiply_mass(Mat matrix, Vec from, Vec to)
+    {
+      void *lever = nullptr;
+      MatShellGetContext(matrix, &lever);
+      return applied(from, to,
+                     [&](const double *q, double *result) { static_cast<const FreeLever *>(lever)->multiply_mass(q, result); });
+    }
+
+    PetscErrorCode deform(PC factors, Vec from, Vec to)
+    {
+      void *lever = nullptr;
+      PCShellGetContext(factors, &lever);
+      return applied(
+          from, to, [&](const double *forces, double *result) { static_cast<const FreeLever *>(lever)->deform(forces, result); });
+    }
+
+    class Eigensolver
+    {
+    public:
+      explicit Eigensolver(FreeLever &lever)
+      {
+        const PetscInt n  = lever.size();
+        ST transformation = nullptr;
+        KSP solver        = nullptr;
+        PC factors        = nullptr;
+        // Of the stiffness there is but the inverse.
+        check(MatCreateShell(PETSC_COMM_SELF, n, n, n, n, &lever, &stiffness));
+        check(MatCreateShell(PETSC_COMM_SELF, n, n, n, n, &lever, &mass));
+        check(MatShellSetOperation(mass, MATOP_MULT, reinterpret_cast<void (*)()>(multiply_mass)));
+        check(EPSCreate(PETSC_COMM_SELF, &eps));
+        check(EPSSetOperators(eps, stiffness, mass));
+        check(EPSSetProblemType(eps, EPS_GHEP));
+        check(EPSSetType(eps, EPSKRYLOVSCHUR));
+        check(EPSSetWhichEigenpairs(eps, EPS_TARGET_MAGNITUDE));
+        check(EPSSetTarget(eps, 0.));
+        check(EPSGetST(eps, &transformation));
+        check(STSetType(transformation, STSINVERT));
+        check(STGetKSP(transformation, &solver));
+        check(KSPSetType(solver, KSPPREONLY));
+        check(KSPGetPC(solver, &factors));
+        check(PCSetType(factors, PCSHELL));
+        check(PCShellSetContext(factors, &lever));
+        check(PCShellSetApply(factors, deform));
+      }
+      Eigensolver &operator=(Eigensolver &&) = delete;
+      ~Eigensolver()
+      {
+        EPSDestroy(&eps);
+        MatDestroy(&mass);
+        MatDestroy(&stiffness);
+      }
+
+      /// Returns so many of the lowest eigenvalues and their vectors.
+      std::vector<std::pair<double, std::vector<double>>> solve(const unsigned int wanted, const PetscInt size)
+      {
+        check(EPSSetDimensions(eps, static_cast<PetscInt>(wanted), PETSC_DEFAULT, PETSC_DEFAULT));
+        check(EPSSetTolerances(eps, 1e-13, 1000));
+        check(EPSSolve(eps));
+        PetscInt converged = 0;
+        check(EPSGetConverged(eps, &converged));
+        if (converged < static_cast<PetscInt>(wanted))
+          throw AnalysisError("only " + std::to_string(converged) + " of " + std::to_string(wanted) +
+                              " vibration modes were found");
+        std::vector<std::pair<double, std::vector<double>>> result;
+        for (PetscInt i = 0; i < static_cast<PetscInt>(wanted); ++i)
+        {
+          auto &[value, vector] = result.emplace_back(0., std::vector<double>(static_cast<std::size_t>(size)));
+          Vec into              = nullptr;
+          check(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, size, vector.data(), &into));
+          check(EPSGetEigenpair(eps, i, &value, nullptr, into, nullptr));
+          check(VecDestroy(&into));
+        }
+        return result;
+      }
+
+    private:
+      Mat stiffness = nullptr;
+      Mat mass      = nullptr;
+      EPS eps       = nullptr;
+    };
+
+    /// With a modal mass of 1, the hub turning forward, or where it hardly turns, the largest displacement positive.
+    void normalise(const FreeLever &lever, std::vector<double> &mode)
+    {
+      std::vector<double> momentum(mode.size());
+      lever.multiply_mass(mode.data(), momentum.data());
+      double modal_mass = 0., largest = 0.;
+      for (std::size_t i = 0; i < mode.size(); ++i)
+        modal_mass += mode[i] * momentum[i];
+      for (const double value : mode)
+        if (std::abs(value) > std::abs(largest))
+          largest = value;
+      const double reference = std::abs(mode.back()) < 1e-8 * std::abs(largest) ? largest : mode.back();
+      const double factor    = (reference < 0. ? -1. : 1.) / std::sqrt(modal_mass);
+      for (double &value : mode)
+        value *= factor;
+    }
+
+    void require_residual(const FreeLever &lever, const double omega_squared, const double lowest,
+                          const std::vector<double> &mode, const std::size_t number)
+    {
+      std::vector<double> image(mode.size()), inertia(mode.size());
+      lever.multiply_mass(mode.data(), inertia.data());
+      lever.deform(inertia.data(), image.data());
+      double difference = 0., size = 0.;
+      for (std::size_t i = 0; i < mode.size(); ++i)
+      {
+        difference = std::max(difference, std::abs(omega_squared * image[i] - mode[i]));
+        size       = std::max(size, std::abs(mode[i]));
+      }
+      if (!(difference < largest_residual * omega_squared / lowest * size))
+        throw AnalysisError("vibration mode " + std::to_string(number) + " was found with a residual of only " +
+                            number_text(difference / size));
+    }
+
+    FullMatrix<double> stiffness_of_layer(const SolidBody &body, const std::vector<Vector<double>> &modes)
+    {
+      const auto m         = static_cast<unsigned int>(modes.size());
+      const auto &fe       = body.dofs().get_fe();
+      const unsigned int n = fe.n_dofs_per_cell();
+      CellElasticity<3> elasticity(body.cell_mapping(), fe, body.body_properties());
+      const Vector<double> at_rest(n);
+      Vector<double> no_forces(n);
+      std::map<std::vector<long>, FullMatrix<double>> known;
+      std::vector<types::global_dof_index> indices(n);
+      FullMatrix<double> local(n, m), forces(n, m), result(m, m);
+      for (const auto &cell : body.dofs().active_cell_iterators())
+      {
+        if (cell->material_id() != material_id::layer)
+          continue;
+        const auto [found, is_new] = known.try_emplace(likeness(cell), n, n);
+        if (is_new)
+        {
+          elasticity.reinit(cell, at_rest);
+          elasticity.assemble(found->second, no_forces);
+        }
+        cell->get_dof_indices(indices);
+        for (unsigned int i = 0; i < n; ++i)
+          for (unsigned int j = 0; j < m; ++j)
+            local(i, j) = modes[j][indices[i]];
+        found->second.mmult(forces, local);
+        local.Tmmult(result, forces, true);
+      }
+      return result;
+    }
+  } // namespace
+
+  SolidModes solid_modes(const SolidBody &body, const LeverInertia &inertia, const double spring_stiffness, const unsigned int n)
+  {
+    const SolidMass mass(body, inertia);
+    FreeLever lever(body, mass, spring_stiffness);
+    Eigensolver solver(lever);
+    SolidModes result;
+    for (auto &[omega_squared, mode] : solver.solve(n, lever.size()))
+    {
+      normalise(lever, mode);
+      require_residual(lever, omega_squared, result.stiffness.empty() ? omega_squared : result.stiffness.front(), mode,
+                       result.stiffness.size() + 1);
+      const auto impulse = lever.impulse(mode.data());
+      result.stiffness.push_back(omega_squared);
+      result.displacements.push_back(lever.elastic(mode.data()));
+      result.rotation.push_back(mode.back());
+      auto total = result.displacements.back();
+      total.add(mode.back(), mass.arms());
+      result.across.push_back(mass.shares(total));
+      result.momentum.push_back({ { mass.sum_along(0, impulse), mass.sum_along(1, impulse) } });
+    }
+    result.layer_stiffness   = stiffness_of_layer(body, result.displacements);
+    result.density_factor    = mass.density_factor;
+    result.total_mass        = mass.total_mass;
+    result.moment_of_inertia = mass.moment_of_inertia;
+    return result;
+  }
+
+  void tell_motion(const SolidModes &modes, std::vector<Eigenmode> &vibrations)
+  {
+    for (auto &vibration : vibrations)
+    {
+      Eigenmode::AcrossShares sum{ 0., 0., 0. };
+      double whole = 0.;
+      for (unsigned int j = 0; j < modes.across.size(); ++j)
+      {
+        const auto &[real, imaginary] = vibration.mode.coordinates;
+        const double energy           = real[j] * real[j] + imaginary[j] * imaginary[j];
+        whole += energy;
+        sum.plane += energy * modes.across[j].plane;
+        sum.twisting += energy * modes.across[j].twisting;
+        sum.sideways += energy * modes.across[j].sideways;
+      }
+      vibration.across = { sum.plane / whole, sum.twisting / whole, sum.sideways / whole };
+    }
+  }
+} // namespace sprag

@@ -1,0 +1,110 @@
+#include "fe/solid/solid_dynamics.h"
+
+#include "levers/dynamics.h"
+#include "run_scene.h"
+#include "scene/held_slide.h"
+#include "scenes.h"
+
+#include <algorithm>
+#include <gtest/gtest.h>
+
+using namespace sprag;
+
+namespace
+{
+  /// A slide of model A held at x = 30 on a coarse mesh without contraction, where plane stress is exact.
+  Scene held_model_a(const unsigned int dimension, const AnalysisType type = AnalysisType::stability)
+  {
+    Scene scene               = with_face_size(model_a(), 4.);
+    scene.analysis.type       = type;
+    scene.analysis.model      = ModelType::condensed;
+    scene.analysis.dimension  = dimension;
+    scene.lever.poisson_ratio = scene.layer.poisson_ratio = 0.;
+    scene.mesh.elements_across                            = 2;
+    scene.stability.position                              = 30.;
+    scene.stability.critical                              = "none";
+    scene.condensed.modes                                 = 12;
+    scene.friction.law                                    = CoulombFriction{ 0.73 }; // which nothing delays, see linearise()
+    return scene;
+  }
+
+  std::vector<Eigenmode> modes_of(const Scene &scene, const bool in_contact, const unsigned int number = 40)
+  {
+    DynamicsMaker maker(false);
+    const auto dynamics = maker.make(scene);
+    const auto slide    = dynamics.model().hold(held_drive(scene), ContactFriction::sliding);
+    EXPECT_TRUE(slide);
+    return slide ? dynamics.model().vibrations(*slide, in_contact, number) : std::vector<Eigenmode>();
+  }
+
+  /// The eigenvalue closest to one.
+  std::complex<double> closest(const std::vector<Eigenmode> &modes, const std::complex<double> wanted)
+  {
+    const auto distance = [&](const Eigenmode &mode) { return std::abs(mode.mode.eigenvalue - wanted); };
+    return std::min_element(modes.begin(), modes.end(), [&](const auto &a, const auto &b) { return distance(a) < distance(b); })
+        ->mode.eigenvalue;
+  }
+} // namespace
+
+// Modes of the plane are modes of the space: out of contact to the solver's accuracy, in contact as far as the compliance of the face,
+// which leaves out some 2e-5 on this mesh.
+TEST(SolidInTime, ModesOfThePlaneAreAmongThem)
+{
+  for (const bool in_contact : { false, true })
+  {
+    const auto plane = modes_of(held_model_a(2), in_contact), solid = modes_of(held_model_a(3), in_contact);
+    unsigned int compared = 0;
+    for (const auto &mode : plane)
+    {
+      const auto value = mode.mode.eigenvalue;
+      if (value.imag() == 0. || ++compared > 3)
+        continue;
+      EXPECT_LT(std::abs(closest(solid, value) - value), (in_contact ? 3e-5 : 1e-7) * std::abs(value)) << value;
+    }
+    EXPECT_GE(compared, 3u);
+  }
+}
+
+TEST(SolidInTime, AHeldSlideIsThatOfThePlane)
+{
+  DynamicsMaker maker(false);
+  const Scene plane = held_model_a(2), solid = held_model_a(3);
+  const auto of_plane = maker.make(plane), of_solid = maker.make(solid);
+  const auto expected = of_plane.model().hold(held_drive(plane), ContactFriction::sliding);
+  const auto found    = of_solid.model().hold(held_drive(solid), ContactFriction::sliding);
+  ASSERT_TRUE(expected && found);
+  EXPECT_NEAR(found->forces.P, expected->forces.P, 1e-5 * expected->forces.P);
+  EXPECT_NEAR(found->forces.Q, expected->forces.Q, 1e-5 * std::abs(expected->forces.Q));
+}
+
+// Without contact, the first steps of a run in time are those of the plane; so is P as the lever is driven on.
+TEST(SolidInTime, ARunInTimeIsThatOfThePlane)
+{
+  const auto P_of = [](const unsigned int dimension)
+  {
+    Scene scene = held_model_a(dimension, AnalysisType::transient);
+    scene.drive = Drive(DriveProfile::triangle, 20., 24., 112., 0.5);
+    DynamicsMaker maker(false);
+    const auto dynamics = maker.make(scene);
+    auto motion         = dynamics.model().initial_motion(scene.drive.at(0.));
+    std::vector<double> result;
+    StepWork all;
+    for (unsigned int i = 1; i <= 40; ++i)
+    {
+      const double dt = 1e-4;
+      auto outcome    = dynamics.model().step(motion, scene.drive.at(i * dt), StepWeights{ dt, 0., 0., 0.25, 0.5 });
+      EXPECT_TRUE(outcome.motion);
+      if (!outcome.motion)
+        break;
+      motion = *outcome.motion;
+      Row row;
+      dynamics.model().observe(motion, row);
+      result.push_back(row[Column::P]);
+    }
+    return result;
+  };
+  const auto plane = P_of(2), solid = P_of(3);
+  ASSERT_EQ(plane.size(), solid.size());
+  for (std::size_t i = 0; i < plane.size(); ++i)
+    EXPECT_NEAR(solid[i], plane[i], 1e-4 * plane[i]) << i;
+}
