@@ -46,8 +46,8 @@ namespace
   }
 } // namespace
 
-// Modes of the plane are modes of the space: out of contact to the solver's accuracy, in contact as far as the compliance of the face,
-// which leaves out some 2e-5 on this mesh.
+// Modes of the plane are modes of the space: out of contact to the accuracy of the solver, in contact as far as the compliance of
+// the face, which leaves out some 2e-5 on this mesh.
 TEST(SolidInTime, ModesOfThePlaneAreAmongThem)
 {
   for (const bool in_contact : { false, true })
@@ -107,4 +107,23 @@ TEST(SolidInTime, ARunInTimeIsThatOfThePlane)
   ASSERT_EQ(plane.size(), solid.size());
   for (std::size_t i = 0; i < plane.size(); ++i)
     EXPECT_NEAR(solid[i], plane[i], 1e-4 * plane[i]) << i;
+}
+
+// A drive that stands still slides the way that the sign of its speed says.
+TEST(SolidInTime, SlidesBothWaysOneAfterTheOther)
+{
+  Scene solid    = held_model_a(3, AnalysisType::transient);
+  solid.drive    = Drive(DriveProfile::triangle, 20., 64., 112., 1.);
+  Scene plane    = solid;
+  plane.analysis = held_model_a(2, AnalysisType::transient).analysis;
+  DynamicsMaker maker(false);
+  const auto of_plane = maker.make(plane), of_solid = maker.make(solid);
+  for (const double x : { 30., 60., 45. })
+    for (const double v : { 112., 0., -0., -112. })
+    {
+      const auto expected = of_plane.model().sliding_forces({ 0., x, v, 0. }),
+                 found    = of_solid.model().sliding_forces({ 0., x, v, 0. });
+      ASSERT_TRUE(expected && found) << x << " " << v;
+      EXPECT_NEAR(found->P, expected->P, 1e-4 * expected->P) << x << " " << v;
+    }
 }

@@ -243,7 +243,7 @@ namespace sprag
       for (unsigned int r = 0; r < 2 && slides; ++r)
       {
         const double along = direction[s] * direction[r];
-        const double turn  = share.coefficient / speed * ((s == r ? 1. : 0.) - along);
+        const double turn  = speed > 0. ? share.coefficient / speed * ((s == r ? 1. : 0.) - along) : 0.;
         by_rate -= state.pressure * (share.derivative * along + turn) * outer_product(placed.slip_row[s], placed.slip_row[r]);
       }
     }
@@ -252,7 +252,7 @@ namespace sprag
     sliding.friction_rate.add(point, n_nodes, {}, by_rate);
   }
 
-  /// Sets the slip rates of a point and returns their direction.
+  /// Sets the slip rates of a point and returns their direction; of speed 0 its sign counts.
   Tensor<1, 2> SurfaceContact::slip_rates(const Sliding &sliding, const Patches::Point &point, const SurfaceKinematics &placed,
                                           FacePointState<3> &state) const
   {
@@ -270,7 +270,9 @@ namespace sprag
             placed.slip_row[s][3] * (*rates)[at.rotation()] - (at.sprung ? placed.slip_row[s][4] * (*rates)[at.support()] : 0.);
       }
     }
-    return state.slip_change / state.slip_change.norm();
+    if (state.slip_change.norm() > 0.)
+      return state.slip_change / state.slip_change.norm();
+    return Tensor<1, 2>({ std::copysign(1., sliding.state.speed), 0. });
   }
 
   void SurfaceContact::touch(const SurfacePlace &place, SurfaceEvaluation &found)
