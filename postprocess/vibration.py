@@ -32,7 +32,7 @@ def vibration_pictures(result):
 def mode_shapes(modes, most=6):
     """Deflection of the lever's face over a cycle: eight phases, the first one drawn strongly.
 
-    Of a mirrored pair both, the second one mirrored, below the first.
+    In three dimensions it is that of an edge of the face, of sideways modes along the cylinder's axis. Of a mirrored pair both, the second one mirrored, below the first.
     """
     chosen = shown_modes(modes, most)
     columns = min(len(chosen), 2)
@@ -85,10 +85,21 @@ def deflections(modes, mode):
     shapes = []
     for lever in levers:
         complex_part = lambda name: modes[f"{name}{lever}real"][mode] + 1j * modes[f"{name}{lever}imaginary"][mode]
+        if motion_across(modes, mode) == "sideways":
+            shapes.append(complex_part("sideways")[order])
+            continue
         bent = complex_part("across") if len(modes["xi"]) > 1 else 0
         shapes.append((bent + xi * complex_part("rotation"))[order])
     largest = max((shape[np.abs(shape).argmax()] for shape in shapes), key=abs)
     return xi[order], [shape / (largest or 1) for shape in shapes]
+
+
+def motion_across(modes, mode):
+    """How a mode in three dimensions moves; empty in a plane."""
+    if "twisting" not in modes:
+        return ""
+    shares = {name: modes[name][mode] for name in ("plane", "twisting", "sideways")}
+    return max(shares, key=shares.get)
 
 
 def mode_name(modes, mode):
@@ -96,6 +107,8 @@ def mode_name(modes, mode):
     growth = modes["growth_rate"][mode]
     rate = f", {rate_text(growth)} 1/s" if abs(growth) > 1e-9 * (1 + modes["frequency"][mode]) else ""
     motion = f", {motion_name(modes['mirroring'][mode])}" if "mirroring" in modes else ""
+    if motion_across(modes, mode) in ("twisting", "sideways"):
+        motion = f", {motion_across(modes, mode)}"
     return frequency_text(modes["frequency"][mode]) + rate + (f", {kind}" if kind != "stable" else "") + motion
 
 

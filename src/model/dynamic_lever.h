@@ -80,8 +80,8 @@ namespace sprag
           rate = drifted.velocity;
           rate.add(weights.rate(), z, -weights.rate(), drifted.position);
         }
-        contact->evaluate(
-            PortStep{ accepted.drive, accepted.contact, to, begin, z, rate, weights, &accepted.surface_contact }, found);
+        contact->evaluate(PortStep{ accepted.drive, accepted.contact, to, begin, z, rate, weights, &accepted.surface_contact },
+                          found);
         coupling.add_forces(begin, z, weights, found.forces);
         hub_spring.add_forces(turned, turns_of(frame.ports, z), weights, found.forces);
         return found.forces;
@@ -202,8 +202,10 @@ namespace sprag
         const auto real      = contact->surface_shape(mode.ports[0], lever);
         const auto imaginary = contact->surface_shape(mode.ports[1], lever);
         result.xi            = real.xi;
-        result.levers.push_back(
-            { { { real.along, imaginary.along } }, { { real.across, imaginary.across } }, port(frame.ports.rotation(lever)) });
+        result.levers.push_back({ { { real.along, imaginary.along } },
+                                  { { real.across, imaginary.across } },
+                                  {},
+                                  port(frame.ports.rotation(lever)) });
       }
       result.support = frame.ports.sprung ? port(frame.ports.support()) : 0.;
       return result;

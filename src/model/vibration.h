@@ -77,8 +77,9 @@ namespace sprag
     struct OfLever
     {
       std::array<std::vector<double>, 2> along;
-      std::array<std::vector<double>, 2> across; ///< away from the cylinder, without the rotation of the axes
-      std::complex<double> rotation;             ///< [rad]
+      std::array<std::vector<double>, 2> across;     ///< away from the cylinder, without the rotation of the axes
+      std::array<std::vector<double>, 2> sideways{}; ///< along the cylinder's axis, in three dimensions alone
+      std::complex<double> rotation{};               ///< [rad]
     };
 
     std::vector<double> xi;       ///< undeformed [mm]

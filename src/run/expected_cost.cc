@@ -27,8 +27,10 @@ namespace sprag
     constexpr double static_step       = 1.3e-3;
     constexpr double static_window     = 3.5e-10; ///< a step, times N^1.45
     constexpr double general_step      = 2.3e-5;  ///< times N
-    constexpr double solid_body        = 3.5e-7;  ///< times N^1.45, with the basis of its face and the checks of it
-    constexpr double solid_step        = 2e-9;    ///< times N^1.4
+    constexpr double solid_body        = 2.2e-7;  ///< times N^1.45, with the basis of its face and the checks of it
+    constexpr double solid_step        = 1.7e-9;  ///< times N^1.4
+    constexpr double solid_modes       = 8e-7;    ///< times N^1.45, body and held slide included
+    constexpr double solid_in_time     = 1.1e-8;  ///< a step, times displacements of the face^1.55
     constexpr double reduced_step      = 2e-5;
     constexpr double basis             = 5.5e-7; ///< times N^1.5
     // Of it, what held slides need.
@@ -82,10 +84,19 @@ namespace sprag
       return static_cast<double>(beam_run(scene).size());
     }
 
+    /// Of modes, a held slide or a run in time of so many steps in three dimensions.
+    double solid_with_inertia(const Scene &scene, const double steps)
+    {
+      const auto [N, of_face] = expected_size(scene);
+      return start + solid_modes * std::pow(N, 1.45) + steps * solid_in_time * std::pow(of_face, 1.55);
+    }
+
     double in_time(const Scene &scene)
     {
       const double N     = expected_size(scene).displacements;
       const double steps = steps_in_time(scene);
+      if (scene.analysis.dimension == 3)
+        return solid_with_inertia(scene, steps);
       if (!is_meshed(scene.analysis.model))
         return start + steps * reduced_step * parts(scene);
       const double faces = estimated_contact_width(scene, contact_reference(scene).P) / scene.mesh.face_size;
@@ -124,6 +135,8 @@ namespace sprag
 
     double held(const Scene &scene)
     {
+      if (scene.analysis.dimension == 3)
+        return solid_with_inertia(scene, 0.);
       const double N        = expected_size(scene).displacements;
       const double bases    = scene.analysis.model == ModelType::finite_element ? basis_of_meshed_slide
                               : scene.analysis.type == AnalysisType::modal      ? basis_of_modes

@@ -131,7 +131,7 @@ namespace sprag
       const double reached = holds_slide(scene.analysis.type)
                                  ? ports * std::min(1., room / scene.mesh.face_size / elements_along_face(scene))
                                  : ports;
-      return 8. * (3. * scene.condensed.modes * displacements + 10. * reached * reached);
+      return 8. * (3. * scene.condensed.modes * displacements + 4. * reached * reached);
     }
 
     double bytes_of_matrices(const Scene &scene)

@@ -122,9 +122,18 @@ namespace sprag
     else if (body != nullptr)
       recorder.set_stress(no_stress_peaks("Output/Fields = none"));
 
+    // In three dimensions there are no fields that say when the face is wanted.
+    constexpr double faces_of_solid = 100.;
+    double next_face                = 0.; // [s]
+    checkpoint.add_part([&](Archive &archive) { archive(next_face); });
     const auto write = [&](const Motion &motion, const Row &row)
     {
       recorder.record(row);
+      if (dynamics.solid && row[Column::time] >= next_face)
+      {
+        recorder.record(model.face_state(motion));
+        next_face += scene.drive.duration() / faces_of_solid;
+      }
       if (!fields)
         return;
       const auto face = model.face_state(motion);

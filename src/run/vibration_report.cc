@@ -86,6 +86,8 @@ namespace sprag
             const std::string of_lever = lever == 0 ? "_" : "_2_";
             add("along" + of_lever, shape.levers[lever].along[i]);
             add("across" + of_lever, shape.levers[lever].across[i]);
+            if (is_solid(modes))
+              add("sideways" + of_lever, shape.levers[lever].sideways[i]);
             add("rotation" + of_lever, { part_of(shape.levers[lever].rotation) });
           }
           add("support_", { part_of(shape.support) });
@@ -94,7 +96,7 @@ namespace sprag
       group.datasets.push_back({ { "xi", "mm", "lever coordinate of the shapes' points, from the pivot" }, xi, {} });
       for (const auto &[name, numbers] : values)
       {
-        const bool of_points   = name.front() == 'a';
+        const bool of_points   = name.front() == 'a' || name.rfind("sideways", 0) == 0;
         const std::string unit = name[0] == 'r' ? "rad" : "mm";
         group.datasets.push_back(
             { { name, unit, of_points ? "displacement of the points in lever axes, modes x points" : "in the modes" },

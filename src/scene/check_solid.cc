@@ -14,7 +14,9 @@ namespace sprag
       need(scene.analysis.model == ModelType::condensed, "Analysis/Model", "condensed with inertia");
       need(scene.lever.tip_mass == 0., "Lever/Tip mass", "0");
       need(scene.spring.type == SpringType::torsional, "Rotational spring/Type", "torsional");
-      need(scene.stability.critical == "none" || scene.analysis.type != AnalysisType::stability, "Stability/Critical", "none");
+      const bool is_judged = scene.analysis.type == AnalysisType::stability;
+      need(!is_judged || scene.stability.critical == "none", "Stability/Critical", "none");
+      need(!is_judged || !scene.stability.roles, "Stability/Roles", "off");
     }
 
     void what_there_is(const Scene &scene, Rules &rules)

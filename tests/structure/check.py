@@ -14,7 +14,7 @@ ORDER = ["base", "laws", "scene", "results", "model", "fe", "levers", "analysis"
 UNSEEN = {"analysis": ["fe"]}
 # So do the rooms of a folder.
 ROOMS = {
-    "fe": ["algebra", "body", "mesh", "contact", "statics", "solid", "dynamics", "leaf", "fields"],
+    "fe": ["algebra", "body", "mesh", "contact", "statics", "dynamics", "solid", "leaf", "fields"],
     "analysis": ["statics", "accuracy", "transient", "isolation", "stability", "limit_cycle", "team", "map", "study", "calibration", "identification", "design"],
 }
 CODE = {".cc", ".h", ".py", ".sh", ".geo", ".cmake", ".txt"}

@@ -104,6 +104,57 @@ namespace sprag
                rest_inclination(scene),
                contact_penalties(face, scene.contact, scene.layer.thickness, factor) };
     }
+    /// Tells the shapes of modes along an edge of the whole face, by the modes of the free lever. What these leave out is the
+    /// dent of the layer under the cylinder.
+    class SolidDynamicLever : public DynamicLever<ModalStructure, SolidContact>
+    {
+    public:
+      SolidDynamicLever(std::unique_ptr<ModalStructure> modes, std::unique_ptr<SolidContact> surface, LeverFrame of_scene,
+                        const SolidInTime &lever_)
+          : DynamicLever(std::move(modes), std::move(surface), std::move(of_scene))
+          , lever(lever_)
+      {
+      }
+
+      ModeShape mode_shape(const Eigenmode &mode) const override
+      {
+        ModeShape result = DynamicLever::mode_shape(mode);
+        auto &shape      = result.levers.front();
+        result.xi.clear();
+        const auto &nodes = lever.body->friction_face().nodes;
+        for (unsigned int i = 0; i < 2; ++i)
+        {
+          shape.along[i].clear();
+          shape.across[i].clear();
+        }
+        const double edge = std::max_element(nodes.begin(), nodes.end(),
+                                             [](const auto &a, const auto &b) { return a.position[2] < b.position[2]; })
+                                ->position[2];
+        for (const auto &node : nodes)
+          if (node.position[2] > edge - 1e-6)
+          {
+            result.xi.push_back(node.position[0]);
+            for (unsigned int i = 0; i < 2; ++i)
+            {
+              shape.along[i].push_back(moved(mode.mode.coordinates[i], node.dofs[0]));
+              shape.across[i].push_back(moved(mode.mode.coordinates[i], node.dofs[1]));
+              shape.sideways[i].push_back(moved(mode.mode.coordinates[i], node.dofs[2]));
+            }
+          }
+        return result;
+      }
+
+    private:
+      const SolidInTime &lever;
+
+      double moved(const Vector<double> &coordinates, const unsigned int dof) const
+      {
+        double result = 0.;
+        for (unsigned int j = 0; j < lever.modes.displacements.size(); ++j)
+          result += coordinates[j] * lever.modes.displacements[j][dof];
+        return result;
+      }
+    };
   } // namespace
 
   SolidInTime make_solid_in_time(const Scene &scene, const Mesh &plane)
@@ -127,7 +178,7 @@ namespace sprag
     auto properties   = contact_properties(scene, whole, ports);
     auto contact      = std::make_unique<SolidContact>(std::move(window.face), std::move(properties), scene.friction,
                                                   scene.layer.thickness, is_symmetric_across(scene));
-    return std::make_unique<DynamicLever<ModalStructure, SolidContact>>(std::move(structure), std::move(contact),
-                                                                        lever_frame(scene, ports, basis.lever_mass));
+    return std::make_unique<SolidDynamicLever>(std::move(structure), std::move(contact),
+                                               lever_frame(scene, ports, basis.lever_mass), lever);
   }
 } // namespace sprag
