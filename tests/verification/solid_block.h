@@ -117,11 +117,11 @@ namespace sprag
           if (side->at_boundary())
           {
             const auto centre = side->center();
-            side->set_boundary_id(centre[1] < begin[1] + small ? boundary_id::friction_face
-                                  : centre[1] > end[1] - small ? boundary_id::hub
-                                  : centre[0] < small          ? symmetry_of(0)
-                                  : centre[2] < small          ? symmetry_of(2)
-                                                               : 0);
+            side->set_boundary_id(centre[1] < begin[1] + small   ? boundary_id::friction_face
+                                  : centre[1] > end[1] - small   ? boundary_id::hub
+                                  : centre[0] < begin[0] + small ? symmetry_of(0)
+                                  : centre[2] < begin[2] + small ? symmetry_of(2)
+                                                                 : 0);
           }
       }
     }
@@ -201,6 +201,7 @@ namespace sprag
       double radius;       ///< across the axis, which lies along zeta [mm]
       double crown_radius; ///< along it [mm]
       double penalty;      ///< normal and tangential [N/mm^3]
+      double length = 0.;  ///< 0: beyond the block [mm]
     };
 
     /// `near` must be as far as obstacle and undeformed face overlap, and outlive this.
@@ -309,6 +310,7 @@ namespace sprag
       geometry.pivot_height    = obstacle.radius;
       Cylinder barrel;
       barrel.crown_radius = obstacle.crown_radius;
+      barrel.length       = obstacle.length;
       return { RigidCylinder(geometry, barrel),
                [R = obstacle.radius](double, double) {
                  return LeverPoint{ 0., -R };
