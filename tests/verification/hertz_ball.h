@@ -35,7 +35,7 @@ namespace sprag
     for (const auto &[place, moved] : rubbed.displacements())
       if (const double r = std::hypot(place[0], place[2]); std::abs(r - distance) < 0.25 * distance)
       {
-        sum += of_half_space(r) - moved * direction;
+        sum += of_half_space(RubbedBlock::Vector(place)) - moved * direction;
         nodes += 1.;
       }
     EXPECT_GT(nodes, 0.);

@@ -52,12 +52,17 @@ namespace
     }
     result.stick = std::sqrt(result.stick / M_PI) / c;
 
-    // For nu = 0 friction moves a half-space's surface along itself as pressure moves it along its normal.
+    // Friction moves a half-space's surface along itself as pressure moves it along its normal, but for a factor of the direction
+    // (Cerruti), which for nu > 0 is exact at some distance.
     const HertzPressure slip{ ball.a, coefficient * ball.p0, 2. * shear_modulus };
     const HertzPressure stick{ c, coefficient * ball.p0 * c / ball.a, 2. * shear_modulus };
-    const auto by_friction = [&](const double r) { return slip.displacement(r) - stick.displacement(r); };
-    const double ends      = poisson_ratio == 0. ? 2. * missing(rubbed, by_friction, direction, 5. * ball.a) : 0.;
-    result.shift           = (share * full + ends) / (full * (1. - c * c / (ball.a * ball.a)));
+    const auto by_friction = [&](const Vector &place)
+    {
+      const double r = place.norm(), along = place * direction / r;
+      return (1. - poisson_ratio + poisson_ratio * along * along) * (slip.displacement(r) - stick.displacement(r));
+    };
+    const double ends = 2. * missing(rubbed, by_friction, direction, 5. * ball.a);
+    result.shift      = (share * full + ends) / (full * (1. - c * c / (ball.a * ball.a)));
     return result;
   }
 
@@ -82,8 +87,9 @@ namespace
 } // namespace
 
 // Equal balls yield alike, so that friction does not change the pressure, and with nu = 0 friction moves points along itself
-// alone: there the closed form is exact. The stick's edge lies in a cell of 0.3 a (0.25 a in the slow ones), so that its radius
-// is uncertain by some hundredths of a; the shift is not.
+// alone: there the closed form is exact. The blocks end: their free sides let them yield by 1 to 2 % more than a half-space. The
+// stick's edge lies in a cell of 0.3 a (0.25 a in the slow ones), so that its radius is uncertain by some hundredths of a; the
+// shift is not.
 TEST(SolidCattaneoMindlin, BallsPushedAlongTheFace)
 {
   const auto half = half_of_the_face(0.3);
@@ -102,9 +108,10 @@ TEST(SolidCattaneoMindlin, BallsPushedAskewSlow)
   expect_closed_form(block(whole, whole, 0.), 0., Vector({ 0.6, 0., 0.8 }), 0.03, 0.01, 0.06);
 }
 
-// With nu = 0.42 friction moves points across itself as well, which the closed form leaves out where they slip.
+// With nu = 0.42 friction moves points across itself as well, and where they slip turns after them, which the closed form leaves
+// out.
 TEST(SolidCattaneoMindlin, BallsThatContractSlow)
 {
   const auto half = half_of_the_face(0.25);
-  expect_closed_form(block(mirrored(half), half, 0.42), 0.42, Vector({ 1., 0., 0. }), 0.04, 0.02, 0.2);
+  expect_closed_form(block(mirrored(half), half, 0.42), 0.42, Vector({ 1., 0., 0. }), 0.03, 0.01, 0.2);
 }

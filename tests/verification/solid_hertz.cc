@@ -52,7 +52,7 @@ TEST(SolidHertz, ABallOnABlock)
     press(rubbed, depth);
     const auto found       = pressed(rubbed);
     const auto ball        = hertz_ball(found.P, R, modulus);
-    const auto of_the_ball = [&](const double r) { return ball.displacement(r); };
+    const auto of_the_ball = [&](const RubbedBlock::Vector &place) { return ball.displacement(place.norm()); };
     EXPECT_NEAR(found.xi, found.zeta, 5e-3 * ball.a); // its points are denser along xi
     radius.push_back(found.xi / ball.a);
     pressure.push_back(found.largest / ball.p0);
