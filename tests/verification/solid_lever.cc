@@ -1,8 +1,12 @@
 #include "fe/solid/solid_lever.h"
 
+#include "fe/body/cell_elasticity.h"
 #include "run_scene.h"
 #include "scene/closed_form.h"
 
+#include <deal.II/dofs/dof_tools.h>
+
+#include <algorithm>
 #include <gtest/gtest.h>
 
 using namespace sprag;
@@ -48,6 +52,91 @@ namespace
     std::vector<Row> rows;
     SolidLever::Exactness exactness{};
   };
+
+  using Vector = dealii::Tensor<1, 3>;
+
+  /// Sum of forces at places of the lever, and of their moments about the pivot.
+  struct Resultant
+  {
+    Vector force, moment;
+
+    void add(const dealii::Point<3> &place, const Vector &at)
+    {
+      force += at;
+      moment += cross_product_3d(Vector(place), at);
+    }
+  };
+
+  /// Of the forces on the nodes of the face: where these are undeformed, and where they have moved to.
+  std::array<Resultant, 2> forces_on(const SolidBody &body, const State &state)
+  {
+    std::array<Resultant, 2> result;
+    const auto &nodes = body.friction_face().nodes;
+    for (unsigned int i = 0; i < state.forces.ports.size(); ++i)
+      if (const unsigned int port = state.forces.ports[i]; port < 3 * nodes.size())
+      {
+        const auto &place = nodes[port / 3].position;
+        Vector force, moved;
+        force[port % 3] = state.forces.values[i];
+        for (unsigned int d = 0; d < 3; ++d)
+          moved[d] = state.coordinates[port - port % 3 + d];
+        result[0].add(place, force);
+        result[1].add(place + moved, force);
+      }
+    return result;
+  }
+
+  /// Of the forces by which the hub holds the lever, where it is undeformed, from the stiffness of the cells beside it.
+  Resultant forces_of_hub(const SolidBody &body, const dealii::Vector<double> &displacement)
+  {
+    Resultant result;
+    const auto &fe = body.dofs().get_fe();
+    std::vector<dealii::Point<3>> place(body.n_dofs());
+    dealii::DoFTools::map_dofs_to_support_points(body.cell_mapping(), body.dofs(), place);
+    std::vector<dealii::types::global_dof_index> dofs(fe.n_dofs_per_cell());
+    CellElasticity<3> elasticity(body.cell_mapping(), fe, body.body_properties());
+    dealii::FullMatrix<double> stiffness(dofs.size());
+    dealii::Vector<double> of_cell(fe.n_dofs_per_cell()), forces(fe.n_dofs_per_cell());
+    for (const auto &cell : body.dofs().active_cell_iterators())
+    {
+      cell->get_dof_indices(dofs);
+      const auto is_held = [&](const auto dof) { return body.is_held(dof); };
+      if (cell->material_id() == material_id::hub || std::none_of(dofs.begin(), dofs.end(), is_held))
+        continue;
+      for (unsigned int i = 0; i < dofs.size(); ++i)
+        of_cell[i] = displacement[dofs[i]];
+      elasticity.reinit(cell, of_cell);
+      elasticity.assemble(stiffness, forces);
+      for (unsigned int i = 0; i < dofs.size(); ++i)
+        if (body.is_held(dofs[i]))
+        {
+          Vector force;
+          force[fe.system_to_component_index(i).first] = forces[i];
+          result.add(place[dofs[i]], force);
+        }
+    }
+    return result;
+  }
+
+  /// Calls of_state(body, lever, state, row) where a cylinder out of true in both directions presses.
+  template <class OfState>
+  void visit_tilted_run(const OfState &of_state)
+  {
+    const Scene scene = tilted(solid_model_a(0.3), 2e-4, 1e-3);
+    Mesh plane;
+    make_mesh(scene, plane);
+    const SolidBody body(scene, plane, MPI_COMM_SELF);
+    SolidLever lever(body, scene);
+    unsigned int visited = 0;
+    run_quasi_static(lever, scene.drive, { scene.analysis.step, scene.analysis.minimum_step, scene.contact },
+                     [&](const State &state, const Row &row)
+                     {
+                       visited += row[Column::P] > 0.1 ? 1 : 0;
+                       if (row[Column::P] > 0.1)
+                         of_state(body, lever, state, row);
+                     });
+    EXPECT_GT(visited, 20u);
+  }
 
   double largest(const std::vector<Row> &rows, const Column column)
   {
@@ -101,17 +190,37 @@ TEST(SolidLever, AMirroredTiltGivesTheMirrorImage)
   EXPECT_NEAR(last.across[2], -mirrored.across[2], 1e-4 * last.across[2]);
 }
 
-// The spring carries the moment of all forces on the face about the pivot, k (theta - theta_0) = P s - F e, but for what the
-// face's own displacements turn of it.
+// The spring carries the moment of all forces on the face about the pivot, where the face has moved to. The table's columns tell
+// it but for how far the face moves along eta, and for the middle of the pressure in place of that of the forces along eta.
 TEST(SolidLever, MomentsBalanceAboutThePivot)
 {
-  const Scene scene = tilted(solid_model_a(0.3), 2e-4, 1e-3);
-  const SolidRun run(scene);
+  const Scene scene = solid_model_a(0.3);
   const double rest = kinematics(scene.geometry, 0.).theta;
-  for (const auto &row : run.rows)
-    if (row[Column::P] > 0.1)
-    {
-      const double moment = scene.spring.stiffness * (row[Column::theta] - rest);
-      EXPECT_NEAR(row[Column::P] * row[Column::s] + row[Column::F] * scene.geometry.interface_offset, moment, 2e-3 * moment);
-    }
+  visit_tilted_run(
+      [&](const SolidBody &body, const SolidLever &, const State &state, const Row &row)
+      {
+        const double moment = scene.spring.stiffness * (row[Column::theta] - rest);
+        EXPECT_NEAR(forces_on(body, state)[1].moment[2], moment, 1e-10 * moment);
+        const double by_columns = row[Column::P] * row[Column::s] + row[Column::F] * scene.geometry.interface_offset;
+        EXPECT_NEAR(by_columns, moment, 1e-4 * moment);
+      });
+}
+
+// In linear theory the body is in balance where it is undeformed, about all axes. The table's twisting moment is that where the
+// face has moved to, as all its places; along eta it moves by less than 0.05 mm.
+TEST(SolidLever, TheHubCarriesTheForcesOfTheFace)
+{
+  const double offset = solid_model_a(0.3).geometry.interface_offset;
+  visit_tilted_run(
+      [&](const SolidBody &body, const SolidLever &lever, const State &state, const Row &row)
+      {
+        const auto of_face = forces_on(body, state)[0];
+        const auto of_hub  = forces_of_hub(body, lever.body_displacement(state));
+        EXPECT_LT((of_face.force + of_hub.force).norm(), 1e-8 * of_face.force.norm());
+        EXPECT_LT((of_face.moment + of_hub.moment).norm(), 1e-8 * of_face.moment.norm());
+        const auto where_moved  = forces_on(body, state)[1];
+        const double by_columns = offset * row.across[0] - row.across[2];
+        EXPECT_GT(std::abs(row.across[2]), 1.);
+        EXPECT_NEAR(where_moved.moment[0], by_columns, 0.05 * std::abs(row.across[0]));
+      });
 }

@@ -1,0 +1,223 @@
+#include "fe/solid/solid_stiffness.h"
+
+#include "mpi_environment.h"
+
+#include <deal.II/base/function.h>
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/dofs/dof_tools.h>
+#include <deal.II/fe/fe_q.h>
+#include <deal.II/fe/fe_system.h>
+#include <deal.II/fe/fe_values.h>
+#include <deal.II/fe/mapping_q1.h>
+#include <deal.II/grid/grid_generator.h>
+#include <deal.II/grid/grid_tools.h>
+#include <deal.II/grid/tria.h>
+#include <deal.II/numerics/vector_tools.h>
+
+#include <cmath>
+#include <gtest/gtest.h>
+
+using namespace sprag;
+using namespace dealii;
+
+namespace
+{
+  constexpr ElasticConstants elastic{ 20., 0.3 };
+
+  /// The unit cube in n^3 cells that are no parallelepipeds, its faces flat.
+  class SkewedCube
+  {
+  public:
+    SkewedCube(const unsigned int n, const unsigned int degree, const bool held)
+        : fe(FE_Q<3>(degree), 3)
+    {
+      GridGenerator::subdivided_hyper_cube(triangulation, n);
+      const auto bump = [](const double a, const double b, const double c)
+      { return 0.1 * std::sin(M_PI * a) * std::cos(M_PI * (b + 0.3)) * std::sin(2. * c + 0.5); };
+      GridTools::transform(
+          [&](const Point<3> &p)
+          { return Point<3>(p[0] + bump(p[0], p[1], p[2]), p[1] + bump(p[1], p[2], p[0]), p[2] + bump(p[2], p[0], p[1])); },
+          triangulation);
+      for (const auto &cell : triangulation.active_cell_iterators())
+        cell->set_material_id(material_id::lever);
+      dofs.reinit(triangulation);
+      dofs.distribute_dofs(fe);
+      if (held)
+        VectorTools::interpolate_boundary_values(mapping, dofs, 0, Functions::ZeroFunction<3>(3), constraints);
+      constraints.close();
+      properties.plane     = PlaneState::strain;
+      properties.degree    = degree;
+      properties.constants = { { material_id::lever, elastic } };
+    }
+
+    SymmetricEntries stiffness() const
+    {
+      return assemble_stiffness({ mapping, dofs, constraints, properties }, {}).whole;
+    }
+
+    Triangulation<3> triangulation;
+    const FESystem<3> fe;
+    const MappingQ1<3> mapping;
+    DoFHandler<3> dofs;
+    AffineConstraints<double> constraints;
+    BodyProperties properties;
+  };
+
+  Vector<double> product(const SymmetricEntries &matrix, const Vector<double> &vector)
+  {
+    Vector<double> result(vector.size());
+    for (std::size_t k = 0; k < matrix.value.size(); ++k)
+    {
+      const unsigned int i = matrix.row[k] - 1, j = matrix.column[k] - 1;
+      result[i] += matrix.value[k] * vector[j];
+      if (i != j)
+        result[j] += matrix.value[k] * vector[i];
+    }
+    return result;
+  }
+
+  Tensor<2, 3> stress(const Tensor<2, 3> &gradient)
+  {
+    const auto lame = plane_constants(elastic, PlaneState::strain);
+    return lame.lambda * trace(gradient) * Tensor<2, 3>(unit_symmetric_tensor<3>()) + lame.mu * (gradient + transpose(gradient));
+  }
+
+  /// Displacements that vanish on the cube's sides, and the body force that they need.
+  class Manufactured : public Function<3>
+  {
+  public:
+    Manufactured()
+        : Function<3>(3)
+    {
+    }
+
+    /// s_i = sin(pi x_i); u = (1, -2, 0.5) s_0 s_1 s_2.
+    double value(const Point<3> &p, const unsigned int d) const override
+    {
+      return amplitude[d] * std::sin(M_PI * p[0]) * std::sin(M_PI * p[1]) * std::sin(M_PI * p[2]);
+    }
+
+    Tensor<1, 3> gradient(const Point<3> &p, const unsigned int d) const override
+    {
+      Tensor<1, 3> result;
+      for (unsigned int e = 0; e < 3; ++e)
+      {
+        result[e] = amplitude[d] * M_PI;
+        for (unsigned int f = 0; f < 3; ++f)
+          result[e] *= f == e ? std::cos(M_PI * p[f]) : std::sin(M_PI * p[f]);
+      }
+      return result;
+    }
+
+    /// -(lambda + mu) grad div u - mu laplace u.
+    Tensor<1, 3> force(const Point<3> &p) const
+    {
+      const auto lame = plane_constants(elastic, PlaneState::strain);
+      Tensor<1, 3> result;
+      for (unsigned int d = 0; d < 3; ++d)
+      {
+        result[d] = 3. * M_PI * M_PI * lame.mu * value(p, d);
+        for (unsigned int e = 0; e < 3; ++e)
+        {
+          double second = amplitude[e] * M_PI * M_PI; // of u_e by d and e
+          for (unsigned int f = 0; f < 3; ++f)
+            second *= d != e && (f == d || f == e) ? std::cos(M_PI * p[f]) : std::sin(M_PI * p[f]);
+          result[d] -= (lame.lambda + lame.mu) * (d == e ? -second : second);
+        }
+      }
+      return result;
+    }
+
+  private:
+    const double amplitude[3] = { 1., -2., 0.5 };
+  };
+
+  /// Errors of displacement and its gradient.
+  std::array<double, 2> errors(const unsigned int n, const unsigned int degree)
+  {
+    const SkewedCube cube(n, degree, true);
+    const Manufactured exact;
+    FEValues<3> values(cube.mapping, cube.fe, QGauss<3>(degree + 2),
+                       update_values | update_quadrature_points | update_JxW_values);
+    std::vector<double> solution(cube.dofs.n_dofs());
+    std::vector<types::global_dof_index> indices(cube.fe.n_dofs_per_cell());
+    for (const auto &cell : cube.dofs.active_cell_iterators())
+    {
+      values.reinit(cell);
+      cell->get_dof_indices(indices);
+      for (const unsigned int q : values.quadrature_point_indices())
+      {
+        const auto force = exact.force(values.quadrature_point(q));
+        for (unsigned int i = 0; i < indices.size(); ++i)
+          if (!cube.constraints.is_constrained(indices[i]))
+            solution[indices[i]] += values.shape_value(i, q) * force[cube.fe.system_to_component_index(i).first] * values.JxW(q);
+      }
+    }
+    SharedFactors factors(MPI_COMM_SELF);
+    factors.factorise(cube.stiffness());
+    factors.solve(solution);
+    const Vector<double> found(solution.begin(), solution.end());
+    const auto error = [&](const VectorTools::NormType norm)
+    {
+      Vector<double> of_cells(cube.triangulation.n_active_cells());
+      VectorTools::integrate_difference(cube.mapping, cube.dofs, found, exact, of_cells, QGauss<3>(degree + 2), norm);
+      return of_cells.l2_norm();
+    };
+    return { { error(VectorTools::L2_norm), error(VectorTools::H1_seminorm) } };
+  }
+} // namespace
+
+// A uniform strain is among what the elements can represent: no node inside carries a force, those outside carry the traction,
+// and u K u is twice the energy.
+TEST(SolidStiffness, PatchOfSkewedCellsCarriesAnyUniformStrain)
+{
+  const Tensor<2, 3> gradient({ { 0.1, -0.3, 0.2 }, { 0.4, -0.2, 0.15 }, { -0.25, 0.35, 0.3 } });
+  for (const unsigned int degree : { 1u, 2u })
+  {
+    const SkewedCube cube(3, degree, false);
+    std::vector<Point<3>> place(cube.dofs.n_dofs());
+    DoFTools::map_dofs_to_support_points(cube.mapping, cube.dofs, place);
+    Vector<double> displacement(cube.dofs.n_dofs());
+    for (unsigned int component = 0; component < 3; ++component)
+      for (const auto dof : DoFTools::extract_dofs(cube.dofs, cube.fe.component_mask(FEValuesExtractors::Scalar(component))))
+        displacement[dof] = gradient[component] * place[dof];
+    const auto forces   = product(cube.stiffness(), displacement);
+    const auto traction = stress(gradient);
+    EXPECT_NEAR(displacement * forces, scalar_product(traction, gradient), 1e-10);
+
+    std::array<Tensor<1, 3>, 3> on_side; // on the side x_d = 1
+    unsigned int inside = 0;
+    for (unsigned int component = 0; component < 3; ++component)
+      for (const auto dof : DoFTools::extract_dofs(cube.dofs, cube.fe.component_mask(FEValuesExtractors::Scalar(component))))
+      {
+        unsigned int sides = 0;
+        for (unsigned int d = 0; d < 3; ++d)
+          sides += std::abs(place[dof][d]) < 1e-12 || std::abs(place[dof][d] - 1.) < 1e-12;
+        if (sides == 0)
+        {
+          EXPECT_NEAR(forces[dof], 0., 1e-10);
+          ++inside;
+        }
+        else if (sides == 1)
+          for (unsigned int d = 0; d < 3; ++d)
+            if (std::abs(place[dof][d] - 1.) < 1e-12)
+              on_side[d][component] += forces[dof];
+      }
+    EXPECT_EQ(inside, 3u * (degree == 1 ? 8u : 125u));
+    for (unsigned int d = 0; d < 3; ++d)
+      EXPECT_LT((on_side[d] / on_side[d].norm() - traction[d] / traction[d].norm()).norm(), 1e-10);
+  }
+}
+
+TEST(SolidStiffness, ErrorsFallAtTheOrderOfTheDegree)
+{
+  for (const unsigned int degree : { 1u, 2u })
+  {
+    const unsigned int n  = degree == 1 ? 8 : 4;
+    const auto coarse     = errors(n, degree);
+    const auto fine       = errors(2 * n, degree);
+    const double of_value = std::log2(coarse[0] / fine[0]), of_gradient = std::log2(coarse[1] / fine[1]);
+    EXPECT_NEAR(of_value, degree + 1., 0.15) << "degree " << degree;
+    EXPECT_NEAR(of_gradient, degree, 0.1) << "degree " << degree;
+  }
+}

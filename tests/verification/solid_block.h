@@ -1,0 +1,333 @@
+#pragma once
+
+#include "fe/solid/solid_stiffness.h"
+#include "fe/solid/surface_contact.h"
+#include "fe/statics/port_window.h"
+#include "model/newton.h"
+#include "verification/block.h"
+
+#include <deal.II/fe/fe_q.h>
+#include <deal.II/fe/fe_system.h>
+#include <deal.II/fe/mapping_q1.h>
+#include <deal.II/numerics/vector_tools.h>
+
+#include <algorithm>
+#include <cmath>
+#include <gtest/gtest.h>
+
+namespace sprag
+{
+  /// A block of bricks in three dimensions, its face eta = 0 the friction face, its opposite side held. Where xi or zeta begin
+  /// at 0 the block is one half of one that is the same on both sides of that plane, which does not move across it; stiffness and
+  /// areas stand for the whole.
+  class SolidBlock
+  {
+  public:
+    /// Boundaries of the cells along xi, eta and zeta, increasing.
+    struct Planes
+    {
+      std::vector<double> xi, eta, zeta;
+    };
+
+    SolidBlock(const Planes &planes, const ElasticConstants &constants, const unsigned int degree = 2)
+        : fe(dealii::FE_Q<3>(degree), 3)
+        , factors(MPI_COMM_SELF)
+    {
+      make_cells(planes);
+      dofs.reinit(triangulation);
+      dofs.distribute_dofs(fe);
+      properties.plane         = PlaneState::strain;
+      properties.degree        = degree;
+      properties.constants     = { { material_id::lever, constants } };
+      properties.point_spacing = 1e-6; // as dense as can be
+      properties.width         = 1.;
+      hold(boundary_id::hub, dealii::ComponentMask(3, true));
+      if (planes.xi.front() == 0.)
+        mirror(0);
+      if (planes.zeta.front() == 0.)
+        mirror(2);
+      constraints.close();
+      face = find_friction_face(mapping, dofs, dealii::AffineConstraints<double>(), properties, boundary_id::friction_face);
+      factors.factorise(assemble_stiffness({ mapping, dofs, constraints, properties }, {}).whole);
+    }
+
+    const FrictionFace<3> &friction_face() const
+    {
+      return face;
+    }
+
+    unsigned int n_dofs() const
+    {
+      return dofs.n_dofs();
+    }
+
+    unsigned int dof_of(const unsigned int port) const
+    {
+      return face.nodes[port / 3].dofs[port % 3];
+    }
+
+    /// Turns forces on the degrees of freedom [N] into displacements [mm].
+    void respond(std::vector<double> &loads) const
+    {
+      factors.solve(loads);
+    }
+
+    /// Columns of the compliance: displacements of all degrees of freedom, one column after another, by unit forces on some of
+    /// them [mm/N].
+    std::vector<double> columns(const std::vector<unsigned int> &of_dofs) const
+    {
+      SparseColumns unit;
+      for (const unsigned int dof : of_dofs)
+      {
+        if (!constraints.is_constrained(dof))
+          unit.add(dof, 1.);
+        unit.end_column();
+      }
+      return factors.solve(std::move(unit));
+    }
+
+    bool is_held(const unsigned int dof) const
+    {
+      return constraints.is_constrained(dof);
+    }
+
+  private:
+    static constexpr dealii::types::boundary_id symmetry_of(const unsigned int direction)
+    {
+      return 100 + direction;
+    }
+
+    void make_cells(const Planes &planes)
+    {
+      std::vector<std::vector<double>> sizes;
+      for (const auto &of : { planes.xi, planes.eta, planes.zeta })
+      {
+        sizes.emplace_back();
+        for (std::size_t i = 1; i < of.size(); ++i)
+          sizes.back().push_back(of[i] - of[i - 1]);
+      }
+      const dealii::Point<3> begin(planes.xi.front(), planes.eta.front(), planes.zeta.front());
+      const dealii::Point<3> end(planes.xi.back(), planes.eta.back(), planes.zeta.back());
+      dealii::GridGenerator::subdivided_hyper_rectangle(triangulation, sizes, begin, end);
+      const double small = 1e-9 * end[1];
+      for (const auto &cell : triangulation.active_cell_iterators())
+      {
+        cell->set_material_id(material_id::lever);
+        for (const auto &side : cell->face_iterators())
+          if (side->at_boundary())
+          {
+            const auto centre = side->center();
+            side->set_boundary_id(centre[1] < begin[1] + small   ? boundary_id::friction_face
+                                  : centre[1] > end[1] - small   ? boundary_id::hub
+                                  : centre[0] < begin[0] + small ? symmetry_of(0)
+                                  : centre[2] < begin[2] + small ? symmetry_of(2)
+                                                                 : 0);
+          }
+      }
+    }
+
+    void hold(const dealii::types::boundary_id boundary, const dealii::ComponentMask &mask)
+    {
+      dealii::VectorTools::interpolate_boundary_values(mapping, dofs, boundary, dealii::Functions::ZeroFunction<3>(3),
+                                                       constraints, mask);
+    }
+
+    void mirror(const unsigned int direction)
+    {
+      properties.width *= 2.;
+      hold(symmetry_of(direction), fe.component_mask(dealii::FEValuesExtractors::Scalar(direction)));
+    }
+
+    dealii::Triangulation<3> triangulation;
+    const dealii::FESystem<3> fe;
+    const dealii::MappingQ1<3> mapping;
+    dealii::DoFHandler<3> dofs;
+    dealii::AffineConstraints<double> constraints;
+    BodyProperties properties;
+    FrictionFace<3> face;
+    SharedFactors factors;
+  };
+
+  /// The part of a block's face where it can be touched: its ports, three a node, and the compliance between them.
+  struct NearFace
+  {
+    PortSelection ports;
+    dealii::FullMatrix<double> compliance; ///< [mm/N]
+  };
+
+  /// Up to some distance from the origin along both axes [mm].
+  inline NearFace near_face(const SolidBlock &block, const double reach)
+  {
+    constexpr std::size_t together = 64;
+    NearFace result;
+    const auto &nodes = block.friction_face().nodes;
+    for (unsigned int i = 0; i < nodes.size(); ++i)
+      if (std::abs(nodes[i].position[0]) <= reach && std::abs(nodes[i].position[2]) <= reach)
+        result.ports.insert(result.ports.end(), { 3 * i, 3 * i + 1, 3 * i + 2 });
+    std::vector<unsigned int> dofs;
+    for (const unsigned int port : result.ports)
+      dofs.push_back(block.dof_of(port));
+    result.compliance.reinit(dofs.size(), dofs.size());
+    for (std::size_t first = 0; first < dofs.size(); first += together)
+    {
+      const std::size_t last = std::min(first + together, dofs.size());
+      const auto columns     = block.columns({ dofs.begin() + first, dofs.begin() + last });
+      for (std::size_t j = first; j < last; ++j)
+        for (std::size_t i = 0; i < dofs.size(); ++i)
+          if (!block.is_held(dofs[i]))
+            result.compliance(i, j) = columns[(j - first) * block.n_dofs() + dofs[i]];
+    }
+    return result;
+  }
+
+  /// The sum of the compliances of two blocks, each the other's mirror image: that by which normal forces move points along the
+  /// face is 0, what else there is counts twice.
+  inline NearFace with_mirror_image(NearFace face)
+  {
+    for (unsigned int i = 0; i < face.ports.size(); ++i)
+      for (unsigned int j = 0; j < face.ports.size(); ++j)
+        face.compliance(i, j) *= (face.ports[i] % 3 == 1) == (face.ports[j] % 3 == 1) ? 2. : 0.;
+    return face;
+  }
+
+  /// A block that is moved against a rigid barrel (a ball where both radii are the same) which touches it at the origin.
+  class RubbedBlock
+  {
+  public:
+    using Vector = dealii::Tensor<1, 3>;
+
+    struct Obstacle
+    {
+      double radius;       ///< across the axis, which lies along zeta [mm]
+      double crown_radius; ///< along it [mm]
+      double penalty;      ///< normal and tangential [N/mm^3]
+      double length = 0.;  ///< 0: beyond the block [mm]
+    };
+
+    /// `near` must be as far as obstacle and undeformed face overlap, and outlive this.
+    RubbedBlock(const SolidBlock &block_, const NearFace &near_, const Obstacle &obstacle)
+        : block(block_)
+        , near(near_)
+        , ports(layout(block))
+        , window(ports, { 1e12, 0., 1. },
+                 { { ports.surface, [this](const PortSelection &) { return near.ports; },
+                     [this](const PortSelection &) { return near.compliance; } } })
+        , contact(block.friction_face(), properties_of(obstacle, ports))
+        , elastic(ports.size())
+        , placed(ports.size())
+    {
+      auto looked_at = near.ports;
+      looked_at.push_back(ports.rotation());
+      window.enter(looked_at);
+    }
+
+    /// Moves the block's held side to a place from where the block touches without force [mm].
+    void move(const Vector &place, const double friction)
+    {
+      contact.begin_step({ placed, 0. });
+      const StaticTerms terms{ { CoulombFriction{ friction } }, 1. };
+      const auto memory   = found.memory();
+      const auto evaluate = [&](const dealii::Vector<double> &at)
+      {
+        placed = at;
+        for (unsigned int port = 0; port < ports.surface; ++port)
+          placed[port] += place[port % 3];
+        contact.evaluate({ placed, 0. }, memory, 0., terms, found);
+        return window.unbalance(at, found.forces);
+      };
+      const auto result = solve_by_newton(
+          elastic, 1e-14, evaluate, [&] { return window.correction(found.forces); },
+          [&](const dealii::Vector<double> &change) { return window.largest(change); }, [&] { return found.compression; });
+      EXPECT_TRUE(result.converged) << place;
+      for (const unsigned int port : found.forces.ports)
+        EXPECT_TRUE(!ports.is_surface(port) || std::binary_search(near.ports.begin(), near.ports.end(), port)) << port;
+    }
+
+    /// A point in contact: place on the undeformed face, area and what acts on the block there.
+    struct Point
+    {
+      double xi, zeta, area, pressure;
+      Vector force;                  ///< on the block per area [MPa]
+      dealii::Tensor<1, 2> friction; ///< its part along the ball: along xi, along zeta
+      bool slipping;
+
+      double radius() const
+      {
+        return std::hypot(xi, zeta);
+      }
+    };
+
+    std::vector<Point> points() const
+    {
+      std::vector<Point> result;
+      for (const auto &point : found.points)
+        if (point.pressure > 0.)
+        {
+          const auto &of_face = block.friction_face().points[point.index];
+          result.push_back({ of_face.position[0], of_face.position[2], of_face.weight, point.pressure,
+                             Vector({ point.end_force[0], point.end_force[1], point.end_force[2] }), point.traction,
+                             point.slipping });
+        }
+      return result;
+    }
+
+    /// On the block [N].
+    Vector force() const
+    {
+      Vector result;
+      for (const auto &point : points())
+        result += point.area * point.force;
+      return result;
+    }
+
+    /// Displacement of the nodes of the block's face by the forces on it alone: their places and how far each has moved [mm].
+    std::vector<std::pair<dealii::Point<3>, Vector>> displacements() const
+    {
+      std::vector<double> moved(block.n_dofs(), 0.);
+      for (unsigned int i = 0; i < found.forces.ports.size(); ++i)
+        if (const unsigned int port = found.forces.ports[i]; ports.is_surface(port) && !block.is_held(block.dof_of(port)))
+          moved[block.dof_of(port)] = found.forces.values[i];
+      block.respond(moved);
+      std::vector<std::pair<dealii::Point<3>, Vector>> result;
+      for (const auto &node : block.friction_face().nodes)
+        result.push_back({ node.position, Vector({ moved[node.dofs[0]], moved[node.dofs[1]], moved[node.dofs[2]] }) });
+      return result;
+    }
+
+  private:
+    static PortLayout layout(const SolidBlock &block)
+    {
+      PortLayout result{ 3 * static_cast<unsigned int>(block.friction_face().nodes.size()), false };
+      result.has_inertia = false;
+      return result;
+    }
+
+    static SurfaceContactProperties properties_of(const Obstacle &obstacle, const PortLayout &ports)
+    {
+      Geometry geometry;
+      geometry.cylinder_radius = obstacle.radius;
+      geometry.pivot_distance  = 0.;
+      geometry.pivot_height    = obstacle.radius;
+      Cylinder barrel;
+      barrel.crown_radius = obstacle.crown_radius;
+      barrel.length       = obstacle.length;
+      return { RigidCylinder(geometry, barrel),
+               [R = obstacle.radius](double, double) {
+                 return LeverPoint{ 0., -R };
+               },
+               obstacle.radius,
+               ports,
+               0.,
+               { obstacle.penalty, obstacle.penalty } };
+    }
+
+    const SolidBlock &block;
+    const NearFace &near;
+    const PortLayout ports;
+    PortWindow window;
+    SurfaceContact contact;
+    dealii::Vector<double> elastic; ///< displacement of the face by the forces
+    dealii::Vector<double> placed;  ///< and with the block's
+    SurfaceEvaluation found;
+  };
+} // namespace sprag
