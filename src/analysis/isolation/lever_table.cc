@@ -78,6 +78,8 @@ namespace sprag
       , way_tolerance(share_of_way * settings.force_scale / settings.contact_stiffness * local_tolerance())
       , sides{ { { outward, 1, {}, {}, {}, {} }, { inward, -1, {}, {}, {}, {} } } }
   {
+    if (scene.analysis.model == ModelType::finite_element)
+      course.grid.use_halves_alone();
     course.wanted_step = settings.time.step;
     course.tangent     = settings.contact_stiffness;
     now.z              = scene.isolation.initial_displacement;

@@ -12,16 +12,15 @@ namespace sprag
       const double mantissa = std::frexp(duration, &exponent);
       return std::ldexp(std::round(std::ldexp(mantissa, 28)), exponent - 28);
     }
-
-    /// 1, 2, 3, 4, 6, 8, 12 ...
-    unsigned long next_in_ladder(const unsigned long parts)
-    {
-      if (parts == 1)
-        return 2;
-      const bool is_power_of_two = (parts & (parts - 1)) == 0;
-      return is_power_of_two ? parts / 2 * 3 : parts / 3 * 4;
-    }
   } // namespace
+
+  unsigned long StepGrid::next_parts(const unsigned long present) const
+  {
+    if (present == 1 || by_halves)
+      return 2 * present;
+    const bool is_power_of_two = (present & (present - 1)) == 0;
+    return is_power_of_two ? present / 2 * 3 : present / 3 * 4;
+  }
 
   void StepGrid::begin(const double from, const double to, const double longest)
   {
@@ -37,7 +36,7 @@ namespace sprag
     const double least   = length() / wanted * (1. - 1e-6);
     unsigned long chosen = 1;
     while (static_cast<double>(chosen) < least || passed * chosen % parts != 0)
-      chosen = next_in_ladder(chosen);
+      chosen = next_parts(chosen);
     passed = passed * chosen / parts;
     parts  = chosen;
   }

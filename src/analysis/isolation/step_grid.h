@@ -2,12 +2,18 @@
 
 namespace sprag
 {
-  /// Divides a span of time into equal units and each of them into 1, 2, 3, 4, 6, 8, 12 ... equal steps, so that the end is hit
-  /// and few different durations come up: what a model prepares for one serves again. Durations without their last digits are
-  /// equal to the last bit where they are equal but for round-off.
+  /// Divides a span of time into equal units and each of them into 1, 2, 3, 4, 6, 8, 12 ... equal steps, or only 1, 2, 4, 8 ...,
+  /// so that the end is hit and few different durations come up: what a model prepares for one serves again. Durations without
+  /// their last digits are equal to the last bit where they are equal but for round-off.
   class StepGrid
   {
   public:
+    /// Divides units by halves alone from the next choose() on, for models that prepare much for each duration.
+    void use_halves_alone()
+    {
+      by_halves = true;
+    }
+
     /// Begins a span with as few units as are not longer than `longest` [s], > 0. `to` > `from`.
     void begin(double from, double to, double longest);
 
@@ -41,6 +47,10 @@ namespace sprag
     double origin = 0., end = 0.;
     unsigned long units = 0, unit = 0;   ///< of the span, and the present one
     unsigned long parts = 1, passed = 0; ///< steps of the unit, and those behind
+
+    bool by_halves = false;
+
+    unsigned long next_parts(unsigned long present) const;
 
     double length() const
     {
