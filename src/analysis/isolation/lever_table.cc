@@ -16,7 +16,7 @@ namespace sprag
     constexpr unsigned int most_halvings   = 12; ///< of Time/Step
     constexpr double steps_of_a_period     = 200.;
     constexpr double most_of_first         = 20.; ///< the longest step over Time/Step
-    constexpr double error_aimed_at        = 0.5;
+    constexpr double error_aimed_at        = 0.4;
     constexpr double largest_growth        = 2.;   ///< of a step over the last
     constexpr double share_of_way          = 0.1;  ///< to which the table's way is met, of the error that a step may have
     constexpr double balanced              = 1e-8; ///< what may be left of the forces where there is no such error
