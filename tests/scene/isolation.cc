@@ -131,6 +131,19 @@ TEST(BaseMotion, AShockEndsAtRestOrAtItsSpeed)
   EXPECT_EQ(step.at(5., 1).v, 0.);
 }
 
+TEST(BaseMotion, JumpsAreWhereTheAccelerationDoesNotGoOn)
+{
+  auto shock = base_of(BaseMotionType::shock);
+  EXPECT_TRUE(base_motion(shock).jumps.empty());
+  shock.shock = ShockForm::step;
+  EXPECT_EQ(base_motion(shock).jumps, base_motion(shock).kinks);
+  auto record       = base_of(BaseMotionType::record);
+  record.base_table = { { 0., 1., 2., 3. }, { 0., 1., -1., 0. } };
+  EXPECT_TRUE(base_motion(record).jumps.empty());
+  record.base_table.values.back() = 1.;
+  EXPECT_EQ(base_motion(record).jumps, std::vector<double>{ 3. });
+}
+
 TEST(BaseMotion, ARandomGroundHasItsRootMeanSquareAndItsSeed)
 {
   auto settings     = base_of(BaseMotionType::random);
