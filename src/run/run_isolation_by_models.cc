@@ -12,11 +12,11 @@ namespace sprag
 {
   namespace
   {
-    std::vector<Entry> facts_of(const LeverTable &table, const std::size_t rows_taken_over)
+    std::vector<Entry> facts_of(const LeverTable &table, const unsigned long steps_taken_over)
     {
       return { { "steps", static_cast<double>(table.number_of_steps()), "1", "accepted" },
                { "iterations_a_step", table.iterations_a_step(), "1", "ways of the table tried in a step" },
-               { "steps_taken_over", static_cast<double>(rows_taken_over), "1", "rows from an interrupted run of the scene" } };
+               { "steps_taken_over", static_cast<double>(steps_taken_over), "1", "from an interrupted run of the scene" } };
     }
   } // namespace
 
@@ -33,7 +33,13 @@ namespace sprag
       record = [&](const IsolatedTable &table, const bool is_before) { recorder.record(table, is_before); };
 
     std::optional<LeverTable> table;
-    const TableKeeper keeper{ checkpoint, [&](Archive &archive) { visit(archive, *table); } };
+    unsigned long steps_taken_over = 0;
+    const TableKeeper keeper{ checkpoint, [&](Archive &archive)
+                              {
+                                visit(archive, *table);
+                                if (archive.reads())
+                                  steps_taken_over = table->number_of_steps();
+                              } };
     IsolationFindings found;
     finish_in_any_case(
         [&]
@@ -43,7 +49,7 @@ namespace sprag
         },
         [&](const std::string &status)
         {
-          const std::vector<Entry> facts = table ? facts_of(*table, recorder.rows_taken_over()) : std::vector<Entry>();
+          const std::vector<Entry> facts = table ? facts_of(*table, steps_taken_over) : std::vector<Entry>();
           finish_isolation(scene, options, found, facts, status, recorder.finish(), warnings);
           checkpoint.finish(status);
         });

@@ -38,7 +38,8 @@ namespace sprag
   void TableRecorder::take_over(const bool quiet)
   {
     std::vector<double> row;
-    for (Archive records = checkpoint.recorded(); !records.at_end(); ++taken_over)
+    std::size_t rows = 0;
+    for (Archive records = checkpoint.recorded(); !records.at_end(); ++rows)
     {
       RecordKind kind{};
       records(kind, row);
@@ -47,7 +48,7 @@ namespace sprag
     const double time = row.empty() ? 0. : row.front();
     progress.begin_at(time);
     if (!quiet)
-      std::cout << "Goes on:      from t = " << rounded_text(time) << " s, row " << taken_over << " of an interrupted run\n"
+      std::cout << "Goes on:      from t = " << rounded_text(time) << " s, row " << rows << " of an interrupted run\n"
                 << std::flush;
   }
 

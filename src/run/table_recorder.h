@@ -22,20 +22,13 @@ namespace sprag
     /// Ends the progress and returns the file for what the run leaves at its end.
     ResultWriter &finish();
 
-    /// Returns the number of rows taken over from an interrupted run.
-    std::size_t rows_taken_over() const
-    {
-      return taken_over;
-    }
-
   private:
     const Scene &scene;
     Checkpoint &checkpoint;
     ResultWriter writer;
     Progress progress;
     std::vector<std::vector<double>> to_keep; ///< rows for the checkpoint's journal
-    std::size_t kept       = 0;               ///< of these, there already
-    std::size_t taken_over = 0;
+    std::size_t kept = 0;                     ///< of these, there already
 
     void take_over(bool quiet);
   };
