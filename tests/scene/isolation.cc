@@ -1,3 +1,4 @@
+#include "base/text.h"
 #include "messages.h"
 #include "results/hdf5.h"
 #include "scene/base_motion.h"
