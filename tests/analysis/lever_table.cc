@@ -85,7 +85,7 @@ TEST(LeverTable, AHarmonicBaseMovesItAsTheClosedFormSays)
 TEST(LeverTable, AMotionBeyondTheWayOfTheLeversStopsTheRunAndSaysHowFarItGoes)
 {
   Scene scene                      = on_levers(ModelType::rigid);
-  scene.isolation.initial_velocity = 260.;
+  scene.isolation.initial_velocity = 320.;
   const double largest             = findings_of(on_closed_form(scene)).largest_displacement;
   ASSERT_GT(largest, scene.drive.maximum());
   try
