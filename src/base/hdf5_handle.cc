@@ -29,4 +29,27 @@ namespace sprag::hdf5
       return {};
     return names;
   }
+
+  std::string text_attribute(const Handle &dataset, const std::string &name)
+  {
+    if (H5Aexists(dataset.id(), name.c_str()) <= 0)
+      return {};
+    const Handle attribute(H5Aopen(dataset.id(), name.c_str(), H5P_DEFAULT), H5Aclose);
+    const Handle type(H5Aget_type(attribute.id()), H5Tclose);
+    if (H5Tget_class(type.id()) != H5T_STRING)
+      return {};
+    if (H5Tis_variable_str(type.id()) > 0)
+    {
+      char *text = nullptr;
+      if (H5Aread(attribute.id(), type.id(), &text) < 0 || text == nullptr)
+        return {};
+      const std::string result = text;
+      H5free_memory(text);
+      return result;
+    }
+    std::string text(H5Tget_size(type.id()), '\0');
+    if (H5Aread(attribute.id(), type.id(), text.data()) < 0)
+      return {};
+    return text.substr(0, text.find('\0'));
+  }
 } // namespace sprag::hdf5

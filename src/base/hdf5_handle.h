@@ -72,4 +72,7 @@ namespace sprag::hdf5
 
   /// Returns the names in a group, or at the root of a file, in alphabetical order; none where they cannot be read.
   std::vector<std::string> names_in(const Handle &group);
+
+  /// Returns the text of an attribute; none where there is no such text.
+  std::string text_attribute(const Handle &dataset, const std::string &name);
 } // namespace sprag::hdf5

@@ -142,29 +142,6 @@ namespace sprag
       }
     };
 
-    std::string text_attribute(const Handle &dataset, const std::string &name)
-    {
-      if (H5Aexists(dataset.id(), name.c_str()) <= 0)
-        return {};
-      const Handle attribute(H5Aopen(dataset.id(), name.c_str(), H5P_DEFAULT), H5Aclose);
-      const Handle type(H5Aget_type(attribute.id()), H5Tclose);
-      if (H5Tget_class(type.id()) != H5T_STRING)
-        return {};
-      if (H5Tis_variable_str(type.id()) > 0)
-      {
-        char *text = nullptr;
-        if (H5Aread(attribute.id(), type.id(), &text) < 0 || text == nullptr)
-          return {};
-        const std::string result = text;
-        H5free_memory(text);
-        return result;
-      }
-      std::string text(H5Tget_size(type.id()), '\0');
-      if (H5Aread(attribute.id(), type.id(), text.data()) < 0)
-        return {};
-      return text.substr(0, text.find('\0'));
-    }
-
     NamedColumn read_dataset(const Handle &group, const std::string &path, const std::string &name)
     {
       const std::string what = path + ": dataset '" + name + "': ";
@@ -175,9 +152,9 @@ namespace sprag
         throw InputError(what + "must have one dimension");
       if (rows > most_rows)
         throw InputError(what + "must have at most " + std::to_string(most_rows) + " numbers");
-      NamedColumn result{ name, text_attribute(dataset, "unit"), std::vector<double>(rows) };
+      NamedColumn result{ name, hdf5::text_attribute(dataset, "unit"), std::vector<double>(rows) };
       if (result.unit.empty())
-        result.unit = text_attribute(dataset, "units");
+        result.unit = hdf5::text_attribute(dataset, "units");
       if (rows > 0 && H5Dread(dataset.id(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, result.values.data()) < 0)
         throw InputError(what + "must hold numbers");
       return result;

@@ -91,7 +91,7 @@ namespace sprag
   std::string Progress::line(const double share, const ProgressFields &fields) const
   {
     std::string text = formatted("%3.0f %%", std::floor(100. * share + 1e-9)) + field("x", fields.x, "mm") +
-                       field("P", fields.P, "N") + field("Q", fields.Q, "N");
+                       field("z", fields.z, "mm") + field("P", fields.P, "N") + field("Q", fields.Q, "N");
     if (fields.iterations > 0)
       text += formatted("  %2u it", fields.iterations);
     const double elapsed = clock() - start;

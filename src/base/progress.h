@@ -15,6 +15,7 @@ namespace sprag
     double P                = std::numeric_limits<double>::quiet_NaN(); ///< [N]
     double Q                = std::numeric_limits<double>::quiet_NaN(); ///< [N]
     unsigned int iterations = 0;                                        ///< of the last step; 0: left out
+    double z                = std::numeric_limits<double>::quiet_NaN(); ///< of a table [mm]
   };
 
   /// The kind of output that the lines of progress go to.

@@ -66,7 +66,7 @@ namespace sprag
       return kind == H5T_FLOAT || kind == H5T_INTEGER;
     }
 
-    std::vector<double> read_column(const Handle &file, const std::string &path, const std::string &name)
+    std::vector<double> read_column(const Handle &file, const std::string &path, const std::string &name, std::string &unit)
     {
       const Handle dataset(H5Dopen2(file.id(), name.c_str(), H5P_DEFAULT), H5Dclose);
       if (dataset.id() < 0)
@@ -87,6 +87,7 @@ namespace sprag
       std::vector<double> values(rows);
       if (rows > 0 && H5Dread(dataset.id(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
         throw InputError(what + "cannot be read");
+      unit = hdf5::text_attribute(dataset, "unit");
       return values;
     }
 
@@ -104,19 +105,19 @@ namespace sprag
 
       TwoColumns table;
       std::vector<std::string> mistakes;
-      const auto read = [&](std::vector<double> &column, const std::string &name)
+      const auto read = [&](std::vector<double> &column, const std::string &name, std::string &unit)
       {
         try
         {
-          column = read_column(file, path, name);
+          column = read_column(file, path, name, unit);
         }
         catch (const InputError &error)
         {
           mistakes.push_back(error.what());
         }
       };
-      read(table.first, names.first);
-      read(table.second, names.second);
+      read(table.first, names.first, table.first_unit);
+      read(table.second, names.second, table.second_unit);
       if (!mistakes.empty())
         throw InputError(mistakes);
       return table;

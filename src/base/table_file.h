@@ -10,6 +10,8 @@ namespace sprag
     std::string header; ///< of a text: the line before the first row, empty where there is none
     std::vector<double> first;
     std::vector<double> second;
+    std::string first_unit; ///< of a dataset: its attribute "unit", empty where it has none
+    std::string second_unit;
   };
 
   /// Reads two columns of numbers separated by a comma, a semicolon or white space. A header before the first row of numbers,

@@ -45,14 +45,21 @@ namespace sprag
 
     result.gap           = r - R;
     result.gap_row       = normal;
-    result.gap_curvature = outer_product(tangential, tangential) / r;
+    const double inverse = 1. / r, of_slip = -R / (r * r);
+    for (unsigned int i = 0; i < 4; ++i)
+      for (unsigned int j = i; j < 4; ++j)
+      {
+        const double both          = normal[i] * tangential[j] + tangential[i] * normal[j];
+        result.gap_curvature[i][j] = result.gap_curvature[j][i] = tangential[i] * tangential[j] * inverse;
+        result.slip_curvature[i][j] = result.slip_curvature[j][i] = of_slip * both;
+      }
+
     result.gap_curvature[2][2] += sin_beta * c.xi + cos_beta * c.eta;
     result.gap_curvature[2][3] -= along_x;
     result.gap_curvature[3][2] -= along_x;
 
-    result.slip           = R * (std::atan2(r_1, r_2) - circle.theta);
-    result.slip_row       = R * (tangential / r - rotation);
-    result.slip_curvature = -R / (r * r) * (outer_product(normal, tangential) + outer_product(tangential, normal));
+    result.slip     = R * (std::atan2(r_1, r_2) - circle.theta);
+    result.slip_row = R * (tangential / r - rotation);
     result.slip_curvature[2][2] += R / r * (cos_beta * c.xi - sin_beta * c.eta);
     result.slip_curvature[2][3] += R / r * across_x;
     result.slip_curvature[3][2] += R / r * across_x;

@@ -3,6 +3,8 @@
 #include "model/contact_point.h"
 #include "scene/scene.h"
 
+#include <cmath>
+
 namespace sprag
 {
   // Lever axes: xi along d = (-cos th, sin th) away from the pivot, eta along n = (sin th, cos th) from cylinder to lever.
@@ -27,6 +29,14 @@ namespace sprag
   };
 
   PlacedCircle placed_circle(const Geometry &geometry, double x, double theta);
+
+  /// Returns the gap between a point of the lever and the circle [mm].
+  inline double circle_gap(const PlacedCircle &circle, const LeverPoint &point)
+  {
+    const double r_1 = point.xi - circle.centre.xi;
+    const double r_2 = point.eta - circle.centre.eta;
+    return std::sqrt(r_1 * r_1 + r_2 * r_2) - circle.radius;
+  }
 
   /// A point of the lever against the rigid circle, which does not rotate. Coordinates: displacement of the point along xi and
   /// eta, rotation theta, position x of the circle: minus the force on x is the x-force of the circle on the lever. With r the

@@ -241,6 +241,11 @@ namespace sprag
       row[Column::Q_support]            = (frame.ports.sprung ? of_support : row.drive_force()) / frame.ports.levers;
     }
 
+    double drive_force(const Motion &) const override
+    {
+      return contact->drive_force(found);
+    }
+
     FacePoints face_points() const override
     {
       return contact->face_points();

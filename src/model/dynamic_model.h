@@ -131,6 +131,14 @@ namespace sprag
     /// Fills the columns of mechanics at `motion`, the outcome of the last initial_motion() or step().
     virtual void observe(const Motion &motion, Row &row) const = 0;
 
+    /// Returns Q of all levers together there [N], as observe() finds it.
+    virtual double drive_force(const Motion &motion) const
+    {
+      Row row;
+      observe(motion, row);
+      return row.drive_force();
+    }
+
     /// Points of the friction face and their tractions at the last motion; empty where there is no mesh.
     virtual FacePoints face_points() const                   = 0;
     virtual FaceState face_state(const Motion &motion) const = 0;

@@ -139,6 +139,11 @@ namespace sprag
       contact[lever]->observe(found.of_lever[lever], row);
     }
 
+    double drive_force(const Evaluation &found) const
+    {
+      return contact[0]->drive_force(found.of_lever[0]) + contact[1]->drive_force(found.of_lever[1]);
+    }
+
     SurfaceShape surface_shape(const dealii::Vector<double> &displacements, const unsigned int lever) const
     {
       return contact[lever]->surface_shape(ports_of(lever, displacements));

@@ -49,9 +49,10 @@ namespace sprag
     std::vector<unsigned int> filled_places(const Vector<double> &sparse)
     {
       std::vector<unsigned int> result;
-      for (unsigned int i = 0; i < sparse.size(); ++i)
-        if (sparse[i] != 0.)
-          result.push_back(i);
+      const auto *const end = sparse.end();
+      for (const auto *value = sparse.begin(); value != end; ++value)
+        if (*value != 0.)
+          result.push_back(static_cast<unsigned int>(value - sparse.begin()));
       return result;
     }
 
@@ -147,15 +148,18 @@ namespace sprag
   void ModalStructure::use_step(const StepWeights &weights)
   {
     constexpr std::size_t kept = 16;
-    const auto found           = steps.find(weights.dt);
-    if (found != steps.end() && found->second.weights.alpha_f == weights.alpha_f)
+    const auto found           = std::find_if(steps.begin(), steps.end(),
+                                              [&](const auto &step)
+                                              { return step->weights.dt == weights.dt && step->weights.alpha_f == weights.alpha_f; });
+    if (found == steps.end())
     {
-      current = &found->second;
-      return;
+      if (steps.size() >= kept)
+        steps.erase(steps.begin());
+      steps.push_back(std::make_unique<Step>(make_step(weights)));
     }
-    if (steps.size() >= kept)
-      steps.clear();
-    current = &(steps[weights.dt] = make_step(weights));
+    else
+      std::rotate(found, found + 1, steps.end());
+    current = steps.back().get();
   }
 
   const PortCompliance &ModalStructure::compliance() const
@@ -201,10 +205,17 @@ namespace sprag
     return sum;
   }
 
+  std::vector<unsigned int> ModalStructure::loaded_ports(const Motion &motion, const unsigned int first_selected) const
+  {
+    return first_selected < motion.face_force.size() ? filled_places(motion.face_force) : std::vector<unsigned int>();
+  }
+
   Vector<double> ModalStructure::port_positions(const Motion &motion, const PortSelection &selected) const
   {
-    const auto loaded = filled_places(motion.face_force);
     Vector<double> result(n_ports());
+    if (selected.empty())
+      return result;
+    const auto loaded = loaded_ports(motion, selected.front());
     if (loaded.empty() && motion.coordinates.position.all_zero())
       return result;
     for (const unsigned int port : selected)
@@ -214,7 +225,7 @@ namespace sprag
 
   PortState ModalStructure::port_state(const Motion &motion, const unsigned int port) const
   {
-    PortState state{ port_position(motion, filled_places(motion.face_force), port), 0. };
+    PortState state{ port_position(motion, loaded_ports(motion, port), port), 0. };
     for (unsigned int i = 0; i < n_modes(); ++i)
       state.velocity += data.shapes(port, i) * motion.coordinates.velocity[i];
     return state;
@@ -244,6 +255,7 @@ namespace sprag
     free_motion.reinit(n_modes());
     current->inverse.vmult(free_motion, right);
 
+    looked_at = selected;
     Motion unloaded;
     unloaded.coordinates.position = free_motion;
     unloaded.face_force           = scaled(accepted.face_force, -(w.alpha_f - data.relaxation / w.dt) / static_weight(w));
@@ -367,7 +379,9 @@ namespace sprag
     error -= begin.coordinates.acceleration;
     error *= w.dt * w.dt * (w.beta - 1. / 6.);
     Vector<double> result(n_ports());
-    data.shapes.vmult(result, error);
+    for (const unsigned int port : looked_at)
+      for (unsigned int i = 0; i < error.size(); ++i)
+        result[port] += data.shapes(port, i) * error[i];
     return result;
   }
 } // namespace sprag

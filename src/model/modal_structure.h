@@ -6,7 +6,8 @@
 
 #include <deal.II/lac/lapack_full_matrix.h>
 
-#include <map>
+#include <memory>
+#include <vector>
 
 namespace sprag
 {
@@ -68,7 +69,7 @@ namespace sprag
 
     StoredEnergy stored_energy(const Motion &motion) const;
 
-    /// Displacements of the ports by the local error of a step.
+    /// Displacements by the local error of a step, of the ports that free_ports() was asked for.
     dealii::Vector<double> port_error(const Motion &begin, const Motion &end) const;
 
     /// Vibrations under linear forces on the ports, all of them.
@@ -97,6 +98,9 @@ namespace sprag
     };
 
     unsigned int n_ports() const;
+
+    /// Returns the ports with static forces, which move those of the face; none where no port from `first_selected` on is of it.
+    std::vector<unsigned int> loaded_ports(const Motion &motion, unsigned int first_selected) const;
     double port_position(const Motion &motion, const std::vector<unsigned int> &loaded, unsigned int port) const;
     Step make_step(const StepWeights &weights) const;
     PortCompliance port_compliance(const dealii::FullMatrix<double> &inverse, double share_of_static) const;
@@ -105,8 +109,9 @@ namespace sprag
 
     const ModalData data;
     Step statics;
-    std::map<double, Step> steps; ///< by duration
+    std::vector<std::unique_ptr<Step>> steps; ///< the latest last
     const Step *current = nullptr;
     mutable dealii::Vector<double> free_motion; ///< modal, of the last free_ports()
+    mutable PortSelection looked_at;            ///< by it
   };
 } // namespace sprag

@@ -167,6 +167,11 @@ namespace sprag
     return { ContactMemory{} };
   }
 
+  double PointContact::drive_force(const Evaluation &found) const
+  {
+    return found.response.traction[0] * found.end.slip_at_point[3] - found.response.pressure * found.end.gap_at_point[3];
+  }
+
   void PointContact::observe(const Evaluation &found, Row &row, unsigned int) const
   {
     const auto &end                 = found.end;
@@ -174,7 +179,7 @@ namespace sprag
     const auto force                = response.pressure * end.gap_at_point - response.traction[0] * end.slip_at_point;
     row[Column::P]                  = force[1];
     row[Column::F]                  = -force[0];
-    row[Column::Q]                  = -force[3];
+    row[Column::Q]                  = drive_force(found);
     row[Column::normal_resultant]   = response.pressure;
     row[Column::friction_resultant] = response.traction[0];
     row[Column::friction_power]     = response.traction[0] * found.slip_rate;

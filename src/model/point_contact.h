@@ -119,6 +119,9 @@ namespace sprag
     /// Fills the columns of a row that follow from the contact.
     void observe(const Evaluation &found, Row &row, unsigned int lever = 0) const;
 
+    /// Returns Q at the end of the step [N].
+    double drive_force(const Evaluation &found) const;
+
     /// Returns the displacements of the lever's surface that go with those of the ports.
     SurfaceShape surface_shape(const dealii::Vector<double> &displacements, unsigned int lever = 0) const;
 

@@ -46,6 +46,12 @@ namespace sprag
     constexpr double condensed_slide       = 0.03;
     constexpr double meshed_slide          = 6e-5; ///< times N
 
+    // Levers under a table.
+    constexpr double table_steps           = 6000.; ///< in a second of motion at the usual tolerance, whatever the motion
+    constexpr double table_steps_exponent  = 0.45;  ///< with which they grow as the tolerance falls
+    constexpr double condensed_table_step  = 5e-5;
+    constexpr double condensed_table_faces = 5e-7; ///< a step, times the square of the faces in contact
+
     constexpr double judgements_of_cell = 0.4;  ///< both ways, in models that are kept from cell to cell
     constexpr double usual_tolerance    = 5e-3; ///< Time/Tolerance at which meshed levers take twice a beam's steps
     constexpr double steps_of_reversal  = 20.;  ///< without inertia, through stick
@@ -105,6 +111,22 @@ namespace sprag
       // The ripple of elements that pass shortens large steps most.
       const double taken = steps * (1. + std::min(1., scene.time.tolerance / usual_tolerance));
       return start + basis * std::pow(N, 1.5) + fields_in_time * N + taken * step * parts(scene);
+    }
+
+    double under_table(const Scene &scene)
+    {
+      const double N = expected_size(scene).displacements;
+      const double steps =
+          scene.isolation.duration * (scene.time.tolerance > 0.
+                                          ? table_steps * std::pow(usual_tolerance / scene.time.tolerance, table_steps_exponent)
+                                          : 1. / scene.time.step);
+      if (!is_meshed(scene.analysis.model))
+        return start + steps * reduced_step * parts(scene);
+      const double faces = estimated_contact_width(scene, contact_reference(scene).P) / scene.mesh.face_size;
+      const double step  = scene.analysis.model == ModelType::condensed
+                               ? condensed_table_step + condensed_table_faces * faces * faces
+                               : 2. * meshed_step * N;
+      return start + basis * std::pow(N, 1.5) + steps * step * parts(scene);
     }
 
     /// Slides that an analysis of held ones judges: the slide, without its parts in turn, and along single parameters.
@@ -184,6 +206,8 @@ namespace sprag
         return scene.analysis.dimension == 3 ? in_three_dimensions(scene) : without_inertia(scene);
       case AnalysisType::transient:
         return in_time(scene);
+      case AnalysisType::isolation:
+        return under_table(scene);
       case AnalysisType::modal:
       case AnalysisType::stability:
         return held(scene);

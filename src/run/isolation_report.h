@@ -18,12 +18,9 @@ namespace sprag
   /// Sums up a run; with a harmonic base the harmonic balance stands beside it.
   std::vector<Entry> isolation_summary(const Scene &scene, const IsolationFindings &found);
 
-  /// Follows a table, fills in what it finds, hands on what is recorded and returns facts of the run.
-  using IsolationRun = std::function<std::vector<Entry>(IsolationFindings &found, const RecordTable &record)>;
-
-  /// Carries out a run of an isolation system and writes and prints what it finds, whatever happens.
-  void record_isolation(const Scene &scene, const RunOptions &options, PhaseTimer &timer, Warnings &warnings,
-                        const IsolationRun &follow);
+  /// Writes and prints what a run of an isolation system found, with facts of the run.
+  void finish_isolation(const Scene &scene, const RunOptions &options, const IsolationFindings &found,
+                        const std::vector<Entry> &facts, const std::string &status, ResultWriter &writer, Warnings &warnings);
 
   /// Returns what a run of an isolation system warns of.
   Warnings isolation_warnings(const Scene &scene, const IsolationFindings &found);

@@ -111,7 +111,8 @@ namespace sprag
       {
         if (scene.analysis.model == ModelType::finite_element)
           return { scene.analysis.type == AnalysisType::transient ? 16e3 : 10e3, 0. };
-        return { 2.5e3, scene.analysis.type == AnalysisType::modal ? 5.5 : 17. };
+        const bool is_table = scene.analysis.type == AnalysisType::isolation; // two levers, which keep steps of some durations
+        return { 2.5e3, scene.analysis.type == AnalysisType::modal ? 5.5 : is_table ? 24. : 17. };
       }
       return is_factorised_once(scene) ? Cost{ 2e3, 0. } : Cost{ 5e3, 0. };
     }

@@ -71,7 +71,9 @@ namespace sprag
           return BasePoint{ 0.5 * X * (1. - cosine), 0.5 * X * w * sine, 0.5 * X * w * w * cosine, -0.5 * X * w * w * w * sine };
         return BasePoint{ X * (w * t - sine), X * w * (1. - cosine), X * w * w * sine, X * w * w * w * cosine };
       };
-      motion.kinks           = { end };
+      motion.kinks = { end };
+      if (is_step)
+        motion.jumps = motion.kinks;
       motion.shortest_period = 1. / settings.base_frequency;
       motion.end             = end;
       return motion;
@@ -252,6 +254,8 @@ namespace sprag
       };
       motion.kinks.assign(data->a.at.begin() + 1, data->a.at.end());
       motion.end = motion.kinks.back();
+      if (data->a.values.back() != 0.)
+        motion.jumps = { motion.end };
       return motion;
     }
   } // namespace

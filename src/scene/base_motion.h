@@ -23,6 +23,7 @@ namespace sprag
   {
     std::function<BasePoint(double time, std::size_t piece)> at;
     std::vector<double> kinks;                                        ///< increasing, > 0 [s]
+    std::vector<double> jumps;                                        ///< of its acceleration, among the kinks [s]
     double shortest_period = std::numeric_limits<double>::infinity(); ///< of its sines [s]
     double frequency       = 0.;                                      ///< of a harmonic motion [Hz]; else 0
     double end             = std::numeric_limits<double>::infinity(); ///< from which on it has no acceleration [s]

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <regex>
 
 namespace sprag
@@ -75,23 +76,47 @@ namespace sprag
       return all.at(unit);
     }
 
-    /// From the second column's name, "acceleration [m/s2]"; of a spectrum, whose unit is squared per Hz, nothing is read.
-    double unit_of(const AccelerationUnit given, const std::string &header, const bool is_spectrum)
+    std::optional<AccelerationUnit> known_unit(const std::string &word)
     {
-      if (given != AccelerationUnit::from_file)
-        return in_mm_s2(given);
       static const std::map<std::string, AccelerationUnit> words = {
         { "mm/s2", AccelerationUnit::mm_s2 },  { "mm/s^2", AccelerationUnit::mm_s2 }, { "cm/s2", AccelerationUnit::cm_s2 },
         { "cm/s^2", AccelerationUnit::cm_s2 }, { "gal", AccelerationUnit::cm_s2 },    { "m/s2", AccelerationUnit::m_s2 },
         { "m/s^2", AccelerationUnit::m_s2 },   { "g", AccelerationUnit::g }
       };
+      const auto found = words.find(word);
+      return found != words.end() ? std::make_optional(found->second) : std::nullopt;
+    }
+
+    /// What stands in brackets behind the second column's name, as in "acceleration [m/s2]".
+    std::string unit_in(const std::string &header)
+    {
       std::smatch found;
       static const std::regex second("[,;].*\\[\\s*([^\\]]*?)\\s*\\]\\s*$|\\]\\s+\\S*\\s*\\[\\s*([^\\]]*?)\\s*\\]\\s*$");
-      if (!is_spectrum && std::regex_search(header, found, second))
-        if (const auto unit = words.find(found[1].matched ? found[1].str() : found[2].str()); unit != words.end())
-          return in_mm_s2(unit->second);
+      if (!std::regex_search(header, found, second))
+        return {};
+      return found[1].matched ? found[1].str() : found[2].str();
+    }
+
+    /// A dataset's own unit counts first; the scene's must not contradict it. Of a spectrum, whose unit is squared per Hz,
+    /// nothing is read.
+    AccelerationUnit unit_of(const AccelerationUnit given, const TwoColumns &table, const bool is_spectrum)
+    {
+      const bool is_given = given != AccelerationUnit::from_file;
+      if (!is_spectrum && !table.first_unit.empty() && table.first_unit != "s")
+        throw InputError("dataset 'time': its unit is " + table.first_unit + ", must be s");
+      const auto of_dataset = is_spectrum ? std::nullopt : known_unit(table.second_unit);
+      if (of_dataset && is_given && *of_dataset != given)
+        throw InputError("dataset 'acceleration': its unit is " + table.second_unit + ", which Isolation/Base unit contradicts");
+      if (of_dataset)
+        return *of_dataset;
+      if (is_given)
+        return given;
+      if (const auto of_header = is_spectrum ? std::nullopt : known_unit(unit_in(table.header)))
+        return *of_header;
       throw InputError("the unit of the acceleration is not known: give Isolation/Base unit = mm/s2, cm/s2, m/s2 or g" +
-                       std::string(is_spectrum ? "" : ", or a header as 'time [s], acceleration [m/s2]'"));
+                       std::string(is_spectrum ? ""
+                                               : ", or a header as 'time [s], acceleration [m/s2]', or in HDF5 the dataset's "
+                                                 "attribute unit"));
     }
 
     void need_spectrum(const Samples &spectrum)
@@ -112,7 +137,7 @@ namespace sprag
       const bool is_spectrum = settings.base == BaseMotionType::random;
       const auto table       = read_table(settings.base_file,
                                     is_spectrum ? ColumnNames{ "frequency", "density" } : ColumnNames{ "time", "acceleration" });
-      const double factor    = unit_of(settings.unit, table.header, is_spectrum);
+      const double factor    = in_mm_s2(unit_of(settings.unit, table, is_spectrum));
       settings.base_table    = { table.first, table.second };
       need_increasing(settings.base_table, is_spectrum ? "frequency" : "time");
       if (is_spectrum)

@@ -134,3 +134,37 @@ TEST(Design, FrontOfTwoAimsIsOfLeversThatNoneBeats)
     EXPECT_NEAR(front[i].quantities[DesignQuantity::damping_slope], damping_slope(5e4, 200., theta), 1e-9);
   }
 }
+
+TEST(Design, LargestRadiusWithinAReach)
+{
+  const TemporaryFolder folder;
+  const auto found = best_of(design(folder, { "Geometry/Pivot height=30", "Design/Free=Geometry/Cylinder radius = 35 ... 100",
+                                              "Design/Demands=reach >= 150", "Design/Aim=maximise Geometry/Cylinder radius" }));
+  ASSERT_TRUE(found.meets_all);
+  // The circle about (x, 0) meets the pivot (200, -30) at x = 150.
+  const double R = std::hypot(50., 30.);
+  EXPECT_NEAR(found.lever.parameters[0], R, 1e-3 * R);
+  EXPECT_NEAR(found.lever.quantities[DesignQuantity::reach], 150., 0.15);
+}
+
+TEST(Design, LargestBeginningWithinAResidualOffset)
+{
+  const TemporaryFolder folder;
+  const Scene scene =
+      design(folder, { "Isolation/Mass=0.05", "Isolation/Stiffness=1.1", "Isolation/Levers=2", "Isolation/Damper=lever",
+                       "Isolation/Base motion=none", "Isolation/Duration=3", "Isolation/Initial displacement=0.01",
+                       "Design/Free=Isolation/Initial displacement = 1e-4 ... 0.1", "Design/Demands=residual offset <= 1e-3",
+                       "Design/Aim=maximise Isolation/Initial displacement" });
+  const auto found = best_of(scene);
+  ASSERT_TRUE(found.meets_all);
+  // So close to z = 0 the table swings out on K + n C_Q forward and back on K + n C_Q backward, each for a quarter of that
+  // period, and turns at r = sqrt((K + n C_Q backward)/(K + n C_Q forward)) of the last turn. At the end it is about the mean of
+  // the last two.
+  const double theta = std::asin(30. / 200.), c = damping_slope(5e4, 200., theta), k_e = c * std::tan(theta) / mu;
+  const double out = 1.1 + 2. * (k_e + c), back = 1.1 + 2. * (k_e - c), r = std::sqrt(back / out);
+  const double half  = 0.5 * M_PI * (std::sqrt(0.05 / out) + std::sqrt(0.05 / back));
+  const double turns = std::floor(3. / half);
+  const double z     = 1e-3 * 2. / (std::pow(r, turns - 1.) * (1. - r));
+  EXPECT_NEAR(found.lever.parameters[0], z, 1e-3 * z);
+  EXPECT_NEAR(found.lever.quantities[DesignQuantity::residual_offset], 1e-3, 1e-6);
+}

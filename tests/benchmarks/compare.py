@@ -90,7 +90,10 @@ def results_of(path):
         def keep(name, item):
             if isinstance(item, h5py.Dataset) and not name.startswith(("meta/", "parameters")):
                 value = item[()]
-                found[name] = value.decode() if isinstance(value, bytes) else np.asarray(value, dtype=float)
+                if item.dtype.kind in "OS":
+                    found[name] = b"\n".join(np.atleast_1d(value)).decode()
+                else:
+                    found[name] = np.asarray(value, dtype=float)
 
         file.visititems(keep)
     return found

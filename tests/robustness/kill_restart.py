@@ -31,6 +31,7 @@ SOLID = {
 }
 IN_TIME = {"Drive/Start": "63.5", "Mesh/Face size": "4", "Time/Tolerance": "1e-3", "Output/Fields": "interval", "Output/Field interval": "0.5"}
 REDUCED = {"Drive/Start": "62", "Time/Tolerance": "1e-6"}
+TABLE = {"Isolation/Duration": "0.6", "Isolation/Output step": "2e-3"}
 CONDENSED = {**IN_TIME, "Analysis/Model": "condensed", "Condensed/Modes": "8"}
 QUICK = {
     "quasi-static, penalty": ("model-a", QUASI_STATIC),
@@ -40,6 +41,7 @@ QUICK = {
     "in time, beam": ("reversal-a", REDUCED),
     "in time, condensed": ("reversal-a", CONDENSED),
     "in time, finite element": ("reversal-a", {**IN_TIME, "Analysis/Model": "finite element"}),
+    "table on beams": ("isolation-free-a", {**TABLE, "Analysis/Model": "beam"}),
 }
 ALL = {
     **QUICK,
@@ -54,6 +56,12 @@ ALL = {
     "pair, finite element": ("pair-reversal-a", {**IN_TIME, "Drive/Start": "64", "Analysis/Model": "finite element"}),
     "plate, condensed": ("plate-reversal-a", CONDENSED),
     "stick and slip": ("stribeck-a", {"Drive/Start": "53"}),
+    "table on condensed levers": (
+        "isolation-ground-a",
+        {**TABLE, "Analysis/Model": "condensed", "Mesh/Face size": "4", "Condensed/Modes": "8", "Isolation/Highest frequency": "20",
+         "Isolation/Spectrum lines": "300", "Isolation/Base acceleration": "500"},
+    ),
+    "table on finite elements": ("isolation-a", {**TABLE, "Analysis/Model": "finite element", "Mesh/Face size": "4", "Isolation/Duration": "0.1"}),
     "elastic cylinder in time": ("cylinder-a", {**CONDENSED, "Analysis/Type": "transient", "Drive/Start": "64"}),
 }
 # What a run cost, and where it came from.
@@ -134,7 +142,7 @@ class Victim:
             raise RuntimeError(f"{name}: {done.stderr}")
         self.expected = contents(self.whole)
         with h5py.File(self.whole / "result.h5", "r") as file:
-            self.steps = len(file["table/x"]) - 1
+            self.steps = len(file["table/time" if "table/time" in file else "table/x"]) - 1
         self.kills = self.ends = self.went_on = self.compared = 0
         self.unlike, self.said = [], []
 
@@ -211,7 +219,7 @@ class Killed(RunTest):
             with self.subTest(name):
                 self.assertEqual(victim.unlike, [])
                 self.assertEqual(victim.said, [])
-                self.assertGreater(victim.compared, 70)
+                self.assertGreater(victim.compared, 40)
             went_on += victim.went_on
         self.assertGreater(went_on, len(QUICK) / 2)
 

@@ -1,4 +1,6 @@
+#include "base/text.h"
 #include "messages.h"
+#include "results/hdf5.h"
 #include "scene/base_motion.h"
 #include "scene/damper.h"
 #include "support/temporary_folder.h"
@@ -130,6 +132,19 @@ TEST(BaseMotion, AShockEndsAtRestOrAtItsSpeed)
   EXPECT_EQ(step.at(5., 1).v, 0.);
 }
 
+TEST(BaseMotion, JumpsAreWhereTheAccelerationDoesNotGoOn)
+{
+  auto shock = base_of(BaseMotionType::shock);
+  EXPECT_TRUE(base_motion(shock).jumps.empty());
+  shock.shock = ShockForm::step;
+  EXPECT_EQ(base_motion(shock).jumps, base_motion(shock).kinks);
+  auto record       = base_of(BaseMotionType::record);
+  record.base_table = { { 0., 1., 2., 3. }, { 0., 1., -1., 0. } };
+  EXPECT_TRUE(base_motion(record).jumps.empty());
+  record.base_table.values.back() = 1.;
+  EXPECT_EQ(base_motion(record).jumps, std::vector<double>{ 3. });
+}
+
 TEST(BaseMotion, ARandomGroundHasItsRootMeanSquareAndItsSeed)
 {
   auto settings     = base_of(BaseMotionType::random);
@@ -227,6 +242,56 @@ TEST(IsolationInput, TheUnitOfARecordScalesIt)
                                                   "Isolation/Base motion=record", "Isolation/Base table=" + file });
   EXPECT_NEAR(scene.isolation.base_table.values[1], 4903.325, 1e-9);
   EXPECT_NEAR(base_motion(scene.isolation).at(1., 0).v, 0.5 * 4903.325, 1e-9);
+}
+
+namespace
+{
+  /// Writes a record of four rows as HDF5, with the units given.
+  std::string record_of_units(const TemporaryFolder &folder, const std::string &of_time, const std::string &of_acceleration)
+  {
+    const std::string path = folder.path / "record.h5";
+    const auto file        = hdf5::create_file(path);
+    const auto write       = [&](const std::string &name, const std::vector<double> &values, const std::string &unit)
+    {
+      const auto dataset = hdf5::write_dataset(file, name, values);
+      if (!unit.empty())
+        hdf5::write_attribute(dataset, "unit", unit);
+    };
+    write("time", { 0., 1., 2., 3. }, of_time);
+    write("acceleration", { 0., 0.5, 0.5, 0. }, of_acceleration);
+    return path;
+  }
+
+  /// The acceleration in the second row, or what is said about the file.
+  std::string read_of_units(const std::string &of_time, const std::string &of_acceleration, const std::string &given = "")
+  {
+    const TemporaryFolder folder;
+    Messages overrides = of_records;
+    overrides.push_back("Isolation/Base table=" + record_of_units(folder, of_time, of_acceleration));
+    if (!given.empty())
+      overrides.push_back("Isolation/Base unit=" + given);
+    try
+    {
+      return number_text(read_scene(folder.write("scene.prm", ""), overrides).isolation.base_table.values[1]);
+    }
+    catch (const InputError &error)
+    {
+      return error.messages.front();
+    }
+  }
+} // namespace
+
+TEST(IsolationInput, ARecordInHdf5HasTheUnitOfItsDataset)
+{
+  EXPECT_EQ(read_of_units("s", "m/s^2"), "500");
+  EXPECT_EQ(read_of_units("", "mm/s^2"), "0.5");
+  EXPECT_EQ(read_of_units("s", "", "cm/s2"), "5");
+  EXPECT_EQ(read_of_units("s", "inch/s2", "m/s2"), "500");
+  EXPECT_EQ(read_of_units("s", "m/s^2", "m/s2"), "500");
+  EXPECT_NE(read_of_units("s", "").find("the unit of the acceleration is not known"), std::string::npos);
+  EXPECT_NE(read_of_units("s", "inch/s2").find("not known"), std::string::npos);
+  EXPECT_NE(read_of_units("s", "m/s^2", "g").find("its unit is m/s^2, which Isolation/Base unit contradicts"), std::string::npos);
+  EXPECT_NE(read_of_units("ms", "m/s^2").find("its unit is ms, must be s"), std::string::npos);
 }
 
 TEST(IsolationScene, LeversAreThoseOfTheClosedFormUnlessAnotherModelIsGiven)

@@ -105,8 +105,6 @@ namespace sprag
 
     TableState now;
     double peak_acceleration = 0., peak_displacement = 0., peak_base = 0.;
-
-  private:
     double energy_at_start = 0.;
   };
 } // namespace sprag

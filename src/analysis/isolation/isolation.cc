@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
 
 namespace sprag
 {
@@ -20,14 +19,46 @@ namespace sprag
       unsigned int stops;
     };
 
+    /// What a run goes on from, beside its findings and the table.
+    struct Course
+    {
+      std::size_t rows           = 1;
+      unsigned int periods_ended = 0;
+      unsigned int period_stops  = 0;
+      bool has_ended             = false;
+      SteadyState steady;
+      std::vector<Period> periods; ///< the last
+      std::vector<double> last_turns;
+      double square           = 0.; ///< of the table's acceleration, of the periods that ended
+      double largest_energy   = 0.;
+      double largest_residual = 0.;
+    };
+
+    void visit(Archive &archive, Course &course)
+    {
+      auto &[rows, ended, stops, has_ended, steady, periods, turns, square, energy, residual] = course;
+      archive(rows, ended, stops, has_ended, steady, periods, turns, square, energy, residual);
+    }
+
+    /// Adds to the last ones, of which so many are kept.
+    template <class Item>
+    void add_last(const Item &item, const std::size_t kept, std::vector<Item> &items)
+    {
+      items.push_back(item);
+      if (items.size() > kept)
+        items.erase(items.begin());
+    }
+
     class Follower
     {
     public:
-      Follower(const Scene &given, IsolatedTable &table, IsolationFindings &of_run, const RecordTable &recorder)
+      Follower(const Scene &given, IsolatedTable &table, IsolationFindings &of_run, const RecordTable &recorder,
+               const TableKeeper *const table_keeper)
           : scene(given)
           , settings(scene.isolation)
           , found(of_run)
           , record(recorder)
+          , keeper(table_keeper)
           , motion(table)
           , is_harmonic(settings.base == BaseMotionType::harmonic)
           , between_rows(output_step(settings))
@@ -36,18 +67,24 @@ namespace sprag
 
       void follow()
       {
-        note();
-        write(false);
-        while (motion.state().time < settings.duration && !has_ended)
+        if (keeper == nullptr || !keeper->progress.take_up(progress()))
         {
-          const double row = static_cast<double>(rows) * between_rows;
+          note();
+          write(false);
+        }
+        while (motion.state().time < settings.duration && !course.has_ended)
+        {
+          const double row = static_cast<double>(course.rows) * between_rows;
           const double end = period_end();
           go_on(std::min({ settings.duration, record ? row : settings.duration, end }));
           if (motion.state().time >= row)
-            ++rows;
+            ++course.rows;
           if (motion.state().time == end)
             end_period();
+          keep();
         }
+        if (keeper != nullptr)
+          keeper->progress.end_steps(progress());
       }
 
       void conclude()
@@ -60,11 +97,11 @@ namespace sprag
         found.dissipated  = state.dissipated;
         if (motion.rests())
           found.residual_offset = state.z;
-        else if (last_turns.size() == 2)
-          found.residual_offset = 0.5 * (last_turns[0] + last_turns[1]);
-        square += state.square;
-        found.rms_acceleration = state.time > 0. ? std::sqrt(square / state.time) : 0.;
-        found.energy_residual  = largest_energy > 0. ? largest_residual / largest_energy : 0.;
+        else if (course.last_turns.size() == 2)
+          found.residual_offset = 0.5 * (course.last_turns[0] + course.last_turns[1]);
+        course.square += state.square;
+        found.rms_acceleration = state.time > 0. ? std::sqrt(course.square / state.time) : 0.;
+        found.energy_residual  = course.largest_energy > 0. ? course.largest_residual / course.largest_energy : 0.;
         if (is_harmonic)
           take_ratios_of_periods();
         else if (motion.largest_base_acceleration() > 0.)
@@ -88,23 +125,33 @@ namespace sprag
       const IsolationSettings &settings;
       IsolationFindings &found;
       const RecordTable &record;
+      const TableKeeper *const keeper;
       IsolatedTable &motion;
       const bool is_harmonic;
       const double between_rows;
-      std::size_t rows           = 1;
-      unsigned int periods_ended = 0;
-      unsigned int period_stops  = 0;
-      bool has_ended             = false;
-      SteadyState steady;
-      std::deque<Period> periods; ///< the last
-      std::deque<double> last_turns;
-      double square           = 0.; ///< of the table's acceleration, of the periods that ended
-      double largest_energy   = 0.;
-      double largest_residual = 0.;
+      Course course;
 
       double period_end() const
       {
-        return is_harmonic ? (periods_ended + 1) / settings.base_frequency : std::numeric_limits<double>::infinity();
+        return is_harmonic ? (course.periods_ended + 1) / settings.base_frequency : std::numeric_limits<double>::infinity();
+      }
+
+      ProgressVisit progress()
+      {
+        return [this](Archive &archive)
+        {
+          archive(found, course);
+          keeper->visit_table(archive);
+        };
+      }
+
+      /// To be called where all that has happened is recorded. Ends the run where it is interrupted.
+      void keep()
+      {
+        if (keeper != nullptr)
+          keeper->progress.accept_step(progress());
+        else
+          end_if_interrupted();
       }
 
       void write(const bool is_before) const
@@ -117,8 +164,8 @@ namespace sprag
       {
         const auto &state          = motion.state();
         const double largest       = std::max({ std::abs(state.base_work), state.dissipated, motion.energy() });
-        largest_energy             = std::max(largest_energy, largest);
-        largest_residual           = std::max(largest_residual, std::abs(motion.energy_residual()));
+        course.largest_energy      = std::max(course.largest_energy, largest);
+        course.largest_residual    = std::max(course.largest_residual, std::abs(motion.energy_residual()));
         found.largest_displacement = std::max(found.largest_displacement, motion.largest_displacement());
         found.largest_acceleration = std::max(found.largest_acceleration, motion.largest_acceleration());
       }
@@ -127,9 +174,9 @@ namespace sprag
       {
         do
         {
-          const auto event = motion.advance(until);
-          end_if_interrupted();
-          note_event(event);
+          note_event(motion.advance(until));
+          if (motion.state().time < until)
+            keep();
         } while (motion.state().time < until);
         note();
         write(false);
@@ -143,15 +190,13 @@ namespace sprag
         if (turns)
         {
           ++found.turns;
-          last_turns.push_back(motion.state().z);
-          if (last_turns.size() > 2)
-            last_turns.pop_front();
+          add_last(motion.state().z, 2, course.last_turns);
           write(true);
         }
         if (event == TableEvent::stop)
         {
           ++found.stops;
-          ++period_stops;
+          ++course.period_stops;
         }
         note();
         write(false);
@@ -160,30 +205,29 @@ namespace sprag
       void end_period()
       {
         const auto &state = motion.state();
-        periods.push_back({ motion.largest_acceleration(), motion.largest_displacement(), state.square, state.cosine, state.sine,
-                            period_stops });
-        if (periods.size() > 8)
-          periods.pop_front();
-        square += state.square;
-        steady.add(state.z, state.rate / (2. * M_PI * settings.base_frequency), motion.largest_displacement());
-        ++periods_ended;
-        period_stops = 0;
+        add_last(Period{ motion.largest_acceleration(), motion.largest_displacement(), state.square, state.cosine, state.sine,
+                         course.period_stops },
+                 8, course.periods);
+        course.square += state.square;
+        course.steady.add(state.z, state.rate / (2. * M_PI * settings.base_frequency), motion.largest_displacement());
+        ++course.periods_ended;
+        course.period_stops = 0;
         motion.reset_period();
-        const auto repeats = steady.periods(settings.periodic_tolerance);
+        const auto repeats = course.steady.periods(settings.periodic_tolerance);
         if (repeats && !found.is_steady)
           found.steady_from = state.time;
-        found.is_steady = repeats.has_value();
-        found.periods   = repeats.value_or(1);
-        has_ended       = repeats && settings.end == IsolationEnd::steady_state;
+        found.is_steady  = repeats.has_value();
+        found.periods    = repeats.value_or(1);
+        course.has_ended = repeats && settings.end == IsolationEnd::steady_state;
       }
 
       void take_ratios_of_periods()
       {
-        found.periods = std::min<unsigned int>(found.periods, static_cast<unsigned int>(periods.size()));
+        found.periods = std::min<unsigned int>(found.periods, static_cast<unsigned int>(course.periods.size()));
         if (found.periods == 0)
           return;
         Period sum{};
-        for (auto period = periods.end() - found.periods; period != periods.end(); ++period)
+        for (auto period = course.periods.end() - found.periods; period != course.periods.end(); ++period)
         {
           sum.peak         = std::max(sum.peak, period->peak);
           sum.displacement = std::max(sum.displacement, period->displacement);
@@ -211,9 +255,10 @@ namespace sprag
     return std::min(0.01 * natural, 0.1 * base_motion(settings).shortest_period);
   }
 
-  void run_isolation(const Scene &scene, IsolatedTable &table, IsolationFindings &findings, const RecordTable &record)
+  void run_isolation(const Scene &scene, IsolatedTable &table, IsolationFindings &findings, const RecordTable &record,
+                     const TableKeeper *const keeper)
   {
-    Follower follower(scene, table, findings, record);
+    Follower follower(scene, table, findings, record, keeper);
     try
     {
       follower.follow();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "analysis/isolation/table_motion.h"
+#include "base/progress_keeper.h"
 
 #include <functional>
 #include <limits>
@@ -41,9 +42,18 @@ namespace sprag
   /// Takes the motion at the instants of the table; `is_before` tells that the force is still that before a turn.
   using RecordTable = std::function<void(const IsolatedTable &, bool is_before)>;
 
+  /// What keeps the progress of a run, and visits the table's part of it.
+  struct TableKeeper
+  {
+    ProgressKeeper &progress;
+    ProgressVisit visit_table;
+  };
+
   /// Follows a table of the scene to its end and fills in what it finds, also where it throws AnalysisError: the damper ends,
-  /// locks, or more energy is left open than Analysis/Maximum energy residual. Without `record` nothing is recorded.
-  void run_isolation(const Scene &scene, IsolatedTable &table, IsolationFindings &findings, const RecordTable &record);
+  /// locks, or more energy is left open than Analysis/Maximum energy residual. Without `record` nothing is recorded. With a
+  /// keeper, null without, a run goes on from where an interrupted one was.
+  void run_isolation(const Scene &scene, IsolatedTable &table, IsolationFindings &findings, const RecordTable &record,
+                     const TableKeeper *keeper = nullptr);
 
   /// Does so with the damper that formulas give.
   void run_isolation(const Scene &scene, IsolationFindings &findings, const RecordTable &record);

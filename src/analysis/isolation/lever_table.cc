@@ -1,7 +1,9 @@
 #include "analysis/isolation/lever_table.h"
 
+#include "analysis/isolation/isolation.h"
 #include "base/errors.h"
 #include "base/text.h"
+#include "model/state_archive.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,30 +12,40 @@ namespace sprag
 {
   namespace
   {
-    constexpr unsigned int most_iterations   = 25;
-    constexpr unsigned int most_halvings     = 12; ///< of Time/Step
-    constexpr unsigned int errors_of_growth  = 8;  ///< small ones in a row before a step is doubled
-    constexpr double small_error             = 1. / 24.;
-    constexpr double steps_of_natural_period = 200.;
+    constexpr unsigned int most_iterations = 25;
+    constexpr unsigned int most_halvings   = 12; ///< of Time/Step
+    constexpr double steps_of_a_period     = 200.;
+    constexpr double most_of_first         = 20.; ///< the longest step over Time/Step
+    constexpr double error_aimed_at        = 0.4;
+    constexpr double largest_growth        = 2.;   ///< of a step over the last
+    constexpr double share_of_way          = 0.1;  ///< to which the table's way is met, of the error that a step may have
+    constexpr double balanced              = 1e-8; ///< what may be left of the forces where there is no such error
 
     /// Behind its rest no lever follows the cylinder so far: there the place of the cylinder does not matter [mm].
     constexpr double out_of_contact = -10.;
 
-    /// Without the last digits, so that steps of equal duration are so to the last bit and what a model prepares for one serves
-    /// again.
-    double rounded(const double duration)
-    {
-      int exponent          = 0;
-      const double mantissa = std::frexp(duration, &exponent);
-      return std::ldexp(std::round(std::ldexp(mantissa, 28)), exponent - 28);
-    }
-
     constexpr double same_place = 1e-7; ///< of the cylinder for a lever that touches nothing [mm]
 
-    /// Damping may take all pressure from a contact that is still closed.
-    bool touches(const Row &row)
+    /// What two forces in a row lead to at a `ratio` of their distance beyond the last. Ports that the last does not have are
+    /// left out.
+    PortLoads extrapolated(const PortLoads &before, const PortLoads &last, const double ratio)
     {
-      return row[Column::P] > 0. || row[Column::penetration] > 0. || row[Column::indentation] > 0.;
+      PortLoads result = last;
+      unsigned int j   = 0;
+      for (unsigned int i = 0; i < last.ports.size(); ++i)
+      {
+        while (j < before.ports.size() && before.ports[j] < last.ports[i])
+          ++j;
+        const bool is_known = j < before.ports.size() && before.ports[j] == last.ports[i];
+        if (is_known)
+          result.values[i] += ratio * (last.values[i] - before.values[j]);
+      }
+      return result;
+    }
+
+    double shortest_period_of(const double m, const double K, const BaseMotion &base)
+    {
+      return std::min(2. * M_PI * std::sqrt(m / K), base.shortest_period);
     }
 
     double sum_of(const StoredEnergy &energy)
@@ -42,35 +54,79 @@ namespace sprag
     }
   } // namespace
 
-  LeverTable::LeverTable(const Scene &scene, DynamicModel &outward, DynamicModel &inward, const TransientSettings &given)
-      : m(scene.isolation.mass)
+  void visit(Archive &archive, LeverTable &table)
+  {
+    archive(table.now, table.peak_acceleration, table.peak_displacement, table.peak_base, table.energy_at_start, table.course);
+    for (auto &[model, sign, motion, forces, forces_before, stored] : table.sides)
+    {
+      archive(motion, forces, forces_before, stored);
+      model.visit_history(archive);
+    }
+  }
+
+  LeverTable::LeverTable(const Scene &of_table, DynamicModel &outward, DynamicModel &inward, const TransientSettings &given)
+      : scene(of_table)
+      , m(scene.isolation.mass)
       , K(scene.isolation.stiffness)
       , levers(scene.isolation.levers)
       , settings(given)
       , motion_of_base(base_motion(scene.isolation))
       , largest_z(scene.drive.maximum())
-      , sides{ { { outward, 1, {}, {}, true }, { inward, -1, {}, {}, true } } }
-      , step(given.time.step)
-      , tangent(given.contact_stiffness)
+      , longest_step(
+            adapts() ? std::min(most_of_first * settings.time.step, shortest_period_of(m, K, motion_of_base) / steps_of_a_period)
+                     : settings.time.step)
+      , way_tolerance(share_of_way * settings.force_scale / settings.contact_stiffness * local_tolerance())
+      , sides{ { { outward, 1, {}, {}, {}, {} }, { inward, -1, {}, {}, {}, {} } } }
   {
-    now.z    = scene.isolation.initial_displacement;
-    now.rate = scene.isolation.initial_velocity;
+    if (scene.analysis.model == ModelType::finite_element)
+      course.grid.use_halves_alone();
+    course.wanted_step = settings.time.step;
+    course.tangent     = settings.contact_stiffness;
+    now.z              = scene.isolation.initial_displacement;
+    now.rate           = scene.isolation.initial_velocity;
     for (auto &side : sides)
     {
       const auto at = drive_of(side, 0., now.z, now.rate);
       side.motion   = side.model.initial_motion({ 0., std::max(0., at.x), 0., 0. });
-      Row row;
-      side.model.observe(side.motion, row);
-      side.stored = side.model.stored_energy(side.motion);
-      force += side.sign * levers * row.drive_force();
+      side.stored   = side.model.stored_energy(side.motion);
+      course.force += force_of(side, side.motion);
       side.motion.drive = at;
+      side.forces = side.forces_before = side.motion.forces;
     }
+    course.force_of_step = course.force_of_step_before = course.force;
     begin();
+  }
+
+  /// The force at the end of a motion, the outcome of the model's last step [N].
+  double LeverTable::force_of(const Side &side, const Motion &motion) const
+  {
+    if (motion.contact.empty())
+      return 0.;
+    return side.sign * levers * side.model.drive_force(motion);
+  }
+
+  bool LeverTable::is_free(const Side &side, const StepOutcome &outcome)
+  {
+    return side.motion.contact.empty() && outcome.motion->contact.empty() && outcome.work.drive == 0.;
   }
 
   BasePoint LeverTable::base() const
   {
-    return motion_of_base.at(now.time, piece);
+    return motion_of_base.at(now.time, course.piece);
+  }
+
+  std::size_t LeverTable::piece_before(const double time) const
+  {
+    const auto &kinks = motion_of_base.kinks;
+    std::size_t found = course.piece;
+    while (found < kinks.size() && kinks[found] < time)
+      ++found;
+    return found;
+  }
+
+  BasePoint LeverTable::base_at(const double time) const
+  {
+    return motion_of_base.at(time, piece_before(time));
   }
 
   DrivePoint LeverTable::drive_of(const Side &side, const double time, const double z, const double rate) const
@@ -83,60 +139,67 @@ namespace sprag
   std::optional<LeverTable::Trial> LeverTable::tried(const double h, const double way_of_table, std::optional<Trial> before)
   {
     auto weights        = generalised_alpha(settings.time.spectral_radius, h);
-    weights.wants_error = settings.time.tolerance > 0.;
-    const double z = now.z + way_of_table, rate = 2. * way_of_table / h - now.rate;
-    Trial trial{ z, rate, 0., 0., {}, {}, {} };
-    double row_force = 0.;
+    weights.wants_error = adapts();
+    const double z = now.z + way_of_table, rate = 2. * (way_of_table - course.way_owed) / h - now.rate;
+    Trial trial{ z, rate, 0., 0., {} };
     for (unsigned int i = 0; i < sides.size(); ++i)
     {
       auto &side    = sides[i];
       const auto to = drive_of(side, now.time + h, z, rate);
       auto &outcome = trial.levers[i];
-      if (before && !before->touches[i] && !side.touches && std::abs(before->z - z) < same_place)
+      if (before && is_free(side, before->levers[i]) && std::abs(before->z - z) < same_place)
       {
         outcome               = std::move(before->levers[i]);
         outcome.motion->drive = to;
-        trial.stored[i]       = before->stored[i];
         continue;
       }
+      side.motion.forces =
+          before ? before->levers[i].motion->forces : extrapolated(side.forces_before, side.forces, extrapolation(h));
       outcome          = side.model.step(side.motion, to, weights);
       const double way = to.x - side.motion.drive.x;
       if (!outcome.motion)
         return {};
-      trial.stored[i] = side.model.stored_energy(*outcome.motion);
-      Row row;
-      side.model.observe(*outcome.motion, row);
-      row_force += side.sign * levers * row.drive_force();
-      trial.touches[i] = touches(row);
-      trial.force += way != 0. ? side.sign * levers * outcome.work.drive / way : side.sign * levers * row.drive_force();
+      trial.force += way != 0. ? side.sign * levers * outcome.work.drive / way : force_of(side, *outcome.motion);
     }
-    const double base_change = motion_of_base.at(now.time + h, piece).v - base().v;
+    const double base_change = base_at(now.time + h).v - base().v;
     trial.unbalanced         = m * (rate - now.rate + base_change) / h + 0.5 * K * (z + now.z) + trial.force;
-    trial.force              = row_force;
     return trial;
+  }
+
+  double LeverTable::extrapolation(const double h) const
+  {
+    return course.last_step > 0. ? (h + course.last_step) / (course.last_step + course.step_before) : 0.;
+  }
+
+  /// The way on which the force goes on as in the last two steps.
+  double LeverTable::predicted_way(const double h) const
+  {
+    const double mean_force = course.force_of_step + extrapolation(h) * (course.force_of_step - course.force_of_step_before);
+    const double change     = base_at(now.time + h).v - base().v;
+    return (m * (2. * (now.rate + course.way_owed / h) - change) / h - K * now.z - mean_force) / (2. * m / (h * h) + 0.5 * K);
   }
 
   /// Newton's method for the table's way; the levers' tangent comes from the last two tried.
   std::optional<LeverTable::Trial> LeverTable::solved(const double h)
   {
     const double inertia = 2. * m / (h * h);
-    double way           = h * now.rate + 0.5 * h * h * (acceleration() - base().a);
+    double way           = predicted_way(h);
     double last_way = 0., last = 0.;
     std::optional<Trial> trial;
     for (unsigned int i = 0; i < most_iterations; ++i)
     {
-      ++iterations;
+      ++course.iterations;
       trial = tried(h, way, std::move(trial));
       if (!trial)
         return {};
       const double scale = std::abs(K * trial->z) + std::abs(trial->force) + std::abs(m * base().a) + settings.force_scale;
-      if (std::abs(trial->unbalanced) <= 1e-8 * scale)
+      if (std::abs(trial->unbalanced) <= std::max(balanced * scale, way_tolerance * inertia))
         return trial;
       if (i > 0 && way != last_way)
-        tangent = (trial->unbalanced - last) / (way - last_way) - inertia - 0.5 * K;
+        course.tangent = (trial->unbalanced - last) / (way - last_way) - inertia - 0.5 * K;
       last     = trial->unbalanced;
       last_way = way;
-      way -= trial->unbalanced / std::max(inertia + 0.5 * K + tangent, 0.5 * inertia);
+      way -= trial->unbalanced / std::max(inertia + 0.5 * K + course.tangent, 0.5 * inertia);
     }
     return {};
   }
@@ -146,31 +209,37 @@ namespace sprag
   {
     double largest = 0.;
     for (unsigned int i = 0; i < sides.size(); ++i)
-      if (trial.touches[i] || sides[i].touches)
+      if (!is_free(sides[i], trial.levers[i]))
         largest = std::max(largest, trial.levers[i].error);
-    return largest * settings.contact_stiffness / settings.force_scale / std::pow(0.5 * settings.time.tolerance, 1.5);
+    return largest * settings.contact_stiffness / settings.force_scale / local_tolerance();
   }
 
   TableEvent LeverTable::advance(const double until)
   {
-    const bool adapts    = settings.time.tolerance > 0.;
-    const double longest = adapts
-                               ? std::min(2. * M_PI * std::sqrt(m / K), motion_of_base.shortest_period) / steps_of_natural_period
-                               : settings.time.step;
-    while (piece < motion_of_base.kinks.size() && motion_of_base.kinks[piece] <= now.time)
-      ++piece;
-    const double end = piece < motion_of_base.kinks.size() ? std::min(until, motion_of_base.kinks[piece]) : until;
+    const auto &kinks = motion_of_base.kinks;
+    while (course.piece < kinks.size() && kinks[course.piece] <= now.time)
+      ++course.piece;
+    const auto &jumps = motion_of_base.jumps;
+    const auto jump   = std::upper_bound(jumps.begin(), jumps.end(), now.time);
+    const double end  = jump != jumps.end() ? std::min(until, *jump) : until;
     // Instants that differ by round-off are one.
     if (end - now.time < 1e-9 * settings.time.step)
     {
       now.time = end;
       return TableEvent::none;
     }
-    for (;;)
+    if (course.grid.needs_span(end))
+      course.grid.begin(now.time, end, longest_step);
+    course.grid.choose(course.wanted_step);
+    return take_step();
+  }
+
+  TableEvent LeverTable::take_step()
+  {
+    const double shortest = std::ldexp(settings.time.step, 1 - static_cast<int>(most_halvings));
+    for (;; shorten())
     {
-      // Whole steps up to the end, so that none is a sliver; few different durations.
-      const double room = end - now.time, parts = std::max(1., std::ceil(room / std::min(step, longest) - 1e-6));
-      const double h = rounded(room / parts);
+      const double h = course.grid.duration();
       std::optional<Trial> trial;
       std::string failure = "no balance of table and levers is found";
       try
@@ -181,61 +250,113 @@ namespace sprag
       {
         failure = error.what();
       }
-      const double error = trial && adapts ? error_of(*trial) : 0.;
-      const bool is_last = step < std::ldexp(settings.time.step, 1 - static_cast<int>(most_halvings));
+      const double error = trial && adapts() ? error_of(*trial) : 0.;
+      const bool is_last = std::min(h, course.wanted_step) < shortest;
       if (trial && (error <= 1. || is_last))
       {
         const TableState before = now;
         accept(h, *trial);
-        now.time     = parts == 1. ? end : now.time;
-        small_errors = error < small_error ? small_errors + 1 : 0;
-        if (small_errors >= errors_of_growth && step < longest)
-        {
-          step *= 2.;
-          small_errors = 0;
-        }
+        now.time = course.grid.end_of_step();
+        course.grid.advance();
+        adapt(h, error);
         return event_of(before);
       }
       if (is_last)
         throw AnalysisError("no step beyond t = " + rounded_text(now.time) + " s (z = " + mm(now.z) + "): " + failure +
                             ". Try a larger Time/Tolerance or a smaller Contact/Stiffness");
-      step *= 0.5;
     }
+  }
+
+  void LeverTable::shorten()
+  {
+    course.grid.shorten();
+    course.wanted_step = course.grid.duration();
+    course.last_error  = 1.;
+  }
+
+  /// Errors go with the third power of the step; the larger of the last two counts, as they vary with the elements that pass. A
+  /// step that was wanted longer than there was room for may be as long again.
+  void LeverTable::adapt(const double h, const double error)
+  {
+    const double longest = std::max(course.wanted_step, largest_growth * h);
+    if (adapts())
+      course.wanted_step = std::min(longest, h * std::cbrt(error_aimed_at / std::max({ error, course.last_error, 1e-9 })));
+    else
+      course.wanted_step = std::min(longest, settings.time.step);
+    course.last_error = error;
   }
 
   void LeverTable::accept(const double h, Trial &trial)
   {
     const auto base_before = base();
-    const double a_before = acceleration(), w = 2. * M_PI * motion_of_base.frequency, t = now.time;
-    const double mean_force = -m * ((trial.rate - now.rate) + motion_of_base.at(t + h, piece).v - base_before.v) / h;
+    const double a_before = acceleration(), t = now.time;
+    accept_levers(trial);
+    // The way was met to within a tolerance: the rate follows from the forces, and what the way lacks the next step adds.
+    const double mean_force     = 0.5 * K * (trial.z + now.z) + trial.force;
+    const double rate           = now.rate - (base_at(t + h).v - base_before.v) - mean_force * h / m;
+    course.way_owed             = 0.5 * h * (rate - trial.rate);
+    course.force_of_step_before = course.force_of_step;
+    course.force_of_step        = trial.force;
+    course.step_before          = course.steps > 0 ? course.last_step : h;
+    course.last_step            = h;
+    course.piece                = piece_before(t + h);
+    now.z                       = trial.z;
+    now.rate                    = rate;
+    now.time                    = t + h;
+    ++course.steps;
+    const auto base_behind = base();
+    now.base_work -= mean_force * h * 0.5 * (base_before.v + base_behind.v);
+    add_integrals(h, { a_before, base_before.a }, { acceleration(), base_behind.a });
+    if (std::abs(now.z) > largest_z)
+      throw AnalysisError(beyond_the_way());
+  }
+
+  void LeverTable::accept_levers(Trial &trial)
+  {
+    course.force = 0.;
     for (unsigned int i = 0; i < sides.size(); ++i)
     {
+      auto &side       = sides[i];
       const auto &work = trial.levers[i].work;
       now.dissipated += levers * (work.friction + work.damping + work.algorithmic);
-      sides[i].motion  = std::move(*trial.levers[i].motion);
-      sides[i].stored  = trial.stored[i];
-      sides[i].touches = trial.touches[i];
+      side.motion        = std::move(*trial.levers[i].motion);
+      side.forces_before = std::move(side.forces);
+      side.forces        = side.motion.forces;
+      side.stored        = side.model.stored_energy(side.motion);
+      course.force += force_of(side, side.motion);
     }
-    now.z    = trial.z;
-    now.rate = trial.rate;
-    force    = trial.force;
-    now.time = t + h;
-    ++steps;
-    const auto base_behind = base();
-    const double a_behind  = acceleration();
-    now.base_work -= mean_force * h * 0.5 * (base_before.v + base_behind.v);
-    const auto add = [h](double &sum, const double before, const double behind) { sum += 0.5 * h * (before + behind); };
-    add(now.square, a_before * a_before, a_behind * a_behind);
-    add(now.cosine, a_before * std::cos(w * t), a_behind * std::cos(w * now.time));
-    add(now.sine, a_before * std::sin(w * t), a_behind * std::sin(w * now.time));
-    add(now.base_square, base_before.a * base_before.a, base_behind.a * base_behind.a);
-    peak_acceleration = std::max(peak_acceleration, std::abs(a_behind));
+  }
+
+  void LeverTable::add_integrals(const double h, const Accelerations &before, const Accelerations &behind)
+  {
+    const double w = 2. * M_PI * motion_of_base.frequency, from = w * (now.time - h), to = w * now.time;
+    const auto add = [h](double &sum, const double first, const double last) { sum += 0.5 * h * (first + last); };
+    add(now.square, before.table * before.table, behind.table * behind.table);
+    add(now.cosine, before.table * std::cos(from), behind.table * std::cos(to));
+    add(now.sine, before.table * std::sin(from), behind.table * std::sin(to));
+    add(now.base_square, before.base * before.base, behind.base * behind.base);
+    peak_acceleration = std::max(peak_acceleration, std::abs(behind.table));
     peak_displacement = std::max(peak_displacement, std::abs(now.z));
-    peak_base         = std::max(peak_base, std::abs(base_behind.a));
-    if (std::abs(now.z) > largest_z)
-      throw AnalysisError("At t = " + rounded_text(now.time) + " s, z = " + mm(now.z) + ": the levers are made for a way of " +
-                          mm(largest_z) +
-                          ". Try a larger Drive/Stroke, a smaller motion of the base or of the beginning, or more damping");
+    peak_base         = std::max(peak_base, std::abs(behind.base));
+  }
+
+  /// Says how far the table goes on levers of the closed form, which takes no time to find.
+  std::string LeverTable::beyond_the_way() const
+  {
+    IsolationFindings by_closed_form;
+    try
+    {
+      run_isolation(scene, by_closed_form, {});
+    }
+    catch (const AnalysisError &)
+    {
+      // Where their way ends there is what was found until then.
+    }
+    const double needed = std::ceil(1.1 * std::max(std::abs(now.z), by_closed_form.largest_displacement));
+    return "At t = " + rounded_text(now.time) + " s, z = " + mm(now.z) + ": the levers are made for a way of " + mm(largest_z) +
+           ", the Drive/Stroke. Try Drive/Stroke = " + rounded_text(needed) +
+           ", as on levers of the closed form the table goes to " + mm(by_closed_form.largest_displacement) +
+           ", or a smaller motion of the base or of the beginning, or more damping";
   }
 
   TableEvent LeverTable::event_of(const TableState &before) const

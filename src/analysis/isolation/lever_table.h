@@ -1,11 +1,15 @@
 #pragma once
 
 #include "analysis/isolation/isolated_table.h"
+#include "analysis/isolation/step_grid.h"
 #include "analysis/transient/transient.h"
+#include "base/archive.h"
 #include "scene/scene.h"
 
 #include <array>
+#include <cmath>
 #include <optional>
+#include <string>
 
 namespace sprag
 {
@@ -14,13 +18,17 @@ namespace sprag
   /// the mean and [ ] the change over the step of h, where f is the force that the levers' steps to that end have, so that the
   /// work that leaves the table is the one that the levers take.
   ///
-  /// Steps are those of Time/Step and Time/Tolerance: halved where the levers' error is too large or no end is found, doubled
-  /// after small errors.
+  /// Where Time/Tolerance is given the way is that which the forces of the last steps lead to, and is corrected only where it is
+  /// further from the end of that equation than a tenth of the error that a step may have. What it lacks is added to the next way
+  /// and the rate z' is that of the forces, so that no momentum is lost.
+  ///
+  /// Steps begin with Time/Step and are as long as the error of levers in contact allows, see StepGrid; a 200th of the shortest
+  /// period of table and base at most.
   class LeverTable : public IsolatedTable
   {
   public:
-    /// Begins at the scene's z and z' with levers at rest: touching at z = 0, or pressed as far as z. The models must live as
-    /// long. `settings` are those of a lever in time.
+    /// Begins at the scene's z and z' with levers at rest: touching at z = 0, or pressed as far as z. Scene and models must live
+    /// as long. `settings` are those of a lever in time.
     LeverTable(const Scene &scene, DynamicModel &outward, DynamicModel &inward, const TransientSettings &settings);
 
     TableEvent advance(double until) override;
@@ -33,71 +41,121 @@ namespace sprag
 
     double damper_force() const override
     {
-      return force;
+      return course.force;
     }
 
     double force_before_turn() const override
     {
-      return force;
+      return course.force;
     }
 
     double acceleration() const override
     {
-      return -(K * now.z + force) / m;
+      return -(K * now.z + course.force) / m;
     }
 
     BasePoint base() const override;
     double damper_energy() const override;
     double energy() const override;
-    /// Returns the share of the steps' Newton iterations a step, of the table alone.
+
+    /// Returns the mean number of ways tried in a step.
     double iterations_a_step() const
     {
-      return steps > 0 ? static_cast<double>(iterations) / steps : 0.;
+      return course.steps > 0 ? static_cast<double>(course.iterations) / static_cast<double>(course.steps) : 0.;
     }
 
-    unsigned int number_of_steps() const
+    unsigned long number_of_steps() const
     {
-      return steps;
+      return course.steps;
     }
 
   private:
+    friend void visit(Archive &archive, LeverTable &table);
+
     /// A lever of one side.
     struct Side
     {
       DynamicModel &model;
       int sign; ///< of z on which it works
       Motion motion;
+      PortLoads forces, forces_before; ///< of the last two steps
       StoredEnergy stored;
-      bool touches;
     };
 
     /// A step of both levers to an end of the table's way.
     struct Trial
     {
-      double z, rate, force, unbalanced;
+      double z, rate;
+      double force; ///< mean of the step
+      double unbalanced;
       std::array<StepOutcome, 2> levers;
-      std::array<StoredEnergy, 2> stored;
-      std::array<bool, 2> touches;
     };
 
+    /// What changes from step to step, apart from state and levers.
+    struct Course
+    {
+      StepGrid grid;
+      double wanted_step          = 0.;
+      double last_error           = 1.;
+      double last_step            = 0.; ///< durations [s]
+      double step_before          = 0.;
+      double force_of_step        = 0.; ///< means over them [N]
+      double force_of_step_before = 0.;
+      double way_owed             = 0.; ///< that the way until now lacks of what follows from the rates [mm]
+      double tangent              = 0.; ///< of the levers' force by z [N/mm]
+      double force                = 0.;
+      std::size_t piece           = 0; ///< of the motion of the base
+      unsigned long iterations    = 0;
+      unsigned long steps         = 0;
+    };
+
+    struct Accelerations
+    {
+      double table, base;
+    };
+
+    const Scene &scene;
     const double m, K, levers;
     const TransientSettings settings;
     const BaseMotion motion_of_base;
     const double largest_z;
+    const double longest_step;
+    const double way_tolerance; ///< to which a step's way is met [mm]
     std::array<Side, 2> sides;
-    std::size_t piece = 0;
-    double step;
-    unsigned int small_errors = 0;
-    double tangent; ///< of the levers' force by z [N/mm]
-    double force             = 0.;
-    unsigned long iterations = 0;
-    unsigned int steps       = 0;
+    Course course;
 
+    bool adapts() const
+    {
+      return settings.time.tolerance > 0.;
+    }
+
+    /// Errors of steps go with dt^3 and that of the run with dt^2, see run_transient().
+    double local_tolerance() const
+    {
+      return std::pow(0.5 * settings.time.tolerance, 1.5);
+    }
+
+    /// Whether a lever touches nothing in a step.
+    static bool is_free(const Side &side, const StepOutcome &outcome);
+
+    double force_of(const Side &side, const Motion &motion) const;
+    std::size_t piece_before(double time) const;
+    BasePoint base_at(double time) const;
     DrivePoint drive_of(const Side &side, double time, double z, double rate) const;
+    double extrapolation(double h) const;
+    double predicted_way(double h) const;
     std::optional<Trial> tried(double h, double way_of_table, std::optional<Trial> before);
     std::optional<Trial> solved(double h);
     double error_of(const Trial &trial) const;
+    TableEvent take_step();
+    void shorten();
+    void adapt(double h, double error);
     void accept(double h, Trial &trial);
+    void accept_levers(Trial &trial);
+    void add_integrals(double h, const Accelerations &before, const Accelerations &behind);
+    std::string beyond_the_way() const;
     TableEvent event_of(const TableState &before) const;
   };
+
+  void visit(Archive &archive, LeverTable &table);
 } // namespace sprag

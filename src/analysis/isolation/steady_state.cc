@@ -45,4 +45,9 @@ namespace sprag
         return shortest(p, tolerance);
     return {};
   }
+
+  void visit(Archive &archive, SteadyState &steady)
+  {
+    archive(steady.instants);
+  }
 } // namespace sprag

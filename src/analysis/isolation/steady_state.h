@@ -1,5 +1,7 @@
 #pragma once
 
+#include "base/archive.h"
+
 #include <optional>
 #include <vector>
 
@@ -18,6 +20,8 @@ namespace sprag
     std::optional<unsigned int> periods(double tolerance) const;
 
   private:
+    friend void visit(Archive &archive, SteadyState &steady);
+
     struct Instant
     {
       double z, rate, amplitude;
@@ -29,4 +33,6 @@ namespace sprag
     unsigned int shortest(unsigned int repeating, double tolerance) const;
     bool repeats(std::size_t instant, unsigned int periods, double tolerance) const;
   };
+
+  void visit(Archive &archive, SteadyState &steady);
 } // namespace sprag

@@ -76,6 +76,9 @@ namespace sprag
     /// Fills the columns of a row that follow from the contact.
     void observe(const FaceEvaluation &found, Row &row, unsigned int lever = 0) const;
 
+    /// Returns Q at the end of the step [N].
+    double drive_force(const FaceEvaluation &found) const;
+
     /// Returns the displacements of the face's nodes.
     SurfaceShape surface_shape(const dealii::Vector<double> &displacements, unsigned int lever = 0) const;
     FacePoints face_points() const;

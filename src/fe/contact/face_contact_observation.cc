@@ -4,12 +4,18 @@
 
 namespace sprag
 {
+  double FaceContact::drive_force(const FaceEvaluation &found) const
+  {
+    double sum = 0.;
+    for (const auto &point : found.points)
+      sum -= face.points[point.index].weight * point.end_force[3];
+    return sum;
+  }
+
   void FaceContact::observe(const FaceEvaluation &found, Row &row, unsigned int) const
   {
     observe_face(body, found, properties.layer_thickness, row);
-    row[Column::Q] = 0.;
-    for (const auto &point : found.points)
-      row[Column::Q] -= face.points[point.index].weight * point.end_force[3];
+    row[Column::Q] = drive_force(found);
   }
 
   SurfaceShape FaceContact::surface_shape(const dealii::Vector<double> &displacements, unsigned int) const

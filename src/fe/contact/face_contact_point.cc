@@ -9,8 +9,9 @@ namespace sprag
   {
     return [geometry](const double x, const double theta)
     {
-      return [circle = placed_circle(geometry, x, theta)](const LeverPoint &point)
-      { return moving_circle_contact(circle, point); };
+      const auto circle = placed_circle(geometry, x, theta);
+      return PlacedObstacle([circle](const LeverPoint &point) { return moving_circle_contact(circle, point); },
+                            [circle](const LeverPoint &point) { return circle_gap(circle, point); });
     };
   }
 

@@ -9,9 +9,42 @@
 
 namespace sprag
 {
-  /// Kinematics of a point of the lever against a convex body without deformation, in the coordinates (displacement along xi,
-  /// along eta, theta, x).
-  using PlacedObstacle = std::function<ContactKinematics<4>(const LeverPoint &point)>;
+  /// A convex body without deformation, at its place.
+  class PlacedObstacle
+  {
+  public:
+    PlacedObstacle() = default;
+
+    /// Takes what tells the kinematics of a point of the lever against it, in the coordinates (displacement along xi, along eta,
+    /// theta, x).
+    template <class Kinematics>
+    PlacedObstacle(Kinematics kinematics_of_point)
+        : kinematics(std::move(kinematics_of_point))
+    {
+    }
+
+    /// Takes what tells the gap alone as well, in less time, for the many points that touch nothing.
+    template <class Kinematics, class Gap>
+    PlacedObstacle(Kinematics kinematics_of_point, Gap gap_of_point)
+        : kinematics(std::move(kinematics_of_point))
+        , gap_alone(std::move(gap_of_point))
+    {
+    }
+
+    ContactKinematics<4> operator()(const LeverPoint &point) const
+    {
+      return kinematics(point);
+    }
+
+    double gap(const LeverPoint &point) const
+    {
+      return gap_alone ? gap_alone(point) : kinematics(point).gap;
+    }
+
+  private:
+    std::function<ContactKinematics<4>(const LeverPoint &point)> kinematics;
+    std::function<double(const LeverPoint &point)> gap_alone;
+  };
 
   /// The body at its position x from the pivot frame's origin and hub rotation theta.
   using Obstacle = std::function<PlacedObstacle(double x, double theta)>;

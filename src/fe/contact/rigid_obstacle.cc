@@ -98,8 +98,8 @@ namespace sprag
   bool RigidObstacle::place(FacePointState<2> &state)
   {
     state.position = FacePatches<2>::position(face.points[state.index], at_end);
-    placed         = end(place_of(state.position));
-    state.gap      = placed.gap;
+    last_place     = place_of(state.position);
+    state.gap      = end.gap(last_place);
     return true;
   }
 
@@ -127,7 +127,7 @@ namespace sprag
 
   double RigidObstacle::gap_at_begin(const unsigned int point) const
   {
-    return begin_of_patch ? at_begin(point).gap : placed.gap;
+    return begin_of_patch ? at_begin(point).gap : end.gap(last_place);
   }
 
   StepKinematics<4> RigidObstacle::over_step(const FacePointState<2> &state, const double slip_change) const
@@ -156,6 +156,7 @@ namespace sprag
 
   void RigidObstacle::step(FacePointState<2> &state, const ContactMemory &memory, const FaceStep &step, ContactSums &sums)
   {
+    placed                   = end(last_place);
     const auto &point        = face.points[state.index];
     const double slip_change = (begin_of_patch ? placed.slip - at_begin(state.index).slip : 0.) + step.surface_run;
     auto kinematics_of_step  = over_step(state, slip_change);
@@ -198,6 +199,7 @@ namespace sprag
 
   void RigidObstacle::slide(FacePointState<2> &state, const SlidingState &sliding, const FrictionLaw &law, ContactSums &sums)
   {
+    placed            = end(last_place);
     const auto &point = face.points[state.index];
     double &speed     = state.slip_change[0];
     speed             = sliding.speed;

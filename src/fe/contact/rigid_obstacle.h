@@ -84,7 +84,8 @@ namespace sprag
     PlacedObstacle balance; ///< where forces are not those at the end
     unsigned int patch = 0;
     FacePatches<2>::Nodal at_end{};
-    ContactKinematics<4> placed{}; ///< of the point placed last
+    LeverPoint last_place{};       ///< of the point placed last
+    ContactKinematics<4> placed{}; ///< of it, once step() or slide() need it
 
     // Where the step begins, the same in all its iterations.
     FaceConfiguration of_begin{};
