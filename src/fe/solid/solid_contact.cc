@@ -69,10 +69,16 @@ namespace sprag
   void SolidContact::observe(const SurfaceEvaluation &found, Row &row, unsigned int) const
   {
     view.observe(found, row);
-    row[Column::Q] = 0.;
-    for (const auto &point : found.points)
-      row[Column::Q] -= face.points[point.index].weight * point.end_force[4];
+    row[Column::Q]           = drive_force(found);
     row[Column::indentation] = indentation(found, row);
+  }
+
+  double SolidContact::drive_force(const SurfaceEvaluation &found) const
+  {
+    double sum = 0.;
+    for (const auto &point : found.points)
+      sum -= face.points[point.index].weight * point.end_force[4];
+    return sum;
   }
 
   std::vector<unsigned int> SolidContact::line_at(const double zeta) const

@@ -45,6 +45,9 @@ namespace sprag
 
     void observe(const SurfaceEvaluation &found, Row &row, unsigned int lever = 0) const;
 
+    /// Returns Q at the end of the step [N].
+    double drive_force(const SurfaceEvaluation &found) const;
+
     /// Displacements of the nodes at the middle of the width.
     SurfaceShape surface_shape(const dealii::Vector<double> &displacements, unsigned int lever = 0) const;
 
