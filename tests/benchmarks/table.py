@@ -15,7 +15,7 @@ import numpy as np
 from runs import ROOT, add_program, print_row
 
 SECONDS = 60.0
-SHORT = 6.0
+SHORT = 20.0
 WIDTHS = (8, 10, 8, 8, 9, 9, 14, 14, 13)
 COLUMNS = (("z", "mm"), ("z_rate", "mm/s"), ("damper_force", "N"), ("dissipated_energy", "N mm"))
 
