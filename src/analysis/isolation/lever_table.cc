@@ -48,6 +48,12 @@ namespace sprag
       return std::min(2. * M_PI * std::sqrt(m / K), base.shortest_period);
     }
 
+    /// Whether anything is in contact, along a line or on a surface.
+    bool touches(const Motion &motion)
+    {
+      return !motion.contact.empty() || !motion.surface_contact.empty();
+    }
+
     double sum_of(const StoredEnergy &energy)
     {
       return energy.kinetic + energy.spring + energy.elastic + energy.support + energy.contact;
@@ -100,14 +106,14 @@ namespace sprag
   /// The force at the end of a motion, the outcome of the model's last step [N].
   double LeverTable::force_of(const Side &side, const Motion &motion) const
   {
-    if (motion.contact.empty())
+    if (!touches(motion))
       return 0.;
     return side.sign * levers * side.model.drive_force(motion);
   }
 
   bool LeverTable::is_free(const Side &side, const StepOutcome &outcome)
   {
-    return side.motion.contact.empty() && outcome.motion->contact.empty() && outcome.work.drive == 0.;
+    return !touches(side.motion) && !touches(*outcome.motion) && outcome.work.drive == 0.;
   }
 
   BasePoint LeverTable::base() const
