@@ -1,12 +1,11 @@
 #!/usr/bin/python3
 """Prints the CPU time of a table on condensed levers over a recorded motion of its base, over the time of the motion; with --before
-how far the motion is from that of an earlier build. The exit status is 1 where it is slower than real time."""
+how far the motion is from that of an earlier build."""
 
 import argparse
 import os
 import re
 import subprocess
-import sys
 import tempfile
 from pathlib import Path
 
@@ -86,8 +85,7 @@ def main():
                        f"{found['energy_residual']:.1e}"), WIDTHS)
     if len(results) == 2:
         print_differences(*results)
-    return int(results[0]["cpu"] >= seconds)
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()

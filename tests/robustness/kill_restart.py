@@ -45,6 +45,10 @@ QUICK = {
 }
 ALL = {
     **QUICK,
+    "three dimensions in time": (
+        "solid-reversal-a",
+        {"Drive/Start": "64.5", "Mesh/Face size": "6", "Mesh/Elements across": "2", "Condensed/Modes": "6"},
+    ),
     "accuracy asked for": ("model-a", {"Accuracy/Target": "0.05", "Drive/Stroke": "30", "Analysis/Step": "0.5"}),
     "neo-Hookean": ("neo-hookean-a", {"Mesh/Face size": "4", "Drive/Stroke": "6"}),
     "elastic cylinder": ("cylinder-a", {"Mesh/Face size": "4", "Drive/Stroke": "20", "Analysis/Step": "1"}),

@@ -54,7 +54,14 @@ TEST(CheckScene, ContactMustLieOnTheLever)
 TEST(CheckScene, WhatThisVersionCannotDoIsRefused)
 {
   EXPECT_TRUE(mistakes_of({ "Analysis/Dimension=3" }).empty());
-  EXPECT_EQ(mistakes_of({ "Analysis/Dimension=3", "Analysis/Type=stability" }).size(), 1u);
+  EXPECT_EQ(mistakes_of({ "Analysis/Dimension=3", "Analysis/Type=stability" }).size(), 3u); // model, searches and roles
+  EXPECT_TRUE(mistakes_of({ "Analysis/Dimension=3", "Analysis/Type=stability", "Analysis/Model=condensed",
+                            "Stability/Critical=none", "Stability/Roles=off" })
+                  .empty());
+  EXPECT_EQ(mistakes_of({ "Analysis/Dimension=3", "Analysis/Type=sprag slip", "Analysis/Model=condensed" }).size(), 1u);
+  EXPECT_EQ(
+      mistakes_of({ "Analysis/Dimension=3", "Analysis/Type=transient", "Analysis/Model=beam", "Lever/Tip mass=1e-5" }).size(),
+      2u);
   EXPECT_EQ(mistakes_of({ "Analysis/Dimension=3", "Lever/Outline=frame", "Mirrored pair/Type=full", "Cylinder/Type=ring",
                           "Contact/Enforcement=augmented Lagrangian" })
                 .size(),
