@@ -164,11 +164,15 @@ TEST(Archive, KeepsEveryField)
 {
   const auto loads  = loads_of(2.);
   const auto memory = memory_of(100.);
+  PointMemory<2> on_surface;
+  on_surface.traction = dealii::Tensor<1, 2>({ 0.1, -0.2 });
+  on_surface.point    = 7;
   const Motion motion{
-    drive_of(1.), { vector_of({ 1., 2. }), vector_of({ 3. }), vector_of({ 4., 5., 6. }) }, vector_of({ 7., 8. }), memory, loads
+    drive_of(1.),  { vector_of({ 1., 2. }), vector_of({ 3. }), vector_of({ 4., 5., 6. }) }, vector_of({ 7., 8. }), memory, loads,
+    { on_surface }
   };
   {
-    const auto &[drive, coordinates, face_force, contact, forces] = restored(motion);
+    const auto &[drive, coordinates, face_force, contact, forces, surface_contact] = restored(motion);
     EXPECT_TRUE(same_bytes(drive, motion.drive));
     EXPECT_EQ(coordinates.position, motion.coordinates.position);
     EXPECT_EQ(coordinates.velocity, motion.coordinates.velocity);
@@ -177,10 +181,9 @@ TEST(Archive, KeepsEveryField)
     EXPECT_TRUE(same_bytes(contact, memory));
     EXPECT_EQ(forces.ports, loads.ports);
     EXPECT_EQ(forces.values, loads.values);
+    ASSERT_EQ(surface_contact.size(), 1u);
+    EXPECT_EQ(surface_contact[0].traction, on_surface.traction);
   }
-  PointMemory<2> on_surface;
-  on_surface.traction = dealii::Tensor<1, 2>({ 0.1, -0.2 });
-  on_surface.point    = 7;
   const State state{ drive_of(3.), vector_of({ 9., -0. }), memory, loads, { on_surface } };
   {
     const auto &[drive, coordinates, contact, forces, surface_contact] = restored(state);

@@ -87,6 +87,10 @@ namespace sprag
     void observe(const Evaluation &, Row &, unsigned int) const
     {
     }
+    double drive_force(const Evaluation &) const
+    {
+      return 0.;
+    }
 
   private:
     const PortSelection all = { 0 };
