@@ -21,7 +21,7 @@ namespace sprag
     Kinematic coordinates;             ///< of the structure
     dealii::Vector<double> face_force; ///< elastic forces in the static face shapes [N]; empty without such shapes
     std::vector<ContactMemory> contact;
-    PortLoads forces; ///< of the step that led here: where the search for the next ones starts
+    PortLoads forces;                            ///< of the step that led here: where the search for the next ones starts
     std::vector<PointMemory<2>> surface_contact; ///< in three dimensions, in place of `contact`
   };
 

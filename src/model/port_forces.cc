@@ -3,7 +3,6 @@
 #include "base/errors.h"
 #include "model/port_matrix.h"
 
-
 #include <algorithm>
 #include <numeric>
 

@@ -10,7 +10,8 @@ namespace sprag
 {
   bool is_symmetric_across(const Scene &scene)
   {
-    return !holds_slide(scene.analysis.type) && scene.cylinder.tilt == 0. && scene.cylinder.skew == 0. && scene.cylinder.position == 0.;
+    return !holds_slide(scene.analysis.type) && scene.cylinder.tilt == 0. && scene.cylinder.skew == 0. &&
+           scene.cylinder.position == 0.;
   }
 
   std::vector<double> planes_across(const Scene &scene)

@@ -6,8 +6,8 @@
 
 namespace sprag
 {
-  /// Returns whether lever, cylinder and motion are the same on both sides of the middle of the width, so that one half is enough.
-  /// Modes need not be.
+  /// Returns whether lever, cylinder and motion are the same on both sides of the middle of the width, so that one half is
+  /// enough. Modes need not be.
   bool is_symmetric_across(const Scene &scene);
 
   /// Returns the planes between the elements across the width of three dimensions, from its middle, growing from both edges to

@@ -181,6 +181,34 @@ TEST(SurfaceContact, FrictionOpposesTheSlipWhicheverWayItGoes)
   EXPECT_GT(closed, 1000.);
 }
 
+namespace
+{
+  /// Compares the tangent at some ports with differences of the forces that `evaluated(ports)` finds. Points at the edge of the
+  /// contact change their state on the way.
+  template <class Evaluated>
+  void expect_tangent(const dealii::Vector<double> &ports, const Evaluated &evaluated, const double friction)
+  {
+    const SurfaceEvaluation found = evaluated(ports);
+    const auto change             = random_vector(ports.size(), 1., 1);
+    const double step             = 1e-7;
+    auto before = ports, after = ports;
+    before.add(-step, change);
+    after.add(step, change);
+    const SurfaceEvaluation low = evaluated(before), high = evaluated(after);
+    ASSERT_EQ(low.forces.ports, found.forces.ports);
+    ASSERT_EQ(high.forces.ports, found.forces.ports);
+    dealii::Vector<double> of_ports(static_cast<unsigned int>(found.forces.ports.size())), slope(of_ports.size());
+    for (unsigned int i = 0; i < of_ports.size(); ++i)
+      of_ports[i] = change[found.forces.ports[i]];
+    found.forces.tangent.vmult(slope, of_ports);
+    auto difference = high.forces.values;
+    difference -= low.forces.values;
+    difference /= 2. * step;
+    difference -= slope;
+    EXPECT_LT(difference.l2_norm(), 1e-4 * slope.l2_norm()) << friction;
+  }
+} // namespace
+
 TEST(SurfaceContact, TheTangentIsTheDerivativeOfTheForces)
 {
   Cylinder cylinder = tilted(6e-4);
@@ -192,25 +220,8 @@ TEST(SurfaceContact, TheTangentIsTheDerivativeOfTheForces)
     auto end = bed.pressed(0.03);
     for (unsigned int port = 0; port < bed.ports.surface; ++port)
       end[port] += 1e-3 * std::sin(1.3 * port);
-    const auto found  = bed.evaluated(begin, Bed::x - 0.7, end, friction);
-    const auto change = random_vector(bed.ports.size(), 1., 1);
-    const double step = 1e-7;
-    auto before = end, after = end;
-    before.add(-step, change);
-    after.add(step, change);
-    const auto low  = bed.evaluated(begin, Bed::x - 0.7, before, friction);
-    const auto high = bed.evaluated(begin, Bed::x - 0.7, after, friction);
-    ASSERT_EQ(low.forces.ports, found.forces.ports);
-    ASSERT_EQ(high.forces.ports, found.forces.ports);
-    dealii::Vector<double> of_ports(static_cast<unsigned int>(found.forces.ports.size())), slope(of_ports.size());
-    for (unsigned int i = 0; i < of_ports.size(); ++i)
-      of_ports[i] = change[found.forces.ports[i]];
-    found.forces.tangent.vmult(slope, of_ports);
-    auto difference = high.forces.values;
-    difference -= low.forces.values;
-    difference /= 2. * step;
-    difference -= slope;
-    EXPECT_LT(difference.l2_norm(), 1e-4 * slope.l2_norm()) << friction; // points at the edge change their state on the way
+    expect_tangent(
+        end, [&](const dealii::Vector<double> &at) { return bed.evaluated(begin, Bed::x - 0.7, at, friction); }, friction);
   }
 }
 
@@ -280,23 +291,6 @@ TEST(SurfaceContact, AStepInTimeHasItsTangent)
     auto end = bed.pressed(0.03);
     for (unsigned int port = 0; port < bed.ports.surface; ++port)
       end[port] += 1e-3 * std::sin(1.3 * port);
-    const auto found  = evaluated(end);
-    const auto change = random_vector(bed.ports.size(), 1., 1);
-    const double step = 1e-7;
-    auto before = end, after = end;
-    before.add(-step, change);
-    after.add(step, change);
-    const auto low = evaluated(before), high = evaluated(after);
-    ASSERT_EQ(low.forces.ports, found.forces.ports);
-    ASSERT_EQ(high.forces.ports, found.forces.ports);
-    dealii::Vector<double> of_ports(static_cast<unsigned int>(found.forces.ports.size())), slope(of_ports.size());
-    for (unsigned int i = 0; i < of_ports.size(); ++i)
-      of_ports[i] = change[found.forces.ports[i]];
-    found.forces.tangent.vmult(slope, of_ports);
-    auto difference = high.forces.values;
-    difference -= low.forces.values;
-    difference /= 2. * step;
-    difference -= slope;
-    EXPECT_LT(difference.l2_norm(), 1e-4 * slope.l2_norm()) << friction;
+    expect_tangent(end, evaluated, friction);
   }
 }

@@ -146,7 +146,8 @@ class ScenesTest(RunTest):
         summary = {name: data[()] for name, data in file["summary"].items()}
         self.assertEqual(summary["verdict"], b"flutter")
         # Both are there to show a lever that cannot flutter once it is rigid.
-        self.assertEqual(summary["without_flexure_verdict"], b"stable")
+        if "without_flexure_verdict" in summary:  # in three dimensions parts are not left out in turn
+            self.assertEqual(summary["without_flexure_verdict"], b"stable")
         self.assertGreater(summary["growth_rate"], 0)
         self.assertEqual(summary["growth_rate"], file["modes/growth_rate"][:].max())
 
@@ -227,7 +228,8 @@ class ScenesTest(RunTest):
             expected |= {name for name in table if name.endswith("_2")} | {"swing", "Q_pair", "lateral_force"}
         if parameter(text, "Analysis", "Dimension") == "3":
             expected |= {"F_across", "centre_across", "twisting_moment", "turning_moment", "largest_pressure_zeta"}
-            self.assertLess(file["meta/compliance_error"][()], 1e-3)
+            if parameter(text, "Analysis", "Type") == "quasi-static":
+                self.assertLess(file["meta/compliance_error"][()], 1e-3)
         self.assertEqual(set(table), expected)
         if has_plate:
             self.assertTrue(np.isfinite(table["sensor_sum"][:]).all())
@@ -284,7 +286,7 @@ class ScenesTest(RunTest):
     def check_fields(self, file, output):
         """Of finite elements in a plane alone; those of modes are a frame each."""
         condensed = model_of(file) == "condensed"
-        modes = "modes" in file and condensed
+        modes = "modes" in file and condensed and "modes/twisting" not in file
         self.assertEqual((output / "fields.xdmf").is_file(), "face" in file and "zeta" not in file["face"])
         self.assertEqual(len(list(output.glob("mode-*.xdmf"))), len(file["modes/frequency"]) if modes else 0)
 

@@ -2,7 +2,6 @@
 
 #include "base/errors.h"
 #include "base/text.h"
-#include "fe/body/cell_elasticity.h"
 #include "fe/solid/solid_mass.h"
 #include "fe/solid/solid_stiffness.h"
 
@@ -220,27 +219,18 @@ namespace sprag
       const auto m         = static_cast<unsigned int>(modes.size());
       const auto &fe       = body.dofs().get_fe();
       const unsigned int n = fe.n_dofs_per_cell();
-      CellElasticity<3> elasticity(body.cell_mapping(), fe, body.body_properties());
-      const Vector<double> at_rest(n);
-      Vector<double> no_forces(n);
-      std::map<std::vector<long>, FullMatrix<double>> known;
+      CellStiffness stiffness(body.cell_mapping(), fe, body.body_properties());
       std::vector<types::global_dof_index> indices(n);
       FullMatrix<double> local(n, m), forces(n, m), result(m, m);
       for (const auto &cell : body.dofs().active_cell_iterators())
       {
         if (cell->material_id() != material_id::layer)
           continue;
-        const auto [found, is_new] = known.try_emplace(likeness(cell), n, n);
-        if (is_new)
-        {
-          elasticity.reinit(cell, at_rest);
-          elasticity.assemble(found->second, no_forces);
-        }
         cell->get_dof_indices(indices);
         for (unsigned int i = 0; i < n; ++i)
           for (unsigned int j = 0; j < m; ++j)
             local(i, j) = modes[j][indices[i]];
-        found->second.mmult(forces, local);
+        stiffness(cell).mmult(forces, local);
         local.Tmmult(result, forces, true);
       }
       return result;

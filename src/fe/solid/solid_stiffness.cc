@@ -1,10 +1,7 @@
 #include "fe/solid/solid_stiffness.h"
 
-#include "fe/body/cell_elasticity.h"
-
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 namespace sprag
 {
@@ -38,14 +35,30 @@ namespace sprag
     }
   } // namespace
 
+  CellStiffness::CellStiffness(const Mapping<3> &mapping, const FiniteElement<3> &fe, const BodyProperties &properties)
+      : elasticity(mapping, fe, properties)
+      , at_rest(fe.n_dofs_per_cell())
+      , no_forces(fe.n_dofs_per_cell())
+  {
+  }
+
+  const FullMatrix<double> &CellStiffness::operator()(const DoFHandler<3>::active_cell_iterator &cell)
+  {
+    const unsigned int n       = at_rest.size();
+    const auto [found, is_new] = known.try_emplace(likeness(cell), n, n);
+    if (is_new)
+    {
+      elasticity.reinit(cell, at_rest);
+      elasticity.assemble(found->second, no_forces);
+    }
+    return found->second;
+  }
+
   SolidStiffness assemble_stiffness(const StiffnessSource &source, const std::vector<int> &number_in_part)
   {
     const auto &fe       = source.dof_handler.get_fe();
     const unsigned int n = fe.n_dofs_per_cell();
-    CellElasticity<3> elasticity(source.mapping, fe, source.properties);
-    const Vector<double> at_rest(n);
-    Vector<double> no_forces(n);
-    std::map<std::vector<long>, FullMatrix<double>> known;
+    CellStiffness stiffness(source.mapping, fe, source.properties);
     std::vector<types::global_dof_index> indices(n);
     std::vector<int> in_whole(n), in_part(n, -1);
 
@@ -56,12 +69,7 @@ namespace sprag
     {
       if (!cell->is_locally_owned() || cell->material_id() == material_id::hub)
         continue;
-      const auto [found, is_new] = known.try_emplace(likeness(cell), n, n);
-      if (is_new)
-      {
-        elasticity.reinit(cell, at_rest);
-        elasticity.assemble(found->second, no_forces);
-      }
+      const auto &of_cell = stiffness(cell);
       cell->get_dof_indices(indices);
       for (unsigned int i = 0; i < n; ++i)
       {
@@ -70,9 +78,9 @@ namespace sprag
         if (result.part.size > 0)
           in_part[i] = is_free ? number_in_part[indices[i]] : -1;
       }
-      add(found->second, in_whole, result.whole);
+      add(of_cell, in_whole, result.whole);
       if (result.part.size > 0)
-        add(found->second, in_part, result.part);
+        add(of_cell, in_part, result.part);
     }
     for (const auto index : source.dof_handler.locally_owned_dofs())
       if (source.constraints.is_constrained(index))

@@ -1,16 +1,34 @@
 #pragma once
 
-#include "fe/body/body_properties.h"
+#include "fe/body/cell_elasticity.h"
 #include "fe/solid/shared_factors.h"
 
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/fe/mapping.h>
 #include <deal.II/lac/affine_constraints.h>
 
+#include <map>
+
 namespace sprag
 {
   /// Material and shape of a cell up to a shift, in steps of a nanometre: cells that are alike share stiffness and mass.
   std::vector<long> likeness(const dealii::DoFHandler<3>::active_cell_iterator &cell);
+
+  /// Stiffnesses of cells without load, found once for those that are alike.
+  class CellStiffness
+  {
+  public:
+    /// All must outlive this.
+    CellStiffness(const dealii::Mapping<3> &mapping, const dealii::FiniteElement<3> &fe, const BodyProperties &properties);
+
+    const dealii::FullMatrix<double> &operator()(const dealii::DoFHandler<3>::active_cell_iterator &cell);
+
+  private:
+    CellElasticity<3> elasticity;
+    const dealii::Vector<double> at_rest;
+    dealii::Vector<double> no_forces;
+    std::map<std::vector<long>, dealii::FullMatrix<double>> known; ///< by likeness()
+  };
 
   /// What a linear stiffness is made of.
   struct StiffnessSource
