@@ -157,6 +157,7 @@ FIGURES = {
     **{name: drawn(name, "forces-over-x") for name in ("stiff-a", "stiff-b")},
     # Three dimensions.
     "solid-tilted-a": drawn("solid-tilted-a", "contact"),
+    "solid-modal-a": drawn("solid-modal-a", "modes"),
     # In time.
     "support-a": lambda run: reversal(run("support-a")),
     "stribeck-a": lambda run: forces_over_time([run("stribeck-a")]),
