@@ -127,3 +127,25 @@ TEST(SolidInTime, SlidesBothWaysOneAfterTheOther)
       EXPECT_NEAR(found->P, expected->P, 1e-4 * expected->P) << x << " " << v;
     }
 }
+
+// Saint-Venant: f = sqrt(G J/(rho I_p))/(4 L), J = 0.2287 w d^3 of w = 2 d. The clamp hinders warping, and the layer has mass
+// alone: 2 and 0.5 %.
+TEST(SolidInTime, TheFirstTwistingModeIsThatOfABar)
+{
+  const Scene scene = held_model_a(3);
+  DynamicsMaker maker(false);
+  const auto dynamics = maker.make(scene);
+  const auto slide    = dynamics.model().hold(held_drive(scene), ContactFriction::sliding);
+  ASSERT_TRUE(slide);
+  auto modes = dynamics.model().vibrations(*slide, false, 40);
+  tell_motion(dynamics.solid->modes, modes);
+  const auto twists = std::find_if(modes.begin(), modes.end(), [](const auto &mode) { return mode.across.twisting > 0.5; });
+  ASSERT_NE(twists, modes.end());
+  const auto &lever = scene.lever;
+  ASSERT_EQ(lever.width, 2. * lever.depth);
+  const double d = lever.depth, w = lever.width;
+  const double shear   = lever.young_modulus / (2. * (1. + lever.poisson_ratio));
+  const double density = lever.density * dynamics.meshed.density_factor;
+  const double speed   = std::sqrt(shear * 0.2287 * w * d * d * d / (density * w * d * (w * w + d * d) / 12.));
+  EXPECT_NEAR(twists->mode.eigenvalue.imag(), 2. * M_PI * speed / (4. * lever.length), 0.03 * twists->mode.eigenvalue.imag());
+}
