@@ -11,6 +11,8 @@ namespace sprag
     FullMatrix<double> part(const FullMatrix<double> &matrix, const std::vector<unsigned int> &rows,
                             const std::vector<unsigned int> &columns)
     {
+      if (rows.empty() || columns.empty())
+        return FullMatrix<double>();
       FullMatrix<double> result(rows.size(), columns.size());
       result.extract_submatrix_from(matrix, rows, columns);
       return result;
@@ -46,7 +48,7 @@ namespace sprag
     const auto n = static_cast<unsigned int>(border.size()), n_inner = static_cast<unsigned int>(inner.size());
     const auto inner_ports = some_of(ports, inner);
     below                  = part(tangent, border, inner);
-    aside.reinit(n_inner, n);
+    aside.reinit(n_inner, n_inner > 0 ? n : 0);
     of_border.reinit(n);
     for (unsigned int b = 0; b < n; ++b)
     {
