@@ -38,8 +38,9 @@ namespace sprag
         return tell_validity(arguments, scene, warnings);
       }
       if (!rank.is_alone && !works_in_parallel(scene.analysis.type) && !shares_body(scene))
-        throw InputError("only Analysis/Type = map and study, and Analysis/Dimension = 3, run in several processes: leave out "
-                         "mpirun");
+        throw InputError(
+            "only Analysis/Type = map and study, and Analysis/Dimension = 3 without inertia, run in several processes: leave out "
+            "mpirun");
       const std::string folder     = folder_of(arguments, scene);
       const unsigned int processes = rank.is_alone ? 1 : MPI::n_mpi_processes(MPI_COMM_WORLD);
       const auto claim             = [&]
