@@ -53,6 +53,17 @@ namespace sprag
       , place_of_port(properties.ports.size())
   {
     find_lines();
+    find_ends();
+  }
+
+  void SurfaceContact::find_ends()
+  {
+    const auto is_before = [](const auto &a, const auto &b) { return a.position[0] < b.position[0]; };
+    const auto ends      = std::minmax_element(face.nodes.begin(), face.nodes.end(), is_before);
+    const double first = ends.first->position[0], last = ends.second->position[0];
+    for (const auto &edge : face.edges)
+      is_at_end.push_back(std::any_of(edge.nodes.begin(), edge.nodes.end(),
+                                      [&](const auto &node) { return node.position[0] <= first || node.position[0] >= last; }));
   }
 
   void SurfaceContact::find_lines()

@@ -135,6 +135,7 @@ namespace sprag
     };
 
     void find_lines();
+    void find_ends();
     RigidCylinder::Pose pose_of(const SurfacePlace &place) const;
     Patches::Indices near(const SurfacePlace &place, const RigidCylinder::Pose &pose) const;
     void evaluate_patch(unsigned int patch, Step &step, SurfaceEvaluation &found) const;
@@ -158,6 +159,7 @@ namespace sprag
     const SurfaceContactProperties properties;
     Patches patches;
     std::vector<std::vector<unsigned int>> points_of_line;
+    std::vector<bool> is_at_end;                                      ///< whether a patch is at an end of the face along xi
     std::vector<std::pair<unsigned int, unsigned int>> place_in_line; ///< of a point: its line and its place there
 
     dealii::Vector<double> begin_ports;

@@ -48,10 +48,11 @@ namespace sprag
     const SlidingState &state;
     const FrictionLaw law;
     RigidCylinder::Pose pose;
+    bool in_parts;          ///< whether the tangent is wanted in parts
     Patches::Nodal rates{}; ///< of the patch
     Sums pressure{};        ///< with the forces of the patch
     Sums friction{};
-    Sums friction_rate{};
+    Sums friction_rate{};                  ///< in parts alone
     std::vector<PortPerturbation> parts{}; ///< of the patches
   };
 
@@ -100,15 +101,8 @@ namespace sprag
 
   bool SurfaceContact::reaches_end(const SurfaceEvaluation &found) const
   {
-    const double first = face.nodes.front().position[0], last = face.nodes.back().position[0];
-    const auto is_at_end = [&](const FacePointState<3> &point)
-    {
-      const auto &nodes = face.edges[point.patch].nodes;
-      return point.pressure > 0. &&
-             std::any_of(nodes.begin(), nodes.end(),
-                         [&](const auto &node) { return node.position[0] <= first || node.position[0] >= last; });
-    };
-    return std::any_of(found.points.begin(), found.points.end(), is_at_end);
+    return std::any_of(found.points.begin(), found.points.end(),
+                       [&](const auto &point) { return point.pressure > 0. && is_at_end[point.patch]; });
   }
 
   void SurfaceContact::evaluate_point(const StepInTime &step, FacePointState<3> &state, Sums &sums,
@@ -158,13 +152,13 @@ namespace sprag
 
   void SurfaceContact::slide(const SlidingState &sliding, const FrictionLaw &friction, SurfaceEvaluation &found)
   {
-    Sliding slide{ sliding, friction_of_step(friction, sliding.drive.v), pose_of({ sliding.ports, sliding.drive.x }) };
+    Sliding slide{ sliding, friction_of_step(friction, sliding.drive.v), pose_of({ sliding.ports, sliding.drive.x }), false };
     this->slide(slide, found);
   }
 
   PortPerturbation SurfaceContact::linearise(const SlidingState &sliding, const FrictionLaw &friction, SurfaceEvaluation &found)
   {
-    Sliding slide{ sliding, friction_of_step(friction, sliding.drive.v), pose_of({ sliding.ports, sliding.drive.x }) };
+    Sliding slide{ sliding, friction_of_step(friction, sliding.drive.v), pose_of({ sliding.ports, sliding.drive.x }), true };
     this->slide(slide, found);
     PortPerturbation result(found.forces.ports);
     for (const auto &of_patch : slide.parts)
@@ -190,14 +184,16 @@ namespace sprag
         slide_point(sliding, add_point(patch, q, nodal, sliding.pose, found), found);
       if (!sliding.pressure.touched)
         continue;
-      const auto coordinates = coordinates_of(patch);
-      auto &part             = sliding.parts.emplace_back(ports_of(coordinates));
-      part.pressure          = matrix_on_ports(coordinates, sliding.pressure.tangent);
-      part.friction          = matrix_on_ports(coordinates, sliding.friction.tangent);
-      part.friction_rate     = matrix_on_ports(coordinates, sliding.friction_rate.tangent);
-      auto tangent           = part.pressure;
-      tangent.add(1., part.friction);
-      loaded.push_back({ part.ports, row_on_ports(coordinates, sliding.pressure.values), std::move(tangent) });
+      if (sliding.in_parts)
+      {
+        const auto coordinates = coordinates_of(patch);
+        auto &part             = sliding.parts.emplace_back(ports_of(coordinates));
+        part.pressure          = matrix_on_ports(coordinates, sliding.pressure.tangent);
+        part.friction          = matrix_on_ports(coordinates, sliding.friction.tangent);
+        part.friction_rate     = matrix_on_ports(coordinates, sliding.friction_rate.tangent);
+      }
+      sliding.pressure.tangent += sliding.friction.tangent;
+      add_patch(patch, sliding.pressure, loaded);
     }
     sum_forces(loaded, place_of_port, found.forces);
     found.beyond_face = reaches_end(found);
@@ -240,7 +236,7 @@ namespace sprag
                          state.traction[s] * placed.slip_curvature[s];
       if (of.friction == ContactFriction::stuck)
         by_displacement -= penalty.tangential * outer_product(placed.slip_row[s], placed.slip_row[s]);
-      for (unsigned int r = 0; r < 2 && slides; ++r)
+      for (unsigned int r = 0; r < 2 && slides && sliding.in_parts; ++r)
       {
         const double along = direction[s] * direction[r];
         const double turn  = speed > 0. ? share.coefficient / speed * ((s == r ? 1. : 0.) - along) : 0.;
@@ -249,7 +245,8 @@ namespace sprag
     }
     sliding.pressure.add(point, n_nodes, state.end_force, by_pressure);
     sliding.friction.add(point, n_nodes, {}, by_displacement);
-    sliding.friction_rate.add(point, n_nodes, {}, by_rate);
+    if (sliding.in_parts)
+      sliding.friction_rate.add(point, n_nodes, {}, by_rate);
   }
 
   /// Sets the slip rates of a point and returns their direction; of speed 0 its sign counts.
