@@ -53,26 +53,66 @@ namespace sprag
     return text;
   }
 
-  Choice choose_settings(const Scene &scene)
+  Scene plane_of(Scene scene)
   {
-    if (scene.analysis.type == AnalysisType::quasi_static)
+    scene.analysis.dimension         = 2;
+    scene.accuracy.is_dimension_open = false;
+    auto &cylinder                   = scene.cylinder;
+    cylinder.length = cylinder.position = cylinder.tilt = cylinder.skew = cylinder.crown_radius = cylinder.edge_radius = 0.;
+    return scene;
+  }
+
+  namespace
+  {
+    Choice choose_in_plane(const Scene &scene)
     {
-      const StaticChoice all(scene);
+      if (scene.analysis.type == AnalysisType::quasi_static)
+      {
+        const StaticChoice all(scene);
+        return cheap_enough(scene, [&](const double target) { return all.meeting(target); });
+      }
+      const VibrationChoice all(scene);
       return cheap_enough(scene, [&](const double target) { return all.meeting(target); });
     }
-    const VibrationChoice all(scene);
-    return cheap_enough(scene, [&](const double target) { return all.meeting(target); });
+  } // namespace
+
+  Choice choose_settings(const Scene &scene)
+  {
+    if (!scene.accuracy.is_dimension_open && scene.analysis.dimension == 2)
+      return choose_in_plane(scene);
+    std::vector<ChosenSetting> dimension;
+    if (scene.accuracy.is_dimension_open)
+      dimension = { choose_dimension(scene) };
+    Scene chosen        = with_settings(scene, dimension);
+    chosen.given        = scene.given; // which tells what is open
+    const bool in_space = chosen.analysis.dimension == 3;
+    Choice choice;
+    if (scene.accuracy.is_asked_for())
+      choice = choose_in_plane(in_space ? plane_of(chosen) : chosen);
+    choice.settings.insert(choice.settings.begin(), dimension.begin(), dimension.end());
+    return choice;
   }
+
+  namespace
+  {
+    void print_accuracy(std::ostream &stream, const Scene &scene, const Choice &choice)
+    {
+      stream << "Accuracy:     ";
+      if (scene.accuracy.target > 0.)
+        stream << percent(scene.accuracy.target) << " of ";
+      stream << boost::algorithm::join(scene.accuracy.quantities, ", ");
+      if (scene.accuracy.budget > 0.)
+        stream << " within " << scene.accuracy.budget << " s";
+      stream << " asked for, " << percent(choice.error) << " expected. " << choice.limit << '\n';
+    }
+  } // namespace
 
   void print_choice(std::ostream &stream, const Scene &scene, const Choice &choice)
   {
-    stream << "Accuracy:     ";
-    if (scene.accuracy.target > 0.)
-      stream << percent(scene.accuracy.target) << " of ";
-    stream << boost::algorithm::join(scene.accuracy.quantities, ", ");
-    if (scene.accuracy.budget > 0.)
-      stream << " within " << scene.accuracy.budget << " s";
-    stream << " asked for, " << percent(choice.error) << " expected. " << choice.limit << '\n';
+    if (!scene.accuracy.is_asked_for())
+      stream << "Chosen:\n";
+    else
+      print_accuracy(stream, scene, choice);
     for (const auto &setting : choice.settings)
       stream << "  " << setting.parameter << " = " << setting.value << ": " << setting.reason << '\n';
   }

@@ -31,8 +31,17 @@ namespace sprag
   /// Returns whether Accuracy/Budget pays what a run with these settings is expected to cost.
   bool is_paid(const Scene &scene, const Choice &choice);
 
+  /// Returns the scene in the plane, its cylinder true.
+  Scene plane_of(Scene scene);
+
+  /// Chooses two or three dimensions for Analysis/Dimension = auto by a probe, the same coarse mesh in both: three where the
+  /// plane is off by more than Accuracy/Target, or 1 %, in one of Accuracy/Quantity. Throws AnalysisError where a probe has no
+  /// equilibrium.
+  ChosenSetting choose_dimension(const Scene &scene);
+
   /// Chooses what the file leaves open so that Accuracy/Target is met, or of what Accuracy/Budget pays the most accurate. Makes
-  /// probes: models of the scene on coarser meshes. Throws AnalysisError where these have no equilibrium.
+  /// probes: models of the scene on coarser meshes, in three dimensions too those of the plane; of the elements across these do
+  /// not tell. Throws AnalysisError where probes have no equilibrium.
   Choice choose_settings(const Scene &scene);
 
   /// Chooses for a run without inertia to meet a relative error `target` > 0.

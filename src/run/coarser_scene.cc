@@ -1,5 +1,8 @@
 #include "run/coarser_scene.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace sprag
 {
   Scene with_penalties(Scene scene, const ContactPenalties &penalties, const double share)
@@ -14,6 +17,9 @@ namespace sprag
     scene.mesh.face_size *= coarser;
     scene.mesh.faces_in_contact /= coarser;
     scene.cylinder.face_size *= coarser;
+    const double across        = scene.mesh.elements_across / coarser;
+    scene.mesh.elements_across = std::max(1u, static_cast<unsigned int>(std::lround(across)));
+    scene.mesh.growth_across   = std::pow(scene.mesh.growth_across, coarser);
     return scene;
   }
 

@@ -19,7 +19,7 @@ namespace sprag
   /// Returns the scene with `share` > 0 of given penalties in place of automatic ones.
   Scene with_penalties(Scene scene, const ContactPenalties &penalties, double share);
 
-  /// Returns the scene on a built-in mesh with larger faces of lever and cylinder.
+  /// Returns the scene on a built-in mesh with larger faces of lever and cylinder, and fewer elements across.
   Scene with_coarser_mesh(Scene scene);
 
   /// Returns the order in which forces and frequencies converge with the face size: 2, and 1.6 with displacements of degree 1, as

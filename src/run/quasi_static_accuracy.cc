@@ -1,74 +1,23 @@
 #include "run/quasi_static_accuracy.h"
 
 #include "analysis/accuracy/sample_changes.h"
-#include "analysis/accuracy/slide_samples.h"
 #include "base/errors.h"
 #include "base/text.h"
-#include "fe/mesh/mesh.h"
 #include "results/row_statistics.h"
 #include "run/coarser_scene.h"
 #include "run/left_out_inertia.h"
 #include "run/peak_report.h"
-#include "run/stress_comparison.h"
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 namespace sprag
 {
   namespace
   {
-    constexpr unsigned int samples_of_stroke = 6;
-
     bool augments(const Scene &scene)
     {
       return scene.contact.enforcement == Enforcement::augmented_lagrangian;
-    }
-
-    /// The samples and what other models make of them.
-    struct Probes
-    {
-      std::vector<Row> run;
-      std::vector<Row> coarse; ///< on the coarser mesh
-      std::vector<Row> soft;   ///< with the softer penalty; empty where the run augments and has the automatic tangential one
-      std::optional<StressChanges> stress; ///< on the coarser mesh
-      double pressure_with_stress = 0.;    ///< change of the pressure there in the states whose stress is known
-    };
-
-    std::vector<Row> rows_at(const std::vector<double> &times, const std::vector<Row> &rows)
-    {
-      std::vector<Row> result;
-      for (const Row &row : rows)
-        if (std::find(times.begin(), times.end(), row[Column::time]) != times.end())
-          result.push_back(row);
-      return result;
-    }
-
-    Probes probe(const Scene &scene, LeverModel &levers, const std::vector<Row> &rows, const QuasiStaticSettings &settings,
-                 const std::vector<StressSample> &stresses)
-    {
-      Probes result;
-      result.run           = slide_samples(rows, samples_of_stroke, times_of(stresses));
-      const double start   = rows.front()[Column::x];
-      const auto penalties = levers.penalties();
-      Mesh mesh;
-      const Scene coarse = with_coarser_mesh(with_penalties(scene, penalties, 1.));
-      make_mesh(coarse, mesh);
-      LeverModel on_coarse(mesh, coarse);
-      StressComparison stress(on_coarse, stresses);
-      result.coarse    = repeated(on_coarse, result.run, start, settings,
-                                  [&](const State &state, const Row &row) { stress.look_at(state, row); });
-      result.stress    = stress.changes();
-      const auto times = times_of(stresses);
-      result.pressure_with_stress =
-          result.stress ? relative_change("largest_pressure", rows_at(times, result.run), rows_at(times, result.coarse)) : 0.;
-      if (augments(scene) && !scene.contact.tangential_penalty)
-        return result;
-      levers.use_penalties({ augments(scene) ? penalties.normal : penalties.normal / softer, penalties.tangential / softer });
-      result.soft = repeated(levers, result.run, start, settings);
-      levers.use_penalties(penalties);
-      return result;
     }
 
     ErrorEstimate estimate(const Scene &scene, const Probes &probes, const std::string &quantity, const std::string &relative_to)
@@ -169,15 +118,14 @@ namespace sprag
     }
   } // namespace
 
-  std::vector<ErrorEstimate> quasi_static_accuracy(const Scene &scene, LeverModel &levers, const std::vector<Row> &rows,
-                                                   const QuasiStaticSettings &settings, const std::vector<StressSample> &stresses)
+  std::vector<ErrorEstimate> quasi_static_accuracy(const Scene &scene, const std::vector<Row> &rows,
+                                                   const std::function<Probes()> &probe)
   {
     if (!scene.mesh.file.empty())
       return unknown(no_coarser_mesh);
-    const auto penalties = levers.penalties();
     try
     {
-      const Probes probes = probe(scene, levers, rows, settings, stresses);
+      const Probes probes = probe();
       if (probes.run.size() < 2)
         return unknown("No estimate: there are no two states in which the whole contact slides.");
       const double faces       = faces_in_contact(scene, probes.run);
@@ -199,7 +147,6 @@ namespace sprag
     }
     catch (const AnalysisError &error)
     {
-      levers.use_penalties(penalties);
       return unknown("No estimate: in the comparison there was " + std::string(error.what()) + ".");
     }
   }

@@ -65,7 +65,7 @@ namespace sprag
   void print_expectations(const Scene &given)
   {
     const Scene scene = prepared(given);
-    if (!scene.accuracy.is_asked_for())
+    if (!scene.accuracy.leaves_open())
       return print_cost(std::cout, expected_cost(scene));
     const auto choice = choose_settings(scene);
     print_choice(std::cout, scene, choice);
@@ -80,7 +80,7 @@ namespace sprag
       require_writable(options.folder);
       try_mesh(scene);
     }
-    if (!scene.accuracy.is_asked_for())
+    if (!scene.accuracy.leaves_open())
       return run_from_margin_to_warnings(scene, options, margin_of, carry_out);
     require_writable(options.folder);
     const auto choice  = choose_settings(scene);

@@ -79,7 +79,9 @@ namespace sprag
             if (status == "completed" && estimates_errors(options))
             {
               const PhaseTimer::Scope scope(timer, "accuracy");
-              recorder.set_accuracy(quasi_static_accuracy(scene, levers, recorder.recorded(), settings, fields.stress_samples()));
+              const auto probes = [&]
+              { return plane_probes(scene, levers, recorder.recorded(), settings, fields.stress_samples()); };
+              recorder.set_accuracy(quasi_static_accuracy(scene, recorder.recorded(), probes));
             }
             meta.push_back(
                 { "stick_stiffness", stick, "N/mm",

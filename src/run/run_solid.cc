@@ -3,6 +3,7 @@
 #include "model/state_archive.h"
 #include "run/analyses.h"
 #include "run/in_memory.h"
+#include "run/quasi_static_accuracy.h"
 #include "run/recorder.h"
 #include "run/report.h"
 
@@ -112,6 +113,12 @@ namespace sprag
           {
             auto meta = model_entries(scene, body, lever);
             timed(timer, "exactness", [&] { meta = joined(meta, samples.entries(lever)); });
+            if (status == "completed" && estimates_errors(options))
+            {
+              const PhaseTimer::Scope scope(timer, "accuracy");
+              const auto probes = [&] { return solid_probes(scene, lever, recorder.recorded(), settings); };
+              recorder.set_accuracy(quasi_static_accuracy(scene, recorder.recorded(), probes));
+            }
             meta.push_back(
                 { "stick_stiffness", stick, "N/mm", "tangential stiffness of layer and penalty in stick at the first reversal" });
             const auto ending = status_at_end(status);

@@ -242,7 +242,7 @@ namespace sprag
     void settings(const Scene &scene, const Use &use, Rules &rules)
     {
       const AnalysisSettings &analysis = scene.analysis;
-      if (analysis.dimension == 3)
+      if (analysis.dimension == 3 || scene.accuracy.is_dimension_open)
         check_solid(scene, rules);
       rules.need(analysis.minimum_step <= analysis.step, "Analysis/Minimum step", { "Analysis/Step" },
                  "must not be more than Step = " + mm(analysis.step));

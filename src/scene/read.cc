@@ -68,6 +68,7 @@ namespace sprag
         check();
         check_ranges();
         read_study();
+        read_dimension();
         read_accuracy();
         if (!settings.mistakes.empty())
           throw InputError(settings.mistakes);
@@ -116,7 +117,9 @@ namespace sprag
       /// unless another model is given, and so is the lever of a measured stroke; the printed parameters then give it.
       void make_model()
       {
-        Scene &scene = input.scene;
+        Scene &scene                     = input.scene;
+        scene.accuracy.is_dimension_open = !input.dimension;
+        scene.analysis.dimension         = input.dimension.value_or(2);
         const auto type =
             scene.analysis.type == AnalysisType::study ? scene.study.type : scene.analysis.type; // of the runs themselves
         const bool is_closed = type == AnalysisType::isolation || type == AnalysisType::identification;
@@ -129,6 +132,14 @@ namespace sprag
         const bool is_static         = scene.analysis.type == AnalysisType::quasi_static;
         scene.accuracy.is_model_open = !input.model;
         scene.analysis.model         = input.model.value_or(is_static ? ModelType::finite_element : ModelType::condensed);
+      }
+
+      void read_dimension()
+      {
+        const auto type = input.scene.analysis.type;
+        if (!input.dimension && type != AnalysisType::quasi_static && type != AnalysisType::stability &&
+            type != AnalysisType::transient)
+          report("Analysis/Dimension", "auto is for Analysis/Type = quasi-static, stability and transient");
       }
 
       void read_accuracy()

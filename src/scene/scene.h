@@ -337,15 +337,22 @@ namespace sprag
   /// How accurate results are to be. Settings that a file leaves open follow from it.
   struct AccuracySettings
   {
-    double target        = 0.;           ///< relative error wanted [-]; 0: nothing follows from it
-    std::string quantity = "auto";       ///< names of quantities of /accuracy, separated by commas
-    double budget        = 0.;           ///< CPU time that a run may take [s]; 0: any
-    bool is_model_open   = false;        ///< Analysis/Model = auto
+    double target          = 0.;         ///< relative error wanted [-]; 0: nothing follows from it
+    std::string quantity   = "auto";     ///< names of quantities of /accuracy, separated by commas
+    double budget          = 0.;         ///< CPU time that a run may take [s]; 0: any
+    bool is_model_open     = false;      ///< Analysis/Model = auto
+    bool is_dimension_open = false;      ///< Analysis/Dimension = auto
     std::vector<std::string> quantities; ///< those meant
 
     bool is_asked_for() const
     {
       return target > 0. || budget > 0.;
+    }
+
+    /// Whether something of the scene is to be chosen before it is run.
+    bool leaves_open() const
+    {
+      return is_dimension_open || is_asked_for();
     }
   };
 

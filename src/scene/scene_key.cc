@@ -37,6 +37,7 @@ namespace sprag
       settings.faces_in_contact = scene.mesh.faces_in_contact;
       settings.model            = scene.analysis.model;
       settings.enforcement      = scene.contact.enforcement;
+      settings.dimension        = scene.analysis.dimension;
       std::string key;
       for (const auto &parameter : scene_parameters(settings))
         if (!is_spared(parameter))

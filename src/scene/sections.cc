@@ -41,7 +41,9 @@ namespace sprag
                      "Rigid lever with ideal contact and without mass (eqs. 4-9), or the deformable lever; with inertia also a "
                      "rigid lever, a beam, or modes and face shapes of the finite elements; auto: the cheapest that meets "
                      "Accuracy/Target");
-      section.integer("Dimension", settings.dimension, { 2., 3. }, "Dimension of the finite elements");
+      section.choice("Dimension", input.dimension, { { "auto", std::nullopt }, { "2", 2u }, { "3", 3u } },
+                     "Dimension of the finite elements; auto: 3 where a probe in three dimensions differs by more than "
+                     "Accuracy/Target, or 1 %, in one of Accuracy/Quantity");
       section.choice("Plane", settings.plane, { { "stress", PlaneState::stress }, { "strain", PlaneState::strain } },
                      "Plane stress or plane strain of lever and friction layer");
       section.choice("Solution", settings.solution, { { "automatic", Solution::automatic }, { "general", Solution::general } },

@@ -47,12 +47,13 @@ namespace sprag
     Scene scene;
     DriveSettings drive;
     FrictionSettings friction;
-    double maximum_inclination = 60.;                           ///< [deg]
-    std::optional<double> time_tolerance;                       ///< none: by whether a time step is given
-    std::optional<double> face_size;                            ///< none: by the analysis
-    std::optional<double> faces_in_contact;                     ///< none: by the analysis
-    std::optional<Enforcement> enforcement;                     ///< none: by the analysis
-    std::optional<ModelType> model = ModelType::finite_element; ///< none: by the accuracy asked for
+    double maximum_inclination = 60.;                                  ///< [deg]
+    std::optional<double> time_tolerance;                              ///< none: by whether a time step is given
+    std::optional<double> face_size;                                   ///< none: by the analysis
+    std::optional<double> faces_in_contact;                            ///< none: by the analysis
+    std::optional<Enforcement> enforcement;                            ///< none: by the analysis
+    std::optional<ModelType> model        = ModelType::finite_element; ///< none: by the accuracy asked for
+    std::optional<unsigned int> dimension = 2;                         ///< none: by what a probe tells
   };
 
   /// Lists every parameter of a scene file. Defaults are the present values in `settings`, where Parameter::store writes to;

@@ -78,3 +78,40 @@ TEST(Choice, ABeamServesWhereCoarse)
   EXPECT_EQ(chosen(choice, "Analysis/Model"), "condensed");
   EXPECT_NEAR(std::stod(chosen(choice, "Time/Tolerance")), 0.004, 1e-9);
 }
+
+namespace
+{
+  /// On a coarse mesh and a short way, to be cheap.
+  Choice dimension_for(std::vector<std::string> overrides)
+  {
+    for (const char *const cheap : { "Analysis/Dimension=auto", "Mesh/Face size=4", "Mesh/Elements across=4", "Drive/Stroke=20" })
+      overrides.emplace_back(cheap);
+    return choose_settings(asked("solid-tilted-a", overrides));
+  }
+} // namespace
+
+TEST(Choice, ThreeDimensionsAreTakenWhereThePlaneIsOffByMoreThanIsAskedFor)
+{
+  EXPECT_EQ(chosen(dimension_for({}), "Analysis/Dimension"), "2");
+  EXPECT_EQ(chosen(dimension_for({ "Cylinder/Length=20" }), "Analysis/Dimension"), "2"); // P and Q alone
+  const std::string pressure = "Accuracy/Quantity=largest_pressure";
+  EXPECT_EQ(chosen(dimension_for({ pressure }), "Analysis/Dimension"), "3");
+  EXPECT_EQ(chosen(dimension_for({ pressure, "Cylinder/Tilt=1e-7", "Accuracy/Target=0.2" }), "Analysis/Dimension"), "2");
+}
+
+TEST(Choice, InThreeDimensionsTheRestIsChosenByThePlane)
+{
+  const auto choice = dimension_for({ "Accuracy/Quantity=largest_pressure", "Accuracy/Target=0.05" });
+  EXPECT_EQ(chosen(choice, "Analysis/Dimension"), "3");
+  EXPECT_EQ(chosen(choice, "Contact/Enforcement"), "augmented Lagrangian");
+  EXPECT_NE(chosen(choice, "Analysis/Step"), "");
+}
+
+TEST(Choice, ASlideOfAThinLeverTakesThreeDimensionsForItsGrowth)
+{
+  const std::vector<std::string> cheap = { "Analysis/Dimension=auto", "Mesh/Elements across=2", "Mesh/Face size=4" };
+  const auto choice                    = choose_settings(asked("solid-stability-a", cheap));
+  ASSERT_EQ(choice.settings.size(), 1u);
+  EXPECT_EQ(choice.settings.front().value, "3");
+  EXPECT_NE(choice.settings.front().reason.find("growth_rate"), std::string::npos);
+}

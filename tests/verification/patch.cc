@@ -186,7 +186,7 @@ TEST(Patch, HydrostaticPressureBalancesAcrossACurvedInterface)
   // All nodes of six edges each, two coordinates, without corners.
   EXPECT_EQ(n_checked, 2u * 2u * 11u);
 
-  const auto multipliers = FaceMultipliers(body.friction_face()).augmented(found.points);
+  const auto multipliers = FaceMultipliers<2>(body.friction_face()).augmented(found.points);
   EXPECT_EQ(multipliers.size(), found.points.size());
   for (const auto &multiplier : multipliers)
   {

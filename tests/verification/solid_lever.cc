@@ -169,6 +169,19 @@ TEST(SolidLever, WithoutContractionItIsPlaneStress)
   EXPECT_LT(solid.exactness.displacement, 1e-5);
 }
 
+TEST(SolidLever, WithoutContractionMultipliersAreThoseOfThePlane)
+{
+  const Scene scene = with_augmented_lagrangian(solid_model_a(0.));
+  Scene plane       = scene;
+  plane.analysis    = {};
+  const SolidRun solid(scene);
+  const auto rows = run_scene(plane);
+  EXPECT_GT(largest(solid.rows, Column::augmentations), 0.);
+  for (const Column column : { Column::P, Column::Q, Column::theta })
+    EXPECT_LT(difference(rows, solid.rows, column), 1e-6) << column_info(column).name;
+  EXPECT_LT(difference(rows, solid.rows, Column::largest_pressure), 1e-5); // what the compliance leaves out
+}
+
 TEST(SolidLever, OneHalfIsEnoughWhereBothAreAlike)
 {
   const Scene scene = solid_model_a(0.3);

@@ -129,4 +129,26 @@ namespace sprag
     }
     return result;
   }
+
+  std::vector<Row> places_of(const Drive &drive)
+  {
+    std::vector<double> ends = { 0. };
+    for (const double time : drive.reversals())
+      if (ends.size() < 3)
+        ends.push_back(time);
+    if (ends.size() < 3)
+      ends.push_back(drive.duration());
+    std::vector<Row> result;
+    for (std::size_t stroke = 1; stroke < ends.size(); ++stroke)
+      for (const double share : stroke == 1 ? std::vector{ 0.3, 0.7, 0.98 } : std::vector{ 0.08, 0.4, 0.8 })
+      {
+        const auto point = drive.at(ends[stroke - 1] + share * (ends[stroke] - ends[stroke - 1]));
+        Row row;
+        row[Column::time] = point.time;
+        row[Column::x]    = point.x;
+        row[Column::v]    = point.v;
+        result.push_back(row);
+      }
+    return result;
+  }
 } // namespace sprag

@@ -18,4 +18,7 @@ namespace sprag
   std::vector<Row> repeated(
       Model &model, const std::vector<Row> &samples, double start, const QuasiStaticSettings &settings,
       const std::function<void(const State &, const Row &)> &look = [](const State &, const Row &) {});
+
+  /// Returns time, x and v of places in full sliding over the first two strokes of a drive, for probes before a run.
+  std::vector<Row> places_of(const Drive &drive);
 } // namespace sprag

@@ -2,61 +2,98 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace sprag
 {
-  FaceMultipliers::FaceMultipliers(const FrictionFace<2> &face_)
+  using dealii::Point;
+
+  namespace
+  {
+    /// A coordinate along the face in nanometres, by which corners of neighbouring cells are known to be one.
+    long along_face(const double coordinate)
+    {
+      return std::lround(1e6 * coordinate);
+    }
+
+    /// Coordinates in the plane of the face, that along xi first.
+    template <int dim>
+    std::array<double, dim - 1> in_face(const Point<dim> &place)
+    {
+      if constexpr (dim == 2)
+        return { { place[0] } };
+      else
+        return { { place[0], place[2] } };
+    }
+  } // namespace
+
+  template <int dim>
+  FaceMultipliers<dim>::FaceMultipliers(const FrictionFace<dim> &face_)
       : face(face_)
   {
-    constexpr double same = 1e-6; ///< place of two corners, over the length of a cell
-    double last_end       = 0.;
+    std::map<std::array<long, dim - 1>, unsigned int> numbers;
     for (unsigned int k = 0; k < face.patches.size(); ++k)
     {
-      const double begin = face.edges[k].nodes.front().position[0];
-      const double end   = face.edges[k].nodes.back().position[0];
-      if (k == 0 || begin - last_end > same * (end - begin))
-        areas.push_back(0.);
-      areas.push_back(0.);
-      const auto first = static_cast<unsigned int>(areas.size()) - 2;
+      const auto &nodes = face.edges[k].nodes;
+      const auto first  = in_face<dim>(nodes.front().position);
+      const auto last   = in_face<dim>(nodes.back().position);
+      Share of_cell;
+      for (unsigned int c = 0; c < n_corners; ++c)
+      {
+        std::array<long, dim - 1> place;
+        for (unsigned int d = 0; d < dim - 1; ++d)
+          place[d] = along_face((c >> d) % 2 == 0 ? first[d] : last[d]);
+        of_cell.corners[c] = numbers.try_emplace(place, static_cast<unsigned int>(numbers.size())).first->second;
+      }
+      areas.resize(numbers.size());
       for (unsigned int q = face.patches[k].begin; q < face.patches[k].end; ++q)
       {
-        const double along = (face.points[q].position[0] - begin) / (end - begin);
-        shares.push_back({ first, { { 1. - along, along } } });
-        for (unsigned int i = 0; i < 2; ++i)
-          areas[first + i] += face.points[q].weight * shares.back().values[i];
+        const auto place = in_face<dim>(face.points[q].position);
+        of_cell.values.fill(1.);
+        for (unsigned int c = 0; c < n_corners; ++c)
+        {
+          for (unsigned int d = 0; d < dim - 1; ++d)
+          {
+            const double along = (place[d] - first[d]) / (last[d] - first[d]);
+            of_cell.values[c] *= (c >> d) % 2 == 0 ? 1. - along : along;
+          }
+          areas[of_cell.corners[c]] += face.points[q].weight * of_cell.values[c];
+        }
+        shares.push_back(of_cell);
       }
-      last_end = end;
     }
   }
 
   /// Values at the points of `states` of the function that a traction of theirs is averaged to, an entry per state [MPa].
+  template <int dim>
   template <class Traction>
-  std::vector<Traction> FaceMultipliers::averaged(const std::vector<FacePointState<2>> &states,
-                                                  Traction PointTraction<1>::*traction) const
+  std::vector<Traction> FaceMultipliers<dim>::averaged(const States &states, Traction PointTraction<dim - 1>::*traction) const
   {
     std::vector<Traction> coefficients(areas.size());
     for (const auto &state : states)
       if (state.trial_pressure > 0.)
       {
         const auto &share = shares[state.index];
-        for (unsigned int i = 0; i < 2; ++i)
-          coefficients[share.first + i] +=
-              (face.points[state.index].weight * share.values[i] / areas[share.first + i]) * (state.*traction);
+        for (unsigned int c = 0; c < n_corners; ++c)
+          coefficients[share.corners[c]] +=
+              (face.points[state.index].weight * share.values[c] / areas[share.corners[c]]) * (state.*traction);
       }
-    std::vector<Traction> result;
-    for (const auto &state : states)
+    std::vector<Traction> result(states.size());
+    for (std::size_t a = 0; a < states.size(); ++a)
     {
-      const auto &share = shares[state.index];
-      result.push_back(share.values[0] * coefficients[share.first] + share.values[1] * coefficients[share.first + 1]);
+      const auto &share = shares[states[a].index];
+      for (unsigned int c = 0; c < n_corners; ++c)
+        result[a] += share.values[c] * coefficients[share.corners[c]];
     }
     return result;
   }
 
-  std::vector<ContactMemory> FaceMultipliers::augmented(const std::vector<FacePointState<2>> &states) const
+  template <int dim>
+  std::vector<PointMemory<dim - 1>> FaceMultipliers<dim>::augmented(const States &states) const
   {
-    const auto pressures = averaged(states, &FacePointState<2>::pressure);
-    const auto tractions = averaged(states, &FacePointState<2>::traction);
-    std::vector<ContactMemory> result(states.size());
+    const auto pressures = averaged(states, &FacePointState<dim>::pressure);
+    const auto tractions = averaged(states, &FacePointState<dim>::traction);
+    std::vector<Memory> result(states.size());
     for (std::size_t a = 0; a < states.size(); ++a)
     {
       result[a].normal_multiplier = pressures[a];
@@ -66,10 +103,10 @@ namespace sprag
     return result;
   }
 
-  double FaceMultipliers::largest_change(const std::vector<FacePointState<2>> &states,
-                                         const std::vector<ContactMemory> &memory) const
+  template <int dim>
+  double FaceMultipliers<dim>::largest_change(const States &states, const std::vector<Memory> &memory) const
   {
-    const auto pressures = averaged(states, &FacePointState<2>::pressure);
+    const auto pressures = averaged(states, &FacePointState<dim>::pressure);
     double largest       = 0.;
     auto known           = memory.begin();
     for (std::size_t a = 0; a < states.size(); ++a)
@@ -81,4 +118,7 @@ namespace sprag
     }
     return largest;
   }
+
+  template class FaceMultipliers<2>;
+  template class FaceMultipliers<3>;
 } // namespace sprag

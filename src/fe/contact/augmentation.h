@@ -10,30 +10,36 @@ namespace sprag
   /// whatever the degree of the displacements, which keeps the pair stable. A coefficient is the mean traction weighted with its
   /// hat function (dual basis, lumped): it is never negative where the pressures are not, and a corner that the contact hardly
   /// reaches does not swing. What of the traction varies within a cell stays with the penalty, which stabilises it.
+  template <int dim>
   class FaceMultipliers
   {
   public:
-    /// The face must outlive this.
-    explicit FaceMultipliers(const FrictionFace<2> &face);
+    using Memory = PointMemory<dim - 1>;
+    using States = std::vector<FacePointState<dim>>;
+
+    /// The face must outlive this. On a surface its cells are rectangles along xi and zeta.
+    explicit FaceMultipliers(const FrictionFace<dim> &face);
 
     /// Multipliers of the next augmentation at the points of `states`, from their tractions.
-    std::vector<ContactMemory> augmented(const std::vector<FacePointState<2>> &states) const;
+    std::vector<Memory> augmented(const States &states) const;
 
     /// Largest change of a pressure multiplier by the next augmentation, from those in `memory` [MPa].
-    double largest_change(const std::vector<FacePointState<2>> &states, const std::vector<ContactMemory> &memory) const;
+    double largest_change(const States &states, const std::vector<Memory> &memory) const;
 
   private:
-    template <class Traction>
-    std::vector<Traction> averaged(const std::vector<FacePointState<2>> &states, Traction PointTraction<1>::*traction) const;
+    static constexpr unsigned int n_corners = 1u << (dim - 1);
 
-    /// Two hats that share a point.
+    template <class Traction>
+    std::vector<Traction> averaged(const States &states, Traction PointTraction<dim - 1>::*traction) const;
+
+    /// The hats of a cell's corners at one of its points.
     struct Share
     {
-      unsigned int first; ///< the second follows
-      std::array<double, 2> values;
+      std::array<unsigned int, n_corners> corners;
+      std::array<double, n_corners> values;
     };
 
-    const FrictionFace<2> &face;
+    const FrictionFace<dim> &face;
     std::vector<Share> shares; ///< of the points
     std::vector<double> areas; ///< of the face, weighted with a hat [mm^2]
   };

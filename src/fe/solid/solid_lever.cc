@@ -85,6 +85,7 @@ namespace sprag
                { { ports.surface, [this](const PortSelection &some) { return compliance.whole_tiles(some); },
                    [this](const PortSelection &tiles) { return compliance.among(tiles); } } })
       , contact(body.friction_face(), contact_properties(body, scene, properties, ports))
+      , multipliers(body.friction_face())
       , view(body.friction_face(), contact, is_symmetric_across(scene))
       , excess(ports, properties.spring.law)
   {
@@ -137,10 +138,11 @@ namespace sprag
 
   void SolidLever::evaluate_contact(State &trial, const FrictionMode mode)
   {
-    const auto terms = static_terms(properties.friction, properties.geometry, start, trial.drive, mode);
-    found.duration   = trial.drive.time - start.time;
-    contact.evaluate({ trial.coordinates, trial.drive.x }, trial.surface_contact, trial.drive.surface - start.surface, terms,
-                     found);
+    auto terms      = static_terms(properties.friction, properties.geometry, start, trial.drive, mode);
+    terms.augmented = augments();
+    memory          = trial.surface_contact;
+    found.duration  = trial.drive.time - start.time;
+    contact.evaluate({ trial.coordinates, trial.drive.x }, memory, trial.drive.surface - start.surface, terms, found);
     if (!found.within_reach)
       widen_reach(trial, mode);
   }
@@ -186,7 +188,12 @@ namespace sprag
 
   double SolidLever::penetration() const
   {
-    return found.compression;
+    return augments() ? multipliers.largest_change(found.points, memory) / contact.penalties().normal : found.compression;
+  }
+
+  bool SolidLever::augments() const
+  {
+    return properties.contact.enforcement == Enforcement::augmented_lagrangian;
   }
 
   std::string SolidLever::objection(const State &trial) const
@@ -205,14 +212,14 @@ namespace sprag
     return {};
   }
 
-  void SolidLever::augment(State &) const
+  void SolidLever::augment(State &trial) const
   {
-    throw AnalysisError("the augmented Lagrangian method is one of two dimensions");
+    trial.surface_contact = multipliers.augmented(found.points);
   }
 
   void SolidLever::remember(State &state) const
   {
-    state.surface_contact = found.memory();
+    state.surface_contact = augments() ? multipliers.augmented(found.points) : found.memory();
   }
 
   void SolidLever::observe(const State &trial, Row &row) const

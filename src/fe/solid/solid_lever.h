@@ -1,5 +1,6 @@
 #pragma once
 
+#include "fe/contact/augmentation.h"
 #include "fe/solid/layered_compliance.h"
 #include "fe/solid/surface_observation.h"
 #include "fe/statics/lever_properties.h"
@@ -41,6 +42,12 @@ namespace sprag
       return contact.penalties();
     }
 
+    /// Evaluates with other penalties from now on [N/mm^3], > 0.
+    void use_penalties(const ContactPenalties &penalties)
+    {
+      contact.use_penalties(penalties);
+    }
+
     const LayeredCompliance &face_compliance() const
     {
       return compliance;
@@ -69,6 +76,7 @@ namespace sprag
     const std::vector<unsigned int> &line_at(double zeta) const;
     PortLoads interpolation(const std::vector<unsigned int> &line, double xi) const;
     double indentation(const Row &row, const PortLoads &on_face) const;
+    bool augments() const;
 
     const SolidBody &body;
     const LeverProperties properties;
@@ -77,6 +85,7 @@ namespace sprag
     std::vector<std::vector<unsigned int>> node_lines; ///< nodes of the face with the same zeta, along xi; three and more
     PortWindow window;
     SurfaceContact contact;
+    const FaceMultipliers<3> multipliers;
     const SurfaceView view;
     HubSpringExcess excess;
 
@@ -86,6 +95,7 @@ namespace sprag
     PortLoads begin_forces;
 
     SurfaceEvaluation found;
-    PortForces forces; ///< of the contact and of the spring beyond its linear part, at the last evaluation
+    std::vector<SurfaceMemory> memory; ///< and multipliers that it was evaluated with
+    PortForces forces;                 ///< of the contact and of the spring beyond its linear part, at the last evaluation
   };
 } // namespace sprag

@@ -167,7 +167,12 @@ namespace sprag
       step.nodal = Patches::nodal(patches.patches[patch], end.ports);
       Sums sums;
       for (unsigned int q = patches.patches[patch].begin; q < patches.patches[patch].end; ++q)
-        evaluate_point(step, add_point(patch, q, step.nodal, step.pose, found), sums, found);
+      {
+        auto &state = add_point(patch, q, step.nodal, step.pose, found);
+        if (const auto *const was = step.memory_of(q))
+          state.trial_pressure += was->normal_multiplier;
+        evaluate_point(step, state, sums, found);
+      }
       add_patch(patch, sums, loaded);
     }
     sum_forces(loaded, place_of_port, found.forces);
@@ -199,7 +204,7 @@ namespace sprag
     const auto &point = patches.points[state.index];
     if (state.trial_pressure <= 0.)
       return;
-    found.compression     = std::max(found.compression, -state.gap);
+    found.compression     = std::max(found.compression, state.trial_pressure / properties.penalties.normal);
     const auto placed     = properties.cylinder.kinematics(step.pose, state.position);
     const auto &begin     = slips_at_begin(state.index);
     const auto *const was = step.memory_of(state.index);

@@ -33,7 +33,7 @@ namespace sprag
     double duration    = 0.;               ///< of the step; 0: no slip speed [s]
     bool within_reach  = true;             ///< whether the contact was within the ports that it may reach
     bool beyond_face   = false;            ///< whether it reaches the end of the face along xi
-    double compression = 0.;               ///< of the contact springs, the largest [mm]
+    double compression = 0.;               ///< of the contact springs, the largest; with multipliers p / penalty [mm]
     double stored      = 0.;               ///< energy of the contact springs; in time alone [N mm]
     StepWork works;                        ///< of the step; in time alone
     std::vector<FacePointState<3>> points; ///< of the patches near the cylinder, by increasing point
@@ -109,6 +109,11 @@ namespace sprag
       return properties.penalties;
     }
 
+    void use_penalties(const ContactPenalties &penalties)
+    {
+      properties.penalties = penalties;
+    }
+
     /// Visits how far it reaches.
     void visit_history(Archive &archive)
     {
@@ -156,7 +161,7 @@ namespace sprag
     Patches::Indices clip(Patches::Indices near, SurfaceEvaluation &found) const;
 
     const FrictionFace<3> &face;
-    const SurfaceContactProperties properties;
+    SurfaceContactProperties properties;
     Patches patches;
     std::vector<std::vector<unsigned int>> points_of_line;
     std::vector<bool> is_at_end;                                      ///< whether a patch is at an end of the face along xi

@@ -65,7 +65,7 @@ namespace sprag
 
       const LeverProperties properties;
       FaceContact contact;
-      const FaceMultipliers multipliers;
+      const FaceMultipliers<2> multipliers;
       std::vector<ContactMemory> memory; ///< and multipliers that `found` was evaluated with
       FaceEvaluation found;
     };

@@ -1,0 +1,88 @@
+#include "run/quasi_static_probes.h"
+
+#include "analysis/accuracy/sample_changes.h"
+#include "analysis/accuracy/slide_samples.h"
+#include "fe/mesh/mesh.h"
+#include "run/coarser_scene.h"
+
+#include <algorithm>
+
+namespace sprag
+{
+  namespace
+  {
+    constexpr unsigned int samples_of_stroke = 6;
+
+    std::vector<Row> rows_at(const std::vector<double> &times, const std::vector<Row> &rows)
+    {
+      std::vector<Row> result;
+      for (const Row &row : rows)
+        if (std::find(times.begin(), times.end(), row[Column::time]) != times.end())
+          result.push_back(row);
+      return result;
+    }
+
+    /// Gives a model its own penalties back.
+    template <class Levers>
+    struct OwnPenalties
+    {
+      Levers &levers;
+      const ContactPenalties penalties = levers.penalties();
+
+      ~OwnPenalties()
+      {
+        levers.use_penalties(penalties);
+      }
+    };
+
+    /// The samples in the run's own model with a softer penalty, where that says anything.
+    template <class Levers>
+    std::vector<Row> with_softer_penalty(const Scene &scene, Levers &levers, const std::vector<Row> &samples, const double start,
+                                         const QuasiStaticSettings &settings)
+    {
+      const bool augments = scene.contact.enforcement == Enforcement::augmented_lagrangian;
+      if (augments && !scene.contact.tangential_penalty)
+        return {};
+      const OwnPenalties<Levers> own{ levers };
+      const auto &penalties = own.penalties;
+      levers.use_penalties({ augments ? penalties.normal : penalties.normal / softer, penalties.tangential / softer });
+      return repeated(levers, samples, start, settings);
+    }
+  } // namespace
+
+  Probes plane_probes(const Scene &scene, LeverModel &levers, const std::vector<Row> &rows, const QuasiStaticSettings &settings,
+                      const std::vector<StressSample> &stresses)
+  {
+    Probes result;
+    const auto times   = times_of(stresses);
+    const double start = rows.front()[Column::x];
+    result.run         = slide_samples(rows, samples_of_stroke, times);
+    Mesh mesh;
+    const Scene coarse = with_coarser_mesh(with_penalties(scene, levers.penalties(), 1.));
+    make_mesh(coarse, mesh);
+    LeverModel on_coarse(mesh, coarse);
+    StressComparison stress(on_coarse, stresses);
+    result.coarse =
+        repeated(on_coarse, result.run, start, settings, [&](const State &state, const Row &row) { stress.look_at(state, row); });
+    result.stress = stress.changes();
+    result.pressure_with_stress =
+        result.stress ? relative_change("largest_pressure", rows_at(times, result.run), rows_at(times, result.coarse)) : 0.;
+    result.soft = with_softer_penalty(scene, levers, result.run, start, settings);
+    return result;
+  }
+
+  Probes solid_probes(const Scene &scene, SolidLever &lever, const std::vector<Row> &rows, const QuasiStaticSettings &settings)
+  {
+    Probes result;
+    const double start = rows.front()[Column::x];
+    result.run         = slide_samples(rows, samples_of_stroke);
+    Mesh mesh;
+    const Scene coarse = with_coarser_mesh(with_penalties(scene, lever.penalties(), 1.));
+    make_mesh(coarse, mesh);
+    const SolidBody body(coarse, mesh, MPI_COMM_SELF);
+    SolidLever on_coarse(body, coarse);
+    result.coarse = repeated(on_coarse, result.run, start, settings);
+    result.soft   = with_softer_penalty(scene, lever, result.run, start, settings);
+    return result;
+  }
+} // namespace sprag

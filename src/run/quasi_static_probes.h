@@ -1,0 +1,27 @@
+#pragma once
+
+#include "analysis/statics/quasi_static.h"
+#include "fe/solid/solid_lever.h"
+#include "fe/statics/lever_model.h"
+#include "run/stress_comparison.h"
+
+namespace sprag
+{
+  /// Some states of a run in full sliding, and what other models make of them in single steps from one to the next.
+  struct Probes
+  {
+    std::vector<Row> run;
+    std::vector<Row> coarse; ///< on a mesh of twice the Mesh/Face size with the same penalty, in space of twice the width too
+    std::vector<Row> soft;   ///< on the run's mesh with a third of the penalty; empty where the run augments and has the
+                             ///< automatic tangential one
+    std::optional<StressChanges> stress{}; ///< on the coarser mesh
+    double pressure_with_stress = 0.;      ///< change of the pressure there in the states whose stress is known
+  };
+
+  /// `levers` is the run's model; it is left with its own penalties. `stresses` are those of the run.
+  Probes plane_probes(const Scene &scene, LeverModel &levers, const std::vector<Row> &rows, const QuasiStaticSettings &settings,
+                      const std::vector<StressSample> &stresses);
+
+  /// The same of a lever in three dimensions, without stresses. The first rank makes the coarser one alone.
+  Probes solid_probes(const Scene &scene, SolidLever &lever, const std::vector<Row> &rows, const QuasiStaticSettings &settings);
+} // namespace sprag
