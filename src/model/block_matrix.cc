@@ -87,12 +87,13 @@ namespace sprag
 
   } // namespace
 
-  BlockMatrix::BlockMatrix(const PortCompliance &compliance, const std::vector<unsigned int> &ports,
-                           const FullMatrix<double> &tangent)
+  template <class Number>
+  BlockMatrix<Number>::BlockMatrix(const PortCompliance &compliance, const std::vector<unsigned int> &ports,
+                                   const FullMatrix<double> &tangent)
   {
     for (const auto &block : compliance.blocks())
       if (const auto places = block.places_among(ports); places.first < places.second)
-        blocks.push_back({ places, block, LAPACKFullMatrix<double>(places.second - places.first), LAPACKFullMatrix<double>() });
+        blocks.push_back({ places, block, LAPACKFullMatrix<Number>(places.second - places.first), LAPACKFullMatrix<Number>() });
     find_columns(tangent);
     for (auto &block : blocks)
       factorise(ports, tangent, block);
@@ -105,11 +106,12 @@ namespace sprag
     of_columns.compute_lu_factorization();
   }
 
-  void BlockMatrix::solve(Vector<double> &values) const
+  template <class Number>
+  void BlockMatrix<Number>::solve(Vector<double> &values) const
   {
     for (const auto &[places, of_ports, matrix, answers] : blocks)
     {
-      Vector<double> of_block(values.begin() + places.first, values.begin() + places.second);
+      Vector<Number> of_block(values.begin() + places.first, values.begin() + places.second);
       matrix.solve(of_block);
       std::copy(of_block.begin(), of_block.end(), values.begin() + places.first);
     }
@@ -125,7 +127,8 @@ namespace sprag
           values[i] -= answers(i - places.first, k) * of_others[k];
   }
 
-  double BlockMatrix::determinant() const
+  template <class Number>
+  double BlockMatrix<Number>::determinant() const
   {
     double result = columns.empty() ? 1. : of_columns.determinant();
     for (const auto &block : blocks)
@@ -133,7 +136,8 @@ namespace sprag
     return result;
   }
 
-  void BlockMatrix::find_columns(const FullMatrix<double> &tangent)
+  template <class Number>
+  void BlockMatrix<Number>::find_columns(const FullMatrix<double> &tangent)
   {
     const auto n = static_cast<unsigned int>(tangent.n());
     std::vector<char> counts(n, 0);
@@ -151,7 +155,9 @@ namespace sprag
         columns.push_back(column);
   }
 
-  void BlockMatrix::factorise(const std::vector<unsigned int> &ports, const FullMatrix<double> &tangent, Block &block) const
+  template <class Number>
+  void BlockMatrix<Number>::factorise(const std::vector<unsigned int> &ports, const FullMatrix<double> &tangent,
+                                      Block &block) const
   {
     const auto [first, last] = block.places;
     const auto &of           = block.of_ports;
@@ -169,7 +175,7 @@ namespace sprag
       loaded.mmult(product, of_block);
       for (unsigned int i = 0; i < n; ++i)
         for (unsigned int j = 0; j < n; ++j)
-          block.matrix(i, j) = (i == j ? 1. : 0.) - product(i, j);
+          block.matrix(i, j) = static_cast<Number>((i == j ? 1. : 0.) - product(i, j));
     }
     else
       subtract_sparse_product(loaded, of_block,
@@ -184,15 +190,19 @@ namespace sprag
         for (unsigned int a = 0; a < n; ++a)
           if (const double force = tangent(first + a, columns[k]); force != 0.)
             for (unsigned int i = 0; i < n; ++i)
-              block.answers(i, k) -= loaded(a, i) * force; // G is symmetric
+              block.answers(i, k) -= static_cast<Number>(loaded(a, i) * force); // G is symmetric
     block.matrix.solve(block.answers);
   }
 
   /// Of D^-1 E.
-  double BlockMatrix::answer(const unsigned int row, const unsigned int k) const
+  template <class Number>
+  double BlockMatrix<Number>::answer(const unsigned int row, const unsigned int k) const
   {
     const auto block =
         std::find_if(blocks.begin(), blocks.end(), [&](const auto &candidate) { return holds(candidate.places, row); });
     return block->answers(row - block->places.first, k);
   }
+
+  template class BlockMatrix<double>;
+  template class BlockMatrix<float>;
 } // namespace sprag

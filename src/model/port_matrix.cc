@@ -27,8 +27,9 @@ namespace sprag
     }
   } // namespace
 
-  PortMatrix::PortMatrix(const PortCompliance &compliance, const std::vector<unsigned int> &ports,
-                         const FullMatrix<double> &tangent)
+  template <class Number>
+  PortMatrix<Number>::PortMatrix(const PortCompliance &compliance, const std::vector<unsigned int> &ports,
+                                 const FullMatrix<double> &tangent)
   {
     for (const auto &block : compliance.blocks())
     {
@@ -42,8 +43,9 @@ namespace sprag
       make_border(compliance, ports, tangent);
   }
 
-  void PortMatrix::make_border(const PortCompliance &compliance, const std::vector<unsigned int> &ports,
-                               const FullMatrix<double> &tangent)
+  template <class Number>
+  void PortMatrix<Number>::make_border(const PortCompliance &compliance, const std::vector<unsigned int> &ports,
+                                       const FullMatrix<double> &tangent)
   {
     const auto n = static_cast<unsigned int>(border.size()), n_inner = static_cast<unsigned int>(inner.size());
     const auto inner_ports = some_of(ports, inner);
@@ -76,7 +78,8 @@ namespace sprag
     of_border.compute_lu_factorization();
   }
 
-  void PortMatrix::solve(Vector<double> &values) const
+  template <class Number>
+  void PortMatrix<Number>::solve(Vector<double> &values) const
   {
     const auto n = static_cast<unsigned int>(border.size()), n_inner = static_cast<unsigned int>(inner.size());
     Vector<double> of_inside(n_inner), of_edge(n);
@@ -102,8 +105,12 @@ namespace sprag
       values[border[b]] = of_edge[b];
   }
 
-  double PortMatrix::determinant() const
+  template <class Number>
+  double PortMatrix<Number>::determinant() const
   {
     return (of_inner ? of_inner->determinant() : 1.) * (border.empty() ? 1. : of_border.determinant());
   }
+
+  template class PortMatrix<double>;
+  template class PortMatrix<float>;
 } // namespace sprag

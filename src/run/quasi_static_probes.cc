@@ -11,7 +11,7 @@ namespace sprag
 {
   namespace
   {
-    constexpr unsigned int samples_of_stroke = 6;
+    constexpr unsigned int samples_of_stroke = 6, samples_in_space = 3;
 
     std::vector<Row> rows_at(const std::vector<double> &times, const std::vector<Row> &rows)
     {
@@ -75,7 +75,7 @@ namespace sprag
   {
     Probes result;
     const double start = rows.front()[Column::x];
-    result.run         = slide_samples(rows, samples_of_stroke);
+    result.run         = slide_samples(rows, samples_in_space);
     Mesh mesh;
     const Scene coarse = with_coarser_mesh(with_penalties(scene, lever.penalties(), 1.));
     make_mesh(coarse, mesh);
