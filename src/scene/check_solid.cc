@@ -1,6 +1,7 @@
 #include "scene/check_parts.h"
 
 #include "base/text.h"
+#include "scene/analysis_use.h"
 
 #include <cmath>
 
@@ -14,9 +15,6 @@ namespace sprag
       need(scene.analysis.model == ModelType::condensed, "Analysis/Model", "condensed with inertia");
       need(scene.lever.tip_mass == 0., "Lever/Tip mass", "0");
       need(scene.spring.type == SpringType::torsional, "Rotational spring/Type", "torsional");
-      const bool is_judged = scene.analysis.type == AnalysisType::stability;
-      need(!is_judged || scene.stability.critical == "none", "Stability/Critical", "none");
-      need(!is_judged || !scene.stability.roles, "Stability/Roles", "off");
     }
 
     void what_there_is(const Scene &scene, Rules &rules)
@@ -27,8 +25,9 @@ namespace sprag
       const auto &analysis = scene.analysis;
       const auto type      = analysis.type == AnalysisType::study ? scene.study.type : analysis.type;
       const bool is_static = type == AnalysisType::quasi_static;
-      need(is_static || type == AnalysisType::modal || type == AnalysisType::stability || type == AnalysisType::transient,
-           analysis.type == AnalysisType::study ? "Study/Type" : "Analysis/Type", "quasi-static, modal, stability or transient");
+      need(is_static || holds_slide(type) || type == AnalysisType::transient,
+           analysis.type == AnalysisType::study ? "Study/Type" : "Analysis/Type",
+           "quasi-static, modal, stability, sprag-slip, map or transient");
       if (is_static)
         need(analysis.model == ModelType::finite_element, "Analysis/Model", "finite element without inertia");
       else

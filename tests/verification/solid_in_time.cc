@@ -4,6 +4,7 @@
 #include "run_scene.h"
 #include "scene/held_slide.h"
 #include "scenes.h"
+#include "verification/held_slides.h"
 
 #include <algorithm>
 #include <gtest/gtest.h>
@@ -78,12 +79,19 @@ TEST(SolidInTime, AHeldSlideIsThatOfThePlane)
 }
 
 // Without contact, the first steps of a run in time are those of the plane; so is P as the lever is driven on.
-TEST(SolidInTime, ARunInTimeIsThatOfThePlane)
+class SolidRunInTime : public testing::TestWithParam<double>
 {
-  const auto P_of = [](const unsigned int dimension)
+};
+
+INSTANTIATE_TEST_SUITE_P(From, SolidRunInTime, testing::Values(0., 20.));
+
+TEST_P(SolidRunInTime, IsThatOfThePlane)
+{
+  const double start = GetParam();
+  const auto P_of    = [start](const unsigned int dimension)
   {
     Scene scene = held_model_a(dimension, AnalysisType::transient);
-    scene.drive = Drive(DriveProfile::triangle, 20., 24., 112., 0.5);
+    scene.drive = Drive(DriveProfile::triangle, start, start + 4., 112., 0.5);
     DynamicsMaker maker(false);
     const auto dynamics = maker.make(scene);
     auto motion         = dynamics.model().initial_motion(scene.drive.at(0.));
@@ -105,8 +113,28 @@ TEST(SolidInTime, ARunInTimeIsThatOfThePlane)
   };
   const auto plane = P_of(2), solid = P_of(3);
   ASSERT_EQ(plane.size(), solid.size());
+  const double largest = *std::max_element(plane.begin(), plane.end());
+  EXPECT_GT(largest, 0.5);
   for (std::size_t i = 0; i < plane.size(); ++i)
-    EXPECT_NEAR(solid[i], plane[i], 1e-4 * plane[i]) << i;
+    EXPECT_NEAR(solid[i], plane[i], 1e-4 * largest) << i;
+}
+
+// What is perturbed grows in time as the eigenvalue says, within what steps and a contact that is not linear leave, see Growth.
+TEST(SolidInTime, AVibrationGrowsAsItsEigenvalueSays)
+{
+  Scene scene              = held_model_a(3);
+  scene.lever.depth        = 6.;
+  scene.cylinder.tilt      = 1e-4;
+  scene.stability.position = 65.;
+  scene.analysis.type      = AnalysisType::sprag_slip;
+  const JudgedSlide judged(scene);
+  ASSERT_EQ(judged.stability.kind, SlideKind::flutter);
+  HeldRun run(judged.dynamics.model(), judged.step());
+  const auto growth = measure_growth(judged.dynamics.model(), judged.stability, scene.sprag_slip, run, [](const Row &) {});
+  EXPECT_TRUE(growth.reached);
+  EXPECT_TRUE(growth.slid);
+  EXPECT_NEAR(growth.growth_difference(), 0., 0.003);
+  EXPECT_NEAR(growth.frequency_difference(), 0., 0.0005);
 }
 
 // A drive that stands still slides the way that the sign of its speed says.

@@ -27,7 +27,7 @@ namespace sprag
     {
       constexpr double over_radius = 0.1;
       const double room            = over_radius * scene.geometry.cylinder_radius + 4. * scene.layer.thickness;
-      if (!holds_slide(scene.analysis.type))
+      if (!holds_slide(scene.analysis.type) || scene.analysis.type == AnalysisType::sprag_slip) // whose vibration wanders
       {
         const auto [first, last] = swept_contact(scene);
         return window_of(face, first - room, last + room);

@@ -58,7 +58,8 @@ namespace sprag
 
   void SurfaceContact::evaluate(const PortStep &of, const FrictionLaw &friction, SurfaceEvaluation &found)
   {
-    if (begin_x != of.from.x || begin_ports != of.begin.position)
+    const bool is_first = begin_ports.size() != of.begin.position.size();
+    if (is_first || begin_x != of.from.x || begin_ports != of.begin.position)
       begin_step({ of.begin.position, of.from.x });
     StepContactLaw law;
     law.normal     = { properties.penalties.normal, 1. };
