@@ -124,7 +124,7 @@ namespace sprag
     const double theta   = properties.spring.rest + turn(trial);
     const double travel =
         properties.centre(x, theta).xi - properties.centre(begin_x, properties.spring.rest + begin[ports.rotation()]).xi;
-    return united(begin_forces.ports, contact.reachable_ports(x, theta, std::abs(travel)));
+    return united(begin_forces.ports, contact.reachable_ports(x, theta, travel));
   }
 
   Unbalance SolidLever::evaluate(State &trial, const FrictionMode mode)

@@ -279,9 +279,10 @@ namespace sprag
   {
     constexpr double over_radius = 0.05;
     constexpr double infinity    = std::numeric_limits<double>::max();
-    const double distance        = reach_factor * over_radius * properties.radius + travel;
-    const double xi              = properties.centre(x, theta).xi;
-    auto now = patches.patches_in({ { { xi - distance, -infinity, -infinity }, { xi + distance, infinity, infinity } } });
+    const double aside           = reach_factor * over_radius * properties.radius;
+    const double end             = properties.centre(x, theta).xi;
+    const auto [first, last]     = std::minmax({ end, end - travel });
+    auto now = patches.patches_in({ { { first - aside, -infinity, -infinity }, { last + aside, infinity, infinity } } });
     if (reachable.empty() || now != reached)
     {
       reached   = std::move(now);
