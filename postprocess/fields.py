@@ -5,12 +5,14 @@ import sys
 
 import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
-from matplotlib.colors import LogNorm, Normalize
 
 from arguments import add_folders, add_output, parser_of, picture_paths, save
 from frames import PARTS, WAYS, chosen_frame, number, pose, read_frame, rest_inclination
 from results import NotAResult, read_result, script
+from shades import COLOUR_MAP, RIGID, is_logarithmic, mappable_of, norm_of, rounded, size_of
+from solid_fields import solid_fields
 from style import COLOURS, MILLIMETRE, TWO_COLUMNS, plt, use_print_style
+from surface import is_solid
 
 # What each choice of --part shows in colour.
 CHOICES = {
@@ -20,8 +22,6 @@ CHOICES = {
     "cylinder": ("cylinder",),
     "leaf": ("leaf",),
 }
-COLOUR_MAP = "viridis"
-RIGID = "0.85"
 PANEL = 136 * MILLIMETRE  # width of the panels
 GRID = {"edgecolor": "white", "linewidth": 0.12, "alpha": 0.5, "zorder": 3}
 EDGE = {"edgecolor": "0.3", "linewidth": 0.5}
@@ -56,18 +56,6 @@ class Scenery:
 
 
 # The apparatus as a whole
-
-
-def rounded(value):
-    """Down to 1, 2 or 5 times a power of ten, at least 1."""
-    if not np.isfinite(value) or value <= 1:
-        return 1.0
-    power = 10.0 ** np.floor(np.log10(value))
-    return power * max(step for step in (1, 2, 5) if step <= value / power * (1 + 1e-9))
-
-
-def size_of(points):
-    return np.linalg.norm(points, axis=-1).max() if len(points) else 0.0
 
 
 def automatic_magnification(scenery):
@@ -108,22 +96,6 @@ def large_cells(body, span, share=0.005):
 
 def each_by_itself(bodies, scenery):
     return [body.stress[body.part == name] for body, _ in bodies for name in scenery.coloured if (body.part == name).any()]
-
-
-def norm_of(shown, parts=()):
-    """Up to the stress that a thousandth of the nodes exceeds; logarithmic where the parts' own peaks lie far apart."""
-    values = np.concatenate(shown) if shown else np.empty(0)
-    top = np.quantile(values, 0.999) if len(values) else 0.0
-    if not top > 0:
-        return Normalize(0, 1)
-    peaks = [np.quantile(part, 0.99) for part in parts]
-    if peaks and min(peaks) < 0.03 * max(peaks):
-        return LogNorm(1e-3 * top, top, clip=True)
-    return Normalize(0, top, clip=True)
-
-
-def mappable_of(norm):
-    return plt.cm.ScalarMappable(norm, COLOUR_MAP)
 
 
 def draw_stress(axes, body, points, coloured, norm):
@@ -315,6 +287,8 @@ def caption(scenery, magnify, window):
 
 def fields(result, x=None, way=None, magnify=None, part="all", magnify_contact=None):
     """The frame nearest to x. Throws NotAResult where there is none near, or no such part in it."""
+    if is_solid(result):
+        return solid_fields(result, x, way, magnify)
     scenery = Scenery(result, chosen_frame(result, x, way), part)
     check_part(scenery)
     magnify = magnify or automatic_magnification(scenery)
@@ -334,10 +308,6 @@ def fields(result, x=None, way=None, magnify=None, part="all", magnify_contact=N
     for axes, letter, text in zip((whole, zoom, below), "abc", (*panels, "pressure and friction traction on the lever")):
         axes.set_title(f"({letter}) {text}", loc="left", fontsize=8)
     return figure
-
-
-def is_logarithmic(mappable):
-    return isinstance(mappable.norm, LogNorm)
 
 
 def shape_of(axes):

@@ -63,13 +63,14 @@ namespace sprag
     }
     const PhaseTimer::Scope scope(time, "model");
     Dynamics result;
-    result.solid                    = solid.second;
-    result.reduced                  = make_solid_dynamics(scene, *result.solid, contact_reference(scene).relaxation);
-    const auto &modes               = result.solid->modes;
-    result.meshed.density_factor    = modes.density_factor;
-    result.meshed.lever_mass        = modes.total_mass;
-    result.meshed.moment_of_inertia = modes.moment_of_inertia;
-    result.meshed.n_coordinates     = static_cast<unsigned int>(modes.stiffness.size());
+    result.solid                       = solid.second;
+    result.reduced                     = make_solid_dynamics(scene, *result.solid, contact_reference(scene).relaxation);
+    const auto &modes                  = result.solid->modes;
+    result.meshed.elastic_displacement = solid_displacement(scene, *result.solid);
+    result.meshed.density_factor       = modes.density_factor;
+    result.meshed.lever_mass           = modes.total_mass;
+    result.meshed.moment_of_inertia    = modes.moment_of_inertia;
+    result.meshed.n_coordinates        = static_cast<unsigned int>(modes.stiffness.size());
     return result;
   }
 

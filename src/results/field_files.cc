@@ -32,16 +32,6 @@ namespace sprag
         "    <Grid Name=\"frames\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
     const std::string closing = "    </Grid>\n  </Domain>\n</Xdmf>\n";
 
-    /// Two numbers a node become the three that ParaView's vectors and points have.
-    std::vector<double> in_space(const std::vector<double> &plane)
-    {
-      std::vector<double> result;
-      result.reserve(plane.size() / 2 * 3);
-      for (std::size_t i = 0; i + 1 < plane.size(); i += 2)
-        result.insert(result.end(), { plane[i], plane[i + 1], 0. });
-      return result;
-    }
-
     void write_field(const hdf5::Handle &group, const Field &field)
     {
       describe(hdf5::write_rows(group, field.name, field.values, field.components), field.unit, field.description);
@@ -66,6 +56,13 @@ namespace sprag
       return "        <Attribute Name=\"" + shown_name(field.name, field.unit) + "\" AttributeType=\"" + type +
              "\" Center=\"Node\">" + item(group + "/" + field.name, n_nodes, field.components, "Float", 4) +
              "        </Attribute>\n";
+    }
+
+    std::string topology(const unsigned int nodes_per_cell)
+    {
+      if (nodes_per_cell == 2)
+        return "Polyline\" NodesPerElement=\"2";
+      return nodes_per_cell == 4 ? "Quadrilateral" : "Hexahedron";
     }
 
     std::string number(const double value)
@@ -141,14 +138,14 @@ namespace sprag
   {
     std::size_t bytes = overhead;
     for (const auto &[path, mesh, grids] : indices)
-      bytes += 3 * 8 * mesh.nodes.size() + 8 * mesh.cells.size() + bytes_of(mesh.fixed);
+      bytes += 8 * mesh.nodes.size() + 8 * mesh.cells.size() + bytes_of(mesh.fixed);
     require_space(folder + "/" + mesh_file(), bytes);
     auto file = hdf5::create_file(folder + "/" + mesh_file());
     for (const auto &[path, mesh, grids] : indices)
     {
       const auto group = hdf5::create_group(file, mesh.name);
-      describe(hdf5::write_rows(group, "nodes", in_space(mesh.nodes), 3), "mm",
-               "positions at rest: x along the cylinder's path towards the pivot, y up");
+      describe(hdf5::write_rows(group, "nodes", mesh.nodes, 3), "mm",
+               "positions at rest: x along the cylinder's path towards the pivot, y up, z across");
       hdf5::write_rows(group, "cells", mesh.cells, mesh.nodes_per_cell);
       for (const auto &field : mesh.fixed)
         write_field(group, field);
@@ -205,7 +202,7 @@ namespace sprag
     const auto &mesh              = index.mesh;
     const std::size_t n_cells     = mesh.cells.size() / mesh.nodes_per_cell;
     const std::string of_mesh     = mesh_file() + ":/" + mesh.name;
-    const std::string element_set = mesh.nodes_per_cell == 2 ? "Polyline\" NodesPerElement=\"2" : "Quadrilateral";
+    const std::string element_set = topology(mesh.nodes_per_cell);
     std::string text = "      <Grid Name=\"" + mesh.name + "\" GridType=\"Uniform\">\n        <Time Value=\"" + number(time) +
                        "\"/>\n        <Topology TopologyType=\"" + element_set + "\" NumberOfElements=\"" +
                        std::to_string(n_cells) + "\">" + item(of_mesh + "/cells", n_cells, mesh.nodes_per_cell, "UInt", 4) +

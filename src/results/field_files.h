@@ -18,18 +18,18 @@ namespace sprag
     std::vector<float> values;
   };
 
-  /// Cells of one kind in the plane.
+  /// Cells of one kind.
   struct FieldMesh
   {
     std::string name;                ///< of its index: `name`.xdmf
-    std::vector<double> nodes;       ///< x and y of each [mm]
+    std::vector<double> nodes;       ///< x, y and z of each [mm]
     std::vector<unsigned int> cells; ///< numbers of the nodes of each
-    unsigned int nodes_per_cell = 4; ///< 2: lines, 4: quadrilaterals
+    unsigned int nodes_per_cell = 4; ///< 2: lines, 4: quadrilaterals, 8: hexahedra
     std::vector<Field> fixed;        ///< the same in every frame
 
     std::size_t n_nodes() const
     {
-      return nodes.size() / 2;
+      return nodes.size() / 3;
     }
   };
 

@@ -46,18 +46,18 @@ namespace sprag
     }
   } // namespace
 
-  FieldRecorder::FieldRecorder(const Scene &of_scene, const Body &body, Displacements of_source,
+  FieldRecorder::FieldRecorder(const Scene &of_scene, BodyFields of_body, Displacements of_source,
                                const std::optional<std::string> &folder, PhaseTimer &of_run, const bool goes_on)
       : scene(of_scene)
       , timer(of_run)
-      , fields(body)
+      , fields(std::move(of_body))
       , displacements(std::move(of_source))
       , peaks(fields)
       , hub_section(section_at_hub(fields))
       , last_x(scene.drive.at(0.).x)
   {
     if (folder)
-      frames.emplace(scene, body, *folder, goes_on);
+      frames.emplace(scene, fields, *folder, goes_on);
   }
 
   bool FieldRecorder::record(const Row &row, const FaceState &face, const std::function<FieldSource()> &source)
@@ -135,18 +135,18 @@ namespace sprag
   void FieldRecorder::find(const Kept &kept, const bool frame)
   {
     const PhaseTimer::Scope scope(timer, "fields");
-    const auto found = displacements(kept.source);
+    DeviceState state{ kept.row[Column::time], pose_of(kept.row), displacements(kept.source), {}, kept.face };
     StressSample sample;
-    for (unsigned int lever = 0; lever < found.size(); ++lever)
+    for (unsigned int lever = 0; lever < state.displacements.size(); ++lever)
     {
-      const auto nodal = fields.at(found[lever]);
-      peaks.look_at(nodal, kept.row[Column::x], kept.direction, lever);
-      look_at(fields, nodal, kept.row, sample);
+      state.nodal.push_back(fields.at(state.displacements[lever]));
+      peaks.look_at(state.nodal[lever], kept.row[Column::x], kept.direction, lever);
+      look_at(fields, state.nodal[lever], kept.row, sample);
     }
     samples.push_back(sample);
     if (!frame)
       return;
-    frames->write({ kept.row[Column::time], pose_of(kept.row), found, kept.face });
+    frames->write(state);
     written.push_back(kept.row[Column::time]);
   }
 

@@ -35,9 +35,9 @@ namespace sprag
     /// Finds the elastic displacements of the body, one for each lever, in lever axes.
     using Displacements = std::function<std::vector<dealii::Vector<double>>(const FieldSource &)>;
 
-    /// Scene and body must outlive the object. Without a folder it finds peaks alone. A run that goes on has its first frames in
-    /// the folder already.
-    FieldRecorder(const Scene &scene, const Body &body, Displacements displacements, const std::optional<std::string> &folder,
+    /// The scene must outlive the object. Without a folder it finds peaks alone. A run that goes on has its first frames in the
+    /// folder already.
+    FieldRecorder(const Scene &scene, BodyFields fields, Displacements displacements, const std::optional<std::string> &folder,
                   PhaseTimer &timer, bool goes_on = false);
 
     /// Looks at an accepted step and returns whether it was written as a frame. `source` makes what its fields follow from.

@@ -51,8 +51,8 @@ namespace sprag
       const auto displacements = [&levers](const FieldSource &source) {
         return levers.body_displacements({ {}, source.coordinates, {}, source.forces });
       };
-      FieldRecorder fields(scene, levers.elastic_body(), displacements, has_frames ? std::optional(options.folder) : std::nullopt,
-                           timer, checkpoint.resumes());
+      FieldRecorder fields(scene, BodyFields(levers.elastic_body()), displacements,
+                           has_frames ? std::optional(options.folder) : std::nullopt, timer, checkpoint.resumes());
       checkpoint.add_part([&](Archive &archive) { fields.visit_progress(archive); });
 
       const auto write = [&](const State &state, const Row &row)

@@ -2,6 +2,7 @@
 #include "fe/solid/solid_lever.h"
 #include "model/state_archive.h"
 #include "run/analyses.h"
+#include "run/field_recorder.h"
 #include "run/in_memory.h"
 #include "run/quasi_static_accuracy.h"
 #include "run/recorder.h"
@@ -92,11 +93,25 @@ namespace sprag
         print_model(scene, body, lever);
       Samples samples(path_length(scene.drive));
       checkpoint.add_part([&](Archive &archive) { visit(archive, samples); });
+      const bool has_frames    = scene.output.fields != FieldOutput::none;
+      const auto displacements = [&lever](const FieldSource &source) {
+        return std::vector<dealii::Vector<double>>{ lever.body_displacement({ {}, source.coordinates, {}, source.forces }) };
+      };
+      std::optional<FieldRecorder> fields;
+      timed(timer, "fields",
+            [&]
+            {
+              fields.emplace(scene, BodyFields(body), displacements, has_frames ? std::optional(options.folder) : std::nullopt,
+                             timer, checkpoint.resumes());
+            });
+      checkpoint.add_part([&](Archive &archive) { fields->visit_progress(archive); });
       const auto write = [&](const State &state, const Row &row)
       {
         const PhaseTimer::Scope scope(timer, "output");
+        const auto face = lever.face_state(state);
         recorder.record(row);
-        recorder.record(lever.face_state(state));
+        recorder.record(face);
+        fields->record(row, face, [&] { return FieldSource{ state.coordinates, state.forces, {} }; });
         samples.look_at(lever, state);
       };
       const auto hand_on = [&](const State &state, const Row &row) { checkpoint.hand_on([&] { write(state, row); }); };
@@ -112,6 +127,7 @@ namespace sprag
           [&](const std::string &status)
           {
             auto meta = model_entries(scene, body, lever);
+            recorder.set_stress(fields->finish());
             timed(timer, "exactness", [&] { meta = joined(meta, samples.entries(lever)); });
             if (status == "completed" && estimates_errors(options))
             {

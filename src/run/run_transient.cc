@@ -115,7 +115,7 @@ namespace sprag
     std::optional<FieldRecorder> fields;
     if (body != nullptr && scene.output.fields != FieldOutput::none)
     {
-      fields.emplace(scene, *body, recovery(dynamics.meshed, number_of_levers(scene)), options.folder, timer,
+      fields.emplace(scene, BodyFields(*body), recovery(dynamics.meshed, number_of_levers(scene)), options.folder, timer,
                      checkpoint.resumes());
       checkpoint.add_part([&](Archive &archive) { fields->visit_progress(archive); });
     }

@@ -76,12 +76,13 @@ namespace sprag
     void write_fields(const Scene &scene, const Dynamics &dynamics, const DevicePose &held, const std::vector<Eigenmode> &modes,
                       const RunOptions &options)
     {
-      if (!dynamics.lever || scene.output.fields == FieldOutput::none)
+      const bool is_meshed = dynamics.lever || dynamics.solid;
+      if (!is_meshed || scene.output.fields == FieldOutput::none)
         return;
       prepare_folder(scene, options);
       remove_field_files(options.folder);
-      const BodyFields fields(*dynamics.lever->body);
-      unsigned int number = 0;
+      const BodyFields fields = dynamics.solid ? BodyFields(*dynamics.solid->body) : BodyFields(*dynamics.lever->body);
+      unsigned int number     = 0;
       for (const auto &mode : modes)
       {
         const auto lambda = mode.mode.eigenvalue;

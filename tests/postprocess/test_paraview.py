@@ -17,6 +17,7 @@ SOURCE = Path(os.environ.get("SPRAG_SOURCE", Path(__file__).resolve().parents[2]
 SPRAG = os.environ.get("SPRAG", str(SOURCE / "build" / "sprag"))
 
 RADIUS, OFFSET, DISTANCE, STIFFNESS = 56.0, 45.6, 185.5, 7.4e4  # of model A
+WIDTH = 40.0  # of its lever
 THETA_0 = np.arcsin((RADIUS - OFFSET) / DISTANCE)
 DEFAULTS = ("Mesh/Face size=2", "Analysis/Step=5", "Drive/Stroke=40")
 RUNS = {
@@ -25,6 +26,11 @@ RUNS = {
     "pair": ("Mirrored pair/Type=full", "Rotational spring/Type=leaf", "Leaf spring/Thickness=1.3914"),
     "mode": ("Analysis/Type=stability", "Analysis/Model=condensed", "Condensed/Modes=8", "Condensed/Cache=cache", "Lever/Depth=6",
              "Stability/Position=40", "Stability/Direction=backward", "Stability/Modes=2", "Stability/Roles=off"),
+    "solid": ("Analysis/Dimension=3", "Mesh/Faces in contact=0", "Mesh/Elements across=3", "Cylinder/Tilt=1e-3", "Cylinder/Skew=2e-3",
+              "Cylinder/Length=30", "Cylinder/Position=4", "Output/Fields=interval"),
+    "half": ("Analysis/Dimension=3", "Mesh/Faces in contact=0", "Mesh/Elements across=2", "Drive/Cycles=0.5"),
+    "twist": ("Analysis/Dimension=3", "Mesh/Faces in contact=0", "Mesh/Elements across=2", "Analysis/Type=modal",
+              "Analysis/Model=condensed", "Condensed/Modes=8", "Stability/Position=40", "Stability/Modes=8"),
 }  # fmt: skip
 LEVER, LAYER, HUB, CYLINDER, LEAF = 1, 2, 3, 6, 7
 FIRST_READER, SECOND_READER = "XDMFReader", "Xdmf3ReaderS"  # both that ParaView offers for a file of this kind
@@ -77,6 +83,12 @@ def turned(points, pivot, theta, side=1):
         return np.array(((-np.cos(angle), side * np.sin(angle)), (np.sin(angle), side * np.cos(angle))))
 
     return pivot + (points - pivot) @ axes(THETA_0).T @ axes(theta)
+
+
+def from_axis(points, middle, axis):
+    """Distances along and across a cylinder's axis."""
+    along = (points - middle) @ axis
+    return along, np.linalg.norm(points - middle - along[:, None] * axis, axis=1)
 
 
 class ParaViewTest(unittest.TestCase):
@@ -210,6 +222,89 @@ class ParaViewTest(unittest.TestCase):
             np.testing.assert_allclose(
                 now[leaf][clamped], turned(seen.rest()[leaf][clamped], (DISTANCE, 0), row["theta"]), atol=1e-3
             )
+
+    def test_solid_lever_turns_on_its_pivot_before_a_cylinder_out_of_true(self):
+        seen = Seen(self.folder / "solid", "fields")
+        axis = np.array((2e-3, 1e-3, 1)) / np.linalg.norm((2e-3, 1e-3, 1))
+        for number, row in enumerate(self.rows("solid", seen)):
+            part, lever = seen.of(number, "part"), seen.of(number, "lever")
+            points, elastic = seen.of(number, "points"), seen.of(number, "elastic_displacement [mm]")
+            now = points + seen.of(number, "displacement [mm]")
+            body = lever == 1
+            self.assertEqual(set(part[body]), {LEVER, LAYER, HUB})
+            self.assertAlmostEqual(np.ptp(points[body, 2]), WIDTH)
+            rigid = np.column_stack((turned(points[body, :2], (DISTANCE, 0), row["theta"]), points[body, 2]))
+            np.testing.assert_allclose(now[body] - elastic[body], rigid, atol=1e-4)
+            self.assertLess(np.abs(elastic).max(), 0.5)
+            along, away = from_axis(now[~body], (row["x"], 0, 4), axis)
+            self.assertAlmostEqual(along.max(), 15, delta=1e-4)
+            self.assertAlmostEqual(along.min(), -15, delta=1e-4)
+            np.testing.assert_allclose(away[away > 1], RADIUS, atol=1e-4)
+
+    def test_solid_face_touches_the_cylinder_and_carries_its_forces(self):
+        seen = Seen(self.folder / "solid", "face")
+        file = self.result("solid")
+        axis = np.array((2e-3, 1e-3, 1)) / np.linalg.norm((2e-3, 1e-3, 1))
+        for number, row in enumerate(self.rows("solid", seen)):
+            pressure = seen.of(number, "pressure [MPa]")
+            written = file["face/pressure"][int(np.flatnonzero(file["face/time"][:] == row["time"])[0])]
+            np.testing.assert_allclose(pressure, written, rtol=1e-6)
+            np.testing.assert_allclose(seen.of(number, "zeta [mm]"), file["face/zeta"][:], atol=1e-5)
+            if not row["P"] > 1:
+                continue
+            now = seen.of(number, "points") + seen.of(number, "displacement [mm]")
+            along, away = from_axis(now, (row["x"], 0, 4), axis)
+            over = np.abs(along) < 15
+            # A point is the mean over half a millimetre, over which the circle falls by 1/2 (1/4)^2/56.
+            self.assertAlmostEqual((away - RADIUS)[over].min(), -row["penetration"], delta=6e-4)
+            self.assertLess((away - RADIUS)[pressure > 0].max(), 6e-4)
+            self.assertLess(np.abs(along[pressure > 0]).max(), 15.01)
+            force = file["face/weight"][:] @ seen.of(number, "traction [MPa]")
+            self.assertAlmostEqual(force[0], row["Q"], delta=2e-3 * abs(row["Q"]))
+            self.assertAlmostEqual(force[2], row["F_across"], delta=1e-4 * row["P"])
+
+    def test_half_that_is_solved_is_there_with_its_mirror_image(self):
+        for index, names in (("fields", ("displacement [mm]", "stress [MPa]", "von_mises_stress [MPa]")), ("face", ("displacement [mm]", "traction [MPa]"))):
+            seen = Seen(self.folder / "half", index)
+            first, second = np.array_split(np.flatnonzero(seen.of(0, "lever") == 1), 2)
+            mirror = np.array((1, 1, -1))
+            points = seen.of(0, "points")
+            np.testing.assert_allclose(points[second], points[first] * mirror, atol=1e-12)
+            self.assertGreater(points[first, 2].max(), 0.4 * WIDTH)
+            self.assertGreater(points[first, 2].min(), -1e-9)
+            for name in names:
+                values = seen.of(0, name)
+                signs = {1: 1, 3: mirror, 9: np.outer(mirror, mirror).ravel()}[1 if values.ndim == 1 else values.shape[1]]
+                self.assertGreater(np.abs(values[first]).max(), 1e-3, name)
+                np.testing.assert_allclose(values[second], values[first] * signs, atol=1e-6 * np.abs(values).max(), err_msg=name)
+            self.assertAlmostEqual(np.abs(seen.of(0, names[0])[first][:, 2]).max(), 0, delta=0.1)
+
+    def test_solid_stress_of_frames_is_the_peak_told(self):
+        summary = {name: value[()] for name, value in self.result("half")["summary"].items()}
+        seen = Seen(self.folder / "half", "fields")
+        stress = seen.of(len(seen.times) - 1, "von_mises_stress [MPa]")
+        part = seen.of(0, "part")
+        layer = max(seen.of(i, "von_mises_stress [MPa]")[part == LAYER].max() for i in range(len(seen.times)))
+        self.assertAlmostEqual(layer, summary["largest_layer_stress"], delta=1e-2 * layer)
+        s = seen.of(len(seen.times) - 1, "stress [MPa]").reshape(-1, 3, 3)
+        deviator = s - np.trace(s, axis1=1, axis2=2)[:, None, None] * np.eye(3) / 3
+        np.testing.assert_allclose(np.sqrt(1.5 * (deviator**2).sum(axis=(1, 2))), stress, rtol=1e-4, atol=1e-5)
+
+    def test_twisting_mode_turns_the_free_end_about_the_lever(self):
+        modes = {name: values[:] for name, values in self.result("twist")["modes"].items()}
+        number = int(modes["twisting"].argmax())
+        self.assertGreater(modes["twisting"][number], 0.8)
+        seen = Seen(self.folder / "twist", f"mode-{number + 1:02}")
+        np.testing.assert_allclose(seen.times, np.arange(1, 25) / (24 * modes["frequency"][number]), rtol=1e-9)
+        points, moved = seen.of(23, "points"), seen.of(23, "displacement [mm]")
+        body = seen.of(0, "lever") == 1
+        end = body & (points[:, 0] < points[body, 0].min() + 1)
+        arm = points[end] - points[end].mean(axis=0)
+        angle = np.polyfit(arm[:, 2], moved[end, 1], 1)[0]
+        np.testing.assert_allclose(moved[end, 1], angle * arm[:, 2], atol=0.05 * np.abs(moved[end]).max())
+        np.testing.assert_allclose(moved[end, 2], -angle * arm[:, 1] + moved[end, 2].mean(), atol=0.1 * np.abs(moved[end]).max())
+        self.assertGreater(abs(angle), 0.1)
+        np.testing.assert_allclose(seen.of(11, "displacement [mm]"), -moved, atol=1e-4)  # half a period later
 
     def test_mode_swings_for_one_period(self):
         modes = {name: values[:] for name, values in self.result("mode")["modes"].items()}

@@ -35,12 +35,14 @@ namespace
 
   FieldMesh square()
   {
-    return { "bodies", { 0., 0., 1., 0., 1., 1., 0., 1. }, { 0, 1, 2, 3 }, 4, { { "part", "1", "", 1, { 1, 1, 1, 1 } } } };
+    return {
+      "bodies", { 0., 0., 0., 1., 0., 0., 1., 1., 0., 0., 1., 0. }, { 0, 1, 2, 3 }, 4, { { "part", "1", "", 1, { 1, 1, 1, 1 } } }
+    };
   }
 
   FieldMesh line()
   {
-    return { "edge", { 0., 0., 1., 0. }, { 0, 1 }, 2, {} };
+    return { "edge", { 0., 0., 0., 1., 0., 0. }, { 0, 1 }, 2, {} };
   }
 
   std::vector<std::vector<Field>> values()

@@ -27,7 +27,7 @@ from runs import SOURCE, SPRAG, TIMEOUT, RunTest, sprag  # noqa: E402
 QUASI_STATIC = {"Mesh/Face size": "2", "Analysis/Step": "0.5", "Drive/Stroke": "30", "Output/Fields": "interval"}
 SOLID = {
     "Analysis/Dimension": "3", "Mesh/Face size": "4", "Mesh/Faces in contact": "0", "Mesh/Elements across": "2", "Cylinder/Tilt": "1e-4",
-    "Drive/Stroke": "20",
+    "Drive/Stroke": "20", "Output/Fields": "interval", "Output/Field interval": "4",
 }
 IN_TIME = {"Drive/Start": "63.5", "Mesh/Face size": "4", "Time/Tolerance": "1e-3", "Output/Fields": "interval", "Output/Field interval": "0.5"}
 REDUCED = {"Drive/Start": "62", "Time/Tolerance": "1e-6"}

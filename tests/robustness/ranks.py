@@ -27,10 +27,16 @@ def run(ranks, folder, changes):
     return subprocess.run(list(map(str, command)), capture_output=True, text=True, check=False, timeout=TIMEOUT, env=ALONE)
 
 
+def fields_of(path):
+    """Of one file, by group and name."""
+    with h5py.File(path) as file:
+        return {f"{group}/{name}": data[:] for group, of_group in file.items() for name, data in of_group.items()}
+
+
 @unittest.skipUnless(shutil.which("mpirun"), "needs mpirun")
 class Ranks(RunTest):
     def test_do_not_change_what_is_found(self):
-        tables = []
+        tables, fields = [], []
         for ranks in (1, 2):
             folder = self.folder / str(ranks)
             done = run(ranks, folder, SETTINGS)
@@ -38,10 +44,19 @@ class Ranks(RunTest):
             self.assertEqual(done.stdout.count("largest P"), 1, done.stdout)
             with h5py.File(folder / "result.h5") as file:
                 tables.append({name: file["table"][name][:] for name in ("P", "Q", "theta", "centre_across")})
+            fields.append({path.name: fields_of(path) for path in sorted(folder.glob("fields-*.h5"))})
+            fields[-1]["index"] = (folder / "fields.xdmf").read_text()
         for name, alone in tables[0].items():
             self.assertEqual(len(alone), len(tables[1][name]))
             apart = np.nanmax(np.abs(alone - tables[1][name])) / np.nanmax(np.abs(alone))
             self.assertLess(apart, 1e-8 if name != "centre_across" else 1e-5, name)
+        self.assertEqual(list(fields[0]), list(fields[1]))
+        self.assertEqual(fields[0].pop("index"), fields[1].pop("index"))
+        self.assertGreater(len(fields[0]), 2)
+        for name, alone in fields[0].items():
+            self.assertEqual(list(alone), list(fields[1][name]))
+            for data, values in alone.items():  # written in single precision
+                np.testing.assert_allclose(fields[1][name][data], values, rtol=0, atol=2e-6 * np.abs(values).max(initial=0), err_msg=data)
 
     def test_that_cannot_help_are_refused(self):
         done = run(2, self.output, {})

@@ -35,7 +35,7 @@ namespace
     const auto displacements = [&](const FieldSource &source) {
       return model.body_displacements({ {}, source.coordinates, {}, source.forces });
     };
-    FieldRecorder fields(scene, model.elastic_body(), displacements, std::nullopt, timer);
+    FieldRecorder fields(scene, BodyFields(model.elastic_body()), displacements, std::nullopt, timer);
     run_quasi_static(
         model, scene.drive, settings,
         [&](const State &state, const Row &row)

@@ -18,7 +18,10 @@ namespace sprag
 
   namespace
   {
-    bool touches_what_is_held(const ElasticBody<2> &body, const DoFHandler<2>::active_cell_iterator &cell)
+    constexpr unsigned int none = numbers::invalid_unsigned_int;
+
+    template <class AnyBody, class Cell>
+    bool touches_what_is_held(const AnyBody &body, const Cell &cell)
     {
       for (const unsigned int v : cell->vertex_indices())
         if (body.is_held(static_cast<unsigned int>(cell->vertex_dof_index(v, 0))))
@@ -26,30 +29,49 @@ namespace sprag
       return false;
     }
 
-    /// Where the dilatation is projected, so is the pressure [MPa]: at each point by itself it would swing within the cell.
-    void set_stress(const BodyProperties &properties, const ElasticConstants &constants, const Tensor<2, 2> &gradient,
-                    const std::optional<double> &pressure, NodalField &node)
+    /// The normal stress out of the plane [MPa].
+    double out_of_plane(const BodyProperties &properties, const ElasticConstants &constants, const Tensor<2, 2> &F,
+                        const SymmetricTensor<2, 2> &in_plane, const std::optional<double> &pressure)
     {
-      const Lame lame    = plane_constants(constants, properties.plane);
-      const bool linear  = properties.material == MaterialModel::linear;
-      const auto F       = Tensor<2, 2>(unit_symmetric_tensor<2>()) + gradient;
-      const double J     = linear ? 1. : determinant(F);
-      const auto at_node = pressure ? stress_at_pressure<2>(properties.material, lame.mu, gradient, *pressure)
-                                    : stress_of<2>(properties.material, lame, gradient);
-      node.stress        = symmetrize(linear ? at_node.piola : at_node.piola * transpose(F) / J);
+      const Lame lame   = plane_constants(constants, properties.plane);
+      const bool linear = properties.material == MaterialModel::linear;
+      const double J    = linear ? 1. : determinant(F);
       if (pressure)
-        node.out_of_plane = *pressure / J;
-      else if (properties.material == MaterialModel::neo_hookean)
-        node.out_of_plane = lame.lambda * std::log(J) / J;
-      else if (properties.plane == PlaneState::strain && linear)
-        node.out_of_plane = constants.poisson_ratio * trace(node.stress);
-      else if (properties.plane == PlaneState::strain)
-        node.out_of_plane = lame.lambda * (0.5 * (F.norm_square() - 2.)) / J; // by the trace of the strain
+        return *pressure / J;
+      if (properties.material == MaterialModel::neo_hookean)
+        return lame.lambda * std::log(J) / J;
+      if (properties.plane == PlaneState::stress)
+        return 0.;
+      if (linear)
+        return constants.poisson_ratio * trace(in_plane);
+      return lame.lambda * (0.5 * (F.norm_square() - 2.)) / J; // by the trace of the strain
     }
-    /// Values at places from those at points, by the polynomial through them: a row for each place.
-    FullMatrix<double> extrapolation(const QGauss<1> &points, const Quadrature<2> &places)
+
+    /// Where the dilatation is projected, so is the pressure [MPa]: at each point by itself it would swing within the element.
+    template <int dim>
+    SymmetricTensor<2, 3> stress_at(const BodyProperties &properties, const ElasticConstants &constants,
+                                    const Tensor<2, dim> &gradient, const std::optional<double> &pressure)
     {
-      const FE_DGQArbitraryNodes<2> polynomial(points);
+      const Lame lame   = plane_constants(constants, properties.plane);
+      const bool linear = properties.material == MaterialModel::linear;
+      const auto F      = Tensor<2, dim>(unit_symmetric_tensor<dim>()) + gradient;
+      const auto at     = pressure ? stress_at_pressure<dim>(properties.material, lame.mu, gradient, *pressure)
+                                   : stress_of<dim>(properties.material, lame, gradient);
+      const auto cauchy = symmetrize(linear ? at.piola : at.piola * transpose(F) / determinant(F));
+      SymmetricTensor<2, 3> result;
+      for (unsigned int i = 0; i < dim; ++i)
+        for (unsigned int j = i; j < dim; ++j)
+          result[i][j] = cauchy[i][j];
+      if constexpr (dim == 2)
+        result[2][2] = out_of_plane(properties, constants, F, cauchy, pressure);
+      return result;
+    }
+
+    /// Values at places from those at points, by the polynomial through them: a row for each place.
+    template <int dim>
+    FullMatrix<double> extrapolation(const QGauss<1> &points, const Quadrature<dim> &places)
+    {
+      const FE_DGQArbitraryNodes<dim> polynomial(points);
       FullMatrix<double> result(places.size(), polynomial.n_dofs_per_cell());
       for (unsigned int i = 0; i < result.m(); ++i)
         for (unsigned int j = 0; j < result.n(); ++j)
@@ -57,124 +79,182 @@ namespace sprag
       return result;
     }
 
-    /// Local degrees of freedom of the first displacement at places where the element has its nodes.
-    std::vector<unsigned int> dofs_at(const FiniteElement<2> &fe, const Quadrature<2> &places)
+    template <int dim>
+    std::vector<Tensor<2, dim>> product(const FullMatrix<double> &matrix, const std::vector<Tensor<2, dim>> &values)
     {
-      std::vector<unsigned int> result;
-      for (const auto &place : places.get_points())
-        for (unsigned int i = 0; i < fe.n_dofs_per_cell(); ++i)
-          if (fe.system_to_component_index(i).first == 0 && fe.unit_support_point(i).distance(place) < 1e-6)
-            result.push_back(i);
-      return result;
-    }
-
-    std::vector<Tensor<2, 2>> product(const FullMatrix<double> &matrix, const std::vector<Tensor<2, 2>> &values)
-    {
-      std::vector<Tensor<2, 2>> result(matrix.m());
+      std::vector<Tensor<2, dim>> result(matrix.m());
       for (unsigned int i = 0; i < matrix.m(); ++i)
         for (unsigned int j = 0; j < matrix.n(); ++j)
           result[i] += matrix(i, j) * values[j];
       return result;
     }
+
+    /// Of the nodes in the unit element, along the first axis, then the second, then the third.
+    template <int dim>
+    Quadrature<dim> places_of(const BodyProperties &properties)
+    {
+      return QIterated<dim>(QTrapezoid<1>(), properties.degree);
+    }
+
+    /// Local degrees of freedom of the displacements at places where the element has its nodes.
+    template <int dim>
+    std::vector<std::array<unsigned int, dim>> dofs_at(const FiniteElement<dim> &fe, const Quadrature<dim> &places)
+    {
+      std::vector<std::array<unsigned int, dim>> result(places.size());
+      for (unsigned int k = 0; k < places.size(); ++k)
+        for (unsigned int i = 0; i < fe.n_dofs_per_cell(); ++i)
+          if (fe.unit_support_point(i).distance(places.point(k)) < 1e-6)
+            result[k][fe.system_to_component_index(i).first] = i;
+      return result;
+    }
+
+    /// In the order of XDMF's quadrilaterals and hexahedra.
+    std::vector<unsigned int> corners_of_cells(const unsigned int p, const bool in_space)
+    {
+      std::vector<unsigned int> result;
+      const unsigned int row = p + 1, layer = row * row;
+      for (unsigned int k = 0; k < (in_space ? p : 1); ++k)
+        for (unsigned int j = 0; j < p; ++j)
+          for (unsigned int i = 0; i < p; ++i)
+            for (unsigned int first = k * layer + j * row + i, side = 0; side < (in_space ? 2u : 1u); ++side, first += layer)
+              result.insert(result.end(), { first, first + 1, first + row + 1, first + row });
+      return result;
+    }
+
+    /// The stress of a body's elements, one after another.
+    template <int dim>
+    void add_stress_of(const DoFHandler<dim> &dofs, const Mapping<dim> &mapping, const BodyProperties &properties,
+                       const Vector<double> &displacement, const std::vector<unsigned int> &nodes_of_elements,
+                       std::vector<NodalField> &nodal)
+    {
+      const auto places = places_of<dim>(properties);
+      const QGauss<1> points(std::max(2u, properties.degree));
+      FEValues<dim> at_points(mapping, dofs.get_fe(), QGauss<dim>(points.size()), update_gradients);
+      const auto to_nodes = extrapolation<dim>(points, places);
+      CellElasticity<dim> elasticity(mapping, dofs.get_fe(), properties);
+      Vector<double> of_element(dofs.get_fe().n_dofs_per_cell());
+      const FEValuesExtractors::Vector vector(0);
+      std::vector<Tensor<2, dim>> gradients_at_points(at_points.n_quadrature_points);
+      FEValues<dim> at_places(mapping, dofs.get_fe(), places, update_quadrature_points);
+      const unsigned int *node = nodes_of_elements.data();
+      for (const auto &cell : dofs.active_cell_iterators())
+      {
+        const auto material = cell->material_id();
+        if (material == material_id::hub)
+        {
+          node += places.size();
+          continue;
+        }
+        at_points.reinit(cell);
+        at_points[vector].get_function_gradients(displacement, gradients_at_points);
+        const auto gradients    = product(to_nodes, gradients_at_points);
+        const auto &constants   = properties.constants.at(material);
+        const bool is_projected = is_nearly_incompressible(properties, material);
+        if (is_projected)
+        {
+          cell->get_dof_values(displacement, of_element);
+          elasticity.reinit(cell, of_element);
+          at_places.reinit(cell);
+        }
+        for (unsigned int q = 0; q < places.size(); ++q, ++node)
+        {
+          std::optional<double> pressure;
+          if (is_projected)
+            pressure =
+                plane_constants(constants, properties.plane).lambda * elasticity.dilatation()(at_places.quadrature_point(q));
+          nodal[*node].stress += stress_at<dim>(properties, constants, gradients[q], pressure);
+        }
+      }
+    }
   } // namespace
 
   double von_mises(const NodalField &node)
   {
-    const double a = node.stress[0][0] - node.stress[1][1];
-    const double b = node.stress[1][1] - node.out_of_plane;
-    const double c = node.out_of_plane - node.stress[0][0];
-    return std::sqrt(0.5 * (a * a + b * b + c * c) + 3. * node.stress[0][1] * node.stress[0][1]);
+    const auto &s  = node.stress;
+    const double a = s[0][0] - s[1][1], b = s[1][1] - s[2][2], c = s[2][2] - s[0][0];
+    const double shear = s[0][1] * s[0][1] + s[1][2] * s[1][2] + s[2][0] * s[2][0];
+    return std::sqrt(0.5 * (a * a + b * b + c * c) + 3. * shear);
   }
 
-  BodyFields::BodyFields(const ElasticBody<2> &of)
-      : body(of)
-      , places(QIterated<2>(QTrapezoid<1>(), body.body_properties().degree))
+  BodyFields::BodyFields(const ElasticBody<2> &body)
+      : in_space(false)
+      , of_face(body.friction_face())
   {
-    const unsigned int p = body.body_properties().degree;
-    FEValues<2> values(body.cell_mapping(), body.dofs().get_fe(), places, update_quadrature_points);
-    std::map<std::tuple<types::global_dof_index, types::material_id, bool>, unsigned int> numbers;
-    const auto on_places = dofs_at(body.dofs().get_fe(), places);
-    std::vector<types::global_dof_index> dofs(body.dofs().get_fe().n_dofs_per_cell());
+    read<2>(body);
+  }
+
+  BodyFields::BodyFields(const SolidBody &body)
+      : in_space(true)
+      , of_face(body.friction_face())
+  {
+    read<3>(body);
+  }
+
+  template <int dim, class AnyBody>
+  void BodyFields::read(const AnyBody &body)
+  {
+    const auto &fe    = body.dofs().get_fe();
+    const auto places = places_of<dim>(body.body_properties());
+    FEValues<dim> values(body.cell_mapping(), fe, places, update_quadrature_points);
+    std::map<std::pair<types::material_id, bool>, std::vector<unsigned int>> numbers; // by the first degree of freedom
+    const auto on_places = dofs_at<dim>(fe, places);
+    std::vector<types::global_dof_index> of_element(fe.n_dofs_per_cell());
     for (const auto &cell : body.dofs().active_cell_iterators())
     {
       values.reinit(cell);
-      cell->get_dof_indices(dofs);
-      const bool at_hub = cell->material_id() == material_id::hub || touches_what_is_held(body, cell);
-      for (const unsigned int dof : on_places)
-        shared.push_back(numbers.emplace(std::tuple(dofs[dof], cell->material_id(), at_hub), numbers.size()).first->second);
-      const auto first = static_cast<unsigned int>(all_nodes.size());
-      for (const auto &point : values.get_quadrature_points())
-        all_nodes.push_back({ point, cell->material_id(), at_hub });
-      for (unsigned int j = 0; j < p; ++j)
-        for (unsigned int i = 0; i < p; ++i)
+      cell->get_dof_indices(of_element);
+      const auto part   = cell->material_id();
+      const bool at_hub = part == material_id::hub || touches_what_is_held(body, cell);
+      auto &number      = numbers[{ part, at_hub }];
+      number.resize(body.n_dofs(), none);
+      for (unsigned int q = 0; q < places.size(); ++q)
+      {
+        auto &node        = number[of_element[on_places[q][0]]];
+        const bool is_new = node == none;
+        if (is_new)
+          node = static_cast<unsigned int>(all_nodes.size());
+        nodes_of_elements.push_back(node);
+        if (!is_new)
+          continue;
+        Point<3> position;
+        std::array<unsigned int, 3> of_node{ { none, none, none } };
+        for (unsigned int d = 0; d < dim; ++d)
         {
-          const unsigned int corner = first + j * (p + 1) + i;
-          quads.insert(quads.end(), { corner, corner + 1, corner + p + 2, corner + p + 1 });
+          position[d] = values.quadrature_point(q)[d];
+          of_node[d]  = static_cast<unsigned int>(of_element[on_places[q][d]]);
         }
+        all_nodes.push_back({ position, part, at_hub });
+        dofs.push_back(of_node);
+      }
     }
-    n_shared = static_cast<unsigned int>(numbers.size());
+    n_places = places.size();
+    corners  = corners_of_cells(body.body_properties().degree, in_space);
+    sharing.assign(all_nodes.size(), 0);
+    for (const unsigned int node : nodes_of_elements)
+      ++sharing[node];
+    add_stress = [&body](const auto &displacement, const auto &elements, auto &nodal)
+    { add_stress_of<dim>(body.dofs(), body.cell_mapping(), body.body_properties(), displacement, elements, nodal); };
+  }
+
+  std::vector<Tensor<1, 3>> BodyFields::moved(const Vector<double> &displacement) const
+  {
+    std::vector<Tensor<1, 3>> result(all_nodes.size());
+    for (std::size_t i = 0; i < result.size(); ++i)
+      for (unsigned int d = 0; d < (in_space ? 3u : 2u); ++d)
+        result[i][d] = displacement[dofs[i][d]];
+    return result;
   }
 
   std::vector<NodalField> BodyFields::at(const Vector<double> &displacement) const
   {
-    const auto &properties = body.body_properties();
-    const auto &fe         = body.dofs().get_fe();
-    FEValues<2> values(body.cell_mapping(), fe, places, update_values);
-    const QGauss<1> points(std::max(2u, properties.degree));
-    FEValues<2> at_points(body.cell_mapping(), fe, QGauss<2>(points.size()), update_gradients);
-    const auto to_nodes = extrapolation(points, places);
-    CellElasticity<2> elasticity(body.cell_mapping(), fe, properties);
-    Vector<double> of_cell(fe.n_dofs_per_cell());
-    const FEValuesExtractors::Vector vector(0);
-    std::vector<Tensor<1, 2>> displacements(places.size());
-    std::vector<Tensor<2, 2>> gradients_at_points(at_points.n_quadrature_points);
-    std::vector<NodalField> result;
-    result.reserve(all_nodes.size());
-    for (const auto &cell : body.dofs().active_cell_iterators())
+    const auto displacements = moved(displacement);
+    std::vector<NodalField> result(all_nodes.size());
+    add_stress(displacement, nodes_of_elements, result);
+    for (std::size_t i = 0; i < result.size(); ++i)
     {
-      values.reinit(cell);
-      values[vector].get_function_values(displacement, displacements);
-      at_points.reinit(cell);
-      at_points[vector].get_function_gradients(displacement, gradients_at_points);
-      const auto gradients    = product(to_nodes, gradients_at_points);
-      const auto material     = cell->material_id();
-      const bool is_elastic   = material != material_id::hub;
-      const bool is_projected = is_elastic && is_nearly_incompressible(properties, material);
-      if (is_projected)
-      {
-        cell->get_dof_values(displacement, of_cell);
-        elasticity.reinit(cell, of_cell);
-      }
-      for (unsigned int q = 0; q < places.size(); ++q)
-      {
-        NodalField node{ displacements[q], {}, 0. };
-        std::optional<double> pressure;
-        if (is_projected)
-          pressure = plane_constants(properties.constants.at(material), properties.plane).lambda *
-                     elasticity.dilatation()(all_nodes[result.size()].position);
-        if (is_elastic)
-          set_stress(properties, properties.constants.at(material), gradients[q], pressure, node);
-        result.push_back(node);
-      }
+      result[i].displacement = displacements[i];
+      result[i].stress /= sharing[i];
     }
-    average(result);
     return result;
-  }
-
-  void BodyFields::average(std::vector<NodalField> &nodal) const
-  {
-    std::vector<NodalField> sums(n_shared);
-    std::vector<unsigned int> cells(n_shared, 0);
-    for (std::size_t i = 0; i < nodal.size(); ++i)
-    {
-      sums[shared[i]].stress += nodal[i].stress;
-      sums[shared[i]].out_of_plane += nodal[i].out_of_plane;
-      ++cells[shared[i]];
-    }
-    for (std::size_t i = 0; i < nodal.size(); ++i)
-    {
-      nodal[i].stress       = sums[shared[i]].stress / cells[shared[i]];
-      nodal[i].out_of_plane = sums[shared[i]].out_of_plane / cells[shared[i]];
-    }
   }
 } // namespace sprag

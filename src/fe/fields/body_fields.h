@@ -1,9 +1,12 @@
 #pragma once
 
 #include "fe/body/elastic_body.h"
+#include "fe/fields/field_face.h"
+#include "fe/solid/solid_body.h"
 
 #include <deal.II/base/symmetric_tensor.h>
 
+#include <functional>
 #include <vector>
 
 namespace sprag
@@ -11,31 +14,32 @@ namespace sprag
   /// Displacement and Cauchy stress at a node, in the axes of the body.
   struct NodalField
   {
-    dealii::Tensor<1, 2> displacement;    ///< [mm]
-    dealii::SymmetricTensor<2, 2> stress; ///< [MPa]
-    double out_of_plane = 0.;             ///< normal stress [MPa]
+    dealii::Tensor<1, 3> displacement;    ///< [mm]
+    dealii::SymmetricTensor<2, 3> stress; ///< [MPa]
   };
 
-  /// Returns sqrt(((s1 - s2)^2 + (s2 - s3)^2 + (s3 - s1)^2)/2 + 3 t^2) [MPa].
+  /// Returns sqrt(((s1 - s2)^2 + (s2 - s3)^2 + (s3 - s1)^2)/2 + 3 (t12^2 + t23^2 + t31^2)) [MPa].
   double von_mises(const NodalField &node);
 
-  /// Nodes of a body's cells for pictures. A cell of degree p has (p + 1)^2 of them, in p x p quadrilaterals, and shares them
-  /// with no other cell, so that each side of a bond has its own stress.
+  /// Nodes of a body's elements for pictures, and fields there. A body in a plane lies at zeta = 0. An element of degree p has
+  /// (p + 1)^dim nodes, in p^dim quadrilaterals or hexahedra, and shares them with its neighbours of the same material, so that
+  /// each side of a bond has its own stress.
   ///
   /// Strains are found at the Gauss points, where they are most exact, continued to the nodes by the polynomial through them, and
-  /// the stresses averaged over the cells of one material that meet in a node (Barlow 1976; Hinton and Campbell 1974). Cells at
-  /// the hub are averaged among themselves.
+  /// the stresses averaged over the elements of one material that meet in a node (Barlow 1976; Hinton and Campbell 1974).
+  /// Elements at the hub are averaged among themselves.
   class BodyFields
   {
   public:
     /// The body must outlive this.
     explicit BodyFields(const ElasticBody<2> &body);
+    explicit BodyFields(const SolidBody &body);
 
     struct Node
     {
-      dealii::Point<2> position; ///< undeformed [mm]
+      dealii::Point<3> position; ///< undeformed [mm]
       dealii::types::material_id part;
-      bool at_hub; ///< whether its cell touches what is held: there the stress of linear elasticity is singular
+      bool at_hub; ///< whether its element touches what is held: there the stress of linear elasticity is singular
     };
 
     const std::vector<Node> &nodes() const
@@ -43,29 +47,61 @@ namespace sprag
       return all_nodes;
     }
 
-    /// Returns how many nodes each cell has; nodes() come cell by cell.
-    unsigned int nodes_per_cell() const
+    /// Returns the numbers of the nodes of each element, one element after another.
+    const std::vector<unsigned int> &elements() const
     {
-      return places.size();
+      return nodes_of_elements;
     }
 
-    /// Returns the numbers of four nodes for each quadrilateral.
-    const std::vector<unsigned int> &quadrilaterals() const
+    unsigned int nodes_per_element() const
     {
-      return quads;
+      return n_places;
+    }
+
+    /// Returns the cells of an element: for each of them the places of its corners among the element's nodes.
+    const std::vector<unsigned int> &cells_of_element() const
+    {
+      return corners;
+    }
+
+    /// Returns 4 for quadrilaterals, 8 for hexahedra.
+    unsigned int nodes_per_cell() const
+    {
+      return in_space ? 8 : 4;
+    }
+
+    bool is_in_space() const
+    {
+      return in_space;
+    }
+
+    const FieldFace &face() const
+    {
+      return of_face;
     }
 
     /// Finds displacement and stress at the nodes by the displacements of the body's degrees of freedom.
     std::vector<NodalField> at(const dealii::Vector<double> &displacement) const;
 
-  private:
-    void average(std::vector<NodalField> &nodal) const;
+    /// Finds the displacement alone.
+    std::vector<dealii::Tensor<1, 3>> moved(const dealii::Vector<double> &displacement) const;
 
-    const ElasticBody<2> &body;
-    const dealii::Quadrature<2> places; ///< of the nodes in the unit cell
+  private:
+    template <int dim, class AnyBody>
+    void read(const AnyBody &body);
+
+    bool in_space;
+    FieldFace of_face;
+    unsigned int n_places = 0; ///< of nodes in an element
     std::vector<Node> all_nodes;
-    std::vector<unsigned int> quads;
-    std::vector<unsigned int> shared; ///< of a node: number of the place in its material that cells have in common
-    unsigned int n_shared = 0;
+    std::vector<std::array<unsigned int, 3>> dofs; ///< of the nodes; in a plane the last has none
+    std::vector<unsigned int> nodes_of_elements;
+    std::vector<unsigned int> corners;
+    std::vector<unsigned int> sharing; ///< number of elements that meet in a node
+
+    /// Adds the stress of each element at its nodes.
+    using AddStress =
+        std::function<void(const dealii::Vector<double> &, const std::vector<unsigned int> &, std::vector<NodalField> &)>;
+    AddStress add_stress;
   };
 } // namespace sprag

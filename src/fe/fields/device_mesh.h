@@ -36,20 +36,24 @@ namespace sprag
     lever,    ///< with layer and plate
     cylinder, ///< an elastic one
     leaf,
-    rigid_cylinder ///< not meshed: a disc
+    rigid_cylinder ///< not meshed: a disc, in space with its length and profile
   };
 
-  /// Nodes of one part that belong to one lever.
+  /// Nodes and cells of one part that belong to one lever. In a plane an element has nodes of its own, by which pictures find its
+  /// outline; in space elements share theirs, a third as many.
   struct DeviceBlock
   {
     DevicePart part;
     unsigned int lever;
-    std::vector<unsigned int> nodes;         ///< numbers among the BodyFields' nodes
-    std::vector<dealii::Point<2>> positions; ///< of those, in the axes of the part
+    bool is_mirrored = false;                  ///< the other half of a lever that is symmetric over its width
+    std::vector<unsigned int> nodes{};         ///< numbers among the BodyFields' nodes
+    std::vector<dealii::Point<3>> positions{}; ///< of those, in the axes of the part
+    std::vector<unsigned int> cells{};         ///< numbers among these nodes, as BodyFields has them
   };
 
   /// Returns lever, cylinder and, where one is given, leaf spring, each for every lever of the scene, as blocks of one mesh. Of
-  /// an elastic cylinder between two levers, which is meshed for each of them, each has the half that faces it.
+  /// an elastic cylinder between two levers, which is meshed for each of them, each has the half that faces it. A lever of which
+  /// a half is solved is there with its mirror image.
   std::vector<DeviceBlock> device_blocks(const Scene &scene, const BodyFields &body, const BodyFields *leaf);
 
   /// Returns the axes of a block. A leaf spring's are those of the lever.
@@ -59,6 +63,5 @@ namespace sprag
   FieldMesh device_mesh(const Scene &scene, const DevicePose &pose, const std::vector<DeviceBlock> &blocks,
                         const BodyFields &body, const BodyFields *leaf);
 
-  /// Appends x, y and 0, as ParaView's vectors have them.
-  void append(const dealii::Tensor<1, 2> &vector, std::vector<float> &values);
+  void append(const dealii::Tensor<1, 3> &vector, std::vector<float> &values);
 } // namespace sprag

@@ -18,6 +18,15 @@ namespace sprag
     {
       return leaf ? &leaf->fields() : nullptr;
     }
+
+    /// Closes a face between its mirror image, whose points begin at `first`, and itself, whose points come before those.
+    void join_halves(const std::vector<unsigned int> &line, const unsigned int first, const unsigned int of_half,
+                     std::vector<unsigned int> &cells)
+    {
+      for (std::size_t i = 1; i < line.size(); ++i)
+        cells.insert(cells.end(),
+                     { first + line[i - 1], first + line[i], first - of_half + line[i], first - of_half + line[i - 1] });
+    }
   } // namespace
 
   /// Values at the nodes of the bodies, block by block.
@@ -25,22 +34,21 @@ namespace sprag
   {
     std::vector<float> displacement, elastic, stress, von_mises;
 
-    void add(const Tensor<1, 2> &moved, const Tensor<1, 2> &elastically, const NodalField &node, const WorldAxes &axes)
+    void add(const Tensor<1, 3> &moved, const Tensor<1, 3> &elastically, const NodalField &node, const WorldAxes &axes)
     {
       append(moved, displacement);
       append(elastically, elastic);
       const auto in_world = axes.turned(node.stress);
-      for (const double component :
-           { in_world[0][0], in_world[0][1], 0., in_world[0][1], in_world[1][1], 0., 0., 0., node.out_of_plane })
-        stress.push_back(static_cast<float>(component));
+      for (unsigned int i = 0; i < 3; ++i)
+        for (unsigned int j = 0; j < 3; ++j)
+          stress.push_back(static_cast<float>(in_world[i][j]));
       von_mises.push_back(static_cast<float>(sprag::von_mises(node)));
     }
   };
 
-  FieldFrames::FieldFrames(const Scene &of_scene, const ElasticBody<2> &of_body, const std::string &folder, const bool goes_on)
+  FieldFrames::FieldFrames(const Scene &of_scene, const BodyFields &of_body, const std::string &folder, const bool goes_on)
       : scene(of_scene)
-      , body(of_body)
-      , fields(body)
+      , fields(of_body)
       , rest(rest_pose(scene))
       , leaf(scene.spring.type == SpringType::leaf ? std::make_unique<LeafShapes>(scene) : nullptr)
       , blocks(device_blocks(scene, fields, fields_of(leaf)))
@@ -75,11 +83,10 @@ namespace sprag
   {
     const auto before = axes_of(scene, rest, block);
     const auto now    = axes_of(scene, state.pose, block);
-    const auto nodal  = block.part == DevicePart::rigid_cylinder ? std::vector<NodalField>(block.positions.size())
-                                                                 : fields.at(state.displacements.at(block.lever));
+    const bool rigid  = block.part == DevicePart::rigid_cylinder;
     for (unsigned int i = 0; i < block.positions.size(); ++i)
     {
-      const auto &node   = nodal[block.nodes.empty() ? i : block.nodes[i]];
+      const auto node    = rigid ? NodalField() : state.nodal.at(block.lever)[block.nodes[i]];
       const auto elastic = now.turned(node.displacement);
       values.add(now.place(block.positions[i]) + elastic - before.place(block.positions[i]), elastic, node, now);
     }
@@ -106,34 +113,49 @@ namespace sprag
       const auto rigid    = hub.place(at_rest);
       const auto place    = found ? at.place(at_rest + node.displacement) : rigid;
       if (!found)
-        node.stress[0][0] = node.stress[1][1] = node.stress[0][1] = std::numeric_limits<double>::quiet_NaN();
+        node.stress *= std::numeric_limits<double>::quiet_NaN();
       values.add(place - before.place(at_rest), place - rigid, node, at);
     }
+  }
+
+  /// Of the levers, and of the half that is mirrored. Their nodes are points of the face.
+  std::vector<DeviceBlock> FieldFrames::faces() const
+  {
+    std::vector<DeviceBlock> result;
+    for (const auto &block : blocks)
+      if (block.part == DevicePart::lever)
+        result.push_back({ block.part, block.lever, block.is_mirrored, {}, fields.face().points(), fields.face().cells() });
+    return result;
   }
 
   FieldMesh FieldFrames::face_mesh() const
   {
     FieldMesh mesh;
     mesh.name           = "face";
-    mesh.nodes_per_cell = 2;
+    mesh.nodes_per_cell = fields.face().points_per_cell();
     Field xi{ "xi", "mm", "lever coordinate from the pivot", 1, {} };
+    Field zeta{ "zeta", "mm", "across the lever from the middle of its width", 1, {} };
     Field of_lever{ "lever", "1", "whose face it is", 1, {} };
-    for (unsigned int lever = 0; lever < number_of_levers(scene); ++lever)
+    for (const auto &block : faces())
     {
-      const auto axes = lever_axes(scene, rest, lever);
-      for (const auto &point : body.friction_face().points)
+      const auto axes  = axes_of(scene, rest, block);
+      const auto first = static_cast<unsigned int>(mesh.n_nodes());
+      for (const auto &point : block.positions)
       {
-        const auto place   = axes.place(point.position);
-        const auto number  = static_cast<unsigned int>(mesh.n_nodes());
-        const bool follows = &point != &body.friction_face().points.front();
-        mesh.nodes.insert(mesh.nodes.end(), { place[0], place[1] });
-        xi.values.push_back(static_cast<float>(point.position[0]));
-        of_lever.values.push_back(static_cast<float>(lever + 1));
-        if (follows)
-          mesh.cells.insert(mesh.cells.end(), { number - 1, number });
+        const auto place = axes.place(point);
+        mesh.nodes.insert(mesh.nodes.end(), { place[0], place[1], place[2] });
+        xi.values.push_back(static_cast<float>(point[0]));
+        zeta.values.push_back(static_cast<float>(place[2]));
+        of_lever.values.push_back(static_cast<float>(block.lever + 1));
       }
+      for (const unsigned int corner : block.cells)
+        mesh.cells.push_back(first + corner);
+      if (block.is_mirrored)
+        join_halves(fields.face().first_line(), first, static_cast<unsigned int>(block.positions.size()), mesh.cells);
     }
-    mesh.fixed = { xi, of_lever };
+    mesh.fixed = { std::move(xi), std::move(of_lever) };
+    if (fields.is_in_space())
+      mesh.fixed.push_back(std::move(zeta));
     return mesh;
   }
 
@@ -144,25 +166,21 @@ namespace sprag
     Field pressure{ "pressure", "MPa", "contact pressure", 1, {} };
     Field friction{ "friction_traction", "MPa", "friction on the lever along -d", 1, {} };
     Field traction{ "traction", "MPa", "pressure and friction on the lever as a vector", 3, {} };
-    for (unsigned int lever = 0; lever < number_of_levers(scene); ++lever)
+    for (const auto &block : faces())
     {
-      const auto before = lever_axes(scene, rest, lever);
-      const auto now    = lever_axes(scene, state.pose, lever);
-      const auto &face  = body.friction_face();
-      const auto &p     = lever == 0 ? state.face.pressure : state.face.pressure_2;
-      const auto &t     = lever == 0 ? state.face.traction : state.face.traction_2;
-      for (unsigned int q = 0; q < face.points.size(); ++q)
+      const auto before   = axes_of(scene, rest, block);
+      const auto now      = axes_of(scene, state.pose, block);
+      const auto &p       = block.lever == 0 ? state.face.pressure : state.face.pressure_2;
+      const auto &t       = block.lever == 0 ? state.face.traction : state.face.traction_2;
+      const auto &t_aside = state.face.traction_across;
+      for (unsigned int q = 0; q < block.positions.size(); ++q)
       {
-        Tensor<1, 2> of_point;
-        for (const auto &[node, shape] : face.points[q].nodes)
-          for (unsigned int d = 0; d < 2; ++d)
-            of_point[d] += shape * state.displacements[lever][face.nodes[node].dofs[d]];
-        const auto elastically = now.turned(of_point);
-        append(now.place(face.points[q].position) + elastically - before.place(face.points[q].position), moved.values);
+        const auto elastically = now.turned(fields.face().moved(q, state.displacements[block.lever]));
+        append(now.place(block.positions[q]) + elastically - before.place(block.positions[q]), moved.values);
         append(elastically, elastic.values);
         pressure.values.push_back(static_cast<float>(p.at(q)));
         friction.values.push_back(static_cast<float>(t.at(q)));
-        append(p[q] * now.across - t[q] * now.along, traction.values);
+        append(now.turned(Tensor<1, 3>({ -t[q], p[q], t_aside.empty() ? 0. : t_aside[q] })), traction.values);
       }
     }
     return { moved, elastic, pressure, friction, traction };

@@ -15,6 +15,7 @@ namespace sprag
     double time = 0.; ///< [s]
     DevicePose pose;
     std::vector<dealii::Vector<double>> displacements; ///< elastic, of the body, one a lever, in its axes [mm]
+    std::vector<std::vector<NodalField>> nodal;        ///< what BodyFields finds of them
     FaceState face;
   };
 
@@ -25,9 +26,9 @@ namespace sprag
   class FieldFrames
   {
   public:
-    /// Removes the fields of an earlier run from `folder`, unless this one goes on from it, see visit_progress(). Scene and body,
-    /// which serves both levers of a pair, must outlive them.
-    FieldFrames(const Scene &scene, const ElasticBody<2> &body, const std::string &folder, bool goes_on = false);
+    /// Removes the fields of an earlier run from `folder`, unless this one goes on from it, see visit_progress(). Scene and
+    /// fields, which serve both levers of a pair, must outlive them.
+    FieldFrames(const Scene &scene, const BodyFields &fields, const std::string &folder, bool goes_on = false);
 
     /// Adds a frame, of another time than those before.
     void write(const DeviceState &state);
@@ -41,6 +42,7 @@ namespace sprag
   private:
     struct Bodies;
 
+    std::vector<DeviceBlock> faces() const;
     FieldMesh face_mesh() const;
     std::vector<Field> body_fields(const DeviceState &state);
     void add_meshed(const DeviceState &state, const DeviceBlock &block, Bodies &values) const;
@@ -48,8 +50,7 @@ namespace sprag
     std::vector<Field> face_fields(const DeviceState &state) const;
 
     const Scene &scene;
-    const ElasticBody<2> &body;
-    const BodyFields fields;
+    const BodyFields &fields;
     const DevicePose rest;
     std::unique_ptr<LeafShapes> leaf;
     const std::vector<DeviceBlock> blocks;

@@ -16,7 +16,7 @@ namespace sprag
     /// Real or imaginary part of the displacement of all nodes.
     struct Shape
     {
-      std::vector<Tensor<1, 2>> whole, elastic;
+      std::vector<Tensor<1, 3>> whole, elastic;
     };
 
     double part_of(const std::complex<double> &value, const unsigned int part)
@@ -33,12 +33,12 @@ namespace sprag
         const auto axes   = axes_of(scene, held, block);
         const bool meshed = block.part != DevicePart::rigid_cylinder;
         const bool turns  = block.part == DevicePart::lever;
-        const auto nodal  = meshed ? body.at(mode.levers.at(block.lever).elastic[part]) : std::vector<NodalField>();
-        Tensor<1, 2> shift;
+        const auto nodal  = meshed ? body.moved(mode.levers.at(block.lever).elastic[part]) : std::vector<Tensor<1, 3>>();
+        Tensor<1, 3> shift;
         shift[0] = turns ? part_of(mode.support, part) : 0.;
         for (unsigned int i = 0; i < block.positions.size(); ++i)
         {
-          const auto elastic = meshed ? axes.turned(nodal[block.nodes[i]].displacement) : Tensor<1, 2>();
+          const auto elastic = meshed ? axes.turned(nodal[block.nodes[i]]) : Tensor<1, 3>();
           // d(d)/d(theta) = n, d(n)/d(theta) = -d.
           const auto turned = block.positions[i][0] * axes.across - block.positions[i][1] * axes.along;
           result.elastic.push_back(elastic);
@@ -48,7 +48,7 @@ namespace sprag
       return result;
     }
 
-    Field field(const std::string &name, const std::string &description, const std::vector<Tensor<1, 2>> &values,
+    Field field(const std::string &name, const std::string &description, const std::vector<Tensor<1, 3>> &values,
                 const double scale)
     {
       Field result{ name, "mm", description, 3, {} };

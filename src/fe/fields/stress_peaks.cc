@@ -52,7 +52,7 @@ namespace sprag
       if (there[i])
       {
         const std::string name = stress_names[i];
-        const Peak peak        = peaks[i].value_or(Peak{ missing, missing, 0, 0, { missing, missing } });
+        const Peak peak        = peaks[i].value_or(Peak{ missing, missing, 0, 0, { missing, missing, missing } });
         result.push_back({ name, peak.stress, "MPa", stress_meanings[i] });
         result.push_back({ name + "_x", peak.x, "mm", "position of the cylinder there" });
         result.push_back({ name + "_direction",
@@ -63,6 +63,8 @@ namespace sprag
         result.push_back({ name + "_xi", peak.place[0], "mm", "where: lever coordinate from the pivot" });
         result.push_back(
             { name + "_eta", peak.place[1], "mm", "where: across the lever from the pivot, away from the cylinder" });
+        if (fields.is_in_space())
+          result.push_back({ name + "_zeta", peak.place[2], "mm", "where: across the lever from the middle of its width" });
         if (levers == 2)
           result.push_back({ name + "_lever", peak.lever + 1., "1", "of which lever" });
       }

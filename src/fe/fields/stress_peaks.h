@@ -37,7 +37,7 @@ namespace sprag
       double x           = 0.;
       int direction      = 0;
       unsigned int lever = 0;
-      dealii::Point<2> place;
+      dealii::Point<3> place;
     };
 
     const BodyFields &fields;

@@ -75,6 +75,17 @@ namespace sprag
     return std::abs(along) - half_length;
   }
 
+  Point<3> RigidCylinder::on_axis(const double along) const
+  {
+    return Point<3>(0., 0., position) + along * axis;
+  }
+
+  Point<3> RigidCylinder::on_surface(const double along, const double angle) const
+  {
+    const double radius = geometry.cylinder_radius - profile(along).value;
+    return on_axis(along) + radius * (std::cos(angle) * right + std::sin(angle) * upward);
+  }
+
   std::pair<double, Tensor<1, 3>> RigidCylinder::gap(const Pose &pose, const Point<3> &point) const
   {
     const auto at         = place_of(pose, point);

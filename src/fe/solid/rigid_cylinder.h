@@ -53,6 +53,10 @@ namespace sprag
 
     SurfaceKinematics kinematics(const Pose &pose, const dealii::Point<3> &point) const;
 
+    // Places of the cylinder at x = 0 in the axes of the world, see DevicePose; `along` counts from the middle [mm].
+    dealii::Point<3> on_axis(double along) const;
+    dealii::Point<3> on_surface(double along, double angle) const;
+
   private:
     using Vector = dealii::Tensor<1, 3>;
 

@@ -181,4 +181,30 @@ namespace sprag
     return std::make_unique<SolidDynamicLever>(std::move(structure), std::move(contact),
                                                lever_frame(scene, ports, basis.lever_mass), lever);
   }
+
+  std::function<Vector<double>(const Motion &, unsigned int)> solid_displacement(const Scene &scene, const SolidInTime &lever)
+  {
+    std::vector<unsigned int> dofs;
+    for (const auto &node : reached_face(scene, lever.body->friction_face()).face.nodes)
+      dofs.insert(dofs.end(), node.dofs.begin(), node.dofs.end());
+    return [&lever, dofs](const Motion &motion, unsigned int)
+    {
+      const auto &[body, compliance, modes] = lever;
+      const auto &forces                    = motion.face_force; // on the ports of the face, and last on the hub's rotation
+      std::vector<double> loads(body->n_dofs(), 0.);
+      for (unsigned int port = 0; port < dofs.size() && forces.size() > 0; ++port)
+        if (!body->is_held(dofs[port]))
+          loads[dofs[port]] = forces[port];
+      body->respond(loads);
+      Vector<double> result(loads.begin(), loads.end());
+      for (unsigned int j = 0; j < modes.stiffness.size(); ++j)
+      {
+        double work = 0.;
+        for (unsigned int port = 0; port < forces.size(); ++port)
+          work += forces[port] * (port < dofs.size() ? modes.displacements[j][dofs[port]] : modes.rotation[j]);
+        result.add(motion.coordinates.position[j] - work / modes.stiffness[j], modes.displacements[j]);
+      }
+      return result;
+    };
+  }
 } // namespace sprag

@@ -4,6 +4,7 @@
 #include "fe/solid/solid_modes.h"
 #include "model/dynamic_model.h"
 
+#include <functional>
 #include <memory>
 
 namespace sprag
@@ -22,4 +23,9 @@ namespace sprag
   /// The condensed model of a scene: modes, and the static answer of the part of the face that the contact can reach.
   /// `relaxation`: damping over stiffness of the friction layer [s]. The lever must outlive it.
   std::unique_ptr<DynamicModel> make_solid_dynamics(const Scene &scene, const SolidInTime &lever, double relaxation);
+
+  /// Returns what finds the elastic displacement of all degrees of freedom of the body in a motion of that model: modes, and the
+  /// static answer of the face by a back-substitution with the whole body [mm]. The lever must outlive it.
+  std::function<dealii::Vector<double>(const Motion &, unsigned int)> solid_displacement(const Scene &scene,
+                                                                                         const SolidInTime &lever);
 } // namespace sprag

@@ -301,14 +301,15 @@ namespace sprag
 
   Vector<double> SolidLever::body_displacement(const State &state) const
   {
-    std::vector<double> loads(body.n_dofs(), 0.);
+    SparseColumns loads;
     const auto &nodes = body.friction_face().nodes;
     for (unsigned int i = 0; i < state.forces.ports.size(); ++i)
       if (const unsigned int port = state.forces.ports[i]; ports.is_surface(port))
         if (const unsigned int dof = nodes[port / 3].dofs[port % 3]; !body.is_held(dof))
-          loads[dof] = state.forces.values[i];
-    body.respond(loads);
-    return { loads.begin(), loads.end() };
+          loads.add(dof, state.forces.values[i]);
+    loads.end_column();
+    const auto result = body.respond(std::move(loads));
+    return { result.begin(), result.end() };
   }
 
   FaceSample SolidLever::sample(const State &state) const

@@ -7,62 +7,32 @@
 
 namespace sprag
 {
-  namespace
-  {
-    constexpr unsigned int parts_along = 4;
-  }
-
   SurfaceView::SurfaceView(const FrictionFace<3> &face_, const SurfaceContact &contact_, const bool half)
       : face(face_)
       , contact(contact_)
       , is_half(half)
-      , part_of_point(face.points.size())
+      , parts(parts_of(face))
       , line_of_point(face.points.size())
   {
     const auto &lines = contact.lines();
     for (unsigned int i = 0; i < lines.size(); ++i)
       for (const unsigned int point : lines[i])
         line_of_point[point] = i;
-    for (const auto &patch : face.patches)
-    {
-      std::map<std::pair<unsigned int, unsigned int>, unsigned int> known; // by the quarter along xi and the line
-      const double first = face.points[patch.begin].position[0];
-      const double span  = face.points[patch.end - 1].position[0] - first;
-      for (unsigned int q = patch.begin; q < patch.end; ++q)
-      {
-        const auto &point  = face.points[q];
-        const auto quarter = static_cast<unsigned int>(
-            std::clamp(std::floor(parts_along * (point.position[0] - first) / span), 0., parts_along - 1.));
-        const auto number =
-            known.try_emplace({ quarter, line_of_point[q] }, static_cast<unsigned int>(parts.xi.size())).first->second;
-        if (number == parts.xi.size())
-        {
-          parts.xi.push_back(0.);
-          parts.zeta.push_back(point.position[2]);
-          parts.weight.push_back(0.);
-        }
-        part_of_point[q] = number;
-        parts.xi[number] += point.weight * point.position[0];
-        parts.weight[number] += point.weight;
-      }
-    }
-    for (std::size_t i = 0; i < parts.xi.size(); ++i)
-      parts.xi[i] /= parts.weight[i];
   }
 
   FacePoints SurfaceView::points() const
   {
-    return parts;
+    return parts.points;
   }
 
   FaceState SurfaceView::state(const SurfaceEvaluation &found, const DrivePoint &drive) const
   {
-    const std::vector<double> nothing(parts.xi.size(), 0.);
+    const std::vector<double> nothing(parts.points.xi.size(), 0.);
     FaceState result{ drive.time, drive.x, nothing, nothing, nothing, {}, {} };
     for (const auto &point : found.points)
     {
-      const unsigned int part = part_of_point[point.index];
-      const double share      = face.points[point.index].weight / parts.weight[part];
+      const unsigned int part = parts.part_of_point[point.index];
+      const double share      = face.points[point.index].weight / parts.points.weight[part];
       result.pressure[part] += share * point.pressure;
       result.traction[part] += share * point.traction[0];
       result.traction_across[part] += share * point.end_force[2];

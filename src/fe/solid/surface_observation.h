@@ -1,12 +1,13 @@
 #pragma once
 
+#include "fe/solid/face_parts.h"
 #include "fe/solid/surface_contact.h"
 #include "results/columns.h"
 #include "results/result_file.h"
 
 namespace sprag
 {
-  /// A friction face as results show it: the means over parts of its cells, four along xi at each zeta of their points.
+  /// A friction face as results show it: the means over its FaceParts.
   class SurfaceView
   {
   public:
@@ -29,8 +30,7 @@ namespace sprag
     const FrictionFace<3> &face;
     const SurfaceContact &contact;
     const bool is_half;
-    std::vector<unsigned int> part_of_point;
+    const FaceParts parts;
     std::vector<unsigned int> line_of_point; ///< points with the same zeta
-    FacePoints parts;
   };
 } // namespace sprag

@@ -1,0 +1,194 @@
+"""One frame of a run in three dimensions: the deformed lever and its stress, and the contact with the pressure on the face."""
+
+from dataclasses import dataclass
+
+import h5py
+import numpy as np
+from matplotlib.collections import PolyCollection
+
+from frames import NUMBERS, WAYS, chosen_frame, number, pose
+from results import NotAResult
+from shades import COLOUR_MAP, RIGID, mappable_of, norm_of, rounded, size_of
+from style import MILLIMETRE, TWO_COLUMNS, plt
+
+# Corners of a hexahedron's sides, seen from outside against the clock.
+SIDES = ((0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7))
+FROM_ABOVE, FROM_BELOW = (-0.45, 0.5, 0.75), (-0.5, -0.6, 0.65)
+ARROW = 20.0  # length of the axes drawn [mm]
+PRESSURE_MAP = "magma"
+
+
+@dataclass
+class SolidFrame:
+    """Hexahedra of lever and cylinder, and the face, in the axes of the world."""
+
+    nodes: np.ndarray  # at rest [n x 3]
+    rigid: np.ndarray  # displacement without the elastic part [n x 3]
+    elastic: np.ndarray
+    stress: np.ndarray  # von Mises [n]
+    part: np.ndarray
+    cells: np.ndarray  # [m x 8]
+    is_lever: np.ndarray  # of the nodes
+    face: np.ndarray  # nodes of the face at rest
+    face_rigid: np.ndarray
+    face_elastic: np.ndarray
+    face_cells: np.ndarray  # [m x 4]
+    pressure: np.ndarray
+
+    def at(self, magnify):
+        return self.nodes + self.rigid + magnify * self.elastic
+
+    def face_at(self, magnify):
+        return self.face + self.face_rigid + magnify * self.face_elastic
+
+
+def read_solid_frame(result, path):
+    try:
+        with h5py.File(result.folder / "fields-mesh.h5", "r") as file:
+            mesh, face = ({name: data[:] for name, data in file[group].items()} for group in ("fields", "face"))
+        with h5py.File(path, "r") as file:
+            now, on_face = ({name: data[:] for name, data in file[group].items()} for group in ("fields", "face"))
+        elastic, of_face = now["elastic_displacement"], on_face["elastic_displacement"]
+        return SolidFrame(mesh["nodes"], now["displacement"] - elastic, elastic, now["von_mises_stress"],
+                          mesh["part"].round().astype(int), mesh["cells"].astype(int), mesh["lever"] == 1, face["nodes"],
+                          on_face["displacement"] - of_face, of_face, face["cells"].astype(int), on_face["pressure"])  # fmt: skip
+    except (OSError, KeyError, ValueError) as error:
+        raise NotAResult(f"{path}: cannot be read as fields of this version of sprag ({error})") from error
+
+
+class View:
+    """Parallel light from a direction, up as far as can be."""
+
+    def __init__(self, towards):
+        self.towards = np.array(towards) / np.linalg.norm(towards)
+        right = np.cross((0, 1, 0), self.towards)
+        self.right = right / np.linalg.norm(right)
+        self.up = np.cross(self.towards, self.right)
+
+    def __call__(self, points):
+        return np.stack((points @ self.right, points @ self.up), axis=-1)
+
+    def seen(self, polygons):
+        """Which of them face the eye, the farthest first, and how bright they are."""
+        normals = np.cross(polygons[:, 2] - polygons[:, 0], polygons[:, 3] - polygons[:, 1])
+        size = np.linalg.norm(normals, axis=1)
+        cosine = normals @ self.towards / np.where(size > 0, size, 1)
+        order = np.argsort(polygons.mean(axis=1) @ self.towards)
+        chosen = order[cosine[order] > 1e-6]
+        return chosen, 0.6 + 0.4 * cosine[chosen]
+
+
+def outer_sides(nodes, cells):
+    """Sides that no two cells share, wherever their nodes are one place [sides x 4]."""
+    sides = cells[:, SIDES].reshape(-1, 4)
+    places = np.unique(np.round(nodes, 6) + 0.0, axis=0, return_inverse=True)[1].reshape(-1)
+    keys = np.sort(places[sides], axis=1)
+    _, index, counts = np.unique(keys, axis=0, return_index=True, return_counts=True)
+    return sides[index[counts == 1]]
+
+
+def draw_sides(axes, view, points, sides, colours, zorder=1):
+    """Polygons in their colours [sides x 4], shaded by how they face the eye."""
+    chosen, brightness = view.seen(points[sides])
+    shaded = colours[chosen].copy()
+    shaded[:, :3] *= brightness[:, None]
+    style = {"linewidth": 0.15, "rasterized": True, "zorder": zorder}
+    axes.add_collection(PolyCollection(view(points[sides[chosen]]), facecolor=shaded, edgecolor=shaded, **style))
+
+
+def stress_colours(frame, sides, norm):
+    colours = plt.get_cmap(COLOUR_MAP)(norm(frame.stress[sides].mean(axis=1)))
+    colours[frame.part[sides[:, 0]] == NUMBERS["hub"]] = plt.matplotlib.colors.to_rgba(RIGID)
+    return colours
+
+
+def grey(sides, shade="0.94"):
+    return np.tile(plt.matplotlib.colors.to_rgba(shade), (len(sides), 1))
+
+
+def draw_lever(axes, frame, view, magnify, norm):
+    """Lever and cylinder, which lies below it."""
+    of_lever = frame.is_lever[frame.cells[:, 0]]
+    points = frame.at(magnify)
+    tube = outer_sides(frame.nodes, frame.cells[~of_lever])
+    draw_sides(axes, view, points, tube, grey(tube), zorder=1)
+    sides = outer_sides(frame.nodes, frame.cells[of_lever])
+    draw_sides(axes, view, points, sides, stress_colours(frame, sides, norm), zorder=2)
+
+
+def draw_contact(axes, frame, view, magnify, norm, pressure_norm, chosen):
+    """A piece of the lever from below, the pressure on its face."""
+    points, face = frame.at(magnify), frame.face_at(magnify)
+    sides = outer_sides(frame.nodes, frame.cells[chosen])
+    draw_sides(axes, view, points, sides, stress_colours(frame, sides, norm), zorder=1)
+    pressed = frame.face_cells[(frame.pressure[frame.face_cells] > 0).any(axis=1)]
+    colours = plt.get_cmap(PRESSURE_MAP)(pressure_norm(frame.pressure[pressed].mean(axis=1)))
+    style = {"linewidth": 0.15, "rasterized": True, "zorder": 2}
+    axes.add_collection(PolyCollection(view(face[pressed]), facecolor=colours, edgecolor=colours, **style))
+
+
+def draw_axes(axes, view, length):
+    """Arrows along x, y and z beside what is drawn."""
+    low, high = axes.dataLim.min, axes.dataLim.max
+    start = np.array((low[0], low[1]))
+    for name, direction in zip("xyz", np.eye(3)):
+        end = start + view(length * direction)
+        axes.annotate("", end, start, arrowprops={"arrowstyle": "-|>", "linewidth": 0.8, "facecolor": "black", "mutation_scale": 6, "shrinkA": 0, "shrinkB": 0}, zorder=5)
+        axes.annotate(f"${name}$", start + 1.25 * view(length * direction), ha="center", va="center", fontsize=7, zorder=5)
+    room = 0.05 * max(high - low)
+    axes.set_xlim(low[0] - length - room, high[0] + room)
+    axes.set_ylim(low[1] - length - room, high[1] + room)
+    axes.set_aspect("equal")
+    axes.set_axis_off()
+
+
+def automatic_magnification(result, frame, row):
+    """Draws displacements of a twentieth of the lever's length, unless the layer would be turned inside out."""
+    span = np.ptp(frame.nodes[frame.is_lever, 0])
+    dent = result.table["indentation"][row]
+    sizes = [(0.05 * span, size_of(frame.elastic)), (0.8 * number(result, "Friction layer", "Thickness", 0.0), dent)]
+    return rounded(min((drawn / size for drawn, size in sizes if drawn > 0 and size > 0), default=1.0))
+
+
+def near_contact(result, frame, row):
+    """Cells of the lever about the contact."""
+    half = 0.25 * number(result, "Lever", "Width")
+    xi = pose(result).in_axes(frame.nodes[:, :2])[:, 0]
+    away = np.abs(xi - result.table["s"][row])
+    return frame.is_lever[frame.cells[:, 0]] & (away[frame.cells].max(axis=1) < half)
+
+
+def solid_fields(result, x=None, way=None, magnify=None):
+    """The frame nearest to x, that of the largest x where none is asked for. Throws NotAResult where there is none near."""
+    written = chosen_frame(result, x, way)
+    frame = read_solid_frame(result, written.file)
+    magnify = magnify or automatic_magnification(result, frame, written.row)
+    chosen = near_contact(result, frame, written.row)
+    elastic = frame.is_lever & (frame.part != NUMBERS["hub"])
+    near = np.unique(frame.cells[chosen])
+    norms = [norm_of([frame.stress[elastic]]), norm_of([frame.stress[near]])]
+    pressure_norm = plt.Normalize(0, frame.pressure.max(initial=0) or 1)
+    figure = plt.figure(figsize=(TWO_COLUMNS, 92 * MILLIMETRE), constrained_layout=False)
+    whole, contact = (figure.add_axes(place) for place in ((0.01, 0.19, 0.56, 0.7), (0.6, 0.19, 0.39, 0.7)))
+    above, below = View(FROM_ABOVE), View(FROM_BELOW)
+    draw_lever(whole, frame, above, magnify, norms[0])
+    draw_contact(contact, frame, below, magnify, norms[1], pressure_norm, chosen)
+    draw_axes(whole, above, ARROW)
+    draw_axes(contact, below, 0.2 * ARROW)
+    pressure = plt.cm.ScalarMappable(pressure_norm, PRESSURE_MAP)
+    bars = ((0.09, "von Mises", mappable_of(norms[0]), "max"), (0.6, "von Mises", mappable_of(norms[1]), "max"), (0.82, "pressure", pressure, "neither"))
+    for left, name, mappable, extend in bars:
+        bar = figure.add_axes((left, 0.13, 0.4 if left < 0.5 else 0.16, 0.025))
+        figure.colorbar(mappable, cax=bar, orientation="horizontal", label=f"{name} [MPa]", extend=extend)
+    titles = ("lever and cylinder from above", "the contact from below")
+    for left, letter, text, length in zip((0.02, 0.6), "ab", titles, (ARROW, 0.2 * ARROW)):
+        figure.text(left, 0.91, f"({letter}) {text}; arrows: {length:g} mm", fontsize=8)
+    figure.suptitle(caption(result, written, magnify), fontsize=8)
+    return figure
+
+
+def caption(result, written, magnify):
+    way = {sign: name for name, sign in WAYS.items()}[written.way]
+    force = result.table["P"][written.row]
+    above = "" if magnify == 1 else f"; elastic displacement × {magnify:g}"
+    return f"{result.name}: $x$ = {written.x:.4g} mm {way}, $P$ = {force:.4g} N{above}"

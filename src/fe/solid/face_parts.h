@@ -1,0 +1,18 @@
+#pragma once
+
+#include "fe/body/friction_face.h"
+#include "results/result_file.h"
+
+#include <vector>
+
+namespace sprag
+{
+  /// The parts of a friction face over which results tell means: four along xi of each of its cells, at each zeta of its points.
+  struct FaceParts
+  {
+    FacePoints points;                       ///< their middles
+    std::vector<unsigned int> part_of_point; ///< of the face's points
+  };
+
+  FaceParts parts_of(const FrictionFace<3> &face);
+} // namespace sprag
