@@ -44,7 +44,7 @@ def look(folder):
     for path in sorted(folder.glob("*.xdmf")):
         for name in (FIRST_READER, SECOND_READER):
             reader = simple.XDMFReader(FileNames=[str(path)]) if name == FIRST_READER else simple.Xdmf3ReaderS(FileName=[str(path)])
-            arrays = {"times": np.array(reader.TimestepValues)}
+            arrays = {"times": np.atleast_1d(reader.TimestepValues)}
             for number, time in enumerate(arrays["times"]):
                 simple.UpdatePipeline(float(time), reader)
                 data = servermanager.Fetch(reader)
@@ -257,10 +257,13 @@ class ParaViewTest(unittest.TestCase):
             over = np.abs(along) < 15
             # A point is the mean over half a millimetre, over which the circle falls by 1/2 (1/4)^2/56.
             self.assertAlmostEqual((away - RADIUS)[over].min(), -row["penetration"], delta=6e-4)
-            self.assertLess((away - RADIUS)[pressure > 0].max(), 6e-4)
+            # One at the end of the contact may have most of its half millimetre outside, where the circle falls by x/R.
+            outside = 0.5 * row["contact_width"] + 0.5
+            self.assertLess((away - RADIUS)[pressure > 0].max(), 0.5 * 0.5 * outside / RADIUS)
             self.assertLess(np.abs(along[pressure > 0]).max(), 15.01)
             force = file["face/weight"][:] @ seen.of(number, "traction [MPa]")
-            self.assertAlmostEqual(force[0], row["Q"], delta=2e-3 * abs(row["Q"]))
+            # Pressure is shown along the lever's normal; the cylinder's is off by the centre's offset over R, and P counts for mu P.
+            self.assertAlmostEqual(force[0], row["Q"], delta=2 * (1e-3 + abs(row["centre_offset"]) / RADIUS) * abs(row["Q"]))
             self.assertAlmostEqual(force[2], row["F_across"], delta=1e-4 * row["P"])
 
     def test_half_that_is_solved_is_there_with_its_mirror_image(self):
