@@ -287,6 +287,8 @@ def caption(scenery, magnify, window):
 
 def fields(result, x=None, way=None, magnify=None, part="all", magnify_contact=None):
     """The frame nearest to x. Throws NotAResult where there is none near, or no such part in it."""
+    if is_solid(result) and (part != "all" or magnify_contact):
+        raise NotAResult(f"{result.folder}: --part and --magnify-contact are for runs in a plane")
     if is_solid(result):
         return solid_fields(result, x, way, magnify)
     scenery = Scenery(result, chosen_frame(result, x, way), part)
