@@ -158,6 +158,7 @@ FIGURES = {
     # Three dimensions.
     "solid-tilted-a": drawn("solid-tilted-a", "contact"),
     "solid-modal-a": drawn("solid-modal-a", "modes"),
+    "solid-fields-a": lambda run: fields(run("solid-tilted-a"), way="backward"),
     # In time.
     "support-a": lambda run: reversal(run("support-a")),
     "stribeck-a": lambda run: forces_over_time([run("stribeck-a")]),

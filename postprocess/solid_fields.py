@@ -92,7 +92,7 @@ def draw_sides(axes, view, points, sides, colours, zorder=1):
     chosen, brightness = view.seen(points[sides])
     shaded = colours[chosen].copy()
     shaded[:, :3] *= brightness[:, None]
-    style = {"linewidth": 0.15, "rasterized": True, "zorder": zorder}
+    style = {"linewidth": 0.5, "rasterized": True, "zorder": zorder}
     axes.add_collection(PolyCollection(view(points[sides[chosen]]), facecolor=shaded, edgecolor=shaded, **style))
 
 
@@ -123,7 +123,7 @@ def draw_contact(axes, frame, view, magnify, norm, pressure_norm, chosen):
     draw_sides(axes, view, points, sides, stress_colours(frame, sides, norm), zorder=1)
     pressed = frame.face_cells[(frame.pressure[frame.face_cells] > 0).any(axis=1)]
     colours = plt.get_cmap(PRESSURE_MAP)(pressure_norm(frame.pressure[pressed].mean(axis=1)))
-    style = {"linewidth": 0.15, "rasterized": True, "zorder": 2}
+    style = {"linewidth": 0.3, "rasterized": True, "zorder": 2}
     axes.add_collection(PolyCollection(view(face[pressed]), facecolor=colours, edgecolor=colours, **style))
 
 
