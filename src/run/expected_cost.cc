@@ -31,6 +31,7 @@ namespace sprag
     constexpr double solid_step        = 1.7e-9;  ///< times N^1.4
     constexpr double solid_modes       = 8e-7;    ///< times N^1.45, body and held slide included
     constexpr double solid_in_time     = 1.1e-8;  ///< a step, times displacements of the face^1.55
+    constexpr double fields_of_solid   = 1.4e-5;  ///< of eight modes, times N
     constexpr double reduced_step      = 2e-5;
     constexpr double basis             = 5.5e-7; ///< times N^1.5
     // Of it, what held slides need.
@@ -157,9 +158,9 @@ namespace sprag
 
     double held(const Scene &scene)
     {
+      const double N = expected_size(scene).displacements;
       if (scene.analysis.dimension == 3)
-        return solid_with_inertia(scene, 0.);
-      const double N        = expected_size(scene).displacements;
+        return solid_with_inertia(scene, 0.) + (scene.output.fields == FieldOutput::none ? 0. : fields_of_solid * N);
       const double bases    = scene.analysis.model == ModelType::finite_element ? basis_of_meshed_slide
                               : scene.analysis.type == AnalysisType::modal      ? basis_of_modes
                                                                                 : basis_of_slide;
