@@ -8,6 +8,7 @@
 #include "run/field_recorder.h"
 #include "run/in_memory.h"
 #include "run/recorder.h"
+#include "run/shown_body.h"
 #include "run/steps_in_time.h"
 #include "run/transient_accuracy.h"
 #include "run/transient_settings.h"
@@ -113,31 +114,32 @@ namespace sprag
     announce(growing, scene, options);
     append(warnings, hidden_vibration_warnings(growing, scene.time));
     std::optional<FieldRecorder> fields;
-    if (body != nullptr && scene.output.fields != FieldOutput::none)
+    const bool is_meshed = dynamics.lever || dynamics.solid;
+    if (is_meshed && scene.output.fields != FieldOutput::none)
     {
-      fields.emplace(scene, BodyFields(*body), recovery(dynamics.meshed, number_of_levers(scene)), options.folder, timer,
-                     checkpoint.resumes());
+      fields.emplace(scene, shown_body(scene, dynamics), recovery(dynamics.meshed, number_of_levers(scene)), options.folder,
+                     timer, checkpoint.resumes());
       checkpoint.add_part([&](Archive &archive) { fields->visit_progress(archive); });
     }
-    else if (body != nullptr)
+    else if (is_meshed)
       recorder.set_stress(no_stress_peaks("Output/Fields = none"));
 
-    // In three dimensions there are no fields that say when the face is wanted.
+    // In three dimensions the face is kept beside the frames, too.
     constexpr double faces_of_solid = 100.;
     double next_face                = 0.; // [s]
     checkpoint.add_part([&](Archive &archive) { archive(next_face); });
     const auto write = [&](const Motion &motion, const Row &row)
     {
       recorder.record(row);
-      if (dynamics.solid && row[Column::time] >= next_face)
-      {
-        recorder.record(model.face_state(motion));
+      const bool is_due = dynamics.solid && row[Column::time] >= next_face;
+      if (is_due)
         next_face += scene.drive.duration() / faces_of_solid;
-      }
-      if (!fields)
+      if (!fields && !is_due)
         return;
-      const auto face = model.face_state(motion);
-      if (fields->record(row, face, [&] { return FieldSource{ motion.coordinates.position, {}, motion.face_force }; }))
+      const auto face    = model.face_state(motion);
+      const auto source  = [&] { return FieldSource{ motion.coordinates.position, {}, motion.face_force }; };
+      const bool is_kept = fields && fields->record(row, face, source);
+      if (is_kept || is_due)
         recorder.record(face);
     };
     const auto hand_on = [&](const Motion &motion, const Row &row) { checkpoint.hand_on([&] { write(motion, row); }); };

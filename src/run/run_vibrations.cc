@@ -9,6 +9,7 @@
 #include "run/in_memory.h"
 #include "run/report.h"
 #include "run/result_writer.h"
+#include "run/shown_body.h"
 #include "run/vibration_accuracy.h"
 #include "run/vibration_print.h"
 #include "run/vibration_report.h"
@@ -81,8 +82,8 @@ namespace sprag
         return;
       prepare_folder(scene, options);
       remove_field_files(options.folder);
-      const BodyFields fields = dynamics.solid ? BodyFields(*dynamics.solid->body) : BodyFields(*dynamics.lever->body);
-      unsigned int number     = 0;
+      const auto fields   = shown_body(scene, dynamics);
+      unsigned int number = 0;
       for (const auto &mode : modes)
       {
         const auto lambda = mode.mode.eigenvalue;

@@ -28,6 +28,8 @@ RUNS = {
              "Stability/Position=40", "Stability/Direction=backward", "Stability/Modes=2", "Stability/Roles=off"),
     "solid": ("Analysis/Dimension=3", "Mesh/Faces in contact=0", "Mesh/Elements across=3", "Cylinder/Tilt=1e-3", "Cylinder/Skew=2e-3",
               "Cylinder/Length=30", "Cylinder/Position=4", "Output/Fields=interval"),
+    "reversal": ("Analysis/Dimension=3", "Mesh/Faces in contact=0", "Mesh/Elements across=2", "Cylinder/Tilt=1e-3",
+                 "Analysis/Type=transient", "Analysis/Model=condensed", "Condensed/Modes=6", "Drive/Start=38"),
     "half": ("Analysis/Dimension=3", "Mesh/Faces in contact=0", "Mesh/Elements across=2", "Drive/Cycles=0.5"),
     "twist": ("Analysis/Dimension=3", "Mesh/Faces in contact=0", "Mesh/Elements across=2", "Analysis/Type=modal",
               "Analysis/Model=condensed", "Condensed/Modes=8", "Stability/Position=40", "Stability/Modes=8"),
@@ -242,29 +244,30 @@ class ParaViewTest(unittest.TestCase):
             np.testing.assert_allclose(away[away > 1], RADIUS, atol=1e-4)
 
     def test_solid_face_touches_the_cylinder_and_carries_its_forces(self):
-        seen = Seen(self.folder / "solid", "face")
-        file = self.result("solid")
-        axis = np.array((2e-3, 1e-3, 1)) / np.linalg.norm((2e-3, 1e-3, 1))
-        for number, row in enumerate(self.rows("solid", seen)):
-            pressure = seen.of(number, "pressure [MPa]")
-            written = file["face/pressure"][int(np.flatnonzero(file["face/time"][:] == row["time"])[0])]
-            np.testing.assert_allclose(pressure, written, rtol=1e-6)
-            np.testing.assert_allclose(seen.of(number, "zeta [mm]"), file["face/zeta"][:], atol=1e-5)
-            if not row["P"] > 1:
-                continue
-            now = seen.of(number, "points") + seen.of(number, "displacement [mm]")
-            along, away = from_axis(now, (row["x"], 0, 4), axis)
-            over = np.abs(along) < 15
-            # A point is the mean over half a millimetre, over which the circle falls by 1/2 (1/4)^2/56.
-            self.assertAlmostEqual((away - RADIUS)[over].min(), -row["penetration"], delta=6e-4)
-            # One at the end of the contact may have most of its half millimetre outside, where the circle falls by x/R.
-            outside = 0.5 * row["contact_width"] + 0.5
-            self.assertLess((away - RADIUS)[pressure > 0].max(), 0.5 * 0.5 * outside / RADIUS)
-            self.assertLess(np.abs(along[pressure > 0]).max(), 15.01)
-            force = file["face/weight"][:] @ seen.of(number, "traction [MPa]")
-            # Pressure is shown along the lever's normal; the cylinder's is off by the centre's offset over R, and P counts for mu P.
-            self.assertAlmostEqual(force[0], row["Q"], delta=2 * (1e-3 + abs(row["centre_offset"]) / RADIUS) * abs(row["Q"]))
-            self.assertAlmostEqual(force[2], row["F_across"], delta=1e-4 * row["P"])
+        for name, slopes, position, half_length in (("solid", (2e-3, 1e-3, 1), 4, 15), ("reversal", (0, 1e-3, 1), 0, np.inf)):
+            seen = Seen(self.folder / name, "face")
+            file = self.result(name)
+            axis = np.array(slopes) / np.linalg.norm(slopes)
+            for number, row in enumerate(self.rows(name, seen)):
+                pressure = seen.of(number, "pressure [MPa]")
+                for step in np.flatnonzero(file["face/time"][:] == row["time"]):
+                    np.testing.assert_allclose(pressure, file["face/pressure"][step], rtol=1e-6)
+                np.testing.assert_allclose(seen.of(number, "zeta [mm]"), file["face/zeta"][:], atol=1e-5)
+                if not row["P"] > 1:
+                    continue
+                now = seen.of(number, "points") + seen.of(number, "displacement [mm]")
+                along, away = from_axis(now, (row["x"], 0, position), axis)
+                over = np.abs(along) < half_length
+                # A point is the mean over half a millimetre, over which the circle falls by 1/2 (1/4)^2/56.
+                self.assertAlmostEqual((away - RADIUS)[over].min(), -row["penetration"], delta=6e-4)
+                # One at the end of the contact may have most of its half millimetre outside, where the circle falls by x/R.
+                outside = 0.5 * row["contact_width"] + 0.5
+                self.assertLess((away - RADIUS)[pressure > 0].max(), 0.5 * 0.5 * outside / RADIUS)
+                self.assertLess(np.abs(along[pressure > 0]).max(), half_length + 0.01)
+                force = file["face/weight"][:] @ seen.of(number, "traction [MPa]")
+                # Pressure is shown along the lever's normal; the cylinder's is off by the centre's offset over R.
+                self.assertAlmostEqual(force[0], row["Q"], delta=2 * (1e-3 + abs(row["centre_offset"]) / RADIUS) * abs(row["Q"]))
+                self.assertAlmostEqual(force[2], row["F_across"], delta=1e-4 * row["P"])
 
     def test_half_that_is_solved_is_there_with_its_mirror_image(self):
         for index, names in (("fields", ("displacement [mm]", "stress [MPa]", "von_mises_stress [MPa]")), ("face", ("displacement [mm]", "traction [MPa]"))):

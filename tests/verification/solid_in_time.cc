@@ -1,5 +1,6 @@
 #include "fe/solid/solid_dynamics.h"
 
+#include "fe/fields/body_fields.h"
 #include "levers/dynamics.h"
 #include "run_scene.h"
 #include "scene/held_slide.h"
@@ -135,6 +136,48 @@ TEST(SolidInTime, AVibrationGrowsAsItsEigenvalueSays)
   EXPECT_TRUE(growth.slid);
   EXPECT_NEAR(growth.growth_difference(), 0., 0.003);
   EXPECT_NEAR(growth.frequency_difference(), 0., 0.0005);
+}
+
+// Modes leave out what the face does under its forces, which a back-substitution with the whole body adds; levers of as many
+// modes move elsewhere alike as far as the plane has modes where space has sideways ones.
+TEST(SolidInTime, ItsFieldsAreThoseOfThePlane)
+{
+  std::array<std::vector<BodyFields::Node>, 2> nodes;
+  std::array<std::vector<NodalField>, 2> fields;
+  for (const unsigned int dimension : { 2u, 3u })
+  {
+    Scene scene           = held_model_a(dimension, AnalysisType::transient);
+    scene.drive           = Drive(DriveProfile::triangle, 20., 24., 112., 0.5);
+    scene.condensed.modes = 20;
+    DynamicsMaker maker(false);
+    const auto dynamics = maker.make(scene);
+    auto motion         = dynamics.model().initial_motion(scene.drive.at(0.));
+    for (unsigned int i = 1; i <= 20; ++i)
+      motion = dynamics.model().step(motion, scene.drive.at(i * 1e-4), StepWeights{ 1e-4, 0., 0., 0.25, 0.5 }).motion.value();
+    const BodyFields body = dynamics.solid ? BodyFields(*dynamics.solid->body) : BodyFields(*dynamics.lever->body);
+    nodes[dimension - 2]  = body.nodes();
+    fields[dimension - 2] = body.at(dynamics.meshed.elastic_displacement(motion, 0));
+  }
+  double moved = 0., stressed = 0., displacement = 0., stress = 0.;
+  for (unsigned int i = 0; i < nodes[1].size(); ++i)
+  {
+    const auto &node    = nodes[1][i];
+    const auto is_below = [&](const BodyFields::Node &other)
+    {
+      return other.part == node.part && other.at_hub == node.at_hub && std::abs(other.position[0] - node.position[0]) < 1e-9 &&
+             std::abs(other.position[1] - node.position[1]) < 1e-9;
+    };
+    const auto found = std::find_if(nodes[0].begin(), nodes[0].end(), is_below);
+    ASSERT_NE(found, nodes[0].end());
+    const auto &expected = fields[0][found - nodes[0].begin()];
+    moved                = std::max(moved, expected.displacement.norm());
+    stressed             = std::max(stressed, expected.stress.norm());
+    displacement         = std::max(displacement, (fields[1][i].displacement - expected.displacement).norm());
+    stress               = std::max(stress, (fields[1][i].stress - expected.stress).norm());
+  }
+  EXPECT_GT(stressed, 0.01);
+  EXPECT_LT(displacement, 2e-4 * moved);
+  EXPECT_LT(stress, 2e-4 * stressed);
 }
 
 // A drive that stands still slides the way that the sign of its speed says.

@@ -184,8 +184,13 @@ namespace sprag
   }
 
   BodyFields::BodyFields(const SolidBody &body)
+      : BodyFields(body, body.friction_face())
+  {
+  }
+
+  BodyFields::BodyFields(const SolidBody &body, const FrictionFace<3> &shown)
       : in_space(true)
-      , of_face(body.friction_face())
+      , of_face(shown)
   {
     read<3>(body);
   }

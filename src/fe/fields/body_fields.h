@@ -35,6 +35,9 @@ namespace sprag
     explicit BodyFields(const ElasticBody<2> &body);
     explicit BodyFields(const SolidBody &body);
 
+    /// With a part of the body's face.
+    BodyFields(const SolidBody &body, const FrictionFace<3> &face);
+
     struct Node
     {
       dealii::Point<3> position; ///< undeformed [mm]

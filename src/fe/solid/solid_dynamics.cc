@@ -23,7 +23,7 @@ namespace sprag
   {
     /// The part of the face where the contact may come, with what it is looked at beside: of a held slide about its place, else
     /// of the whole drive.
-    FaceWindow reached_face(const Scene &scene, const FrictionFace<3> &face)
+    FaceWindow window_of_scene(const Scene &scene, const FrictionFace<3> &face)
     {
       constexpr double over_radius = 0.1;
       const double room            = over_radius * scene.geometry.cylinder_radius + 4. * scene.layer.thickness;
@@ -170,7 +170,7 @@ namespace sprag
 
   std::unique_ptr<DynamicModel> make_solid_dynamics(const Scene &scene, const SolidInTime &lever, const double relaxation)
   {
-    auto window       = reached_face(scene, lever.body->friction_face());
+    auto window       = window_of_scene(scene, lever.body->friction_face());
     const auto basis  = basis_on(window, lever, scene.spring.stiffness);
     auto structure    = std::make_unique<ModalStructure>(modal_data(basis, constants_of(scene, relaxation, basis.lever_mass)));
     const auto ports  = structure->ports();
@@ -182,10 +182,15 @@ namespace sprag
                                                lever_frame(scene, ports, basis.lever_mass), lever);
   }
 
+  FrictionFace<3> reached_face(const Scene &scene, const SolidBody &body)
+  {
+    return window_of_scene(scene, body.friction_face()).face;
+  }
+
   std::function<Vector<double>(const Motion &, unsigned int)> solid_displacement(const Scene &scene, const SolidInTime &lever)
   {
     std::vector<unsigned int> dofs;
-    for (const auto &node : reached_face(scene, lever.body->friction_face()).face.nodes)
+    for (const auto &node : reached_face(scene, *lever.body).nodes)
       dofs.insert(dofs.end(), node.dofs.begin(), node.dofs.end());
     return [&lever, dofs](const Motion &motion, unsigned int)
     {

@@ -24,6 +24,9 @@ namespace sprag
   /// `relaxation`: damping over stiffness of the friction layer [s]. The lever must outlive it.
   std::unique_ptr<DynamicModel> make_solid_dynamics(const Scene &scene, const SolidInTime &lever, double relaxation);
 
+  /// Returns the part of the face that this model looks at: where the contact may come.
+  FrictionFace<3> reached_face(const Scene &scene, const SolidBody &body);
+
   /// Returns what finds the elastic displacement of all degrees of freedom of the body in a motion of that model: modes, and the
   /// static answer of the face by a back-substitution with the whole body [mm]. The lever must outlive it.
   std::function<dealii::Vector<double>(const Motion &, unsigned int)> solid_displacement(const Scene &scene,

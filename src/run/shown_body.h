@@ -1,0 +1,16 @@
+#pragma once
+
+#include "fe/fields/body_fields.h"
+#include "levers/dynamics.h"
+
+namespace sprag
+{
+  /// Returns the body of a meshed model in time for its fields.
+  inline BodyFields shown_body(const Scene &scene, const Dynamics &dynamics)
+  {
+    if (dynamics.lever)
+      return BodyFields(*dynamics.lever->body);
+    const auto &body = *dynamics.solid->body;
+    return { body, reached_face(scene, body) };
+  }
+} // namespace sprag
