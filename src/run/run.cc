@@ -1,6 +1,7 @@
 #include "run/run.h"
 
 #include "fe/mesh/mesh.h"
+#include "fe/mesh/solid_file.h"
 #include "levers/prepared_scene.h"
 #include "run/analyses.h"
 #include "run/choice.h"
@@ -24,6 +25,8 @@ namespace sprag
         return;
       Mesh triangulation;
       make_mesh(scene, triangulation);
+      if (triangulation.n_active_cells() == 0)
+        check_solid_file(scene);
     }
 
     JammingMargin margin_of(const Scene &scene)

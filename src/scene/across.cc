@@ -33,4 +33,32 @@ namespace sprag
     std::copy_if(result.begin(), result.end(), std::back_inserter(half), [&](const double zeta) { return zeta > round_off; });
     return half;
   }
+
+  std::vector<double> with_sides_of(const double web, std::vector<double> planes)
+  {
+    const double side = 0.5 * web, edge = planes.back();
+    const double round_off = 1e-9 * edge;
+    if (side > edge - round_off)
+      return planes;
+    double nearest = 0.; // plane between middle and edge
+    for (const double zeta : planes)
+      if (zeta > round_off && zeta < edge - round_off && (nearest == 0. || std::abs(zeta - side) < std::abs(nearest - side)))
+        nearest = zeta;
+    if (nearest == 0.)
+    {
+      if (planes.front() < 0.)
+        planes.push_back(-side);
+      planes.push_back(side);
+      std::sort(planes.begin(), planes.end());
+      return planes;
+    }
+    for (double &zeta : planes)
+    {
+      const double distance = std::abs(zeta);
+      const double moved =
+          distance <= nearest ? distance * side / nearest : side + (distance - nearest) * (edge - side) / (edge - nearest);
+      zeta = std::copysign(distance < edge ? moved : edge, zeta);
+    }
+    return planes;
+  }
 } // namespace sprag

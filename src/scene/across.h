@@ -13,4 +13,8 @@ namespace sprag
   /// Returns the planes between the elements across the width of three dimensions, from its middle, growing from both edges to
   /// the middle [mm]; where it is symmetric those of one half.
   std::vector<double> planes_across(const Scene &scene);
+
+  /// Returns the planes stretched so that they hold both sides of a web in the middle: those nearest to them move there, or
+  /// further ones are added. `web`: its width, at most that of the planes [mm].
+  std::vector<double> with_sides_of(double web, std::vector<double> planes);
 } // namespace sprag

@@ -34,7 +34,6 @@ namespace sprag
         with_inertia(scene, need);
       need(analysis.solution == Solution::automatic, "Analysis/Solution", "automatic");
       need(scene.lever.material == MaterialModel::linear, "Lever/Material", "linear");
-      need(scene.lever.outline == LeverOutline::bar, "Lever/Outline", "bar");
       need(scene.plate.type == PlateType::none, "Friction plate/Type", "none");
       need(scene.cylinder.type == CylinderType::rigid, "Cylinder/Type", "rigid");
       need(scene.pair.type == PairType::half, "Mirrored pair/Type", "half");

@@ -1,8 +1,6 @@
-#include "fe/solid/solid_lever.h"
-
 #include "fe/body/cell_elasticity.h"
-#include "run_scene.h"
 #include "scene/closed_form.h"
+#include "verification/solid_run.h"
 
 #include <deal.II/dofs/dof_tools.h>
 
@@ -13,46 +11,6 @@ using namespace sprag;
 
 namespace
 {
-  /// Model A on a coarse mesh without contraction, so that the plane is exact, in three dimensions.
-  Scene solid_model_a(const double poisson_ratio)
-  {
-    Scene scene               = with_face_size(model_a(), 4.);
-    scene.analysis.dimension  = 3;
-    scene.lever.poisson_ratio = scene.layer.poisson_ratio = poisson_ratio;
-    scene.mesh.elements_across                            = 4;
-    scene.drive                                           = Drive(DriveProfile::triangle, 0., 20., 112., 1.);
-    return scene;
-  }
-
-  Scene tilted(Scene scene, const double tilt, const double skew = 0.)
-  {
-    scene.cylinder.tilt = tilt;
-    scene.cylinder.skew = skew;
-    return scene;
-  }
-
-  /// A run in three dimensions.
-  struct SolidRun
-  {
-    explicit SolidRun(const Scene &scene)
-    {
-      Mesh plane;
-      make_mesh(scene, plane);
-      const SolidBody body(scene, plane, MPI_COMM_SELF);
-      SolidLever lever(body, scene);
-      run_quasi_static(lever, scene.drive, { scene.analysis.step, scene.analysis.minimum_step, scene.contact },
-                       [&](const State &state, const Row &row)
-                       {
-                         rows.push_back(row);
-                         if (rows.size() == 10)
-                           exactness = lever.exactness({ lever.sample(state) });
-                       });
-    }
-
-    std::vector<Row> rows;
-    SolidLever::Exactness exactness{};
-  };
-
   using Vector = dealii::Tensor<1, 3>;
 
   /// Sum of forces at places of the lever, and of their moments about the pivot.
@@ -136,24 +94,6 @@ namespace
                          of_state(body, lever, state, row);
                      });
     EXPECT_GT(visited, 20u);
-  }
-
-  double largest(const std::vector<Row> &rows, const Column column)
-  {
-    double result = 0.;
-    for (const auto &row : rows)
-      result = std::max(result, std::abs(row[column]));
-    return result;
-  }
-
-  /// Of a column, over its largest value.
-  double difference(const std::vector<Row> &a, const std::vector<Row> &b, const Column column)
-  {
-    EXPECT_EQ(a.size(), b.size());
-    double result = 0.;
-    for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
-      result = std::max(result, std::abs(a[i][column] - b[i][column]));
-    return result / largest(a, column);
   }
 } // namespace
 

@@ -48,11 +48,13 @@ namespace sprag
       }
     };
 
-    /// Physical tags by meaning. Reports everything that is missing or unknown at once.
-    Answer read_groups(const std::string &file, const MeshGroups &groups)
+    /// Physical tags by meaning. Reports everything that is missing or unknown at once. Of a mesh in three dimensions it takes
+    /// groups without a meaning away: those of the surface that was extruded lie inside.
+    Answer read_groups(const std::string &file, const MeshGroups &groups, const int dim)
     {
+      const std::string part = dim == 2 ? "surface" : "volume";
       Answer ids;
-      std::set<std::string> surfaces, curves;
+      std::set<std::string> parts, sides;
       std::vector<std::string> mistakes;
       gmsh::vectorpair tags;
       gmsh::model::getPhysicalGroups(tags);
@@ -60,18 +62,20 @@ namespace sprag
       {
         std::string name;
         gmsh::model::getPhysicalName(group_dim, tag, name);
-        if (group_dim == 2 && groups.surfaces.count(name) != 0)
-          ids.materials[tag] = groups.surfaces.at(name);
-        else if (group_dim == 1 && groups.curves.count(name) != 0)
-          ids.boundaries[tag] = groups.curves.at(name);
-        else if (group_dim == 2)
-          mistakes.push_back(file + ": unknown physical surface '" + name + "': surfaces are " + groups.surface_names);
-        if (group_dim == 2)
-          surfaces.insert(name);
-        else if (group_dim == 1)
-          curves.insert(name);
+        if (group_dim == dim && groups.parts.count(name) != 0)
+          ids.materials[tag] = groups.parts.at(name);
+        else if (group_dim == dim - 1 && groups.sides.count(name) != 0)
+          ids.boundaries[tag] = groups.sides.at(name);
+        else if (group_dim == dim)
+          mistakes.push_back(file + ": unknown physical " + part + " '" + name + "': " + part + "s are " + groups.part_names);
+        else if (dim == 3)
+          gmsh::model::removePhysicalGroups({ { group_dim, tag } });
+        if (group_dim == dim)
+          parts.insert(name);
+        else if (group_dim == dim - 1)
+          sides.insert(name);
       }
-      for (const auto &line : groups.missing(surfaces, curves))
+      for (const auto &line : groups.missing(parts, sides))
         mistakes.push_back(file + ": " + line);
       if (!mistakes.empty())
         throw InputError(mistakes);
@@ -92,17 +96,47 @@ namespace sprag
         throw InputError(file + ": the mesh has no elements in a physical surface");
     }
 
-    /// A plane lever's mesh lies in z = 0: another would be read as its shadow.
-    void refuse_third_dimension(const std::string &file)
+    void refuse_other_solids(const std::string &file)
+    {
+      std::vector<int> types;
+      std::vector<std::vector<std::size_t>> tags, nodes;
+      gmsh::model::mesh::getElements(types, tags, nodes, 3);
+      const int hexahedron = gmsh::model::mesh::getElementType("hexahedron", 1);
+      std::vector<std::string> others;
+      for (std::size_t i = 0; i < types.size(); ++i)
+        if (types[i] != hexahedron)
+        {
+          std::string name;
+          int dimension = 0, order = 0, n_nodes = 0, n_primary = 0;
+          std::vector<double> places;
+          gmsh::model::mesh::getElementProperties(types[i], name, dimension, order, n_nodes, places, n_primary);
+          others.push_back(std::to_string(tags[i].size()) + " elements '" + name + "'");
+        }
+      if (!others.empty())
+        throw InputError(file + ": the mesh has " + boost::algorithm::join(others, ", ") +
+                         ", but must be made of hexahedra with 8 nodes; in a .geo extrude surfaces of quadrilaterals in layers: "
+                         "'Recombine Surface {s}; Extrude {0, 0, 40} { Surface{s}; Layers{10}; Recombine; }', or use "
+                         "'Transfinite Volume' and 'Recombine Surface'");
+      if (types.empty())
+        throw InputError(file + ": the mesh has no elements in a physical volume");
+    }
+
+    bool open_model_has_volumes()
     {
       std::vector<int> types;
       std::vector<std::vector<std::size_t>> tags, corners;
       gmsh::model::mesh::getElements(types, tags, corners, 3);
       gmsh::vectorpair volumes;
       gmsh::model::getEntities(volumes, 3);
-      if (!types.empty() || !volumes.empty())
+      return !types.empty() || !volumes.empty();
+    }
+
+    /// A plane lever's mesh lies in z = 0: another would be read as its shadow.
+    void refuse_third_dimension(const std::string &file)
+    {
+      if (open_model_has_volumes())
         throw InputError(file + ": has volumes: the lever is modelled in its plane; give its surfaces in z = 0 alone, "
-                                "Lever/Width is the third dimension");
+                                "Lever/Width is the third dimension, or set Analysis/Dimension = 3");
       std::vector<std::size_t> nodes;
       std::vector<double> positions, parametric;
       gmsh::model::mesh::getNodes(nodes, positions, parametric);
@@ -134,7 +168,8 @@ namespace sprag
       return mesh;
     }
 
-    Answer run_gmsh(const std::string &file, const MeshConstants &constants, const MeshGroups &groups)
+    /// Opens a file and does something with the model.
+    Answer run_gmsh(const std::string &file, const MeshConstants &constants, const std::function<Answer()> &work)
     {
       std::vector<std::string> arguments = { "sprag" };
       for (const auto &[name, value] : constants)
@@ -148,16 +183,7 @@ namespace sprag
       try
       {
         gmsh::open(file);
-        std::vector<std::size_t> nodes;
-        std::vector<double> positions, parametric;
-        gmsh::model::mesh::getNodes(nodes, positions, parametric);
-        if (nodes.empty())
-          gmsh::model::mesh::generate(2);
-        Answer answer = read_groups(file, groups);
-        refuse_third_dimension(file);
-        refuse_other_elements(file);
-        answer.mesh = written_mesh();
-        return answer;
+        return work();
       }
       catch (const InputError &)
       {
@@ -171,7 +197,27 @@ namespace sprag
       }
     }
 
-    void rename_ids(const Answer &ids, Triangulation<2> &triangulation)
+    Answer meshed(const std::string &file, const MeshGroups &groups, const int dim)
+    {
+      std::vector<std::size_t> nodes;
+      std::vector<double> positions, parametric;
+      gmsh::model::mesh::getNodes(nodes, positions, parametric);
+      if (nodes.empty())
+        gmsh::model::mesh::generate(dim);
+      Answer answer = read_groups(file, groups, dim);
+      if (dim == 2)
+      {
+        refuse_third_dimension(file);
+        refuse_other_elements(file);
+      }
+      else
+        refuse_other_solids(file);
+      answer.mesh = written_mesh();
+      return answer;
+    }
+
+    template <int dim>
+    void rename_ids(const Answer &ids, Triangulation<dim> &triangulation)
     {
       for (const auto &cell : triangulation.active_cell_iterators())
       {
@@ -186,52 +232,77 @@ namespace sprag
     }
 
     /// Of cells whose corners are damaged deal.II makes what it can.
-    void refuse_inverted_cells(const std::string &file, const Triangulation<2> &triangulation)
+    template <int dim>
+    void refuse_inverted_cells(const std::string &file, const Triangulation<dim> &triangulation)
     {
+      constexpr unsigned int n = GeometryInfo<dim>::vertices_per_cell;
       for (const auto &cell : triangulation.active_cell_iterators())
       {
-        const Point<2> corners[] = { cell->vertex(0), cell->vertex(1), cell->vertex(2), cell->vertex(3) };
-        Tensor<0, 2> areas[4];
-        GeometryInfo<2>::alternating_form_at_vertices(corners, areas);
-        for (const double area : areas)
-          if (!(area > 0.))
-            throw InputError(file + ": the cell at (" + rounded_text(cell->center()[0]) + ", " + rounded_text(cell->center()[1]) +
-                             ") mm is degenerate or turned inside out");
+        Point<dim> corners[n];
+        for (unsigned int v = 0; v < n; ++v)
+          corners[v] = cell->vertex(v);
+        Tensor<0, dim> contents[n];
+        GeometryInfo<dim>::alternating_form_at_vertices(corners, contents);
+        for (const double content : contents)
+          if (!(content > 0.))
+          {
+            std::string place = rounded_text(cell->center()[0]);
+            for (unsigned int d = 1; d < dim; ++d)
+              place += ", " + rounded_text(cell->center()[d]);
+            throw InputError(file + ": the cell at (" + place + ") mm is degenerate or turned inside out");
+          }
       }
     }
 
-    void read(const std::string &file, const std::string &mesh, Triangulation<2> &triangulation)
+    template <int dim>
+    void read(const std::string &file, const std::string &mesh, Triangulation<dim> &triangulation)
     {
       std::istringstream stream(mesh);
       try
       {
-        GridIn<2> reader(triangulation);
+        GridIn<dim> reader(triangulation);
         reader.read_msh(stream);
       }
       catch (const dealii::ExceptionBase &)
       {
-        throw InputError(file +
-                         ": the mesh cannot be used: a surface is in two physical groups, a physical curve lies inside the " +
-                         "body, or cells do not match along a common side");
+        const std::string part = dim == 2 ? "surface" : "volume", side = dim == 2 ? "curve" : "surface";
+        throw InputError(file + ": the mesh cannot be used: a " + part + " is in two physical groups, a physical " + side +
+                         " lies inside the body, or cells do not match along a common side");
       }
       refuse_inverted_cells(file, triangulation);
     }
 
-    /// Carried out in a process of its own.
-    Answer gmsh_answer(const std::string &file, const MeshConstants &constants, const MeshGroups &groups)
+    /// Of a process of its own that opens the file and does something with the model.
+    Answer answer_of_gmsh(const std::string &file, const MeshConstants &constants, const std::function<Answer()> &work)
     {
-      try
+      std::error_code ignored;
+      if (!std::filesystem::is_regular_file(file, ignored) || !std::ifstream(file))
+        throw InputError(file + ": the mesh file cannot be read");
+      const bool is_mesh    = std::filesystem::path(file).extension() == ".msh"; // and no script, which may take its time
+      const auto bytes      = std::filesystem::file_size(file);
+      const auto in_process = [&]
       {
-        auto answer = run_gmsh(file, constants, groups);
-        Triangulation<2> trial;
-        if (constants.empty()) // a user's own may be anything
-          read(file, answer.mesh, trial);
-        return answer;
-      }
-      catch (const InputError &error)
-      {
-        return { error.messages, {}, {}, {} };
-      }
+        if (is_mesh)
+          limit_growth(mesh_room + 200 * bytes);
+        Answer answer;
+        try
+        {
+          answer = run_gmsh(file, constants, work);
+        }
+        catch (const InputError &error)
+        {
+          answer.mistakes = error.messages;
+        }
+        const auto packed = Utilities::pack(answer, false);
+        return std::string(packed.begin(), packed.end());
+      };
+      const auto found = in_child_process(in_process, is_mesh ? mesh_patience + 1e-6 * static_cast<double>(bytes) : 0.);
+      if (!found.failure.empty())
+        throw InputError(file + ": gmsh " + found.failure + " on it: the file is damaged, or meshing it needs too much memory");
+      auto answer = Utilities::unpack<Answer>(std::vector<char>(found.text.begin(), found.text.end()), false);
+      if (!answer.mistakes.empty())
+        throw InputError(answer.mistakes);
+      return answer;
     }
   } // namespace
 
@@ -248,28 +319,28 @@ namespace sprag
     return std::filesystem::is_regular_file(installed, error) ? installed.lexically_normal().string() : SPRAG_MESHES "/" + name;
   }
 
+  template <int dim>
   void read_gmsh(const std::string &file, const MeshConstants &constants, const MeshGroups &groups,
-                 Triangulation<2> &triangulation)
+                 Triangulation<dim> &triangulation)
   {
-    std::error_code ignored;
-    if (!std::filesystem::is_regular_file(file, ignored) || !std::ifstream(file))
-      throw InputError(file + ": the mesh file cannot be read");
-    const bool is_mesh = std::filesystem::path(file).extension() == ".msh"; // and no script, which may take its time
-    const auto bytes   = std::filesystem::file_size(file);
-    const auto work    = [&]
+    const auto mesh_it = [&]
     {
-      if (is_mesh)
-        limit_growth(mesh_room + 200 * bytes);
-      const auto packed = Utilities::pack(gmsh_answer(file, constants, groups), false);
-      return std::string(packed.begin(), packed.end());
+      auto answer = meshed(file, groups, dim);
+      Triangulation<dim> trial;
+      if (constants.empty()) // a user's own may be anything
+        read(file, answer.mesh, trial);
+      return answer;
     };
-    const auto found = in_child_process(work, is_mesh ? mesh_patience + 1e-6 * static_cast<double>(bytes) : 0.);
-    if (!found.failure.empty())
-      throw InputError(file + ": gmsh " + found.failure + " on it: the file is damaged, or meshing it needs too much memory");
-    const auto answer = Utilities::unpack<Answer>(std::vector<char>(found.text.begin(), found.text.end()), false);
-    if (!answer.mistakes.empty())
-      throw InputError(answer.mistakes);
+    const auto answer = answer_of_gmsh(file, constants, mesh_it);
     read(file, answer.mesh, triangulation);
     rename_ids(answer, triangulation);
+  }
+
+  template void read_gmsh(const std::string &, const MeshConstants &, const MeshGroups &, Triangulation<2> &);
+  template void read_gmsh(const std::string &, const MeshConstants &, const MeshGroups &, Triangulation<3> &);
+
+  bool has_volumes(const std::string &file)
+  {
+    return !answer_of_gmsh(file, {}, [] { return Answer{ {}, {}, {}, open_model_has_volumes() ? "volumes" : "" }; }).mesh.empty();
   }
 } // namespace sprag

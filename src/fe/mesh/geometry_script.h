@@ -14,15 +14,16 @@ namespace sprag
   /// Values by the names that a script's DefineConstant gives them.
   using MeshConstants = std::vector<std::pair<std::string, double>>;
 
-  /// What the physical groups of a mesh mean.
+  /// What the physical groups of a mesh mean: of a plane one surfaces and the curves about them, of one in three dimensions
+  /// volumes and surfaces.
   struct MeshGroups
   {
-    std::map<std::string, dealii::types::material_id> surfaces;
-    std::map<std::string, dealii::types::boundary_id> curves;
-    std::string surface_names; ///< the admissible ones in words
+    std::map<std::string, dealii::types::material_id> parts;
+    std::map<std::string, dealii::types::boundary_id> sides;
+    std::string part_names; ///< the admissible ones in words
 
-    /// Tells what is missing among the surfaces and curves found, a line each.
-    std::function<std::vector<std::string>(const std::set<std::string> &surfaces, const std::set<std::string> &curves)> missing =
+    /// Tells what is missing among the parts and sides found, a line each.
+    std::function<std::vector<std::string>(const std::set<std::string> &parts, const std::set<std::string> &sides)> missing =
         [](const auto &, const auto &) { return std::vector<std::string>(); };
   };
 
@@ -32,8 +33,13 @@ namespace sprag
   /// Returns the path of one of our scripts in `meshes`, "lever.geo".
   std::string mesh_script(const std::string &name);
 
-  /// Meshes a gmsh .geo with constants for its DefineConstant, or reads a .msh, of 4-node quadrilaterals [mm]; materials and
-  /// boundaries get the ids of their groups, other boundaries 0. Throws InputError naming the file and all that is wrong with it.
+  /// Meshes a gmsh .geo with constants for its DefineConstant, or reads a .msh, of 4-node quadrilaterals or 8-node hexahedra
+  /// [mm]; materials and boundaries get the ids of their groups, other boundaries 0. Throws InputError naming the file and all
+  /// that is wrong with it.
+  template <int dim>
   void read_gmsh(const std::string &file, const MeshConstants &constants, const MeshGroups &groups,
-                 dealii::Triangulation<2> &triangulation);
+                 dealii::Triangulation<dim> &triangulation);
+
+  /// Returns whether a gmsh .geo or .msh has volumes. Throws InputError for one that cannot be read.
+  bool has_volumes(const std::string &file);
 } // namespace sprag

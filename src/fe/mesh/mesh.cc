@@ -5,6 +5,7 @@
 #include "base/text.h"
 #include "fe/body/elastic_body.h"
 #include "fe/mesh/geometry_script.h"
+#include "fe/mesh/solid_file.h"
 #include "scene/contact_width.h"
 #include "scene/lever_shape.h"
 
@@ -157,6 +158,8 @@ namespace sprag
 
   void make_mesh(const Scene &scene, Triangulation<2> &triangulation)
   {
+    if (has_solid_file(scene))
+      return;
     if (!scene.mesh.file.empty())
       read_gmsh(scene.mesh.file, {}, lever_groups(scene), triangulation);
     else if (scene.lever.outline == LeverOutline::bar)

@@ -10,7 +10,7 @@ namespace sprag
   /// dimensions, or the user's Mesh/File, a gmsh .geo or .msh of quadrilaterals [mm]. Physical groups: surfaces "lever", "web",
   /// "plate", "layer" and "hub" (rigid), all but the first optional, curves "friction face" and "hub", at least one "hub"; with
   /// a friction plate on sensors surface "plate" and curves "sensor plate" and "sensor lever". Ids as in body_properties.h.
-  /// An elastic cylinder is added, see add_cylinder().
+  /// An elastic cylinder is added, see add_cylinder(). A Mesh/File of three dimensions leaves it empty, see read_solid_file().
   /// Throws InputError naming the file and what is missing or wrong in it.
   void make_mesh(const Scene &scene, Mesh &triangulation);
 

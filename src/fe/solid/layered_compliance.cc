@@ -31,12 +31,12 @@ namespace sprag
     }
   } // namespace
 
-  LayeredCompliance::LayeredCompliance(const SolidBody &body_, const double begin, const double end, const double depth)
+  LayeredCompliance::LayeredCompliance(const SolidBody &body_, const double begin, const double end)
       : body(body_)
   {
-    find_tiles(surroundings_over_depth * depth);
+    find_tiles(surroundings_over_depth * body.skin());
     if (body.has_skin())
-      find_basis(begin, end, depth);
+      find_basis(begin, end, body.skin());
   }
 
   void LayeredCompliance::find_tiles(const double surroundings)

@@ -21,9 +21,8 @@ namespace sprag
   class LayeredCompliance
   {
   public:
-    /// `begin` ... `end`: part of the face where forces act, along xi [mm]; `depth`: of the skin [mm]. The body must
-    /// outlive this.
-    LayeredCompliance(const SolidBody &body, double begin, double end, double depth);
+    /// `begin` ... `end`: part of the face where forces act, along xi [mm]. The body must outlive this.
+    LayeredCompliance(const SolidBody &body, double begin, double end);
 
     /// The columns of nodes that hold the given ports, as increasing ports. A port is a number among the face's displacements,
     /// sorted by the columns: see dof_of_port().

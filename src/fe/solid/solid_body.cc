@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace sprag
@@ -23,12 +24,32 @@ namespace sprag
     BodyProperties solid_properties(const Scene &scene)
     {
       auto result  = lever_properties(scene).body;
-      result.plane = PlaneState::strain;                   // its constants are those of the body
-      result.width = is_symmetric_across(scene) ? 2. : 1.; // stiffness and areas of a half stand for the whole
+      result.plane = PlaneState::strain; // its constants are those of the body
+      result.width = 1.;
       result.widths.clear();
       if (scene.analysis.type != AnalysisType::quasi_static)
         result.point_spacing = scene.geometry.cylinder_radius / 1000.; // as of levers in a plane in time
       return result;
+    }
+
+    /// Returns how far the skin of a lever reaches from its friction face where nothing forbids it [mm]: beyond the layer as far
+    /// as the pressure of a contact is more than its resultant.
+    double skin_depth(const Scene &scene)
+    {
+      constexpr double over_radius = 0.08;
+      return scene.layer.thickness + over_radius * scene.geometry.cylinder_radius;
+    }
+
+    /// Whether the side of a cell away from the friction face is free.
+    bool has_free_back(const DoFHandler<3>::active_cell_iterator &cell)
+    {
+      const auto is_back = [&](const auto &face)
+      {
+        const auto way = face->center() - cell->center();
+        return way[1] > std::abs(way[0]) && way[1] > std::abs(way[2]);
+      };
+      const auto faces = cell->face_iterators();
+      return std::any_of(faces.begin(), faces.end(), [&](const auto &face) { return face->at_boundary() && is_back(face); });
     }
 
     using Sharing = SolidMesh::Settings;
@@ -42,12 +63,6 @@ namespace sprag
     }
   } // namespace
 
-  double skin_depth(const Scene &scene)
-  {
-    constexpr double over_radius = 0.08;
-    return scene.layer.thickness + over_radius * scene.geometry.cylinder_radius;
-  }
-
   SolidBody::SolidBody(const Scene &scene, const Mesh &plane, const MPI_Comm ranks_)
       : ranks(called_to_build(ranks_))
       , interface_offset(scene.geometry.interface_offset)
@@ -59,12 +74,13 @@ namespace sprag
       , factors(ranks)
       , factors_of_skin(ranks)
   {
-    extrude(scene, plane, mesh);
+    if (make_solid_mesh(scene, plane, mesh))
+      properties.width = 2.; // stiffness and areas of a half stand for the whole
     dof_handler.distribute_dofs(fe);
     hold_hub();
     face = find_friction_face(mapping, dof_handler, constraints, properties, boundary_id::friction_face);
     order_face_nodes();
-    number_skin();
+    find_skin(scene.layer.thickness);
     auto stiffness = assemble_stiffness({ mapping, dof_handler, constraints, properties }, number_in_skin);
     factors.factorise(std::move(stiffness.whole));
     if (has_skin())
@@ -94,9 +110,17 @@ namespace sprag
     constraints.close();
   }
 
-  /// Orders them along xi, those of the same xi along zeta.
+  /// Orders them along xi, those of the same xi along zeta, and finds where the face ends.
   void SolidBody::order_face_nodes()
   {
+    face_begin = std::numeric_limits<double>::max();
+    face_end   = -face_begin;
+    for (const auto &edge : face.edges)
+      for (const auto &node : edge.nodes)
+      {
+        face_begin = std::min(face_begin, node.position[0]);
+        face_end   = std::max(face_end, node.position[0]);
+      }
     std::vector<unsigned int> order(face.nodes.size()), place(face.nodes.size());
     std::iota(order.begin(), order.end(), 0u);
     const auto rounded = [&](const unsigned int node, const unsigned int d)
@@ -120,17 +144,32 @@ namespace sprag
           node.index = place[node.index];
   }
 
-  /// Numbers what belongs to the skin alone, all three displacements of its nodes. A lever that is no deeper has none.
-  void SolidBody::number_skin()
+  /// Makes the skin shallower until it is bonded everywhere; where it never is, there is none.
+  void SolidBody::find_skin(const double layer)
+  {
+    constexpr double least = 1e-3;
+    while (!number_skin())
+    {
+      if (depth_of_skin < layer + least)
+        return number_in_skin.clear();
+      depth_of_skin = layer + 0.5 * (depth_of_skin - layer);
+    }
+  }
+
+  /// Numbers what belongs to the skin alone, all three displacements of its nodes. A lever that is no deeper has none. Returns
+  /// false where a part of it has nothing behind it, as a flange beside a web or a plate.
+  bool SolidBody::number_skin()
   {
     std::vector<char> in_skin(n_dofs(), 0), elsewhere(n_dofs(), 0);
     std::vector<types::global_dof_index> indices(fe.n_dofs_per_cell());
+    bool is_bonded = true;
     for (const auto &cell : dof_handler.active_cell_iterators())
       if (cell->material_id() != material_id::hub)
       {
         cell->get_dof_indices(indices);
         for (const auto index : indices)
           (is_skin(cell) ? in_skin : elsewhere)[index] = 1;
+        is_bonded = is_bonded && !(is_skin(cell) && has_free_back(cell));
       }
     int number = 0;
     number_in_skin.assign(n_dofs(), -1);
@@ -140,6 +179,7 @@ namespace sprag
     const bool is_all = std::find(elsewhere.begin(), elsewhere.end(), 1) == elsewhere.end();
     if (number == 0 || is_all)
       number_in_skin.clear();
+    return is_bonded || number_in_skin.empty();
   }
 
   std::array<double, 2> SolidBody::mass_and_inertia(const double density) const
@@ -162,7 +202,9 @@ namespace sprag
 
   bool SolidBody::is_skin(const DoFHandler<3>::active_cell_iterator &cell) const
   {
-    return cell->material_id() != material_id::hub && cell->center()[1] < interface_offset + depth_of_skin;
+    const auto centre = cell->center();
+    return cell->material_id() != material_id::hub && centre[1] > interface_offset &&
+           centre[1] < interface_offset + depth_of_skin && centre[0] > face_begin && centre[0] < face_end;
   }
 
   int SolidBody::number_near(const unsigned int dof) const
@@ -215,7 +257,7 @@ namespace sprag
         else
           body->take_part(task);
       }
-      catch (const AnalysisError &)
+      catch (const std::runtime_error &)
       {
         // The first rank fails as well and tells why.
       }

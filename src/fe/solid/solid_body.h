@@ -10,17 +10,13 @@
 
 namespace sprag
 {
-  /// Returns how far the skin of a lever reaches from its friction face [mm]: beyond the layer as far as the pressure of a
-  /// contact is more than its resultant.
-  double skin_depth(const Scene &scene);
-
   /// The linear elastic lever in three dimensions, in axes in which its hub does not move. All ranks hold the mesh and the
   /// numbers of its displacements; stiffness and factors are shared. Everything but construction is for the first rank.
   class SolidBody
   {
   public:
-    /// To be called by all ranks with the plane mesh of the first, see extrude(); the first calls the others to it. Throws
-    /// AnalysisError where the factorisation fails.
+    /// To be called by all ranks with the plane mesh of the first, see make_solid_mesh(); the first calls the others to it.
+    /// Throws AnalysisError where the factorisation fails, InputError for a Mesh/File that cannot serve.
     SolidBody(const Scene &scene, const Mesh &plane, MPI_Comm ranks);
     SolidBody &operator=(SolidBody &&) = delete;
     ~SolidBody();
@@ -50,13 +46,25 @@ namespace sprag
       return constraints.is_constrained(dof);
     }
 
+    /// Whether it is a half, which is the same on both sides of the middle.
+    bool is_half() const
+    {
+      return properties.width == 2.;
+    }
+
     const FrictionFace<3> &friction_face() const
     {
       return face;
     }
 
-    /// Returns whether a cell is of the skin: the friction layer and a strip of what is behind it, as far below the friction face
-    /// as skin_depth() says.
+    /// How far the skin reaches from the friction face [mm]: beyond the layer as far as the pressure of a contact is more than
+    /// its resultant, or less where there is too little behind it.
+    double skin() const
+    {
+      return depth_of_skin;
+    }
+
+    /// Returns whether a cell is of the skin: the friction layer and a strip of what is behind it.
     bool is_skin(const dealii::DoFHandler<3>::active_cell_iterator &cell) const;
 
     /// Whether there is a skin and something behind it.
@@ -89,19 +97,22 @@ namespace sprag
 
   private:
     void hold_hub();
-    void number_skin();
+    void find_skin(double layer);
+    bool number_skin();
     void order_face_nodes();
 
     const MPI_Comm ranks;
     const double interface_offset; ///< e [mm]
-    const double depth_of_skin;    ///< [mm]
-    const BodyProperties properties;
+    double depth_of_skin;          ///< [mm]
+    BodyProperties properties;
     SolidMesh mesh;
     const dealii::FESystem<3> fe;
     const dealii::MappingQ1<3> mapping;
     dealii::DoFHandler<3> dof_handler;
     dealii::AffineConstraints<double> constraints;
     FrictionFace<3> face;
+    double face_begin = 0.; ///< along xi [mm]
+    double face_end   = 0.;
     std::vector<int> number_in_skin;
     SharedFactors factors;
     SharedFactors factors_of_skin;

@@ -7,7 +7,6 @@
 #include "fe/statics/contact_penalties.h"
 #include "fe/statics/lever_properties.h"
 #include "model/dynamic_lever.h"
-#include "scene/across.h"
 #include "scene/analysis_use.h"
 #include "scene/held_slide.h"
 #include "scene/lever_shape.h"
@@ -163,7 +162,7 @@ namespace sprag
     result.body              = std::make_unique<const SolidBody>(scene, plane, MPI_COMM_SELF);
     const double room        = 0.1 * scene.geometry.cylinder_radius;
     const auto [first, last] = swept_contact(scene);
-    result.compliance        = std::make_unique<LayeredCompliance>(*result.body, first - room, last + room, skin_depth(scene));
+    result.compliance        = std::make_unique<LayeredCompliance>(*result.body, first - room, last + room);
     result.modes             = solid_modes(*result.body, inertia_of(scene), scene.spring.stiffness, scene.condensed.modes);
     return result;
   }
@@ -177,7 +176,7 @@ namespace sprag
     const auto &whole = lever.body->friction_face();
     auto properties   = contact_properties(scene, whole, ports);
     auto contact      = std::make_unique<SolidContact>(std::move(window.face), std::move(properties), scene.friction,
-                                                  scene.layer.thickness, is_symmetric_across(scene));
+                                                  scene.layer.thickness, lever.body->is_half());
     return std::make_unique<SolidDynamicLever>(std::move(structure), std::move(contact),
                                                lever_frame(scene, ports, basis.lever_mass), lever);
   }

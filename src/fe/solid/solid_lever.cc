@@ -4,7 +4,6 @@
 #include "base/text.h"
 #include "fe/statics/contact_penalties.h"
 #include "fe/statics/static_terms.h"
-#include "scene/across.h"
 #include "scene/contact_width.h"
 #include "scene/lever_shape.h"
 
@@ -71,7 +70,7 @@ namespace sprag
     {
       const double room        = 0.1 * scene.geometry.cylinder_radius;
       const auto [first, last] = swept_contact(scene);
-      return { body, first - room, last + room, skin_depth(scene) };
+      return { body, first - room, last + room };
     }
   } // namespace
 
@@ -86,7 +85,7 @@ namespace sprag
                    [this](const PortSelection &tiles) { return compliance.among(tiles); } } })
       , contact(body.friction_face(), contact_properties(body, scene, properties, ports))
       , multipliers(body.friction_face())
-      , view(body.friction_face(), contact, is_symmetric_across(scene))
+      , view(body.friction_face(), contact, body.is_half())
       , excess(ports, properties.spring.law)
   {
   }

@@ -1,13 +1,19 @@
 #include "fe/solid/solid_mesh.h"
 
+#include "base/errors.h"
 #include "fe/body/body_properties.h"
+#include "fe/mesh/solid_file.h"
 #include "scene/across.h"
 
 #include <deal.II/base/mpi.h>
-#include <deal.II/grid/grid_generator.h>
 #include <deal.II/grid/grid_tools.h>
 
+#include <boost/serialization/string.hpp>
+#include <boost/serialization/vector.hpp>
+
+#include <algorithm>
 #include <cmath>
+#include <map>
 #include <tuple>
 
 namespace sprag
@@ -16,43 +22,166 @@ namespace sprag
 
   namespace
   {
-    using Description = std::tuple<std::vector<Point<2>>, std::vector<CellData<2>>, std::vector<CellData<1>>>;
+    /// Vertices, cells, and the sides that have an id.
+    using Description = std::tuple<std::vector<Point<3>>, std::vector<CellData<3>>, std::vector<CellData<2>>>;
 
-    /// Gives all ranks the plane mesh of the first.
-    void share(const Mesh &of_first_rank, const MPI_Comm ranks, Mesh &mesh)
+    /// Corners of the side of a plane cell, in increasing order.
+    std::pair<unsigned int, unsigned int> corners_of(const unsigned int a, const unsigned int b)
     {
-      Description description;
-      if (Utilities::MPI::this_mpi_process(ranks) == 0)
-      {
-        auto [vertices, cells, boundary] = GridTools::get_coarse_mesh_description(of_first_rank);
-        description                      = { vertices, cells, boundary.boundary_lines };
-      }
-      description = Utilities::MPI::broadcast(ranks, description);
-      SubCellData boundary;
-      boundary.boundary_lines = std::get<2>(description);
-      mesh.create_triangulation(std::get<0>(description), std::get<1>(description), boundary);
+      return std::minmax(a, b);
     }
 
-    /// GridGenerator gives both ends ids of their own, which mean something else here.
-    void mark_ends(const double first, const double last, SolidMesh &mesh)
+    /// Builds one mesh of the layers of another.
+    struct Extrusion
     {
-      const double round_off = 1e-9 * last;
-      for (const auto &cell : mesh.active_cell_iterators())
-        for (const auto &face : cell->face_iterators())
-        {
-          const double zeta = face->center()[2];
-          if (face->at_boundary() && (std::abs(zeta - first) < round_off || std::abs(zeta - last) < round_off))
-            face->set_boundary_id(first == 0. && std::abs(zeta) < round_off ? boundary_id::symmetry : 0);
-        }
+      std::vector<double> planes;
+      double web; ///< width [mm]
+      std::vector<Point<2>> vertices;
+      std::vector<CellData<2>> cells;
+      std::vector<CellData<1>> lines;
+
+      unsigned int n_layers() const
+      {
+        return static_cast<unsigned int>(planes.size()) - 1;
+      }
+
+      unsigned int vertex(const unsigned int in_plane, const unsigned int plane) const
+      {
+        return in_plane + plane * static_cast<unsigned int>(vertices.size());
+      }
+
+      bool is_there(const types::material_id material, const unsigned int layer) const
+      {
+        return material != material_id::web || std::abs(planes[layer] + planes[layer + 1]) < web;
+      }
+
+      void add_side(const std::array<unsigned int, 4> &corners, const types::boundary_id id, Description &result) const
+      {
+        auto &side       = std::get<2>(result).emplace_back();
+        side.boundary_id = id;
+        std::copy(corners.begin(), corners.end(), side.vertices.begin());
+      }
+
+      void add_cells(Description &result) const
+      {
+        for (const auto &cell : cells)
+          for (unsigned int layer = 0; layer < n_layers(); ++layer)
+            if (is_there(cell.material_id, layer))
+            {
+              auto &added       = std::get<1>(result).emplace_back();
+              added.material_id = cell.material_id;
+              for (unsigned int v = 0; v < 4; ++v)
+              {
+                added.vertices[v]     = vertex(cell.vertices[v], layer);
+                added.vertices[v + 4] = vertex(cell.vertices[v], layer + 1);
+              }
+            }
+      }
+
+      std::map<std::pair<unsigned int, unsigned int>, types::material_id> materials_of_sides() const
+      {
+        std::map<std::pair<unsigned int, unsigned int>, types::material_id> result;
+        for (const auto &cell : cells)
+          for (const auto &[a, b] : { std::pair(0, 1), std::pair(0, 2), std::pair(1, 3), std::pair(2, 3) })
+            result[corners_of(cell.vertices[a], cell.vertices[b])] = cell.material_id;
+        return result;
+      }
+
+      void add_sides(Description &result) const
+      {
+        const auto materials = materials_of_sides();
+        for (const auto &line : lines)
+          for (unsigned int layer = 0; layer < n_layers(); ++layer)
+          {
+            const auto [a, b] = std::pair(line.vertices[0], line.vertices[1]);
+            if (line.boundary_id != 0 && is_there(materials.at(corners_of(a, b)), layer))
+              add_side({ { vertex(a, layer), vertex(b, layer), vertex(a, layer + 1), vertex(b, layer + 1) } }, line.boundary_id,
+                       result);
+          }
+        if (planes.front() == 0.)
+          for (const auto &cell : cells)
+            add_side({ { cell.vertices[0], cell.vertices[1], cell.vertices[2], cell.vertices[3] } }, boundary_id::symmetry,
+                     result);
+      }
+
+      Description operator()() const
+      {
+        Description result;
+        for (const double zeta : planes)
+          for (const auto &place : vertices)
+            std::get<0>(result).emplace_back(place[0], place[1], zeta);
+        add_cells(result);
+        add_sides(result);
+        return result;
+      }
+    };
+
+    Description extruded(const Scene &scene, const Mesh &plane)
+    {
+      const auto [vertices, cells, boundary] = GridTools::get_coarse_mesh_description(plane);
+      const auto is_web                      = [](const CellData<2> &cell) { return cell.material_id == material_id::web; };
+      const bool has_web                     = std::any_of(cells.begin(), cells.end(), is_web);
+      const double web                       = scene.frame.web;
+      const auto planes                      = planes_across(scene);
+      return Extrusion{ has_web ? with_sides_of(web, planes) : planes, web, vertices, cells, boundary.boundary_lines }();
+    }
+
+    Description read(const Scene &scene)
+    {
+      Triangulation<3> triangulation;
+      read_solid_file(scene, triangulation);
+      const auto [vertices, cells, boundary] = GridTools::get_coarse_mesh_description(triangulation);
+      return { vertices, cells, boundary.boundary_quads };
+    }
+
+    /// What the first rank hands to all: the mesh, or what is wrong with it.
+    struct Handed
+    {
+      Description description;
+      bool is_half = false;
+      std::vector<std::string> mistakes;
+
+      template <class Archive>
+      void serialize(Archive &archive, const unsigned int /*version*/)
+      {
+        archive &std::get<0>(description) & std::get<1>(description) & std::get<2>(description) & is_half &mistakes;
+      }
+    };
+
+    Handed made(const Scene &scene, const Mesh &plane)
+    {
+      if (plane.n_active_cells() > 0)
+        return { extruded(scene, plane), is_symmetric_across(scene), {} };
+      try
+      {
+        return { read(scene), false, {} };
+      }
+      catch (const InputError &error)
+      {
+        return { {}, false, error.messages };
+      }
+    }
+
+    void create(Description description, SolidMesh &mesh)
+    {
+      auto &[vertices, cells, sides] = description;
+      SubCellData boundary;
+      boundary.boundary_quads = std::move(sides);
+      GridTools::delete_unused_vertices(vertices, cells, boundary);
+      mesh.create_triangulation(vertices, cells, boundary);
     }
   } // namespace
 
-  void extrude(const Scene &scene, const Mesh &plane, SolidMesh &mesh)
+  bool make_solid_mesh(const Scene &scene, const Mesh &plane, SolidMesh &mesh)
   {
-    Mesh shared;
-    share(plane, mesh.get_communicator(), shared);
-    const auto planes = planes_across(scene);
-    GridGenerator::extrude_triangulation(shared, planes, mesh);
-    mark_ends(planes.front(), planes.back(), mesh);
+    const auto ranks = mesh.get_communicator();
+    Handed handed;
+    if (Utilities::MPI::this_mpi_process(ranks) == 0)
+      handed = made(scene, plane);
+    handed = Utilities::MPI::broadcast(ranks, handed);
+    if (!handed.mistakes.empty())
+      throw InputError(handed.mistakes);
+    create(std::move(handed.description), mesh);
+    return handed.is_half;
   }
 } // namespace sprag

@@ -11,8 +11,10 @@ namespace sprag
   using SolidMesh = dealii::parallel::shared::Triangulation<3>;
 
   /// Extrudes the plane mesh of the scene's lever over its width, or over a half of it where it is symmetric; zeta counts from
-  /// the middle. Materials and boundaries keep their ids, the ends are free, that in the middle boundary_id::symmetry. To be
-  /// called by all ranks; that of the first rank alone counts, the others need none. Throws InputError for cells without manifold
-  /// or shape that can be extruded.
-  void extrude(const Scene &scene, const Mesh &plane, SolidMesh &mesh);
+  /// the middle. A web is as wide as the scene has it, in the middle: planes across hold its sides, and its cells beyond them are
+  /// left out. Materials and boundaries keep their ids, the ends are free, that in the middle boundary_id::symmetry. A plane mesh
+  /// without cells stands for a Mesh/File of three dimensions, which is read as it is. Returns whether the mesh is a half. To be
+  /// called by all ranks; the plane mesh of the first alone counts, the others need none. All throw InputError for a file that
+  /// cannot serve, see read_solid_file().
+  bool make_solid_mesh(const Scene &scene, const Mesh &plane, SolidMesh &mesh);
 } // namespace sprag

@@ -1,0 +1,188 @@
+#include "fe/mesh/solid_file.h"
+
+#include "base/errors.h"
+#include "base/text.h"
+#include "fe/body/body_properties.h"
+#include "fe/mesh/geometry_script.h"
+#include "scene/lever_shape.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sprag
+{
+  using namespace dealii;
+
+  namespace
+  {
+    using Names    = std::set<std::string>;
+    using Messages = std::vector<std::string>;
+
+    /// "no physical surface 'name', meaning (surfaces found: ...)", where it is not there.
+    void need(const std::string &kind, const std::string &name, const std::string &meaning, const Names &found, Messages &result)
+    {
+      if (found.count(name) == 0)
+        result.push_back("no physical " + kind + " '" + name + "', " + meaning + " (" + kind + "s found: " + quoted_list(found) +
+                         ")" + did_you_mean(nearest(name, { found.begin(), found.end() })));
+    }
+
+    Messages missing_groups(const Scene &scene, const Names &volumes, const Names &surfaces)
+    {
+      Messages result;
+      need("surface", "friction face", "where the cylinder slides", surfaces, result);
+      need("volume", "lever", "the metal", volumes, result);
+      if (volumes.count("hub") == 0)
+        need("surface", "hub", "which carries the lever on its pivot, nor a volume 'hub'", surfaces, result);
+      if (scene.plate.type == PlateType::none)
+      {
+        if (volumes.count("plate") != 0)
+          result.push_back("has a volume 'plate', but Friction plate/Type = none");
+        return result;
+      }
+      need("volume", "plate", "which Friction plate/Type = on sensors asks for", volumes, result);
+      need("surface", "sensor plate", "the back of the friction plate, towards the sensors", surfaces, result);
+      need("surface", "sensor lever", "the lever's side towards the sensors", surfaces, result);
+      return result;
+    }
+
+    MeshGroups lever_groups(const Scene &scene)
+    {
+      return { { { "lever", material_id::lever },
+                 { "plate", material_id::plate },
+                 { "layer", material_id::layer },
+                 { "hub", material_id::hub } },
+               { { "friction face", boundary_id::friction_face },
+                 { "hub", boundary_id::hub },
+                 { "sensor plate", boundary_id::sensor_plate },
+                 { "sensor lever", boundary_id::sensor_lever } },
+               "'lever', 'plate', 'layer' and 'hub' (all but 'lever' optional)",
+               [&scene](const Names &volumes, const Names &surfaces) { return missing_groups(scene, volumes, surfaces); } };
+    }
+
+    using Side = Triangulation<3>::active_face_iterator;
+
+    std::vector<Side> sides_of_face(const Triangulation<3> &triangulation)
+    {
+      std::vector<Side> result;
+      for (const auto &cell : triangulation.active_cell_iterators())
+        for (const auto &side : cell->face_iterators())
+          if (side->at_boundary() && side->boundary_id() == boundary_id::friction_face)
+            result.push_back(side);
+      return result;
+    }
+
+    /// Where the corners of the sides lie along an axis, in steps of a nanometre.
+    std::set<long> places_along(const unsigned int axis, const std::vector<Side> &sides)
+    {
+      std::set<long> result;
+      for (const auto &side : sides)
+        for (const unsigned int v : side->vertex_indices())
+          result.insert(std::lround(1e6 * side->vertex(v)[axis]));
+      return result;
+    }
+
+    std::array<double, 2> range(const std::set<long> &places)
+    {
+      return { { 1e-6 * static_cast<double>(*places.begin()), 1e-6 * static_cast<double>(*places.rbegin()) } };
+    }
+
+    std::string from_to(const std::array<double, 2> &ends)
+    {
+      return rounded_text(ends[0]) + " to " + mm(ends[1]);
+    }
+
+    void check_height(const Scene &scene, const std::vector<Side> &sides, Messages &mistakes)
+    {
+      const double e     = scene.geometry.interface_offset;
+      const double small = 1e-6 * scene.geometry.cylinder_radius;
+      const auto heights = range(places_along(1, sides));
+      if (heights[1] - heights[0] > small)
+        mistakes.push_back("the surface 'friction face' is not flat: its nodes lie at y = " + from_to(heights) + ", " +
+                           mm(heights[1] - heights[0]) + " apart; all must lie at Geometry/Interface offset = " + mm(e));
+      else if (std::abs(heights[0] - e) > small)
+        mistakes.push_back("the surface 'friction face' lies at y = " + mm(heights[0]) +
+                           ", but Geometry/Interface offset = " + rounded_text(e));
+    }
+
+    void check_width(const Scene &scene, const std::vector<Side> &sides, Messages &mistakes)
+    {
+      const double half  = 0.5 * scene.lever.width;
+      const double small = 1e-6 * half;
+      const auto ends    = range(places_along(2, sides));
+      if (std::abs(ends[0] + half) < small && std::abs(ends[1] - half) < small)
+        return;
+      std::string line = "the surface 'friction face' spans z = " + from_to(ends) +
+                         ", but z counts from the middle of Lever/Width = " + rounded_text(scene.lever.width) + ": " +
+                         from_to({ { -half, half } });
+      if (std::abs(ends[0]) < small)
+        line += "; give the whole lever: of a mesh of one's own no half is solved";
+      mistakes.push_back(line);
+    }
+
+    void check_sweep(const Scene &scene, const std::vector<Side> &sides, Messages &mistakes)
+    {
+      const auto ends          = range(places_along(0, sides));
+      const auto [first, last] = swept_contact(scene);
+      if (ends[0] > first || ends[1] < last)
+        mistakes.push_back("the surface 'friction face' spans " + from_to(ends) + " from the pivot, but the contact sweeps " +
+                           rounded_text(first) + " to " + mm(last));
+    }
+
+    /// Whether a side is a rectangle with its sides along x and z.
+    bool is_straight(const Side &side)
+    {
+      return places_along(0, { side }).size() == 2 && places_along(2, { side }).size() == 2;
+    }
+
+    /// A grid of rectangles in which no line ends or bends.
+    void check_lines(const std::vector<Side> &sides, Messages &mistakes)
+    {
+      const std::string rule =
+          "the sides of cells on 'friction face' must be rectangles in lines along x and z, from end to end: ";
+      const auto skew = std::find_if_not(sides.begin(), sides.end(), is_straight);
+      const auto n    = (places_along(0, sides).size() - 1) * (places_along(2, sides).size() - 1);
+      if (skew != sides.end())
+        mistakes.push_back(rule + "the one at x = " + rounded_text((*skew)->center()[0]) +
+                           " mm, z = " + rounded_text((*skew)->center()[2]) + " mm is not");
+      else if (n != sides.size())
+        mistakes.push_back(rule + "their " + std::to_string(sides.size()) + " make " + std::to_string(n) +
+                           " where all lines cross");
+    }
+
+    void check_face(const Scene &scene, const Triangulation<3> &triangulation)
+    {
+      const auto sides = sides_of_face(triangulation);
+      Messages mistakes;
+      if (sides.empty())
+        mistakes.push_back("no side of 'lever', 'plate' or 'layer' lies on the surface 'friction face'");
+      else
+      {
+        check_height(scene, sides, mistakes);
+        check_width(scene, sides, mistakes);
+        check_sweep(scene, sides, mistakes);
+        check_lines(sides, mistakes);
+      }
+      for (auto &line : mistakes)
+        line = scene.mesh.file + ": " + line;
+      if (!mistakes.empty())
+        throw InputError(mistakes);
+    }
+  } // namespace
+
+  bool has_solid_file(const Scene &scene)
+  {
+    return scene.analysis.dimension == 3 && !scene.mesh.file.empty() && has_volumes(scene.mesh.file);
+  }
+
+  void read_solid_file(const Scene &scene, Triangulation<3> &triangulation)
+  {
+    read_gmsh(scene.mesh.file, {}, lever_groups(scene), triangulation);
+    check_face(scene, triangulation);
+  }
+
+  void check_solid_file(const Scene &scene)
+  {
+    Triangulation<3> triangulation;
+    read_solid_file(scene, triangulation);
+  }
+} // namespace sprag

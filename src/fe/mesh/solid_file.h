@@ -1,0 +1,20 @@
+#pragma once
+
+#include "scene/scene.h"
+
+#include <deal.II/grid/tria.h>
+
+namespace sprag
+{
+  /// Returns whether the scene has a Mesh/File with volumes for three dimensions. Throws InputError for one that cannot be read.
+  bool has_solid_file(const Scene &scene);
+
+  /// Fills `triangulation` with the lever of such a file, a gmsh .geo or .msh of hexahedra in lever axes, z across the width from
+  /// its middle [mm]. Physical groups as in make_mesh(), of volumes in place of surfaces and of surfaces in place of curves. The
+  /// friction face must be flat, as wide as Lever/Width, and its sides rectangles in lines along x and z: contact follows lines
+  /// of nodes. Throws InputError naming the file and what is missing or wrong in it.
+  void read_solid_file(const Scene &scene, dealii::Triangulation<3> &triangulation);
+
+  /// Throws what read_solid_file() throws.
+  void check_solid_file(const Scene &scene);
+} // namespace sprag

@@ -1,0 +1,71 @@
+#include "fe/dynamics/inertial_matrices.h"
+#include "fe/dynamics/lever_constants.h"
+#include "fe/solid/solid_mass.h"
+#include "verification/solid_run.h"
+
+using namespace sprag;
+
+namespace
+{
+  Scene frame(const double web, const double poisson_ratio = 0.)
+  {
+    Scene scene         = solid_model_a(poisson_ratio);
+    scene.lever.outline = LeverOutline::frame;
+    scene.frame.web     = web;
+    return scene;
+  }
+
+  Scene in_plane(Scene scene)
+  {
+    scene.analysis.dimension = 2;
+    return scene;
+  }
+} // namespace
+
+// What is left is what the compliance of the face leaves out: its skin ends in the flange.
+TEST(SolidFrame, WithAWebOfFullWidthItIsPlaneStress)
+{
+  const Scene scene = frame(40.);
+  const SolidRun solid(scene);
+  const auto rows = run_scene(in_plane(scene));
+  for (const Column column : { Column::P, Column::Q, Column::theta, Column::friction_work })
+    EXPECT_LT(difference(rows, solid.rows, column), 3e-6) << column_info(column).name;
+}
+
+// Flanges rest on a web a quarter as wide, in their middle: beside it they yield, which the plane does not know. The frame is
+// softer than the plane's, and P smaller by 3e-4; with holes both are the same.
+TEST(SolidFrame, AWebInTheMiddleIsSofterThanThePlanes)
+{
+  const auto loss = [](const double web)
+  {
+    const Scene scene = frame(web);
+    const SolidRun solid(scene);
+    const auto rows = run_scene(in_plane(scene));
+    EXPECT_LT(solid.exactness.displacement, 5e-5) << web;
+    EXPECT_LT(difference(rows, solid.rows, Column::P), 1e-3) << web;
+    return 1. - largest(solid.rows, Column::P) / largest(rows, Column::P);
+  };
+  EXPECT_LT(std::abs(loss(0.)), 3e-6);
+  EXPECT_GT(loss(10.), 1e-4);
+}
+
+// Cells that are alike to a nanometre share their mass.
+TEST(SolidFrame, MassAndMomentOfInertiaAreThePlanes)
+{
+  const std::pair<double, unsigned int> webs_and_elements[] = { { 0., 2 }, { 3., 1 }, { 10., 5 }, { 40., 4 } };
+  for (const auto &[web, across] : webs_and_elements)
+  {
+    Scene scene                = tilted(frame(web), across % 2 == 0 ? 0. : 1e-4);
+    scene.mesh.elements_across = across;
+    scene.mesh.degree          = 1;
+    scene.lever.inertia        = InertiaSource::as_built;
+    Mesh plane;
+    make_mesh(scene, plane);
+    const ElasticBody<2> of_plane(plane, lever_properties(scene).body);
+    const InertialMatrices<2> expected(of_plane, inertia_of(scene));
+    const SolidBody body(scene, plane, MPI_COMM_SELF);
+    const SolidMass mass(body, inertia_of(scene));
+    EXPECT_NEAR(mass.total_mass, expected.total_mass, 1e-10 * expected.total_mass) << web;
+    EXPECT_NEAR(mass.moment_of_inertia, expected.moment_of_inertia, 1e-10 * expected.moment_of_inertia) << web;
+  }
+}
