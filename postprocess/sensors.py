@@ -19,6 +19,13 @@ def sensors_of(result):
     return sorted((name for name in result.table if re.fullmatch(r"sensor_\d+", name)), key=lambda name: int(name[7:]))
 
 
+def sides_of(result, sensor):
+    """[(column, its line)] of a sensor: in three dimensions left and right of the plate."""
+    lines = (("left", {"linestyle": "-"}), ("right", {"linestyle": (0, (5, 1.5))}))
+    sides = [(f"{sensor}_{side}", line) for side, line in lines if f"{sensor}_{side}" in result.table]
+    return sides or [(sensor, {})]
+
+
 def sensor_forces(result):
     """P and the sum of the sensors; each sensor; their difference, where it is a force.
 
@@ -76,7 +83,9 @@ def draw_column(panels, result, over, rows):
     for column, name, colour, line in PAIR:
         panels[0].plot(over[rows], table[column][rows], color=colour, linestyle=line, label=name, linewidth=0.9)
     for index, column in enumerate(sensors_of(result)):
-        panels[1].plot(over[rows], table[column][rows], label=column.replace("_", " "), **{**look(index + 2), "linewidth": 0.9})
+        own = {**look(index + 2), "linewidth": 0.9}
+        for part, line in sides_of(result, column):
+            panels[1].plot(over[rows], table[part][rows], label=part.replace("_", " "), **{**own, **line})
     if len(panels) > 2:
         panels[2].plot(over[rows], (table["sensor_sum"] - table["P"])[rows], color="black", linewidth=0.9)
     for axes in panels:

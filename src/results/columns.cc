@@ -97,6 +97,17 @@ namespace sprag
           { "lateral_force", "N",
             "y-force of both levers on the cylinder, towards the first lever where positive; 0 where they mirror" });
     }
+    void add_across(const FrictionPlate &plate, std::vector<ColumnInfo> &columns)
+    {
+      columns.insert(columns.end(), columns_across().begin(), columns_across().end());
+      if (plate.type == PlateType::none)
+        return;
+      for (std::size_t i = 1; i <= plate.sensors.size(); ++i)
+        for (const auto &[side, where] : { std::pair("left", "zeta < 0"), std::pair("right", "zeta > 0") })
+          columns.push_back(
+              { "sensor_" + std::to_string(i) + "_" + side, "N",
+                "part of sensor_" + std::to_string(i) + " at the plate's " + side + ", " + where + ", positive in compression" });
+    }
   } // namespace
 
   const std::vector<Column> &columns_of_a_lever()
@@ -139,7 +150,7 @@ namespace sprag
     if (pair.type == PairType::full)
       add_pair(plate, result);
     if (dimension == 3)
-      result.insert(result.end(), columns_across().begin(), columns_across().end());
+      add_across(plate, result);
     return result;
   }
 

@@ -8,6 +8,11 @@
 
 namespace sprag
 {
+  double sensors_across(const Scene &scene)
+  {
+    return scene.plate.sensors_across.value_or(0.5 * (scene.lever.width - scene.plate.sensor_width));
+  }
+
   bool is_symmetric_across(const Scene &scene)
   {
     return !holds_slide(scene.analysis.type) && scene.cylinder.tilt == 0. && scene.cylinder.skew == 0. &&

@@ -6,6 +6,10 @@
 
 namespace sprag
 {
+  /// Returns the distance of the middles of the force sensors in three dimensions from the middle of the width [mm]: where the
+  /// scene has them, else flush with the sides of the plate.
+  double sensors_across(const Scene &scene);
+
   /// Returns whether lever, cylinder and motion are the same on both sides of the middle of the width, so that one half is
   /// enough. Modes need not be.
   bool is_symmetric_across(const Scene &scene);

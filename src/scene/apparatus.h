@@ -123,9 +123,11 @@ namespace sprag
     double density       = 2.7e-9;
     std::vector<double> sensors{ 105., 135., 165., 195. }; ///< xi of their middles [mm], increasing, at least two
     double sensor_length    = 6.;                          ///< along xi, over which a sensor presses [mm]
-    double sensor_stiffness = 2e5;                         ///< of each [N/mm]
-    double guide            = 150.;                        ///< xi of the guide's middle [mm]
-    double guide_stiffness  = 1e6;                         ///< along the plate [N/mm]
+    double sensor_stiffness = 2e5;                         ///< of each, in three dimensions of the two of a place [N/mm]
+    std::optional<double> sensors_across;                  ///< see sprag::sensors_across() [mm], > 0
+    double sensor_width    = 6.;                           ///< in three dimensions: across the width [mm]
+    double guide           = 150.;                         ///< xi of the guide's middle [mm]
+    double guide_stiffness = 1e6;                          ///< along the plate [N/mm]
   };
 
   enum class PairType

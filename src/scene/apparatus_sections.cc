@@ -52,9 +52,16 @@ namespace sprag
       section.numbers("Sensors", settings.sensors, above(0.), "mm",
                       "Middles of the force sensors, from the pivot along the lever");
       section.length("Sensor length", settings.sensor_length, "Along the lever, over which each presses");
-      section.number("Sensor stiffness", settings.sensor_stiffness, above(0.), "N/mm", "Of each, normal to the plate");
+      section.number("Sensor stiffness", settings.sensor_stiffness, above(0.), "N/mm",
+                     "Of each, normal to the plate; in three dimensions of those left and right of a place together");
+      section.number_or_auto("Sensors across", settings.sensors_across, above(0.), "mm",
+                             "In three dimensions each place has two sensors, left and right: distance of their middles from the "
+                             "middle of the width; auto: flush with the plate's sides");
+      section.length("Sensor width", settings.sensor_width, "In three dimensions: across the width, over which each presses");
       section.length("Guide", settings.guide, "Middle of the linear guide, from the pivot along the lever");
-      section.number("Guide stiffness", settings.guide_stiffness, above(0.), "N/mm", "Of the guide along the plate");
+      section.number(
+          "Guide stiffness", settings.guide_stiffness, above(0.), "N/mm",
+          "Of the guide along the plate; in three dimensions also across it, and spread over the width against turning");
     }
 
     void cylinder(Section section, Cylinder &settings)

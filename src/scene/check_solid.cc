@@ -1,6 +1,7 @@
 #include "scene/check_parts.h"
 
 #include "base/text.h"
+#include "scene/across.h"
 #include "scene/analysis_use.h"
 
 #include <cmath>
@@ -15,6 +16,7 @@ namespace sprag
       need(scene.analysis.model == ModelType::condensed, "Analysis/Model", "condensed with inertia");
       need(scene.lever.tip_mass == 0., "Lever/Tip mass", "0");
       need(scene.spring.type == SpringType::torsional, "Rotational spring/Type", "torsional");
+      need(scene.plate.type == PlateType::none, "Friction plate/Type", "none with inertia");
     }
 
     void what_there_is(const Scene &scene, Rules &rules)
@@ -34,7 +36,6 @@ namespace sprag
         with_inertia(scene, need);
       need(analysis.solution == Solution::automatic, "Analysis/Solution", "automatic");
       need(scene.lever.material == MaterialModel::linear, "Lever/Material", "linear");
-      need(scene.plate.type == PlateType::none, "Friction plate/Type", "none");
       need(scene.cylinder.type == CylinderType::rigid, "Cylinder/Type", "rigid");
       need(scene.pair.type == PairType::half, "Mirrored pair/Type", "half");
     }
@@ -54,11 +55,27 @@ namespace sprag
         rules.need(cylinder.edge_radius == 0., "Cylinder/Edge radius", { "Cylinder/Length" },
                    "must be 0 where Length = 0: the ends then lie beyond the lever");
     }
+    void sensors_at_sides(const Scene &scene, Rules &rules)
+    {
+      const auto &plate   = scene.plate;
+      const double half   = 0.5 * scene.lever.width;
+      const double middle = sensors_across(scene), zeta = 0.5 * plate.sensor_width;
+      const double small = 1e-9 * half;
+      rules.need(plate.sensor_width <= half + small, "Friction plate/Sensor width", { "Lever/Width", "Friction plate/Type" },
+                 "must be at most half of Lever/Width = " + mm(scene.lever.width) + ", or left and right overlap");
+      if (plate.sensor_width <= half + small)
+        rules.need(middle - zeta >= -small && middle + zeta <= half + small, "Friction plate/Sensors across",
+                   { "Friction plate/Sensor width", "Lever/Width", "Friction plate/Type" },
+                   "must be " + rounded_text(zeta) + " to " + mm(half - zeta) + ": with all its Sensor width = " +
+                       mm(plate.sensor_width) + " each lies on its side of the middle and on the plate");
+    }
   } // namespace
 
   void check_solid(const Scene &scene, Rules &rules)
   {
     what_there_is(scene, rules);
     cylinder_across(scene, rules);
+    if (scene.plate.type == PlateType::on_sensors)
+      sensors_at_sides(scene, rules);
   }
 } // namespace sprag

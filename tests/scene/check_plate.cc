@@ -100,3 +100,23 @@ TEST(CheckPlate, OnlyMeshesAreBuilt)
   for (const std::string model : { "rigid", "beam", "closed form" })
     EXPECT_EQ(mistakes_of(transient(model), { frame[0], plate[0], wrong[0], wrong[1] }), Messages{}) << model;
 }
+
+TEST(CheckPlate, InThreeDimensionsSensorsLieOnTheirSideOfThePlate)
+{
+  const Messages solid = { plate[0], "Analysis/Dimension=3" };
+  EXPECT_EQ(mistakes_of(solid), Messages{});
+  EXPECT_EQ(mistakes_of(solid, { "Friction plate/Sensor width=20" }), Messages{});
+  EXPECT_EQ(mistakes_of(solid, { "Friction plate/Sensors across=3" }), Messages{});
+  expect_refused(solid, { "Friction plate/Sensor width=21" },
+                 "Friction plate/Sensor width = 21: must be at most half of Lever/Width = 40 mm, or left and right overlap");
+  for (const std::string across : { "2.9", "17.1" })
+    expect_refused(solid, { "Friction plate/Sensors across=" + across },
+                   "Friction plate/Sensors across = " + across +
+                       ": must be 3 to 17 mm: with all its Sensor width = 6 mm each lies on its side of the middle and on the "
+                       "plate");
+  EXPECT_EQ(mistakes_of(plate, { "Friction plate/Sensors across=30" }), Messages{});
+  EXPECT_EQ(
+      mistakes_of(solid, { "Analysis/Type=modal", "Analysis/Model=condensed" }),
+      (Messages{ "--set: Friction plate/Type = on sensors: must be none with inertia: in three dimensions there is no other "
+                 "yet" }));
+}

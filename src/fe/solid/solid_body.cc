@@ -1,6 +1,7 @@
 #include "fe/solid/solid_body.h"
 
 #include "base/errors.h"
+#include "fe/solid/solid_connectors.h"
 #include "fe/solid/solid_stiffness.h"
 #include "fe/statics/lever_properties.h"
 #include "scene/across.h"
@@ -27,6 +28,7 @@ namespace sprag
       result.plane = PlaneState::strain; // its constants are those of the body
       result.width = 1.;
       result.widths.clear();
+      result.connectors.clear(); // has its own
       if (scene.analysis.type != AnalysisType::quasi_static)
         result.point_spacing = scene.geometry.cylinder_radius / 1000.; // as of levers in a plane in time
       return result;
@@ -81,7 +83,11 @@ namespace sprag
     face = find_friction_face(mapping, dof_handler, constraints, properties, boundary_id::friction_face);
     order_face_nodes();
     find_skin(scene.layer.thickness);
+    springs        = find_connectors({ mapping, dof_handler, constraints, is_half() }, scene);
     auto stiffness = assemble_stiffness({ mapping, dof_handler, constraints, properties }, number_in_skin);
+    if (Utilities::MPI::this_mpi_process(ranks) == 0)
+      for (const auto &connector : springs)
+        add(connector, stiffness.whole);
     factors.factorise(std::move(stiffness.whole));
     if (has_skin())
       factors_of_skin.factorise(std::move(stiffness.part));

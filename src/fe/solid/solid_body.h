@@ -1,5 +1,6 @@
 #pragma once
 
+#include "fe/body/connectors.h"
 #include "fe/body/friction_face.h"
 #include "fe/solid/first_rank.h"
 #include "fe/solid/shared_factors.h"
@@ -50,6 +51,12 @@ namespace sprag
     bool is_half() const
     {
       return properties.width == 2.;
+    }
+
+    /// Those of the friction plate, see find_connectors().
+    const std::vector<Connector> &connectors() const
+    {
+      return springs;
     }
 
     const FrictionFace<3> &friction_face() const
@@ -113,6 +120,7 @@ namespace sprag
     FrictionFace<3> face;
     double face_begin = 0.; ///< along xi [mm]
     double face_end   = 0.;
+    std::vector<Connector> springs;
     std::vector<int> number_in_skin;
     SharedFactors factors;
     SharedFactors factors_of_skin;

@@ -87,6 +87,7 @@ namespace sprag
       , multipliers(body.friction_face())
       , view(body.friction_face(), contact, body.is_half())
       , excess(ports, properties.spring.law)
+      , sensors(body)
   {
   }
 
@@ -235,6 +236,12 @@ namespace sprag
     row[Column::support_displacement] = u;
     row[Column::Q_support]            = ports.sprung ? support * u : row[Column::Q];
     row[Column::support_energy]       = 0.5 * support * u * u;
+    row.sensor_forces.clear();
+    for (const auto &[left, right] : sensors(trial.forces))
+    {
+      row.sensor_forces.push_back(left + right);
+      row.across.insert(row.across.end(), { left, right });
+    }
   }
 
   const std::vector<unsigned int> &SolidLever::line_at(const double zeta) const

@@ -2,6 +2,7 @@
 
 #include "fe/contact/augmentation.h"
 #include "fe/solid/layered_compliance.h"
+#include "fe/solid/sensor_forces.h"
 #include "fe/solid/surface_observation.h"
 #include "fe/statics/lever_properties.h"
 #include "fe/statics/port_window.h"
@@ -88,6 +89,7 @@ namespace sprag
     const FaceMultipliers<3> multipliers;
     const SurfaceView view;
     HubSpringExcess excess;
+    const SensorForces sensors;
 
     // The step.
     DrivePoint start;

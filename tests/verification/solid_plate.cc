@@ -1,0 +1,141 @@
+#include "verification/solid_run.h"
+
+#include <numeric>
+
+using namespace sprag;
+
+namespace
+{
+  /// With a plate on four sensors at its corners.
+  Scene on_sensors(const double poisson_ratio)
+  {
+    Scene scene               = solid_model_a(poisson_ratio);
+    scene.plate.type          = PlateType::on_sensors;
+    scene.plate.poisson_ratio = poisson_ratio;
+    scene.plate.sensors       = { 105., 195. };
+    scene.lever.outline       = LeverOutline::frame;
+    scene.plate.sensor_width  = 8.;
+    return scene;
+  }
+
+  Scene in_plane(Scene scene)
+  {
+    scene.analysis.dimension = 2;
+    return scene;
+  }
+
+  double sum(const std::vector<double> &values)
+  {
+    return std::accumulate(values.begin(), values.end(), 0.);
+  }
+
+  /// Of the right sensors over the left ones, all places together.
+  double right_less_left(const Row &row)
+  {
+    double result = 0.;
+    for (std::size_t i = columns_across().size(); i < row.across.size(); i += 2)
+      result += row.across[i + 1] - row.across[i];
+    return result;
+  }
+
+  /// Largest difference of the places' forces over the largest of one.
+  double difference_of_sensors(const std::vector<Row> &a, const std::vector<Row> &b)
+  {
+    EXPECT_EQ(a.size(), b.size());
+    double difference = 0., largest = 0.;
+    for (std::size_t k = 0; k < std::min(a.size(), b.size()); ++k)
+      for (std::size_t i = 0; i < a[k].sensor_forces.size(); ++i)
+      {
+        difference = std::max(difference, std::abs(a[k].sensor_forces.at(i) - b[k].sensor_forces.at(i)));
+        largest    = std::max(largest, std::abs(a[k].sensor_forces[i]));
+      }
+    return difference / largest;
+  }
+} // namespace
+
+// Pads of half the width each make the sensors those of the plane, which press over the whole of it. What is left is what the
+// compliance of the face leaves out of a plate on coarse cells.
+TEST(SolidPlate, WithoutContractionOnPadsOfTheWholeWidthItIsThePlanes)
+{
+  Scene scene              = on_sensors(0.);
+  scene.lever.outline      = LeverOutline::bar;
+  scene.plate.sensor_width = 20.;
+  const SolidRun solid(scene);
+  const auto rows = run_scene(in_plane(scene));
+  for (const Column column : { Column::P, Column::Q, Column::theta, Column::friction_work })
+    EXPECT_LT(difference(rows, solid.rows, column), 1e-5) << column_info(column).name;
+  EXPECT_LT(difference_of_sensors(rows, solid.rows), 1e-5);
+}
+
+// Sensors at the corners let the plate bend between them, which P feels; how two places share it follows from balance alone.
+TEST(SolidPlate, ATrueCylinderGivesThePlanesShares)
+{
+  const Scene scene = on_sensors(0.);
+  const SolidRun solid(scene);
+  const auto rows = run_scene(in_plane(scene));
+  EXPECT_LT(solid.exactness.displacement, 1e-3);
+  for (const auto &row : solid.rows)
+  {
+    EXPECT_NEAR(sum(row.sensor_forces), row[Column::P], 1e-8 * std::max(1., row[Column::P]));
+    EXPECT_EQ(right_less_left(row), 0.);
+  }
+  const SolidRun whole(tilted(scene, 1e-13));
+  ASSERT_EQ(solid.rows.size(), whole.rows.size());
+  for (std::size_t k = 0; k < solid.rows.size(); ++k)
+    for (std::size_t i = columns_across().size(); i < columns_across().size() + 4; ++i)
+      EXPECT_NEAR(solid.rows[k].across[i], whole.rows[k].across[i], 1e-5) << k;
+}
+
+TEST(SolidPlate, AMirroredTiltSwapsLeftAndRight)
+{
+  const Scene scene = on_sensors(0.3);
+  const SolidRun one(tilted(scene, 2e-4)), other(tilted(scene, -2e-4));
+  ASSERT_EQ(one.rows.size(), other.rows.size());
+  const auto first = columns_across().size();
+  double most      = 0.;
+  for (std::size_t k = 0; k < one.rows.size(); ++k)
+  {
+    most = std::max(most, std::abs(right_less_left(one.rows[k])));
+    for (const std::size_t place : { 0u, 1u })
+      for (const std::size_t side : { 0u, 1u })
+        EXPECT_NEAR(one.rows[k].across[first + 2 * place + side], other.rows[k].across[first + 2 * place + 1 - side], 1e-5) << k;
+  }
+  EXPECT_GT(most, 0.5);
+}
+
+// The sensors alone carry normal force and the moment about xi; the guide carries what draws the plate across at its back.
+TEST(SolidPlate, TheSensorsCarryForceAndTwistingMoment)
+{
+  const Scene scene = tilted(on_sensors(0.3), 2e-4, 1e-3);
+  Mesh plane;
+  make_mesh(scene, plane);
+  const SolidBody body(scene, plane, MPI_COMM_SELF);
+  SolidLever lever(body, scene);
+  const double back = scene.geometry.interface_offset + scene.layer.thickness + scene.plate.thickness;
+  const double arm  = 0.5 * (scene.lever.width - scene.plate.sensor_width);
+  unsigned int seen = 0;
+  run_quasi_static(lever, scene.drive, { scene.analysis.step, scene.analysis.minimum_step, scene.contact },
+                   [&](const State &state, const Row &row)
+                   {
+                     if (row[Column::P] < 1.)
+                       return;
+                     ++seen;
+                     double normal = 0., twisting = 0., along = 0.;
+                     const auto &nodes = body.friction_face().nodes;
+                     for (unsigned int i = 0; i < state.forces.ports.size(); ++i)
+                       if (const unsigned int port = state.forces.ports[i]; port < 3 * nodes.size())
+                       {
+                         const auto &place  = nodes[port / 3].position;
+                         const double force = state.forces.values[i];
+                         normal += port % 3 == 1 ? force : 0.;
+                         twisting += port % 3 == 1 ? force * place[2] : 0.;
+                         twisting += port % 3 == 2 ? force * (back - place[1]) : 0.;
+                         along += port % 3 == 2 ? std::abs(force) : 0.;
+                       }
+                     EXPECT_GT(along, 0.);
+                     EXPECT_NEAR(sum(row.sensor_forces), normal, 1e-8 * normal);
+                     EXPECT_NEAR(right_less_left(row) * arm, twisting, 1e-8 * normal * arm);
+                     EXPECT_NEAR(row.across[2], twisting, 0.05 * std::abs(twisting));
+                   });
+  EXPECT_GT(seen, 10u);
+}
