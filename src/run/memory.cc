@@ -45,15 +45,50 @@ namespace sprag
       return (to - from) / size + graded(from - begin, size, largest, 1.2) + graded(end - to, size, largest, 1.2);
     }
 
+    /// Of the metal with rows of its own that carries the friction face.
+    double depth_under_face(const Scene &scene)
+    {
+      if (scene.plate.type == PlateType::on_sensors)
+        return scene.plate.thickness;
+      const bool has_flange = scene.analysis.dimension == 3 && scene.lever.outline == LeverOutline::frame;
+      return has_flange ? scene.frame.flange : scene.lever.depth;
+    }
+
     double rows_under_face(const Scene &scene)
     {
       const double size      = scene.mesh.face_size;
       const double thickness = scene.layer.thickness;
-      const bool has_plate   = scene.plate.type == PlateType::on_sensors;
-      const double depth     = has_plate ? scene.plate.thickness : scene.lever.depth;
+      const double depth     = depth_under_face(scene);
       const double first     = thickness > 0. ? std::max(2. * size, thickness) : size;
       return (thickness > 0. ? std::max(2., thickness / size) : 0.) +
              std::max(2., std::log1p(0.5 * depth / first) / std::log(1.5));
+    }
+
+    double coarse_size(const Scene &scene)
+    {
+      return std::max(scene.mesh.face_size, 0.15 * scene.lever.depth);
+    }
+
+    /// Of a lever frame behind its front flange, along its depth.
+    double rows_behind_flange(const Scene &scene)
+    {
+      const double coarse = coarse_size(scene), flange = scene.frame.flange;
+      return std::max(2., (scene.lever.depth - 2. * flange) / coarse) + std::max(2., flange / coarse);
+    }
+
+    /// Elements of a section that are not below the friction face: the lever behind a friction plate, the rest of a frame.
+    double elements_elsewhere(const Scene &scene)
+    {
+      const bool is_frame = scene.lever.outline == LeverOutline::frame, has_plate = scene.plate.type == PlateType::on_sensors;
+      const double coarse = coarse_size(scene), length = scene.lever.length, root = scene.frame.root;
+      if (!is_frame)
+        return has_plate ? std::ceil(length / coarse) * std::max(2., scene.lever.depth / coarse) : 0.;
+      constexpr double around_hub = 8.;
+      const double side           = frame_hub_radius + frame_wall;
+      const double of_root =
+          (root + side) / coarse * scene.geometry.interface_offset / coarse + around_hub * 2. * (root + 3. * side) / coarse;
+      return of_root + (has_plate ? (length - root) / coarse * (2. + rows_behind_flange(scene))
+                                  : elements_along_face(scene) * rows_behind_flange(scene));
     }
 
     double cylinder_elements(const Scene &scene)
@@ -167,7 +202,7 @@ namespace sprag
     if (scene.analysis.dimension == 3)
     {
       const double across = 3. * (p * static_cast<double>(planes_across(scene).size() - 1) + 1.);
-      return { across * (p * n + 1.) * (p * rows + 1.), across * (p * n + 1.) };
+      return { across * ((p * n + 1.) * (p * rows + 1.) + p * p * elements_elsewhere(scene)), across * (p * n + 1.) };
     }
     return { 2. * (p * n + 1.) * (p * rows + 1.) + 2. * p * p * cylinder_elements(scene), 2. * (p * n + 1.) };
   }

@@ -86,7 +86,7 @@ namespace sprag
             const std::string of_lever = lever == 0 ? "_" : "_2_";
             add("along" + of_lever, shape.levers[lever].along[i]);
             add("across" + of_lever, shape.levers[lever].across[i]);
-            if (is_solid(modes))
+            if (!shape.levers[lever].sideways[i].empty())
               add("sideways" + of_lever, shape.levers[lever].sideways[i]);
             add("rotation" + of_lever, { part_of(shape.levers[lever].rotation) });
           }

@@ -70,6 +70,28 @@ namespace
     }
   }
 
+  /// Displacements and memory of params/solid-a.prm, solid-frame-a.prm and solid-plate-a.prm.
+  TEST(Memory, PartsOfTheApparatusCountInThreeDimensions)
+  {
+    Scene bar                  = model_a();
+    bar.analysis.dimension     = 3;
+    bar.mesh.face_size         = 1.;
+    Scene frame                = bar;
+    frame.lever.outline        = LeverOutline::frame;
+    Scene plate                = frame;
+    plate.plate.type           = PlateType::on_sensors;
+    plate.plate.sensors        = { 105., 195. };
+    plate.mesh.elements_across = 8;
+    plate.cylinder.tilt        = 2e-4;
+    for (const auto &[scene, displacements] : { std::pair(bar, 130e3), std::pair(frame, 218508.), std::pair(plate, 336099.) })
+    {
+      EXPECT_LT(expected_size(scene).displacements, 1.3 * displacements);
+      EXPECT_GT(expected_size(scene).displacements, displacements / 1.3);
+    }
+    EXPECT_GT(expected_memory(plate), 3.98e9 / 1.3);
+    EXPECT_LT(expected_memory(plate), 3.98e9 * 1.3);
+  }
+
   TEST(Memory, EachProcessAndLeverNeedsItsOwn)
   {
     Scene scene = scene_of(measured[13]);

@@ -89,16 +89,19 @@ namespace sprag
     std::map<std::array<long, 4>, unsigned int> known;
     for (unsigned int dof = 0; dof < places.size(); ++dof)
       known[key(dof, 1.)] = dof;
-    mirrored.resize(places.size());
     for (unsigned int dof = 0; dof < places.size(); ++dof)
     {
       const auto found = known.find(key(dof, -1.));
-      mirrored[dof]    = found != known.end() ? found->second : dof;
+      if (found == known.end())
+        return mirrored.clear();
+      mirrored.push_back(found->second);
     }
   }
 
   Eigenmode::AcrossShares SolidMass::shares(const Vector<double> &displacement) const
   {
+    if (mirrored.empty())
+      return {};
     Vector<double> opposite(displacement.size());
     for (unsigned int dof = 0; dof < opposite.size(); ++dof)
       opposite[dof] = 0.5 * (displacement[dof] + (component[dof] == 2 ? 1. : -1.) * displacement[mirrored[dof]]);

@@ -28,7 +28,7 @@ namespace sprag
     double sum_along(unsigned int axis, const dealii::Vector<double> &of_dofs) const;
 
     /// Returns where the kinetic energy of a motion lies, given by the displacement of all degrees of freedom. A body that is not
-    /// the same on both sides of the middle has no such shares.
+    /// the same on both sides of the middle has no such shares: NaN.
     Eigenmode::AcrossShares shares(const dealii::Vector<double> &displacement) const;
 
     double hub               = 0.; ///< moment of inertia of what turns with the hub besides [t mm^2]
@@ -53,6 +53,6 @@ namespace sprag
     std::vector<dealii::types::material_id> materials; ///< of the cells
     dealii::Vector<double> rotation_arms;
     std::vector<char> component;
-    std::vector<unsigned int> mirrored; ///< by a degree of freedom that on the other side of the middle
+    std::vector<unsigned int> mirrored; ///< by a degree of freedom that on the other side; empty where not all have one
   };
 } // namespace sprag
