@@ -157,6 +157,7 @@ FIGURES = {
     **{name: drawn(name, "forces-over-x") for name in ("stiff-a", "stiff-b")},
     # Three dimensions.
     "solid-tilted-a": drawn("solid-tilted-a", "contact"),
+    "solid-plate-a": drawn("solid-plate-a", "sensors"),
     "solid-modal-a": drawn("solid-modal-a", "modes"),
     "solid-fields-a": lambda run: fields(run("solid-tilted-a"), way="backward"),
     # In time.

@@ -55,6 +55,7 @@ namespace sprag
         rules.need(cylinder.edge_radius == 0., "Cylinder/Edge radius", { "Cylinder/Length" },
                    "must be 0 where Length = 0: the ends then lie beyond the lever");
     }
+
     void sensors_at_sides(const Scene &scene, Rules &rules)
     {
       const auto &plate   = scene.plate;
