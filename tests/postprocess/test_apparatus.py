@@ -4,6 +4,7 @@ import sys
 import unittest
 from pathlib import Path
 
+import h5py
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
@@ -74,6 +75,18 @@ class ApparatusTest(PictureTest):
         names = [line.get_label() for line in each.lines if line.get_label().startswith("sensor")]
         self.assertEqual(names, ["sensor 1", "sensor 2", "sensor 3", "sensor 4"])
         self.expect_picture(draw("plot.py", self.folder / "a"), "sensors")
+
+    def test_sensors_left_and_right(self):
+        make_static(self.folder / "a")
+        with h5py.File(self.folder / "a/result.h5", "r+") as file:
+            for side, share in (("left", 0.25), ("right", 0.75)):
+                put(file["table"], f"sensor_2_{side}", share * file["table/sensor_2"][:], "N")
+        result = read_result(self.folder / "a")
+        each = [line for line in sensors.sensor_forces(result).axes[2].lines if line.get_label().startswith("sensor")]
+        self.assertEqual([line.get_label() for line in each], ["sensor 1", "sensor 2 left", "sensor 2 right", "sensor 3", "sensor 4"])
+        np.testing.assert_allclose(each[2].get_ydata(), 3 * each[1].get_ydata())
+        self.assertEqual(each[1].get_color(), each[2].get_color())
+        self.assertNotEqual(each[1].get_linestyle(), each[2].get_linestyle())
 
     def test_sensors_over_time_with_the_reversal(self):
         result = make_dynamic(self.folder / "a")
