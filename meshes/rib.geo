@@ -12,7 +12,7 @@ DefineConstant[
   rib             = { 12.0, Name "Lever/Rib depth"},        // behind the flange
   rib_width       = { 12.0, Name "Lever/Rib width"},
   rib_middle      = {  8.0, Name "Lever/Rib middle"},       // z
-  face_size       = {  2.0, Name "Mesh/Face size"},         // along the swept face
+  face_size       = {  1.0, Name "Mesh/Face size"},         // along the swept face
   coarse          = {  3.0, Name "Mesh/Largest length"},
   across          = {  5.0, Name "Mesh/Size across"},
   sweep_begin     = {114.0, Name "Mesh/Sweep begin"},

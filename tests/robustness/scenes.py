@@ -30,6 +30,7 @@ CHANGES = {
     "design-machine": {"Design/Demands": "friction ratio = 0.5 +- 0.005; largest pressure <= 0.8", "Design/Judges": "none"},
     "design-front-machine": {"Design/Front points": "3", "Design/Evaluations": "300"},
     **{name: {"Mesh/Elements across": "2", "Condensed/Modes": "6"} for name in ("solid-modal-a", "solid-stability-a")},
+    "solid-rib-a": {"Mesh/Degree": "1"},
     "solid-reversal-a": {"Mesh/Elements across": "2", "Condensed/Modes": "6", "Drive/Start": "63"},
     "study-growth-a": {**STUDY, "Study/Vary": "Mesh/Face size = 5, 6, 8", "Condensed/Modes": "3"},
     "study-reversal-a": {

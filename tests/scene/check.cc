@@ -65,7 +65,7 @@ TEST(CheckScene, WhatThisVersionCannotDoIsRefused)
   EXPECT_EQ(mistakes_of({ "Analysis/Dimension=3", "Lever/Outline=frame", "Mirrored pair/Type=full", "Cylinder/Type=ring",
                           "Contact/Enforcement=augmented Lagrangian" })
                 .size(),
-            3u);
+            2u);
   EXPECT_EQ(
       mistakes_of({ "Analysis/Dimension=3", "Cylinder/Length=10", "Cylinder/Position=26", "Cylinder/Edge radius=6" }).size(), 2u);
   EXPECT_EQ(mistakes_of({ "Analysis/Minimum step=2" }),
