@@ -213,6 +213,13 @@ class BadMesh(ProgramTest):
         solid = STRIP + "solid[] = Extrude {0, 0, 40} { Surface{area[1]}; Layers{4}; Recombine; };\n" + LEVER + HUB + FACE
         self.refused(self.geometry(solid), says=["own.geo", "has volumes", "Lever/Width"], mistakes=1)
 
+    def test_tetrahedra(self):
+        solid = STRIP.replace("Recombine;", "") + "solid[] = Extrude {0, 0, 40} { Surface{area[1]}; };\n"
+        groups = 'Physical Volume("lever") = {solid[1]}; Physical Surface("hub") = {solid[5]}; Physical Surface("friction face") = {solid[2]};\n'
+        for options in ((), ("--quiet",)):
+            says = ["own.geo", "elements 'Tetrahedron 4'", "must be made of hexahedra", "Layers{10}"]
+            self.refused(self.geometry(solid + groups), "--set", "Analysis/Dimension=3", *options, says=says, mistakes=1)
+
     def test_out_of_its_plane(self):
         tilted = STRIP.replace("{0, 20, 0}", "{0, 20, 5}") + LEVER + HUB + FACE
         self.refused(self.geometry(tilted), says=["own.geo", "z = 5 mm", "must be 0"], mistakes=1)
