@@ -221,7 +221,8 @@ class ScenesTest(RunTest):
     def check_run(self, file):
         table = file["table"]
         text = file["parameters"].asstr()[()]
-        sensors = {f"sensor_{name}" for name in ("1", "2", "3", "4", "sum")}
+        places = range(1, 1 + len(parameter(text, "Friction plate", "Sensors").split(",")))
+        sensors = {"sensor_sum"} | {f"sensor_{place}" for place in places}
         has_plate = parameter(text, "Friction plate", "Type") != "none"
         expected = set(columns_of_the_program()) | (sensors if has_plate else set())
         if parameter(text, "Mirrored pair", "Type") == "full":
@@ -229,6 +230,7 @@ class ScenesTest(RunTest):
             expected |= {name for name in table if name.endswith("_2")} | {"swing", "Q_pair", "lateral_force"}
         if parameter(text, "Analysis", "Dimension") == "3":
             expected |= {"F_across", "centre_across", "twisting_moment", "turning_moment", "largest_pressure_zeta"}
+            expected |= {f"sensor_{place}_{side}" for place in places for side in ("left", "right") if has_plate}
             if parameter(text, "Analysis", "Type") == "quasi-static":
                 self.assertLess(file["meta/compliance_error"][()], 1e-3)
         self.assertEqual(set(table), expected)
