@@ -131,12 +131,16 @@ namespace sprag
       return !types.empty() || !volumes.empty();
     }
 
-    /// A plane lever's mesh lies in z = 0: another would be read as its shadow.
-    void refuse_third_dimension(const std::string &file)
+    void refuse_volumes(const std::string &file)
     {
       if (open_model_has_volumes())
         throw InputError(file + ": has volumes: the lever is modelled in its plane; give its surfaces in z = 0 alone, "
                                 "Lever/Width is the third dimension, or set Analysis/Dimension = 3");
+    }
+
+    /// A plane lever's mesh lies in z = 0: another would be read as its shadow.
+    void refuse_third_dimension(const std::string &file)
+    {
       std::vector<std::size_t> nodes;
       std::vector<double> positions, parametric;
       gmsh::model::mesh::getNodes(nodes, positions, parametric);
@@ -204,6 +208,8 @@ namespace sprag
       gmsh::model::mesh::getNodes(nodes, positions, parametric);
       if (nodes.empty())
         gmsh::model::mesh::generate(dim);
+      if (dim == 2)
+        refuse_volumes(file);
       Answer answer = read_groups(file, groups, dim);
       if (dim == 2)
       {
