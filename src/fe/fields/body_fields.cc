@@ -190,6 +190,7 @@ namespace sprag
 
   BodyFields::BodyFields(const SolidBody &body, const FrictionFace<3> &shown)
       : in_space(true)
+      , of_half(body.is_half())
       , of_face(shown)
   {
     read<3>(body);

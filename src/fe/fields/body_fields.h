@@ -78,6 +78,12 @@ namespace sprag
       return in_space;
     }
 
+    /// Whether it is a half of one in space, whose other half is its mirror image.
+    bool is_half() const
+    {
+      return of_half;
+    }
+
     const FieldFace &face() const
     {
       return of_face;
@@ -94,6 +100,7 @@ namespace sprag
     void read(const AnyBody &body);
 
     bool in_space;
+    bool of_half = false;
     FieldFace of_face;
     unsigned int n_places = 0; ///< of nodes in an element
     std::vector<Node> all_nodes;

@@ -1,7 +1,6 @@
 #include "fe/fields/device_mesh.h"
 
 #include "fe/fields/rigid_block.h"
-#include "scene/across.h"
 #include "scene/mirrored_pair.h"
 
 #include <cmath>
@@ -100,7 +99,7 @@ namespace sprag
     for (unsigned int lever = 0; lever < number_of_levers(scene); ++lever)
     {
       result.push_back(block_of(scene, body, { DevicePart::lever, lever }));
-      if (body.is_in_space() && is_symmetric_across(scene))
+      if (body.is_half())
       {
         result.push_back(result.back());
         result.back().is_mirrored = true;
