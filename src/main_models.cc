@@ -1,5 +1,6 @@
 #include "analysis/team/team.h"
 #include "base/error_text.h"
+#include "base/fingerprint.h"
 #include "base/guard.h"
 #include "base/hdf5_handle.h"
 #include "base/interrupt.h"
@@ -27,6 +28,19 @@ namespace sprag
   {
     namespace MPI = dealii::Utilities::MPI;
 
+    /// Processes of another program or scene than the first's would wait for what never comes, or give other results.
+    void require_alike_processes(const Scene &scene)
+    {
+      Fingerprint of_all;
+      of_all.add(content_fingerprint("/proc/self/exe"));
+      of_all.add(parameters_text(scene));
+      const auto fingerprints = MPI::all_gather(MPI_COMM_WORLD, of_all.text());
+      for (std::size_t rank = 1; rank < fingerprints.size(); ++rank)
+        if (fingerprints[rank] != fingerprints[0])
+          throw InputError("process " + std::to_string(rank) +
+                           " of mpirun runs another program or scene than process 0: start the same on all machines");
+    }
+
     void execute(const Arguments &arguments, const Scene &scene, const Rank &rank, RunLog &log)
     {
       if (arguments.validate)
@@ -41,6 +55,8 @@ namespace sprag
         throw InputError(
             "only Analysis/Type = map and study, and Analysis/Dimension = 3 without inertia, run in several processes: leave out "
             "mpirun");
+      if (!rank.is_alone)
+        require_alike_processes(scene);
       const std::string folder     = folder_of(arguments, scene);
       const unsigned int processes = rank.is_alone ? 1 : MPI::n_mpi_processes(MPI_COMM_WORLD);
       const auto claim             = [&]

@@ -59,6 +59,21 @@ class Ranks(RunTest):
             for data, values in alone.items():  # written in single precision
                 np.testing.assert_allclose(fields[1][name][data], values, rtol=0, atol=2e-6 * np.abs(values).max(initial=0), err_msg=data)
 
+    def test_of_another_program_are_refused(self):
+        program = Path(SPRAG).resolve().with_name("sprag-models")
+        other = self.folder / "sprag-models"
+        shutil.copy(program, other)
+        with open(other, "ab") as file:
+            file.write(b"another version")
+        scene = SOURCE / "params" / "model-a.prm"
+        sets = [part for name, value in SETTINGS.items() for part in ("--set", f"{name}={value}")]
+        each = [scene, "--output", self.output, *sets]
+        command = ["mpirun", "-n", "1", program, *each, ":", "-n", "1", other, *each]
+        done = subprocess.run(list(map(str, command)), capture_output=True, text=True, check=False, timeout=TIMEOUT, env=ALONE)
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertEqual(done.stderr.count("process 1 of mpirun runs another program"), 1, done.stderr)
+        self.assertFalse(self.output.exists())
+
     def test_that_cannot_help_are_refused(self):
         done = run(2, self.output, {})
         self.assertEqual(done.returncode, 2, done.stderr)

@@ -54,11 +54,14 @@ TEST(CheckScene, ContactMustLieOnTheLever)
 TEST(CheckScene, WhatThisVersionCannotDoIsRefused)
 {
   EXPECT_TRUE(mistakes_of({ "Analysis/Dimension=3" }).empty());
-  EXPECT_EQ(mistakes_of({ "Analysis/Dimension=3", "Analysis/Type=stability" }).size(), 3u); // model, searches and roles
-  EXPECT_TRUE(mistakes_of({ "Analysis/Dimension=3", "Analysis/Type=stability", "Analysis/Model=condensed",
-                            "Stability/Critical=none", "Stability/Roles=off" })
-                  .empty());
-  EXPECT_EQ(mistakes_of({ "Analysis/Dimension=3", "Analysis/Type=sprag slip", "Analysis/Model=condensed" }).size(), 1u);
+  EXPECT_EQ(mistakes_of({ "Analysis/Dimension=3", "Analysis/Type=stability" }).size(), 1u); // the model
+  for (const std::string type : { "stability", "sprag slip", "map", "modal", "transient" })
+    EXPECT_TRUE(mistakes_of({ "Analysis/Dimension=3", "Analysis/Type=" + type, "Analysis/Model=condensed" }).empty()) << type;
+  EXPECT_EQ(mistakes_of({ "Analysis/Dimension=3", "Analysis/Type=contact law" }).size(), 1u);
+  EXPECT_TRUE(mistakes_of({ "Analysis/Dimension=auto" }).empty());
+  EXPECT_EQ(mistakes_of({ "Analysis/Dimension=auto", "Cylinder/Type=ring" }).size(), 1u);
+  EXPECT_EQ(mistakes_of({ "Analysis/Dimension=auto", "Analysis/Type=modal", "Analysis/Model=condensed" }),
+            (Messages{ "--set: Analysis/Dimension = auto: auto is for Analysis/Type = quasi-static, stability and transient" }));
   EXPECT_EQ(
       mistakes_of({ "Analysis/Dimension=3", "Analysis/Type=transient", "Analysis/Model=beam", "Lever/Tip mass=1e-5" }).size(),
       2u);
