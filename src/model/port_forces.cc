@@ -12,9 +12,38 @@ namespace sprag
 
   namespace
   {
-    /// From so many on most of a Newton correction are its factors. A correction that is right to some 1e-4 takes no more
-    /// iterations than an exact one: its residual is exact.
-    constexpr std::size_t many_ports = 400;
+    constexpr std::size_t many_ports        = 400; ///< from so many on most of a Newton correction are its factors
+    constexpr unsigned int most_refinements = 5;
+    constexpr double refined                = 1e-10; ///< what is left of the right-hand side
+
+    /// b - (1 - G A) x.
+    Vector<double> remainder(const PortCompliance &compliance, const std::vector<unsigned int> &ports,
+                             const FullMatrix<double> &tangent, const Vector<double> &b, const Vector<double> &x)
+    {
+      Vector<double> forces(x.size()), displacements(compliance.size()), result(b);
+      tangent.vmult(forces, x);
+      add_response(compliance, ports, forces, ports, displacements);
+      for (unsigned int i = 0; i < result.size(); ++i)
+        result[i] += displacements[ports[i]] - x[i];
+      return result;
+    }
+
+    /// Solves by factors of single precision, at half the cost, and refines what they find. Returns whether that converged: badly
+    /// conditioned tangents do not let it.
+    bool solve_by_refinement(const PortCompliance &compliance, const std::vector<unsigned int> &ports,
+                             const FullMatrix<double> &tangent, const Vector<double> &b, Vector<double> &x)
+    {
+      const PortMatrix<float> factors(compliance, ports, tangent);
+      x.reinit(b.size());
+      Vector<double> left = b;
+      for (unsigned int i = 0; i <= most_refinements && left.l2_norm() > refined * b.l2_norm(); ++i)
+      {
+        factors.solve(left);
+        x += left;
+        left = remainder(compliance, ports, tangent, b, x);
+      }
+      return left.l2_norm() <= refined * b.l2_norm();
+    }
   } // namespace
 
   void sum_forces(const std::vector<PortForces> &loaded, std::vector<unsigned int> &place_of_port, PortForces &sum)
@@ -70,10 +99,11 @@ namespace sprag
     Vector<double> change = displacements;
     try
     {
-      if (ports.size() < many_ports)
+      if (ports.size() < many_ports || !solve_by_refinement(compliance, ports, tangent, displacements, change))
+      {
+        change = displacements;
         PortMatrix<double>(compliance, ports, tangent).solve(change);
-      else
-        PortMatrix<float>(compliance, ports, tangent).solve(change);
+      }
     }
     catch (const ExceptionBase &)
     {
