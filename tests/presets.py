@@ -43,7 +43,7 @@ RUNS = {
     "closed form": ("closed-form-b", SLIDE),
     "elastic cylinder": ("cylinder-a", SLIDE),
     "three dimensions": ("solid-tilted-a", (*SLIDE, "Mesh/Face size=8", "Mesh/Elements across=2")),
-    "three dimensions, plate": ("solid-plate-a", (*SLIDE, "Mesh/Face size=8", "Mesh/Elements across=2")),
+    "three dimensions, plate": ("solid-plate-a", (*SLIDE, "Mesh/Face size=8", "Mesh/Elements across=2", "Mesh/Degree=1")),
     "three dimensions, stability": ("solid-stability-a", ("Mesh/Face size=8", "Mesh/Elements across=2", "Condensed/Modes=6")),
     "three dimensions, reversal": ("solid-reversal-a", (*REVERSAL, "Mesh/Face size=8", "Mesh/Elements across=2", "Condensed/Modes=6")),
     "slope": ("fig11", ("Slope/Number of points=5",)),
