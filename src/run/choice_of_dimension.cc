@@ -94,7 +94,7 @@ namespace sprag
     bool is_wanted(const Scene &scene, const std::string &quantity)
     {
       const auto &wanted = scene.accuracy.quantities;
-      return scene.analysis.type != AnalysisType::quasi_static ||
+      return scene.analysis.type == AnalysisType::transient || // P rings with the slide's frequency
              std::find(wanted.begin(), wanted.end(), quantity) != wanted.end();
     }
   } // namespace

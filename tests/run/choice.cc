@@ -109,9 +109,11 @@ TEST(Choice, InThreeDimensionsTheRestIsChosenByThePlane)
 
 TEST(Choice, ASlideOfAThinLeverTakesThreeDimensionsForItsGrowth)
 {
-  const std::vector<std::string> cheap = { "Analysis/Dimension=auto", "Mesh/Elements across=2", "Mesh/Face size=4" };
-  const auto choice                    = choose_settings(asked("solid-stability-a", cheap));
+  std::vector<std::string> cheap = { "Analysis/Dimension=auto", "Mesh/Elements across=2", "Mesh/Face size=4" };
+  const auto choice              = choose_settings(asked("solid-stability-a", cheap));
   ASSERT_EQ(choice.settings.size(), 1u);
   EXPECT_EQ(choice.settings.front().value, "3");
   EXPECT_NE(choice.settings.front().reason.find("growth_rate"), std::string::npos);
+  cheap.push_back("Accuracy/Quantity=frequency");
+  EXPECT_EQ(chosen(choose_settings(asked("solid-stability-a", cheap)), "Analysis/Dimension"), "2");
 }
