@@ -225,3 +225,11 @@ TEST(QuasiStaticAccuracy, SaysWhyThereIsNoEstimate)
   for (const auto &estimate : estimates)
     EXPECT_NE(estimate.unknown.find("mesh from a file"), std::string::npos);
 }
+
+TEST(QuasiStaticAccuracy, ARunEndsWellWhereTheCoarserMeshCannotServe)
+{
+  const auto fails     = []() -> Probes { throw InputError("pads do not fit"); };
+  const auto estimates = quasi_static_accuracy(coarse_scene(0.5), {}, fails);
+  ASSERT_EQ(estimates.size(), 6u);
+  EXPECT_NE(estimates.front().unknown.find("pads do not fit"), std::string::npos);
+}
