@@ -1,0 +1,152 @@
+#include "levers/dynamics.h"
+#include "scene/held_slide.h"
+#include "verification/held_slides.h"
+#include "verification/solid_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <gtest/gtest.h>
+
+// A rigid cylinder whose axis yields on its shaft, in time and about held slides.
+
+using namespace sprag;
+
+namespace
+{
+  constexpr std::size_t tilt_column = 5, skew_column = 6; ///< among those across
+
+  /// Out of true both ways on a shaft that yields by a good part of that, with one penalty whatever the analysis.
+  Scene yielding(const AnalysisType type)
+  {
+    Scene scene                   = tilted(solid_model_a(0.), 4e-4, 2e-3);
+    scene.cylinder.tilt_stiffness = 4e5;
+    scene.cylinder.skew_stiffness = 1e5;
+    scene.mesh.elements_across    = 2;
+    scene.analysis.type           = type;
+    scene.analysis.model          = type == AnalysisType::quasi_static ? ModelType::finite_element : ModelType::condensed;
+    scene.condensed.modes         = 12;
+    scene.contact.enforcement     = Enforcement::penalty;
+    scene.contact.penalty         = 240.;
+    scene.stability.critical      = "none";
+    scene.stability.position      = 30.;
+    scene.friction.law            = CoulombFriction{ 0.73 }; // which nothing delays, see linearise()
+    return scene;
+  }
+
+  TransientRun run_solid_in_time(const Scene &scene)
+  {
+    DynamicsMaker maker(false);
+    const auto dynamics = maker.make(scene);
+    return run_in_time(dynamics.model(), scene);
+  }
+
+  double stored_energy(const Row &row)
+  {
+    return row[Column::kinetic_energy] + row[Column::spring_energy] + row[Column::elastic_energy] + row[Column::contact_energy];
+  }
+} // namespace
+
+// Modes answer statically what they leave out, and points in time lie as they do without inertia. What slides at 112 mm/s has
+// some inertia left, and a run without inertia passes a point at a time.
+TEST(SolidShaftInTime, ASlideComesToTheStaticAnswer)
+{
+  Scene without       = yielding(AnalysisType::quasi_static);
+  without.drive       = Drive(DriveProfile::triangle, 0., 24., 112., 0.5);
+  const auto expected = SolidRun(without).rows.back();
+  Scene in_time       = yielding(AnalysisType::transient);
+  in_time.drive       = Drive(DriveProfile::triangle, 20., 24., 112., 0.5);
+  const auto found    = run_solid_in_time(in_time).rows.back();
+  EXPECT_NEAR(found[Column::P], expected[Column::P], 1e-3 * expected[Column::P]);
+  const auto &axis = without.cylinder;
+  EXPECT_LT(expected.across[tilt_column], 0.8 * axis.tilt);
+  EXPECT_NEAR(found.across[tilt_column], expected.across[tilt_column], 2e-3 * axis.tilt);
+  EXPECT_GT(std::abs(expected.across[skew_column] - axis.skew), 1e-4);
+  EXPECT_NEAR(found.across[skew_column], expected.across[skew_column], 2e-3 * axis.skew);
+}
+
+// Without dissipation the ledger leaves open but the turn of the contact's rows within a step, see Ledger.
+TEST(SolidShaftInTime, TheLedgerClosesWithTheWorkOfTheShaft)
+{
+  Scene scene = with_spectral_radius(with_fixed_step(undamped(yielding(AnalysisType::transient)), 5e-5), 1.);
+  scene       = with_coulomb(scene, 0.);
+  scene.drive = Drive(DriveProfile::triangle, 20., 24., 112., 0.5);
+  double peak = 0., open = 0., shaft = 0.;
+  for (const auto &row : run_solid_in_time(scene).rows)
+  {
+    peak               = std::max(peak, stored_energy(row));
+    open               = std::max(open, std::abs(row[Column::energy_residual]));
+    const auto yielded = row.across[tilt_column] - scene.cylinder.tilt;
+    shaft              = std::max(shaft, 0.5 * *scene.cylinder.tilt_stiffness * yielded * yielded);
+  }
+  EXPECT_GT(shaft, 1e-4 * peak);
+  EXPECT_LT(open, 1e-8 * peak);
+}
+
+TEST(SolidShaftInTime, TheLedgerClosesOverAReversal)
+{
+  Scene scene = with_fixed_step(yielding(AnalysisType::transient), 5e-5);
+  scene.drive = Drive(DriveProfile::triangle, 22., 24., 112., 1.);
+  double work = 0., open = 0.;
+  for (const auto &row : run_solid_in_time(scene).rows)
+  {
+    work = std::max(work, std::abs(row[Column::drive_work]));
+    open = std::max(open, std::abs(row[Column::energy_residual]));
+  }
+  EXPECT_LT(open, 1e-7 * work);
+}
+
+// See Growth.
+TEST(SolidShaftInTime, AVibrationGrowsAsItsEigenvalueSays)
+{
+  Scene scene                   = yielding(AnalysisType::sprag_slip);
+  scene.contact.penalty         = std::nullopt;
+  scene.lever.depth             = 6.;
+  scene.cylinder.tilt           = 1e-4;
+  scene.cylinder.skew           = 0.;
+  scene.cylinder.skew_stiffness = 1e6;
+  scene.stability.position      = 65.;
+  const JudgedSlide judged(scene);
+  ASSERT_EQ(judged.stability.kind, SlideKind::flutter);
+  HeldRun run(judged.dynamics.model(), judged.step());
+  const auto growth = measure_growth(judged.dynamics.model(), judged.stability, scene.sprag_slip, run, [](const Row &) {});
+  EXPECT_TRUE(growth.reached);
+  EXPECT_TRUE(growth.slid);
+  EXPECT_NEAR(growth.growth_difference(), 0., 0.003);
+  EXPECT_NEAR(growth.frequency_difference(), 0., 0.0005);
+}
+
+namespace
+{
+  /// Modes in contact without friction of a slide before a true cylinder.
+  std::vector<Eigenmode> modes_on(const std::optional<double> &stiffness)
+  {
+    Scene scene         = yielding(AnalysisType::stability);
+    scene.cylinder.tilt = scene.cylinder.skew = 0.;
+    scene.cylinder.tilt_stiffness = scene.cylinder.skew_stiffness = stiffness;
+    DynamicsMaker maker(false);
+    const auto dynamics = maker.make(scene);
+    const auto slide    = dynamics.model().hold(held_drive(scene), ContactFriction::none);
+    EXPECT_TRUE(slide);
+    auto modes = dynamics.model().vibrations(*slide, true, 10);
+    tell_motion(dynamics.solid->modes, modes);
+    return modes;
+  }
+
+  /// Frequency of the first mode most of which is of a kind [1/s].
+  double first_of(const std::vector<Eigenmode> &modes, double Eigenmode::AcrossShares::*const share)
+  {
+    const auto found = std::find_if(modes.begin(), modes.end(), [share](const auto &mode) { return mode.across.*share > 0.5; });
+    EXPECT_NE(found, modes.end());
+    return found == modes.end() ? 0. : found->mode.eigenvalue.imag();
+  }
+} // namespace
+
+// The axis follows a lever that twists, and so holds it less; what moves as in a plane it does not feel. A stiff one is fixed.
+TEST(SolidShaftInTime, OfATrueAxisTwistingModesAloneKnow)
+{
+  using Shares     = Eigenmode::AcrossShares;
+  const auto fixed = modes_on({}), soft = modes_on(1e4), stiff = modes_on(1e12);
+  EXPECT_NEAR(first_of(soft, &Shares::plane), first_of(fixed, &Shares::plane), 1e-7 * first_of(fixed, &Shares::plane));
+  EXPECT_LT(first_of(soft, &Shares::twisting), 0.99 * first_of(fixed, &Shares::twisting));
+  EXPECT_NEAR(first_of(stiff, &Shares::twisting), first_of(fixed, &Shares::twisting), 1e-6 * first_of(fixed, &Shares::twisting));
+}
