@@ -46,22 +46,22 @@ namespace
   }
 } // namespace
 
-// Modes answer statically what they leave out, and points in time lie as they do without inertia. What slides at 112 mm/s has
-// some inertia left, and a run without inertia passes a point at a time.
+// Modes answer statically what they leave out. What slides slowly has hardly any inertia; the steps without inertia are those of
+// another friction history, of which the elastic slip is left.
 TEST(SolidShaftInTime, ASlideComesToTheStaticAnswer)
 {
-  Scene without       = yielding(AnalysisType::quasi_static);
-  without.drive       = Drive(DriveProfile::triangle, 0., 24., 112., 0.5);
-  const auto expected = SolidRun(without).rows.back();
-  Scene in_time       = yielding(AnalysisType::transient);
-  in_time.drive       = Drive(DriveProfile::triangle, 20., 24., 112., 0.5);
-  const auto found    = run_solid_in_time(in_time).rows.back();
+  Scene without        = yielding(AnalysisType::quasi_static);
+  without.drive        = Drive(DriveProfile::triangle, 0., 24., 112., 0.5);
+  const auto expected  = SolidRun(without).rows.back();
+  Scene in_time        = yielding(AnalysisType::transient);
+  in_time.drive        = Drive(DriveProfile::triangle, 23.5, 24., 10., 0.5);
+  const auto found     = run_solid_in_time(in_time).rows.back();
+  const auto &cylinder = without.cylinder;
+  EXPECT_LT(expected.across[tilt_column], 0.8 * cylinder.tilt);
+  EXPECT_GT(std::abs(expected.across[skew_column] - cylinder.skew), 1e-4);
   EXPECT_NEAR(found[Column::P], expected[Column::P], 1e-3 * expected[Column::P]);
-  const auto &axis = without.cylinder;
-  EXPECT_LT(expected.across[tilt_column], 0.8 * axis.tilt);
-  EXPECT_NEAR(found.across[tilt_column], expected.across[tilt_column], 2e-3 * axis.tilt);
-  EXPECT_GT(std::abs(expected.across[skew_column] - axis.skew), 1e-4);
-  EXPECT_NEAR(found.across[skew_column], expected.across[skew_column], 2e-3 * axis.skew);
+  EXPECT_NEAR(found.across[tilt_column], expected.across[tilt_column], 1e-3 * cylinder.tilt);
+  EXPECT_NEAR(found.across[skew_column], expected.across[skew_column], 1e-3 * cylinder.skew);
 }
 
 // Without dissipation the ledger leaves open but the turn of the contact's rows within a step, see Ledger.
@@ -99,6 +99,7 @@ TEST(SolidShaftInTime, TheLedgerClosesOverAReversal)
 TEST(SolidShaftInTime, AVibrationGrowsAsItsEigenvalueSays)
 {
   Scene scene                   = yielding(AnalysisType::sprag_slip);
+  scene.drive                   = Drive(DriveProfile::triangle, 0., 65., 112., 1.);
   scene.contact.penalty         = std::nullopt;
   scene.lever.depth             = 6.;
   scene.cylinder.tilt           = 1e-4;
@@ -117,8 +118,8 @@ TEST(SolidShaftInTime, AVibrationGrowsAsItsEigenvalueSays)
 
 namespace
 {
-  /// Modes in contact without friction of a slide before a true cylinder.
-  std::vector<Eigenmode> modes_on(const std::optional<double> &stiffness)
+  /// Modes without friction of a slide before a true cylinder, in contact or not.
+  std::vector<Eigenmode> modes_on(const std::optional<double> &stiffness, const bool in_contact = true)
   {
     Scene scene         = yielding(AnalysisType::stability);
     scene.cylinder.tilt = scene.cylinder.skew = 0.;
@@ -127,7 +128,7 @@ namespace
     const auto dynamics = maker.make(scene);
     const auto slide    = dynamics.model().hold(held_drive(scene), ContactFriction::none);
     EXPECT_TRUE(slide);
-    auto modes = dynamics.model().vibrations(*slide, true, 10);
+    auto modes = dynamics.model().vibrations(*slide, in_contact, 10);
     tell_motion(dynamics.solid->modes, modes);
     return modes;
   }
@@ -141,12 +142,16 @@ namespace
   }
 } // namespace
 
-// The axis follows a lever that twists, and so holds it less; what moves as in a plane it does not feel. A stiff one is fixed.
+// What moves as in a plane does not turn the axis. A lever that twists does: before an axis that aligns itself it twists as if
+// out of contact, before a stiff one as before a fixed one.
 TEST(SolidShaftInTime, OfATrueAxisTwistingModesAloneKnow)
 {
   using Shares     = Eigenmode::AcrossShares;
-  const auto fixed = modes_on({}), soft = modes_on(1e4), stiff = modes_on(1e12);
-  EXPECT_NEAR(first_of(soft, &Shares::plane), first_of(fixed, &Shares::plane), 1e-7 * first_of(fixed, &Shares::plane));
-  EXPECT_LT(first_of(soft, &Shares::twisting), 0.99 * first_of(fixed, &Shares::twisting));
-  EXPECT_NEAR(first_of(stiff, &Shares::twisting), first_of(fixed, &Shares::twisting), 1e-6 * first_of(fixed, &Shares::twisting));
+  const auto fixed = modes_on({}), aligning = modes_on(100.), stiff = modes_on(1e12);
+  const double planar = first_of(fixed, &Shares::plane), twisting = first_of(fixed, &Shares::twisting);
+  const double open = first_of(modes_on({}, false), &Shares::twisting);
+  EXPECT_NEAR(first_of(aligning, &Shares::plane), planar, 1e-7 * planar);
+  EXPECT_GT(twisting, 1.003 * open);
+  EXPECT_NEAR(first_of(aligning, &Shares::twisting), open, 3e-4 * open);
+  EXPECT_NEAR(first_of(stiff, &Shares::twisting), twisting, 1e-6 * twisting);
 }
