@@ -155,3 +155,34 @@ TEST(SolidShaftInTime, OfATrueAxisTwistingModesAloneKnow)
   EXPECT_NEAR(first_of(aligning, &Shares::twisting), open, 3e-4 * open);
   EXPECT_NEAR(first_of(stiff, &Shares::twisting), twisting, 1e-6 * twisting);
 }
+
+// Before a lever inclined by theta a skew presses where the axis comes forward, by sin(theta) of it, and there P sin(theta) and
+// friction mu P cos(theta) push it, in a slide back one against the other: a true axis stays so where the shaft is stiffer than
+//   S sin(theta) (mu cos(theta) - sin(theta)),
+// S the moment over a slope across the face, which a small tilt tells. Lever and layer yield in both alike but for friction.
+TEST(SolidShaftInTime, FrictionTurnsASkewThatAShaftHoldsTooSoftly)
+{
+  Scene scene                   = yielding(AnalysisType::stability);
+  scene.drive                   = Drive(DriveProfile::triangle, 0., 65., 112., 1.);
+  scene.stability.position      = 65.;
+  scene.cylinder.tilt           = 1e-6;
+  scene.cylinder.skew           = 0.;
+  scene.cylinder.tilt_stiffness = scene.cylinder.skew_stiffness = std::nullopt;
+  DynamicsMaker maker(false);
+  const auto fixed = maker.make(scene);
+  const auto slide = fixed.model().hold(held_drive(scene), ContactFriction::sliding);
+  ASSERT_TRUE(slide);
+  Row row;
+  fixed.model().observe(slide->motion, row);
+  const double s = std::sin(row[Column::theta]), c = std::cos(row[Column::theta]);
+  const double limit = row.across[2] / (scene.cylinder.tilt * c) * s * (0.73 * c - s);
+  EXPECT_GT(limit, 1e4);
+  scene.cylinder.tilt = 0.;
+  for (const double share : { 0.97, 1.03 })
+  {
+    scene.cylinder.skew_stiffness = share * limit;
+    const auto held               = maker.make(scene).model().hold(held_drive(scene), ContactFriction::sliding);
+    ASSERT_TRUE(held);
+    EXPECT_EQ(held->uniqueness > 0., share > 1.) << limit << ' ' << held->uniqueness;
+  }
+}
