@@ -85,7 +85,7 @@ namespace sprag
     {
       const unsigned int port = perturbation.ports[a];
       const double share      = (std::conj(lambda) * friction[a]).real() / energy;
-      if (layout.is_surface(port))
+      if (layout.is_surface(port) || layout.is_slope(port))
         growth.friction_bending += share;
       else if (layout.is_rotation(port))
         growth.friction_rotation += share;

@@ -18,6 +18,8 @@ namespace sprag
                       scene.plate.sensor_stiffness,
                       swings(scene) };
     frame.lengths = 1.;
+    for (unsigned int slope = 0; slope < ports.slopes; ++slope)
+      frame.lengths[ports.slope(slope)] = 0.5 * scene.lever.width;
     for (unsigned int lever = 0; lever < ports.levers; ++lever)
     {
       frame.geometries.push_back(scene_of_lever(scene, lever).geometry);

@@ -8,8 +8,9 @@ namespace sprag
   using OfLevers = std::array<double, 2>;
 
   /// Ports of a lever: first those of its friction face or axis in lever axes, then the compressions of its force sensors, which
-  /// are only read, then the hub's rotation from the spring's rest and on a sprung support, in time, the lever's momentum
-  /// coordinates. A mirrored pair's second lever has the same ports after those, in its own axes. The displacement of a sprung
+  /// are only read, then tilt and skew of a cylinder whose axis is free on its shaft, beyond those of the scene, then the hub's
+  /// rotation from the spring's rest and on a sprung support, in time, the lever's momentum coordinates. A mirrored pair's second
+  /// lever has the same ports after those, in its own axes; a free axis is against one lever alone. The displacement of a sprung
   /// support is the last.
   struct PortLayout
   {
@@ -18,10 +19,11 @@ namespace sprag
     unsigned int sensors = 0; ///< of a lever
     unsigned int levers  = 1; ///< 2: a mirrored pair
     bool has_inertia     = true;
+    unsigned int slopes  = 0; ///< 2: those of the cylinder's axis may change
 
     unsigned int of_a_lever() const
     {
-      return surface + sensors + (sprung && has_inertia ? 3 : 1);
+      return surface + sensors + slopes + (sprung && has_inertia ? 3 : 1);
     }
     unsigned int first(const unsigned int lever) const
     {
@@ -31,9 +33,13 @@ namespace sprag
     {
       return first(lever) + surface + number;
     }
+    unsigned int slope(const unsigned int number) const
+    {
+      return surface + sensors + number;
+    }
     unsigned int rotation(const unsigned int lever = 0) const
     {
-      return first(lever) + surface + sensors;
+      return first(lever) + surface + sensors + slopes;
     }
     // With p = integral of rho u over the lever, u its displacement: the momentum along x is sin(theta) p'_eta - cos(theta)
     // p'_xi.
@@ -67,7 +73,11 @@ namespace sprag
     }
     bool is_rotation(const unsigned int port) const
     {
-      return port < support() && port % of_a_lever() == surface + sensors;
+      return port < support() && port % of_a_lever() == surface + sensors + slopes;
+    }
+    bool is_slope(const unsigned int port) const
+    {
+      return port >= slope(0) && port < slope(slopes);
     }
   };
 } // namespace sprag

@@ -33,7 +33,7 @@ namespace sprag
   struct GrowthShares
   {
     double friction_rotation = 0.; ///< friction's forces as they follow displacements, working on the hub's rotation
-    double friction_bending  = 0.; ///< on the deflection of the lever in its own axes
+    double friction_bending  = 0.; ///< on the deflection of the lever in its own axes, and on that of the cylinder's shaft
     double friction_support  = 0.; ///< on the displacement of the support
     double friction_speed    = 0.; ///< mu'(v), and friction of contact damping's pressure
     double contact_damping   = 0.;
@@ -44,7 +44,7 @@ namespace sprag
   struct EnergyShares
   {
     double rotation = 0.; ///< in the rotational spring
-    double bending  = 0.; ///< in lever and layer
+    double bending  = 0.; ///< in lever, layer and the cylinder's shaft
     double support  = 0.;
     double contact  = 0.; ///< in the contact's springs, with the change of their direction
   };

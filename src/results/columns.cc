@@ -39,7 +39,9 @@ namespace sprag
       { "friction_work", "N mm", "work dissipated by friction since the start" },
       { "drive_work", "N mm", "work of the drive since the start, integral of Q dx" },
       { "spring_energy", "N mm", "energy of the rotational spring: k (theta - theta0)^2 / 2, or that of the leaf spring" },
-      { "elastic_energy", "N mm", "elastic energy of lever and friction layer, or of the contact law that stands for the layer" },
+      { "elastic_energy", "N mm",
+        "elastic energy of lever and friction layer, or of the contact law that stands for the layer, and of the cylinder's "
+        "shaft" },
       { "layer_energy", "N mm", "the friction layer's part of elastic_energy; NaN where it cannot be told" },
       { "kinetic_energy", "N mm", "kinetic energy of lever and pivot frame" },
       { "support_energy", "N mm", "energy of the spring that holds the pivot frame" },
@@ -97,9 +99,15 @@ namespace sprag
           { "lateral_force", "N",
             "y-force of both levers on the cylinder, towards the first lever where positive; 0 where they mirror" });
     }
-    void add_across(const FrictionPlate &plate, std::vector<ColumnInfo> &columns)
+
+    void add_across(const FrictionPlate &plate, const Cylinder &cylinder, std::vector<ColumnInfo> &columns)
     {
       columns.insert(columns.end(), columns_across().begin(), columns_across().end());
+      if (cylinder.has_free_axis())
+      {
+        columns.push_back({ "tilt", "1", "slope of the cylinder's axis towards the lever, Tilt and what its shaft yields" });
+        columns.push_back({ "skew", "1", "slope of the cylinder's axis along x, Skew and what its shaft yields" });
+      }
       if (plate.type == PlateType::none)
         return;
       for (std::size_t i = 1; i <= plate.sensors.size(); ++i)
@@ -143,14 +151,15 @@ namespace sprag
     return columns;
   }
 
-  std::vector<ColumnInfo> table_columns(const FrictionPlate &plate, const MirroredPair &pair, const unsigned int dimension)
+  std::vector<ColumnInfo> table_columns(const FrictionPlate &plate, const MirroredPair &pair, const unsigned int dimension,
+                                        const Cylinder &cylinder)
   {
     std::vector<ColumnInfo> result = all_columns();
     add_sensors(plate, result);
     if (pair.type == PairType::full)
       add_pair(plate, result);
     if (dimension == 3)
-      add_across(plate, result);
+      add_across(plate, cylinder, result);
     return result;
   }
 

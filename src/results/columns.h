@@ -82,8 +82,10 @@ namespace sprag
 
   /// Lists the columns of the table of a run: with a friction plate on sensors also sensor_1 ... sensor_n and sensor_sum; of a
   /// full pair those of the second lever, named ..._2, and swing, Q_pair and lateral_force.
-  /// In three dimensions those of columns_across() and, of each sensor place, sensor_1_left, sensor_1_right ...
-  std::vector<ColumnInfo> table_columns(const FrictionPlate &plate, const MirroredPair &pair, unsigned int dimension = 2);
+  /// In three dimensions those of columns_across(), of a cylinder whose axis is free tilt and skew and, of each sensor place,
+  /// sensor_1_left, sensor_1_right ...
+  std::vector<ColumnInfo> table_columns(const FrictionPlate &plate, const MirroredPair &pair, unsigned int dimension = 2,
+                                        const Cylinder &cylinder = {});
 
   /// Lists the columns that a run in three dimensions has beside the others.
   const std::vector<ColumnInfo> &columns_across();
@@ -111,7 +113,7 @@ namespace sprag
     }
 
     std::vector<double> sensor_forces; ///< [N], positive in compression; empty where the model has none
-    std::vector<double> across;        ///< in the order of columns_across(), then left and right of the sensors; empty in a plane
+    std::vector<double> across;        ///< in the order of table_columns(), from columns_across() on; empty in a plane
 
     /// Makes this the row of a pair, whose first lever it was: energies, works and powers of both, what each lever has beside it.
     void add_second_lever(const Row &second);

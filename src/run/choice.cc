@@ -59,6 +59,7 @@ namespace sprag
     scene.accuracy.is_dimension_open = false;
     auto &cylinder                   = scene.cylinder;
     cylinder.length = cylinder.position = cylinder.tilt = cylinder.skew = cylinder.crown_radius = cylinder.edge_radius = 0.;
+    cylinder.tilt_stiffness = cylinder.skew_stiffness = std::nullopt;
     return scene;
   }
 

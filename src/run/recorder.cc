@@ -44,7 +44,7 @@ namespace sprag
       : scene(scene_)
       , quiet(options.quiet)
       , verbose(options.verbose)
-      , writer(scene, options, timer, table_columns(scene.plate, scene.pair, scene.analysis.dimension), points)
+      , writer(scene, options, timer, table_columns(scene.plate, scene.pair, scene.analysis.dimension, scene.cylinder), points)
       , progress(std::cerr, progress_style(quiet), path_length(scene.drive))
       , stress(no_stress_peaks("the model has no mesh"))
       , checkpoint(checkpoint_)

@@ -137,6 +137,23 @@ namespace sprag
     row[Column::Q_closed_form] = state.Q;
   }
 
+  namespace
+  {
+    /// Of an axis that its shaft lets yield.
+    void add_slopes(const Scene &scene, const std::vector<Row> &rows, std::vector<Entry> &entries)
+    {
+      if (scene.analysis.dimension != 3 || !scene.cylinder.has_free_axis())
+        return;
+      const auto by_P         = [](const Row &a, const Row &b) { return a[Column::P] < b[Column::P]; };
+      const auto &across      = std::max_element(rows.begin(), rows.end(), by_P)->across;
+      const auto tilt         = columns_across().size();
+      const auto skew         = tilt + 1;
+      const std::string where = ", where P is largest";
+      entries.push_back({ "tilt", across[tilt], "1", "slope of the cylinder's axis towards the lever" + where });
+      entries.push_back({ "skew", across[skew], "1", "slope of the cylinder's axis along x" + where });
+    }
+  } // namespace
+
   std::vector<Entry> summary_of(const Scene &scene, const std::vector<Row> &rows)
   {
     std::vector<Entry> entries;
@@ -163,6 +180,7 @@ namespace sprag
     entries.push_back(
         { "energy_residual", work - dissipated - stored, "N mm", "drive work less friction work and change of stored energy" });
     add_largest_pressure(rows, entries);
+    add_slopes(scene, rows, entries);
     const double penetration = largest(rows, Column::penetration);
     entries.push_back({ "penetration", penetration, "mm", "largest numerical overlap of cylinder and friction face" });
     if (scene.layer.thickness > 0.)

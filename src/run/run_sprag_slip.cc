@@ -193,7 +193,8 @@ namespace sprag
     auto &maker         = *shared;
     const Scene held    = held_scene(scene);
     const auto dynamics = maker.make(held);
-    ResultWriter writer(scene, options, maker.timer(), table_columns(scene.plate, scene.pair, scene.analysis.dimension));
+    ResultWriter writer(scene, options, maker.timer(),
+                        table_columns(scene.plate, scene.pair, scene.analysis.dimension, scene.cylinder));
     Progress progress(std::cerr, progress_style(options.quiet), parts_of(scene.sprag_slip));
     SpragSlip found;
     finish_in_any_case(

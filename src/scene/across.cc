@@ -19,6 +19,12 @@ namespace sprag
            scene.cylinder.position == 0.;
   }
 
+  std::array<double, 2> slope_compliances(const Cylinder &cylinder)
+  {
+    const auto of = [](const std::optional<double> &stiffness) { return stiffness ? 1. / *stiffness : 0.; };
+    return { { of(cylinder.tilt_stiffness), of(cylinder.skew_stiffness) } };
+  }
+
   std::vector<double> planes_across(const Scene &scene)
   {
     const unsigned int n = scene.mesh.elements_across;

@@ -2,6 +2,7 @@
 
 #include "scene/scene.h"
 
+#include <array>
 #include <vector>
 
 namespace sprag
@@ -11,8 +12,11 @@ namespace sprag
   double sensors_across(const Scene &scene);
 
   /// Returns whether lever, cylinder and motion are the same on both sides of the middle of the width, so that one half is
-  /// enough. Modes need not be.
+  /// enough: an axis that its shaft lets yield then stays as it is. Modes need not be the same.
   bool is_symmetric_across(const Scene &scene);
+
+  /// Returns the compliances of the cylinder's shaft against tilt and skew, 0 where they are fixed [rad/(N mm)].
+  std::array<double, 2> slope_compliances(const Cylinder &cylinder);
 
   /// Returns the planes between the elements across the width of three dimensions, from its middle, growing from both edges to
   /// the middle [mm]; where it is symmetric those of one half.

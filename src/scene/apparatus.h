@@ -170,11 +170,19 @@ namespace sprag
     double face_size     = 0.25; ///< element length where it touches the lever [mm]
 
     // In three dimensions.
-    double length       = 0.; ///< [mm], >= 0; 0: longer than the lever is wide
-    double position     = 0.; ///< of its middle across the width, from the lever's middle [mm]
-    double tilt         = 0.; ///< slope of its axis towards the lever [rad]
-    double skew         = 0.; ///< slope of its axis along x [rad]
+    double length   = 0.;                 ///< [mm], >= 0; 0: longer than the lever is wide
+    double position = 0.;                 ///< of its middle across the width, from the lever's middle [mm]
+    double tilt     = 0.;                 ///< slope of its axis towards the lever [rad]
+    double skew     = 0.;                 ///< slope of its axis along x [rad]
+    std::optional<double> tilt_stiffness; ///< of the shaft against more of these slopes [N mm/rad], > 0; none: fixed
+    std::optional<double> skew_stiffness;
     double crown_radius = 0.; ///< of the barrel along the axis [mm], >= 0; 0: straight
     double edge_radius  = 0.; ///< of the rounding at its ends [mm], >= 0; 0: sharp
+
+    /// Whether its shaft lets the axis yield to the contact.
+    bool has_free_axis() const
+    {
+      return tilt_stiffness || skew_stiffness;
+    }
   };
 } // namespace sprag

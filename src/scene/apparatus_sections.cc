@@ -79,6 +79,11 @@ namespace sprag
       section.number("Tilt", settings.tilt, { -0.1, 0.1 }, "",
                      "In three dimensions: slope of its axis towards the lever, 1 at 45 degrees");
       section.number("Skew", settings.skew, { -0.1, 0.1 }, "", "In three dimensions: slope of its axis along x");
+      section.number_or_auto("Tilt stiffness", settings.tilt_stiffness, above(0.), "N mm/rad",
+                             "In three dimensions: of the shaft, by which the contact's moment about its middle turns the axis "
+                             "beyond Tilt; auto: fixed");
+      section.number_or_auto("Skew stiffness", settings.skew_stiffness, above(0.), "N mm/rad",
+                             "In three dimensions: the same beyond Skew; auto: fixed");
       section.number("Crown radius", settings.crown_radius, at_least(0.), "mm",
                      "In three dimensions: of a barrel along the axis; 0: straight");
       section.number("Edge radius", settings.edge_radius, at_least(0.), "mm",

@@ -23,11 +23,11 @@ namespace
     return cylinder;
   }
 
-  using Coordinates = dealii::Tensor<1, 5>; // place along xi, eta, zeta, theta, x
+  using Coordinates = SurfaceKinematics::Row; // place along xi, eta, zeta, theta, x, tilt and skew beyond the scene's
 
   SurfaceKinematics at(const RigidCylinder &cylinder, const Coordinates &q)
   {
-    return cylinder.kinematics(RigidCylinder::pose(q[4], q[3]), dealii::Point<3>(q[0], q[1], q[2]));
+    return cylinder.kinematics(cylinder.pose(q[4], q[3], { { q[5], q[6] } }), dealii::Point<3>(q[0], q[1], q[2]));
   }
 
   /// Central differences of what a function tells of the kinematics.
@@ -35,9 +35,9 @@ namespace
   Coordinates differences(const RigidCylinder &cylinder, const Coordinates &q, const Of &of)
   {
     Coordinates result;
-    for (unsigned int i = 0; i < 5; ++i)
+    for (unsigned int i = 0; i < SurfaceKinematics::n; ++i)
     {
-      const double step = i == 3 ? 1e-6 : 1e-4;
+      const double step = i == 3 || i > 4 ? 1e-6 : 1e-4;
       auto before = q, after = q;
       before[i] -= step;
       after[i] += step;
@@ -52,12 +52,12 @@ TEST(RigidCylinder, RowsAndCurvaturesAreDerivatives)
   const RigidCylinder cylinder(model_a().geometry, barrel());
   for (const double zeta : { 2., 20.5, -14.6 }) // in the middle, and in both roundings
   {
-    const Coordinates q({ 121., 45.57, zeta, 0.086, 64. });
+    const Coordinates q({ 121., 45.57, zeta, 0.086, 64., -0.01, 0.02 });
     const auto found = at(cylinder, q);
     EXPECT_LT((differences(cylinder, q, [](const auto &k) { return k.gap; }) - found.gap_row).norm(), 1e-6);
     for (unsigned int s = 0; s < 2; ++s)
       EXPECT_LT((differences(cylinder, q, [s](const auto &k) { return k.slip[s]; }) - found.slip_row[s]).norm(), 1e-6);
-    for (unsigned int i = 0; i < 5; ++i)
+    for (unsigned int i = 0; i < SurfaceKinematics::n; ++i)
     {
       EXPECT_LT((differences(cylinder, q, [i](const auto &k) { return k.gap_row[i]; }) - found.gap_curvature[i]).norm(), 1e-5);
       for (unsigned int s = 0; s < 2; ++s)
@@ -65,7 +65,7 @@ TEST(RigidCylinder, RowsAndCurvaturesAreDerivatives)
             (differences(cylinder, q, [i, s](const auto &k) { return k.slip_row[s][i]; }) - found.slip_curvature[s][i]).norm(),
             1e-5);
     }
-    const auto [gap, gradient] = cylinder.gap(RigidCylinder::pose(q[4], q[3]), dealii::Point<3>(q[0], q[1], q[2]));
+    const auto [gap, gradient] = cylinder.gap(cylinder.pose(q[4], q[3], { { q[5], q[6] } }), dealii::Point<3>(q[0], q[1], q[2]));
     EXPECT_NEAR(gap, found.gap, 1e-12);
     for (unsigned int d = 0; d < 3; ++d)
       EXPECT_NEAR(gradient[d], found.gap_row[d], 1e-12);
@@ -76,7 +76,7 @@ TEST(RigidCylinder, IsACircleInAPlaneWhereItIsTrue)
 {
   const Geometry geometry = model_a().geometry;
   const RigidCylinder cylinder(geometry, {});
-  const auto solid              = at(cylinder, Coordinates({ 121., 45.57, 7., 0.086, 64. }));
+  const auto solid              = at(cylinder, Coordinates({ 121., 45.57, 7., 0.086, 64., 0., 0. }));
   const auto plane              = moving_circle_contact(geometry, { 121., 45.57 }, 64., 0.086);
   const unsigned int of_plane[] = { 0, 1, 3, 4 };
   EXPECT_NEAR(solid.gap, plane.gap, 1e-12);
@@ -99,7 +99,20 @@ TEST(RigidCylinder, BeyondItsEndsNothingTouches)
   Cylinder cylinder;
   cylinder.length = 30.;
   const RigidCylinder of(model_a().geometry, cylinder);
-  const auto pose = RigidCylinder::pose(64., 0.086);
+  const auto pose = of.pose(64., 0.086);
   EXPECT_LT(of.gap(pose, { 121., 45., 14.9 }).first, 0.);
   EXPECT_NEAR(of.gap(pose, { 121., 45., 17. }).first, 2., 1e-12);
+}
+
+// Half of a slope by the scene and half by the shaft is the whole by the scene.
+TEST(RigidCylinder, SlopesOfTheSceneAndOfItsShaftAddUp)
+{
+  Cylinder half = barrel(), whole = barrel();
+  half.tilt *= 0.5;
+  half.skew *= 0.5;
+  const RigidCylinder turned(model_a().geometry, half), fixed(model_a().geometry, whole);
+  const auto found    = at(turned, Coordinates({ 121., 45.57, 20.5, 0.086, 64., half.tilt, half.skew }));
+  const auto expected = at(fixed, Coordinates({ 121., 45.57, 20.5, 0.086, 64., 0., 0. }));
+  EXPECT_EQ(found.gap, expected.gap);
+  EXPECT_LT((found.gap_curvature - expected.gap_curvature).norm(), 1e-12);
 }

@@ -72,3 +72,18 @@ TEST(Columns, OfAPairOnSensorsComeInOrder)
   EXPECT_EQ(columns[columns.size() - 4].name, "sensor_sum_2");
   EXPECT_EQ(columns.back().name, "lateral_force");
 }
+
+TEST(Columns, OfAnAxisThatYieldsComeBeforeThoseOfSensors)
+{
+  FrictionPlate plate;
+  plate.type = PlateType::on_sensors;
+  Cylinder cylinder;
+  EXPECT_EQ(table_columns(plate, {}, 3, cylinder).size(), n_columns + 5 + columns_across().size() + 8);
+  cylinder.skew_stiffness = 1e5;
+  const auto columns      = table_columns(plate, {}, 3, cylinder);
+  const std::size_t tilt  = n_columns + 5 + columns_across().size();
+  EXPECT_EQ(columns[tilt].name, "tilt");
+  EXPECT_EQ(columns[tilt + 1].name, "skew");
+  EXPECT_EQ(columns[tilt + 2].name, "sensor_1_left");
+  EXPECT_EQ(table_columns(plate, {}, 2, cylinder).size(), n_columns + 5);
+}

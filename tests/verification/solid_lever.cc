@@ -1,5 +1,6 @@
 #include "fe/body/cell_elasticity.h"
 #include "scene/closed_form.h"
+#include "verification/face_forces.h"
 #include "verification/solid_run.h"
 
 #include <deal.II/dofs/dof_tools.h>
@@ -11,38 +12,7 @@ using namespace sprag;
 
 namespace
 {
-  using Vector = dealii::Tensor<1, 3>;
-
-  /// Sum of forces at places of the lever, and of their moments about the pivot.
-  struct Resultant
-  {
-    Vector force, moment;
-
-    void add(const dealii::Point<3> &place, const Vector &at)
-    {
-      force += at;
-      moment += cross_product_3d(Vector(place), at);
-    }
-  };
-
-  /// Of the forces on the nodes of the face: where these are undeformed, and where they have moved to.
-  std::array<Resultant, 2> forces_on(const SolidBody &body, const State &state)
-  {
-    std::array<Resultant, 2> result;
-    const auto &nodes = body.friction_face().nodes;
-    for (unsigned int i = 0; i < state.forces.ports.size(); ++i)
-      if (const unsigned int port = state.forces.ports[i]; port < 3 * nodes.size())
-      {
-        const auto &place = nodes[port / 3].position;
-        Vector force, moved;
-        force[port % 3] = state.forces.values[i];
-        for (unsigned int d = 0; d < 3; ++d)
-          moved[d] = state.coordinates[port - port % 3 + d];
-        result[0].add(place, force);
-        result[1].add(place + moved, force);
-      }
-    return result;
-  }
+  using Vector = Resultant::Vector;
 
   /// Of the forces by which the hub holds the lever, where it is undeformed, from the stiffness of the cells beside it.
   Resultant forces_of_hub(const SolidBody &body, const dealii::Vector<double> &displacement)

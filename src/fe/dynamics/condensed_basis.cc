@@ -274,7 +274,8 @@ namespace sprag
     const unsigned int n = n_lever + (constants.sprung ? 1 : 0);
     ModalData data;
     data.ports.sensors    = basis.sensors;
-    data.ports.surface    = static_cast<unsigned int>(basis.face_compliance.m()) - 1 - basis.sensors;
+    data.ports.slopes     = basis.slopes;
+    data.ports.surface    = static_cast<unsigned int>(basis.face_compliance.m()) - 1 - basis.sensors - basis.slopes;
     data.ports.sprung     = constants.sprung;
     data.stiffness        = basis.stiffness;
     data.face_compliance  = basis.face_compliance;

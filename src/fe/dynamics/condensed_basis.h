@@ -16,8 +16,9 @@ namespace sprag
     std::vector<double> stiffness;              ///< omega^2 of the modes [1/s^2]
     dealii::FullMatrix<double> shapes;          ///< a row a port, momentum included and support not; a column a mode
     dealii::FullMatrix<double> layer_stiffness; ///< of the friction layer, in the modes
-    dealii::FullMatrix<double> face_compliance; ///< residual, of face, sensors and rotation [mm/N]
+    dealii::FullMatrix<double> face_compliance; ///< residual, of face, sensors, slopes and rotation [mm/N]
     unsigned int sensors = 0;
+    unsigned int slopes  = 0;                     ///< of the cylinder's axis, which no mode moves
     dealii::FullMatrix<double> coordinate_shapes; ///< a row a mode, a column a total coordinate
     double density_factor    = 1.;
     double lever_mass        = 0.; ///< [t]

@@ -16,13 +16,36 @@ namespace sprag
       return cylinder.length > 0. ? 0.5 * cylinder.length : std::numeric_limits<double>::infinity();
     }
 
+    constexpr unsigned int first_slope = 5; ///< tilt among the coordinates; skew follows
+
+    /// Derivatives of a place by the coordinates.
+    using Motions = std::array<Tensor<1, 3>, SurfaceKinematics::n>;
+
     /// J^T v.
-    Tensor<1, 5> row(const std::array<Tensor<1, 3>, 5> &by_coordinate, const Tensor<1, 3> &vector)
+    SurfaceKinematics::Row row(const Motions &by_coordinate, const Tensor<1, 3> &vector)
     {
-      Tensor<1, 5> result;
-      for (unsigned int i = 0; i < 5; ++i)
+      SurfaceKinematics::Row result;
+      for (unsigned int i = 0; i < SurfaceKinematics::n; ++i)
         result[i] = by_coordinate[i] * vector;
       return result;
+    }
+
+    /// Adds a gradient times the second derivatives of a place by the slopes and all coordinates, as the cylinder sees it.
+    void add_turn(const CylinderAxes &axes, const Motions &by, const Tensor<1, 3> &from_centre, const Tensor<1, 3> &gradient,
+                  SurfaceKinematics::Curvature &curvature)
+    {
+      for (unsigned int i = 0; i < 2; ++i)
+      {
+        const unsigned int slope = first_slope + i;
+        const auto turned        = gradient * axes.turn[i];
+        for (unsigned int q = 0; q < first_slope; ++q)
+        {
+          curvature[slope][q] += turned * by[q];
+          curvature[q][slope] += turned * by[q];
+        }
+        for (unsigned int j = 0; j < 2; ++j)
+          curvature[slope][first_slope + j] += gradient * (axes.bend[i][j] * from_centre);
+      }
     }
   } // namespace
 
@@ -32,18 +55,16 @@ namespace sprag
       , position(cylinder.position)
       , edge_radius(cylinder.edge_radius)
       , crown(cylinder.crown_radius > 0. ? 1. / cylinder.crown_radius : 0.)
-      , axis({ cylinder.skew, cylinder.tilt, 1. })
-      , upward({ 0., 1., 0. })
+      , at_rest{ { cylinder.tilt, cylinder.skew } }
+      , is_free(cylinder.has_free_axis())
+      , axes_at_rest(at_rest)
   {
-    axis /= axis.norm();
-    upward -= (upward * axis) * axis;
-    upward /= upward.norm();
-    right = cross_product_3d(upward, axis);
   }
 
-  RigidCylinder::Pose RigidCylinder::pose(const double x, const double theta)
+  RigidCylinder::Pose RigidCylinder::pose(const double x, const double theta, const AxisSlopes &turned) const
   {
-    return { x, theta, std::cos(theta), std::sin(theta) };
+    const AxisSlopes slopes{ { at_rest[0] + turned[0], at_rest[1] + turned[1] } };
+    return { x, theta, turned, std::cos(theta), std::sin(theta), slopes == at_rest ? axes_at_rest : CylinderAxes(slopes) };
   }
 
   /// The world's axes are x, y (from the x-axis to the lever) and z (along zeta).
@@ -51,6 +72,7 @@ namespace sprag
   {
     const Vector from_centre({ geometry.pivot_distance - pose.x - point[0] * pose.cosine + point[1] * pose.sine,
                                geometry.pivot_height + point[0] * pose.sine + point[1] * pose.cosine, point[2] - position });
+    const Vector &axis  = pose.axes.axis;
     const double along  = from_centre * axis;
     const Vector across = from_centre - along * axis;
     return { from_centre, along, across, across.norm() };
@@ -77,19 +99,20 @@ namespace sprag
 
   Point<3> RigidCylinder::on_axis(const double along) const
   {
-    return Point<3>(0., 0., position) + along * axis;
+    return Point<3>(0., 0., position) + along * axes_at_rest.axis;
   }
 
   Point<3> RigidCylinder::on_surface(const double along, const double angle) const
   {
     const double radius = geometry.cylinder_radius - profile(along).value;
-    return on_axis(along) + radius * (std::cos(angle) * right + std::sin(angle) * upward);
+    return on_axis(along) + radius * (std::cos(angle) * axes_at_rest.right + std::sin(angle) * axes_at_rest.upward);
   }
 
   std::pair<double, Tensor<1, 3>> RigidCylinder::gap(const Pose &pose, const Point<3> &point) const
   {
     const auto at         = place_of(pose, point);
     const auto shape      = profile(at.along);
+    const Vector &axis    = pose.axes.axis;
     const double gap      = at.radius - geometry.cylinder_radius + shape.value;
     const double beyond   = beyond_ends(at.along);
     const bool is_beyond  = beyond > gap;
@@ -103,7 +126,7 @@ namespace sprag
   std::array<double, 2> RigidCylinder::slips(const Pose &pose, const Point<3> &point) const
   {
     const auto at = place_of(pose, point);
-    return { { geometry.cylinder_radius * std::atan2(-(at.across * right), at.across * upward), at.along } };
+    return { { geometry.cylinder_radius * std::atan2(-(at.across * pose.axes.right), at.across * pose.axes.upward), at.along } };
   }
 
   SurfaceKinematics RigidCylinder::kinematics(const Pose &pose, const Point<3> &point) const
@@ -111,14 +134,16 @@ namespace sprag
     const auto at       = place_of(pose, point);
     const auto shape    = profile(at.along);
     const double R      = geometry.cylinder_radius;
+    const Vector &axis  = pose.axes.axis;
     const Vector normal = at.across / at.radius;
     const Vector round  = cross_product_3d(axis, normal); // the way the angle about the axis grows
 
-    // The place by the coordinates. Its second derivatives are not zero by theta and a displacement, and by theta alone.
+    // The place as the cylinder sees it by the coordinates. Its second derivatives are not zero by theta and a displacement, by
+    // theta alone, and by the slopes.
     const double c = pose.cosine, s = pose.sine;
-    const std::array<Vector, 5> by{ { Vector({ -c, s, 0. }), Vector({ s, c, 0. }), Vector({ 0., 0., 1. }),
-                                      Vector({ point[0] * s + point[1] * c, point[0] * c - point[1] * s, 0. }),
-                                      Vector({ -1., 0., 0. }) } };
+    const Motions by{ { Vector({ -c, s, 0. }), Vector({ s, c, 0. }), Vector({ 0., 0., 1. }),
+                        Vector({ point[0] * s + point[1] * c, point[0] * c - point[1] * s, 0. }), Vector({ -1., 0., 0. }),
+                        pose.axes.turn[0] * at.from_centre, pose.axes.turn[1] * at.from_centre } };
     const Vector by_theta_xi({ s, c, 0. }), by_theta_eta({ c, -s, 0. });
     const Vector by_theta_theta({ point[0] * c - point[1] * s, -point[0] * s - point[1] * c, 0. });
     const auto bend = [&](const Vector &gradient, SurfaceKinematics::Curvature &curvature)
@@ -128,6 +153,7 @@ namespace sprag
       curvature[1][3] += gradient * by_theta_eta;
       curvature[3][1] += gradient * by_theta_eta;
       curvature[3][3] += gradient * by_theta_theta;
+      add_turn(pose.axes, by, at.from_centre, gradient, curvature);
     };
 
     SurfaceKinematics result;

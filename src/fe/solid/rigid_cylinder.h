@@ -1,5 +1,6 @@
 #pragma once
 
+#include "fe/solid/cylinder_axes.h"
 #include "scene/scene.h"
 
 #include <deal.II/base/point.h>
@@ -9,11 +10,12 @@
 
 namespace sprag
 {
-  /// Geometry of a point of the lever against the cylinder, in the coordinates (displacement along xi, eta and zeta, theta, x).
-  /// zeta counts across the lever's width from its middle. The first slip is that round the cylinder, the second along its axis.
+  /// Geometry of a point of the lever against the cylinder, in the coordinates (displacement along xi, eta and zeta, theta, x,
+  /// tilt, skew). zeta counts across the lever's width from its middle. The first slip is that round the cylinder, the second
+  /// along its axis.
   struct SurfaceKinematics
   {
-    static constexpr int n = 5;
+    static constexpr int n = 7;
     using Row              = dealii::Tensor<1, n>;
     using Curvature        = dealii::Tensor<2, n>;
 
@@ -33,16 +35,25 @@ namespace sprag
   public:
     RigidCylinder(const Geometry &geometry, const Cylinder &cylinder);
 
-    /// The cylinder at its position x from the pivot frame's origin, before a lever inclined by theta.
+    /// The cylinder at its position x from the pivot frame's origin, before a lever inclined by theta, its axis turned beyond the
+    /// scene's slopes.
     struct Pose
     {
-      double x;
-      double theta;
-      double cosine;
-      double sine;
+      double x          = 0.;
+      double theta      = 0.;
+      AxisSlopes turned = {};
+      double cosine     = 1.;
+      double sine       = 0.;
+      CylinderAxes axes;
     };
 
-    static Pose pose(double x, double theta);
+    Pose pose(double x, double theta, const AxisSlopes &turned = {}) const;
+
+    /// Of the scene.
+    const AxisSlopes &slopes() const
+    {
+      return at_rest;
+    }
 
     /// Returns gap and its gradient by the place of a point of the lever, in lever axes; beyond the cylinder's ends the gap is at
     /// least the distance from them [mm].
@@ -53,7 +64,14 @@ namespace sprag
 
     SurfaceKinematics kinematics(const Pose &pose, const dealii::Point<3> &point) const;
 
-    // Places of the cylinder at x = 0 in the axes of the world, see DevicePose; `along` counts from the middle [mm].
+    /// Whether its shaft lets the axis yield.
+    bool has_free_axis() const
+    {
+      return is_free;
+    }
+
+    // Places of the cylinder at x = 0 with the scene's slopes in the axes of the world, see DevicePose; `along` counts from the
+    // middle [mm].
     dealii::Point<3> on_axis(double along) const;
     dealii::Point<3> on_surface(double along, double angle) const;
 
@@ -83,7 +101,9 @@ namespace sprag
     const double half_length; ///< infinite without ends [mm]
     const double position;
     const double edge_radius;
-    const double crown;         ///< curvature of the barrel [1/mm]
-    Vector axis, right, upward; ///< of the cylinder; the last two are the world's but for tilt and skew
+    const double crown; ///< curvature of the barrel [1/mm]
+    const AxisSlopes at_rest;
+    const bool is_free;
+    const CylinderAxes axes_at_rest;
   };
 } // namespace sprag

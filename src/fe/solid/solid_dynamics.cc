@@ -7,6 +7,7 @@
 #include "fe/statics/contact_penalties.h"
 #include "fe/statics/lever_properties.h"
 #include "model/dynamic_lever.h"
+#include "scene/across.h"
 #include "scene/analysis_use.h"
 #include "scene/held_slide.h"
 #include "scene/lever_shape.h"
@@ -44,30 +45,32 @@ namespace sprag
       return result;
     }
 
-    /// Shapes of the modes on the ports of the window, the hub's rotation and the momentum.
-    FullMatrix<double> port_shapes(const SolidModes &modes, const FaceWindow &window)
+    /// Shapes of the modes on the ports of the window, the slopes of the cylinder, the hub's rotation and the momentum.
+    FullMatrix<double> port_shapes(const SolidModes &modes, const FaceWindow &window, const unsigned int slopes)
     {
       const auto &nodes  = window.face.nodes;
       const auto surface = static_cast<unsigned int>(3 * nodes.size());
       const auto m       = static_cast<unsigned int>(modes.stiffness.size());
-      FullMatrix<double> result(surface + 3, m);
+      const auto hub     = surface + slopes;
+      FullMatrix<double> result(hub + 3, m);
       for (unsigned int j = 0; j < m; ++j)
       {
         for (unsigned int i = 0; i < surface; ++i)
           result(i, j) = modes.displacements[j][nodes[i / 3].dofs[i % 3]];
-        result(surface, j)     = modes.rotation[j];
-        result(surface + 1, j) = modes.momentum[j][1];
-        result(surface + 2, j) = modes.momentum[j][0];
+        result(hub, j)     = modes.rotation[j];
+        result(hub + 1, j) = modes.momentum[j][1];
+        result(hub + 2, j) = modes.momentum[j][0];
       }
       return result;
     }
 
     /// The basis as of a lever in a plane whose face is the window.
-    CondensedBasis basis_on(const FaceWindow &window, const SolidInTime &lever, const double spring_stiffness)
+    CondensedBasis basis_on(const FaceWindow &window, const SolidInTime &lever, const Scene &scene)
     {
       CondensedBasis result;
+      result.slopes            = lever.body->is_half() || !scene.cylinder.has_free_axis() ? 0 : 2;
       result.stiffness         = lever.modes.stiffness;
-      result.shapes            = port_shapes(lever.modes, window);
+      result.shapes            = port_shapes(lever.modes, window, result.slopes);
       result.layer_stiffness   = lever.modes.layer_stiffness;
       result.density_factor    = lever.modes.density_factor;
       result.lever_mass        = lever.modes.total_mass;
@@ -75,19 +78,22 @@ namespace sprag
 
       const auto of_face = lever.compliance->among(ports_of(window));
       const auto n = static_cast<unsigned int>(of_face.m()), m = static_cast<unsigned int>(result.stiffness.size());
-      FullMatrix<double> at_ports(n + 1, m), scaled(n + 1, m);
-      for (unsigned int i = 0; i <= n; ++i)
+      const unsigned int hub = n + result.slopes;
+      FullMatrix<double> at_ports(hub + 1, m), scaled(hub + 1, m);
+      for (unsigned int i = 0; i <= hub; ++i)
         for (unsigned int j = 0; j < m; ++j)
         {
           at_ports(i, j) = result.shapes(i, j);
           scaled(i, j)   = -result.shapes(i, j) / result.stiffness[j];
         }
-      result.face_compliance.reinit(n + 1, n + 1);
+      result.face_compliance.reinit(hub + 1, hub + 1);
       scaled.mTmult(result.face_compliance, at_ports);
       for (unsigned int i = 0; i < n; ++i)
         for (unsigned int j = 0; j < n; ++j)
           result.face_compliance(i, j) += of_face(i, j);
-      result.face_compliance(n, n) += 1. / spring_stiffness;
+      for (unsigned int i = 0; i < result.slopes; ++i)
+        result.face_compliance(n + i, n + i) = slope_compliances(scene.cylinder)[i];
+      result.face_compliance(hub, hub) += 1. / scene.spring.stiffness;
       result.face_compliance.symmetrize();
       return result;
     }
@@ -170,7 +176,7 @@ namespace sprag
   std::unique_ptr<DynamicModel> make_solid_dynamics(const Scene &scene, const SolidInTime &lever, const double relaxation)
   {
     auto window       = window_of_scene(scene, lever.body->friction_face());
-    const auto basis  = basis_on(window, lever, scene.spring.stiffness);
+    const auto basis  = basis_on(window, lever, scene);
     auto structure    = std::make_unique<ModalStructure>(modal_data(basis, constants_of(scene, relaxation, basis.lever_mass)));
     const auto ports  = structure->ports();
     const auto &whole = lever.body->friction_face();
@@ -194,7 +200,8 @@ namespace sprag
     return [&lever, dofs](const Motion &motion, unsigned int)
     {
       const auto &[body, compliance, modes] = lever;
-      const auto &forces                    = motion.face_force; // on the ports of the face, and last on the hub's rotation
+      // On the ports of the face, on slopes of the cylinder, which move no mode, and last on the hub's rotation.
+      const auto &forces = motion.face_force;
       std::vector<double> loads(body->n_dofs(), 0.);
       for (unsigned int port = 0; port < dofs.size() && forces.size() > 0; ++port)
         if (!body->is_held(dofs[port]))
@@ -204,8 +211,10 @@ namespace sprag
       for (unsigned int j = 0; j < modes.stiffness.size(); ++j)
       {
         double work = 0.;
-        for (unsigned int port = 0; port < forces.size(); ++port)
-          work += forces[port] * (port < dofs.size() ? modes.displacements[j][dofs[port]] : modes.rotation[j]);
+        for (unsigned int port = 0; port < dofs.size() && forces.size() > 0; ++port)
+          work += forces[port] * modes.displacements[j][dofs[port]];
+        if (forces.size() > 0)
+          work += forces[forces.size() - 1] * modes.rotation[j];
         result.add(motion.coordinates.position[j] - work / modes.stiffness[j], modes.displacements[j]);
       }
       return result;

@@ -4,6 +4,7 @@
 #include "base/text.h"
 #include "fe/statics/contact_penalties.h"
 #include "fe/statics/static_terms.h"
+#include "scene/across.h"
 #include "scene/contact_width.h"
 #include "scene/lever_shape.h"
 
@@ -20,11 +21,15 @@ namespace sprag
     /// Compression of the friction face beyond which linear elasticity says nothing.
     constexpr double largest_strain = 0.5;
 
-    PortLayout ports_of(const SolidBody &body, const LeverProperties &properties)
+    /// Slopes of the cylinder's axis that a scene may have.
+    constexpr double largest_slope = 0.1;
+
+    PortLayout ports_of(const SolidBody &body, const Scene &scene, const LeverProperties &properties)
     {
       PortLayout result{ 3 * static_cast<unsigned int>(body.friction_face().nodes.size()),
                          properties.support_stiffness.has_value() };
       result.has_inertia = false;
+      result.slopes      = body.is_half() || !scene.cylinder.has_free_axis() ? 0 : 2;
       return result;
     }
 
@@ -40,9 +45,10 @@ namespace sprag
                                  properties.longest_face) };
     }
 
-    PortSprings springs_of(const LeverProperties &properties)
+    PortSprings springs_of(const Scene &scene, const LeverProperties &properties)
     {
-      return { properties.spring.law.linear_stiffness(), properties.support_stiffness.value_or(0.), properties.spring.arm };
+      return { properties.spring.law.linear_stiffness(), properties.support_stiffness.value_or(0.), properties.spring.arm,
+               slope_compliances(scene.cylinder), 0.5 * scene.lever.width };
     }
 
     std::vector<std::vector<unsigned int>> lines_along(const FrictionFace<3> &face)
@@ -77,10 +83,11 @@ namespace sprag
   SolidLever::SolidLever(const SolidBody &body_, const Scene &scene)
       : body(body_)
       , properties(lever_properties(scene))
-      , ports(ports_of(body, properties))
+      , ports(ports_of(body, scene, properties))
       , compliance(compliance_of(body, scene))
       , node_lines(lines_along(body.friction_face()))
-      , window(ports, springs_of(properties),
+      , springs(springs_of(scene, properties))
+      , window(ports, springs,
                { { ports.surface, [this](const PortSelection &some) { return compliance.whole_tiles(some); },
                    [this](const PortSelection &tiles) { return compliance.among(tiles); } } })
       , contact(body.friction_face(), contact_properties(body, scene, properties, ports))
@@ -174,10 +181,22 @@ namespace sprag
     return ports.sprung ? state.coordinates[ports.support()] : 0.;
   }
 
+  /// Half of the moments on it times what it yields.
+  double SolidLever::shaft_energy(const State &state) const
+  {
+    double result = 0.;
+    for (unsigned int i = 0; i < state.forces.ports.size(); ++i)
+      if (ports.is_slope(state.forces.ports[i]))
+        result += 0.5 * state.forces.values[i] * state.coordinates[state.forces.ports[i]];
+    return result;
+  }
+
   double SolidLever::movement(const Vector<double> &correction) const
   {
     Vector<double> in_lengths = correction;
     in_lengths[ports.rotation()] *= properties.spring.arm;
+    for (unsigned int i = 0; i < ports.slopes; ++i)
+      in_lengths[ports.slope(i)] *= springs.slope_arm;
     return window.largest(in_lengths);
   }
 
@@ -209,6 +228,11 @@ namespace sprag
     if (pressure > limit)
       return "the pressure on the friction face exceeds " + rounded_text(limit) +
              " MPa, half of Young's modulus there (Friction layer or Lever/Young's modulus), which linear theory does not bear";
+    const auto [tilt, skew] = contact.slopes_in(found);
+    if (std::max(std::abs(tilt), std::abs(skew)) > largest_slope)
+      return "the shaft lets the cylinder's axis turn to the slopes " + rounded_text(tilt) + " (tilt) and " + rounded_text(skew) +
+             " (skew), of which " + rounded_text(largest_slope) +
+             " are the most that is looked at. Try a larger Cylinder/Tilt stiffness or Skew stiffness";
     return {};
   }
 
@@ -230,6 +254,7 @@ namespace sprag
     row[Column::theta]         = theta;
     row[Column::spring_energy] = properties.spring.law.energy(turn(trial));
     view.observe(found, row);
+    row[Column::elastic_energy] += shaft_energy(trial);
     row[Column::centre_offset]        = row[Column::s] - properties.centre(trial.drive.x - u, theta).xi;
     row[Column::indentation]          = indentation(row, on_surface(ports, trial.forces));
     row[Column::Q]                    = row[Column::P] * std::sin(theta) + row[Column::F] * std::cos(theta);

@@ -74,6 +74,7 @@ namespace sprag
     void widen_reach(State &trial, FrictionMode mode);
     double turn(const State &state) const;
     double support_displacement(const State &state) const;
+    double shaft_energy(const State &state) const;
     const std::vector<unsigned int> &line_at(double zeta) const;
     PortLoads interpolation(const std::vector<unsigned int> &line, double xi) const;
     double indentation(const Row &row, const PortLoads &on_face) const;
@@ -84,6 +85,7 @@ namespace sprag
     const PortLayout ports;
     mutable LayeredCompliance compliance;              ///< remembers what it found
     std::vector<std::vector<unsigned int>> node_lines; ///< nodes of the face with the same zeta, along xi; three and more
+    const PortSprings springs;
     PortWindow window;
     SurfaceContact contact;
     const FaceMultipliers<3> multipliers;

@@ -86,7 +86,24 @@ namespace sprag
   RigidCylinder::Pose SurfaceContact::pose_of(const SurfacePlace &place) const
   {
     const double u = properties.ports.sprung ? place.ports[properties.ports.support()] : 0.;
-    return RigidCylinder::pose(place.x - u, properties.rest_inclination + place.ports[properties.ports.rotation()]);
+    return properties.cylinder.pose(place.x - u, properties.rest_inclination + place.ports[properties.ports.rotation()],
+                                    turned_by(place.ports));
+  }
+
+  AxisSlopes SurfaceContact::turned_by(const Vector<double> &ports) const
+  {
+    AxisSlopes result{};
+    for (unsigned int i = 0; i < properties.ports.slopes; ++i)
+      result[i] = ports[properties.ports.slope(i)];
+    return result;
+  }
+
+  AxisSlopes SurfaceContact::slopes_in(const SurfaceEvaluation &found) const
+  {
+    auto result = turned_by(found.displacement);
+    for (unsigned int i = 0; i < 2; ++i)
+      result[i] += properties.cylinder.slopes()[i];
+    return result;
   }
 
   void SurfaceContact::begin_step(const SurfacePlace &begin)
@@ -209,7 +226,7 @@ namespace sprag
     const auto &begin     = slips_at_begin(state.index);
     const auto *const was = step.memory_of(state.index);
 
-    StepKinematics<5, 2> kinematics;
+    StepKinematics<SurfaceKinematics::n, 2> kinematics;
     kinematics.gap_begin = kinematics.gap_end = placed.gap;
     kinematics.gap_row_end = kinematics.gap_row = placed.gap_row;
     kinematics.gap_curvature                    = placed.gap_curvature;
@@ -221,7 +238,8 @@ namespace sprag
 
     // Derivative of the deformed place along the undeformed face.
     const auto &slopes = face.points[state.index].slopes;
-    Tensor<1, 5> direction({ 1., 0., 0., 0., 0. });
+    SurfaceKinematics::Row direction;
+    direction[0] = 1.;
     for (unsigned int i = 0; i < 3 * slopes.size(); ++i)
       direction[i % 3] += slopes[i / 3] * step.nodal[i];
     const auto shift         = shift_of(state.index, placed.slip_row[0] * direction, step);
@@ -235,9 +253,9 @@ namespace sprag
     state.slip_change[0] += step.terms.speed_ratio * shift.slip;
     state.elastic_slip = (response.traction - (was != nullptr && step.terms.augmented ? was->traction : Tensor<1, 2>())).norm() /
                          step.law.tangential;
-    state.end_force = response.force;
+    state.end_force = on_lever(response.force);
     auto tangent    = response.tangent;
-    Tensor<1, 5> by_slope;
+    SurfaceKinematics::Row by_slope;
     for (unsigned int s = 0; s < 2; ++s)
       by_slope -= shift.d_slope * response.d_shift[s][0] * placed.slip_row[s];
     tangent += outer_product(by_slope, placed.slip_curvature[0] * direction);
@@ -272,6 +290,8 @@ namespace sprag
     for (unsigned int i = 0; i < 3 * of.n_nodes; ++i)
       result.push_back({ i, 3 * of.nodes[i / 3] + i % 3, 1. });
     add_frame(properties.ports, n_displacements, n_displacements + 1, result);
+    for (unsigned int i = 0; i < properties.ports.slopes; ++i)
+      result.push_back({ n_displacements + 2 + i, properties.ports.slope(i), 1. });
     return result;
   }
 

@@ -11,7 +11,7 @@ namespace sprag
     RigidCylinder cylinder;
     std::function<LeverPoint(double x, double theta)> centre; ///< of the cylinder
     double radius;                                            ///< R [mm]
-    PortLayout ports;                                         ///< three a node of the face
+    PortLayout ports;                                         ///< three a node of the face; with slopes where these may change
     double rest_inclination;                                  ///< theta without moment [rad]
     ContactPenalties penalties;
   };
@@ -99,6 +99,14 @@ namespace sprag
     /// Doubles how far these ports reach, from their next call on.
     void widen_reach();
 
+    /// The slopes of the cylinder's axis in an evaluation.
+    AxisSlopes slopes_in(const SurfaceEvaluation &found) const;
+
+    const RigidCylinder &cylinder() const
+    {
+      return properties.cylinder;
+    }
+
     /// Returns the positions of a point among those that have the same zeta, by increasing xi.
     const std::vector<std::vector<unsigned int>> &lines() const
     {
@@ -125,7 +133,8 @@ namespace sprag
   private:
     using Patches                                 = FacePatches<3>;
     static constexpr unsigned int n_displacements = 3 * Patches::max_nodes;
-    static constexpr unsigned int n_local         = n_displacements + 2;
+    static constexpr unsigned int n_frame         = SurfaceKinematics::n - 3; ///< theta, x and slopes
+    static constexpr unsigned int n_local         = n_displacements + n_frame;
 
     struct Sums;
     struct Step;
@@ -143,6 +152,8 @@ namespace sprag
     void find_lines();
     void find_ends();
     RigidCylinder::Pose pose_of(const SurfacePlace &place) const;
+    AxisSlopes turned_by(const dealii::Vector<double> &ports) const;
+    double along(const SurfaceKinematics::Row &row, const dealii::Tensor<1, 3> &moved, const dealii::Vector<double> &ports) const;
     Patches::Indices near(const SurfacePlace &place, const RigidCylinder::Pose &pose) const;
     void evaluate_patch(unsigned int patch, Step &step, SurfaceEvaluation &found) const;
     void evaluate_point(const Step &step, FacePointState<3> &state, Sums &sums, SurfaceEvaluation &found) const;

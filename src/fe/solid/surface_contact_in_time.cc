@@ -21,7 +21,7 @@ namespace sprag
       return found != memory.end() && found->point == point ? &*found : nullptr;
     }
 
-    Tensor<1, 5> force_of(const PointTraction<2> &traction, const SurfaceKinematics &placed)
+    SurfaceKinematics::Row force_of(const PointTraction<2> &traction, const SurfaceKinematics &placed)
     {
       auto result = traction.pressure * placed.gap_row;
       for (unsigned int s = 0; s < 2; ++s)
@@ -71,7 +71,9 @@ namespace sprag
     const double share  = of.weights.stiffness();
     const auto balanced = [share](const double a, const double b) { return (1. - share) * a + share * b; };
     const StepInTime step{ end,
-                           RigidCylinder::pose(balanced(begin_pose.x, end.x), balanced(begin_pose.theta, end.theta)),
+                           properties.cylinder.pose(balanced(begin_pose.x, end.x), balanced(begin_pose.theta, end.theta),
+                                                    { { balanced(begin_pose.turned[0], end.turned[0]),
+                                                        balanced(begin_pose.turned[1], end.turned[1]) } }),
                            share,
                            of.to.surface - of.from.surface,
                            law,
@@ -117,9 +119,11 @@ namespace sprag
     const auto placed  = properties.cylinder.kinematics(step.end, state.position);
     const auto moved   = state.position - begin.position;
     const auto between = properties.cylinder.kinematics(step.balance, begin.position + step.share * moved);
-    Tensor<1, 5> change({ moved[0], moved[1], moved[2], step.end.theta - begin_pose.theta, step.end.x - begin_pose.x });
+    const SurfaceKinematics::Row change({ moved[0], moved[1], moved[2], step.end.theta - begin_pose.theta,
+                                          step.end.x - begin_pose.x, step.end.turned[0] - begin_pose.turned[0],
+                                          step.end.turned[1] - begin_pose.turned[1] });
 
-    StepKinematics<5, 2> kinematics;
+    StepKinematics<SurfaceKinematics::n, 2> kinematics;
     kinematics.gap_begin     = begin.gap;
     kinematics.gap_end       = placed.gap;
     kinematics.gap_row_end   = placed.gap_row;
@@ -141,7 +145,7 @@ namespace sprag
     state.memory.point                     = state.index;
     state.slip_change                      = kinematics.slip_change;
     state.elastic_slip                     = response.traction.norm() / step.law.tangential;
-    state.end_force                        = force_of(response, placed);
+    state.end_force                        = on_lever(force_of(response, placed));
     const auto &point                      = patches.points[state.index];
     found.stored += point.weight * response.energy;
     found.works.drive += point.weight * (response.mean_traction[0] * step.surface_run - response.force[4] * step.advance);
@@ -224,13 +228,14 @@ namespace sprag
     state.memory.slip_speed = state.slip_change;
     state.memory.point      = state.index;
     state.elastic_slip      = state.traction.norm() / penalty.tangential;
-    state.end_force         = force_of(state, placed);
+    const auto force        = force_of(state, placed);
+    state.end_force         = on_lever(force);
     const double elastic = sliding.law.regularisation_speed > 0. ? 0. : 0.5 * state.traction.norm_square() / penalty.tangential;
     found.stored += area * (0.5 * penalty.normal * state.gap * state.gap + elastic);
 
     const auto by_pressure =
         -penalty.normal * outer_product(placed.gap_row, placed.gap_row) + state.pressure * placed.gap_curvature;
-    Tensor<2, 5> by_displacement, by_rate;
+    SurfaceKinematics::Curvature by_displacement, by_rate;
     for (unsigned int s = 0; s < 2; ++s)
     {
       by_displacement += outer_product(placed.slip_row[s], share.coefficient * direction[s] * penalty.normal * placed.gap_row) -
@@ -244,7 +249,7 @@ namespace sprag
         by_rate -= state.pressure * (share.derivative * along + turn) * outer_product(placed.slip_row[s], placed.slip_row[r]);
       }
     }
-    sliding.pressure.add(point, n_nodes, state.end_force, by_pressure);
+    sliding.pressure.add(point, n_nodes, force, by_pressure);
     sliding.friction.add(point, n_nodes, {}, by_displacement);
     if (sliding.in_parts)
       sliding.friction_rate.add(point, n_nodes, {}, by_rate);
@@ -259,14 +264,8 @@ namespace sprag
     if (const auto *const rates = sliding.state.rates; rates != nullptr)
     {
       const auto moved = Patches::position(point, sliding.rates) - point.position;
-      const auto &at   = properties.ports;
       for (unsigned int s = 0; s < 2; ++s)
-      {
-        for (unsigned int d = 0; d < 3; ++d)
-          state.slip_change[s] += placed.slip_row[s][d] * moved[d];
-        state.slip_change[s] +=
-            placed.slip_row[s][3] * (*rates)[at.rotation()] - (at.sprung ? placed.slip_row[s][4] * (*rates)[at.support()] : 0.);
-      }
+        state.slip_change[s] += along(placed.slip_row[s], moved, *rates);
     }
     if (state.slip_change.norm() > 0.)
       return state.slip_change / state.slip_change.norm();
@@ -295,15 +294,19 @@ namespace sprag
     const auto &of    = patches.points[point.index];
     const auto nodal  = Patches::nodal(patches.patches[point.patch], change_of_ports);
     const auto moved  = Patches::position(of, nodal) - of.position;
-    const auto &at    = properties.ports;
-    const auto change = [&](const SurfaceKinematics::Row &row)
-    {
-      double result = row[3] * change_of_ports[at.rotation()] - (at.sprung ? row[4] * change_of_ports[at.support()] : 0.);
-      for (unsigned int d = 0; d < 3; ++d)
-        result += row[d] * moved[d];
-      return result;
-    };
-    return { { change(placed.gap_row), change(placed.slip_row[0]) } };
+    return { { along(placed.gap_row, moved, change_of_ports), along(placed.slip_row[0], moved, change_of_ports) } };
+  }
+
+  /// A row times a motion of its point and of the ports of the frame.
+  double SurfaceContact::along(const SurfaceKinematics::Row &row, const Tensor<1, 3> &moved, const Vector<double> &of_ports) const
+  {
+    const auto &at = properties.ports;
+    double result  = row[3] * of_ports[at.rotation()] - (at.sprung ? row[4] * of_ports[at.support()] : 0.);
+    for (unsigned int d = 0; d < 3; ++d)
+      result += row[d] * moved[d];
+    for (unsigned int i = 0; i < at.slopes; ++i)
+      result += row[5 + i] * of_ports[at.slope(i)];
+    return result;
   }
 
   double SurfaceContact::slip_at(const FacePointState<3> &point, const SurfacePlace &place) const

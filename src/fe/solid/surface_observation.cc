@@ -49,6 +49,11 @@ namespace sprag
   void SurfaceView::observe_resultants(const SurfaceEvaluation &found, Row &row) const
   {
     row.across.assign(columns_across().size(), 0.);
+    if (contact.cylinder().has_free_axis())
+    {
+      const auto slopes = contact.slopes_in(found);
+      row.across.insert(row.across.end(), slopes.begin(), slopes.end());
+    }
     double normal = 0., position = 0., zeta = 0., speed = 0., mu = 0., power = 0., energy = 0., active = 0.;
     double elastic_slip = 0., penetration = 0., excess = 0., cone = 0., twisting = 0., turning = 0.;
     dealii::Tensor<1, 3> force;

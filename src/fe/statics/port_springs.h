@@ -2,14 +2,18 @@
 
 #include "fe/body/elastic_body.h"
 
+#include <array>
+
 namespace sprag
 {
-  /// Linear springs at the ports of hub and support of a lever without inertia.
+  /// Linear springs at the ports of hub, support and the cylinder's slopes of a lever without inertia.
   struct PortSprings
   {
-    double rotation = 0.; ///< k [N mm/rad], > 0
-    double support  = 0.; ///< k_f a lever [N/mm], > 0; counts on a sprung support
-    double arm      = 0.; ///< length that turns a rotation into a movement [mm], > 0
+    double rotation = 0.;           ///< k [N mm/rad], > 0
+    double support  = 0.;           ///< k_f a lever [N/mm], > 0; counts on a sprung support
+    double arm      = 0.;           ///< length that turns a rotation into a movement [mm], > 0
+    std::array<double, 2> slopes{}; ///< compliances of the cylinder's shaft [rad/(N mm)], >= 0; count where its axis is free
+    double slope_arm = 0.;          ///< length that turns its slopes into movements [mm], > 0
   };
 
   /// Degrees of freedom of the ports of a face: two a node.

@@ -46,10 +46,10 @@ namespace sprag
     window_for = wanted;
     window.clear();
     compliance            = {};
-    const auto add_spring = [&](const unsigned int port, const double stiffness)
+    const auto add_spring = [&](const unsigned int port, const double own)
     {
       window.push_back(port);
-      compliance.append(1. / stiffness);
+      compliance.append(own);
     };
     for (unsigned int lever = 0; lever < ports.levers; ++lever)
     {
@@ -67,10 +67,12 @@ namespace sprag
           compliance.append(face.among(tiles));
         first += face.n_ports;
       }
-      add_spring(ports.rotation(lever), springs.rotation);
+      for (unsigned int slope = 0; slope < ports.slopes; ++slope)
+        add_spring(ports.slope(slope), springs.slopes[slope]);
+      add_spring(ports.rotation(lever), 1. / springs.rotation);
     }
     if (ports.sprung)
-      add_spring(ports.support(), ports.levers * springs.support);
+      add_spring(ports.support(), 1. / (ports.levers * springs.support));
     mismatch.reinit(compliance.size());
   }
 
@@ -107,11 +109,15 @@ namespace sprag
     double result = 0.;
     for (const unsigned int place : places)
       result += mismatch[place] * mismatch[place];
-    for (unsigned int lever = 0; lever < ports.levers; ++lever)
+    const auto as_movement = [&](const unsigned int port, const double arm)
     {
-      const double turn = mismatch[place_of(ports.rotation(lever), window)];
-      result += (springs.arm * springs.arm - 1.) * turn * turn;
-    }
+      const double turn = mismatch[place_of(port, window)];
+      result += (arm * arm - 1.) * turn * turn;
+    };
+    for (unsigned int lever = 0; lever < ports.levers; ++lever)
+      as_movement(ports.rotation(lever), springs.arm);
+    for (unsigned int slope = 0; slope < ports.slopes; ++slope)
+      as_movement(ports.slope(slope), springs.slope_arm);
     return std::sqrt(result);
   }
 

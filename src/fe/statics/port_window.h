@@ -18,9 +18,10 @@ namespace sprag
   };
 
   /// Linear levers on linear springs in statics, seen through their ports, z = G f(z). The compliance G is dense on the faces of
-  /// a lever and diagonal on hubs and support, which do not move a body in its own axes. It is known in a window of whole tiles.
-  /// Only ports with forces carry tangents, so that a Newton correction is a dense solve of those, and the iterates are those of
-  /// the full system. Coordinates: displacements of all ports, of which only those that were entered last are looked at.
+  /// a lever and diagonal on hubs and support, which do not move a body in its own axes, and on the cylinder's slopes. It is
+  /// known in a window of whole tiles. Only ports with forces carry tangents, so that a Newton correction is a dense solve of
+  /// those, and the iterates are those of the full system. Coordinates: displacements of all ports, of which only those that were
+  /// entered last are looked at.
   class PortWindow
   {
   public:

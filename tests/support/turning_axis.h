@@ -1,0 +1,18 @@
+#pragma once
+
+#include <deal.II/base/tensor.h>
+
+#include <array>
+#include <cmath>
+
+namespace sprag
+{
+  /// What turns the axes of a cylinder as its slopes grow, in the axes of the world: with yaw psi = atan(skew) about y and
+  /// elevation phi = atan(tilt/sqrt(1 + skew^2)) about the axis across, psi' e_y - phi' (cos(psi), 0, -sin(psi)).
+  inline std::array<dealii::Tensor<1, 3>, 2> turns_by_slopes(const double tilt, const double skew)
+  {
+    const double m2 = 1. + skew * skew, m = std::sqrt(m2), psi = std::atan(skew);
+    const dealii::Tensor<1, 3> across({ std::cos(psi), 0., -std::sin(psi) }), up({ 0., 1., 0. });
+    return { { -m / (m2 + tilt * tilt) * across, up / m2 + tilt * skew / (m * (m2 + tilt * tilt)) * across } };
+  }
+} // namespace sprag

@@ -1,0 +1,167 @@
+#include "model/circle.h"
+#include "scene/closed_form.h"
+#include "support/turning_axis.h"
+#include "verification/face_forces.h"
+#include "verification/solid_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <gtest/gtest.h>
+
+// A rigid cylinder whose axis yields on its shaft, without inertia.
+
+using namespace sprag;
+
+namespace
+{
+  using Vector = Resultant::Vector;
+
+  constexpr std::size_t tilt_column = 5, skew_column = 6; ///< among those across
+
+  Scene on_shaft(Scene scene, const double tilt_stiffness, const double skew_stiffness)
+  {
+    scene.cylinder.tilt_stiffness = tilt_stiffness;
+    scene.cylinder.skew_stiffness = skew_stiffness;
+    return scene;
+  }
+
+  /// Out of true both ways, on a shaft that yields by a good part of that.
+  Scene yielding()
+  {
+    return on_shaft(tilted(solid_model_a(0.3), 4e-4, 2e-3), 4e5, 1e5);
+  }
+
+  /// Moments of the forces on the face about the cylinder's middle that turn its axis: those that work on tilt and on skew.
+  std::array<double, 2> moments_on_axis(const Scene &scene, const SolidBody &body, const State &state, const Row &row)
+  {
+    const auto on_lever = forces_on(body, state)[1];
+    const auto centre   = cylinder_centre(scene.geometry, row[Column::x], row[Column::theta]);
+    const auto moment   = on_lever.moment - cross_product_3d(Vector({ centre.xi, centre.eta, 0. }), on_lever.force);
+    const double c = std::cos(row[Column::theta]), s = std::sin(row[Column::theta]);
+    // The lever's axes xi, eta, zeta are left-handed: moments in them have the other sign in the world.
+    const Vector on_cylinder({ -moment[0] * c + moment[1] * s, moment[0] * s + moment[1] * c, moment[2] });
+    const auto [tilts, skews] = turns_by_slopes(row.across[tilt_column], row.across[skew_column]);
+    return { { tilts * on_cylinder, skews * on_cylinder } };
+  }
+
+  /// Largest of a column across.
+  double largest_across(const std::vector<Row> &rows, const std::size_t column)
+  {
+    double result = 0.;
+    for (const auto &row : rows)
+      result = std::max(result, std::abs(row.across[column]));
+    return result;
+  }
+} // namespace
+
+/// Enforcement of the contact.
+class SolidShaft : public testing::TestWithParam<Enforcement>
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(By, SolidShaft, testing::Values(Enforcement::penalty, Enforcement::augmented_lagrangian));
+
+TEST_P(SolidShaft, CarriesTheMomentOfTheFaceAboutItsMiddle)
+{
+  Scene scene               = yielding();
+  scene.contact.enforcement = GetParam();
+  Mesh plane;
+  make_mesh(scene, plane);
+  const SolidBody body(scene, plane, MPI_COMM_SELF);
+  SolidLever lever(body, scene);
+  std::array<double, 2> off{}, peak{};
+  run_quasi_static(lever, scene.drive, { scene.analysis.step, scene.analysis.minimum_step, scene.contact },
+                   [&](const State &state, const Row &row)
+                   {
+                     const auto moments                  = moments_on_axis(scene, body, state, row);
+                     const std::array<double, 2> carried = {
+                       { *scene.cylinder.tilt_stiffness * (row.across[tilt_column] - scene.cylinder.tilt),
+                         *scene.cylinder.skew_stiffness * (row.across[skew_column] - scene.cylinder.skew) }
+                     };
+                     for (unsigned int i = 0; i < 2; ++i)
+                     {
+                       off[i]  = std::max(off[i], std::abs(moments[i] - carried[i]));
+                       peak[i] = std::max(peak[i], std::abs(moments[i]));
+                     }
+                   });
+  for (unsigned int i = 0; i < 2; ++i)
+  {
+    EXPECT_GT(peak[i], 10.) << i; // [N mm]
+    EXPECT_LT(off[i], 1e-8 * peak[i]) << i;
+  }
+}
+
+// A stiff shaft yields as the moment on the fixed axis says, M/k; what its yielding takes off that moment is of the order of the
+// contact's own stiffness against a tilt over k, some 1e5/k, and so is what it changes in all else.
+TEST(SolidShaft, AStiffOneIsAFixedAxis)
+{
+  const Scene fixed = tilted(solid_model_a(0.3), 4e-4, 2e-3);
+  const SolidRun reference(fixed);
+  for (const double stiffness : { 1e9, 1e10 })
+  {
+    const SolidRun stiff(on_shaft(fixed, stiffness, stiffness));
+    ASSERT_EQ(stiff.rows.size(), reference.rows.size());
+    const double share = 1e5 / stiffness;
+    for (const Column column : { Column::P, Column::Q, Column::theta })
+      EXPECT_LT(difference(reference.rows, stiff.rows, column), share) << column_info(column).name;
+    double twisting = 0.;
+    for (std::size_t i = 0; i < stiff.rows.size(); ++i)
+      twisting = std::max(twisting, std::abs(stiff.rows[i].across[2] - reference.rows[i].across[2]));
+    EXPECT_LT(twisting, 10. * share * largest_across(reference.rows, 2));
+    EXPECT_GT(twisting, 0.1 * share * largest_across(reference.rows, 2));
+    const auto &row      = stiff.rows[20];
+    const double yielded = row.across[tilt_column] - fixed.cylinder.tilt;
+    const double moment  = -row.across[2] * std::cos(row[Column::theta]); // but for the lever's arm of friction across
+    EXPECT_NEAR(yielded, moment / stiffness, 0.1 * std::abs(yielded));
+    EXPECT_LT(yielded, 0.);
+  }
+}
+
+TEST(SolidShaft, AMirroredAxisGivesTheMirrorImage)
+{
+  Scene mirrored         = yielding();
+  mirrored.cylinder.tilt = -mirrored.cylinder.tilt;
+  mirrored.cylinder.skew = -mirrored.cylinder.skew;
+  const SolidRun one(yielding()), other(mirrored);
+  for (const Column column : { Column::P, Column::Q, Column::theta })
+    EXPECT_LT(difference(one.rows, other.rows, column), 1e-8) << column_info(column).name;
+  for (const std::size_t column : { tilt_column, skew_column })
+    for (std::size_t i = 0; i < one.rows.size(); ++i)
+      EXPECT_NEAR(one.rows[i].across[column], -other.rows[i].across[column], 1e-8 * largest_across(one.rows, column)) << i;
+}
+
+// One half of what is the same on both sides keeps its axis, and so does the whole, which a skew of 1e-12 asks for.
+TEST(SolidShaft, ATrueAxisBeforeALeverAlikeOnBothSidesStays)
+{
+  const Scene scene = solid_model_a(0.3);
+  const SolidRun fixed(scene), half(on_shaft(scene, 1e5, 1e5)), whole(on_shaft(tilted(scene, 0., 1e-12), 1e5, 1e5));
+  for (const Column column : { Column::P, Column::Q, Column::theta, Column::largest_pressure, Column::elastic_energy })
+  {
+    EXPECT_EQ(difference(fixed.rows, half.rows, column), 0.) << column_info(column).name;
+    EXPECT_LT(difference(fixed.rows, whole.rows, column), 1e-6) << column_info(column).name;
+  }
+  EXPECT_EQ(largest_across(half.rows, tilt_column), 0.);
+  EXPECT_LT(largest_across(whole.rows, tilt_column), 1e-9);
+}
+
+// What the drive does is stored in springs, lever and shaft, or rubbed away. The works are sums over steps, whose error falls
+// with them; the shaft stores more than that.
+TEST(SolidShaft, StoresTheWorkThatItTakes)
+{
+  Scene scene         = on_shaft(tilted(solid_model_a(0.3), 0.02), 4e3, 4e3);
+  scene.drive         = Drive(DriveProfile::triangle, 0., 20., 112., 0.5);
+  scene.analysis.step = 0.25;
+  const SolidRun run(scene);
+  const auto stored = [](const Row &row) { return row[Column::spring_energy] + row[Column::elastic_energy]; };
+  const Row &last   = run.rows.back();
+  double of_shaft   = 0.;
+  for (const std::size_t column : { tilt_column, skew_column })
+  {
+    const double yielded = last.across[column] - (column == tilt_column ? scene.cylinder.tilt : scene.cylinder.skew);
+    of_shaft += 0.5 * *scene.cylinder.tilt_stiffness * yielded * yielded;
+  }
+  const double work = last[Column::drive_work];
+  const double open = work - last[Column::friction_work] - stored(last) + stored(run.rows.front());
+  EXPECT_GT(of_shaft, 0.01 * work);
+  EXPECT_NEAR(open, 0., 1e-3 * work);
+}
