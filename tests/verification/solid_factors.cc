@@ -1,7 +1,9 @@
+#include "base/errors.h"
 #include "fe/solid/solid_body.h"
 #include "verification/solid_run.h"
 
 #include <filesystem>
+#include <limits>
 #include <unistd.h>
 
 using namespace sprag;
@@ -90,6 +92,22 @@ namespace
     }
     EXPECT_TRUE(fs::is_empty(folder));
     fs::remove_all(folder);
+  }
+
+  /// Where pivots vanish in single precision, nothing sensible comes of it; the body then takes double precision.
+  TEST(SolidFactors, ThatFindNoNumbersAreKnown)
+  {
+    const Scene scene = tilted_model_a();
+    Mesh plane;
+    make_mesh(scene, plane);
+    const SolidBody body(scene, plane, MPI_COMM_SELF, { false, {} });
+    const auto nothing = [](const std::vector<double> &loads)
+    { return std::vector<float>(loads.size(), std::numeric_limits<float>::quiet_NaN()); };
+    const dealii::AffineConstraints<double> free;
+    Refinement refinement({ body.cell_mapping(), body.dofs(), free, body.body_properties() }, {}, {}, nothing);
+    std::vector<double> loads(body.n_dofs(), 1.);
+    EXPECT_FALSE(refinement.find_soft_motions(loads));
+    EXPECT_THROW(refinement.refined(loads, nothing(loads)), AnalysisError);
   }
 
   /// Stiffness times the displacements is the load: assembly and what refines by its cells know the same stiffness.

@@ -36,6 +36,11 @@ namespace sprag
                              { return std::max(most, static_cast<double>(std::abs(value))); });
     }
 
+    bool are_numbers(const std::vector<float> &values)
+    {
+      return std::isfinite(std::accumulate(values.begin(), values.end(), 0.));
+    }
+
     template <class Number>
     double product(const double *const a, const Number *const b, const std::size_t n)
     {
@@ -124,6 +129,8 @@ namespace sprag
   {
     const int rows = static_cast<int>(n), columns = static_cast<int>(loads.size() / n),
               motions = static_cast<int>(soft.size() / n);
+    if (motions == 0)
+      return;
     std::vector<double> amounts(static_cast<std::size_t>(motions) * columns);
     multiply(true, motions, columns, rows, 1., soft.data(), rows, loads.data(), rows, 0., amounts.data(), motions);
     add_motions(missed, amounts, step);
@@ -134,6 +141,8 @@ namespace sprag
   {
     const int rows = static_cast<int>(n), columns = static_cast<int>(left.size() / n),
               motions = static_cast<int>(soft.size() / n);
+    if (motions == 0)
+      return;
     std::vector<double> amounts(static_cast<std::size_t>(motions) * columns);
     multiply(true, motions, columns, rows, 1., soft.data(), rows, left.data(), rows, 0., amounts.data(), motions);
     std::vector<double> piece(static_cast<std::size_t>(rows_of_piece) * columns);
@@ -173,7 +182,7 @@ namespace sprag
   unsigned int Refinement::improve(std::vector<float> step, std::vector<double> &left, std::vector<double> &result) const
   {
     std::vector<double> last(left.size() / n, 1.);
-    for (unsigned int number = 1; number <= most_steps; ++number)
+    for (unsigned int number = 1; number <= most_steps && are_numbers(step); ++number)
     {
       if (number == 1)
         begin_softly(left, step);
