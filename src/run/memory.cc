@@ -249,7 +249,7 @@ namespace sprag
 
   std::string factor_folder(const std::string &folder)
   {
-    return (std::filesystem::path(folder) / "factors").string();
+    return (std::filesystem::path(folder) / ".sprag-factors").string();
   }
 
   double expected_rows(const Scene &scene)

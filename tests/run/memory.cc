@@ -162,7 +162,7 @@ namespace
       const SpaceLeft most(0.8 * needed);
       const auto files = factor_files(scene, 1, folder);
       ASSERT_TRUE(files);
-      EXPECT_EQ(files->folder, folder + "/factors");
+      EXPECT_EQ(files->folder, folder + "/.sprag-factors");
       EXPECT_NEAR(files->memory, needed, 1e-9 * needed);
       EXPECT_LT(files->memory_with_files, files->available.bytes);
       EXPECT_LT(files->available.bytes, needed);

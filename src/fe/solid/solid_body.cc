@@ -89,8 +89,22 @@ namespace sprag
     factorise(Utilities::MPI::broadcast(ranks, settings.single.value_or(scene.analysis.type == AnalysisType::quasi_static &&
                                                                         n_dofs() >= least_in_single_precision)));
     if (Utilities::MPI::this_mpi_process(ranks) == 0)
+      prepare_solves();
+  }
+
+  /// The others have made theirs by now and await calls.
+  void SolidBody::prepare_solves()
+  {
+    try
+    {
       if (!factors.prepare(loads_on_face(false)) || (has_skin() && !factors_of_skin.prepare(loads_on_face(true))))
         make_precise();
+    }
+    catch (...)
+    {
+      call_others(SharedTask::release, ranks);
+      throw;
+    }
   }
 
   /// Factors of the whole come first: nothing else takes memory then.

@@ -114,6 +114,7 @@ namespace sprag
   private:
     void factorise(bool single);
     void release();
+    void prepare_solves();
     void make_precise();
     SparseColumns loads_on_face(bool near) const;
     void hold_hub();
