@@ -41,14 +41,20 @@ namespace sprag
                            " of mpirun runs another program or scene than process 0: start the same on all machines");
     }
 
+    unsigned int processes_of(const Rank &rank)
+    {
+      return rank.is_alone ? 1 : MPI::n_mpi_processes(MPI_COMM_WORLD);
+    }
+
     void execute(const Arguments &arguments, const Scene &scene, const Rank &rank, RunLog &log)
     {
       if (arguments.validate)
       {
-        require_memory(scene);
+        const std::string folder = folder_of(arguments, scene);
+        require_memory(scene, processes_of(rank), folder);
         const auto warnings = validate(scene);
         if (!arguments.quiet && rank.is_first)
-          print_expectations(scene);
+          print_expectations(scene, processes_of(rank), folder);
         return tell_validity(arguments, scene, warnings);
       }
       if (!rank.is_alone && !works_in_parallel(scene.analysis.type) && !shares_body(scene))
@@ -57,12 +63,11 @@ namespace sprag
             "mpirun");
       if (!rank.is_alone)
         require_alike_processes(scene);
-      const std::string folder     = folder_of(arguments, scene);
-      const unsigned int processes = rank.is_alone ? 1 : MPI::n_mpi_processes(MPI_COMM_WORLD);
-      const auto claim             = [&]
+      const std::string folder = folder_of(arguments, scene);
+      const auto claim         = [&]
       {
         claim_folder(folder, parameters_text(scene), arguments.overwrite);
-        require_memory(scene, processes);
+        require_memory(scene, processes_of(rank), folder);
       };
       if (rank.is_alone)
         claim();

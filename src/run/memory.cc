@@ -13,6 +13,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <linux/magic.h>
+#include <sys/vfs.h>
 
 namespace sprag
 {
@@ -170,15 +173,52 @@ namespace sprag
       return 8. * (3. * scene.condensed.modes * displacements + 4. * reached * reached);
     }
 
+    /// Of factors of double precision of the whole of a body in three dimensions, over displacements^(4/3).
+    constexpr double bytes_of_factors = 99.;
+
+    /// Of all matrices of a body in three dimensions, likewise.
+    constexpr double bytes_of_solid = 215., bytes_of_solid_in_single_precision = 135.;
+
+    bool has_single_precision(const Scene &scene, const double displacements)
+    {
+      return scene.analysis.type == AnalysisType::quasi_static && displacements >= least_in_single_precision;
+    }
+
+    double bytes_of_solid_factors(const Scene &scene)
+    {
+      const double displacements = expected_size(scene).displacements;
+      return (has_single_precision(scene, displacements) ? 0.5 : 1.) * bytes_of_factors * std::pow(displacements, 4. / 3.);
+    }
+
     double bytes_of_matrices(const Scene &scene)
     {
       const auto [displacements, ports] = expected_size(scene);
       if (scene.analysis.dimension == 3)
-        return 215. * std::pow(displacements, 4. / 3.) + bytes_of_solid_modes(scene, displacements, ports);
+        return (has_single_precision(scene, displacements) ? bytes_of_solid_in_single_precision : bytes_of_solid) *
+                   std::pow(displacements, 4. / 3.) +
+               bytes_of_solid_modes(scene, displacements, ports);
       const double levers       = scene.pair.type == PairType::full && !is_factorised_once(scene) ? 2. : 1.;
       const auto [each, copies] = cost_of(scene);
       const double bar          = scene.plate.type == PlateType::none ? 1. : bar_behind_plate;
       return levers * bar * (each * displacements + copies * 8. * ports * ports);
+    }
+
+    // Of files with factors.
+    constexpr double kept_in_files       = 0.9; ///< of the factors: some are in memory while they are found
+    constexpr double file_room           = 1.1; ///< free on the disk, over their size
+    constexpr std::size_t longest_folder = 240; ///< that the solver takes
+
+    /// Bytes free where a folder is or would be made; none where files would take memory themselves.
+    double free_on_disk(std::filesystem::path folder)
+    {
+      std::error_code none;
+      folder = std::filesystem::absolute(folder, none);
+      while (!std::filesystem::exists(folder, none) && folder.has_relative_path())
+        folder = folder.parent_path();
+      struct statfs of_system = {};
+      if (::statfs(folder.c_str(), &of_system) != 0 || of_system.f_type == TMPFS_MAGIC)
+        return 0.;
+      return static_cast<double>(of_system.f_bavail) * static_cast<double>(of_system.f_bsize);
     }
 
     std::string gigabytes(const double bytes)
@@ -207,6 +247,11 @@ namespace sprag
     return { 2. * (p * n + 1.) * (p * rows + 1.) + 2. * p * p * cylinder_elements(scene), 2. * (p * n + 1.) };
   }
 
+  std::string factor_folder(const std::string &folder)
+  {
+    return (std::filesystem::path(folder) / ".sprag-factors").string();
+  }
+
   double expected_rows(const Scene &scene)
   {
     if (scene.analysis.type == AnalysisType::quasi_static)
@@ -228,12 +273,32 @@ namespace sprag
     return processes * (of_libraries(scene) + bytes_of_matrices(scene)) + rows;
   }
 
-  void require_memory(const Scene &scene, const unsigned int processes)
+  std::optional<FactorFiles> factor_files(const Scene &scene, const unsigned int processes, const std::string &folder)
+  {
+    const double needed  = expected_memory(scene, processes);
+    const auto available = available_memory();
+    if (!shares_body(scene) || folder.empty() || needed <= available.bytes)
+      return std::nullopt;
+    FactorFiles result{ factor_folder(folder), needed, available, 0., bytes_of_solid_factors(scene) };
+    result.memory_with_files = needed - kept_in_files * result.bytes;
+    const bool fits          = result.memory_with_files <= available.bytes && file_room * result.bytes <= free_on_disk(folder) &&
+                      result.folder.size() < longest_folder;
+    return fits ? std::optional(result) : std::nullopt;
+  }
+
+  std::string text_of(const FactorFiles &files)
+  {
+    return "in memory alone the run would need about " + gigabytes(files.memory) + ", and " + gigabytes(files.available.bytes) +
+           " are " + files.available.reason + ": the factors of the whole lever are kept in files, " + gigabytes(files.bytes) +
+           " in " + files.folder + ", and the run needs about " + gigabytes(files.memory_with_files);
+  }
+
+  void require_memory(const Scene &scene, const unsigned int processes, const std::string &folder)
   {
     require_number_of_rows(scene);
     const double needed  = expected_memory(scene, processes);
     const auto available = available_memory();
-    if (needed <= available.bytes)
+    if (needed <= available.bytes || factor_files(scene, processes, folder))
       return;
     const double rows     = expected_rows(scene) * bytes_of_row;
     const std::string has = ": the run needs about " + gigabytes(needed) + " of memory, and " + gigabytes(available.bytes) +

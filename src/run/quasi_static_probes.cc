@@ -71,18 +71,20 @@ namespace sprag
     return result;
   }
 
-  Probes solid_probes(const Scene &scene, SolidLever &lever, const std::vector<Row> &rows, const QuasiStaticSettings &settings)
+  Probes solid_probes(const Scene &scene, SolidBody &body, SolidLever &lever, const std::vector<Row> &rows,
+                      const QuasiStaticSettings &settings)
   {
     Probes result;
     const double start = rows.front()[Column::x];
     result.run         = slide_samples(rows, samples_in_space);
+    result.soft        = with_softer_penalty(scene, lever, result.run, start, settings);
+    body.release_factors(); // before there are others
     Mesh mesh;
     const Scene coarse = with_coarser_mesh(with_penalties(scene, lever.penalties(), 1.));
     make_mesh(coarse, mesh);
-    const SolidBody body(coarse, mesh, MPI_COMM_SELF);
-    SolidLever on_coarse(body, coarse);
+    const SolidBody coarse_body(coarse, mesh, MPI_COMM_SELF);
+    SolidLever on_coarse(coarse_body, coarse);
     result.coarse = repeated(on_coarse, result.run, start, settings);
-    result.soft   = with_softer_penalty(scene, lever, result.run, start, settings);
     return result;
   }
 } // namespace sprag

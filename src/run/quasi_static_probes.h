@@ -22,6 +22,8 @@ namespace sprag
   Probes plane_probes(const Scene &scene, LeverModel &levers, const std::vector<Row> &rows, const QuasiStaticSettings &settings,
                       const std::vector<StressSample> &stresses);
 
-  /// The same of a lever in three dimensions, without stresses. The first rank makes the coarser one alone.
-  Probes solid_probes(const Scene &scene, SolidLever &lever, const std::vector<Row> &rows, const QuasiStaticSettings &settings);
+  /// The same of a lever in three dimensions, without stresses. The first rank makes the coarser one alone, when the body's own
+  /// factors are given back.
+  Probes solid_probes(const Scene &scene, SolidBody &body, SolidLever &lever, const std::vector<Row> &rows,
+                      const QuasiStaticSettings &settings);
 } // namespace sprag

@@ -65,14 +65,18 @@ namespace sprag
     return scene_warnings(scene);
   }
 
-  void print_expectations(const Scene &given)
+  void print_expectations(const Scene &given, const unsigned int processes, const std::string &folder)
   {
-    const Scene scene = prepared(given);
-    if (!scene.accuracy.leaves_open())
-      return print_cost(std::cout, expected_cost(scene));
-    const auto choice = choose_settings(scene);
-    print_choice(std::cout, scene, choice);
-    print_cost(std::cout, expected_cost(with_settings(scene, choice.settings)));
+    Scene scene = prepared(given);
+    if (scene.accuracy.leaves_open())
+    {
+      const auto choice = choose_settings(scene);
+      print_choice(std::cout, scene, choice);
+      scene = with_settings(scene, choice.settings);
+    }
+    print_cost(std::cout, expected_cost(scene));
+    if (const auto files = factor_files(scene, processes, folder))
+      std::cout << "Memory:       " << text_of(*files) << '\n';
   }
 
   void run(const Scene &given, const RunOptions &options)
@@ -95,7 +99,7 @@ namespace sprag
       print_choice(std::cout, scene, choice);
       print_cost(std::cout, expected_cost(chosen));
     }
-    require_memory(chosen);
+    require_memory(chosen, 1, options.in_memory == nullptr ? options.folder : "");
     // The file tells the parameters that were given, by which the folder is known again, and in /meta what followed from them.
     chosen.parameters = scene.parameters;
     run_from_margin_to_warnings(chosen, telling, margin_of, carry_out);

@@ -31,8 +31,9 @@ namespace sprag
   /// that follow from the scene alone.
   Warnings validate(const Scene &scene);
 
-  /// Prints what of a scene follows from its Accuracy and what the run will cost.
-  void print_expectations(const Scene &scene);
+  /// Prints what of a scene follows from its Accuracy and what the run on `processes` processes with results in `folder` will
+  /// cost.
+  void print_expectations(const Scene &scene, unsigned int processes, const std::string &folder);
 
   /// Carries out the scene's analysis with its model and writes results into the folder. Throws InputError, before anything is
   /// written, for meshes and folders that cannot serve; AnalysisError when the analysis fails or deviates from the closed form by

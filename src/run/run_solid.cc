@@ -4,11 +4,14 @@
 #include "run/analyses.h"
 #include "run/field_recorder.h"
 #include "run/in_memory.h"
+#include "run/memory.h"
 #include "run/quasi_static_accuracy.h"
 #include "run/recorder.h"
 #include "run/report.h"
 
+#include <filesystem>
 #include <iostream>
+#include <memory>
 #include <optional>
 
 namespace sprag
@@ -84,7 +87,7 @@ namespace sprag
       std::vector<FaceSample> of_face;
     };
 
-    void drive_lever(const Scene &scene, const RunOptions &options, PhaseTimer &timer, const SolidBody &body, SolidLever &lever,
+    void drive_lever(const Scene &scene, const RunOptions &options, PhaseTimer &timer, SolidBody &body, SolidLever &lever,
                      Warnings &warnings)
     {
       Checkpoint checkpoint(scene, options);
@@ -132,7 +135,7 @@ namespace sprag
             if (status == "completed" && estimates_errors(options))
             {
               const PhaseTimer::Scope scope(timer, "accuracy");
-              const auto probes = [&] { return solid_probes(scene, lever, recorder.recorded(), settings); };
+              const auto probes = [&] { return solid_probes(scene, body, lever, recorder.recorded(), settings); };
               recorder.set_accuracy(quasi_static_accuracy(scene, recorder.recorded(), probes));
             }
             meta.push_back(
@@ -144,6 +147,35 @@ namespace sprag
           });
       check_deviation(scene, summary);
     }
+    /// A folder that is there as long as this, with nothing of an earlier run.
+    struct FolderForFactors
+    {
+      explicit FolderForFactors(const std::string &name)
+          : folder(name)
+      {
+        std::filesystem::remove_all(folder);
+        std::filesystem::create_directories(folder);
+      }
+      FolderForFactors(const FolderForFactors &)            = delete;
+      FolderForFactors &operator=(const FolderForFactors &) = delete;
+      ~FolderForFactors()
+      {
+        std::error_code none;
+        std::filesystem::remove_all(folder, none);
+      }
+
+      const std::string folder;
+    };
+
+    std::unique_ptr<FolderForFactors> folder_for_factors(const Scene &scene, const RunOptions &options, const MPI_Comm ranks)
+    {
+      const auto files = factor_files(scene, dealii::Utilities::MPI::n_mpi_processes(ranks), options.folder);
+      if (!files)
+        return nullptr;
+      if (!options.quiet)
+        std::cout << "Memory: " << text_of(*files) << '\n' << std::flush;
+      return std::make_unique<FolderForFactors>(files->folder);
+    }
   } // namespace
 
   void run_solid_scene(const Scene &scene, const RunOptions &options, Warnings &warnings)
@@ -154,8 +186,9 @@ namespace sprag
     const Mesh *plane = nullptr;
     timed(timer, "mesh", [&] { plane = &meshes->mesh_of(scene); });
     const MPI_Comm ranks = options.in_memory ? MPI_COMM_SELF : MPI_COMM_WORLD; // those of a study run scenes of their own
+    const auto files     = options.in_memory ? nullptr : folder_for_factors(scene, options, ranks);
     std::optional<SolidBody> body;
-    timed(timer, "body", [&] { body.emplace(scene, *plane, ranks); });
+    timed(timer, "body", [&] { body.emplace(scene, *plane, ranks, FactorSettings{ {}, files ? files->folder : "" }); });
     std::optional<SolidLever> lever;
     timed(timer, "model", [&] { lever.emplace(*body, scene); });
     drive_lever(scene, options, timer, *body, *lever, warnings);

@@ -15,7 +15,7 @@ import h5py
 from runs import ROOT, add_program, print_row
 
 # Face size [mm] and elements across of the whole tilted lever of model A.
-MESHES = {"63k": (2, 4), "248k": (1, 10), "400k": (1, 16), "1M": (0.5, 20)}
+MESHES = {"63k": (2, 4), "248k": (1, 10), "400k": (1, 16), "890k": (0.5, 20), "1M": (0.5, 23)}
 PHASES = ("body", "model", "steps_and_output", "exactness", "accuracy")
 HEADS = ("mesh", "ranks", "dofs", "wall s", "CPU s", *("body", "face", "steps", "exact", "errors"), "GB", "growth")
 WIDTHS = (6, 6, 9, 8, 8, 8, 8, 8, 8, 8, 7, 8)

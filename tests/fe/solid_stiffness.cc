@@ -52,7 +52,7 @@ namespace
 
     SymmetricEntries stiffness() const
     {
-      return assemble_stiffness({ mapping, dofs, constraints, properties }, {}).whole;
+      return assemble_stiffness({ mapping, dofs, constraints, properties }, {});
     }
 
     Triangulation<3> triangulation;
@@ -153,7 +153,7 @@ namespace
             solution[indices[i]] += values.shape_value(i, q) * force[cube.fe.system_to_component_index(i).first] * values.JxW(q);
       }
     }
-    SharedFactors factors(MPI_COMM_SELF);
+    SharedFactors<double> factors(MPI_COMM_SELF);
     factors.factorise(cube.stiffness());
     factors.solve(solution);
     const Vector<double> found(solution.begin(), solution.end());

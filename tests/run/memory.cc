@@ -3,7 +3,11 @@
 #include "base/errors.h"
 #include "scenes.h"
 
+#include <filesystem>
+#include <fstream>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 using namespace sprag;
 
@@ -119,6 +123,61 @@ namespace
     }
     scene.analysis.model = ModelType::closed_form;
     EXPECT_NO_THROW(require_memory(scene));
+  }
+
+  /// Leaves so much of the address space to the process.
+  class SpaceLeft
+  {
+  public:
+    explicit SpaceLeft(const double bytes)
+    {
+      ::getrlimit(RLIMIT_AS, &before);
+      double pages = 0.;
+      std::ifstream("/proc/self/statm") >> pages;
+      const double used = pages * static_cast<double>(::sysconf(_SC_PAGESIZE));
+      const rlimit limit{ static_cast<rlim_t>(used + bytes), before.rlim_max };
+      ::setrlimit(RLIMIT_AS, &limit);
+    }
+    SpaceLeft &operator=(SpaceLeft &&) = delete;
+    ~SpaceLeft()
+    {
+      ::setrlimit(RLIMIT_AS, &before);
+    }
+
+  private:
+    rlimit before{};
+  };
+
+  /// The factors of the whole are two fifths of what a lever in three dimensions needs.
+  TEST(Memory, FactorsGoToFilesWhereTheyAloneDoNotFit)
+  {
+    Scene scene              = model_a();
+    scene.analysis.dimension = 3;
+    scene.mesh.face_size     = 2.;
+    scene.cylinder.tilt      = 2e-4;
+    const double needed      = expected_memory(scene);
+    const auto folder        = std::filesystem::current_path().string(); // on a disk
+    EXPECT_FALSE(factor_files(scene, 1, folder));
+    {
+      const SpaceLeft most(0.8 * needed);
+      const auto files = factor_files(scene, 1, folder);
+      ASSERT_TRUE(files);
+      EXPECT_EQ(files->folder, folder + "/.sprag-factors");
+      EXPECT_NEAR(files->memory, needed, 1e-9 * needed);
+      EXPECT_LT(files->memory_with_files, files->available.bytes);
+      EXPECT_LT(files->available.bytes, needed);
+      EXPECT_NO_THROW(require_memory(scene, 1, folder));
+      EXPECT_THROW(require_memory(scene), InputError); // nobody said where
+      const auto text = text_of(*files);
+      EXPECT_NE(text.find("are kept in files"), std::string::npos) << text;
+      EXPECT_NE(text.find(" GB in " + folder), std::string::npos) << text;
+      scene.analysis.type = AnalysisType::modal; // whose modes need factors in memory all the time
+      EXPECT_FALSE(factor_files(scene, 1, folder));
+      scene.analysis.type = AnalysisType::quasi_static;
+    }
+    const SpaceLeft too_little(0.3 * needed);
+    EXPECT_FALSE(factor_files(scene, 1, folder));
+    EXPECT_THROW(require_memory(scene, 1, folder), InputError);
   }
 
   TEST(Memory, MoreRowsThanCanBeUsedAreRefused)

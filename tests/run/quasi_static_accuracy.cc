@@ -57,12 +57,12 @@ namespace
     Told result;
     Mesh plane;
     make_mesh(scene, plane);
-    const SolidBody body(scene, plane, MPI_COMM_SELF);
+    SolidBody body(scene, plane, MPI_COMM_SELF);
     SolidLever lever(body, scene);
     result.penalty = lever.penalties().normal;
     const QuasiStaticSettings settings{ scene.analysis.step, scene.analysis.minimum_step, scene.contact };
     run_quasi_static(lever, scene.drive, settings, [&](const State &, const Row &row) { result.rows.push_back(row); });
-    const auto probes = [&] { return solid_probes(scene, lever, result.rows, settings); };
+    const auto probes = [&] { return solid_probes(scene, body, lever, result.rows, settings); };
     for (auto &estimate : quasi_static_accuracy(scene, result.rows, probes))
       result.errors.emplace(estimate.quantity, std::move(estimate));
     return result;

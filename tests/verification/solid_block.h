@@ -48,7 +48,7 @@ namespace sprag
         mirror(2);
       constraints.close();
       face = find_friction_face(mapping, dofs, dealii::AffineConstraints<double>(), properties, boundary_id::friction_face);
-      factors.factorise(assemble_stiffness({ mapping, dofs, constraints, properties }, {}).whole);
+      factors.factorise(assemble_stiffness({ mapping, dofs, constraints, properties }, {}));
     }
 
     const FrictionFace<3> &friction_face() const
@@ -145,7 +145,7 @@ namespace sprag
     dealii::AffineConstraints<double> constraints;
     BodyProperties properties;
     FrictionFace<3> face;
-    SharedFactors factors;
+    SharedFactors<double> factors;
   };
 
   /// The part of a block's face where it can be touched: its ports, three a node, and the compliance between them.

@@ -8,11 +8,13 @@ namespace sprag
   /// contact and writes files.
   enum class SharedTask
   {
-    end,         ///< the run is over
-    build,       ///< the body
-    release,     ///< it
-    solve_whole, ///< with the factors of the whole body
-    solve_near   ///< with those of its skin
+    end,                 ///< the run is over
+    build,               ///< the body
+    release,             ///< it
+    solve_whole,         ///< with the factors of the whole body
+    solve_near,          ///< with those of its skin
+    factorise_precisely, ///< again, in double precision
+    release_factors      ///< of a body that is still looked at
   };
 
   /// Calls the others to a task. To be called by the first rank.

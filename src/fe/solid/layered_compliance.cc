@@ -23,7 +23,7 @@ namespace sprag
     constexpr double negligible = 1e-9;
 
     /// Columns solved for together, which bounds the memory that they take.
-    constexpr int chunk = 128;
+    constexpr int chunk = 64;
 
     long rounded(const double place)
     {
@@ -96,7 +96,7 @@ namespace sprag
           some.add(loads.row[k - 1] - 1, loads.value[k - 1]);
         some.end_column();
       }
-      const auto responses = body.respond(std::move(some));
+      const auto responses = body.respond(some);
       for (int j = first; j < last; ++j)
       {
         const double *const response = &responses[static_cast<std::size_t>(j - first) * body.n_dofs()];
@@ -153,7 +153,7 @@ namespace sprag
       loads.end_column();
     }
     const int n          = loads.size();
-    const auto responses = body.respond_near(std::move(loads));
+    const auto responses = body.respond_near(loads);
     const auto of_tile   = [&](const Tile &other)
     {
       FullMatrix<double> result(other.end - other.begin, n);
@@ -218,7 +218,7 @@ namespace sprag
       SparseColumns load;
       load.add(static_cast<unsigned int>(own), 1.);
       load.end_column();
-      const auto response = body.respond_near(std::move(load));
+      const auto response = body.respond_near(load);
       for (unsigned int i = 0; i < dofs.size(); ++i)
         if (const int number = body.number_near(dofs[i]); number >= 0)
           found->second[i] = response[number];

@@ -17,7 +17,7 @@ namespace sprag
     if (n == 0)
       return;
     const auto &nodes    = body.friction_face().nodes;
-    const auto responses = body.respond(std::move(loads));
+    const auto responses = body.respond(loads);
     rows.reinit(n, 3 * nodes.size());
     for (unsigned int i = 0; i < n; ++i)
       for (unsigned int port = 0; port < rows.n(); ++port)

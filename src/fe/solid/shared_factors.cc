@@ -3,7 +3,7 @@
 #include "base/errors.h"
 
 #include <cstring>
-#include <string>
+#include <utility>
 
 namespace sprag
 {
@@ -14,9 +14,27 @@ namespace sprag
 
     constexpr int memory_relaxation = 30; ///< per cent
     constexpr int together          = 64; ///< right-hand sides: more gain little
-  }                                       // namespace
 
-  SharedFactors::SharedFactors(const MPI_Comm ranks)
+    void start(SMUMPS_STRUC_C &mumps)
+    {
+      smumps_c(&mumps);
+    }
+
+    void start(DMUMPS_STRUC_C &mumps)
+    {
+      dmumps_c(&mumps);
+    }
+
+    std::string reason_of(const int status)
+    {
+      if (status == -13 || status == -9)
+        return "): there is not enough memory";
+      return status == -90 ? "): the factors could not be written or read" : ")";
+    }
+  } // namespace
+
+  template <class Number>
+  SharedFactors<Number>::SharedFactors(const MPI_Comm ranks, const std::string &folder)
   {
     std::memset(&mumps, 0, sizeof mumps);
     mumps.comm_fortran = static_cast<MUMPS_INT>(MPI_Comm_c2f(ranks));
@@ -32,41 +50,56 @@ namespace sprag
     set(14, memory_relaxation);
     set(15, -3); // ordered by nodes
     set(18, 3);  // entries where they are
+    set(22, folder.empty() ? 0 : 1);
     set(27, together);
     set(28, 1);
+    std::strncpy(mumps.ooc_tmpdir, folder.c_str(), sizeof mumps.ooc_tmpdir - 1);
+    std::strncpy(mumps.ooc_prefix, "factors", sizeof mumps.ooc_prefix - 1);
   }
 
-  SharedFactors::~SharedFactors()
+  template <class Number>
+  SharedFactors<Number>::~SharedFactors()
   {
     mumps.job = terminate;
-    dmumps_c(&mumps);
+    start(mumps);
   }
 
-  void SharedFactors::call(const int job, const char *what) const
+  template <class Number>
+  void SharedFactors<Number>::call(const int job, const char *what) const
   {
     mumps.job = job;
-    dmumps_c(&mumps);
-    if (mumps.infog[0] < 0)
-      throw AnalysisError(std::string("the direct solver failed in ") + what + " (MUMPS INFOG(1) = " +
-                          std::to_string(mumps.infog[0]) + ", INFOG(2) = " + std::to_string(mumps.infog[1]) +
-                          (mumps.infog[0] == -13 || mumps.infog[0] == -9 ? "): there is not enough memory" : ")"));
+    start(mumps);
+    const int status = mumps.infog[0];
+    if (status < 0)
+      throw AnalysisError(std::string("the direct solver failed in ") + what + " (MUMPS INFOG(1) = " + std::to_string(status) +
+                          ", INFOG(2) = " + std::to_string(mumps.infog[1]) + reason_of(status));
   }
 
-  void SharedFactors::factorise(SymmetricEntries entries)
+  template <class Number>
+  void SharedFactors<Number>::factorise(SymmetricEntries entries)
   {
+    std::vector<Number> values;
+    if constexpr (std::is_same_v<Number, double>)
+      values = std::move(entries.value);
+    else
+    {
+      values.assign(entries.value.begin(), entries.value.end());
+      std::vector<double>().swap(entries.value);
+    }
     n             = entries.size;
     mumps.n       = static_cast<MUMPS_INT>(n);
     mumps.nnz_loc = static_cast<MUMPS_INT8>(entries.row.size());
     mumps.irn_loc = entries.row.data();
     mumps.jcn_loc = entries.column.data();
-    mumps.a_loc   = entries.value.data();
+    mumps.a_loc   = values.data();
     call(analyse, "analysis");
     call(decompose, "factorisation");
     mumps.irn_loc = mumps.jcn_loc = nullptr;
     mumps.a_loc                   = nullptr;
   }
 
-  void SharedFactors::solve(std::vector<double> &columns) const
+  template <class Number>
+  void SharedFactors<Number>::solve(std::vector<Number> &columns) const
   {
     mumps.icntl[20 - 1] = 0;
     mumps.rhs           = columns.data();
@@ -75,14 +108,17 @@ namespace sprag
     call(back_substitute, "back-substitution");
   }
 
-  std::vector<double> SharedFactors::solve(SparseColumns columns) const
+  template <class Number>
+  std::vector<Number> SharedFactors<Number>::solve(const SparseColumns &columns) const
   {
-    std::vector<double> result(static_cast<std::size_t>(n) * columns.size());
+    auto begin = columns.begin, row = columns.row;
+    std::vector<Number> values(columns.value.begin(), columns.value.end());
+    std::vector<Number> result(static_cast<std::size_t>(n) * columns.size());
     mumps.icntl[20 - 1] = 1;
-    mumps.nz_rhs        = static_cast<MUMPS_INT>(columns.row.size());
-    mumps.irhs_ptr      = columns.begin.data();
-    mumps.irhs_sparse   = columns.row.data();
-    mumps.rhs_sparse    = columns.value.data();
+    mumps.nz_rhs        = static_cast<MUMPS_INT>(row.size());
+    mumps.irhs_ptr      = begin.data();
+    mumps.irhs_sparse   = row.data();
+    mumps.rhs_sparse    = values.data();
     mumps.rhs           = result.data();
     mumps.lrhs          = static_cast<MUMPS_INT>(n);
     mumps.nrhs          = columns.size();
@@ -90,8 +126,12 @@ namespace sprag
     return result;
   }
 
-  void SharedFactors::take_part() const
+  template <class Number>
+  void SharedFactors<Number>::take_part() const
   {
     call(back_substitute, "back-substitution");
   }
+
+  template class SharedFactors<float>;
+  template class SharedFactors<double>;
 } // namespace sprag

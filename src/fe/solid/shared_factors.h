@@ -1,9 +1,12 @@
 #pragma once
 
 #include <dmumps_c.h>
+#include <smumps_c.h>
 
 #include <deal.II/base/mpi.h>
 
+#include <string>
+#include <type_traits>
 #include <vector>
 
 namespace sprag
@@ -42,13 +45,16 @@ namespace sprag
     }
   };
 
-  /// Cholesky factors of a symmetric positive definite matrix that all ranks hold together. MUMPS is called directly: PETSc's
-  /// interface to it has no ordering for long bodies and no sparse right-hand sides, which are most of the work here.
+  /// Cholesky factors, of single or double precision, of a symmetric positive definite matrix that all ranks hold together. MUMPS
+  /// is called directly: PETSc's interface to it has no ordering for long bodies and no sparse right-hand sides, which are most
+  /// of the work here.
   /// All functions throw AnalysisError, naming the status, when a factorisation or solve fails.
+  template <class Number>
   class SharedFactors
   {
   public:
-    explicit SharedFactors(MPI_Comm ranks);
+    /// With a folder the factors are kept in files there, which the destructor removes, else in memory.
+    explicit SharedFactors(MPI_Comm ranks, const std::string &folder = "");
     SharedFactors(const SharedFactors &)            = delete;
     SharedFactors &operator=(const SharedFactors &) = delete;
     ~SharedFactors();
@@ -57,10 +63,10 @@ namespace sprag
     void factorise(SymmetricEntries entries);
 
     /// Solves with some columns, one after another, in place. To be called by the first rank while the others take_part().
-    void solve(std::vector<double> &columns) const;
+    void solve(std::vector<Number> &columns) const;
 
     /// Returns the solutions for sparse columns, one after another, likewise.
-    std::vector<double> solve(SparseColumns columns) const;
+    std::vector<Number> solve(const SparseColumns &columns) const;
 
     /// Takes part in a solve of the first rank.
     void take_part() const;
@@ -73,7 +79,7 @@ namespace sprag
   private:
     void call(int job, const char *what) const;
 
-    mutable DMUMPS_STRUC_C mumps;
+    mutable std::conditional_t<std::is_same_v<Number, float>, SMUMPS_STRUC_C, DMUMPS_STRUC_C> mumps;
     unsigned int n = 0;
   };
 } // namespace sprag

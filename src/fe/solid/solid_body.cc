@@ -5,6 +5,7 @@
 #include "fe/solid/solid_stiffness.h"
 #include "fe/statics/lever_properties.h"
 #include "scene/across.h"
+#include "scene/analysis_use.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_q.h>
@@ -65,7 +66,7 @@ namespace sprag
     }
   } // namespace
 
-  SolidBody::SolidBody(const Scene &scene, const Mesh &plane, const MPI_Comm ranks_)
+  SolidBody::SolidBody(const Scene &scene, const Mesh &plane, const MPI_Comm ranks_, const FactorSettings &settings)
       : ranks(called_to_build(ranks_))
       , interface_offset(scene.geometry.interface_offset)
       , depth_of_skin(skin_depth(scene))
@@ -73,8 +74,8 @@ namespace sprag
       , mesh(ranks, SolidMesh::none, false, Sharing::partition_zorder)
       , fe(FE_Q<3>(properties.degree), 3)
       , dof_handler(mesh)
-      , factors(ranks)
-      , factors_of_skin(ranks)
+      , factors({ mapping, dof_handler, constraints, properties }, all, SharedTask::solve_whole, ranks)
+      , factors_of_skin({ mapping, dof_handler, constraints, properties }, number_in_skin, SharedTask::solve_near, ranks)
   {
     if (make_solid_mesh(scene, plane, mesh))
       properties.width = 2.; // stiffness and areas of a half stand for the whole
@@ -83,14 +84,60 @@ namespace sprag
     face = find_friction_face(mapping, dof_handler, constraints, properties, boundary_id::friction_face);
     order_face_nodes();
     find_skin(scene.layer.thickness);
-    springs        = find_connectors({ mapping, dof_handler, constraints, is_half() }, scene);
-    auto stiffness = assemble_stiffness({ mapping, dof_handler, constraints, properties }, number_in_skin);
+    springs = find_connectors({ mapping, dof_handler, constraints, is_half() }, scene);
+    folder  = Utilities::MPI::broadcast(ranks, settings.folder);
+    factorise(Utilities::MPI::broadcast(ranks, settings.single.value_or(scene.analysis.type == AnalysisType::quasi_static &&
+                                                                        n_dofs() >= least_in_single_precision)));
     if (Utilities::MPI::this_mpi_process(ranks) == 0)
-      for (const auto &connector : springs)
-        add(connector, stiffness.whole);
-    factors.factorise(std::move(stiffness.whole));
+      prepare_solves();
+  }
+
+  /// The others have made theirs by now and await calls.
+  void SolidBody::prepare_solves()
+  {
+    try
+    {
+      if (!factors.prepare(loads_on_face(false)) || (has_skin() && !factors_of_skin.prepare(loads_on_face(true))))
+        make_precise();
+    }
+    catch (...)
+    {
+      call_others(SharedTask::release, ranks);
+      throw;
+    }
+  }
+
+  /// Factors of the whole come first: nothing else takes memory then.
+  void SolidBody::factorise(const bool single)
+  {
+    factors.factorise(springs, { single, folder });
     if (has_skin())
-      factors_of_skin.factorise(std::move(stiffness.part));
+      factors_of_skin.factorise({}, { single, {} });
+  }
+
+  void SolidBody::make_precise()
+  {
+    call_others(SharedTask::factorise_precisely, ranks);
+    factorise(false);
+  }
+
+  /// Uniform ones and such as grow across, in three directions: they bend and twist a lever.
+  SparseColumns SolidBody::loads_on_face(const bool near) const
+  {
+    const auto growth = { +[](const Point<3> &) { return 1.; }, +[](const Point<3> &place) { return place[2]; } };
+    SparseColumns result;
+    for (const auto &load : growth)
+      for (unsigned int direction = 0; direction < 3; ++direction)
+      {
+        for (const auto &node : face.nodes)
+        {
+          const unsigned int dof = node.dofs[direction];
+          if (const int number = near ? number_near(dof) : static_cast<int>(dof); number >= 0 && !is_held(dof))
+            result.add(static_cast<unsigned int>(number), load(node.position));
+        }
+        result.end_column();
+      }
+    return result;
   }
 
   /// Mesh and factors are given back by all ranks together.
@@ -227,27 +274,44 @@ namespace sprag
 
   void SolidBody::respond(std::vector<double> &loads) const
   {
-    call_others(SharedTask::solve_whole, ranks);
     factors.solve(loads);
   }
 
-  std::vector<double> SolidBody::respond(SparseColumns loads) const
+  std::vector<double> SolidBody::respond(const SparseColumns &loads) const
   {
-    call_others(SharedTask::solve_whole, ranks);
-    return factors.solve(std::move(loads));
+    return factors.solve(loads);
   }
 
-  std::vector<double> SolidBody::respond_near(SparseColumns loads) const
+  std::vector<double> SolidBody::respond_near(const SparseColumns &loads) const
   {
-    if (!has_skin())
-      return respond(std::move(loads));
-    call_others(SharedTask::solve_near, ranks);
-    return factors_of_skin.solve(std::move(loads));
+    return has_skin() ? factors_of_skin.solve(loads) : respond(loads);
   }
 
-  void SolidBody::take_part(const SharedTask task) const
+  void SolidBody::release_factors()
   {
-    (task == SharedTask::solve_whole ? factors : factors_of_skin).take_part();
+    call_others(SharedTask::release_factors, ranks);
+    release();
+  }
+
+  void SolidBody::release()
+  {
+    factors.release();
+    factors_of_skin.release();
+  }
+
+  void SolidBody::take_part(const SharedTask task)
+  {
+    switch (task)
+    {
+    case SharedTask::solve_whole:
+      return factors.take_part();
+    case SharedTask::solve_near:
+      return factors_of_skin.take_part();
+    case SharedTask::factorise_precisely:
+      return factorise(false);
+    default:
+      return release();
+    }
   }
 
   void help_first_rank(const Scene &scene, const MPI_Comm ranks)

@@ -1,16 +1,22 @@
 #pragma once
 
-#include "fe/body/connectors.h"
 #include "fe/body/friction_face.h"
-#include "fe/solid/first_rank.h"
-#include "fe/solid/shared_factors.h"
+#include "fe/solid/body_factors.h"
 #include "fe/solid/solid_mesh.h"
 
 #include <deal.II/fe/fe_system.h>
 #include <deal.II/fe/mapping_q1.h>
 
+#include <optional>
+
 namespace sprag
 {
+  struct FactorSettings
+  {
+    std::optional<bool> single = {}; ///< whether in single precision; without it those of large bodies without inertia are
+    std::string folder         = {}; ///< for files with the factors of the whole body; empty: they stay in memory
+  };
+
   /// The linear elastic lever in three dimensions, in axes in which its hub does not move. All ranks hold the mesh and the
   /// numbers of its displacements; stiffness and factors are shared. Everything but construction is for the first rank.
   class SolidBody
@@ -18,7 +24,7 @@ namespace sprag
   public:
     /// To be called by all ranks with the plane mesh of the first, see make_solid_mesh(); the first calls the others to it.
     /// Throws AnalysisError where the factorisation fails, InputError for a Mesh/File that cannot serve.
-    SolidBody(const Scene &scene, const Mesh &plane, MPI_Comm ranks);
+    SolidBody(const Scene &scene, const Mesh &plane, MPI_Comm ranks, const FactorSettings &settings = {});
     SolidBody &operator=(SolidBody &&) = delete;
     ~SolidBody();
 
@@ -91,18 +97,26 @@ namespace sprag
     void respond(std::vector<double> &loads) const;
 
     /// Returns the displacements under sparse loads, one column after another.
-    std::vector<double> respond(SparseColumns loads) const;
+    std::vector<double> respond(const SparseColumns &loads) const;
 
     /// Returns those of the skin on a rigid bond alone, by number_near(); without a skin those of the body.
-    std::vector<double> respond_near(SparseColumns loads) const;
+    std::vector<double> respond_near(const SparseColumns &loads) const;
 
     /// Number of displacements in a column of respond_near().
     unsigned int n_near() const;
 
-    /// Takes part in a solve of the first rank.
-    void take_part(SharedTask task) const;
+    /// Gives the factors back, after which nothing responds.
+    void release_factors();
+
+    /// Takes part in what the first rank does with the factors.
+    void take_part(SharedTask task);
 
   private:
+    void factorise(bool single);
+    void release();
+    void prepare_solves();
+    void make_precise();
+    SparseColumns loads_on_face(bool near) const;
     void hold_hub();
     void find_skin(double layer);
     bool number_skin();
@@ -122,8 +136,10 @@ namespace sprag
     double face_end   = 0.;
     std::vector<Connector> springs;
     std::vector<int> number_in_skin;
-    SharedFactors factors;
-    SharedFactors factors_of_skin;
+    const std::vector<int> all; ///< no numbers
+    std::string folder;         ///< for files with factors of the whole
+    BodyFactors factors;
+    BodyFactors factors_of_skin;
   };
 
   /// Builds the scene's body with the first rank and takes part in its solves until it ends. To be called by the others.

@@ -339,7 +339,7 @@ namespace sprag
         if (const unsigned int dof = nodes[port / 3].dofs[port % 3]; !body.is_held(dof))
           loads.add(dof, state.forces.values[i]);
     loads.end_column();
-    const auto result = body.respond(std::move(loads));
+    const auto result = body.respond(loads);
     return { result.begin(), result.end() };
   }
 
@@ -365,7 +365,7 @@ namespace sprag
           loads.add(dof, acting.values[i]);
       loads.end_column();
     }
-    const auto of_whole = body.respond(std::move(loads));
+    const auto of_whole = body.respond(loads);
 
     Exactness result{};
     for (std::size_t k = 0; k < samples.size(); ++k)

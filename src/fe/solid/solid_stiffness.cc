@@ -18,6 +18,14 @@ namespace sprag
 
   namespace
   {
+    /// Growing vectors would take twice the memory, which is what limits a run.
+    void reserve(const std::size_t n, SymmetricEntries &entries)
+    {
+      entries.row.reserve(n);
+      entries.column.reserve(n);
+      entries.value.reserve(n);
+    }
+
     void add(const int row, const int column, const double value, SymmetricEntries &entries)
     {
       entries.row.push_back(row + 1);
@@ -54,41 +62,46 @@ namespace sprag
     return found->second;
   }
 
-  SolidStiffness assemble_stiffness(const StiffnessSource &source, const std::vector<int> &number_in_part)
+  unsigned int size_of_part(const StiffnessSource &source, const std::vector<int> &number_in_part)
   {
-    const auto &fe       = source.dof_handler.get_fe();
-    const unsigned int n = fe.n_dofs_per_cell();
-    CellStiffness stiffness(source.mapping, fe, source.properties);
-    std::vector<types::global_dof_index> indices(n);
-    std::vector<int> in_whole(n), in_part(n, -1);
+    return number_in_part.empty() ? source.dof_handler.n_dofs()
+                                  : 1 + *std::max_element(number_in_part.begin(), number_in_part.end());
+  }
 
-    SolidStiffness result;
-    result.whole.size = source.dof_handler.n_dofs();
-    result.part.size  = number_in_part.empty() ? 0 : 1 + *std::max_element(number_in_part.begin(), number_in_part.end());
+  std::vector<int> numbers_of(const DoFHandler<3>::active_cell_iterator &cell, const StiffnessSource &source,
+                              const std::vector<int> &number_in_part)
+  {
+    std::vector<types::global_dof_index> indices(cell->get_fe().n_dofs_per_cell());
+    cell->get_dof_indices(indices);
+    std::vector<int> result(indices.size(), -1);
+    for (unsigned int i = 0; i < indices.size(); ++i)
+      if (!source.constraints.is_constrained(indices[i]))
+        result[i] = number_in_part.empty() ? static_cast<int>(indices[i]) : number_in_part[indices[i]];
+    return result;
+  }
+
+  SymmetricEntries assemble_stiffness(const StiffnessSource &source, const std::vector<int> &number_in_part)
+  {
+    std::vector<std::pair<DoFHandler<3>::active_cell_iterator, std::vector<int>>> cells;
     for (const auto &cell : source.dof_handler.active_cell_iterators())
-    {
-      if (!cell->is_locally_owned() || cell->material_id() == material_id::hub)
-        continue;
-      const auto &of_cell = stiffness(cell);
-      cell->get_dof_indices(indices);
-      for (unsigned int i = 0; i < n; ++i)
+      if (cell->is_locally_owned() && cell->material_id() != material_id::hub)
       {
-        const bool is_free = !source.constraints.is_constrained(indices[i]);
-        in_whole[i]        = is_free ? static_cast<int>(indices[i]) : -1;
-        if (result.part.size > 0)
-          in_part[i] = is_free ? number_in_part[indices[i]] : -1;
+        auto numbers = numbers_of(cell, source, number_in_part);
+        if (std::any_of(numbers.begin(), numbers.end(), [](const int number) { return number >= 0; }))
+          cells.emplace_back(cell, std::move(numbers));
       }
-      add(of_cell, in_whole, result.whole);
-      if (result.part.size > 0)
-        add(of_cell, in_part, result.part);
-    }
+
+    SymmetricEntries result;
+    result.size         = size_of_part(source, number_in_part);
+    const std::size_t n = source.dof_handler.get_fe().n_dofs_per_cell();
+    reserve(cells.size() * n * (n + 1) / 2 + source.constraints.n_constraints(), result);
+    CellStiffness stiffness(source.mapping, source.dof_handler.get_fe(), source.properties);
+    for (const auto &[cell, numbers] : cells)
+      add(stiffness(cell), numbers, result);
     for (const auto index : source.dof_handler.locally_owned_dofs())
-      if (source.constraints.is_constrained(index))
-      {
-        add(static_cast<int>(index), static_cast<int>(index), 1., result.whole);
-        if (result.part.size > 0 && number_in_part[index] >= 0)
-          add(number_in_part[index], number_in_part[index], 1., result.part);
-      }
+      if (const int number = number_in_part.empty() ? static_cast<int>(index) : number_in_part[index];
+          number >= 0 && source.constraints.is_constrained(index))
+        add(number, number, 1., result);
     return result;
   }
 } // namespace sprag

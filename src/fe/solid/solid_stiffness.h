@@ -39,13 +39,17 @@ namespace sprag
     const BodyProperties &properties;
   };
 
-  struct SolidStiffness
-  {
-    SymmetricEntries whole; ///< unit entries for held degrees of freedom
-    SymmetricEntries part;  ///< likewise
-  };
+  // Parts of a body are given by a number for each degree of freedom, from 0, -1 where it is not of the part; no numbers stand
+  // for the whole body.
 
-  /// Returns this rank's entries of the stiffness of a body without load, and of the part of it between those degrees of freedom
-  /// that `number_in_part` numbers from 0, -1 elsewhere; without numbers there is no part. To be called by all ranks.
-  SolidStiffness assemble_stiffness(const StiffnessSource &source, const std::vector<int> &number_in_part);
+  /// Returns the number of displacements of a part.
+  unsigned int size_of_part(const StiffnessSource &source, const std::vector<int> &number_in_part);
+
+  /// Returns the numbers of a cell's displacements, -1 also where they are held.
+  std::vector<int> numbers_of(const dealii::DoFHandler<3>::active_cell_iterator &cell, const StiffnessSource &source,
+                              const std::vector<int> &number_in_part);
+
+  /// Returns this rank's entries of the stiffness of a part of a body without load, with unit entries for held degrees of
+  /// freedom. To be called by all ranks.
+  SymmetricEntries assemble_stiffness(const StiffnessSource &source, const std::vector<int> &number_in_part);
 } // namespace sprag

@@ -1,0 +1,54 @@
+#include "fe/solid/stiffness_product.h"
+
+#include <algorithm>
+
+namespace sprag
+{
+  using namespace dealii;
+
+  StiffnessProduct::StiffnessProduct(const StiffnessSource &source, const std::vector<int> &number_in_part,
+                                     std::vector<Connector> connectors)
+      : size(size_of_part(source, number_in_part))
+      , of_cells(source.mapping, source.dof_handler.get_fe(), source.properties)
+      , springs(std::move(connectors))
+  {
+    for (const auto &cell : source.dof_handler.active_cell_iterators())
+      if (cell->material_id() != material_id::hub)
+      {
+        auto numbers = numbers_of(cell, source, number_in_part);
+        if (std::any_of(numbers.begin(), numbers.end(), [](const int number) { return number >= 0; }))
+          cells.push_back({ &of_cells(cell), std::move(numbers) });
+      }
+  }
+
+  template <class Number>
+  void StiffnessProduct::subtract(const std::vector<Number> &displacements, std::vector<double> &forces) const
+  {
+    if (cells.empty())
+      return;
+    const auto n       = static_cast<unsigned int>(cells.front().numbers.size());
+    const auto columns = static_cast<unsigned int>(displacements.size() / size);
+    FullMatrix<double> moved(columns, n), answer(columns, n); // a row a column, which lies in one piece
+    for (const auto &[stiffness, numbers] : cells)
+    {
+      for (unsigned int j = 0; j < columns; ++j)
+        for (unsigned int i = 0; i < n; ++i)
+          moved(j, i) = numbers[i] < 0 ? 0. : displacements[j * static_cast<std::size_t>(size) + numbers[i]];
+      moved.mmult(answer, *stiffness); // which is symmetric
+      for (unsigned int j = 0; j < columns; ++j)
+        for (unsigned int i = 0; i < n; ++i)
+          if (numbers[i] >= 0)
+            forces[j * static_cast<std::size_t>(size) + numbers[i]] -= answer(j, i);
+    }
+    for (const auto &spring : springs)
+      for (std::size_t begin = 0; begin < displacements.size(); begin += size)
+      {
+        const double force = spring.stiffness * spring.compression(&displacements[begin]);
+        for (const auto &[dof, weight] : spring.row)
+          forces[begin + dof] -= force * weight;
+      }
+  }
+
+  template void StiffnessProduct::subtract(const std::vector<float> &, std::vector<double> &) const;
+  template void StiffnessProduct::subtract(const std::vector<double> &, std::vector<double> &) const;
+} // namespace sprag

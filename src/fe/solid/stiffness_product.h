@@ -1,0 +1,32 @@
+#pragma once
+
+#include "fe/body/connectors.h"
+#include "fe/solid/solid_stiffness.h"
+
+namespace sprag
+{
+  /// The stiffness of a body or of a part of it times displacements, cell by cell: as cells that are alike share theirs, it takes
+  /// hardly any memory.
+  class StiffnessProduct
+  {
+  public:
+    /// `number_in_part` as of assemble_stiffness(). What the source refers to must outlive this.
+    StiffnessProduct(const StiffnessSource &source, const std::vector<int> &number_in_part, std::vector<Connector> connectors);
+
+    /// Subtracts the product with some columns, one after another, from others. Held displacements must be 0.
+    template <class Number>
+    void subtract(const std::vector<Number> &displacements, std::vector<double> &forces) const;
+
+  private:
+    struct Cell
+    {
+      const dealii::FullMatrix<double> *stiffness;
+      std::vector<int> numbers; ///< of its displacements, -1 for none
+    };
+
+    unsigned int size;
+    CellStiffness of_cells;
+    std::vector<Connector> springs;
+    std::vector<Cell> cells;
+  };
+} // namespace sprag
