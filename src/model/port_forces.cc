@@ -44,6 +44,21 @@ namespace sprag
       }
       return left.l2_norm() <= refined * b.l2_norm();
     }
+
+    /// Ranges of numbers in a row among some increasing ones, the first and beyond the last, less an offset.
+    std::vector<std::pair<unsigned int, unsigned int>> ranges_of(const PortSelection &selected, const unsigned int begin,
+                                                                 const unsigned int end, const unsigned int offset)
+    {
+      std::vector<std::pair<unsigned int, unsigned int>> result;
+      for (unsigned int k = begin; k < end; ++k)
+      {
+        const unsigned int i = selected[k] - offset;
+        if (result.empty() || result.back().second != i)
+          result.push_back({ i, i });
+        ++result.back().second;
+      }
+      return result;
+    }
   } // namespace
 
   void sum_forces(const std::vector<PortForces> &loaded, std::vector<unsigned int> &place_of_port, PortForces &sum)
@@ -128,16 +143,15 @@ namespace sprag
     {
       const auto [first, last] = block.places_among(ports);
       const auto [begin, end]  = block.places_among(selected);
+      const auto ranges        = ranges_of(selected, begin, end, block.begin);
       double *const of_block   = displacements.begin() + block.begin;
       for (unsigned int a = first; a < last; ++a)
       {
         const double force      = forces[a];
         const double *const row = &(*block.matrix)(ports[a] - block.begin, 0);
-        for (unsigned int k = begin; k < end; ++k)
-        {
-          const unsigned int i = selected[k] - block.begin;
-          of_block[i] += row[i] * force;
-        }
+        for (const auto &range : ranges)
+          for (unsigned int i = range.first; i < range.second; ++i)
+            of_block[i] += row[i] * force;
       }
     }
   }

@@ -26,23 +26,6 @@ namespace sprag
 
     constexpr double same_place = 1e-7; ///< of the cylinder for a lever that touches nothing [mm]
 
-    /// What two forces in a row lead to at a `ratio` of their distance beyond the last. Ports that the last does not have are
-    /// left out.
-    PortLoads extrapolated(const PortLoads &before, const PortLoads &last, const double ratio)
-    {
-      PortLoads result = last;
-      unsigned int j   = 0;
-      for (unsigned int i = 0; i < last.ports.size(); ++i)
-      {
-        while (j < before.ports.size() && before.ports[j] < last.ports[i])
-          ++j;
-        const bool is_known = j < before.ports.size() && before.ports[j] == last.ports[i];
-        if (is_known)
-          result.values[i] += ratio * (last.values[i] - before.values[j]);
-      }
-      return result;
-    }
-
     double shortest_period_of(const double m, const double K, const BaseMotion &base)
     {
       return std::min(2. * M_PI * std::sqrt(m / K), base.shortest_period);
@@ -63,9 +46,9 @@ namespace sprag
   void visit(Archive &archive, LeverTable &table)
   {
     archive(table.now, table.peak_acceleration, table.peak_displacement, table.peak_base, table.energy_at_start, table.course);
-    for (auto &[model, sign, motion, forces, forces_before, stored] : table.sides)
+    for (auto &[model, sign, motion, forces, stored] : table.sides)
     {
-      archive(motion, forces, forces_before, stored);
+      archive(motion, forces, stored);
       model.visit_history(archive);
     }
   }
@@ -82,7 +65,7 @@ namespace sprag
             adapts() ? std::min(most_of_first * settings.time.step, shortest_period_of(m, K, motion_of_base) / steps_of_a_period)
                      : settings.time.step)
       , way_tolerance(share_of_way * settings.force_scale / settings.contact_stiffness * local_tolerance())
-      , sides{ { { outward, 1, {}, {}, {}, {} }, { inward, -1, {}, {}, {}, {} } } }
+      , sides{ { { outward, 1, {}, {}, {} }, { inward, -1, {}, {}, {} } } }
   {
     if (scene.analysis.model == ModelType::finite_element)
       course.grid.use_halves_alone();
@@ -97,7 +80,7 @@ namespace sprag
       side.stored   = side.model.stored_energy(side.motion);
       course.force += force_of(side, side.motion);
       side.motion.drive = at;
-      side.forces = side.forces_before = side.motion.forces;
+      side.forces.begin(side.motion.forces);
     }
     course.force_of_step = course.force_of_step_before = course.force;
     begin();
@@ -159,8 +142,10 @@ namespace sprag
         outcome.motion->drive = to;
         continue;
       }
-      side.motion.forces =
-          before ? before->levers[i].motion->forces : extrapolated(side.forces_before, side.forces, extrapolation(h));
+      if (before)
+        side.motion.forces = before->levers[i].motion->forces;
+      else
+        side.forces.guess(h, side.motion.forces);
       outcome          = side.model.step(side.motion, to, weights);
       const double way = to.x - side.motion.drive.x;
       if (!outcome.motion)
@@ -296,7 +281,7 @@ namespace sprag
   {
     const auto base_before = base();
     const double a_before = acceleration(), t = now.time;
-    accept_levers(trial);
+    accept_levers(trial, h);
     // The way was met to within a tolerance: the rate follows from the forces, and what the way lacks the next step adds.
     const double mean_force     = 0.5 * K * (trial.z + now.z) + trial.force;
     const double rate           = now.rate - (base_at(t + h).v - base_before.v) - mean_force * h / m;
@@ -317,7 +302,7 @@ namespace sprag
       throw AnalysisError(beyond_the_way());
   }
 
-  void LeverTable::accept_levers(Trial &trial)
+  void LeverTable::accept_levers(Trial &trial, const double h)
   {
     course.force = 0.;
     for (unsigned int i = 0; i < sides.size(); ++i)
@@ -325,10 +310,9 @@ namespace sprag
       auto &side       = sides[i];
       const auto &work = trial.levers[i].work;
       now.dissipated += levers * (work.friction + work.damping + work.algorithmic);
-      side.motion        = std::move(*trial.levers[i].motion);
-      side.forces_before = std::move(side.forces);
-      side.forces        = side.motion.forces;
-      side.stored        = side.model.stored_energy(side.motion);
+      side.motion = std::move(*trial.levers[i].motion);
+      side.forces.accept(side.motion.forces, h);
+      side.stored = side.model.stored_energy(side.motion);
       course.force += force_of(side, side.motion);
     }
   }

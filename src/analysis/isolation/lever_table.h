@@ -4,6 +4,7 @@
 #include "analysis/isolation/step_grid.h"
 #include "analysis/transient/transient.h"
 #include "base/archive.h"
+#include "model/force_history.h"
 #include "scene/scene.h"
 
 #include <array>
@@ -78,7 +79,7 @@ namespace sprag
       DynamicModel &model;
       int sign; ///< of z on which it works
       Motion motion;
-      PortLoads forces, forces_before; ///< of the last two steps
+      ForceHistory forces;
       StoredEnergy stored;
     };
 
@@ -151,7 +152,7 @@ namespace sprag
     void shorten();
     void adapt(double h, double error);
     void accept(double h, Trial &trial);
-    void accept_levers(Trial &trial);
+    void accept_levers(Trial &trial, double h);
     void add_integrals(double h, const Accelerations &before, const Accelerations &behind);
     std::string beyond_the_way() const;
     TableEvent event_of(const TableState &before) const;

@@ -59,6 +59,7 @@ namespace sprag
     if (account)
       state.motion.drive.time = now.motion.drive.time;
     now = std::move(state);
+    forces.begin(now.motion.forces);
     account.emplace(now.energy);
   }
 
@@ -86,10 +87,12 @@ namespace sprag
     const double time   = now.motion.drive.time;
     auto weights        = generalised_alpha(spectral_radius, duration);
     weights.wants_error = false;
-    auto outcome        = model.step(now.motion, path(time + duration), weights);
+    forces.guess(duration, now.motion.forces);
+    auto outcome = model.step(now.motion, path(time + duration), weights);
     if (outcome.motion)
     {
       now.motion = std::move(*outcome.motion);
+      forces.accept(now.motion.forces, duration);
       now.energy = model.stored_energy(now.motion);
       account->add(time + duration, now.energy, outcome.work);
       return outcome.iterations;

@@ -2,6 +2,7 @@
 
 #include "analysis/transient/energy_ledger.h"
 #include "model/dynamic_model.h"
+#include "model/force_history.h"
 
 #include <functional>
 #include <optional>
@@ -87,6 +88,7 @@ namespace sprag
     const double dt;
     double spectral_radius = 1.;
     RunState now;
+    ForceHistory forces;
     Row row;
     std::optional<EnergyLedger> account;
     LedgerReport worst;

@@ -3,6 +3,7 @@
 #include "analysis/transient/step_clock.h"
 #include "base/errors.h"
 #include "base/text.h"
+#include "model/force_history.h"
 #include "model/state_archive.h"
 
 #include <algorithm>
@@ -150,9 +151,10 @@ namespace sprag
       double dt               = 0.;
     };
 
-    /// An accepted step; on the way the clock's step is halved as often as needed.
-    Attempt advance(DynamicModel &model, const Drive &drive, const Motion &accepted, const TransientSettings &settings,
-                    StepControl &control, StepClock &clock)
+    /// An accepted step; on the way the clock's step is halved as often as needed. Sets the forces in the accepted motion from
+    /// which the step is sought.
+    Attempt advance(DynamicModel &model, const Drive &drive, Motion &accepted, const ForceHistory &forces,
+                    const TransientSettings &settings, StepControl &control, StepClock &clock)
     {
       const double least  = std::ldexp(settings.time.step, -static_cast<int>(largest_halvings));
       std::string failure = "Newton's method does not converge";
@@ -165,7 +167,8 @@ namespace sprag
           const auto to       = drive.at(clock.end_of_step());
           auto weights        = generalised_alpha(settings.time.spectral_radius, attempt.dt);
           weights.wants_error = settings.time.tolerance > 0.;
-          attempt.outcome     = model.step(accepted, to, weights);
+          forces.guess(attempt.dt, accepted.forces);
+          attempt.outcome = model.step(accepted, to, weights);
         }
         catch (const AnalysisError &error)
         {
@@ -185,6 +188,7 @@ namespace sprag
     struct Course
     {
       Motion motion;
+      ForceHistory forces;
       EnergyLedger ledger;
       StepControl control;
       StepClock clock;
@@ -194,15 +198,16 @@ namespace sprag
 
     void visit(Archive &archive, Course &course)
     {
-      auto &[motion, ledger, control, clock, quasi_static, report] = course;
-      auto &[steps, rejected, largest_gap]                         = report;
-      archive(motion, ledger, control.error, control.small, clock, quasi_static.samples, steps, rejected, largest_gap);
+      auto &[motion, forces, ledger, control, clock, quasi_static, report] = course;
+      auto &[steps, rejected, largest_gap]                                 = report;
+      archive(motion, forces, ledger, control.error, control.small, clock, quasi_static.samples, steps, rejected, largest_gap);
     }
 
     Row begin(DynamicModel &model, const Drive &drive, Course &course)
     {
       course.quasi_static.begin();
       course.motion = model.initial_motion(drive.at(0., Drive::Side::after));
+      course.forces.begin(course.motion.forces);
       course.ledger = EnergyLedger(model.stored_energy(course.motion));
       Row row       = observe(model, course.motion, course.ledger);
       course.quasi_static.fill(row);
@@ -212,11 +217,12 @@ namespace sprag
     /// Takes a step and returns its row.
     Row take_step(DynamicModel &model, const Drive &drive, const TransientSettings &settings, Course &course)
     {
-      auto &[motion, ledger, control, clock, quasi_static, report] = course;
+      auto &[motion, forces, ledger, control, clock, quasi_static, report] = course;
       quasi_static.extend(clock.end_of_step());
-      auto attempt    = advance(model, drive, motion, settings, control, clock);
+      auto attempt    = advance(model, drive, motion, forces, settings, control, clock);
       const double dx = attempt.outcome.motion->drive.x - motion.drive.x;
       motion          = std::move(*attempt.outcome.motion);
+      forces.accept(motion.forces, attempt.dt);
       ledger.add(motion.drive.time, model.stored_energy(motion), attempt.outcome.work);
       Row row                     = observe(model, motion, ledger);
       row[Column::step]           = dx;
@@ -239,8 +245,9 @@ namespace sprag
   TransientReport run_transient(DynamicModel &model, const Drive &drive, const TransientSettings &settings,
                                 const MotionSink &sink, ProgressKeeper *const keeper)
   {
-    Course course{ {}, EnergyLedger(), { settings }, make_clock(drive, settings), { model, drive, settings.quasi_static_spacing },
-                   {} };
+    Course course{
+      {}, {}, EnergyLedger(), { settings }, make_clock(drive, settings), { model, drive, settings.quasi_static_spacing }, {}
+    };
     const auto progress = [&](Archive &archive)
     {
       visit(archive, course);
