@@ -65,7 +65,8 @@ TEST(RigidCylinder, RowsAndCurvaturesAreDerivatives)
             (differences(cylinder, q, [i, s](const auto &k) { return k.slip_row[s][i]; }) - found.slip_curvature[s][i]).norm(),
             1e-5);
     }
-    const auto [gap, gradient] = cylinder.gap(cylinder.pose(q[4], q[3], { { q[5], q[6] } }), dealii::Point<3>(q[0], q[1], q[2]));
+    const auto [gap, gradient] =
+        cylinder.gap_and_gradient(cylinder.pose(q[4], q[3], { { q[5], q[6] } }), dealii::Point<3>(q[0], q[1], q[2]));
     EXPECT_NEAR(gap, found.gap, 1e-12);
     for (unsigned int d = 0; d < 3; ++d)
       EXPECT_NEAR(gradient[d], found.gap_row[d], 1e-12);
@@ -100,8 +101,8 @@ TEST(RigidCylinder, BeyondItsEndsNothingTouches)
   cylinder.length = 30.;
   const RigidCylinder of(model_a().geometry, cylinder);
   const auto pose = of.pose(64., 0.086);
-  EXPECT_LT(of.gap(pose, { 121., 45., 14.9 }).first, 0.);
-  EXPECT_NEAR(of.gap(pose, { 121., 45., 17. }).first, 2., 1e-12);
+  EXPECT_LT(of.gap(pose, { 121., 45., 14.9 }), 0.);
+  EXPECT_NEAR(of.gap(pose, { 121., 45., 17. }), 2., 1e-12);
 }
 
 // Half of a slope by the scene and half by the shaft is the whole by the scene.

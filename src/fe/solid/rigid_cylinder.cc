@@ -16,23 +16,25 @@ namespace sprag
       return cylinder.length > 0. ? 0.5 * cylinder.length : std::numeric_limits<double>::infinity();
     }
 
-    constexpr unsigned int first_slope = 5; ///< tilt among the coordinates; skew follows
+    constexpr unsigned int first_slope = FixedSurfaceKinematics::n; ///< tilt among the coordinates; skew follows
 
     /// Derivatives of a place by the coordinates.
-    using Motions = std::array<Tensor<1, 3>, SurfaceKinematics::n>;
+    template <int n>
+    using Motions = std::array<Tensor<1, 3>, n>;
 
     /// J^T v.
-    SurfaceKinematics::Row row(const Motions &by_coordinate, const Tensor<1, 3> &vector)
+    template <std::size_t n>
+    Tensor<1, n> row(const std::array<Tensor<1, 3>, n> &by_coordinate, const Tensor<1, 3> &vector)
     {
-      SurfaceKinematics::Row result;
-      for (unsigned int i = 0; i < SurfaceKinematics::n; ++i)
+      Tensor<1, n> result;
+      for (unsigned int i = 0; i < n; ++i)
         result[i] = by_coordinate[i] * vector;
       return result;
     }
 
     /// Adds a gradient times the second derivatives of a place by the slopes and all coordinates, as the cylinder sees it.
-    void add_turn(const CylinderAxes &axes, const Motions &by, const Tensor<1, 3> &from_centre, const Tensor<1, 3> &gradient,
-                  SurfaceKinematics::Curvature &curvature)
+    void add_turn(const CylinderAxes &axes, const Motions<SurfaceKinematics::n> &by, const Tensor<1, 3> &from_centre,
+                  const Tensor<1, 3> &gradient, SurfaceKinematics::Curvature &curvature)
     {
       for (unsigned int i = 0; i < 2; ++i)
       {
@@ -108,7 +110,13 @@ namespace sprag
     return on_axis(along) + radius * (std::cos(angle) * axes_at_rest.right + std::sin(angle) * axes_at_rest.upward);
   }
 
-  std::pair<double, Tensor<1, 3>> RigidCylinder::gap(const Pose &pose, const Point<3> &point) const
+  double RigidCylinder::gap(const Pose &pose, const Point<3> &point) const
+  {
+    const auto at = place_of(pose, point);
+    return std::max(at.radius - geometry.cylinder_radius + profile(at.along).value, beyond_ends(at.along));
+  }
+
+  std::pair<double, Tensor<1, 3>> RigidCylinder::gap_and_gradient(const Pose &pose, const Point<3> &point) const
   {
     const auto at         = place_of(pose, point);
     const auto shape      = profile(at.along);
@@ -125,11 +133,17 @@ namespace sprag
 
   std::array<double, 2> RigidCylinder::slips(const Pose &pose, const Point<3> &point) const
   {
-    const auto at = place_of(pose, point);
-    return { { geometry.cylinder_radius * std::atan2(-(at.across * pose.axes.right), at.across * pose.axes.upward), at.along } };
+    return slips_of(pose, place_of(pose, point));
   }
 
-  SurfaceKinematics RigidCylinder::kinematics(const Pose &pose, const Point<3> &point) const
+  std::array<double, 2> RigidCylinder::slips_of(const Pose &pose, const Place &place) const
+  {
+    return { { geometry.cylinder_radius * std::atan2(-(place.across * pose.axes.right), place.across * pose.axes.upward),
+               place.along } };
+  }
+
+  template <int n>
+  SurfaceKinematicsIn<n> RigidCylinder::kinematics(const Pose &pose, const Point<3> &point, const bool with_slips) const
   {
     const auto at       = place_of(pose, point);
     const auto shape    = profile(at.along);
@@ -141,22 +155,24 @@ namespace sprag
     // The place as the cylinder sees it by the coordinates. Its second derivatives are not zero by theta and a displacement, by
     // theta alone, and by the slopes.
     const double c = pose.cosine, s = pose.sine;
-    const Motions by{ { Vector({ -c, s, 0. }), Vector({ s, c, 0. }), Vector({ 0., 0., 1. }),
-                        Vector({ point[0] * s + point[1] * c, point[0] * c - point[1] * s, 0. }), Vector({ -1., 0., 0. }),
-                        pose.axes.turn[0] * at.from_centre, pose.axes.turn[1] * at.from_centre } };
+    Motions<n> by{ { Vector({ -c, s, 0. }), Vector({ s, c, 0. }), Vector({ 0., 0., 1. }),
+                     Vector({ point[0] * s + point[1] * c, point[0] * c - point[1] * s, 0. }), Vector({ -1., 0., 0. }) } };
+    for (unsigned int i = first_slope; i < n; ++i)
+      by[i] = pose.axes.turn[i - first_slope] * at.from_centre;
     const Vector by_theta_xi({ s, c, 0. }), by_theta_eta({ c, -s, 0. });
     const Vector by_theta_theta({ point[0] * c - point[1] * s, -point[0] * s - point[1] * c, 0. });
-    const auto bend = [&](const Vector &gradient, SurfaceKinematics::Curvature &curvature)
+    const auto bend = [&](const Vector &gradient, typename SurfaceKinematicsIn<n>::Curvature &curvature)
     {
       curvature[0][3] += gradient * by_theta_xi;
       curvature[3][0] += gradient * by_theta_xi;
       curvature[1][3] += gradient * by_theta_eta;
       curvature[3][1] += gradient * by_theta_eta;
       curvature[3][3] += gradient * by_theta_theta;
-      add_turn(pose.axes, by, at.from_centre, gradient, curvature);
+      if constexpr (n > first_slope)
+        add_turn(pose.axes, by, at.from_centre, gradient, curvature);
     };
 
-    SurfaceKinematics result;
+    SurfaceKinematicsIn<n> result;
     const Vector gap_gradient = normal + shape.slope * axis;
     const auto along_normal = row(by, normal), along_round = row(by, round), along_axis = row(by, axis);
     result.gap     = std::max(at.radius - R + shape.value, beyond_ends(at.along));
@@ -165,7 +181,8 @@ namespace sprag
         outer_product(along_round, along_round) / at.radius + shape.curvature * outer_product(along_axis, along_axis);
     bend(gap_gradient, result.gap_curvature);
 
-    result.slip     = slips(pose, point);
+    if (with_slips)
+      result.slip = slips_of(pose, at);
     result.slip_row = { { R / at.radius * along_round, along_axis } };
     result.slip_curvature[0] =
         -R / (at.radius * at.radius) * (outer_product(along_normal, along_round) + outer_product(along_round, along_normal));
@@ -173,4 +190,7 @@ namespace sprag
     bend(axis, result.slip_curvature[1]);
     return result;
   }
+
+  template SurfaceKinematics RigidCylinder::kinematics(const Pose &, const Point<3> &, bool) const;
+  template FixedSurfaceKinematics RigidCylinder::kinematics(const Pose &, const Point<3> &, bool) const;
 } // namespace sprag

@@ -11,11 +11,12 @@
 namespace sprag
 {
   /// Geometry of a point of the lever against the cylinder, in the coordinates (displacement along xi, eta and zeta, theta, x,
-  /// tilt, skew). zeta counts across the lever's width from its middle. The first slip is that round the cylinder, the second
-  /// along its axis.
-  struct SurfaceKinematics
+  /// tilt, skew) or, of an axis that is fixed, in the first five. zeta counts across the lever's width from its middle. The first
+  /// slip is that round the cylinder, the second along its axis.
+  template <int coordinates>
+  struct SurfaceKinematicsIn
   {
-    static constexpr int n = 7;
+    static constexpr int n = coordinates;
     using Row              = dealii::Tensor<1, n>;
     using Curvature        = dealii::Tensor<2, n>;
 
@@ -26,6 +27,9 @@ namespace sprag
     std::array<Row, 2> slip_row;
     std::array<Curvature, 2> slip_curvature;
   };
+
+  using SurfaceKinematics      = SurfaceKinematicsIn<7>;
+  using FixedSurfaceKinematics = SurfaceKinematicsIn<5>;
 
   /// The damper's cylinder as a rigid body of finite length: its axis may lie out of true, by slopes towards the lever (tilt) and
   /// along x (skew), it may be a barrel and have rounded ends. Distances are measured across the axis: barrel and rounding are
@@ -55,14 +59,18 @@ namespace sprag
       return at_rest;
     }
 
-    /// Returns gap and its gradient by the place of a point of the lever, in lever axes; beyond the cylinder's ends the gap is at
-    /// least the distance from them [mm].
-    std::pair<double, dealii::Tensor<1, 3>> gap(const Pose &pose, const dealii::Point<3> &point) const;
+    /// Returns the gap of a point of the lever; beyond the cylinder's ends it is at least the distance from them [mm].
+    double gap(const Pose &pose, const dealii::Point<3> &point) const;
+
+    /// Returns it and its gradient by the place of the point, in lever axes.
+    std::pair<double, dealii::Tensor<1, 3>> gap_and_gradient(const Pose &pose, const dealii::Point<3> &point) const;
 
     /// Returns the slip coordinates of a point [mm].
     std::array<double, 2> slips(const Pose &pose, const dealii::Point<3> &point) const;
 
-    SurfaceKinematics kinematics(const Pose &pose, const dealii::Point<3> &point) const;
+    /// Returns all in 5 or 7 coordinates, or all but the slips, of which the derivatives alone are wanted.
+    template <int n = SurfaceKinematics::n>
+    SurfaceKinematicsIn<n> kinematics(const Pose &pose, const dealii::Point<3> &point, bool with_slips = true) const;
 
     /// Whether its shaft lets the axis yield.
     bool has_free_axis() const
@@ -93,6 +101,7 @@ namespace sprag
       double value = 0., slope = 0., curvature = 0.;
     };
 
+    std::array<double, 2> slips_of(const Pose &pose, const Place &place) const;
     Place place_of(const Pose &pose, const dealii::Point<3> &point) const;
     Profile profile(double along) const;
     double beyond_ends(double along) const;

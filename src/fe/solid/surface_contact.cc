@@ -111,30 +111,31 @@ namespace sprag
     begin_ports = begin.ports;
     begin_x     = begin.x;
     begin_pose  = pose_of(begin);
-    begin_points.clear();
+    begin_points.resize(patches.patches.size());
+    for (auto &of_patch : begin_points)
+      of_patch.clear();
   }
 
-  const SurfaceContact::BeginPoint &SurfaceContact::at_begin(const unsigned int point) const
+  const std::vector<SurfaceContact::BeginPoint> &SurfaceContact::at_begin_of(const unsigned int patch) const
   {
-    const unsigned int of_patch = patches.patch_of_point(point);
-    const auto &patch           = patches.patches[of_patch];
-    auto &known                 = begin_points[of_patch];
+    auto &known    = begin_points[patch];
+    const auto &of = patches.patches[patch];
     if (known.empty())
     {
-      const auto nodal = Patches::nodal(patch, begin_ports);
-      for (unsigned int q = patch.begin; q < patch.end; ++q)
+      const auto nodal = Patches::nodal(of, begin_ports);
+      for (unsigned int q = of.begin; q < of.end; ++q)
       {
         const auto place = Patches::position(patches.points[q], nodal);
-        known.push_back(
-            { place, properties.cylinder.gap(begin_pose, place).first, properties.cylinder.slips(begin_pose, place) });
+        known.push_back({ place, properties.cylinder.gap(begin_pose, place), properties.cylinder.slips(begin_pose, place) });
       }
     }
-    return known[point - patch.begin];
+    return known;
   }
 
   const std::array<double, 2> &SurfaceContact::slips_at_begin(const unsigned int point) const
   {
-    return at_begin(point).slips;
+    const unsigned int patch = patches.patch_of_point(point);
+    return at_begin_of(patch)[point - patches.patches[patch].begin].slips;
   }
 
   /// The gap is convex: over a patch it lies above its tangent at the first node. The margin covers bending.
@@ -152,7 +153,7 @@ namespace sprag
     {
       const auto &nodes          = face.edges[patch].nodes;
       const Point<3> first       = position(nodes.front());
-      const auto [gap, gradient] = properties.cylinder.gap(pose, first);
+      const auto [gap, gradient] = properties.cylinder.gap_and_gradient(pose, first);
       double fall                = 0.;
       for (const auto &node : nodes)
         fall = std::min(fall, gradient * (position(node) - first));
@@ -202,7 +203,7 @@ namespace sprag
     state.index          = point;
     state.patch          = patch;
     state.position       = Patches::position(patches.points[point], nodal);
-    state.gap            = properties.cylinder.gap(pose, state.position).first;
+    state.gap            = properties.cylinder.gap(pose, state.position);
     state.trial_pressure = -properties.penalties.normal * state.gap;
     return state;
   }
@@ -216,17 +217,18 @@ namespace sprag
         { ports_of(coordinates), row_on_ports(coordinates, sums.values), matrix_on_ports(coordinates, sums.tangent) });
   }
 
-  void SurfaceContact::evaluate_point(const Step &step, FacePointState<3> &state, Sums &sums, SurfaceEvaluation &found) const
+  template <int n>
+  void SurfaceContact::evaluate_in(const Step &step, FacePointState<3> &state, Sums &sums, SurfaceEvaluation &found) const
   {
     const auto &point = patches.points[state.index];
     if (state.trial_pressure <= 0.)
       return;
     found.compression     = std::max(found.compression, state.trial_pressure / properties.penalties.normal);
-    const auto placed     = properties.cylinder.kinematics(step.pose, state.position);
-    const auto &begin     = slips_at_begin(state.index);
+    const auto placed     = properties.cylinder.kinematics<n>(step.pose, state.position);
+    const auto &begin     = at_begin_of(state.patch)[state.index - patches.patches[state.patch].begin].slips;
     const auto *const was = step.memory_of(state.index);
 
-    StepKinematics<SurfaceKinematics::n, 2> kinematics;
+    StepKinematics<n, 2> kinematics;
     kinematics.gap_begin = kinematics.gap_end = placed.gap;
     kinematics.gap_row_end = kinematics.gap_row = placed.gap_row;
     kinematics.gap_curvature                    = placed.gap_curvature;
@@ -238,7 +240,7 @@ namespace sprag
 
     // Derivative of the deformed place along the undeformed face.
     const auto &slopes = face.points[state.index].slopes;
-    SurfaceKinematics::Row direction;
+    Tensor<1, n> direction;
     direction[0] = 1.;
     for (unsigned int i = 0; i < 3 * slopes.size(); ++i)
       direction[i % 3] += slopes[i / 3] * step.nodal[i];
@@ -255,11 +257,11 @@ namespace sprag
                          step.law.tangential;
     state.end_force = on_lever(response.force);
     auto tangent    = response.tangent;
-    SurfaceKinematics::Row by_slope;
+    Tensor<1, n> by_slope;
     for (unsigned int s = 0; s < 2; ++s)
       by_slope -= shift.d_slope * response.d_shift[s][0] * placed.slip_row[s];
     tangent += outer_product(by_slope, placed.slip_curvature[0] * direction);
-    sums.add(point, patches.patches[state.patch].n_nodes, response.force, tangent);
+    sums.add(point, response.force, tangent);
     if (shift.d_slope != 0.)
       sums.add_slope(point, slopes, by_slope, placed.slip_row[0]);
   }
@@ -288,7 +290,7 @@ namespace sprag
     PortCoordinates result;
     const auto &of = patches.patches[patch];
     for (unsigned int i = 0; i < 3 * of.n_nodes; ++i)
-      result.push_back({ i, 3 * of.nodes[i / 3] + i % 3, 1. });
+      result.push_back({ Sums::place(i / 3, i % 3), 3 * of.nodes[i / 3] + i % 3, 1. });
     add_frame(properties.ports, n_displacements, n_displacements + 1, result);
     for (unsigned int i = 0; i < properties.ports.slopes; ++i)
       result.push_back({ n_displacements + 2 + i, properties.ports.slope(i), 1. });

@@ -153,21 +153,28 @@ namespace sprag
     void find_ends();
     RigidCylinder::Pose pose_of(const SurfacePlace &place) const;
     AxisSlopes turned_by(const dealii::Vector<double> &ports) const;
-    double along(const SurfaceKinematics::Row &row, const dealii::Tensor<1, 3> &moved, const dealii::Vector<double> &ports) const;
+    template <int n>
+    double along(const dealii::Tensor<1, n> &row, const dealii::Tensor<1, 3> &moved, const dealii::Vector<double> &ports) const;
     Patches::Indices near(const SurfacePlace &place, const RigidCylinder::Pose &pose) const;
-    void evaluate_patch(unsigned int patch, Step &step, SurfaceEvaluation &found) const;
-    void evaluate_point(const Step &step, FacePointState<3> &state, Sums &sums, SurfaceEvaluation &found) const;
+    template <int n>
+    void evaluate_in(const Step &step, FacePointState<3> &state, Sums &sums, SurfaceEvaluation &found) const;
     SlipShift shift_of(unsigned int point, double slope, const Step &step) const;
-    void evaluate_point(const StepInTime &step, FacePointState<3> &state, Sums &sums, SurfaceEvaluation &found) const;
+    template <int n>
+    void evaluate_in(const StepInTime &step, FacePointState<3> &state, Sums &sums, SurfaceEvaluation &found) const;
+    template <class AnyStep>
+    void evaluate_point(const AnyStep &step, FacePointState<3> &state, Sums &sums, SurfaceEvaluation &found) const;
+    template <int n>
+    void slide_in(Sliding &sliding, FacePointState<3> &state, SurfaceEvaluation &found) const;
     void slide_point(Sliding &sliding, FacePointState<3> &state, SurfaceEvaluation &found) const;
     void slide(Sliding &sliding, SurfaceEvaluation &found);
-    dealii::Tensor<1, 2> slip_rates(const Sliding &sliding, const Patches::Point &point, const SurfaceKinematics &placed,
+    template <int n>
+    dealii::Tensor<1, 2> slip_rates(const Sliding &sliding, const Patches::Point &point, const SurfaceKinematicsIn<n> &placed,
                                     FacePointState<3> &state) const;
     void add_patch(unsigned int patch, const Sums &sums, std::vector<PortForces> &loaded) const;
     bool reaches_end(const SurfaceEvaluation &found) const;
     FacePointState<3> &add_point(unsigned int patch, unsigned int point, const Patches::Nodal &nodal,
                                  const RigidCylinder::Pose &pose, SurfaceEvaluation &found) const;
-    const BeginPoint &at_begin(unsigned int point) const;
+    const std::vector<BeginPoint> &at_begin_of(unsigned int patch) const;
     const std::array<double, 2> &slips_at_begin(unsigned int point) const;
     PortCoordinates coordinates_of(unsigned int patch) const;
     Patches::Indices clip(Patches::Indices near, SurfaceEvaluation &found) const;
@@ -182,7 +189,7 @@ namespace sprag
     dealii::Vector<double> begin_ports;
     double begin_x = 0.;
     RigidCylinder::Pose begin_pose{};
-    mutable std::map<unsigned int, std::vector<BeginPoint>> begin_points; ///< by patches
+    mutable std::vector<std::vector<BeginPoint>> begin_points; ///< by patches; of those that were looked at
 
     std::vector<unsigned int> place_of_port; ///< among those summed
     PortSelection reachable;

@@ -21,7 +21,19 @@ namespace sprag
       return found != memory.end() && found->point == point ? &*found : nullptr;
     }
 
-    SurfaceKinematics::Row force_of(const PointTraction<2> &traction, const SurfaceKinematics &placed)
+    /// Forgets what was found, and keeps the memory for what follows.
+    void clear(SurfaceEvaluation &found)
+    {
+      auto points = std::move(found.points);
+      auto forces = std::move(found.forces);
+      points.clear();
+      found        = SurfaceEvaluation();
+      found.points = std::move(points);
+      found.forces = std::move(forces);
+    }
+
+    template <int n>
+    Tensor<1, n> force_of(const PointTraction<2> &traction, const SurfaceKinematicsIn<n> &placed)
     {
       auto result = traction.pressure * placed.gap_row;
       for (unsigned int s = 0; s < 2; ++s)
@@ -80,7 +92,7 @@ namespace sprag
                            of.surface_memory != nullptr ? *of.surface_memory : no_memory,
                            of.to.x - of.from.x };
 
-    found              = SurfaceEvaluation();
+    clear(found);
     found.displacement = of.end;
     found.x            = of.to.x;
     found.duration     = of.weights.dt;
@@ -108,22 +120,26 @@ namespace sprag
                        [&](const auto &point) { return point.pressure > 0. && is_at_end[point.patch]; });
   }
 
-  void SurfaceContact::evaluate_point(const StepInTime &step, FacePointState<3> &state, Sums &sums,
-                                      SurfaceEvaluation &found) const
+  template <int n>
+  void SurfaceContact::evaluate_in(const StepInTime &step, FacePointState<3> &state, Sums &sums, SurfaceEvaluation &found) const
   {
-    const auto &begin       = at_begin(state.index);
+    const auto &begin       = at_begin_of(state.patch)[state.index - patches.patches[state.patch].begin];
     const auto *const known = memory_of(step.memory, state.index);
     if (state.gap >= 0. && begin.gap >= 0. && known == nullptr)
       return;
     found.compression  = std::max(found.compression, -std::min(state.gap, begin.gap));
-    const auto placed  = properties.cylinder.kinematics(step.end, state.position);
+    const auto placed  = properties.cylinder.kinematics<n>(step.end, state.position);
     const auto moved   = state.position - begin.position;
-    const auto between = properties.cylinder.kinematics(step.balance, begin.position + step.share * moved);
-    const SurfaceKinematics::Row change({ moved[0], moved[1], moved[2], step.end.theta - begin_pose.theta,
-                                          step.end.x - begin_pose.x, step.end.turned[0] - begin_pose.turned[0],
-                                          step.end.turned[1] - begin_pose.turned[1] });
+    const auto between = properties.cylinder.kinematics<n>(step.balance, begin.position + step.share * moved, false);
+    Tensor<1, n> change;
+    for (unsigned int d = 0; d < 3; ++d)
+      change[d] = moved[d];
+    change[3] = step.end.theta - begin_pose.theta;
+    change[4] = step.end.x - begin_pose.x;
+    for (unsigned int i = 5; i < n; ++i)
+      change[i] = step.end.turned[i - 5] - begin_pose.turned[i - 5];
 
-    StepKinematics<SurfaceKinematics::n, 2> kinematics;
+    StepKinematics<n, 2> kinematics;
     kinematics.gap_begin     = begin.gap;
     kinematics.gap_end       = placed.gap;
     kinematics.gap_row_end   = placed.gap_row;
@@ -152,7 +168,7 @@ namespace sprag
     found.works.friction += point.weight * response.friction;
     found.works.algorithmic += point.weight * response.algorithmic;
     found.works.creep = std::max(found.works.creep, response.creep);
-    sums.add(point, patches.patches[state.patch].n_nodes, response.force, response.tangent);
+    sums.add(point, response.force, response.tangent);
   }
 
   void SurfaceContact::slide(const SlidingState &sliding, const FrictionLaw &friction, SurfaceEvaluation &found)
@@ -174,7 +190,7 @@ namespace sprag
   void SurfaceContact::slide(Sliding &sliding, SurfaceEvaluation &found)
   {
     const SurfacePlace place{ sliding.state.ports, sliding.state.drive.x };
-    found              = SurfaceEvaluation();
+    clear(found);
     found.displacement = place.ports;
     found.x            = place.x;
     found.duration     = 1.; // slips are those of a second
@@ -206,6 +222,15 @@ namespace sprag
 
   void SurfaceContact::slide_point(Sliding &sliding, FacePointState<3> &state, SurfaceEvaluation &found) const
   {
+    if (properties.ports.slopes > 0)
+      slide_in<SurfaceKinematics::n>(sliding, state, found);
+    else
+      slide_in<FixedSurfaceKinematics::n>(sliding, state, found);
+  }
+
+  template <int n>
+  void SurfaceContact::slide_in(Sliding &sliding, FacePointState<3> &state, SurfaceEvaluation &found) const
+  {
     if (state.gap >= 0.)
       return;
     found.compression    = std::max(found.compression, -state.gap);
@@ -213,9 +238,8 @@ namespace sprag
     const auto &of       = sliding.state;
     const auto &penalty  = properties.penalties;
     const bool slides    = of.friction == ContactFriction::sliding;
-    const auto placed    = properties.cylinder.kinematics(sliding.pose, state.position);
+    const auto placed    = properties.cylinder.kinematics<n>(sliding.pose, state.position);
     const double area    = point.weight;
-    const auto n_nodes   = patches.patches[state.patch].n_nodes;
     const auto direction = slip_rates(sliding, point, placed, state);
     const double speed   = state.slip_change.norm();
     const auto share     = slides ? sliding_friction(sliding.law, speed) : SlidingFriction{};
@@ -235,7 +259,7 @@ namespace sprag
 
     const auto by_pressure =
         -penalty.normal * outer_product(placed.gap_row, placed.gap_row) + state.pressure * placed.gap_curvature;
-    SurfaceKinematics::Curvature by_displacement, by_rate;
+    Tensor<2, n> by_displacement, by_rate;
     for (unsigned int s = 0; s < 2; ++s)
     {
       by_displacement += outer_product(placed.slip_row[s], share.coefficient * direction[s] * penalty.normal * placed.gap_row) -
@@ -249,15 +273,16 @@ namespace sprag
         by_rate -= state.pressure * (share.derivative * along + turn) * outer_product(placed.slip_row[s], placed.slip_row[r]);
       }
     }
-    sliding.pressure.add(point, n_nodes, force, by_pressure);
-    sliding.friction.add(point, n_nodes, {}, by_displacement);
+    sliding.pressure.add(point, force, by_pressure);
+    sliding.friction.add(point, Tensor<1, n>(), by_displacement);
     if (sliding.in_parts)
-      sliding.friction_rate.add(point, n_nodes, {}, by_rate);
+      sliding.friction_rate.add(point, Tensor<1, n>(), by_rate);
   }
 
   /// Sets the slip rates of a point and returns their direction; of speed 0 its sign counts.
-  Tensor<1, 2> SurfaceContact::slip_rates(const Sliding &sliding, const Patches::Point &point, const SurfaceKinematics &placed,
-                                          FacePointState<3> &state) const
+  template <int n>
+  Tensor<1, 2> SurfaceContact::slip_rates(const Sliding &sliding, const Patches::Point &point,
+                                          const SurfaceKinematicsIn<n> &placed, FacePointState<3> &state) const
   {
     state.slip_change    = Tensor<1, 2>();
     state.slip_change[0] = sliding.state.speed;
@@ -274,8 +299,8 @@ namespace sprag
 
   void SurfaceContact::touch(const SurfacePlace &place, SurfaceEvaluation &found)
   {
-    const auto pose    = pose_of(place);
-    found              = SurfaceEvaluation();
+    const auto pose = pose_of(place);
+    clear(found);
     found.displacement = place.ports;
     found.x            = place.x;
     for (const unsigned int patch : near(place, pose))
@@ -298,13 +323,14 @@ namespace sprag
   }
 
   /// A row times a motion of its point and of the ports of the frame.
-  double SurfaceContact::along(const SurfaceKinematics::Row &row, const Tensor<1, 3> &moved, const Vector<double> &of_ports) const
+  template <int n>
+  double SurfaceContact::along(const Tensor<1, n> &row, const Tensor<1, 3> &moved, const Vector<double> &of_ports) const
   {
     const auto &at = properties.ports;
     double result  = row[3] * of_ports[at.rotation()] - (at.sprung ? row[4] * of_ports[at.support()] : 0.);
     for (unsigned int d = 0; d < 3; ++d)
       result += row[d] * moved[d];
-    for (unsigned int i = 0; i < at.slopes; ++i)
+    for (unsigned int i = 0; i < at.slopes && 5 + i < n; ++i)
       result += row[5 + i] * of_ports[at.slope(i)];
     return result;
   }

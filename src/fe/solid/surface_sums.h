@@ -5,50 +5,62 @@
 namespace sprag
 {
   /// What of a force acts on the lever's place and on the drive.
-  inline dealii::Tensor<1, 5> on_lever(const SurfaceKinematics::Row &force)
+  template <int n>
+  dealii::Tensor<1, 5> on_lever(const dealii::Tensor<1, n> &force)
   {
     return dealii::Tensor<1, 5>({ force[0], force[1], force[2], force[3], force[4] });
   }
 
-  /// Forces of a patch and their derivatives: of the displacements of its nodes, of theta, of x and
-  /// of the axis' slopes.
+  /// Forces of a patch and their derivatives: of the displacements of its nodes, of theta, of x and of the axis' slopes.
+  /// Displacements along one axis stand together, so that what is summed over the nodes is contiguous. Points may tell of
+  /// coordinates without the slopes.
   struct SurfaceContact::Sums
   {
     dealii::Tensor<1, n_local> values;
     dealii::Tensor<2, n_local> tangent;
     bool touched = false;
 
-    void add(const Patches::Point &point, const unsigned int n_nodes, const SurfaceKinematics::Row &force,
-             const SurfaceKinematics::Curvature &of_point)
+    static constexpr unsigned int place(const unsigned int node, const unsigned int axis)
     {
-      touched = true;
+      return Patches::max_nodes * axis + node;
+    }
+
+    template <int n_coordinates>
+    void add(const Patches::Point &point, const dealii::Tensor<1, n_coordinates> &force,
+             const dealii::Tensor<2, n_coordinates> &of_point)
+    {
+      constexpr unsigned int n_frame = n_coordinates - 3;
+      constexpr unsigned int n       = Patches::max_nodes; // beyond those of the patch shapes are 0
+      touched                        = true;
+      const auto &shapes             = point.shapes;
+      const auto weighted            = point.weight * of_point;
       for (unsigned int i = 0; i < n_frame; ++i)
       {
         values[n_displacements + i] += point.weight * force[3 + i];
         for (unsigned int j = 0; j < n_frame; ++j)
-          tangent[n_displacements + i][n_displacements + j] += point.weight * of_point[3 + i][3 + j];
+          tangent[n_displacements + i][n_displacements + j] += weighted[3 + i][3 + j];
+        for (unsigned int e = 0; e < 3; ++e)
+          add_scaled(weighted[3 + i][e], shapes, &tangent[n_displacements + i][n * e]);
       }
-      for (unsigned int a = 0; a < n_nodes; ++a)
-        for (unsigned int d = 0; d < 3; ++d)
+      for (unsigned int d = 0; d < 3; ++d)
+      {
+        add_scaled(point.weight * force[d], shapes, &values[n * d]);
+        for (unsigned int a = 0; a < n; ++a)
         {
-          const double weight = point.weight * point.shapes[a];
-          auto &row           = tangent[3 * a + d];
-          values[3 * a + d] += weight * force[d];
+          auto &row = tangent[n * d + a];
+          for (unsigned int e = 0; e < 3; ++e)
+            add_scaled(shapes[a] * weighted[d][e], shapes, &row[n * e]);
           for (unsigned int j = 0; j < n_frame; ++j)
-          {
-            row[n_displacements + j] += weight * of_point[d][3 + j];
-            tangent[n_displacements + j][3 * a + d] += weight * of_point[3 + j][d];
-          }
-          for (unsigned int b = 0; b < n_nodes; ++b)
-            for (unsigned int e = 0; e < 3; ++e)
-              row[3 * b + e] += weight * point.shapes[b] * of_point[d][e];
+            row[n_displacements + j] += shapes[a] * weighted[d][3 + j];
         }
+      }
     }
 
     /// Adds what changes with the slope of the slip round the cylinder along the face, as far as the face's direction goes with
     /// it: `by_slope` the derivative of the force by that slope.
-    void add_slope(const Patches::Point &point, const std::vector<double> &slopes, const SurfaceKinematics::Row &by_slope,
-                   const SurfaceKinematics::Row &slip_row)
+    template <int n_coordinates>
+    void add_slope(const Patches::Point &point, const std::vector<double> &slopes,
+                   const dealii::Tensor<1, n_coordinates> &by_slope, const dealii::Tensor<1, n_coordinates> &slip_row)
     {
       for (unsigned int b = 0; b < slopes.size(); ++b)
         for (unsigned int e = 0; e < 3; ++e)
@@ -56,10 +68,27 @@ namespace sprag
           const double slope = point.weight * slip_row[e] * slopes[b];
           for (unsigned int a = 0; a < slopes.size(); ++a)
             for (unsigned int d = 0; d < 3; ++d)
-              tangent[3 * a + d][3 * b + e] += point.shapes[a] * by_slope[d] * slope;
-          for (unsigned int i = 0; i < n_frame; ++i)
-            tangent[n_displacements + i][3 * b + e] += by_slope[3 + i] * slope;
+              tangent[place(a, d)][place(b, e)] += point.shapes[a] * by_slope[d] * slope;
+          for (unsigned int i = 0; i + 3 < n_coordinates; ++i)
+            tangent[n_displacements + i][place(b, e)] += by_slope[3 + i] * slope;
         }
     }
+
+  private:
+    static void add_scaled(const double factor, const std::array<double, Patches::max_nodes> &shapes, double *const sums)
+    {
+      for (unsigned int b = 0; b < Patches::max_nodes; ++b)
+        sums[b] += factor * shapes[b];
+    }
   };
+
+  /// Slopes are coordinates where the axis is free: they cost a third of a point.
+  template <class AnyStep>
+  void SurfaceContact::evaluate_point(const AnyStep &step, FacePointState<3> &state, Sums &sums, SurfaceEvaluation &found) const
+  {
+    if (properties.ports.slopes > 0)
+      evaluate_in<SurfaceKinematics::n>(step, state, sums, found);
+    else
+      evaluate_in<FixedSurfaceKinematics::n>(step, state, sums, found);
+  }
 } // namespace sprag
