@@ -202,7 +202,7 @@ class BadMesh(ProgramTest):
     def test_all_groups_missing_and_others_there(self):
         scene = self.geometry(STRIP + LEVER.replace("lever", "leever") + FACE.replace("friction face", "friction-face"))
         says = ["no physical curve 'friction face'", "curves found: ", "'friction-face'", "unknown physical surface 'leever'"]
-        says += ["no physical surface 'lever'", "no physical curve or surface 'hub'"]
+        says += ["no physical surface 'lever'", "no physical curve 'hub'"]
         self.refused(scene, says=says, mistakes=4)
 
     def test_triangles(self):

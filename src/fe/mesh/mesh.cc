@@ -5,6 +5,7 @@
 #include "base/text.h"
 #include "fe/body/elastic_body.h"
 #include "fe/mesh/geometry_script.h"
+#include "fe/mesh/lever_groups.h"
 #include "fe/mesh/solid_file.h"
 #include "scene/contact_width.h"
 #include "scene/lever_shape.h"
@@ -20,57 +21,6 @@ namespace sprag
 
   namespace
   {
-    using Names = std::set<std::string>;
-
-    /// What a friction plate needs besides.
-    const std::pair<const char *, const char *> plate_curves[] = { { "sensor plate", "its back, towards the sensors" },
-                                                                   { "sensor lever", "the lever's side towards the sensors" } };
-
-    std::vector<std::string> missing_of_plate(const bool wanted, const Names &surfaces, const Names &curves)
-    {
-      if (!wanted)
-        return surfaces.count("plate") == 0 ? std::vector<std::string>{}
-                                            : std::vector<std::string>{ "has a surface 'plate', but Friction plate/Type = none" };
-      std::vector<std::string> result;
-      const std::string wish = "Friction plate/Type = on sensors, but there is no physical ";
-      if (surfaces.count("plate") == 0)
-        result.push_back(wish + "surface 'plate' (surfaces found: " + quoted_list(surfaces) + ")");
-      for (const auto &[name, meaning] : plate_curves)
-        if (curves.count(name) == 0)
-          result.push_back(wish + "curve '" + name + "', " + meaning + " (curves found: " + quoted_list(curves) + ")");
-      return result;
-    }
-
-    std::vector<std::string> missing_groups(const Scene &scene, const Names &surfaces, const Names &curves)
-    {
-      std::vector<std::string> result;
-      if (curves.count("friction face") == 0)
-        result.push_back("no physical curve 'friction face', where the cylinder slides (curves found: " + quoted_list(curves) +
-                         ")");
-      if (surfaces.count("lever") == 0)
-        result.push_back("no physical surface 'lever', the metal (surfaces found: " + quoted_list(surfaces) + ")");
-      if (curves.count("hub") + surfaces.count("hub") == 0)
-        result.push_back("no physical curve or surface 'hub', which carries the lever on its pivot");
-      if (surfaces.count("web") != 0 && scene.frame.web == 0.)
-        result.push_back("has a surface 'web', which must be wider than Lever frame/Web = 0");
-      return joined(result, missing_of_plate(scene.plate.type == PlateType::on_sensors, surfaces, curves));
-    }
-
-    MeshGroups lever_groups(const Scene &scene)
-    {
-      return { { { "lever", material_id::lever },
-                 { "web", material_id::web },
-                 { "plate", material_id::plate },
-                 { "layer", material_id::layer },
-                 { "hub", material_id::hub } },
-               { { "friction face", boundary_id::friction_face },
-                 { "hub", boundary_id::hub },
-                 { "sensor plate", boundary_id::sensor_plate },
-                 { "sensor lever", boundary_id::sensor_lever } },
-               "'lever', 'web', 'plate', 'layer' and 'hub' (all but 'lever' optional)",
-               [&scene](const Names &surfaces, const Names &curves) { return missing_groups(scene, surfaces, curves); } };
-    }
-
     /// Part of the friction face under the cylinder during the drive, with room for the contact's width [mm].
     std::array<double, 2> swept_face(const Scene &scene)
     {
@@ -161,11 +111,11 @@ namespace sprag
     if (has_solid_file(scene))
       return;
     if (!scene.mesh.file.empty())
-      read_gmsh(scene.mesh.file, {}, lever_groups(scene), triangulation);
+      read_gmsh(scene.mesh.file, {}, lever_groups(scene, 2), triangulation);
     else if (scene.lever.outline == LeverOutline::bar)
-      read_gmsh(mesh_script("lever.geo"), bar_constants(scene), lever_groups(scene), triangulation);
+      read_gmsh(mesh_script("lever.geo"), bar_constants(scene), lever_groups(scene, 2), triangulation);
     else
-      read_gmsh(mesh_script("frame.geo"), frame_constants(scene), lever_groups(scene), triangulation);
+      read_gmsh(mesh_script("frame.geo"), frame_constants(scene), lever_groups(scene, 2), triangulation);
     check_position(scene, triangulation);
     if (scene.cylinder.type != CylinderType::rigid)
       add_cylinder(scene, triangulation);

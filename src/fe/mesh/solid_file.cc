@@ -4,6 +4,7 @@
 #include "base/text.h"
 #include "fe/body/body_properties.h"
 #include "fe/mesh/geometry_script.h"
+#include "fe/mesh/lever_groups.h"
 #include "scene/lever_shape.h"
 
 #include <algorithm>
@@ -15,51 +16,8 @@ namespace sprag
 
   namespace
   {
-    using Names    = std::set<std::string>;
     using Messages = std::vector<std::string>;
-
-    /// "no physical surface 'name', meaning (surfaces found: ...)", where it is not there.
-    void need(const std::string &kind, const std::string &name, const std::string &meaning, const Names &found, Messages &result)
-    {
-      if (found.count(name) == 0)
-        result.push_back("no physical " + kind + " '" + name + "', " + meaning + " (" + kind + "s found: " + quoted_list(found) +
-                         ")" + did_you_mean(nearest(name, { found.begin(), found.end() })));
-    }
-
-    Messages missing_groups(const Scene &scene, const Names &volumes, const Names &surfaces)
-    {
-      Messages result;
-      need("surface", "friction face", "where the cylinder slides", surfaces, result);
-      need("volume", "lever", "the metal", volumes, result);
-      if (volumes.count("hub") == 0)
-        need("surface", "hub", "which carries the lever on its pivot, nor a volume 'hub'", surfaces, result);
-      if (scene.plate.type == PlateType::none)
-      {
-        if (volumes.count("plate") != 0)
-          result.push_back("has a volume 'plate', but Friction plate/Type = none");
-        return result;
-      }
-      need("volume", "plate", "which Friction plate/Type = on sensors asks for", volumes, result);
-      need("surface", "sensor plate", "the back of the friction plate, towards the sensors", surfaces, result);
-      need("surface", "sensor lever", "the lever's side towards the sensors", surfaces, result);
-      return result;
-    }
-
-    MeshGroups lever_groups(const Scene &scene)
-    {
-      return { { { "lever", material_id::lever },
-                 { "plate", material_id::plate },
-                 { "layer", material_id::layer },
-                 { "hub", material_id::hub } },
-               { { "friction face", boundary_id::friction_face },
-                 { "hub", boundary_id::hub },
-                 { "sensor plate", boundary_id::sensor_plate },
-                 { "sensor lever", boundary_id::sensor_lever } },
-               "'lever', 'plate', 'layer' and 'hub' (all but 'lever' optional)",
-               [&scene](const Names &volumes, const Names &surfaces) { return missing_groups(scene, volumes, surfaces); } };
-    }
-
-    using Side = Triangulation<3>::active_face_iterator;
+    using Side     = Triangulation<3>::active_face_iterator;
 
     std::vector<Side> sides_of_face(const Triangulation<3> &triangulation)
     {
@@ -176,7 +134,7 @@ namespace sprag
 
   void read_solid_file(const Scene &scene, Triangulation<3> &triangulation)
   {
-    read_gmsh(scene.mesh.file, {}, lever_groups(scene), triangulation);
+    read_gmsh(scene.mesh.file, {}, lever_groups(scene, 3), triangulation);
     check_face(scene, triangulation);
   }
 
