@@ -42,7 +42,7 @@ namespace sprag
       return result;
     }
     if (scene.analysis.dimension == 3)
-      return make_solid(scene);
+      return make_solid(scene, scene.condensed.modes);
     result.lever = lever_of(scene);
     const PhaseTimer::Scope scope(time, "model");
     const double relaxation = contact_reference(scene).relaxation;
@@ -52,7 +52,7 @@ namespace sprag
     return result;
   }
 
-  Dynamics DynamicsMaker::make_solid(const Scene &scene)
+  Dynamics DynamicsMaker::make_solid(const Scene &scene, const unsigned int n_modes)
   {
     if (const auto key = body_key(scene); key != solid.first)
     {
@@ -64,18 +64,21 @@ namespace sprag
     const PhaseTimer::Scope scope(time, "model");
     Dynamics result;
     result.solid                       = solid.second;
-    result.reduced                     = make_solid_dynamics(scene, *result.solid, contact_reference(scene).relaxation);
+    result.reduced                     = make_solid_dynamics(scene, *result.solid, contact_reference(scene).relaxation, n_modes);
     const auto &modes                  = result.solid->modes;
     result.meshed.elastic_displacement = solid_displacement(scene, *result.solid);
     result.meshed.density_factor       = modes.density_factor;
     result.meshed.lever_mass           = modes.total_mass;
     result.meshed.moment_of_inertia    = modes.moment_of_inertia;
-    result.meshed.n_coordinates        = static_cast<unsigned int>(modes.stiffness.size());
+    result.meshed.n_coordinates        = n_modes;
+    result.meshed.penalties            = penalties_in_time(scene, result.solid->body->friction_face());
     return result;
   }
 
   Dynamics DynamicsMaker::make_with_modes(const Scene &scene, const unsigned int modes)
   {
+    if (scene.analysis.dimension == 3)
+      return make_solid(scene, modes);
     Dynamics result;
     result.lever = lever_of(scene);
     const PhaseTimer::Scope scope(time, "model");

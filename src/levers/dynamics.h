@@ -74,6 +74,6 @@ namespace sprag
 
     std::shared_ptr<const MeshedLever> lever_of(const Scene &scene);
     std::shared_ptr<const MeshedLever> make_lever(const Scene &scene);
-    Dynamics make_solid(const Scene &scene);
+    Dynamics make_solid(const Scene &scene, unsigned int n_modes);
   };
 } // namespace sprag

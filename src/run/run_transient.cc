@@ -154,7 +154,7 @@ namespace sprag
         },
         [&]
         {
-          if (is_complete && estimates_errors(options) && !dynamics.solid)
+          if (is_complete && estimates_errors(options))
           {
             const PhaseTimer::Scope scope(timer, "accuracy");
             recorder.set_accuracy(transient_accuracy(scene, dynamics.meshed, recorder.recorded(), maker));

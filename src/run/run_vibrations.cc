@@ -152,9 +152,9 @@ namespace sprag
         result.summary = slide_entries(found);
         if (found.slide)
           append(warnings, slide_warnings(scene, found.slide->drive, found.slide->forces.P, found.slide->indentation));
-        const auto accuracy = estimates_errors(options) && !dynamics.solid ? accuracy_of(held, found, dynamics.meshed, maker)
-                                                                           : std::vector<ErrorEstimate>();
-        result.accuracy     = accuracy_entries(accuracy);
+        const auto accuracy =
+            estimates_errors(options) ? accuracy_of(held, found, dynamics.meshed, maker) : std::vector<ErrorEstimate>();
+        result.accuracy = accuracy_entries(accuracy);
         if (options.verbose)
         {
           print_summary(std::cout, result.summary);

@@ -125,5 +125,9 @@ namespace sprag
     {
       return unknown("in the comparison " + std::string(error.what()) + ".");
     }
+    catch (const InputError &error)
+    {
+      return unknown("the coarser mesh cannot serve: " + std::string(error.what()) + ".");
+    }
   }
 } // namespace sprag

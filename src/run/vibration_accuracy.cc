@@ -39,5 +39,9 @@ namespace sprag
     {
       return unknown("No estimate: in the comparison " + std::string(error.what()) + ".");
     }
+    catch (const InputError &error)
+    {
+      return unknown("No estimate: the coarser mesh cannot serve: " + std::string(error.what()) + ".");
+    }
   }
 } // namespace sprag

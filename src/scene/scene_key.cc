@@ -2,6 +2,7 @@
 
 #include "base/fingerprint.h"
 #include "base/text.h"
+#include "scene/across.h"
 #include "scene/sections.h"
 
 namespace sprag
@@ -76,6 +77,8 @@ namespace sprag
     add_number(scene.drive.minimum(), key);
     add_number(scene.drive.maximum(), key);
     key += '\n';
+    if (scene.analysis.dimension == 3)
+      key += is_symmetric_across(scene) ? "half\n" : "whole\n";
     add_leaf(scene.spring.behaviour, key);
     if (scene.spring.swing)
       add_leaf(*scene.spring.swing, key);

@@ -24,6 +24,16 @@ namespace
     return held_scene(scene);
   }
 
+  /// In three dimensions.
+  Scene slide_in_space(const double face_size, const unsigned int across)
+  {
+    Scene scene                = slide(face_size);
+    scene.analysis.dimension   = 3;
+    scene.mesh.elements_across = across;
+    scene.drive                = Drive(DriveProfile::triangle, 28., 32., 112., 0.5);
+    return scene;
+  }
+
   std::vector<ErrorEstimate> told(const Scene &scene)
   {
     DynamicsMaker maker(false);
@@ -51,6 +61,24 @@ TEST(VibrationAccuracy, ToldErrorsHoldTheChangeToAFinerMesh)
     EXPECT_LT(total_error(error), 0.05) << error.quantity;
     for (const auto &part : error.parts)
       EXPECT_TRUE(std::isfinite(part.value)) << error.quantity << ' ' << part.name;
+  }
+}
+
+TEST(VibrationAccuracy, InThreeDimensionsToldErrorsHoldTheChangeToAFinerMesh)
+{
+  const Scene scene = slide_in_space(4., 2);
+  DynamicsMaker maker(false), of_fine(false);
+  const auto coarse = judge(scene, maker);
+  const auto fine   = judge(slide_in_space(2., 4), of_fine);
+  const auto errors = told(scene);
+  ASSERT_EQ(errors.size(), 2u);
+  const double true_errors[] = { std::abs(coarse.growth_rate() / fine.growth_rate() - 1.),
+                                 std::abs(coarse.frequency() / fine.frequency() - 1.) };
+  for (unsigned int i = 0; i < 2; ++i)
+  {
+    ASSERT_EQ(errors[i].parts.size(), 3u) << errors[i].unknown;
+    EXPECT_GT(total_error(errors[i]), 0.5 * true_errors[i]) << errors[i].quantity;
+    EXPECT_LT(total_error(errors[i]), 0.2) << errors[i].quantity;
   }
 }
 

@@ -100,15 +100,14 @@ namespace sprag
 
     SurfaceContactProperties contact_properties(const Scene &scene, const FrictionFace<3> &face, const PortLayout &ports)
     {
-      using namespace penalty_over_layer;
-      const double factor = scene.mesh.degree == 1 ? in_time_linear : in_time;
       return { RigidCylinder(scene.geometry, scene.cylinder),
                [geometry = scene.geometry](const double x, const double theta) { return cylinder_centre(geometry, x, theta); },
                scene.geometry.cylinder_radius,
                ports,
                rest_inclination(scene),
-               contact_penalties(face, scene.contact, scene.layer.thickness, factor) };
+               penalties_in_time(scene, face) };
     }
+
     /// Tells the shapes of modes along an edge of the whole face, by the modes of the free lever. What these leave out is the
     /// dent of the layer under the cylinder.
     class SolidDynamicLever : public DynamicLever<ModalStructure, SolidContact>
@@ -155,7 +154,7 @@ namespace sprag
       double moved(const Vector<double> &coordinates, const unsigned int dof) const
       {
         double result = 0.;
-        for (unsigned int j = 0; j < lever.modes.displacements.size(); ++j)
+        for (unsigned int j = 0; j < coordinates.size(); ++j)
           result += coordinates[j] * lever.modes.displacements[j][dof];
         return result;
       }
@@ -173,10 +172,11 @@ namespace sprag
     return result;
   }
 
-  std::unique_ptr<DynamicModel> make_solid_dynamics(const Scene &scene, const SolidInTime &lever, const double relaxation)
+  std::unique_ptr<DynamicModel> make_solid_dynamics(const Scene &scene, const SolidInTime &lever, const double relaxation,
+                                                    const unsigned int n_modes)
   {
     auto window       = window_of_scene(scene, lever.body->friction_face());
-    const auto basis  = basis_on(window, lever, scene);
+    const auto basis  = truncated(basis_on(window, lever, scene), n_modes);
     auto structure    = std::make_unique<ModalStructure>(modal_data(basis, constants_of(scene, relaxation, basis.lever_mass)));
     const auto ports  = structure->ports();
     const auto &whole = lever.body->friction_face();
@@ -185,6 +185,13 @@ namespace sprag
                                                   scene.layer.thickness, lever.body->is_half());
     return std::make_unique<SolidDynamicLever>(std::move(structure), std::move(contact),
                                                lever_frame(scene, ports, basis.lever_mass), lever);
+  }
+
+  ContactPenalties penalties_in_time(const Scene &scene, const FrictionFace<3> &face)
+  {
+    using namespace penalty_over_layer;
+    const double factor = scene.mesh.degree == 1 ? in_time_linear : in_time;
+    return contact_penalties(face, scene.contact, scene.layer.thickness, factor);
   }
 
   FrictionFace<3> reached_face(const Scene &scene, const SolidBody &body)
