@@ -1,0 +1,44 @@
+#include "model/force_history.h"
+
+#include <gtest/gtest.h>
+
+using namespace sprag;
+
+namespace
+{
+  PortLoads loads(const std::vector<unsigned int> &ports, const std::vector<double> &values)
+  {
+    return { ports, dealii::Vector<double>(values.begin(), values.end()) };
+  }
+
+  PortLoads guessed(const ForceHistory &history, const double duration)
+  {
+    PortLoads result;
+    history.guess(duration, result);
+    return result;
+  }
+} // namespace
+
+// f(t) = 2 + 3 t at the middles of steps of 1, 2 and 4: at 0.5, 2 and 5.
+TEST(ForceHistory, FollowsALineThroughStepsOfDifferentLength)
+{
+  ForceHistory history;
+  history.begin(loads({ 4 }, { 2. }));
+  EXPECT_EQ(guessed(history, 1.).values[0], 2.);
+  history.accept(loads({ 4 }, { 3.5 }), 1.);
+  EXPECT_DOUBLE_EQ(guessed(history, 2.).values[0], 8.);
+  history.accept(loads({ 4 }, { 8. }), 2.);
+  EXPECT_DOUBLE_EQ(guessed(history, 4.).values[0], 17.);
+}
+
+TEST(ForceHistory, HasThePortsOfTheLastForces)
+{
+  ForceHistory history;
+  history.begin(loads({ 1, 2 }, { 1., 1. }));
+  history.accept(loads({ 1, 2 }, { 1., 1. }), 1.);
+  history.accept(loads({ 2, 7 }, { 2., 5. }), 1.);
+  const auto found = guessed(history, 1.);
+  EXPECT_EQ(found.ports, (std::vector<unsigned int>{ 2, 7 }));
+  EXPECT_DOUBLE_EQ(found.values[0], 3.);
+  EXPECT_DOUBLE_EQ(found.values[1], 5.);
+}
