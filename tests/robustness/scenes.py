@@ -30,6 +30,7 @@ CHANGES = {
     "design-machine": {"Design/Demands": "friction ratio = 0.5 +- 0.005; largest pressure <= 0.8", "Design/Judges": "none"},
     "design-front-machine": {"Design/Front points": "3", "Design/Evaluations": "300"},
     **{name: {"Mesh/Elements across": "2", "Condensed/Modes": "6"} for name in ("solid-modal-a", "solid-stability-a")},
+    **{name: {"Mesh/Elements across": "2"} for name in ("solid-shaft-a", "solid-tilted-a")},
     "solid-rib-a": {"Mesh/Degree": "1"},
     "solid-reversal-a": {"Mesh/Elements across": "2", "Condensed/Modes": "6", "Drive/Start": "63"},
     "study-growth-a": {**STUDY, "Study/Vary": "Mesh/Face size = 5, 6, 8", "Condensed/Modes": "3"},
@@ -231,6 +232,8 @@ class ScenesTest(RunTest):
         if parameter(text, "Analysis", "Dimension") == "3":
             expected |= {"F_across", "centre_across", "twisting_moment", "turning_moment", "largest_pressure_zeta"}
             expected |= {f"sensor_{place}_{side}" for place in places for side in ("left", "right") if has_plate}
+            if {parameter(text, "Cylinder", f"{slope} stiffness") for slope in ("Tilt", "Skew")} != {"auto"}:
+                expected |= {"tilt", "skew"}
             if parameter(text, "Analysis", "Type") == "quasi-static":
                 self.assertLess(file["meta/compliance_error"][()], 1e-3)
         self.assertEqual(set(table), expected)
