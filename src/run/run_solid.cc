@@ -147,6 +147,7 @@ namespace sprag
           });
       check_deviation(scene, summary);
     }
+
     /// A folder that is there as long as this, with nothing of an earlier run.
     struct FolderForFactors
     {
