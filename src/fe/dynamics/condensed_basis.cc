@@ -259,7 +259,8 @@ namespace sprag
     const auto corner = [](const FullMatrix<double> &matrix, const std::size_t rows, const std::size_t columns)
     {
       FullMatrix<double> result(rows, columns);
-      result.fill(matrix);
+      if (!matrix.empty() && !result.empty())
+        result.fill(matrix);
       return result;
     };
     basis.shapes            = corner(basis.shapes, basis.shapes.m(), modes);
