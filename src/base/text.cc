@@ -115,6 +115,11 @@ namespace sprag
     return best;
   }
 
+  std::string row_label(const std::size_t index)
+  {
+    return "row " + std::to_string(index + 1) + ": ";
+  }
+
   std::string did_you_mean(const std::optional<std::string> &candidate)
   {
     return candidate ? "; did you mean '" + *candidate + "'?" : "";

@@ -34,6 +34,9 @@ namespace sprag
   /// Writes a length as "12.5 mm", rounded.
   std::string mm(double length);
 
+  /// Returns "row 1: " for index 0, the beginning of a message about a row of a table.
+  std::string row_label(std::size_t index);
+
   /// A number at the beginning of a text and what stands behind it.
   struct LeadingNumber
   {

@@ -2,6 +2,7 @@
 
 #include "base/append.h"
 #include "base/text.h"
+#include "base/unknown.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,8 +13,6 @@ namespace sprag
 {
   namespace
   {
-    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-
     std::string unit_text(const std::string &unit)
     {
       return unit == "1" ? "" : ' ' + unit;

@@ -1,6 +1,7 @@
 #include "run/identification_report.h"
 
 #include "base/text.h"
+#include "base/unknown.h"
 #include "run/brief_lines.h"
 #include "scene/closed_form.h"
 #include "scene/identification_text.h"
@@ -9,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <ostream>
 #include <set>
 
@@ -17,8 +17,6 @@ namespace sprag
 {
   namespace
   {
-    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-
     std::string word_of(const ForceChannel &channel)
     {
       return word_for(force_words(), channel.force);

@@ -2,6 +2,7 @@
 
 #include "analysis/isolation/harmonic_balance.h"
 #include "base/text.h"
+#include "base/unknown.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,8 +12,6 @@ namespace sprag
 {
   namespace
   {
-    constexpr double unknown = IsolationFindings::unknown;
-
     bool is_harmonic(const Scene &scene)
     {
       return scene.isolation.base == BaseMotionType::harmonic;

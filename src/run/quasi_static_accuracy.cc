@@ -109,7 +109,7 @@ namespace sprag
                "No estimate: the contact is only " + rounded_text(faces) + " faces wide. Try a smaller Mesh/Face size." };
     }
 
-    std::vector<ErrorEstimate> unknown(const std::string &reason)
+    std::vector<ErrorEstimate> unknown_errors(const std::string &reason)
     {
       std::vector<ErrorEstimate> result;
       for (const char *const quantity : { "P", "Q", "loop_area", "largest_pressure", "contact_width", "largest_stress" })
@@ -122,12 +122,12 @@ namespace sprag
                                                    const std::function<Probes()> &probe)
   {
     if (!scene.mesh.file.empty())
-      return unknown(no_coarser_mesh);
+      return unknown_errors(no_coarser_mesh);
     try
     {
       const Probes probes = probe();
       if (probes.run.size() < 2)
-        return unknown("No estimate: there are no two states in which the whole contact slides.");
+        return unknown_errors("No estimate: there are no two states in which the whole contact slides.");
       const double faces       = faces_in_contact(scene, probes.run);
       const bool forces_follow = faces > 1.;
       const bool all_follows   = expected_pressure_error(faces, scene.mesh.degree) <= follows_pressure;
@@ -147,11 +147,11 @@ namespace sprag
     }
     catch (const AnalysisError &error)
     {
-      return unknown("No estimate: in the comparison there was " + std::string(error.what()) + ".");
+      return unknown_errors("No estimate: in the comparison there was " + std::string(error.what()) + ".");
     }
     catch (const InputError &error)
     {
-      return unknown("No estimate: the coarser mesh cannot serve: " + std::string(error.what()) + ".");
+      return unknown_errors("No estimate: the coarser mesh cannot serve: " + std::string(error.what()) + ".");
     }
   }
 } // namespace sprag

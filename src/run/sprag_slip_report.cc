@@ -1,14 +1,13 @@
 #include "run/sprag_slip_report.h"
 
+#include "base/unknown.h"
+
 #include <cmath>
-#include <limits>
 
 namespace sprag
 {
   namespace
   {
-    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-
     void add_growth(const Growth &growth, std::vector<Entry> &entries)
     {
       entries.push_back({ "linear_growth_rate", growth.eigenvalue.real(), "1/s", "real part of the eigenvalue" });

@@ -2,20 +2,18 @@
 
 #include "base/append.h"
 #include "base/text.h"
+#include "base/unknown.h"
 #include "scene/sections.h"
 
 #include <boost/algorithm/string/join.hpp>
 
 #include <algorithm>
-#include <limits>
 #include <set>
 
 namespace sprag
 {
   namespace
   {
-    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-
     bool has_numbers(const Rule &rule)
     {
       return rule.kind != Rule::Kind::choice && rule.kind != Rule::Kind::text && rule.kind != Rule::Kind::file;

@@ -19,7 +19,7 @@ namespace sprag
   {
     constexpr double too_far = 0.2; ///< relative change of a frequency, beyond which another vibration was compared
 
-    std::vector<ErrorEstimate> unknown(const std::string &reason)
+    std::vector<ErrorEstimate> unknown_errors(const std::string &reason)
     {
       std::vector<ErrorEstimate> result;
       for (const char *const quantity : { "P", "overshoot", "frequency", "decay" })
@@ -82,13 +82,13 @@ namespace sprag
       const auto turned     = oscillations(rows, scene.drive).front();
       const double measured = turned.frequency;
       if (!(measured > 0.))
-        return unknown("P does not ring behind the first reversal.");
+        return unknown_errors("P does not ring behind the first reversal.");
       const Scene held        = slide_behind_reversal(scene);
       const auto found        = judge(held, maker);
       const auto frequency_of = [&](const SlideStability &slide)
       { return eigenvalue_near(slide, measured).imag() / (2. * M_PI); };
       if (!(frequency_of(found) > 0.) || !(eigenvalue_near(found, measured).real() < 0.))
-        return unknown("the slide behind the first reversal does not ring down.");
+        return unknown_errors("the slide behind the first reversal does not ring down.");
       const double turn    = scene.drive.reversals().front();
       const auto ringing   = ringing_rows(rows, turn, turned.window_end);
       const double dt      = sum(ringing, Column::time_step) / static_cast<double>(ringing.size());
@@ -102,8 +102,8 @@ namespace sprag
         of_frequency = parts_of_slide(held, found, probe_slide(held, dynamics.penalties, maker), frequency_of);
       for (const auto &part : of_frequency)
         if (!(part.value < too_far))
-          return unknown("with another " + part.name +
-                         " the slide behind the first reversal has no vibration of this frequency.");
+          return unknown_errors("with another " + part.name +
+                                " the slide behind the first reversal has no vibration of this frequency.");
       const double between_rows = 1. - std::cos(0.5 * angle); // of a peak
       return { { "P", "its peak", with_step(times(of_frequency, lag), slowing * lag, step), {} },
                { "overshoot", "it", with_step(times(of_frequency, 2.), 2. * slowing + between_rows, step), {} },
@@ -116,18 +116,18 @@ namespace sprag
                                                 DynamicsMaker &maker)
   {
     if (const auto reason = why_not(scene, rows); !reason.empty())
-      return unknown(reason);
+      return unknown_errors(reason);
     try
     {
       return estimates(scene, dynamics, rows, maker);
     }
     catch (const AnalysisError &error)
     {
-      return unknown("in the comparison " + std::string(error.what()) + ".");
+      return unknown_errors("in the comparison " + std::string(error.what()) + ".");
     }
     catch (const InputError &error)
     {
-      return unknown("the coarser mesh cannot serve: " + std::string(error.what()) + ".");
+      return unknown_errors("the coarser mesh cannot serve: " + std::string(error.what()) + ".");
     }
   }
 } // namespace sprag

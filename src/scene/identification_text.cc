@@ -163,21 +163,16 @@ namespace sprag
       }
     };
 
-    std::string row(const std::size_t index)
-    {
-      return "row " + std::to_string(index + 1) + ": ";
-    }
-
     void need_usable(const MeasuredStroke &stroke)
     {
       if (stroke.rows() < fewest_rows)
         throw InputError("must have at least " + std::to_string(fewest_rows) + " rows, has " + std::to_string(stroke.rows()));
       for (std::size_t i = 0; i < stroke.time.size(); ++i)
         if (std::isnan(stroke.time[i]) || (i > 0 && stroke.time[i] < stroke.time[i - 1]))
-          throw InputError(row(i) + "time must not be less than in the row before");
+          throw InputError(row_label(i) + "time must not be less than in the row before");
       for (std::size_t i = 0; i < stroke.x.size(); ++i)
         if (std::isnan(stroke.x[i]))
-          throw InputError(row(i) + "x is missing");
+          throw InputError(row_label(i) + "x is missing");
       for (const auto &channel : stroke.channels)
       {
         const auto is_missing = [](const double value) { return std::isnan(value); };

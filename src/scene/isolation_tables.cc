@@ -18,18 +18,13 @@ namespace sprag
     const char *const loop_parameter = "Isolation/Loop table";
     const char *const base_parameter = "Isolation/Base table";
 
-    std::string row(const std::size_t index)
-    {
-      return "row " + std::to_string(index + 1) + ": ";
-    }
-
     void need_increasing(const Samples &samples, const std::string &name)
     {
       if (samples.at.size() < 4)
         throw InputError("must have at least 4 rows, has " + std::to_string(samples.at.size()));
       for (std::size_t i = 1; i < samples.at.size(); ++i)
         if (!(samples.at[i] > samples.at[i - 1]))
-          throw InputError(row(i) + name + " " + number_text(samples.at[i]) + ": must be more than in the row before");
+          throw InputError(row_label(i) + name + " " + number_text(samples.at[i]) + ": must be more than in the row before");
     }
 
     /// The row of the largest x ends the way out and begins that back.
@@ -124,9 +119,10 @@ namespace sprag
       for (std::size_t i = 0; i < spectrum.at.size(); ++i)
       {
         if (spectrum.at[i] < 0.)
-          throw InputError(row(i) + "frequency " + number_text(spectrum.at[i]) + " Hz: must be >= 0");
+          throw InputError(row_label(i) + "frequency " + number_text(spectrum.at[i]) + " Hz: must be >= 0");
         if (spectrum.values[i] < 0.)
-          throw InputError(row(i) + "density " + number_text(spectrum.values[i]) + ": must be >= 0, as no spectrum is negative");
+          throw InputError(row_label(i) + "density " + number_text(spectrum.values[i]) +
+                           ": must be >= 0, as no spectrum is negative");
       }
       if (*std::max_element(spectrum.values.begin(), spectrum.values.end()) == 0.)
         throw InputError("must have a density above 0");

@@ -11,7 +11,7 @@ from folders import FolderTest
 
 SOURCE = Path(os.environ.get("SPRAG_SOURCE", Path(__file__).resolve().parents[2]))
 SPRAG = os.environ.get("SPRAG", str(SOURCE / "build" / "sprag"))
-TIMEOUT = 120  # seconds: a run that hangs is a failed test
+TIMEOUT = 300  # seconds: a run that hangs is a failed test
 
 
 def sprag(*arguments, **options):

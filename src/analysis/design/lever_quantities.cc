@@ -53,7 +53,7 @@ namespace sprag
       result[Q::friction_ratio]  = scene.isolation.levers * result[Q::damping_slope] / scene.isolation.stiffness;
     }
 
-    double largest_of(const std::vector<double> &forces)
+    double largest_size_of(const std::vector<double> &forces)
     {
       double largest = 0.;
       for (const double force : forces)
@@ -88,7 +88,7 @@ namespace sprag
       }
       result[Q::force_ratio]          = ratio_of_ways(forward.back(), backward.back());
       result[Q::nonlinearity]         = std::max(nonlinearity_of(places, forward), nonlinearity_of(places, backward));
-      result[Q::largest_force]        = std::max(largest_of(forward), largest_of(backward));
+      result[Q::largest_force]        = std::max(largest_size_of(forward), largest_size_of(backward));
       result[Q::largest_normal_force] = largest_P;
       result[Q::largest_pressure]     = layer_pressure(scene, largest_P);
       result[Q::loop_area]            = integral_of(opening, scene.drive.maximum() - scene.drive.minimum());
@@ -164,7 +164,7 @@ namespace sprag
     }
     for (std::size_t i = 0; i < x.size(); ++i)
       farthest = std::max(farthest, std::abs(forces[i] - products / squares * x[i]));
-    return farthest / largest_of(forces);
+    return farthest / largest_size_of(forces);
   }
 
   double ratio_of_ways(const double forward, const double backward)

@@ -15,7 +15,7 @@ namespace sprag
     constexpr double chance           = 1e-4;
 
     /// Neighbouring rows of one channel in one stroke.
-    struct Group
+    struct RowGroup
     {
       std::vector<double> travels;
       double squares = 0.;
@@ -40,7 +40,7 @@ namespace sprag
   VibrationWindow vibration_window(const StrokeFit &fit, const std::vector<std::pair<UsedValue, double>> &residuals,
                                    const std::vector<ChannelNoise> &noise, const double largest)
   {
-    std::map<std::pair<std::size_t, std::size_t>, std::vector<Group>> all; // by channel and stroke
+    std::map<std::pair<std::size_t, std::size_t>, std::vector<RowGroup>> all; // by channel and stroke
     std::map<std::pair<std::size_t, std::size_t>, std::size_t> within;
     const auto travel = [&](const UsedValue &value) { return fit.way().travel(value.row, 0., value.stroke); };
     for (const auto &[value, residual] : residuals)

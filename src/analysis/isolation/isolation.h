@@ -2,9 +2,9 @@
 
 #include "analysis/isolation/table_motion.h"
 #include "base/progress_keeper.h"
+#include "base/unknown.h"
 
 #include <functional>
-#include <limits>
 
 namespace sprag
 {
@@ -12,8 +12,6 @@ namespace sprag
   /// over the last periods, otherwise over the whole run. What does not apply is NaN.
   struct IsolationFindings
   {
-    static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-
     unsigned int turns     = 0;  ///< instants with z' = 0 that a motion led to, stops included
     unsigned int stops     = 0;  ///< of these at which friction held the table
     double time            = 0.; ///< at the end [s]

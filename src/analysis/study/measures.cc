@@ -1,8 +1,9 @@
 #include "analysis/study/measures.h"
 
+#include "base/unknown.h"
+
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <optional>
 #include <regex>
@@ -11,8 +12,6 @@ namespace sprag
 {
   namespace
   {
-    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-
     /// A quantity that stands in one or several entries of a summary.
     struct Compared
     {

@@ -1,16 +1,15 @@
 #include "analysis/study/stroke_errors.h"
 
+#include "base/unknown.h"
+
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 namespace sprag
 {
   namespace
   {
-    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-
     struct Stroke
     {
       bool forward;

@@ -2,17 +2,15 @@
 
 #include "analysis/study/trade.h"
 #include "base/text.h"
+#include "base/unknown.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace sprag
 {
   namespace
   {
-    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-
     double number_of(const std::string &value)
     {
       const auto number = leading_number(value);

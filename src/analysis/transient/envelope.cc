@@ -1,17 +1,15 @@
 #include "analysis/transient/envelope.h"
 
 #include "base/least_squares.h"
+#include "base/unknown.h"
 
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 namespace sprag
 {
   namespace
   {
-    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-
     /// Vertex of the parabola through three samples, the middle one not smaller than its neighbours.
     Sample vertex(const Sample &before, const Sample &middle, const Sample &after)
     {

@@ -22,8 +22,6 @@ namespace sprag
     constexpr double coarsest_sampling = 1e-5;    ///< [s]
     constexpr double most_samples      = 1 << 17; ///< of a resampled signal
 
-    constexpr double unknown = Oscillation::unknown;
-
     struct Sample
     {
       double time       = 0.;

@@ -1,10 +1,10 @@
 #pragma once
 
+#include "base/unknown.h"
 #include "results/result_file.h"
 #include "results/warning.h"
 #include "scene/drive.h"
 
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -35,8 +35,6 @@ namespace sprag
   /// other. If that is only after the reversal's end, it counts from there.
   struct Oscillation
   {
-    static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-
     double time         = unknown; ///< of the turning point [s]
     double x            = unknown; ///< of the turning point [mm]
     double window_begin = unknown; ///< [s]

@@ -10,7 +10,7 @@ namespace sprag
     using Names    = std::set<std::string>;
     using Messages = std::vector<std::string>;
 
-    struct Group
+    struct LeverGroup
     {
       std::string name;
       std::string meaning;
@@ -29,7 +29,7 @@ namespace sprag
     };
 
     /// "no physical surface 'name', meaning (surfaces found: ...)", where it is not there.
-    void need(const Group &group, const Found &found, Messages &result, const std::string &wish = "")
+    void need(const LeverGroup &group, const Found &found, Messages &result, const std::string &wish = "")
     {
       const auto &[name, meaning] = group;
       if (!found.has(name))

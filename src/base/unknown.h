@@ -1,0 +1,9 @@
+#pragma once
+
+#include <limits>
+
+namespace sprag
+{
+  /// What stands for a value that was not found or does not exist.
+  inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+} // namespace sprag
