@@ -8,7 +8,7 @@ namespace sprag
 {
   namespace
   {
-    std::vector<ErrorEstimate> unknown_errors(const std::string &reason)
+    std::vector<ErrorEstimate> unknown_growth(const std::string &reason)
     {
       return { { "growth_rate", "", {}, reason }, { "frequency", "", {}, reason } };
     }
@@ -20,14 +20,14 @@ namespace sprag
     if (!is_meshed(scene.analysis.model))
       return {};
     if (!scene.mesh.file.empty())
-      return unknown_errors(no_coarser_mesh);
+      return unknown_growth(no_coarser_mesh);
     if (!(found.frequency() > 0.))
-      return unknown_errors("No estimate: the mode that grows most does not oscillate.");
+      return unknown_growth("No estimate: the mode that grows most does not oscillate.");
     try
     {
       const auto probes = probe_slide(scene, dynamics.penalties, maker);
       if (!(probes.coarse.frequency() > 0.) || !(probes.soft.frequency() > 0.))
-        return unknown_errors(
+        return unknown_growth(
             "No estimate: on a coarser mesh or with a softer penalty the mode that grows most does not oscillate.");
       const auto parts = [&](const auto &value) { return parts_of_slide(scene, found, probes, value); };
       return { { "growth_rate",
@@ -38,11 +38,11 @@ namespace sprag
     }
     catch (const AnalysisError &error)
     {
-      return unknown_errors("No estimate: in the comparison " + std::string(error.what()) + ".");
+      return unknown_growth("No estimate: in the comparison " + std::string(error.what()) + ".");
     }
     catch (const InputError &error)
     {
-      return unknown_errors("No estimate: the coarser mesh cannot serve: " + std::string(error.what()) + ".");
+      return unknown_growth("No estimate: the coarser mesh cannot serve: " + std::string(error.what()) + ".");
     }
   }
 } // namespace sprag
