@@ -8,6 +8,7 @@
 #include "run/memory.h"
 #include "run/outcome.h"
 #include "run/output_folder.h"
+#include "run/processes.h"
 #include "run/run.h"
 #include "run/run_log.h"
 #include "scene/analysis_use.h"
@@ -48,19 +49,18 @@ namespace sprag
 
     void execute(const Arguments &arguments, const Scene &scene, const Rank &rank, RunLog &log)
     {
+      require_useful_processes(scene, processes_of(rank));
       if (arguments.validate)
       {
         const std::string folder = folder_of(arguments, scene);
         require_memory(scene, processes_of(rank), folder);
         const auto warnings = validate(scene);
-        if (!arguments.quiet && rank.is_first)
+        if (!rank.is_first)
+          return;
+        if (!arguments.quiet)
           print_expectations(scene, processes_of(rank), folder);
         return tell_validity(arguments, scene, warnings);
       }
-      if (!rank.is_alone && !works_in_parallel(scene.analysis.type) && !shares_body(scene))
-        throw InputError(
-            "only Analysis/Type = map and study, and Analysis/Dimension = 3 without inertia, run in several processes: leave out "
-            "mpirun");
       if (!rank.is_alone)
         require_alike_processes(scene);
       const std::string folder = folder_of(arguments, scene);
@@ -74,12 +74,14 @@ namespace sprag
       else
         on_first_rank(claim);
       if (!rank.is_first && shares_body(scene))
-        return help_first_rank(scene, MPI_COMM_WORLD);
+        return help_first_rank(MPI_COMM_WORLD);
       RunOptions options{ folder, arguments.quiet, rank.is_first };
-      options.verbose        = arguments.verbose;
-      options.log            = rank.is_first ? &log : nullptr;
-      const auto end_of_help = [](const void *) { call_others(SharedTask::end, MPI_COMM_WORLD); };
-      std::unique_ptr<const Scene, decltype(end_of_help)> helped(shares_body(scene) ? &scene : nullptr, end_of_help);
+      options.processes = processes_of(rank);
+      options.verbose   = arguments.verbose;
+      options.log       = rank.is_first ? &log : nullptr;
+      std::optional<RanksAtHand> others;
+      if (shares_body(scene))
+        others.emplace(MPI_COMM_WORLD);
       run(scene, options);
     }
 

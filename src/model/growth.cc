@@ -28,6 +28,8 @@ namespace sprag
       return sum.real();
     }
 
+    constexpr double alike = 1e-6; ///< relative difference of displacements, as those of both sides in a mode that twists
+
     void multiply(ComplexVector &vector, const Complex factor)
     {
       if (vector[0].size() == 0) // face forces of a reduced lever
@@ -39,14 +41,15 @@ namespace sprag
       vector[1].add(factor.imag(), real);
     }
 
-    /// To modal mass 1 and a rotation, or the largest displacement if there is none, that is real and positive.
+    /// To modal mass 1 and a rotation, or the largest displacement if there is none, the first of those alike, that is real and
+    /// positive.
     void normalise(const double mass, const unsigned int rotation, StructureMode &mode, ComplexVector &ports)
     {
       unsigned int reference = rotation;
       const auto size        = [&](const unsigned int port) { return std::hypot(ports[0][port], ports[1][port]); };
       unsigned int largest   = 0;
       for (unsigned int port = 0; port < ports[0].size(); ++port)
-        if (size(port) > size(largest))
+        if (size(port) > (1. + alike) * size(largest))
           largest = port;
       if (size(rotation) < 1e-9 * size(largest))
         reference = largest;

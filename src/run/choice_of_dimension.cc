@@ -56,7 +56,7 @@ namespace sprag
       const double start = scene.drive.at(0.).x;
       Mesh mesh;
       make_mesh(plane, mesh);
-      const SolidBody body(solid, mesh, MPI_COMM_SELF);
+      const SolidBody body(solid, mesh);
       SolidLever in_space(body, solid);
       LeverModel in_plane(mesh, plane);
       const auto rows       = repeated(in_space, places, start, settings);

@@ -275,9 +275,10 @@ namespace sprag
 
   std::optional<FactorFiles> factor_files(const Scene &scene, const unsigned int processes, const std::string &folder)
   {
-    const double needed  = expected_memory(scene, processes);
-    const auto available = available_memory();
-    if (!shares_body(scene) || folder.empty() || needed <= available.bytes)
+    const double needed        = expected_memory(scene, processes);
+    const auto available       = available_memory();
+    const bool can_be_in_files = scene.analysis.dimension == 3 && scene.analysis.type == AnalysisType::quasi_static;
+    if (!can_be_in_files || folder.empty() || needed <= available.bytes)
       return std::nullopt;
     FactorFiles result{ factor_folder(folder), needed, available, 0., bytes_of_solid_factors(scene) };
     result.memory_with_files = needed - kept_in_files * result.bytes;

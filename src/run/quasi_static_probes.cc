@@ -82,7 +82,7 @@ namespace sprag
     Mesh mesh;
     const Scene coarse = with_coarser_mesh(with_penalties(scene, lever.penalties(), 1.));
     make_mesh(coarse, mesh);
-    const SolidBody coarse_body(coarse, mesh, MPI_COMM_SELF);
+    const SolidBody coarse_body(coarse, mesh);
     SolidLever on_coarse(coarse_body, coarse);
     result.coarse = repeated(on_coarse, result.run, start, settings);
     return result;

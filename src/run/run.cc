@@ -8,6 +8,7 @@
 #include "run/expected_cost.h"
 #include "run/memory.h"
 #include "run/output_folder.h"
+#include "run/processes.h"
 #include "run/study_runs.h"
 #include "run/warnings.h"
 #include "scene/analysis_use.h"
@@ -75,6 +76,7 @@ namespace sprag
       scene = with_settings(scene, choice.settings);
     }
     print_cost(std::cout, expected_cost(scene));
+    print_processes(std::cout, scene, processes);
     if (const auto files = factor_files(scene, processes, folder))
       std::cout << "Memory:       " << text_of(*files) << '\n';
   }
@@ -88,7 +90,11 @@ namespace sprag
       try_mesh(scene);
     }
     if (!scene.accuracy.leaves_open())
+    {
+      if (!options.quiet && options.is_first)
+        print_processes(std::cout, scene, options.processes);
       return run_from_margin_to_warnings(scene, options, margin_of, carry_out);
+    }
     require_writable(options.folder);
     const auto choice  = choose_settings(scene);
     Scene chosen       = prepared(with_settings(scene, choice.settings));
@@ -98,8 +104,9 @@ namespace sprag
     {
       print_choice(std::cout, scene, choice);
       print_cost(std::cout, expected_cost(chosen));
+      print_processes(std::cout, chosen, options.processes);
     }
-    require_memory(chosen, 1, options.in_memory == nullptr ? options.folder : "");
+    require_memory(chosen, options.processes, options.in_memory == nullptr ? options.folder : "");
     // The file tells the parameters that were given, by which the folder is known again, and in /meta what followed from them.
     chosen.parameters = scene.parameters;
     run_from_margin_to_warnings(chosen, telling, margin_of, carry_out);

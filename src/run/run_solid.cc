@@ -168,9 +168,9 @@ namespace sprag
       const std::string folder;
     };
 
-    std::unique_ptr<FolderForFactors> folder_for_factors(const Scene &scene, const RunOptions &options, const MPI_Comm ranks)
+    std::unique_ptr<FolderForFactors> folder_for_factors(const Scene &scene, const RunOptions &options)
     {
-      const auto files = factor_files(scene, dealii::Utilities::MPI::n_mpi_processes(ranks), options.folder);
+      const auto files = factor_files(scene, options.processes, options.folder);
       if (!files)
         return nullptr;
       if (!options.quiet)
@@ -186,10 +186,9 @@ namespace sprag
     const auto meshes = static_meshes(options);
     const Mesh *plane = nullptr;
     timed(timer, "mesh", [&] { plane = &meshes->mesh_of(scene); });
-    const MPI_Comm ranks = options.in_memory ? MPI_COMM_SELF : MPI_COMM_WORLD; // those of a study run scenes of their own
-    const auto files     = options.in_memory ? nullptr : folder_for_factors(scene, options, ranks);
+    const auto files = options.in_memory ? nullptr : folder_for_factors(scene, options);
     std::optional<SolidBody> body;
-    timed(timer, "body", [&] { body.emplace(scene, *plane, ranks, FactorSettings{ {}, files ? files->folder : "" }); });
+    timed(timer, "body", [&] { body.emplace(scene, *plane, FactorSettings{ {}, files ? files->folder : "" }); });
     std::optional<SolidLever> lever;
     timed(timer, "model", [&] { lever.emplace(*body, scene); });
     drive_lever(scene, options, timer, *body, *lever, warnings);

@@ -23,7 +23,9 @@ namespace sprag
 
   bool shares_body(const Scene &scene)
   {
-    return scene.analysis.dimension == 3 && scene.analysis.type == AnalysisType::quasi_static;
+    const auto type        = scene.analysis.type;
+    const bool is_in_space = scene.analysis.dimension == 3 || scene.accuracy.is_dimension_open;
+    return is_in_space && runs_model(type) && !works_in_parallel(type);
   }
 
   bool isolates_by_model(const Scene &scene)

@@ -16,7 +16,7 @@ namespace sprag
   /// Displacements of a body in three dimensions from which on its factors are of single precision, without inertia.
   constexpr double least_in_single_precision = 5e5;
 
-  /// Returns whether several processes share the body of an analysis.
+  /// Returns whether several processes share the body of an analysis, which is in three dimensions or may turn out to be.
   bool shares_body(const Scene &scene);
 
   /// Returns whether the table of an isolation system works against levers of a model in time.

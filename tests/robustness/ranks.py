@@ -1,4 +1,4 @@
-"""A run in three dimensions by several processes of MPI: the same results, written once; other analyses refuse them."""
+"""Runs in three dimensions by several processes of MPI: the same results, written once; what they cannot help refuses them."""
 
 import os
 import re
@@ -14,10 +14,9 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 from runs import SOURCE, SPRAG, TIMEOUT, RunTest  # noqa: E402
 
-SETTINGS = {
-    "Analysis/Dimension": "3", "Mesh/Face size": "4", "Mesh/Faces in contact": "0", "Mesh/Elements across": "3", "Cylinder/Tilt": "1e-4",
-    "Drive/Stroke": "15",
-}
+MESH = {"Analysis/Dimension": "3", "Mesh/Face size": "3", "Mesh/Faces in contact": "0", "Mesh/Elements across": "3"}
+SETTINGS = {**MESH, "Cylinder/Tilt": "1e-4", "Drive/Stroke": "15"}
+HELD = {**MESH, "Analysis/Model": "condensed", "Condensed/Modes": "8", "Output/Fields": "none"}
 ALONE = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_rmaps_base_oversubscribe": "1"}
 
 
@@ -59,6 +58,40 @@ class Ranks(RunTest):
             for data, values in alone.items():  # written in single precision
                 np.testing.assert_allclose(fields[1][name][data], values, rtol=0, atol=2e-6 * np.abs(values).max(initial=0), err_msg=data)
 
+    def test_do_not_change_slides_and_motions(self):
+        tables = {
+            "stability": ("modes", ("frequency", "growth_rate")),
+            "modal": ("modes", ("frequency", "across_real", "sideways_real")),
+            "transient": ("table", ("P", "Q", "theta")),
+        }
+        for analysis, (group, names) in tables.items():
+            changes = {**HELD, "Analysis/Type": analysis}
+            if analysis == "stability":
+                changes.update({"Stability/Critical": "none", "Stability/Roles": "off"})
+            elif analysis == "transient":
+                changes.update({"Drive/Stroke": "6", "Drive/Start": "4"})
+            with self.subTest(analysis):
+                alone, shared = (self.data_of(ranks, analysis, changes, group, names) for ranks in (1, 2))
+                # In time round-off of the gap meets the contact's stiffness.
+                tolerance = 1e-6 if analysis == "transient" else 1e-8
+                for name, values in alone.items():
+                    np.testing.assert_allclose(shared[name], values, rtol=0, atol=tolerance * np.nanmax(np.abs(values)), err_msg=name)
+
+    def test_are_told_what_they_do(self):
+        in_space = run(2, self.folder / "space", {**SETTINGS, "Drive/Stroke": "2"})
+        self.assertEqual(in_space.stdout.count("Processes:    2, which share"), 1, in_space.stdout + in_space.stderr)
+        chosen = {"Analysis/Dimension": "auto", "Accuracy/Quantity": "P", "Mesh/Face size": "3", "Mesh/Faces in contact": "0"}
+        in_plane = run(2, self.folder / "plane", {**chosen, "Drive/Stroke": "15"})
+        self.assertEqual(in_plane.returncode, 0, in_plane.stderr)
+        self.assertIn("Processes:    2, of which a lever in a plane needs the first alone", in_plane.stdout)
+
+    def data_of(self, ranks, analysis, changes, group, names):
+        folder = self.folder / f"{analysis}-{ranks}"
+        done = run(ranks, folder, changes)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with h5py.File(folder / "result.h5") as file:
+            return {name: file[group][name][:] for name in names}
+
     def test_of_another_program_are_refused(self):
         program = Path(SPRAG).resolve().with_name("sprag-models")
         other = self.folder / "sprag-models"
@@ -75,10 +108,12 @@ class Ranks(RunTest):
         self.assertFalse(self.output.exists())
 
     def test_that_cannot_help_are_refused(self):
-        done = run(2, self.output, {})
-        self.assertEqual(done.returncode, 2, done.stderr)
-        self.assertEqual(done.stderr.count("leave out mpirun"), 1, done.stderr)
-        self.assertFalse(self.output.exists())
+        for changes, reason in (({}, "run in several processes"), ({**MESH, "Mesh/Face size": "8"}, "displacements are too few for 2")):
+            done = run(2, self.output, changes)
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertEqual(done.stderr.count(reason), 1, done.stderr)
+            self.assertEqual(done.stderr.count("leave out mpirun"), 1, done.stderr)
+            self.assertFalse(self.output.exists())
 
 
 if __name__ == "__main__":

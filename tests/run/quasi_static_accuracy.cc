@@ -57,7 +57,7 @@ namespace
     Told result;
     Mesh plane;
     make_mesh(scene, plane);
-    SolidBody body(scene, plane, MPI_COMM_SELF);
+    SolidBody body(scene, plane);
     SolidLever lever(body, scene);
     result.penalty = lever.penalties().normal;
     const QuasiStaticSettings settings{ scene.analysis.step, scene.analysis.minimum_step, scene.contact };

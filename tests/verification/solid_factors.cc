@@ -59,7 +59,7 @@ namespace
     const Scene scene = tilted_model_a();
     Mesh plane;
     make_mesh(scene, plane);
-    const SolidBody body(scene, plane, MPI_COMM_SELF, settings);
+    const SolidBody body(scene, plane, settings);
     EXPECT_TRUE(body.has_skin());
     std::vector<double> load(body.n_dofs(), 0.);
     load[body.friction_face().nodes.front().dofs[1]] = 1e-12; // far below what single precision tells from nothing
@@ -86,7 +86,7 @@ namespace
       const Scene scene = tilted_model_a();
       Mesh plane;
       make_mesh(scene, plane);
-      const SolidBody body(scene, plane, MPI_COMM_SELF, { true, folder.string() });
+      const SolidBody body(scene, plane, { true, folder.string() });
       EXPECT_FALSE(fs::is_empty(folder));
       EXPECT_LT(difference(in_memory.whole, body.respond(forces_on_face(body, false))), 1e-10);
     }
@@ -100,7 +100,7 @@ namespace
     const Scene scene = tilted_model_a();
     Mesh plane;
     make_mesh(scene, plane);
-    const SolidBody body(scene, plane, MPI_COMM_SELF, { false, {} });
+    const SolidBody body(scene, plane, { false, {} });
     const auto nothing = [](const std::vector<double> &loads)
     { return std::vector<float>(loads.size(), std::numeric_limits<float>::quiet_NaN()); };
     const dealii::AffineConstraints<double> free;
@@ -116,7 +116,7 @@ namespace
     const Scene scene = tilted_model_a();
     Mesh plane;
     make_mesh(scene, plane);
-    const SolidBody body(scene, plane, MPI_COMM_SELF, { false, {} });
+    const SolidBody body(scene, plane, { false, {} });
     dealii::AffineConstraints<double> held;
     for (unsigned int dof = 0; dof < body.n_dofs(); ++dof)
       if (body.is_held(dof))

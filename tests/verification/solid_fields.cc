@@ -58,7 +58,7 @@ namespace
   struct SolidRun
   {
     explicit SolidRun(const Scene &scene)
-        : body((make_mesh(scene, mesh), scene), mesh, MPI_COMM_SELF)
+        : body((make_mesh(scene, mesh), scene), mesh)
         , fields(body)
     {
       SolidLever lever(body, scene);
@@ -140,7 +140,7 @@ TEST(SolidFields, OfThePlanesDisplacementsTheyAreItsFields)
   const Scene scene = model_a_forward(3);
   Mesh mesh;
   make_mesh(scene, mesh);
-  const SolidBody body(scene, mesh, MPI_COMM_SELF);
+  const SolidBody body(scene, mesh);
   const BodyFields fields(body);
   dealii::Vector<double> displacement(body.n_dofs());
   std::vector<dealii::types::global_dof_index> dofs(body.dofs().get_fe().n_dofs_per_cell());
@@ -185,7 +185,7 @@ TEST(SolidFields, TheMeshIsTheWholeLeverAndTheCylinder)
     scene.cylinder.tilt = tilt;
     Mesh plane;
     make_mesh(scene, plane);
-    const SolidBody body(scene, plane, MPI_COMM_SELF);
+    const SolidBody body(scene, plane);
     const BodyFields fields(body);
     double area = 0.;
     for (const auto &cell : plane.active_cell_iterators())

@@ -53,7 +53,7 @@ namespace
     const Scene scene = tilted(solid_model_a(0.3), 2e-4, 1e-3);
     Mesh plane;
     make_mesh(scene, plane);
-    const SolidBody body(scene, plane, MPI_COMM_SELF);
+    const SolidBody body(scene, plane);
     SolidLever lever(body, scene);
     unsigned int visited = 0;
     run_quasi_static(lever, scene.drive, { scene.analysis.step, scene.analysis.minimum_step, scene.contact },

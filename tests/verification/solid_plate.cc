@@ -109,7 +109,7 @@ TEST(SolidPlate, TheSensorsCarryForceAndTwistingMoment)
   const Scene scene = tilted(on_sensors(0.3), 2e-4, 1e-3);
   Mesh plane;
   make_mesh(scene, plane);
-  const SolidBody body(scene, plane, MPI_COMM_SELF);
+  const SolidBody body(scene, plane);
   SolidLever lever(body, scene);
   const double back = scene.geometry.interface_offset + scene.layer.thickness + scene.plate.thickness;
   const double arm  = 0.5 * (scene.lever.width - scene.plate.sensor_width);

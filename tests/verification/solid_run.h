@@ -33,7 +33,7 @@ namespace sprag
     {
       Mesh plane;
       make_mesh(scene, plane);
-      const SolidBody body(scene, plane, MPI_COMM_SELF);
+      const SolidBody body(scene, plane);
       SolidLever lever(body, scene);
       run_quasi_static(lever, scene.drive, { scene.analysis.step, scene.analysis.minimum_step, scene.contact },
                        [&](const State &state, const Row &row)

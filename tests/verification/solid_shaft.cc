@@ -67,7 +67,7 @@ TEST_P(SolidShaft, CarriesTheMomentOfTheFaceAboutItsMiddle)
   scene.contact.enforcement = GetParam();
   Mesh plane;
   make_mesh(scene, plane);
-  const SolidBody body(scene, plane, MPI_COMM_SELF);
+  const SolidBody body(scene, plane);
   SolidLever lever(body, scene);
   std::array<double, 2> off{}, peak{};
   run_quasi_static(lever, scene.drive, { scene.analysis.step, scene.analysis.minimum_step, scene.contact },

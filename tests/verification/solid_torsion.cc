@@ -83,7 +83,7 @@ namespace
   struct TwistedBar
   {
     TwistedBar()
-        : body((make_bar(plane), bar_scene()), plane, MPI_COMM_SELF)
+        : body((make_bar(plane), bar_scene()), plane)
         , displacement(body.n_dofs(), 0.)
     {
       for (const auto &node : section(body, length))
@@ -172,7 +172,7 @@ TEST(SolidTorsion, AForceOnTheEndGivesTheStressOfABeam)
   scene.lever.poisson_ratio = 0.;
   Mesh plane;
   make_bar(plane);
-  const SolidBody body(scene, plane, MPI_COMM_SELF);
+  const SolidBody body(scene, plane);
   std::vector<double> displacement(body.n_dofs(), 0.);
   double force = 0.;
   for (const auto &node : section(body, length))

@@ -56,36 +56,34 @@ namespace sprag
   } // namespace
 
   BodyFactors::BodyFactors(const StiffnessSource &of_body, const std::vector<int> &numbers, const SharedTask solve,
-                           const MPI_Comm ranks_)
+                           const BodyCalls &calls)
       : source(of_body)
       , number_in_part(numbers)
       , task(solve)
-      , ranks(ranks_)
+      , call_others(calls)
   {
   }
 
   void BodyFactors::factorise(const std::vector<Connector> &connectors, const FactorStorage &storage)
   {
     release();
-    n                   = size_of_part(source, number_in_part);
-    auto entries        = assemble_stiffness(source, number_in_part);
-    const bool is_first = dealii::Utilities::MPI::this_mpi_process(ranks) == 0;
-    if (is_first)
-      for (const auto &connector : connectors)
-        add(connector, entries);
+    n            = size_of_part(source, number_in_part);
+    auto entries = assemble_stiffness(source, number_in_part);
+    for (const auto &connector : connectors)
+      add(connector, entries);
     if (!storage.single)
     {
-      precise = std::make_unique<SharedFactors<double>>(ranks, storage.folder);
+      precise = std::make_unique<SharedFactors<double>>(call_others.ranks, storage.folder);
       return precise->factorise(std::move(entries));
     }
-    rough = std::make_unique<SharedFactors<float>>(ranks, storage.folder);
+    rough = std::make_unique<SharedFactors<float>>(call_others.ranks, storage.folder);
     rough->factorise(std::move(entries));
     const auto solve_roughly = [this](const std::vector<double> &columns)
     {
-      call_others(task, ranks);
+      call_others(task);
       return solve_scaled(*rough, columns);
     };
-    if (is_first)
+    if (call_others.is_first())
       refinement = std::make_unique<Refinement>(source, number_in_part, connectors, solve_roughly);
   }
 
@@ -96,7 +94,7 @@ namespace sprag
 
   void BodyFactors::solve(std::vector<double> &columns) const
   {
-    call_others(task, ranks);
+    call_others(task);
     if (precise)
       return precise->solve(columns);
     auto step = solve_scaled(*rough, columns);
@@ -119,7 +117,7 @@ namespace sprag
 
   std::vector<double> BodyFactors::solve_some(const SparseColumns &columns) const
   {
-    call_others(task, ranks);
+    call_others(task);
     if (precise)
       return precise->solve(columns);
     auto step = rough->solve(columns);

@@ -19,10 +19,11 @@ namespace sprag
   {
   public:
     /// The first rank calls the others to `task` for each solve. What the source refers to must outlive this, and so must
-    /// `number_in_part`, see assemble_stiffness().
-    BodyFactors(const StiffnessSource &source, const std::vector<int> &number_in_part, SharedTask task, MPI_Comm ranks);
+    /// `number_in_part`, see assemble_stiffness(), and the calls.
+    BodyFactors(const StiffnessSource &source, const std::vector<int> &number_in_part, SharedTask task, const BodyCalls &calls);
 
-    /// Factorises, with connectors of the whole body. To be called by all ranks. Throws AnalysisError.
+    /// Factorises, with connectors of the whole body, which the first rank gives. To be called by all ranks. Throws
+    /// AnalysisError.
     void factorise(const std::vector<Connector> &connectors, const FactorStorage &storage);
 
     /// Prepares solves by some loads that move the body as the softest of its motions do, see Refinement. Returns false where
@@ -53,7 +54,7 @@ namespace sprag
     const StiffnessSource source;
     const std::vector<int> &number_in_part;
     const SharedTask task;
-    const MPI_Comm ranks;
+    const BodyCalls &call_others;
     unsigned int n = 0;
     std::unique_ptr<SharedFactors<float>> rough;    ///< either these
     std::unique_ptr<SharedFactors<double>> precise; ///< or those

@@ -2,24 +2,74 @@
 
 #include <mpi.h>
 
+#include <optional>
+
 namespace sprag
 {
-  /// What the first rank of a run in three dimensions asks the others to do with it. It alone follows the drive, looks at the
-  /// contact and writes files.
+  // The first rank of a run in three dimensions follows the drive, looks at the contact and writes files alone. It asks the
+  // others to help with bodies.
+
   enum class SharedTask
   {
     end,                 ///< the run is over
-    build,               ///< the body
+    build,               ///< a body
     release,             ///< it
+    factorise_roughly,   ///< in single precision
+    factorise_precisely, ///< in double precision
     solve_whole,         ///< with the factors of the whole body
     solve_near,          ///< with those of its skin
-    factorise_precisely, ///< again, in double precision
     release_factors      ///< of a body that is still looked at
   };
 
+  /// What the first rank calls the others to. Made of numbers alone.
+  struct SharedCall
+  {
+    SharedTask task;
+    int body; ///< its number, in the order in which they are built
+  };
+
   /// Calls the others to a task. To be called by the first rank.
-  void call_others(SharedTask task, MPI_Comm ranks);
+  void call_others(const SharedCall &call, MPI_Comm ranks);
 
   /// Waits for the first rank's next call, without taking the processor meanwhile. To be called by the others.
-  SharedTask next_call(MPI_Comm ranks);
+  SharedCall next_call(MPI_Comm ranks);
+
+  /// As long as it stands, bodies of this process, the first, are shared with the others, which await its calls.
+  class RanksAtHand
+  {
+  public:
+    explicit RanksAtHand(MPI_Comm ranks);
+    RanksAtHand &operator=(RanksAtHand &&) = delete;
+    ~RanksAtHand();
+  };
+
+  /// Returns the ranks that share the bodies of this process: itself alone without RanksAtHand.
+  MPI_Comm ranks_at_hand();
+
+  /// One body's part in the calls of the first rank.
+  class BodyCalls
+  {
+  public:
+    /// Of the first rank.
+    BodyCalls();
+
+    /// Of another, which was called to it.
+    explicit BodyCalls(MPI_Comm ranks_)
+        : ranks(ranks_)
+    {
+    }
+
+    /// Calls the others to a task where this is the first rank.
+    void operator()(SharedTask task) const;
+
+    bool is_first() const
+    {
+      return number.has_value();
+    }
+
+    const MPI_Comm ranks;
+
+  private:
+    const std::optional<int> number; ///< none of the others' calls
+  };
 } // namespace sprag

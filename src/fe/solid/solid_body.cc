@@ -1,5 +1,6 @@
 #include "fe/solid/solid_body.h"
 
+#include "base/archive.h"
 #include "base/errors.h"
 #include "fe/solid/solid_connectors.h"
 #include "fe/solid/solid_stiffness.h"
@@ -55,70 +56,90 @@ namespace sprag
       return std::any_of(faces.begin(), faces.end(), [&](const auto &face) { return face->at_boundary() && is_back(face); });
     }
 
-    using Sharing = SolidMesh::Settings;
-
-    /// To come before anything that all ranks do together.
-    MPI_Comm called_to_build(const MPI_Comm ranks)
+    SolidProperties properties_of(const Scene &scene, const std::string &folder)
     {
-      if (Utilities::MPI::this_mpi_process(ranks) == 0)
-        call_others(SharedTask::build, ranks);
-      return ranks;
+      return { solid_properties(scene), scene.geometry.interface_offset, scene.layer.thickness, skin_depth(scene), folder };
     }
+
+    void visit(Archive &archive, SolidProperties &properties)
+    {
+      auto &body = properties.body;
+      archive(body.degree, body.plane, body.material, body.width, body.curved, body.point_spacing, body.constants,
+              properties.interface_offset, properties.layer, properties.skin, properties.folder);
+    }
+
+    /// Returns those that the first rank has, which calls the others to build the body.
+    SolidProperties shared(const BodyCalls &call_others, SolidProperties properties)
+    {
+      call_others(SharedTask::build);
+      Archive written;
+      visit(written, properties);
+      Archive received(Utilities::MPI::broadcast(call_others.ranks, written.bytes()));
+      visit(received, properties);
+      return properties;
+    }
+
+    using Sharing = SolidMesh::Settings;
   } // namespace
 
-  SolidBody::SolidBody(const Scene &scene, const Mesh &plane, const MPI_Comm ranks_, const FactorSettings &settings)
-      : ranks(called_to_build(ranks_))
-      , interface_offset(scene.geometry.interface_offset)
-      , depth_of_skin(skin_depth(scene))
-      , properties(solid_properties(scene))
-      , mesh(ranks, SolidMesh::none, false, Sharing::partition_zorder)
+  SolidBody::SolidBody(const Scene &scene, const Mesh &plane, const FactorSettings &settings)
+      : SolidBody(BodyCalls(), properties_of(scene, settings.folder))
+  {
+    number_displacements(make_solid_mesh(scene, plane, mesh));
+    springs = find_connectors({ mapping, dof_handler, constraints, is_half() }, scene);
+    factorise(
+        settings.single.value_or(scene.analysis.type == AnalysisType::quasi_static && n_dofs() >= least_in_single_precision));
+    if (!factors_serve())
+      factorise(false);
+  }
+
+  SolidBody::SolidBody(const MPI_Comm ranks)
+      : SolidBody(BodyCalls(ranks), SolidProperties())
+  {
+    number_displacements(receive_solid_mesh(mesh));
+  }
+
+  SolidBody::SolidBody(const BodyCalls &calls, SolidProperties of_first)
+      : call_others(calls)
+      , given(shared(calls, std::move(of_first)))
+      , depth_of_skin(given.skin)
+      , properties(given.body)
+      , mesh(calls.ranks, SolidMesh::none, false, Sharing::partition_zorder)
       , fe(FE_Q<3>(properties.degree), 3)
       , dof_handler(mesh)
-      , factors({ mapping, dof_handler, constraints, properties }, all, SharedTask::solve_whole, ranks)
-      , factors_of_skin({ mapping, dof_handler, constraints, properties }, number_in_skin, SharedTask::solve_near, ranks)
+      , factors({ mapping, dof_handler, constraints, properties }, all, SharedTask::solve_whole, call_others)
+      , factors_of_skin({ mapping, dof_handler, constraints, properties }, number_in_skin, SharedTask::solve_near, call_others)
   {
-    if (make_solid_mesh(scene, plane, mesh))
+  }
+
+  void SolidBody::number_displacements(const bool is_half)
+  {
+    if (is_half)
       properties.width = 2.; // stiffness and areas of a half stand for the whole
     dof_handler.distribute_dofs(fe);
     hold_hub();
     face = find_friction_face(mapping, dof_handler, constraints, properties, boundary_id::friction_face);
     order_face_nodes();
-    find_skin(scene.layer.thickness);
-    springs = find_connectors({ mapping, dof_handler, constraints, is_half() }, scene);
-    folder  = Utilities::MPI::broadcast(ranks, settings.folder);
-    factorise(Utilities::MPI::broadcast(ranks, settings.single.value_or(scene.analysis.type == AnalysisType::quasi_static &&
-                                                                        n_dofs() >= least_in_single_precision)));
-    if (Utilities::MPI::this_mpi_process(ranks) == 0)
-      prepare_solves();
+    find_skin();
   }
 
-  /// The others have made theirs by now and await calls.
-  void SolidBody::prepare_solves()
+  void SolidBody::factorise(const bool single)
   {
-    try
-    {
-      if (!factors.prepare(loads_on_face(false)) || (has_skin() && !factors_of_skin.prepare(loads_on_face(true))))
-        make_precise();
-    }
-    catch (...)
-    {
-      call_others(SharedTask::release, ranks);
-      throw;
-    }
+    call_others(single ? SharedTask::factorise_roughly : SharedTask::factorise_precisely);
+    do_factorise(single);
   }
 
   /// Factors of the whole come first: nothing else takes memory then.
-  void SolidBody::factorise(const bool single)
+  void SolidBody::do_factorise(const bool single)
   {
-    factors.factorise(springs, { single, folder });
+    factors.factorise(springs, { single, given.folder });
     if (has_skin())
       factors_of_skin.factorise({}, { single, {} });
   }
 
-  void SolidBody::make_precise()
+  bool SolidBody::factors_serve()
   {
-    call_others(SharedTask::factorise_precisely, ranks);
-    factorise(false);
+    return factors.prepare(loads_on_face(false)) && (!has_skin() || factors_of_skin.prepare(loads_on_face(true)));
   }
 
   /// Uniform ones and such as grow across, in three directions: they bend and twist a lever.
@@ -143,8 +164,7 @@ namespace sprag
   /// Mesh and factors are given back by all ranks together.
   SolidBody::~SolidBody()
   {
-    if (Utilities::MPI::this_mpi_process(ranks) == 0)
-      call_others(SharedTask::release, ranks);
+    call_others(SharedTask::release);
   }
 
   void SolidBody::hold_hub()
@@ -198,14 +218,14 @@ namespace sprag
   }
 
   /// Makes the skin shallower until it is bonded everywhere; where it never is, there is none.
-  void SolidBody::find_skin(const double layer)
+  void SolidBody::find_skin()
   {
     constexpr double least = 1e-3;
     while (!number_skin())
     {
-      if (depth_of_skin < layer + least)
+      if (depth_of_skin < given.layer + least)
         return number_in_skin.clear();
-      depth_of_skin = layer + 0.5 * (depth_of_skin - layer);
+      depth_of_skin = given.layer + 0.5 * (depth_of_skin - given.layer);
     }
   }
 
@@ -256,8 +276,8 @@ namespace sprag
   bool SolidBody::is_skin(const DoFHandler<3>::active_cell_iterator &cell) const
   {
     const auto centre = cell->center();
-    return cell->material_id() != material_id::hub && centre[1] > interface_offset &&
-           centre[1] < interface_offset + depth_of_skin && centre[0] > face_begin && centre[0] < face_end;
+    return cell->material_id() != material_id::hub && centre[1] > given.interface_offset &&
+           centre[1] < given.interface_offset + depth_of_skin && centre[0] > face_begin && centre[0] < face_end;
   }
 
   int SolidBody::number_near(const unsigned int dof) const
@@ -289,7 +309,7 @@ namespace sprag
 
   void SolidBody::release_factors()
   {
-    call_others(SharedTask::release_factors, ranks);
+    call_others(SharedTask::release_factors);
     release();
   }
 
@@ -307,25 +327,26 @@ namespace sprag
       return factors.take_part();
     case SharedTask::solve_near:
       return factors_of_skin.take_part();
+    case SharedTask::factorise_roughly:
     case SharedTask::factorise_precisely:
-      return factorise(false);
+      return do_factorise(task == SharedTask::factorise_roughly);
     default:
       return release();
     }
   }
 
-  void help_first_rank(const Scene &scene, const MPI_Comm ranks)
+  void help_first_rank(const MPI_Comm ranks)
   {
-    std::unique_ptr<SolidBody> body;
-    for (auto task = next_call(ranks); task != SharedTask::end; task = next_call(ranks))
+    std::map<int, SolidBody> bodies;
+    for (auto call = next_call(ranks); call.task != SharedTask::end; call = next_call(ranks))
       try
       {
-        if (task == SharedTask::build)
-          body = std::make_unique<SolidBody>(scene, Mesh(), ranks);
-        else if (task == SharedTask::release)
-          body.reset();
+        if (call.task == SharedTask::build)
+          bodies.try_emplace(call.body, ranks);
+        else if (call.task == SharedTask::release)
+          bodies.erase(call.body);
         else
-          body->take_part(task);
+          bodies.at(call.body).take_part(call.task);
       }
       catch (const std::runtime_error &)
       {

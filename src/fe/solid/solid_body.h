@@ -17,14 +17,28 @@ namespace sprag
     std::string folder         = {}; ///< for files with the factors of the whole body; empty: they stay in memory
   };
 
-  /// The linear elastic lever in three dimensions, in axes in which its hub does not move. All ranks hold the mesh and the
-  /// numbers of its displacements; stiffness and factors are shared. Everything but construction is for the first rank.
+  /// What all ranks must know of a body in three dimensions besides its mesh.
+  struct SolidProperties
+  {
+    BodyProperties body;
+    double interface_offset = 0.; ///< e [mm]
+    double layer            = 0.; ///< thickness [mm]
+    double skin             = 0.; ///< how far it reaches from the friction face where nothing forbids it [mm]
+    std::string folder;           ///< for files with factors of the whole body; empty: they stay in memory
+  };
+
+  /// The linear elastic lever in three dimensions, in axes in which its hub does not move. The ranks at hand hold the mesh and
+  /// the numbers of its displacements, each for itself; they share stiffness and factors. The first asks the others for it, see
+  /// help_first_rank(): all but take_part() is for the first.
   class SolidBody
   {
   public:
-    /// To be called by all ranks with the plane mesh of the first, see make_solid_mesh(); the first calls the others to it.
-    /// Throws AnalysisError where the factorisation fails, InputError for a Mesh/File that cannot serve.
-    SolidBody(const Scene &scene, const Mesh &plane, MPI_Comm ranks, const FactorSettings &settings = {});
+    /// Builds and factorises it from the scene's plane mesh, see make_solid_mesh(). Throws AnalysisError where the factorisation
+    /// fails, InputError for a Mesh/File that cannot serve.
+    SolidBody(const Scene &scene, const Mesh &plane, const FactorSettings &settings = {});
+
+    /// Helps the first rank to build one.
+    explicit SolidBody(MPI_Comm ranks);
     SolidBody &operator=(SolidBody &&) = delete;
     ~SolidBody();
 
@@ -112,19 +126,21 @@ namespace sprag
     void take_part(SharedTask task);
 
   private:
+    SolidBody(const BodyCalls &calls, SolidProperties of_first);
+    void number_displacements(bool is_half);
     void factorise(bool single);
+    void do_factorise(bool single);
     void release();
-    void prepare_solves();
-    void make_precise();
+    bool factors_serve();
     SparseColumns loads_on_face(bool near) const;
     void hold_hub();
-    void find_skin(double layer);
+    void find_skin();
     bool number_skin();
     void order_face_nodes();
 
-    const MPI_Comm ranks;
-    const double interface_offset; ///< e [mm]
-    double depth_of_skin;          ///< [mm]
+    const BodyCalls call_others;
+    const SolidProperties given;
+    double depth_of_skin; ///< [mm]
     BodyProperties properties;
     SolidMesh mesh;
     const dealii::FESystem<3> fe;
@@ -137,11 +153,10 @@ namespace sprag
     std::vector<Connector> springs;
     std::vector<int> number_in_skin;
     const std::vector<int> all; ///< no numbers
-    std::string folder;         ///< for files with factors of the whole
     BodyFactors factors;
     BodyFactors factors_of_skin;
   };
 
-  /// Builds the scene's body with the first rank and takes part in its solves until it ends. To be called by the others.
-  void help_first_rank(const Scene &scene, MPI_Comm ranks);
+  /// Builds bodies with the first rank and takes part in their solves as long as it has RanksAtHand. To be called by the others.
+  void help_first_rank(MPI_Comm ranks);
 } // namespace sprag

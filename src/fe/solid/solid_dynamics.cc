@@ -164,7 +164,7 @@ namespace sprag
   SolidInTime make_solid_in_time(const Scene &scene, const Mesh &plane)
   {
     SolidInTime result;
-    result.body              = std::make_unique<const SolidBody>(scene, plane, MPI_COMM_SELF);
+    result.body              = std::make_unique<const SolidBody>(scene, plane);
     const double room        = 0.1 * scene.geometry.cylinder_radius;
     const auto [first, last] = swept_contact(scene);
     result.compliance        = std::make_unique<LayeredCompliance>(*result.body, first - room, last + room);

@@ -162,26 +162,28 @@ namespace sprag
       }
     }
 
-    void create(Description description, SolidMesh &mesh)
+    /// What counts is that of the first rank. Returns whether it is a half.
+    bool create(const Handed &of_first, SolidMesh &mesh)
     {
-      auto &[vertices, cells, sides] = description;
+      auto handed = Utilities::MPI::broadcast(mesh.get_communicator(), of_first);
+      if (!handed.mistakes.empty())
+        throw InputError(handed.mistakes);
+      auto &[vertices, cells, sides] = handed.description;
       SubCellData boundary;
       boundary.boundary_quads = std::move(sides);
       GridTools::delete_unused_vertices(vertices, cells, boundary);
       mesh.create_triangulation(vertices, cells, boundary);
+      return handed.is_half;
     }
   } // namespace
 
   bool make_solid_mesh(const Scene &scene, const Mesh &plane, SolidMesh &mesh)
   {
-    const auto ranks = mesh.get_communicator();
-    Handed handed;
-    if (Utilities::MPI::this_mpi_process(ranks) == 0)
-      handed = made(scene, plane);
-    handed = Utilities::MPI::broadcast(ranks, handed);
-    if (!handed.mistakes.empty())
-      throw InputError(handed.mistakes);
-    create(std::move(handed.description), mesh);
-    return handed.is_half;
+    return create(made(scene, plane), mesh);
+  }
+
+  bool receive_solid_mesh(SolidMesh &mesh)
+  {
+    return create({}, mesh);
   }
 } // namespace sprag

@@ -14,7 +14,10 @@ namespace sprag
   /// the middle. A web is as wide as the scene has it, in the middle: planes across hold its sides, and its cells beyond them are
   /// left out. Materials and boundaries keep their ids, the ends are free, that in the middle boundary_id::symmetry. A plane mesh
   /// without cells stands for a Mesh/File of three dimensions, which is read as it is. Returns whether the mesh is a half. To be
-  /// called by all ranks; the plane mesh of the first alone counts, the others need none. All throw InputError for a file that
-  /// cannot serve, see read_solid_file().
+  /// called by the first rank, while the others receive_solid_mesh(). All throw InputError for a file that cannot serve, see
+  /// read_solid_file().
   bool make_solid_mesh(const Scene &scene, const Mesh &plane, SolidMesh &mesh);
+
+  /// Receives what the first rank makes.
+  bool receive_solid_mesh(SolidMesh &mesh);
 } // namespace sprag

@@ -18,6 +18,8 @@ namespace sprag
     /// Of |phi - omega^2 K^-1 M phi| over |phi|, times omega^2 over that of the lowest mode, by which round-off grows there.
     constexpr double largest_residual = 1e-10;
 
+    constexpr double alike = 1e-6; ///< relative difference of displacements, as those of both sides in a mode that twists
+
     void check(const PetscErrorCode code)
     {
       if (code != 0)
@@ -180,7 +182,8 @@ namespace sprag
       EPS eps       = nullptr;
     };
 
-    /// With a modal mass of 1, the hub turning forward, or where it hardly turns, the largest displacement positive.
+    /// With a modal mass of 1, the hub turning forward, or where it hardly turns, the first of the largest displacements
+    /// positive.
     void normalise(const FreeLever &lever, std::vector<double> &mode)
     {
       std::vector<double> momentum(mode.size());
@@ -189,7 +192,7 @@ namespace sprag
       for (std::size_t i = 0; i < mode.size(); ++i)
         modal_mass += mode[i] * momentum[i];
       for (const double value : mode)
-        if (std::abs(value) > std::abs(largest))
+        if (std::abs(value) > (1. + alike) * std::abs(largest))
           largest = value;
       const double reference = std::abs(mode.back()) < 1e-8 * std::abs(largest) ? largest : mode.back();
       const double factor    = (reference < 0. ? -1. : 1.) / std::sqrt(modal_mass);

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "scene/scene.h"
+
+#include <iosfwd>
+
+namespace sprag
+{
+  /// Throws InputError where an analysis gains nothing from as many processes of MPI: one that shares nothing, or a body in three
+  /// dimensions that is too small for them.
+  void require_useful_processes(const Scene &scene, unsigned int processes);
+
+  /// Prints what each of several processes does in a run whose body they share.
+  void print_processes(std::ostream &stream, const Scene &scene, unsigned int processes);
+} // namespace sprag
