@@ -1,6 +1,7 @@
 #include "model/block_matrix.h"
 
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
+#include <deal.II/lac/lapack_templates.h>
 #include <deal.II/lac/sparsity_tools.h>
 
 #include <algorithm>
@@ -19,6 +20,39 @@ namespace sprag
       return places.first <= i && i < places.second;
     }
 
+    /// Tangent of the ports of one block.
+    struct TangentOfBlock
+    {
+      const PartOfTangent &tangent;
+      unsigned int first; ///< of the block
+      unsigned int n;
+
+      double operator()(const unsigned int i, const unsigned int j) const
+      {
+        return tangent(first + i, first + j);
+      }
+    };
+
+    /// Compliance of the ports of one block.
+    struct ComplianceOfBlock
+    {
+      const FullMatrix<double> &matrix;
+      std::vector<unsigned int> rows; ///< of the ports
+
+      ComplianceOfBlock(const PortCompliance::Block &block, const std::vector<unsigned int> &ports, const unsigned int first,
+                        const unsigned int last)
+          : matrix(*block.matrix)
+      {
+        for (unsigned int i = first; i < last; ++i)
+          rows.push_back(ports[i] - block.begin);
+      }
+
+      double operator()(const unsigned int i, const unsigned int j) const
+      {
+        return matrix(rows[i], rows[j]);
+      }
+    };
+
     /// Numbers places so that those which a matrix couples are close (Cuthill and McKee), and finds how far they reach.
     struct CloseOrder
     {
@@ -26,26 +60,17 @@ namespace sprag
       std::vector<unsigned int> first; ///< number that the column of a number reaches
       std::vector<unsigned int> last;
 
-      explicit CloseOrder(const FullMatrix<double> &matrix)
+      explicit CloseOrder(const TangentOfBlock &tangent)
+          : at(tangent.n)
+          , first(tangent.n, tangent.n)
+          , last(tangent.n, 0)
       {
-        const auto n = static_cast<unsigned int>(matrix.n());
-        DynamicSparsityPattern pattern(n, n);
-        std::vector<types::global_dof_index> columns, number(n);
-        for (unsigned int i = 0; i < n; ++i)
-        {
-          columns.clear();
-          for (unsigned int j = 0; j < n; ++j)
-            if (matrix(i, j) != 0. || matrix(j, i) != 0. || i == j)
-              columns.push_back(j);
-          pattern.add_entries(i, columns.begin(), columns.end(), true);
-        }
+        const auto pattern = pattern_of(tangent);
+        std::vector<types::global_dof_index> number(tangent.n);
         SparsityTools::reorder_Cuthill_McKee(pattern, number);
-        at.resize(n);
-        first.assign(n, n);
-        last.assign(n, 0);
-        for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int i = 0; i < tangent.n; ++i)
           at[number[i]] = i;
-        for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int i = 0; i < tangent.n; ++i)
           for (auto other = pattern.begin(i); other != pattern.end(i); ++other)
           {
             const auto column = static_cast<unsigned int>(number[other->column()]);
@@ -53,43 +78,86 @@ namespace sprag
             last[number[i]]   = std::max(last[number[i]], column);
           }
       }
+
+    private:
+      static DynamicSparsityPattern pattern_of(const TangentOfBlock &tangent)
+      {
+        std::vector<std::vector<unsigned int>> coupled(tangent.n);
+        for (unsigned int i = 0; i < tangent.n; ++i)
+          for (unsigned int j = 0; j < tangent.n; ++j)
+            if (i == j || tangent(i, j) != 0.)
+            {
+              coupled[i].push_back(j);
+              coupled[j].push_back(i);
+            }
+        DynamicSparsityPattern result(tangent.n, tangent.n);
+        for (unsigned int i = 0; i < tangent.n; ++i)
+          result.add_entries(i, coupled[i].begin(), coupled[i].end());
+        return result;
+      }
     };
 
-    /// Calls of_column(column, values) with each column of 1 - G A, where A couples each place with few others.
-    template <class OfColumn>
-    void subtract_sparse_product(const FullMatrix<double> &compliance, const FullMatrix<double> &tangent,
-                                 const OfColumn &of_column)
+    /// 1 - G A by its definition.
+    template <class Number>
+    void fill(const ComplianceOfBlock &compliance, const TangentOfBlock &tangent, LAPACKFullMatrix<Number> &result)
+    {
+      const unsigned int n = tangent.n;
+      FullMatrix<double> loaded(n), of_block(n), product(n);
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int j = 0; j < n; ++j)
+        {
+          loaded(i, j)   = compliance(i, j);
+          of_block(i, j) = tangent(i, j);
+        }
+      loaded.mmult(product, of_block);
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int j = 0; j < n; ++j)
+          result(i, j) = static_cast<Number>((i == j ? 1. : 0.) - product(i, j));
+    }
+
+    /// The same where A couples each place with few others, computed with the numbers of the result.
+    template <class Number>
+    void fill_by_close_order(const ComplianceOfBlock &compliance, const TangentOfBlock &tangent, LAPACKFullMatrix<Number> &result)
     {
       constexpr unsigned int together = 48;
       const CloseOrder order(tangent);
-      const auto n = static_cast<unsigned int>(tangent.n());
+      const unsigned int n = tangent.n;
+      // Columns in that order; G is symmetric, so that its rows are its columns.
+      std::vector<Number> ordered(static_cast<std::size_t>(n) * n), some, product(static_cast<std::size_t>(n) * together);
+      auto next = ordered.begin();
+      for (const unsigned int place : order.at)
+      {
+        const double *const row = &compliance.matrix(compliance.rows[place], 0);
+        next                    = std::transform(compliance.rows.begin(), compliance.rows.end(), next,
+                                                 [&](const unsigned int i) { return static_cast<Number>(row[i]); });
+      }
+      const types::blas_int size = n;
+      const Number minus_one = -1, zero = 0;
       for (unsigned int begin = 0; begin < n; begin += together)
       {
         const unsigned int end  = std::min(n, begin + together);
         const unsigned int low  = *std::min_element(order.first.begin() + begin, order.first.begin() + end);
         const unsigned int high = *std::max_element(order.last.begin() + begin, order.last.begin() + end) + 1;
-        // G is symmetric: its rows are its columns.
-        FullMatrix<double> rows(high - low, n), some(high - low, end - begin), product(end - begin, n);
-        for (unsigned int k = low; k < high; ++k)
-        {
-          std::copy_n(&compliance(order.at[k], 0), n, &rows(k - low, 0));
-          for (unsigned int j = begin; j < end; ++j)
-            some(k - low, j - begin) = -tangent(order.at[k], order.at[j]);
-        }
-        some.Tmmult(product, rows);
+        some.clear();
+        for (unsigned int j = begin; j < end; ++j)
+          for (unsigned int k = low; k < high; ++k)
+            some.push_back(static_cast<Number>(tangent(order.at[k], order.at[j])));
+        const types::blas_int columns = end - begin, reached = high - low;
+        gemm("N", "N", &size, &columns, &reached, &minus_one, &ordered[static_cast<std::size_t>(low) * n], &size, some.data(),
+             &reached, &zero, product.data(), &size);
         for (unsigned int j = begin; j < end; ++j)
         {
-          product(j - begin, order.at[j]) += 1.;
-          of_column(order.at[j], &product(j - begin, 0));
+          const auto column = product.begin() + static_cast<std::ptrdiff_t>(j - begin) * n;
+          column[order.at[j]] += 1;
+          std::copy_n(column, n, &result(0, order.at[j]));
         }
       }
     }
-
   } // namespace
 
   template <class Number>
   BlockMatrix<Number>::BlockMatrix(const PortCompliance &compliance, const std::vector<unsigned int> &ports,
-                                   const FullMatrix<double> &tangent)
+                                   const PartOfTangent &tangent)
   {
     for (const auto &block : compliance.blocks())
       if (const auto places = block.places_among(ports); places.first < places.second)
@@ -137,18 +205,17 @@ namespace sprag
   }
 
   template <class Number>
-  void BlockMatrix<Number>::find_columns(const FullMatrix<double> &tangent)
+  void BlockMatrix<Number>::find_columns(const PartOfTangent &tangent)
   {
-    const auto n = static_cast<unsigned int>(tangent.n());
+    const unsigned int n = tangent.n();
     std::vector<char> counts(n, 0);
     for (const auto &[places, of_ports, matrix, answers] : blocks)
       for (unsigned int i = places.first; i < places.second; ++i)
       {
-        const double *const row = &tangent(i, 0);
         for (unsigned int column = 0; column < places.first; ++column)
-          counts[column] |= row[column] != 0.;
+          counts[column] |= tangent(i, column) != 0.;
         for (unsigned int column = places.second; column < n; ++column)
-          counts[column] |= row[column] != 0.;
+          counts[column] |= tangent(i, column) != 0.;
       }
     for (unsigned int column = 0; column < n; ++column)
       if (counts[column])
@@ -156,41 +223,25 @@ namespace sprag
   }
 
   template <class Number>
-  void BlockMatrix<Number>::factorise(const std::vector<unsigned int> &ports, const FullMatrix<double> &tangent,
-                                      Block &block) const
+  void BlockMatrix<Number>::factorise(const std::vector<unsigned int> &ports, const PartOfTangent &tangent, Block &block) const
   {
     const auto [first, last] = block.places;
-    const auto &of           = block.of_ports;
-    const unsigned int n     = last - first;
-    FullMatrix<double> loaded(n), of_block(n), product(n < many_ports ? n : 0);
-    of_block.fill(tangent, 0, 0, first, first);
-    for (unsigned int i = 0; i < n; ++i)
-    {
-      const double *const row = &(*of.matrix)(ports[first + i] - of.begin, 0);
-      for (unsigned int j = 0; j < n; ++j)
-        loaded(i, j) = row[ports[first + j] - of.begin];
-    }
-    if (n < many_ports)
-    {
-      loaded.mmult(product, of_block);
-      for (unsigned int i = 0; i < n; ++i)
-        for (unsigned int j = 0; j < n; ++j)
-          block.matrix(i, j) = static_cast<Number>((i == j ? 1. : 0.) - product(i, j));
-    }
+    const ComplianceOfBlock compliance(block.of_ports, ports, first, last);
+    const TangentOfBlock of_block{ tangent, first, last - first };
+    if (of_block.n < many_ports)
+      fill(compliance, of_block, block.matrix);
     else
-      subtract_sparse_product(loaded, of_block,
-                              [&](const unsigned int column, const double *const values)
-                              { std::copy_n(values, n, &block.matrix(0, column)); });
+      fill_by_close_order(compliance, of_block, block.matrix);
     block.matrix.compute_lu_factorization();
     if (columns.empty())
       return;
-    block.answers.reinit(n, static_cast<unsigned int>(columns.size()));
+    block.answers.reinit(of_block.n, static_cast<unsigned int>(columns.size()));
     for (unsigned int k = 0; k < columns.size(); ++k)
       if (!holds(block.places, columns[k]))
-        for (unsigned int a = 0; a < n; ++a)
+        for (unsigned int a = 0; a < of_block.n; ++a)
           if (const double force = tangent(first + a, columns[k]); force != 0.)
-            for (unsigned int i = 0; i < n; ++i)
-              block.answers(i, k) -= static_cast<Number>(loaded(a, i) * force); // G is symmetric
+            for (unsigned int i = 0; i < of_block.n; ++i)
+              block.answers(i, k) -= static_cast<Number>(compliance(a, i) * force); // G is symmetric
     block.matrix.solve(block.answers);
   }
 

@@ -6,6 +6,23 @@
 
 namespace sprag
 {
+  /// Some rows and the same columns of a tangent A = df/dz, where they are.
+  struct PartOfTangent
+  {
+    const dealii::FullMatrix<double> &whole;
+    const std::vector<unsigned int> &places; ///< in the whole
+
+    double operator()(const unsigned int i, const unsigned int j) const
+    {
+      return whole(places[i], places[j]);
+    }
+
+    unsigned int n() const
+    {
+      return static_cast<unsigned int>(places.size());
+    }
+  };
+
   /// Factors of M = 1 - G A on some of the ports, A = df/dz. Forces on a block of ports follow its own displacements and few
   /// others, say the turn of a joint. So M is factorised block by block, D, and what stands beside the blocks, in few columns C,
   /// enters by Woodbury:
@@ -16,8 +33,7 @@ namespace sprag
   {
   public:
     /// Throws an exception of deal.II where it is singular.
-    BlockMatrix(const PortCompliance &compliance, const std::vector<unsigned int> &ports,
-                const dealii::FullMatrix<double> &tangent);
+    BlockMatrix(const PortCompliance &compliance, const std::vector<unsigned int> &ports, const PartOfTangent &tangent);
 
     void solve(dealii::Vector<double> &values) const;
 
@@ -38,8 +54,8 @@ namespace sprag
     std::vector<unsigned int> columns; ///< C
     dealii::LAPACKFullMatrix<double> of_columns;
 
-    void find_columns(const dealii::FullMatrix<double> &tangent);
-    void factorise(const std::vector<unsigned int> &ports, const dealii::FullMatrix<double> &tangent, Block &block) const;
+    void find_columns(const PartOfTangent &tangent);
+    void factorise(const std::vector<unsigned int> &ports, const PartOfTangent &tangent, Block &block) const;
     double answer(unsigned int row, unsigned int k) const;
   };
 } // namespace sprag

@@ -156,18 +156,17 @@ namespace sprag
     }
   }
 
-  Vector<double> port_correction(const PortCompliance &compliance, const PortForces &forces, const PortSelection &selected,
-                                 const Vector<double> &mismatch)
+  Vector<double> port_correction(const PortCompliance &compliance, const std::vector<unsigned int> &ports,
+                                 const FullMatrix<double> &tangent, const PortSelection &selected, const Vector<double> &mismatch)
   {
     // (1 - G df/dz) dz = mismatch on the loaded ports; the others follow from the change of the forces.
     Vector<double> result = mismatch;
-    if (forces.ports.empty())
+    if (ports.empty())
       return result;
-    Vector<double> loaded(static_cast<unsigned int>(forces.ports.size()));
+    Vector<double> loaded(static_cast<unsigned int>(ports.size()));
     for (unsigned int i = 0; i < loaded.size(); ++i)
-      loaded[i] = mismatch[forces.ports[i]];
-    const auto change_of_forces = port_reaction(compliance, forces.ports, forces.tangent, loaded);
-    add_response(compliance, forces.ports, change_of_forces, selected, result);
+      loaded[i] = mismatch[ports[i]];
+    add_response(compliance, ports, port_reaction(compliance, ports, tangent, loaded), selected, result);
     return result;
   }
 } // namespace sprag

@@ -49,8 +49,9 @@ namespace sprag
   void add_response(const PortCompliance &compliance, const std::vector<unsigned int> &ports,
                     const dealii::Vector<double> &forces, const PortSelection &selected, dealii::Vector<double> &displacements);
 
-  /// Newton's correction of z on the selected ports where mismatch = z_free + G f - z there; they contain those of the forces.
-  /// Throws AnalysisError if the tangent is singular.
-  dealii::Vector<double> port_correction(const PortCompliance &compliance, const PortForces &forces,
-                                         const PortSelection &selected, const dealii::Vector<double> &mismatch);
+  /// Newton's correction of z on the selected ports where mismatch = z_free + G f - z there, by the tangent of the forces on
+  /// `ports`, which are among them. Throws AnalysisError if the tangent is singular.
+  dealii::Vector<double> port_correction(const PortCompliance &compliance, const std::vector<unsigned int> &ports,
+                                         const dealii::FullMatrix<double> &tangent, const PortSelection &selected,
+                                         const dealii::Vector<double> &mismatch);
 } // namespace sprag

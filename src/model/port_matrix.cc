@@ -38,7 +38,7 @@ namespace sprag
         (block.matrix->m() == 1 ? border : inner).push_back(place);
     }
     if (!inner.empty())
-      of_inner.emplace(compliance, some_of(ports, inner), border.empty() ? tangent : part(tangent, inner, inner));
+      of_inner.emplace(compliance, some_of(ports, inner), PartOfTangent{ tangent, inner });
     if (!border.empty())
       make_border(compliance, ports, tangent);
   }

@@ -44,7 +44,7 @@ namespace sprag
       add_response(compliance, forces->ports, forces->values, selected, mismatch);
       return movement(mismatch);
     };
-    const auto correction = [&] { return port_correction(compliance, *forces, selected, mismatch); };
+    const auto correction = [&] { return port_correction(compliance, forces->ports, forces->tangent, selected, mismatch); };
     const auto newton     = solve_by_newton(z, round_off * scale, evaluate, correction, movement, overlap);
     return { newton, forces };
   }

@@ -86,7 +86,7 @@ TEST(PortForces, CorrectionSolvesTheLinearisedEquations)
     Vector mismatch(9);
     for (auto &value : mismatch)
       value = any();
-    const auto change = port_correction(compliance, f, all, mismatch);
+    const auto change = port_correction(compliance, f.ports, f.tangent, all, mismatch);
     Vector change_of_forces(6), at_forces(6);
     for (unsigned int a = 0; a < 6; ++a)
       at_forces[a] = change[f.ports[a]];

@@ -123,8 +123,7 @@ namespace sprag
 
   Vector<double> PortWindow::correction(const PortForces &forces) const
   {
-    const auto in_window =
-        port_correction(compliance, { places_of(forces.ports), forces.values, forces.tangent }, places, mismatch);
+    const auto in_window = port_correction(compliance, places_of(forces.ports), forces.tangent, places, mismatch);
     Vector<double> result(n_coordinates());
     for (const unsigned int place : places)
       result[window[place]] = in_window[place];
