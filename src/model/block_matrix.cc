@@ -97,25 +97,24 @@ namespace sprag
       }
     };
 
-    /// 1 - G A by its definition.
+    /// 1 - G A by its definition, computed with the numbers of the result.
     template <class Number>
     void fill(const ComplianceOfBlock &compliance, const TangentOfBlock &tangent, LAPACKFullMatrix<Number> &result)
     {
       const unsigned int n = tangent.n;
-      FullMatrix<double> loaded(n), of_block(n), product(n);
-      for (unsigned int i = 0; i < n; ++i)
-        for (unsigned int j = 0; j < n; ++j)
+      LAPACKFullMatrix<Number> loaded(n), of_block(n);
+      for (unsigned int j = 0; j < n; ++j)
+        for (unsigned int i = 0; i < n; ++i)
         {
-          loaded(i, j)   = compliance(i, j);
-          of_block(i, j) = tangent(i, j);
+          loaded(i, j)   = static_cast<Number>(-compliance(j, i)); // G is symmetric
+          of_block(i, j) = static_cast<Number>(tangent(i, j));
         }
-      loaded.mmult(product, of_block);
+      loaded.mmult(result, of_block);
       for (unsigned int i = 0; i < n; ++i)
-        for (unsigned int j = 0; j < n; ++j)
-          result(i, j) = static_cast<Number>((i == j ? 1. : 0.) - product(i, j));
+        result(i, i) += 1;
     }
 
-    /// The same where A couples each place with few others, computed with the numbers of the result.
+    /// The same where A couples each place with few others.
     template <class Number>
     void fill_by_close_order(const ComplianceOfBlock &compliance, const TangentOfBlock &tangent, LAPACKFullMatrix<Number> &result)
     {

@@ -12,7 +12,7 @@ namespace sprag
 
   namespace
   {
-    constexpr std::size_t many_ports        = 400; ///< from so many on most of a Newton correction are its factors
+    constexpr std::size_t many_ports        = 128; ///< from so many on most of a Newton correction are its factors
     constexpr unsigned int most_refinements = 5;
     constexpr double refined                = 1e-10; ///< what is left of the right-hand side
 

@@ -20,7 +20,7 @@ namespace sprag
   template <class Forces, class Overlap>
   PortSolution solve_ports(const PortCompliance &compliance, const dealii::Vector<double> &free,
                            const dealii::Vector<double> &lengths, const PortSelection &selected, const Forces &forces_at,
-                           const Overlap &overlap, dealii::Vector<double> &z)
+                           const Overlap &overlap, dealii::Vector<double> &z, const double left_out = 0.)
   {
     constexpr double round_off = 1e-14; // over the longest length
 
@@ -45,7 +45,7 @@ namespace sprag
       return movement(mismatch);
     };
     const auto correction = [&] { return port_correction(compliance, forces->ports, forces->tangent, selected, mismatch); };
-    const auto newton     = solve_by_newton(z, round_off * scale, evaluate, correction, movement, overlap);
+    const auto newton     = solve_by_newton(z, round_off * scale, evaluate, correction, movement, overlap, left_out);
     return { newton, forces };
   }
 } // namespace sprag

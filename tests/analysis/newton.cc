@@ -63,3 +63,29 @@ TEST(Newton, SaysSoWhereThereIsNoEquilibrium)
   EXPECT_FALSE(result.converged);
   EXPECT_GT(result.iterations, 1u);
 }
+
+// q^3 = 8 from 3: errors 1, 0.30, 0.04, 7e-4, 3e-7, 3e-14. The correction by 3e-7 is beyond the tolerance, and what it leaves is
+// not worth another one.
+TEST(Newton, LeavesOutALastCorrection)
+{
+  const auto solve_cube = [](const double left_out)
+  {
+    dealii::Vector<double> q(1);
+    q[0]                  = 3.;
+    const auto evaluate   = [](const dealii::Vector<double> &at) { return std::abs(8. - at[0] * at[0] * at[0]); };
+    const auto correction = [&q]
+    {
+      dealii::Vector<double> change(1);
+      change[0] = (8. - q[0] * q[0] * q[0]) / (3. * q[0] * q[0]);
+      return change;
+    };
+    const auto movement = [](const dealii::Vector<double> &change) { return std::abs(change[0]); };
+    const auto result   = solve_by_newton(
+          q, 1e-14, evaluate, correction, movement, [] { return 1.; }, left_out);
+    EXPECT_TRUE(result.converged);
+    EXPECT_NEAR(q[0], 2., left_out == 0. ? 1e-14 : 1e-8);
+    return result.iterations;
+  };
+  EXPECT_EQ(solve_cube(0.), 6u);
+  EXPECT_EQ(solve_cube(0.1), 5u);
+}
