@@ -63,7 +63,6 @@ namespace sprag
 
     StepOutcome step(const Motion &accepted, const DrivePoint &to, const StepWeights &weights) override
     {
-      constexpr double left_out = 0.1; // 1e-8 of the overlap, far below what a step errs by
       structure->use_step(weights);
       const bool rates = Contact::uses_rates || frame.ports.sprung;
       const auto &near = reachable_ports(accepted);
@@ -93,7 +92,7 @@ namespace sprag
       const auto &last         = accepted.forces;
       add_response(structure->compliance(), last.ports, last.values, near, z);
       const auto solved = solve_ports(
-          structure->compliance(), free, frame.lengths, near, evaluate, [&] { return found.overlap(); }, z, left_out);
+          structure->compliance(), free, frame.lengths, near, evaluate, [&] { return found.overlap(); }, z, left_out_in_time);
       outcome.iterations = solved.newton.iterations;
       if (!solved.newton.converged)
         return outcome;

@@ -8,6 +8,10 @@
 
 namespace sprag
 {
+  /// Share of Newton's tolerance up to which a step in time leaves out the last correction: 1e-8 of the overlap, far below what
+  /// the step errs by.
+  constexpr double left_out_in_time = 0.1;
+
   struct PortSolution
   {
     NewtonResult newton;
