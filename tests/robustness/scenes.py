@@ -249,7 +249,10 @@ class ScenesTest(RunTest):
         self.assertAlmostEqual(table["x"][-1], float(parameter(text, "Drive", "Start")), places=9)
         theta = table["theta"][:]
         resultant = table["P"][:] * np.sin(theta) + table["F"][:] * np.cos(theta)
-        self.assertLess(np.abs(table["Q"][:] - resultant).max(), 1e-12 * np.abs(resultant).max())
+        # A step in time leaves out a last correction by up to 1e-8 of the overlap, here 1e-2 mm at most: over the 100 mm to the
+        # pivot theta is off by 1e-12, from which Q is found to be another by 1e-12 of the largest force.
+        limit = 1e-11 if parameter(text, "Analysis", "Type") == "transient" else 1e-12
+        self.assertLess(np.abs(table["Q"][:] - resultant).max(), limit * np.abs(resultant).max())
         self.assertGreater(table["Q"][:].max(), 0)
         self.assertLess(table["Q"][:].min(), 0)
         self.assertEqual("face" in file, meshed or model_of(file) == "condensed")
