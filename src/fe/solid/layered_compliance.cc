@@ -190,14 +190,18 @@ namespace sprag
     return found != known.end() ? found->second : known.emplace(tile, find_near_columns(tile)).first->second;
   }
 
-  /// The tile whose columns serve for another's: what stands for it where the row lies about both alike.
+  /// Whether the columns of a tile serve for those of one like it: where the row lies about both alike.
+  bool LayeredCompliance::serves(const unsigned int like, const unsigned int row_tile, const unsigned int column_tile) const
+  {
+    const int other = static_cast<int>(like) + static_cast<int>(row_tile) - static_cast<int>(column_tile);
+    return other >= 0 && other < static_cast<int>(tiles.size()) &&
+           rounded(tiles[other].xi - tiles[like].xi) == rounded(tiles[row_tile].xi - tiles[column_tile].xi);
+  }
+
+  /// The tile whose columns stand for those of another at a row.
   unsigned int LayeredCompliance::stand_in(const unsigned int row_tile, const unsigned int column_tile) const
   {
-    const auto &tile   = tiles[column_tile];
-    const int other    = static_cast<int>(tile.like) + static_cast<int>(row_tile) - static_cast<int>(column_tile);
-    const bool lies_so = other >= 0 && other < static_cast<int>(tiles.size()) &&
-                         rounded(tiles[other].xi - tiles[tile.like].xi) == rounded(tiles[row_tile].xi - tile.xi);
-    return lies_so ? tile.like : column_tile;
+    return serves(tiles[column_tile].like, row_tile, column_tile) ? tiles[column_tile].like : column_tile;
   }
 
   /// Displacements of a tile by forces on another; none where they are negligible.
@@ -240,8 +244,14 @@ namespace sprag
     FullMatrix<double> result(rows.end - rows.begin, columns.end - columns.begin);
     if (basis.n() > 0)
       rows_of(rows).mTmult(result, rows_of(columns));
-    if (const auto *const near = near_block(row_tile, column_tile))
-      result.add(1., *near);
+    // It is symmetric: where no other tile's columns serve, those of the row may.
+    if (serves(tiles[column_tile].like, row_tile, column_tile) || !serves(tiles[row_tile].like, column_tile, row_tile))
+    {
+      if (const auto *const near = near_block(row_tile, column_tile))
+        result.add(1., *near);
+    }
+    else if (const auto *const near = near_block(column_tile, row_tile))
+      result.Tadd(1., *near);
     return result;
   }
 
