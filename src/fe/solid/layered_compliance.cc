@@ -59,7 +59,10 @@ namespace sprag
       alike[surroundings_of(tiles[t].xi, surroundings)].push_back(t);
     for (const auto &[around, some] : alike)
       for (const unsigned int t : some)
-        tiles[t].like = some[some.size() / 2];
+      {
+        tiles[t].like    = some[some.size() / 2];
+        tiles[t].n_alike = static_cast<unsigned int>(some.size());
+      }
   }
 
   /// The corners of the skin's cells near a place, seen from there.
@@ -244,13 +247,14 @@ namespace sprag
     FullMatrix<double> result(rows.end - rows.begin, columns.end - columns.begin);
     if (basis.n() > 0)
       rows_of(rows).mTmult(result, rows_of(columns));
-    // It is symmetric: where no other tile's columns serve, those of the row may.
-    if (serves(tiles[column_tile].like, row_tile, column_tile) || !serves(tiles[row_tile].like, column_tile, row_tile))
-    {
-      if (const auto *const near = near_block(row_tile, column_tile))
-        result.add(1., *near);
-    }
-    else if (const auto *const near = near_block(column_tile, row_tile))
+    // It is symmetric: where columns of another tile do not serve, those for the row may. Of two that must be solved for, the
+    // kind that is rarer is met again.
+    const bool by_column = serves(columns.like, row_tile, column_tile) ||
+                           (!serves(rows.like, column_tile, row_tile) && columns.n_alike <= rows.n_alike);
+    const auto *const near = by_column ? near_block(row_tile, column_tile) : near_block(column_tile, row_tile);
+    if (near != nullptr && by_column)
+      result.add(1., *near);
+    else if (near != nullptr)
       result.Tadd(1., *near);
     return result;
   }

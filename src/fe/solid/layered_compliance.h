@@ -45,9 +45,10 @@ namespace sprag
     struct Tile
     {
       double xi;
-      unsigned int begin; ///< its first port
-      unsigned int end;   ///< beyond the last
-      unsigned int like;  ///< one in the middle of those with the same surroundings
+      unsigned int begin;       ///< its first port
+      unsigned int end;         ///< beyond the last
+      unsigned int like;        ///< one in the middle of those with the same surroundings
+      unsigned int n_alike = 1; ///< tiles that answer like it, itself among them
     };
 
     /// Displacements near a tile by unit forces on it: a matrix for each tile from `first` on, a column a force.
