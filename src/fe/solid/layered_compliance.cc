@@ -193,10 +193,11 @@ namespace sprag
     return found != known.end() ? found->second : known.emplace(tile, find_near_columns(tile)).first->second;
   }
 
-  /// Whether the columns of a tile serve for those of one like it: where the row lies about both alike.
-  bool LayeredCompliance::serves(const unsigned int like, const unsigned int row_tile, const unsigned int column_tile) const
+  /// Whether the columns of the tile that a column's is like serve for it: where the row lies about both alike.
+  bool LayeredCompliance::is_like(const unsigned int row_tile, const unsigned int column_tile) const
   {
-    const int other = static_cast<int>(like) + static_cast<int>(row_tile) - static_cast<int>(column_tile);
+    const unsigned int like = tiles[column_tile].like;
+    const int other         = static_cast<int>(like) + static_cast<int>(row_tile) - static_cast<int>(column_tile);
     return other >= 0 && other < static_cast<int>(tiles.size()) &&
            rounded(tiles[other].xi - tiles[like].xi) == rounded(tiles[row_tile].xi - tiles[column_tile].xi);
   }
@@ -204,7 +205,7 @@ namespace sprag
   /// The tile whose columns stand for those of another at a row.
   unsigned int LayeredCompliance::stand_in(const unsigned int row_tile, const unsigned int column_tile) const
   {
-    return serves(tiles[column_tile].like, row_tile, column_tile) ? tiles[column_tile].like : column_tile;
+    return is_like(row_tile, column_tile) ? tiles[column_tile].like : column_tile;
   }
 
   /// Displacements of a tile by forces on another; none where they are negligible.
@@ -249,8 +250,7 @@ namespace sprag
       rows_of(rows).mTmult(result, rows_of(columns));
     // It is symmetric: where columns of another tile do not serve, those for the row may. Of two that must be solved for, the
     // kind that is rarer is met again.
-    const bool by_column = serves(columns.like, row_tile, column_tile) ||
-                           (!serves(rows.like, column_tile, row_tile) && columns.n_alike <= rows.n_alike);
+    const bool by_column = is_like(row_tile, column_tile) || (!is_like(column_tile, row_tile) && columns.n_alike <= rows.n_alike);
     const auto *const near = by_column ? near_block(row_tile, column_tile) : near_block(column_tile, row_tile);
     if (near != nullptr && by_column)
       result.add(1., *near);
@@ -322,7 +322,7 @@ namespace sprag
     for (unsigned int a = 0; a < forces.ports.size(); ++a)
     {
       const unsigned int by = forces.ports[a], from = tile_of(by);
-      if (stand_in(to, from) != tiles[from].like)
+      if (!is_like(to, from))
         result += near_row(port)[by] * forces.values[a];
       else if (const auto *const block = near_block(to, from))
         result += (*block)(port - tiles[to].begin, by - tiles[from].begin) * forces.values[a];

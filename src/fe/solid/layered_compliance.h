@@ -61,7 +61,7 @@ namespace sprag
     void find_tiles(double surroundings);
     std::set<std::vector<long>> surroundings_of(double xi, double distance) const;
     void find_basis(double begin, double end, double spacing);
-    bool serves(unsigned int like, unsigned int row_tile, unsigned int column_tile) const;
+    bool is_like(unsigned int row_tile, unsigned int column_tile) const;
     unsigned int stand_in(unsigned int row_tile, unsigned int column_tile) const;
     const std::vector<double> &near_row(unsigned int port);
     double near_displacement(unsigned int port, const PortLoads &forces);
