@@ -29,6 +29,7 @@ namespace sprag
     constexpr double general_step      = 2.3e-5;  ///< times N
     constexpr double solid_body        = 2.2e-7;  ///< times N^1.45, with the basis of its face and the checks of it
     constexpr double solid_step        = 1.7e-9;  ///< times N^1.4
+    constexpr double solid_finite      = 4e-6;    ///< at finite strain, times N^1.1
     constexpr double solid_modes       = 8e-7;    ///< times N^1.45, body and held slide included
     constexpr double solid_in_time     = 1.1e-8;  ///< a step, times displacements of the face^1.55
     constexpr double fields_of_solid   = 1.4e-5;  ///< of eight modes, times N
@@ -80,7 +81,9 @@ namespace sprag
       const double N     = expected_size(scene).displacements;
       const double turns = 1. + static_cast<double>(scene.drive.reversals().size());
       const double steps = expected_rows(scene) + steps_of_reversal * turns;
-      return start + solid_body * std::pow(N, 1.45) + steps * solid_step * std::pow(N, 1.4);
+      const double step =
+          scene.lever.material == MaterialModel::linear ? solid_step * std::pow(N, 1.4) : solid_finite * std::pow(N, 1.1);
+      return start + solid_body * std::pow(N, 1.45) + steps * step;
     }
 
     double steps_in_time(const Scene &scene)

@@ -116,7 +116,7 @@ namespace sprag
       const auto &layer = scene.layer;
       const double nu   = layer.poisson_ratio;
       if (!has_mesh(scene) || layer.thickness == 0. || scene.analysis.plane != PlaneState::stress ||
-          nu <= largest_ratio_of_plane_stress)
+          scene.analysis.dimension == 3 || nu <= largest_ratio_of_plane_stress)
         return;
       const double ratio = (1. - nu) * (1. - nu) / (1. - 2. * nu);
       warnings.push_back(

@@ -123,9 +123,9 @@ namespace sprag
     void mesh_and_material(const Scene &scene, const Use &use, Rules &rules)
     {
       mesh(scene.mesh, scene.lever, rules);
-      rules.need(scene.lever.material != MaterialModel::neo_hookean || scene.analysis.plane != PlaneState::stress ||
-                     use.transient,
-                 "Lever/Material", { "Analysis/Plane" }, "neo-Hookean needs Analysis/Plane = strain");
+      const bool has_stress = scene.analysis.plane == PlaneState::stress && scene.analysis.dimension == 2;
+      rules.need(scene.lever.material != MaterialModel::neo_hookean || !has_stress || use.transient, "Lever/Material",
+                 { "Analysis/Plane", "Analysis/Dimension" }, "neo-Hookean needs Analysis/Plane = strain in a plane");
     }
 
     void linear_structure(const Scene &scene, const Use &use, Rules &rules)

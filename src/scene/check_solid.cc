@@ -35,7 +35,6 @@ namespace sprag
       else
         with_inertia(scene, need);
       need(analysis.solution == Solution::automatic, "Analysis/Solution", "automatic");
-      need(scene.lever.material == MaterialModel::linear, "Lever/Material", "linear");
       need(scene.cylinder.type == CylinderType::rigid, "Cylinder/Type", "rigid");
       need(scene.pair.type == PairType::half, "Mirrored pair/Type", "half");
     }

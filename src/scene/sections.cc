@@ -125,7 +125,7 @@ namespace sprag
       add_material(section, settings, " of the metal");
       section.choice("Material", settings.material,
                      { { "linear", MaterialModel::linear }, { "neo-Hookean", MaterialModel::neo_hookean } },
-                     "Of lever and friction layer: small strain, or finite strain (plane strain only)");
+                     "Of lever and friction layer: small strain, or finite strain (in plane strain or three dimensions)");
       section.number("Moment of inertia", settings.moment_of_inertia, above(0.), "t mm2",
                      "J about the pivot, of all that turns with the hub; densities are scaled to it");
       section.choice("Inertia", settings.inertia,

@@ -32,6 +32,7 @@ CHANGES = {
     **{name: {"Mesh/Elements across": "2", "Condensed/Modes": "6"} for name in ("solid-modal-a", "solid-stability-a")},
     **{name: {"Mesh/Elements across": "2"} for name in ("solid-shaft-a", "solid-tilted-a")},
     "solid-rib-a": {"Mesh/Degree": "1"},
+    "solid-neo-hookean-a": {"Mesh/Face size": "4", "Mesh/Elements across": "2", "Drive/Stroke": "10"},
     "solid-reversal-a": {"Mesh/Elements across": "2", "Condensed/Modes": "6", "Drive/Start": "63"},
     "study-growth-a": {**STUDY, "Study/Vary": "Mesh/Face size = 5, 6, 8", "Condensed/Modes": "3"},
     "study-reversal-a": {
@@ -234,7 +235,8 @@ class ScenesTest(RunTest):
             expected |= {f"sensor_{place}_{side}" for place in places for side in ("left", "right") if has_plate}
             if {parameter(text, "Cylinder", f"{slope} stiffness") for slope in ("Tilt", "Skew")} != {"auto"}:
                 expected |= {"tilt", "skew"}
-            if parameter(text, "Analysis", "Type") == "quasi-static":
+            is_linear = parameter(text, "Lever", "Material") == "linear"
+            if parameter(text, "Analysis", "Type") == "quasi-static" and is_linear:
                 self.assertLess(file["meta/compliance_error"][()], 1e-3)
         self.assertEqual(set(table), expected)
         if has_plate:

@@ -124,6 +124,19 @@ namespace sprag
   }
 
   template <int dim>
+  void CellElasticity<dim>::find_forces(Vector<double> &forces) const
+  {
+    const auto &fe = values.get_fe();
+    forces         = 0.;
+    for (const unsigned int q : values.quadrature_point_indices())
+    {
+      const auto piola = values.JxW(q) * width * stress_at(q).piola;
+      for (unsigned int i = 0; i < fe.n_dofs_per_cell(); ++i)
+        forces[i] += piola[fe.system_to_component_index(i).first] * values.shape_grad(i, q);
+    }
+  }
+
+  template <int dim>
   double CellElasticity<dim>::energy() const
   {
     const Lame at_points{ projects ? 0. : constants.lambda, constants.mu };

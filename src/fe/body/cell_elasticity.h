@@ -39,6 +39,9 @@ namespace sprag
     /// inside out.
     void assemble(dealii::FullMatrix<double> &stiffness, dealii::Vector<double> &forces) const;
 
+    /// Writes the internal forces alone.
+    void find_forces(dealii::Vector<double> &forces) const;
+
     /// Returns the elastic energy of the cell [mJ].
     double energy() const;
 

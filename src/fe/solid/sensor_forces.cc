@@ -2,8 +2,8 @@
 
 namespace sprag
 {
-  SensorForces::SensorForces(const SolidBody &body)
-      : is_half(body.is_half())
+  SensorForces::SensorForces(const SolidBody &body_)
+      : body(body_)
   {
     SparseColumns loads;
     for (const auto &connector : body.connectors())
@@ -26,20 +26,29 @@ namespace sprag
 
   std::vector<SensorForces::Sides> SensorForces::operator()(const PortLoads &forces) const
   {
-    const auto of_row = [&](const unsigned int row)
-    {
-      double sum = 0.;
+    std::vector<double> of_sensors(rows.m(), 0.);
+    for (unsigned int row = 0; row < rows.m(); ++row)
       for (unsigned int i = 0; i < forces.ports.size(); ++i)
         if (forces.ports[i] < rows.n())
-          sum += rows(row, forces.ports[i]) * forces.values[i];
-      return sum;
-    };
+          of_sensors[row] += rows(row, forces.ports[i]) * forces.values[i];
+    return sides_of(of_sensors);
+  }
+
+  std::vector<SensorForces::Sides> SensorForces::at(const dealii::Vector<double> &displacement) const
+  {
+    std::vector<double> of_sensors;
+    for (const auto &connector : body.connectors())
+      if (connector.type == ConnectorType::sensor)
+        of_sensors.push_back(connector.stiffness * connector.compression(displacement));
+    return sides_of(of_sensors);
+  }
+
+  /// Of a half each sensor stands for both sides.
+  std::vector<SensorForces::Sides> SensorForces::sides_of(const std::vector<double> &forces) const
+  {
     std::vector<Sides> result;
-    for (unsigned int row = 0; row < rows.m(); row += is_half ? 1 : 2)
-    {
-      const double first = of_row(row);
-      result.push_back(is_half ? Sides{ 0.5 * first, 0.5 * first } : Sides{ first, of_row(row + 1) });
-    }
+    for (std::size_t i = 0; i < forces.size(); i += body.is_half() ? 1 : 2)
+      result.push_back(body.is_half() ? Sides{ 0.5 * forces[i], 0.5 * forces[i] } : Sides{ forces[i], forces[i + 1] });
     return result;
   }
 } // namespace sprag

@@ -7,10 +7,11 @@
 
 namespace sprag
 {
-  /// Forces of the force sensors of a body's friction plate, from those on its friction face.
+  /// Forces of the force sensors of a body's friction plate.
   class SensorForces
   {
   public:
+    /// The body must outlive this.
     explicit SensorForces(const SolidBody &body);
 
     /// A place along the lever has a sensor at either side of the plate.
@@ -20,11 +21,16 @@ namespace sprag
       double right; ///< zeta > 0 [N]
     };
 
-    /// Returns those of each place from the pivot on. `forces`: on the ports of the face, three a node.
+    /// Returns those of each place from the pivot on by the forces on a linear body's face, three ports a node.
     std::vector<Sides> operator()(const PortLoads &forces) const;
 
+    /// The same by the displacement of all degrees of freedom.
+    std::vector<Sides> at(const dealii::Vector<double> &displacement) const;
+
   private:
-    const bool is_half;              ///< each row stands for both sides
+    std::vector<Sides> sides_of(const std::vector<double> &forces) const;
+
+    const SolidBody &body;
     dealii::FullMatrix<double> rows; ///< force of a sensor by unit forces on the ports
   };
 } // namespace sprag

@@ -63,15 +63,6 @@ namespace sprag
       return result;
     }
 
-    PortLoads on_surface(const PortLayout &ports, const PortLoads &forces)
-    {
-      PortLoads result{ {}, forces.values };
-      for (const unsigned int port : forces.ports)
-        if (ports.is_surface(port))
-          result.ports.push_back(port); // those of the face come first
-      return result;
-    }
-
     LayeredCompliance compliance_of(const SolidBody &body, const Scene &scene)
     {
       const double room        = 0.1 * scene.geometry.cylinder_radius;
@@ -96,13 +87,15 @@ namespace sprag
       , excess(ports, properties.spring.law)
       , sensors(body)
   {
+    if (body.body_properties().material != MaterialModel::linear)
+      finite.emplace(body);
   }
 
   State SolidLever::initial_state(const DrivePoint &drive) const
   {
     State state;
     state.drive = drive;
-    state.coordinates.reinit(window.n_coordinates());
+    state.coordinates.reinit(window.n_coordinates() + (finite ? body.n_dofs() : 0));
     state.coordinates[ports.rotation()] = properties.ideal_theta(drive.x) - properties.spring.rest;
     return state;
   }
@@ -117,10 +110,26 @@ namespace sprag
     begin_forces = accepted.forces;
     begin        = accepted.coordinates;
     window.enter(reachable(trial));
-    window.set_faces(begin_forces, begin);
-    window.set_faces(begin_forces, trial.coordinates);
+    const auto displacement = of_body(begin);
+    set_face(begin_forces, displacement, begin);
+    set_face(begin_forces, displacement, trial.coordinates);
     contact.begin_step({ begin, start.x });
     return trial;
+  }
+
+  /// At finite strain.
+  Vector<double> SolidLever::of_body(const Vector<double> &coordinates) const
+  {
+    return { coordinates.begin() + window.n_coordinates(), coordinates.end() };
+  }
+
+  /// Sets the ports of the face to what forces on them make of a linear body, or to the body's displacement at finite strain.
+  void SolidLever::set_face(const PortLoads &acting, const Vector<double> &displacement, Vector<double> &coordinates) const
+  {
+    if (!finite)
+      return window.set_faces(acting, coordinates);
+    for (unsigned int port = 0; port < ports.surface; ++port)
+      coordinates[port] = displacement[finite->dof_of(port)];
   }
 
   /// Ports within reach of the contact in a step that ends near `trial`, and those of the forces it begins with.
@@ -140,7 +149,14 @@ namespace sprag
     forces = found.forces;
     excess.add_forces({ { turn(trial), 0. } }, !forces.ports.empty(), forces);
     trial.forces = { forces.ports, forces.values };
-    return { window.unbalance(trial.coordinates, forces), found.compression };
+    if (!finite)
+      return { window.unbalance(trial.coordinates, forces), found.compression };
+    const auto displacement = of_body(trial.coordinates);
+    const auto &of_strain   = finite->unbalance(displacement, on_face(trial.forces));
+    Vector<double> of_face(ports.surface);
+    for (unsigned int port = 0; port < ports.surface; ++port)
+      of_face[port] = displacement[finite->dof_of(port)] + of_strain[finite->dof_of(port)];
+    return { std::hypot(window.unbalance(trial.coordinates, forces, &of_face), of_strain.l2_norm()), found.compression };
   }
 
   void SolidLever::evaluate_contact(State &trial, const FrictionMode mode)
@@ -159,7 +175,7 @@ namespace sprag
   {
     contact.widen_reach();
     const auto entered = window.enter(reachable(trial));
-    window.set_faces(begin_forces, begin);
+    set_face(begin_forces, of_body(begin), begin);
     contact.begin_step({ begin, start.x });
     for (const unsigned int port : entered)
       trial.coordinates[port] = begin[port];
@@ -168,7 +184,26 @@ namespace sprag
 
   Vector<double> SolidLever::correction()
   {
-    return window.correction(forces);
+    auto of_ports = window.correction(forces);
+    if (!finite)
+      return of_ports;
+    PortLoads change{ forces.ports, Vector<double>(forces.values.size()) };
+    for (unsigned int i = 0; i < change.ports.size(); ++i)
+      for (unsigned int j = 0; j < change.ports.size(); ++j)
+        change.values[i] += forces.tangent(i, j) * of_ports[forces.ports[j]];
+    const auto of_strain = finite->correction(on_face(change));
+    Vector<double> result(of_ports.size() + of_strain.size());
+    std::copy(of_strain.begin(), of_strain.end(), std::copy(of_ports.begin(), of_ports.end(), result.begin()));
+    return result;
+  }
+
+  PortLoads SolidLever::on_face(const PortLoads &acting) const
+  {
+    PortLoads result{ {}, acting.values };
+    for (const unsigned int port : acting.ports)
+      if (ports.is_surface(port))
+        result.ports.push_back(port); // those of the face come first
+    return result;
   }
 
   double SolidLever::turn(const State &state) const
@@ -181,23 +216,13 @@ namespace sprag
     return ports.sprung ? state.coordinates[ports.support()] : 0.;
   }
 
-  /// Half of the moments on it times what it yields.
-  double SolidLever::shaft_energy(const State &state) const
-  {
-    double result = 0.;
-    for (unsigned int i = 0; i < state.forces.ports.size(); ++i)
-      if (ports.is_slope(state.forces.ports[i]))
-        result += 0.5 * state.forces.values[i] * state.coordinates[state.forces.ports[i]];
-    return result;
-  }
-
   double SolidLever::movement(const Vector<double> &correction) const
   {
     Vector<double> in_lengths = correction;
     in_lengths[ports.rotation()] *= properties.spring.arm;
     for (unsigned int i = 0; i < ports.slopes; ++i)
       in_lengths[ports.slope(i)] *= springs.slope_arm;
-    return window.largest(in_lengths);
+    return std::max(window.largest(in_lengths), finite ? of_body(correction).linfty_norm() : 0.);
   }
 
   double SolidLever::length_scale() const
@@ -225,7 +250,7 @@ namespace sprag
       return "the lever locks: moving back, s = " + rounded_text(s) + " mm <= mu e = " + rounded_text(mu_e) + " mm";
     const double pressure = found.compression * contact.penalties().normal;
     const double limit    = largest_strain * body.friction_face().young_modulus;
-    if (pressure > limit)
+    if (!finite && pressure > limit)
       return "the pressure on the friction face exceeds " + rounded_text(limit) +
              " MPa, half of Young's modulus there (Friction layer or Lever/Young's modulus), which linear theory does not bear";
     const auto [tilt, skew] = contact.slopes_in(found);
@@ -246,143 +271,9 @@ namespace sprag
     state.surface_contact = augments() ? multipliers.augmented(found.points) : found.memory();
   }
 
-  void SolidLever::observe(const State &trial, Row &row) const
-  {
-    const double theta         = properties.spring.rest + turn(trial);
-    const double u             = support_displacement(trial);
-    const double support       = properties.support_stiffness.value_or(0.);
-    row[Column::theta]         = theta;
-    row[Column::spring_energy] = properties.spring.law.energy(turn(trial));
-    view.observe(found, row);
-    row[Column::elastic_energy] += shaft_energy(trial);
-    row[Column::centre_offset]        = row[Column::s] - properties.centre(trial.drive.x - u, theta).xi;
-    row[Column::indentation]          = indentation(row, on_surface(ports, trial.forces));
-    row[Column::Q]                    = row[Column::P] * std::sin(theta) + row[Column::F] * std::cos(theta);
-    row[Column::support_displacement] = u;
-    row[Column::Q_support]            = ports.sprung ? support * u : row[Column::Q];
-    row[Column::support_energy]       = 0.5 * support * u * u;
-    row.sensor_forces.clear();
-    for (const auto &[left, right] : sensors(trial.forces))
-    {
-      row.sensor_forces.push_back(left + right);
-      row.across.insert(row.across.end(), { left, right });
-    }
-  }
-
-  const std::vector<unsigned int> &SolidLever::line_at(const double zeta) const
-  {
-    const auto &nodes    = body.friction_face().nodes;
-    const auto distance  = [&](const auto &line) { return std::abs(nodes[line.front()].position[2] - zeta); };
-    const auto is_closer = [&](const auto &a, const auto &b) { return distance(a) < distance(b); };
-    return *std::min_element(node_lines.begin(), node_lines.end(), is_closer);
-  }
-
-  /// The displacement along eta between the nodes of a line by those of three of them: their ports and shares.
-  PortLoads SolidLever::interpolation(const std::vector<unsigned int> &line, const double xi) const
-  {
-    const auto &nodes    = body.friction_face().nodes;
-    const auto xi_of     = [&](const std::size_t i) { return nodes[line[i]].position[0]; };
-    const auto is_before = [&](const unsigned int node, const double value) { return nodes[node].position[0] < value; };
-    const auto after     = std::lower_bound(line.begin(), line.end(), xi, is_before) - line.begin();
-    const auto first     = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(after - 1, 0, line.size() - 3));
-    PortLoads result{ {}, Vector<double>(3) };
-    for (std::size_t i = first; i < first + 3; ++i)
-    {
-      double share = 1.;
-      for (std::size_t j = first; j < first + 3; ++j)
-        if (j != i)
-          share *= (xi - xi_of(j)) / (xi_of(i) - xi_of(j));
-      result.ports.push_back(3 * line[i] + 1);
-      result.values[static_cast<unsigned int>(i - first)] = share;
-    }
-    return result;
-  }
-
-  /// Where the pressure is largest.
-  double SolidLever::indentation(const Row &row, const PortLoads &on_face) const
-  {
-    if (properties.layer_thickness == 0. || on_face.ports.empty() || node_lines.empty())
-      return 0.;
-    const auto &line   = line_at(row.across[4]);
-    const double s     = row[Column::s];
-    const double aside = 0.5 * row[Column::contact_width] + 4. * properties.layer_thickness;
-    const auto at      = [&](const double xi)
-    {
-      const auto shares = interpolation(line, xi);
-      return shares.values * compliance.displacements(shares.ports, on_face);
-    };
-    return at(s) - 0.5 * (at(s - aside) + at(s + aside));
-  }
-
-  FacePoints SolidLever::face_points() const
-  {
-    return view.points();
-  }
-
-  FaceState SolidLever::face_state(const State &trial) const
-  {
-    return view.state(found, trial.drive);
-  }
-
   void SolidLever::visit_history(Archive &archive)
   {
     contact.visit_history(archive);
     window.visit_history(archive);
-  }
-
-  Vector<double> SolidLever::body_displacement(const State &state) const
-  {
-    SparseColumns loads;
-    const auto &nodes = body.friction_face().nodes;
-    for (unsigned int i = 0; i < state.forces.ports.size(); ++i)
-      if (const unsigned int port = state.forces.ports[i]; ports.is_surface(port))
-        if (const unsigned int dof = nodes[port / 3].dofs[port % 3]; !body.is_held(dof))
-          loads.add(dof, state.forces.values[i]);
-    loads.end_column();
-    const auto result = body.respond(loads);
-    return { result.begin(), result.end() };
-  }
-
-  FaceSample SolidLever::sample(const State &state) const
-  {
-    FaceSample result{ on_surface(ports, state.forces), {} };
-    auto &[forces_there, displacements] = result;
-    displacements.reinit(static_cast<unsigned int>(forces_there.ports.size()));
-    for (unsigned int i = 0; i < displacements.size(); ++i)
-      displacements[i] = state.coordinates[forces_there.ports[i]];
-    return result;
-  }
-
-  SolidLever::Exactness SolidLever::exactness(const std::vector<FaceSample> &samples) const
-  {
-    const auto &nodes = body.friction_face().nodes;
-    const auto dof_of = [&](const unsigned int port) { return nodes[port / 3].dofs[port % 3]; };
-    SparseColumns loads;
-    for (const auto &[acting, displacements] : samples)
-    {
-      for (unsigned int i = 0; i < acting.ports.size(); ++i)
-        if (const unsigned int dof = dof_of(acting.ports[i]); !body.is_held(dof))
-          loads.add(dof, acting.values[i]);
-      loads.end_column();
-    }
-    const auto of_whole = body.respond(loads);
-
-    Exactness result{};
-    for (std::size_t k = 0; k < samples.size(); ++k)
-    {
-      const auto &[acting, displacements] = samples[k];
-      double difference = 0., largest = 0., missed = 0., work = 0.;
-      for (unsigned int i = 0; i < acting.ports.size(); ++i)
-      {
-        const double exact = of_whole[k * body.n_dofs() + dof_of(acting.ports[i])];
-        difference         = std::max(difference, std::abs(exact - displacements[i]));
-        largest            = std::max(largest, std::abs(exact));
-        missed += (exact - displacements[i]) * acting.values[i];
-        work += exact * acting.values[i];
-      }
-      result.displacement = std::max(result.displacement, largest > 0. ? difference / largest : 0.);
-      result.work         = std::max(result.work, work > 0. ? std::abs(missed) / work : 0.);
-    }
-    return result;
   }
 } // namespace sprag

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "fe/contact/augmentation.h"
+#include "fe/solid/finite_strain.h"
 #include "fe/solid/layered_compliance.h"
 #include "fe/solid/sensor_forces.h"
 #include "fe/solid/surface_observation.h"
@@ -16,6 +17,7 @@ namespace sprag
 
   /// A lever in three dimensions on its hub, rotational spring and support against the rigid cylinder, without inertia. It
   /// follows the steps of LeverModel; all that differs is the body, its compliance, and that the contact slips in two directions.
+  /// Coordinates: displacements of the ports; at finite strain those of all degrees of freedom of the body follow.
   /// To be made and used by the first rank.
   class SolidLever : public Model
   {
@@ -49,18 +51,25 @@ namespace sprag
       contact.use_penalties(penalties);
     }
 
+    bool is_linear() const
+    {
+      return !finite;
+    }
+
     const LayeredCompliance &face_compliance() const
     {
       return compliance;
     }
 
-    /// Displacement of all degrees of freedom of the body in its axes [mm], by a back-substitution with the whole body.
+    /// Displacement of all degrees of freedom of the body in its axes [mm]; of a linear one by a back-substitution with the
+    /// whole.
     dealii::Vector<double> body_displacement(const State &state) const;
 
     /// Returns a state's forces on the face and the displacements where they act.
     FaceSample sample(const State &state) const;
 
-    /// What the compliance of the face leaves out, against a solve with the whole body, the worst of some states.
+    /// What the compliance of the face of a linear body leaves out, against a solve with the whole body, the worst of some
+    /// states.
     struct Exactness
     {
       double displacement; ///< largest difference over the largest displacement [-]
@@ -69,6 +78,9 @@ namespace sprag
     Exactness exactness(const std::vector<FaceSample> &samples) const;
 
   private:
+    dealii::Vector<double> of_body(const dealii::Vector<double> &coordinates) const;
+    void set_face(const PortLoads &forces, const dealii::Vector<double> &displacement, dealii::Vector<double> &coordinates) const;
+    PortLoads on_face(const PortLoads &forces) const;
     PortSelection reachable(const State &trial);
     void evaluate_contact(State &trial, FrictionMode mode);
     void widen_reach(State &trial, FrictionMode mode);
@@ -77,7 +89,7 @@ namespace sprag
     double shaft_energy(const State &state) const;
     const std::vector<unsigned int> &line_at(double zeta) const;
     PortLoads interpolation(const std::vector<unsigned int> &line, double xi) const;
-    double indentation(const Row &row, const PortLoads &on_face) const;
+    double indentation(const Row &row, const State &trial) const;
     bool augments() const;
 
     const SolidBody &body;
@@ -92,6 +104,7 @@ namespace sprag
     const SurfaceView view;
     HubSpringExcess excess;
     const SensorForces sensors;
+    mutable std::optional<FiniteStrain> finite; ///< of a body that is not linear
 
     // The step.
     DrivePoint start;

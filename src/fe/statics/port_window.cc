@@ -101,11 +101,14 @@ namespace sprag
         coordinates[window[place]] = displacements[place];
   }
 
-  double PortWindow::unbalance(const Vector<double> &coordinates, const PortForces &forces)
+  double PortWindow::unbalance(const Vector<double> &coordinates, const PortForces &forces, const Vector<double> *const of_faces)
   {
     for (const unsigned int place : places)
       mismatch[place] = -coordinates[window[place]];
     add_response(compliance, places_of(forces.ports), forces.values, places, mismatch);
+    for (const unsigned int place : places)
+      if (const unsigned int port = window[place]; of_faces != nullptr && ports.is_surface(port))
+        mismatch[place] = (*of_faces)[port] - coordinates[port];
     double result = 0.;
     for (const unsigned int place : places)
       result += mismatch[place] * mismatch[place];

@@ -42,8 +42,10 @@ namespace sprag
     /// Sets the displacements of those ports of the faces that it looks at to G f. It must look at the ports of the forces.
     void set_faces(const PortLoads &forces, dealii::Vector<double> &coordinates) const;
 
-    /// Norm of G f - z, as a displacement [mm].
-    double unbalance(const dealii::Vector<double> &coordinates, const PortForces &forces);
+    /// Norm of G f - z, as a displacement [mm]. `of_faces`: displacements of the faces in place of G f, on all their ports, of a
+    /// body that is not linear.
+    double unbalance(const dealii::Vector<double> &coordinates, const PortForces &forces,
+                     const dealii::Vector<double> *of_faces = nullptr);
 
     /// Correction at the last unbalance(), 0 on ports it does not look at. Throws AnalysisError if the tangent is singular.
     dealii::Vector<double> correction(const PortForces &forces) const;
