@@ -1,0 +1,50 @@
+#include "verification/solid_run.h"
+
+using namespace sprag;
+
+namespace
+{
+  /// Displacements of all degrees of freedom by a unit force on one.
+  std::vector<double> response(const SolidBody &body, const unsigned int dof)
+  {
+    std::vector<double> result(body.n_dofs(), 0.);
+    result[dof] = 1.;
+    body.respond(result);
+    return result;
+  }
+} // namespace
+
+// Columns of nodes that are alike are solved for once, beside a mesh whose lengths change along the face some others by the rows
+// of those; a block in the wrong place or the wrong way round is far beyond what the smooth part leaves out. The ends of the face
+// are not looked at: no contact is admitted there.
+TEST(SolidCompliance, BetweenPortsItIsThatOfTheWholeBody)
+{
+  Scene scene                 = solid_model_a(0.3);
+  scene.mesh.faces_in_contact = 4.; // shorter ones at the beginning of the way
+  Mesh plane;
+  make_mesh(scene, plane);
+  const SolidBody body(scene, plane);
+  ASSERT_TRUE(body.has_skin());
+  const auto &nodes  = body.friction_face().nodes;
+  const double begin = nodes.front().position[0] + 4. * body.skin(), end = nodes.back().position[0] - 4. * body.skin();
+  PortSelection inner;
+  for (unsigned int port = 0; port < 3 * nodes.size(); ++port)
+    if (const double xi = nodes[port / 3].position[0]; xi > begin && xi < end)
+      inner.push_back(port);
+  LayeredCompliance compliance(body, begin, end);
+  const auto found = compliance.among(inner);
+
+  const auto dof_of = [&](const unsigned int place) { return nodes[inner[place] / 3].dofs[inner[place] % 3]; };
+  double worst = 0., largest = 0.;
+  for (unsigned int column = 1; column < inner.size(); column += 31) // by and by in all directions and places across
+    if (!body.is_held(dof_of(column)))
+    {
+      const auto exact = response(body, dof_of(column));
+      for (unsigned int row = 0; row < inner.size(); ++row)
+      {
+        worst   = std::max(worst, std::abs(exact[dof_of(row)] - found(row, column)));
+        largest = std::max(largest, std::abs(exact[dof_of(row)]));
+      }
+    }
+  EXPECT_LT(worst, 5e-4 * largest);
+}
