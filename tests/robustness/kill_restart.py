@@ -51,6 +51,10 @@ ALL = {
     ),
     "accuracy asked for": ("model-a", {"Accuracy/Target": "0.05", "Drive/Stroke": "30", "Analysis/Step": "0.5"}),
     "neo-Hookean": ("neo-hookean-a", {"Mesh/Face size": "4", "Drive/Stroke": "6"}),
+    "neo-Hookean in three dimensions": (
+        "solid-neo-hookean-a",
+        {"Mesh/Face size": "4", "Mesh/Elements across": "2", "Drive/Stroke": "6"},
+    ),
     "elastic cylinder": ("cylinder-a", {"Mesh/Face size": "4", "Drive/Stroke": "20", "Analysis/Step": "1"}),
     "pair without inertia": ("pair-a", {"Mesh/Face size": "4", "Drive/Stroke": "20", "Analysis/Step": "1"}),
     "plate without inertia": ("plate-a", {"Mesh/Face size": "4", "Drive/Stroke": "20", "Analysis/Step": "1"}),
