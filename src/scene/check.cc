@@ -125,7 +125,8 @@ namespace sprag
       mesh(scene.mesh, scene.lever, rules);
       const bool has_stress = scene.analysis.plane == PlaneState::stress && scene.analysis.dimension == 2;
       rules.need(scene.lever.material != MaterialModel::neo_hookean || !has_stress || use.transient, "Lever/Material",
-                 { "Analysis/Plane", "Analysis/Dimension" }, "neo-Hookean needs Analysis/Plane = strain in a plane");
+                 { "Analysis/Plane", "Analysis/Dimension" },
+                 "neo-Hookean needs Analysis/Plane = strain or Analysis/Dimension = 3");
     }
 
     void linear_structure(const Scene &scene, const Use &use, Rules &rules)

@@ -220,23 +220,24 @@ TEST(ReadScene, EveryParameterStandsInTheReadme)
 
 TEST(ReadScene, AllMistakesAreFoundAtOnce)
 {
-  EXPECT_EQ(mistakes("subsection Geometry\n"
-                     "  set Cylinder radius = -56\n"
-                     "  set Pivot distance = 185.5 mm\n"
-                     "end\n"
-                     "subsection Rotational spring\n"
-                     "  set Stifness = 1\n"
-                     "end\n"
-                     "subsection Drive\n"
-                     "  set Start = 70\n"
-                     "end\n",
-                     { "Lever/Material=neo-Hookean" }),
-            (Messages{ "scene.prm:2: Geometry/Cylinder radius = -56: must be a number > 0 [mm]",
-                       "scene.prm:3: Geometry/Pivot distance = 185.5 mm: must be a number > 0 and nothing else: "
-                       "leave out 'mm', mm is meant",
-                       "scene.prm:6: Rotational spring/Stifness = 1: no such parameter; did you mean 'Stiffness'?",
-                       "scene.prm: Drive/Stroke = 65: must be more than Start = 70 mm",
-                       "--set: Lever/Material = neo-Hookean: neo-Hookean needs Analysis/Plane = strain" }));
+  EXPECT_EQ(
+      mistakes("subsection Geometry\n"
+               "  set Cylinder radius = -56\n"
+               "  set Pivot distance = 185.5 mm\n"
+               "end\n"
+               "subsection Rotational spring\n"
+               "  set Stifness = 1\n"
+               "end\n"
+               "subsection Drive\n"
+               "  set Start = 70\n"
+               "end\n",
+               { "Lever/Material=neo-Hookean" }),
+      (Messages{ "scene.prm:2: Geometry/Cylinder radius = -56: must be a number > 0 [mm]",
+                 "scene.prm:3: Geometry/Pivot distance = 185.5 mm: must be a number > 0 and nothing else: "
+                 "leave out 'mm', mm is meant",
+                 "scene.prm:6: Rotational spring/Stifness = 1: no such parameter; did you mean 'Stiffness'?",
+                 "scene.prm: Drive/Stroke = 65: must be more than Start = 70 mm",
+                 "--set: Lever/Material = neo-Hookean: neo-Hookean needs Analysis/Plane = strain or Analysis/Dimension = 3" }));
 }
 
 TEST(ReadScene, DriveMustMoveForward)
