@@ -6,7 +6,7 @@ namespace sprag
 
   FiniteStrain::FiniteStrain(const SolidBody &body_)
       : body(body_)
-      , stiffness(body.cell_mapping(), body.dofs().get_fe(), body.body_properties())
+      , stiffness({ body.cell_mapping(), body.dofs(), body.held(), body.body_properties() }, {}, {})
       , elasticity(body.cell_mapping(), body.dofs().get_fe(), body.body_properties())
       , of_cell(body.dofs().get_fe().n_dofs_per_cell())
   {
@@ -15,7 +15,7 @@ namespace sprag
       {
         std::vector<types::global_dof_index> dofs(of_cell.size());
         cell->get_dof_indices(dofs);
-        cells.push_back({ cell, std::move(dofs), &stiffness(cell) });
+        cells.push_back({ cell, std::move(dofs) });
       }
   }
 
@@ -36,16 +36,18 @@ namespace sprag
   const Vector<double> &FiniteStrain::unbalance(const Vector<double> &displacement, const PortLoads &on_face)
   {
     std::vector<double> loads(body.n_dofs(), 0.);
-    Vector<double> linear(of_cell.size()), internal(of_cell.size());
+    Vector<double> internal(of_cell.size());
     for (const auto &cell : cells)
     {
       elasticity.reinit(cell.cell, of(cell, displacement));
       elasticity.find_forces(internal);
-      cell.stiffness->vmult(linear, of_cell);
       for (unsigned int i = 0; i < cell.dofs.size(); ++i)
         if (!body.is_held(cell.dofs[i]))
-          loads[cell.dofs[i]] += linear[i] - internal[i];
+          loads[cell.dofs[i]] += internal[i];
     }
+    stiffness.subtract(std::vector<double>(displacement.begin(), displacement.end()), loads);
+    for (double &load : loads)
+      load = -load;
     add(on_face, loads);
     body.respond(loads);
     mismatch = Vector<double>(loads.begin(), loads.end());

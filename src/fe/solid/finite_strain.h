@@ -1,7 +1,7 @@
 #pragma once
 
 #include "fe/solid/solid_body.h"
-#include "fe/solid/solid_stiffness.h"
+#include "fe/solid/stiffness_product.h"
 #include "model/port_forces.h"
 
 namespace sprag
@@ -37,14 +37,13 @@ namespace sprag
     {
       dealii::DoFHandler<3>::active_cell_iterator cell;
       std::vector<dealii::types::global_dof_index> dofs;
-      const dealii::FullMatrix<double> *stiffness; ///< without load
     };
 
     const dealii::Vector<double> &of(const Cell &cell, const dealii::Vector<double> &displacement);
     void add(const PortLoads &on_face, std::vector<double> &loads) const;
 
     const SolidBody &body;
-    CellStiffness stiffness;
+    const StiffnessProduct stiffness; ///< of the cells, without load
     CellElasticity<3> elasticity;
     std::vector<Cell> cells;
     dealii::Vector<double> of_cell;

@@ -62,6 +62,12 @@ namespace sprag
       return properties;
     }
 
+    /// Those that hold the hub, and the middle of a half.
+    const dealii::AffineConstraints<double> &held() const
+    {
+      return constraints;
+    }
+
     bool is_held(const unsigned int dof) const
     {
       return constraints.is_constrained(dof);

@@ -188,9 +188,9 @@ namespace sprag
     if (!finite)
       return of_ports;
     PortLoads change{ forces.ports, Vector<double>(forces.values.size()) };
-    for (unsigned int i = 0; i < change.ports.size(); ++i)
-      for (unsigned int j = 0; j < change.ports.size(); ++j)
-        change.values[i] += forces.tangent(i, j) * of_ports[forces.ports[j]];
+    Vector<double> moved(forces.values.size());
+    of_ports.extract_subvector_to(forces.ports.begin(), forces.ports.end(), moved.begin());
+    forces.tangent.vmult(change.values, moved);
     const auto of_strain = finite->correction(on_face(change));
     Vector<double> result(of_ports.size() + of_strain.size());
     std::copy(of_strain.begin(), of_strain.end(), std::copy(of_ports.begin(), of_ports.end(), result.begin()));
