@@ -128,6 +128,11 @@ namespace sprag
     return { law.factor * value.coefficient, law.factor * value.derivative };
   }
 
+  bool never_falls(const FrictionLaw &law)
+  {
+    return std::holds_alternative<CoulombFriction>(law.law) || std::holds_alternative<CorkOnAluminium>(law.law);
+  }
+
   double next_friction_knot(const FrictionLaw &law, const double speed)
   {
     return std::visit([speed](const auto &choice) { return knot_after(speed, choice); }, law.law);

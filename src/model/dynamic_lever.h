@@ -7,6 +7,7 @@
 #include "model/frame_coupling.h"
 #include "model/growth.h"
 #include "model/hub_spring.h"
+#include "model/kept_iteration.h"
 #include "model/lever_frame.h"
 #include "model/linearisation.h"
 #include "model/port_newton.h"
@@ -73,27 +74,45 @@ namespace sprag
       const OfLevers turned   = turns_of(frame.ports, begin.position);
 
       dealii::Vector<double> rate;
-      const auto evaluate = [&](const dealii::Vector<double> &z) -> const PortForces &
+      const auto evaluate = [&](const dealii::Vector<double> &z, const bool with_tangent = true) -> const PortForces &
       {
         if (rates)
         {
           rate = drifted.velocity;
           rate.add(weights.rate(), z, -weights.rate(), drifted.position);
         }
-        contact->evaluate(PortStep{ accepted.drive, accepted.contact, to, begin, z, rate, weights, &accepted.surface_contact },
-                          found);
+        contact->evaluate(
+            PortStep{ accepted.drive, accepted.contact, to, begin, z, rate, weights, &accepted.surface_contact, with_tangent },
+            found);
         coupling.add_forces(begin, z, weights, found.forces);
         hub_spring.add_forces(turned, turns_of(frame.ports, z), weights, found.forces);
         return found.forces;
       };
 
       StepOutcome outcome;
-      dealii::Vector<double> z = free;
-      const auto &last         = accepted.forces;
-      add_response(structure->compliance(), last.ports, last.values, near, z);
-      const auto solved = solve_ports(
-          structure->compliance(), free, frame.lengths, near, evaluate, [&] { return found.overlap(); }, z, left_out_in_time);
+      const auto guess = [&]
+      {
+        dealii::Vector<double> z = free;
+        add_response(structure->compliance(), accepted.forces.ports, accepted.forces.values, near, z);
+        return z;
+      };
+      const PortEquations equations{ structure->compliance(), free, frame.lengths, near };
+      const auto overlap       = [&] { return found.overlap(); };
+      auto tangent             = accepted.tangent;
+      dealii::Vector<double> z = Contact::keeps_tangent ? free : guess();
+      PortSolution solved{};
+      if constexpr (Contact::keeps_tangent)
+        solved =
+            KeptIteration(equations, evaluate, overlap, weights, factors).solve(accepted.forces, tangent, z, left_out_in_time);
       outcome.iterations = solved.newton.iterations;
+      if (!solved.newton.converged)
+      {
+        if (Contact::keeps_tangent)
+          z = guess();
+        solved = solve_ports(equations, evaluate, overlap, z, left_out_in_time);
+        outcome.iterations += solved.newton.iterations;
+        tangent.reset();
+      }
       if (!solved.newton.converged)
         return outcome;
       if (!found.within_reach)
@@ -102,7 +121,10 @@ namespace sprag
         return step(accepted, to, weights);
       }
 
-      Motion motion = completed(structure->advance(accepted, *solved.forces, to), to, *solved.forces);
+      if constexpr (Contact::keeps_tangent)
+        contact->complete(found);
+      Motion motion  = completed(structure->advance(accepted, *solved.forces, to), to, *solved.forces);
+      motion.tangent = std::move(tangent);
       structure->add_work(accepted, motion, outcome.work);
       add_work(found.work(), outcome.work);
       coupling.add_work(begin, z, weights, outcome.work);
@@ -271,6 +293,7 @@ namespace sprag
     FrameCoupling coupling;
     HubSpringExcess hub_spring;
     SteadySlides<Structure, Contact> slides;
+    KeptFactors factors;
 
     OfLevers turns(const Motion &motion) const
     {

@@ -9,11 +9,14 @@
 #include "results/result_file.h"
 #include "scene/drive.h"
 
+#include <memory>
 #include <optional>
 #include <vector>
 
 namespace sprag
 {
+  struct KeptTangent;
+
   /// The state of a model in time. The analysis owns it: a step makes a new one, which is kept only when it is accepted.
   struct Motion
   {
@@ -23,6 +26,7 @@ namespace sprag
     std::vector<ContactMemory> contact;
     PortLoads forces;                            ///< of the step that led here: where the search for the next ones starts
     std::vector<PointMemory<2>> surface_contact; ///< in three dimensions, in place of `contact`
+    std::shared_ptr<const KeptTangent> tangent;  ///< of a step on the way here; null without
   };
 
   // What a contact remembers, of a line or of a surface.

@@ -19,6 +19,7 @@ namespace sprag
   {
   public:
     static constexpr bool uses_rates       = Contact::uses_rates;
+    static constexpr bool keeps_tangent    = false;
     static constexpr bool stands_for_layer = Contact::stands_for_layer;
     static constexpr unsigned int levers   = 2;
 

@@ -1,5 +1,6 @@
 #include "model/modal_structure.h"
 
+#include "model/block_product.h"
 #include "model/modal_vibration.h"
 
 #include <algorithm>
@@ -56,14 +57,16 @@ namespace sprag
       return result;
     }
 
+    /// Of a symmetric matrix.
     double quadratic_form(const FullMatrix<double> &matrix, const Vector<double> &sparse)
     {
       const auto filled = filled_places(sparse);
-      double sum        = 0.;
-      for (const unsigned int i : filled)
-        for (const unsigned int j : filled)
-          sum += sparse[i] * matrix(i, j) * sparse[j];
-      return sum;
+      const auto ranges = ranges_of(filled.begin(), filled.end());
+      Vector<double> product(sparse.size());
+      for (const auto &rows : ranges)
+        for (const auto &columns : ranges)
+          add_block_product(matrix, rows, columns, sparse.begin() + columns.begin, product.begin() + rows.begin);
+      return product.size() > 0 ? product * sparse : 0.;
     }
   } // namespace
 
@@ -219,7 +222,13 @@ namespace sprag
     if (loaded.empty() && motion.coordinates.position.all_zero())
       return result;
     for (const unsigned int port : selected)
-      result[port] = port_position(motion, loaded, port);
+      result[port] = port_position(motion, {}, port);
+    const auto beyond = std::lower_bound(selected.begin(), selected.end(), motion.face_force.size());
+    const auto rows   = ranges_of(selected.begin(), beyond);
+    for (const auto &columns : ranges_of(loaded.begin(), loaded.end()))
+      for (const auto &row : rows)
+        add_block_product(data.face_compliance, row, columns, motion.face_force.begin() + columns.begin,
+                          result.begin() + row.begin);
     return result;
   }
 

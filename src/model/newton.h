@@ -6,6 +6,9 @@
 
 namespace sprag
 {
+  /// Of the overlap, see solve_by_newton().
+  constexpr double relative_tolerance = 1e-7;
+
   struct NewtonResult
   {
     bool converged          = false;
@@ -28,7 +31,6 @@ namespace sprag
   {
     constexpr unsigned int maximum_iterations = 40;
     constexpr unsigned int maximum_halvings   = 8;
-    constexpr double relative_tolerance       = 1e-7;
 
     double unbalance = evaluate(x);
     double by_unit   = 0.; // of unbalance, the largest movement

@@ -50,6 +50,7 @@ namespace sprag
 
   public:
     static constexpr bool uses_rates       = true;
+    static constexpr bool keeps_tangent    = false;
     static constexpr bool stands_for_layer = true; ///< its springs are physical, not penalties
     static constexpr unsigned int levers   = 1;
 

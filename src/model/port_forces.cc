@@ -1,6 +1,7 @@
 #include "model/port_forces.h"
 
 #include "base/errors.h"
+#include "model/block_product.h"
 #include "model/port_matrix.h"
 
 #include <algorithm>
@@ -44,21 +45,6 @@ namespace sprag
       }
       return left.l2_norm() <= refined * b.l2_norm();
     }
-
-    /// Ranges of numbers in a row among some increasing ones, the first and beyond the last, less an offset.
-    std::vector<std::pair<unsigned int, unsigned int>> ranges_of(const PortSelection &selected, const unsigned int begin,
-                                                                 const unsigned int end, const unsigned int offset)
-    {
-      std::vector<std::pair<unsigned int, unsigned int>> result;
-      for (unsigned int k = begin; k < end; ++k)
-      {
-        const unsigned int i = selected[k] - offset;
-        if (result.empty() || result.back().second != i)
-          result.push_back({ i, i });
-        ++result.back().second;
-      }
-      return result;
-    }
   } // namespace
 
   void sum_forces(const std::vector<PortForces> &loaded, std::vector<unsigned int> &place_of_port, PortForces &sum)
@@ -92,13 +78,16 @@ namespace sprag
     std::set_union(forces.ports.begin(), forces.ports.end(), others.begin(), others.end(), std::back_inserter(result.ports));
     const auto n = static_cast<unsigned int>(result.ports.size());
     result.values.reinit(n);
-    result.tangent.reinit(n, n);
     std::vector<unsigned int> places;
     for (const unsigned int port : forces.ports)
       places.push_back(place_of(port, result.ports));
     for (unsigned int i = 0; i < places.size(); ++i)
       result.values[places[i]] = forces.values[i];
-    forces.tangent.scatter_matrix_to(places, places, result.tangent);
+    if (!forces.tangent.empty())
+    {
+      result.tangent.reinit(n, n);
+      forces.tangent.scatter_matrix_to(places, places, result.tangent);
+    }
     forces = std::move(result);
   }
 
@@ -143,15 +132,15 @@ namespace sprag
     {
       const auto [first, last] = block.places_among(ports);
       const auto [begin, end]  = block.places_among(selected);
-      const auto ranges        = ranges_of(selected, begin, end, block.begin);
-      double *const of_block   = displacements.begin() + block.begin;
-      for (unsigned int a = first; a < last; ++a)
+      const auto rows          = ranges_of(selected.begin() + begin, selected.begin() + end);
+      const double *values     = forces.begin() + first;
+      for (const auto &loaded : ranges_of(ports.begin() + first, ports.begin() + last))
       {
-        const double force      = forces[a];
-        const double *const row = &(*block.matrix)(ports[a] - block.begin, 0);
-        for (const auto &range : ranges)
-          for (unsigned int i = range.first; i < range.second; ++i)
-            of_block[i] += row[i] * force;
+        const NumberRange columns{ loaded.begin - block.begin, loaded.end - block.begin };
+        for (const auto &row : rows)
+          add_block_product(*block.matrix, { row.begin - block.begin, row.end - block.begin }, columns, values,
+                            displacements.begin() + row.begin);
+        values += loaded.size();
       }
     }
   }

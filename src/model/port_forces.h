@@ -14,7 +14,7 @@ namespace sprag
   {
     std::vector<unsigned int> ports; ///< increasing
     dealii::Vector<double> values;
-    dealii::FullMatrix<double> tangent;
+    dealii::FullMatrix<double> tangent; ///< empty where it was not wanted
   };
 
   /// Gives forces further ports, increasing, where they are 0 so far.

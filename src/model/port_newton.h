@@ -12,44 +12,67 @@ namespace sprag
   /// the step errs by.
   constexpr double left_out_in_time = 0.1;
 
+  /// The equations z = z_free + G f(z) on the selected ports.
+  struct PortEquations
+  {
+    const PortCompliance &compliance;
+    const dealii::Vector<double> &free;
+    const dealii::Vector<double> &lengths; ///< what a unit of each port moves
+    const PortSelection &selected;
+
+    /// Over the longest length.
+    static constexpr double round_off = 1e-14;
+
+    double smallest_movement() const
+    {
+      double scale = 0.;
+      for (const unsigned int i : selected)
+        scale = std::max(scale, lengths[i]);
+      return round_off * scale;
+    }
+
+    /// The largest movement of a material point that a change means.
+    double movement(const dealii::Vector<double> &change) const
+    {
+      double largest = 0.;
+      for (const unsigned int i : selected)
+        largest = std::max(largest, std::abs(lengths[i] * change[i]));
+      return largest;
+    }
+
+    /// Sets z_free + G f - z.
+    void set_mismatch(const PortForces &forces, const dealii::Vector<double> &z, dealii::Vector<double> &mismatch) const
+    {
+      for (const unsigned int i : selected)
+        mismatch[i] = free[i] - z[i];
+      add_response(compliance, forces.ports, forces.values, selected, mismatch);
+    }
+  };
+
   struct PortSolution
   {
     NewtonResult newton;
     const PortForces *forces; ///< of the last evaluation
   };
 
-  /// Solves z = z_free + G f(z) on the selected ports, see solve_by_newton(), from the guess in `z`. `forces_at(z)` returns the
-  /// forces, `overlap()` is the size of the contact's deformation at the last evaluation [mm], `lengths` what a unit of each port
-  /// moves.
+  /// Solves the equations, see solve_by_newton(), from the guess in `z`. `forces_at(z)` returns the forces, `overlap()` is the
+  /// size of the contact's deformation at the last evaluation [mm].
   template <class Forces, class Overlap>
-  PortSolution solve_ports(const PortCompliance &compliance, const dealii::Vector<double> &free,
-                           const dealii::Vector<double> &lengths, const PortSelection &selected, const Forces &forces_at,
-                           const Overlap &overlap, dealii::Vector<double> &z, const double left_out = 0.)
+  PortSolution solve_ports(const PortEquations &equations, const Forces &forces_at, const Overlap &overlap,
+                           dealii::Vector<double> &z, const double left_out = 0.)
   {
-    constexpr double round_off = 1e-14; // over the longest length
-
-    double scale = 0.;
-    for (const unsigned int i : selected)
-      scale = std::max(scale, lengths[i]);
     const PortForces *forces = nullptr;
-    dealii::Vector<double> mismatch(free.size());
-    const auto movement = [&](const dealii::Vector<double> &change)
-    {
-      double largest = 0.;
-      for (const unsigned int i : selected)
-        largest = std::max(largest, std::abs(lengths[i] * change[i]));
-      return largest;
-    };
+    dealii::Vector<double> mismatch(equations.free.size());
+    const auto movement = [&](const dealii::Vector<double> &change) { return equations.movement(change); };
     const auto evaluate = [&](const dealii::Vector<double> &at)
     {
       forces = &forces_at(at);
-      for (const unsigned int i : selected)
-        mismatch[i] = free[i] - at[i];
-      add_response(compliance, forces->ports, forces->values, selected, mismatch);
+      equations.set_mismatch(*forces, at, mismatch);
       return movement(mismatch);
     };
-    const auto correction = [&] { return port_correction(compliance, forces->ports, forces->tangent, selected, mismatch); };
-    const auto newton     = solve_by_newton(z, round_off * scale, evaluate, correction, movement, overlap, left_out);
+    const auto correction = [&]
+    { return port_correction(equations.compliance, forces->ports, forces->tangent, equations.selected, mismatch); };
+    const auto newton = solve_by_newton(z, equations.smallest_movement(), evaluate, correction, movement, overlap, left_out);
     return { newton, forces };
   }
 } // namespace sprag

@@ -1,5 +1,7 @@
 #include "model/state_archive.h"
 
+#include "model/kept_tangent.h"
+
 #include <algorithm>
 
 namespace sprag
@@ -45,8 +47,8 @@ namespace sprag
 
   void visit(Archive &archive, Motion &motion)
   {
-    auto &[drive, coordinates, face_force, contact, forces, surface_contact] = motion;
-    archive(drive, coordinates, face_force, contact, forces, surface_contact);
+    auto &[drive, coordinates, face_force, contact, forces, surface_contact, tangent] = motion;
+    archive(drive, coordinates, face_force, contact, forces, surface_contact, tangent);
   }
 
   void visit(Archive &archive, State &state)

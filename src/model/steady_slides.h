@@ -124,7 +124,7 @@ namespace sprag
         return found.forces;
       };
       const auto solved = solve_ports(
-          structure.compliance(), free, frame.lengths, near, evaluate, [&] { return found.overlap(); }, z);
+          { structure.compliance(), free, frame.lengths, near }, evaluate, [&] { return found.overlap(); }, z);
       if (!solved.newton.converged)
         return nullptr;
       if (!found.within_reach)

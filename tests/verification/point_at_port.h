@@ -10,6 +10,7 @@ namespace sprag
   {
   public:
     static constexpr bool uses_rates       = false;
+    static constexpr bool keeps_tangent    = false;
     static constexpr bool stands_for_layer = false;
     static constexpr unsigned int levers   = 1;
 

@@ -34,6 +34,7 @@ namespace sprag
   public:
     static constexpr bool uses_rates       = false;
     static constexpr bool stands_for_layer = false; ///< its springs are penalties
+    static constexpr bool keeps_tangent    = false;
     static constexpr unsigned int levers   = 1;
 
     /// The body must outlive the contact.

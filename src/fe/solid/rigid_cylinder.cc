@@ -69,6 +69,13 @@ namespace sprag
     return { x, theta, turned, std::cos(theta), std::sin(theta), slopes == at_rest ? axes_at_rest : CylinderAxes(slopes) };
   }
 
+  RigidCylinder::Shape RigidCylinder::shape() const
+  {
+    return {
+      geometry.pivot_distance, geometry.pivot_height, geometry.cylinder_radius, half_length, position, edge_radius, crown
+    };
+  }
+
   /// The world's axes are x, y (from the x-axis to the lever) and z (along zeta).
   RigidCylinder::Place RigidCylinder::place_of(const Pose &pose, const Point<3> &point) const
   {
@@ -86,7 +93,7 @@ namespace sprag
     const double into_rounding = std::abs(along) - (half_length - edge_radius);
     if (edge_radius == 0. || into_rounding <= 0.)
       return result;
-    const double share = std::min(into_rounding / edge_radius, 0.999); // the end itself is a wall
+    const double share = std::min(into_rounding / edge_radius, Shape::last_of_rounding);
     const double root  = std::sqrt(1. - share * share);
     result.value += edge_radius * (1. - root);
     result.slope += std::copysign(share / root, along);
@@ -143,7 +150,7 @@ namespace sprag
   }
 
   template <int n>
-  SurfaceKinematicsIn<n> RigidCylinder::kinematics(const Pose &pose, const Point<3> &point, const bool with_slips) const
+  SurfaceKinematicsIn<n> RigidCylinder::kinematics(const Pose &pose, const Point<3> &point) const
   {
     const auto at       = place_of(pose, point);
     const auto shape    = profile(at.along);
@@ -181,8 +188,7 @@ namespace sprag
         outer_product(along_round, along_round) / at.radius + shape.curvature * outer_product(along_axis, along_axis);
     bend(gap_gradient, result.gap_curvature);
 
-    if (with_slips)
-      result.slip = slips_of(pose, at);
+    result.slip     = slips_of(pose, at);
     result.slip_row = { { R / at.radius * along_round, along_axis } };
     result.slip_curvature[0] =
         -R / (at.radius * at.radius) * (outer_product(along_normal, along_round) + outer_product(along_round, along_normal));
@@ -191,6 +197,6 @@ namespace sprag
     return result;
   }
 
-  template SurfaceKinematics RigidCylinder::kinematics(const Pose &, const Point<3> &, bool) const;
-  template FixedSurfaceKinematics RigidCylinder::kinematics(const Pose &, const Point<3> &, bool) const;
+  template SurfaceKinematics RigidCylinder::kinematics(const Pose &, const Point<3> &) const;
+  template FixedSurfaceKinematics RigidCylinder::kinematics(const Pose &, const Point<3> &) const;
 } // namespace sprag

@@ -53,6 +53,22 @@ namespace sprag
 
     Pose pose(double x, double theta, const AxisSlopes &turned = {}) const;
 
+    /// What gaps and slips of points follow from, beside the pose.
+    struct Shape
+    {
+      double pivot_distance, pivot_height; ///< of the lever [mm]
+      double radius;                       ///< R [mm]
+      double half_length;                  ///< infinite without ends [mm]
+      double position;                     ///< of the middle, along zeta [mm]
+      double edge_radius;                  ///< 0 without rounding [mm]
+      double crown;                        ///< curvature of the barrel [1/mm]
+
+      /// Share of the rounding's depth beyond which the end is a wall.
+      static constexpr double last_of_rounding = 0.999;
+    };
+
+    Shape shape() const;
+
     /// Of the scene.
     const AxisSlopes &slopes() const
     {
@@ -68,9 +84,9 @@ namespace sprag
     /// Returns the slip coordinates of a point [mm].
     std::array<double, 2> slips(const Pose &pose, const dealii::Point<3> &point) const;
 
-    /// Returns all in 5 or 7 coordinates, or all but the slips, of which the derivatives alone are wanted.
+    /// Returns all in 5 or 7 coordinates.
     template <int n = SurfaceKinematics::n>
-    SurfaceKinematicsIn<n> kinematics(const Pose &pose, const dealii::Point<3> &point, bool with_slips = true) const;
+    SurfaceKinematicsIn<n> kinematics(const Pose &pose, const dealii::Point<3> &point) const;
 
     /// Whether its shaft lets the axis yield.
     bool has_free_axis() const

@@ -24,6 +24,11 @@ namespace sprag
     contact.evaluate(step, friction, found);
   }
 
+  void SolidContact::complete(SurfaceEvaluation &found)
+  {
+    contact.complete(found);
+  }
+
   void SolidContact::evaluate_sliding(const SlidingState &state, SurfaceEvaluation &found)
   {
     contact.slide(state, friction, found);

@@ -10,6 +10,7 @@ namespace sprag
   public:
     static constexpr bool uses_rates       = false;
     static constexpr bool stands_for_layer = false;
+    static constexpr bool keeps_tangent    = true;
     static constexpr unsigned int levers   = 1;
 
     using Evaluation = SurfaceEvaluation;
@@ -19,6 +20,7 @@ namespace sprag
                  bool half);
 
     void evaluate(const PortStep &step, SurfaceEvaluation &found);
+    void complete(SurfaceEvaluation &found);
     void evaluate_sliding(const SlidingState &state, SurfaceEvaluation &found);
     PortPerturbation linearise(const SlidingState &state, SurfaceEvaluation &found);
     std::vector<SurfaceMemory> touch(const dealii::Vector<double> &ports, const DrivePoint &drive, SurfaceEvaluation &found);

@@ -50,6 +50,7 @@ namespace sprag
       : face(face_)
       , properties(std::move(properties_))
       , patches(face)
+      , in_time(patches)
       , place_of_port(properties.ports.size())
   {
     find_lines();
@@ -266,6 +267,14 @@ namespace sprag
       sums.add_slope(point, slopes, by_slope, placed.slip_row[0]);
   }
 
+  /// Slopes are coordinates where the axis is free: they cost a third of a point.
+  void SurfaceContact::evaluate_point(const Step &step, FacePointState<3> &state, Sums &sums, SurfaceEvaluation &found) const
+  {
+    if (properties.ports.slopes > 0)
+      evaluate_in<SurfaceKinematics::n>(step, state, sums, found);
+    else
+      evaluate_in<FixedSurfaceKinematics::n>(step, state, sums, found);
+  }
   /// See slip_shift(): the place that had the same distance from the contact when the step began has the same zeta.
   SlipShift SurfaceContact::shift_of(const unsigned int point, const double slope, const Step &step) const
   {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "fe/contact/face_contact.h"
-#include "fe/solid/rigid_cylinder.h"
+#include "fe/solid/step_in_lanes.h"
 
 namespace sprag
 {
@@ -72,8 +72,11 @@ namespace sprag
     void evaluate(const SurfacePlace &end, const std::vector<SurfaceMemory> &memory, double surface_run, const StaticTerms &terms,
                   SurfaceEvaluation &found);
 
-    /// Evaluates a step in time.
+    /// Evaluates forces, compression and, where it is wanted, the tangent of a step in time.
     void evaluate(const PortStep &step, const FrictionLaw &friction, SurfaceEvaluation &found);
+
+    /// Finds works, energy and points of the step in time that was evaluated last.
+    void complete(SurfaceEvaluation &found);
 
     /// Evaluates steady sliding: the cylinder's surface runs round its axis at the slide's speed.
     void slide(const SlidingState &sliding, const FrictionLaw &friction, SurfaceEvaluation &found);
@@ -138,7 +141,6 @@ namespace sprag
 
     struct Sums;
     struct Step;
-    struct StepInTime;
     struct Sliding;
 
     /// A point where a step begins.
@@ -159,10 +161,7 @@ namespace sprag
     template <int n>
     void evaluate_in(const Step &step, FacePointState<3> &state, Sums &sums, SurfaceEvaluation &found) const;
     SlipShift shift_of(unsigned int point, double slope, const Step &step) const;
-    template <int n>
-    void evaluate_in(const StepInTime &step, FacePointState<3> &state, Sums &sums, SurfaceEvaluation &found) const;
-    template <class AnyStep>
-    void evaluate_point(const AnyStep &step, FacePointState<3> &state, Sums &sums, SurfaceEvaluation &found) const;
+    void evaluate_point(const Step &step, FacePointState<3> &state, Sums &sums, SurfaceEvaluation &found) const;
     template <int n>
     void slide_in(Sliding &sliding, FacePointState<3> &state, SurfaceEvaluation &found) const;
     void slide_point(Sliding &sliding, FacePointState<3> &state, SurfaceEvaluation &found) const;
@@ -171,6 +170,10 @@ namespace sprag
     dealii::Tensor<1, 2> slip_rates(const Sliding &sliding, const Patches::Point &point, const SurfaceKinematicsIn<n> &placed,
                                     FacePointState<3> &state) const;
     void add_patch(unsigned int patch, const Sums &sums, std::vector<PortForces> &loaded) const;
+    StepInLanes::Constants constants_of(const PortStep &step, const FrictionLaw &friction) const;
+    Patches::Indices patches_of(const std::vector<SurfaceMemory> &memory) const;
+    void sum_pressed(Patches::Indices touched, PortForces &forces);
+    void find_tangent(PortForces &forces) const;
     bool reaches_end(const SurfaceEvaluation &found) const;
     FacePointState<3> &add_point(unsigned int patch, unsigned int point, const Patches::Nodal &nodal,
                                  const RigidCylinder::Pose &pose, SurfaceEvaluation &found) const;
@@ -190,6 +193,21 @@ namespace sprag
     double begin_x = 0.;
     RigidCylinder::Pose begin_pose{};
     mutable std::vector<std::vector<BeginPoint>> begin_points; ///< by patches; of those that were looked at
+
+    /// Patches whose forces are summed, and their ports.
+    struct Summed
+    {
+      Patches::Indices patches;
+      std::vector<unsigned int> ports;          ///< increasing
+      std::vector<PortCoordinates> coordinates; ///< of the patches, with places among the ports in place of these
+    };
+
+    // In time.
+    StepInLanes in_time;
+    Patches::Indices looked_at_first;         ///< patches near where the step begins, and where it remembers a contact
+    Patches::Indices looked_at;               ///< by the last evaluation
+    std::vector<StepInLanes::Forces> pressed; ///< of the patches that are summed
+    Summed summed;
 
     std::vector<unsigned int> place_of_port; ///< among those summed
     PortSelection reachable;

@@ -14,13 +14,6 @@ namespace sprag
   {
     const std::vector<SurfaceMemory> no_memory;
 
-    const SurfaceMemory *memory_of(const std::vector<SurfaceMemory> &memory, const unsigned int point)
-    {
-      const auto is_before = [](const SurfaceMemory &entry, const unsigned int q) { return entry.point < q; };
-      const auto found     = std::lower_bound(memory.begin(), memory.end(), point, is_before);
-      return found != memory.end() && found->point == point ? &*found : nullptr;
-    }
-
     /// Forgets what was found, and keeps the memory for what follows.
     void clear(SurfaceEvaluation &found)
     {
@@ -42,18 +35,6 @@ namespace sprag
     }
   } // namespace
 
-  /// What evaluates one patch of a step in time after another.
-  struct SurfaceContact::StepInTime
-  {
-    RigidCylinder::Pose end;
-    RigidCylinder::Pose balance; ///< where forces are balanced
-    double share;                ///< of the step until there
-    double surface_run;
-    StepContactLaw law;
-    const std::vector<SurfaceMemory> &memory;
-    double advance; ///< of the drive [mm]
-  };
-
   /// What evaluates one patch of steady sliding after another.
   struct SurfaceContact::Sliding
   {
@@ -68,107 +49,130 @@ namespace sprag
     std::vector<PortPerturbation> parts{}; ///< of the patches
   };
 
+  StepInLanes::Constants SurfaceContact::constants_of(const PortStep &of, const FrictionLaw &friction) const
+  {
+    StepInLanes::Constants result;
+    result.law.normal               = { properties.penalties.normal, 1. };
+    result.law.tangential           = properties.penalties.tangential;
+    result.law.friction             = friction_of_step(friction, of.to.v);
+    result.law.weights              = of.weights;
+    result.cylinder                 = properties.cylinder.shape();
+    result.begin                    = begin_pose;
+    result.end                      = pose_of({ of.end, of.to.x });
+    result.share                    = of.weights.stiffness();
+    const auto &[begin, end, share] = std::tie(result.begin, result.end, result.share);
+    const auto balanced             = [&](const double a, const double b) { return (1. - share) * a + share * b; };
+    result.balance =
+        properties.cylinder.pose(balanced(begin.x, end.x), balanced(begin.theta, end.theta),
+                                 { { balanced(begin.turned[0], end.turned[0]), balanced(begin.turned[1], end.turned[1]) } });
+    result.surface_run = of.to.surface - of.from.surface;
+    result.advance     = of.to.x - of.from.x;
+    result.slopes      = properties.ports.slopes;
+    return result;
+  }
+
   void SurfaceContact::evaluate(const PortStep &of, const FrictionLaw &friction, SurfaceEvaluation &found)
   {
+    const auto &memory  = of.surface_memory != nullptr ? *of.surface_memory : no_memory;
     const bool is_first = begin_ports.size() != of.begin.position.size();
-    if (is_first || begin_x != of.from.x || begin_ports != of.begin.position)
+    if (is_first || begin_x != of.from.x || begin_ports != of.begin.position || !in_time.begins_with(memory))
+    {
       begin_step({ of.begin.position, of.from.x });
-    StepContactLaw law;
-    law.normal     = { properties.penalties.normal, 1. };
-    law.tangential = properties.penalties.tangential;
-    law.friction   = friction_of_step(friction, of.to.v);
-    law.weights    = of.weights;
-    const SurfacePlace place{ of.end, of.to.x };
-    const auto end      = pose_of(place);
-    const double share  = of.weights.stiffness();
-    const auto balanced = [share](const double a, const double b) { return (1. - share) * a + share * b; };
-    const StepInTime step{ end,
-                           properties.cylinder.pose(balanced(begin_pose.x, end.x), balanced(begin_pose.theta, end.theta),
-                                                    { { balanced(begin_pose.turned[0], end.turned[0]),
-                                                        balanced(begin_pose.turned[1], end.turned[1]) } }),
-                           share,
-                           of.to.surface - of.from.surface,
-                           law,
-                           of.surface_memory != nullptr ? *of.surface_memory : no_memory,
-                           of.to.x - of.from.x };
+      in_time.begin(memory);
+      looked_at_first = united(near({ begin_ports, begin_x }, begin_pose), patches_of(memory));
+    }
+    const auto step = constants_of(of, friction);
+    in_time.set(step);
 
-    clear(found);
     found.displacement = of.end;
     found.x            = of.to.x;
     found.duration     = of.weights.dt;
-    auto looked_at     = united(near(place, end), near({ begin_ports, begin_x }, begin_pose));
-    Patches::Indices remembered;
-    for (const auto &entry : step.memory)
-      if (remembered.empty() || entry.point >= patches.patches[remembered.back()].end)
-        remembered.push_back(patches.patch_of_point(entry.point));
-    std::vector<PortForces> loaded;
-    for (const unsigned int patch : clip(united(looked_at, remembered), found))
+    found.compression  = 0.;
+    found.forces.tangent.reinit(0, 0);
+    looked_at = clip(united(near({ of.end, of.to.x }, step.end), looked_at_first), found);
+    pressed.clear();
+    Patches::Indices touched;
+    for (const unsigned int patch : looked_at)
     {
-      const auto nodal = Patches::nodal(patches.patches[patch], of.end);
-      Sums sums;
-      for (unsigned int q = patches.patches[patch].begin; q < patches.patches[patch].end; ++q)
-        evaluate_point(step, add_point(patch, q, nodal, end, found), sums, found);
-      add_patch(patch, sums, loaded);
+      const auto from = Patches::nodal(patches.patches[patch], of.begin.position);
+      const auto to   = Patches::nodal(patches.patches[patch], of.end);
+      auto &forces    = pressed.emplace_back();
+      if (in_time.press(patch, from, to, forces, found.compression))
+        touched.push_back(patch);
+      else
+        pressed.pop_back();
     }
-    sum_forces(loaded, place_of_port, found.forces);
-    found.beyond_face = reaches_end(found);
+    sum_pressed(std::move(touched), found.forces);
+    if (of.with_tangent)
+      find_tangent(found.forces);
+  }
+
+  SurfaceContact::Patches::Indices SurfaceContact::patches_of(const std::vector<SurfaceMemory> &memory) const
+  {
+    Patches::Indices result;
+    for (const auto &entry : memory)
+      if (result.empty() || entry.point >= patches.patches[result.back()].end)
+        result.push_back(patches.patch_of_point(entry.point));
+    return result;
+  }
+
+  /// The ports of some patches and the places of their coordinates among these are found again where the patches change alone.
+  void SurfaceContact::sum_pressed(Patches::Indices touched, PortForces &forces)
+  {
+    if (touched != summed.patches)
+    {
+      summed = { std::move(touched), {}, {} };
+      for (const unsigned int patch : summed.patches)
+      {
+        summed.coordinates.push_back(coordinates_of(patch));
+        const auto ports = ports_of(summed.coordinates.back());
+        summed.ports.insert(summed.ports.end(), ports.begin(), ports.end());
+      }
+      std::sort(summed.ports.begin(), summed.ports.end());
+      summed.ports.erase(std::unique(summed.ports.begin(), summed.ports.end()), summed.ports.end());
+      for (auto &coordinates : summed.coordinates)
+        for (auto &coordinate : coordinates)
+          coordinate.port = place_of(coordinate.port, summed.ports);
+    }
+    forces.ports = summed.ports;
+    forces.values.reinit(static_cast<unsigned int>(summed.ports.size()));
+    for (unsigned int i = 0; i < summed.patches.size(); ++i)
+      for (const auto &[index, place, sign] : summed.coordinates[i])
+        forces.values[place] += sign * pressed[i][index];
+  }
+
+  void SurfaceContact::complete(SurfaceEvaluation &found)
+  {
+    StepInLanes::Sums sums;
+    found.points.clear();
+    for (const unsigned int patch : looked_at)
+      in_time.complete(patch, sums, found.points);
+    found.stored            = sums.stored;
+    found.works             = StepWork();
+    found.works.drive       = sums.drive;
+    found.works.friction    = sums.friction;
+    found.works.algorithmic = sums.algorithmic;
+    found.works.creep       = sums.creep;
+    found.beyond_face       = reaches_end(found);
+  }
+
+  void SurfaceContact::find_tangent(PortForces &forces) const
+  {
+    const auto n = static_cast<unsigned int>(summed.ports.size());
+    forces.tangent.reinit(n, n);
+    for (unsigned int i = 0; i < summed.patches.size(); ++i)
+    {
+      const auto tangent = in_time.tangent(summed.patches[i]);
+      for (const auto &row : summed.coordinates[i])
+        for (const auto &column : summed.coordinates[i])
+          forces.tangent(row.port, column.port) += row.sign * column.sign * tangent[row.index][column.index];
+    }
   }
 
   bool SurfaceContact::reaches_end(const SurfaceEvaluation &found) const
   {
     return std::any_of(found.points.begin(), found.points.end(),
                        [&](const auto &point) { return point.pressure > 0. && is_at_end[point.patch]; });
-  }
-
-  template <int n>
-  void SurfaceContact::evaluate_in(const StepInTime &step, FacePointState<3> &state, Sums &sums, SurfaceEvaluation &found) const
-  {
-    const auto &begin       = at_begin_of(state.patch)[state.index - patches.patches[state.patch].begin];
-    const auto *const known = memory_of(step.memory, state.index);
-    if (state.gap >= 0. && begin.gap >= 0. && known == nullptr)
-      return;
-    found.compression  = std::max(found.compression, -std::min(state.gap, begin.gap));
-    const auto placed  = properties.cylinder.kinematics<n>(step.end, state.position);
-    const auto moved   = state.position - begin.position;
-    const auto between = properties.cylinder.kinematics<n>(step.balance, begin.position + step.share * moved, false);
-    Tensor<1, n> change;
-    for (unsigned int d = 0; d < 3; ++d)
-      change[d] = moved[d];
-    change[3] = step.end.theta - begin_pose.theta;
-    change[4] = step.end.x - begin_pose.x;
-    for (unsigned int i = 5; i < n; ++i)
-      change[i] = step.end.turned[i - 5] - begin_pose.turned[i - 5];
-
-    StepKinematics<n, 2> kinematics;
-    kinematics.gap_begin     = begin.gap;
-    kinematics.gap_end       = placed.gap;
-    kinematics.gap_row_end   = placed.gap_row;
-    kinematics.gap_row       = between.gap_row;
-    kinematics.gap_curvature = step.share * between.gap_curvature;
-    kinematics.gap_bend      = change * (between.gap_curvature * change);
-    for (unsigned int s = 0; s < 2; ++s)
-    {
-      kinematics.slip_change[s]     = placed.slip[s] - begin.slips[s] + (s == 0 ? step.surface_run : 0.);
-      kinematics.slip_change_row[s] = placed.slip_row[s];
-      kinematics.slip_row[s]        = between.slip_row[s];
-      kinematics.slip_curvature[s]  = step.share * between.slip_curvature[s];
-      kinematics.slip_bend[s]       = change * (between.slip_curvature[s] * change);
-    }
-    const SurfaceMemory memory = known != nullptr ? *known : SurfaceMemory{};
-    const auto response        = step_response(kinematics, memory, step.law);
-
-    static_cast<PointTraction<2> &>(state) = response;
-    state.memory.point                     = state.index;
-    state.slip_change                      = kinematics.slip_change;
-    state.elastic_slip                     = response.traction.norm() / step.law.tangential;
-    state.end_force                        = on_lever(force_of(response, placed));
-    const auto &point                      = patches.points[state.index];
-    found.stored += point.weight * response.energy;
-    found.works.drive += point.weight * (response.mean_traction[0] * step.surface_run - response.force[4] * step.advance);
-    found.works.friction += point.weight * response.friction;
-    found.works.algorithmic += point.weight * response.algorithmic;
-    found.works.creep = std::max(found.works.creep, response.creep);
-    sums.add(point, response.force, response.tangent);
   }
 
   void SurfaceContact::slide(const SlidingState &sliding, const FrictionLaw &friction, SurfaceEvaluation &found)

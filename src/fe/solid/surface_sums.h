@@ -81,14 +81,4 @@ namespace sprag
         sums[b] += factor * shapes[b];
     }
   };
-
-  /// Slopes are coordinates where the axis is free: they cost a third of a point.
-  template <class AnyStep>
-  void SurfaceContact::evaluate_point(const AnyStep &step, FacePointState<3> &state, Sums &sums, SurfaceEvaluation &found) const
-  {
-    if (properties.ports.slopes > 0)
-      evaluate_in<SurfaceKinematics::n>(step, state, sums, found);
-    else
-      evaluate_in<FixedSurfaceKinematics::n>(step, state, sums, found);
-  }
 } // namespace sprag

@@ -1,0 +1,111 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+/// A function that computes with Lanes is compiled for several generations of processors, of which the loader takes the best.
+#if defined(__x86_64__) && defined(__gnu_linux__) && !defined(__SANITIZE_ADDRESS__)
+#  define SPRAG_FOR_ANY_PROCESSOR __attribute__((target_clones("avx512f", "avx2", "default")))
+#else
+#  define SPRAG_FOR_ANY_PROCESSOR
+#endif
+
+/// What such a function calls with Lanes becomes a part of it.
+#define SPRAG_PART inline __attribute__((always_inline))
+
+namespace sprag
+{
+  /// Eight numbers that are computed with at once, one a lane, aligned as any processor may want them. Arithmetic and comparisons
+  /// go lane by lane; `mask ? a : b` chooses.
+  using Lanes = double __attribute__((vector_size(64), aligned(64)));
+
+  /// What comparisons of lanes tell, all bits set where true.
+  using LaneMask = std::int64_t __attribute__((vector_size(64), aligned(64)));
+
+  constexpr unsigned int n_lanes = 8;
+
+  /// Of some quantities. std::array would forget their alignment.
+  template <unsigned int n>
+  struct alignas(Lanes) SomeLanes
+  {
+    Lanes values[n];
+
+    SPRAG_PART Lanes &operator[](const unsigned int i)
+    {
+      return values[i];
+    }
+    SPRAG_PART const Lanes &operator[](const unsigned int i) const
+    {
+      return values[i];
+    }
+  };
+
+  SPRAG_PART Lanes all_lanes(const double value)
+  {
+    return Lanes{} + value;
+  }
+
+  SPRAG_PART Lanes square_root(const Lanes &value)
+  {
+    Lanes result{};
+    for (unsigned int i = 0; i < n_lanes; ++i)
+      result[i] = __builtin_sqrt(value[i]);
+    return result;
+  }
+
+  SPRAG_PART Lanes absolute(const Lanes &value)
+  {
+    return value < 0. ? -value : value;
+  }
+
+  SPRAG_PART Lanes smaller(const Lanes &a, const Lanes &b)
+  {
+    return a < b ? a : b;
+  }
+
+  SPRAG_PART Lanes larger(const Lanes &a, const Lanes &b)
+  {
+    return a < b ? b : a;
+  }
+
+  SPRAG_PART bool any(const LaneMask &mask)
+  {
+    std::int64_t result = 0;
+    for (unsigned int i = 0; i < n_lanes; ++i)
+      result |= mask[i];
+    return result != 0;
+  }
+
+  SPRAG_PART double sum(const Lanes &value)
+  {
+    double result = 0.;
+    for (unsigned int i = 0; i < n_lanes; ++i)
+      result += value[i];
+    return result;
+  }
+
+  SPRAG_PART double largest(const Lanes &value)
+  {
+    double result = value[0];
+    for (unsigned int i = 1; i < n_lanes; ++i)
+      result = value[i] > result ? value[i] : result;
+    return result;
+  }
+
+  /// The angle from (x_0, y_0) to (x_1, y_1), most of them small.
+  SPRAG_PART Lanes angle_between(const Lanes &x_0, const Lanes &y_0, const Lanes &x_1, const Lanes &y_1)
+  {
+    constexpr double small = 0.03; // where the terms left out are round-off
+    const Lanes across     = x_0 * y_1 - y_0 * x_1;
+    const Lanes along      = x_0 * x_1 + y_0 * y_1;
+    const Lanes t          = across / along;
+    const Lanes s          = t * t;
+    Lanes result           = t * (1. - s * (1. / 3. - s * (1. / 5. - s * (1. / 7. - s * (1. / 9.)))));
+    const LaneMask is_far  = (absolute(t) > small) | (along <= 0.);
+    if (any(is_far))
+      for (unsigned int i = 0; i < n_lanes; ++i)
+        if (is_far[i])
+          result[i] = std::atan2(across[i], along[i]);
+    return result;
+  }
+} // namespace sprag

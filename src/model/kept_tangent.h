@@ -1,0 +1,49 @@
+#pragma once
+
+#include "base/archive.h"
+#include "model/generalised_alpha.h"
+#include "model/port_forces.h"
+
+#include <deal.II/lac/lapack_full_matrix.h>
+
+#include <memory>
+
+namespace sprag
+{
+  /// Derivative of the contact's forces by displacements of their ports that steps in time take from one to the next: a contact
+  /// wanders little in a step, so that it serves the corrections of several.
+  struct KeptTangent
+  {
+    std::vector<unsigned int> ports; ///< increasing
+    dealii::FullMatrix<double> matrix;
+  };
+
+  void visit(Archive &archive, std::shared_ptr<const KeptTangent> &kept);
+
+  /// Factors of 1 - A G of kept tangents A with the compliances G of steps, in single precision: what a correction of forces
+  /// leaves of their unbalance the next one finds.
+  class KeptFactors
+  {
+  public:
+    /// Looks for the factors of a tangent and the compliance of a step with these weights, else makes them. Returns whether there
+    /// are: none where the matrix is singular.
+    bool use(std::shared_ptr<const KeptTangent> kept, const PortCompliance &compliance, const StepWeights &weights);
+
+    /// The ports of the tangent in use.
+    const std::vector<unsigned int> &ports() const;
+
+    /// Solves for the change of forces on these ports by which they follow displacements, from what they differ by.
+    void solve(dealii::Vector<float> &forces) const;
+
+  private:
+    struct Factors
+    {
+      std::shared_ptr<const KeptTangent> of;
+      double dt;
+      double alpha_f;
+      std::unique_ptr<const dealii::LAPACKFullMatrix<float>> matrix; ///< a copy would lose its pivots
+    };
+
+    std::vector<Factors> known; ///< the latest in use last
+  };
+} // namespace sprag
