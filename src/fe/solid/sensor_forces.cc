@@ -73,7 +73,7 @@ namespace sprag
   }
 
   /// Of a half each sensor stands for both sides.
-  void SensorForces::tell(const std::vector<double> &forces, Row &row) const
+  void SensorForces::tell(const std::vector<double> forces, Row &row) const
   {
     row.sensor_forces.clear();
     for (std::size_t i = 0; i < forces.size(); i += body.is_half() ? 1 : 2)

@@ -34,7 +34,7 @@ namespace sprag
     std::vector<double> at(const dealii::Vector<double> &displacement) const;
 
     /// Tells a row the forces of the places, and their parts on either side of the plate.
-    void tell(const std::vector<double> &forces, Row &row) const;
+    void tell(std::vector<double> forces, Row &row) const;
 
     /// Returns their compressions by the displacement of all degrees of freedom [mm].
     std::vector<double> compressions(const dealii::Vector<double> &displacement) const;

@@ -149,7 +149,7 @@ namespace sprag
       void observe(const Motion &motion, Row &row) const override
       {
         DynamicLever::observe(motion, row);
-        lever.sensors->tell(std::vector<double>(row.sensor_forces), row);
+        lever.sensors->tell(row.sensor_forces, row);
       }
 
       ModeShape mode_shape(const Eigenmode &mode) const override

@@ -14,7 +14,8 @@ namespace sprag
     std::vector<double> stiffness;                     ///< omega^2 [1/s^2]
     std::vector<dealii::Vector<double>> displacements; ///< elastic, of all degrees of freedom of the body
     std::vector<double> rotation;                      ///< of the hub
-    std::vector<std::array<double, 2>> momentum;       ///< integral of rho times the total displacement along xi and eta [t]
+    std::vector<std::array<double, 2>>
+        momentum; ///< of rho times the total displacement along xi and eta, leaf spring included [t]
     std::vector<Eigenmode::AcrossShares> across;
     dealii::FullMatrix<double> layer_stiffness; ///< of the friction layer, in the modes
     double density_factor    = 1.;              ///< by which the densities were scaled to meet the moment of inertia
