@@ -206,7 +206,7 @@ TEST(SolidPartsInTime, SensorsFeelWhatThePlanesFeel)
 // Eigenvalues of a slide in contact, friction and all.
 TEST(SolidPartsInTime, VibrationsOfASlideAreThoseOfThePlane)
 {
-  Scene bare           = with_face_size(in_space(AnalysisType::stability), 4.);
+  Scene bare           = in_space(AnalysisType::stability);
   bare.layer.thickness = 6.;
   for (const Scene &scene : { on_leaf_with_tip(bare), on_sensors(bare) })
   {
