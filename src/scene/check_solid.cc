@@ -10,15 +10,6 @@ namespace sprag
 {
   namespace
   {
-    template <class Need>
-    void with_inertia(const Scene &scene, const Need &need)
-    {
-      need(scene.analysis.model == ModelType::condensed, "Analysis/Model", "condensed with inertia");
-      need(scene.lever.tip_mass == 0., "Lever/Tip mass", "0");
-      need(scene.spring.type == SpringType::torsional, "Rotational spring/Type", "torsional");
-      need(scene.plate.type == PlateType::none, "Friction plate/Type", "none with inertia");
-    }
-
     void what_there_is(const Scene &scene, Rules &rules)
     {
       const std::string in_plane = ": in three dimensions there is no other yet";
@@ -33,7 +24,7 @@ namespace sprag
       if (is_static)
         need(analysis.model == ModelType::finite_element, "Analysis/Model", "finite element without inertia");
       else
-        with_inertia(scene, need);
+        need(analysis.model == ModelType::condensed, "Analysis/Model", "condensed with inertia");
       need(analysis.solution == Solution::automatic, "Analysis/Solution", "automatic");
       need(scene.cylinder.type == CylinderType::rigid, "Cylinder/Type", "rigid");
       need(scene.pair.type == PairType::half, "Mirrored pair/Type", "half");

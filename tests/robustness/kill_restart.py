@@ -49,6 +49,11 @@ ALL = {
         "solid-reversal-a",
         {"Drive/Start": "64.5", "Mesh/Face size": "6", "Mesh/Elements across": "2", "Condensed/Modes": "6"},
     ),
+    "parts in three dimensions in time": (
+        "solid-plate-reversal-a",
+        {"Drive/Start": "64.5", "Mesh/Face size": "6", "Mesh/Elements across": "2", "Condensed/Modes": "6", "Lever/Outline": "bar",
+         "Rotational spring/Type": "leaf", "Lever/Tip mass": "1e-5"},
+    ),
     "accuracy asked for": ("model-a", {"Accuracy/Target": "0.05", "Drive/Stroke": "30", "Analysis/Step": "0.5"}),
     "neo-Hookean": ("neo-hookean-a", {"Mesh/Face size": "4", "Drive/Stroke": "6"}),
     "neo-Hookean in three dimensions": (

@@ -16,6 +16,7 @@ from runs import SOURCE, SPRAG, TIMEOUT, RunTest  # noqa: E402
 
 MESH = {"Analysis/Dimension": "3", "Mesh/Face size": "3", "Mesh/Faces in contact": "0", "Mesh/Elements across": "3"}
 SETTINGS = {**MESH, "Cylinder/Tilt": "1e-4", "Drive/Stroke": "15"}
+PARTS = {"Friction plate/Type": "on sensors", "Friction plate/Sensors": "105, 195", "Rotational spring/Type": "leaf"}
 HELD = {**MESH, "Analysis/Model": "condensed", "Condensed/Modes": "8", "Output/Fields": "none"}
 ALONE = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_rmaps_base_oversubscribe": "1"}
 
@@ -62,14 +63,14 @@ class Ranks(RunTest):
         tables = {
             "stability": ("modes", ("frequency", "growth_rate")),
             "modal": ("modes", ("frequency", "across_real", "sideways_real")),
-            "transient": ("table", ("P", "Q", "theta")),
+            "transient": ("table", ("P", "Q", "theta", "sensor_1_left", "sensor_2_right")),
         }
         for analysis, (group, names) in tables.items():
             changes = {**HELD, "Analysis/Type": analysis}
             if analysis == "stability":
                 changes.update({"Stability/Critical": "none", "Stability/Roles": "off"})
             elif analysis == "transient":
-                changes.update({"Drive/Stroke": "6", "Drive/Start": "4"})
+                changes.update({"Drive/Stroke": "6", "Drive/Start": "4", **PARTS})
             with self.subTest(analysis):
                 alone, shared = (self.data_of(ranks, analysis, changes, group, names) for ranks in (1, 2))
                 # In time round-off of the gap meets the contact's stiffness.

@@ -33,7 +33,10 @@ CHANGES = {
     **{name: {"Mesh/Elements across": "2"} for name in ("solid-shaft-a", "solid-tilted-a")},
     "solid-rib-a": {"Mesh/Degree": "1"},
     "solid-neo-hookean-a": {"Mesh/Face size": "4", "Mesh/Elements across": "2", "Drive/Stroke": "10"},
-    "solid-reversal-a": {"Mesh/Elements across": "2", "Condensed/Modes": "6", "Drive/Start": "63"},
+    **{
+        name: {"Mesh/Elements across": "2", "Condensed/Modes": "6", "Drive/Start": "63"}
+        for name in ("solid-reversal-a", "solid-plate-reversal-a")
+    },
     "study-growth-a": {**STUDY, "Study/Vary": "Mesh/Face size = 5, 6, 8", "Condensed/Modes": "3"},
     "study-reversal-a": {
         "Study/Vary": "Mesh/Face size = 2, 3; Time/Tolerance = 1e-2",

@@ -1,5 +1,6 @@
 #include "fe/body/end_face.h"
 
+#include "base/errors.h"
 #include "fe/body/body_properties.h"
 
 #include <algorithm>
@@ -37,6 +38,15 @@ namespace sprag
   }
 
   template <int dim>
+  CellFaces<dim> faces_of_tip(const DoFHandler<dim> &dofs)
+  {
+    auto result = end_face(dofs);
+    if (result.empty())
+      throw InputError("the mesh has no straight end face across the lever to carry Lever/Tip mass");
+    return result;
+  }
+
+  template <int dim>
   double total_measure(const CellFaces<dim> &faces)
   {
     double sum = 0.;
@@ -46,5 +56,8 @@ namespace sprag
   }
 
   template CellFaces<2> end_face(const DoFHandler<2> &);
+  template CellFaces<2> faces_of_tip(const DoFHandler<2> &);
+  template CellFaces<3> faces_of_tip(const DoFHandler<3> &);
   template double total_measure<2>(const CellFaces<2> &);
+  template double total_measure<3>(const CellFaces<3> &);
 } // namespace sprag

@@ -14,7 +14,11 @@ namespace sprag
   template <int dim>
   CellFaces<dim> end_face(const dealii::DoFHandler<dim> &dofs);
 
-  /// Returns the sum of the faces' measures [mm] (in 2D).
+  /// Finds those that carry a tip mass. Throws InputError where there are none.
+  template <int dim>
+  CellFaces<dim> faces_of_tip(const dealii::DoFHandler<dim> &dofs);
+
+  /// Returns the sum of the faces' measures [mm] or, in 3D, [mm^2].
   template <int dim>
   double total_measure(const CellFaces<dim> &faces);
 } // namespace sprag

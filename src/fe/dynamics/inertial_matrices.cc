@@ -113,10 +113,8 @@ namespace sprag
     template <int dim>
     double inertia_of_tip(const ElasticBody<dim> &body, const double tip_mass)
     {
-      const auto faces    = end_face(body.dofs());
+      const auto faces    = faces_of_tip(body.dofs());
       const double length = total_measure<dim>(faces);
-      if (faces.empty())
-        throw InputError("the mesh has no straight end face across the lever to carry Lever/Tip mass");
       FEFaceValues<dim> values(body.dofs().get_fe(), QGauss<dim - 1>(2), update_quadrature_points | update_JxW_values);
       double sum = 0.;
       for (const auto &[cell, f] : faces)
@@ -222,6 +220,17 @@ namespace sprag
     return result;
   }
 
+  double scaling_of_densities(const LeverInertia &inertia, const double of_cells, const double added)
+  {
+    if (inertia.source != InertiaSource::scaled)
+      return 1.;
+    if (inertia.moment_of_inertia <= added)
+      throw InputError("tip mass, hub and leaf spring alone have a moment of inertia of " + rounded_text(added) +
+                       " t mm^2 about the pivot: Lever/Moment of inertia = " + rounded_text(inertia.moment_of_inertia) +
+                       " must be larger");
+    return (inertia.moment_of_inertia - added) / of_cells;
+  }
+
   template <int dim>
   InertialMatrices<dim>::InertialMatrices(const ElasticBody<dim> &body, const LeverInertia &inertia)
       : coordinates(body, static_cast<unsigned int>(inertia.leaf.modes.size()))
@@ -229,15 +238,8 @@ namespace sprag
     const double of_cells = inertia_of_cells(body, inertia.densities);
     const double of_tip   = inertia.tip_mass > 0. ? inertia_of_tip(body, inertia.tip_mass) : 0.;
     const double added    = of_tip + inertia.hub + inertia.leaf.inertia;
-    if (inertia.source == InertiaSource::scaled)
-    {
-      if (inertia.moment_of_inertia <= added)
-        throw InputError("tip mass, hub and leaf spring alone have a moment of inertia of " + rounded_text(added) +
-                         " t mm^2 about the pivot: Lever/Moment of inertia = " + rounded_text(inertia.moment_of_inertia) +
-                         " must be larger");
-      density_factor = (inertia.moment_of_inertia - added) / of_cells;
-    }
-    moment_of_inertia = density_factor * of_cells + added;
+    density_factor        = scaling_of_densities(inertia, of_cells, added);
+    moment_of_inertia     = density_factor * of_cells + added;
 
     auto densities = inertia.densities;
     for (auto &[material, density] : densities)
@@ -349,7 +351,7 @@ namespace sprag
   void InertialMatrices<dim>::assemble_tip(const ElasticBody<dim> &body, const double tip_mass)
   {
     const auto &fe      = body.dofs().get_fe();
-    const auto faces    = end_face(body.dofs());
+    const auto faces    = faces_of_tip(body.dofs());
     const double length = total_measure<dim>(faces);
     FEFaceValues<dim> values(fe, QGauss<dim - 1>(body.body_properties().degree + 1), update_values | update_JxW_values);
     Scatter<dim> scatter(coordinates, fe.n_dofs_per_cell());

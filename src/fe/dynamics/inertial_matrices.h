@@ -61,12 +61,16 @@ namespace sprag
   struct LeverInertia
   {
     std::map<dealii::types::material_id, double> densities; ///< before scaling [t/mm^3]
-    double tip_mass          = 0.;                          ///< a line mass on the lever's end face [t]
+    double tip_mass          = 0.;                          ///< spread over the lever's end face [t]
     double moment_of_inertia = 0.; ///< about the pivot, what the densities are scaled to; all below included [t mm^2]
     InertiaSource source     = InertiaSource::scaled;
     double hub               = 0.; ///< of what turns with the hub besides [t mm^2]
     LeafBehaviour leaf       = {}; ///< its vibrations are attached coordinates
   };
+
+  /// Returns by what the densities of cells are scaled to the moment of inertia, 1 as built. `of_cells`: theirs before, `added`:
+  /// that of tip mass, hub and leaf spring [t mm^2]. Throws InputError if these alone have more than there is.
+  double scaling_of_densities(const LeverInertia &inertia, double of_cells, double added);
 
   /// Matrices of small vibrations in total coordinates, without the hub's spring.
   template <int dim>

@@ -1,54 +1,87 @@
 #include "fe/solid/sensor_forces.h"
 
+#include <algorithm>
+#include <iterator>
+
 namespace sprag
 {
+  using dealii::Vector;
+
+  namespace
+  {
+    std::vector<Connector> sensors_of(const SolidBody &body)
+    {
+      std::vector<Connector> result;
+      std::copy_if(body.connectors().begin(), body.connectors().end(), std::back_inserter(result),
+                   [](const auto &connector) { return connector.type == ConnectorType::sensor; });
+      return result;
+    }
+  } // namespace
+
   SensorForces::SensorForces(const SolidBody &body_)
       : body(body_)
+      , sensors(sensors_of(body))
   {
-    SparseColumns loads;
-    for (const auto &connector : body.connectors())
-      if (connector.type == ConnectorType::sensor)
-      {
-        for (const auto &[dof, weight] : connector.row)
-          loads.add(dof, connector.stiffness * weight);
-        loads.end_column();
-      }
-    const auto n = static_cast<unsigned int>(loads.size());
-    if (n == 0)
+    if (sensors.empty())
       return;
+    SparseColumns loads;
+    for (const auto &sensor : sensors)
+    {
+      for (const auto &[dof, weight] : sensor.row)
+        loads.add(dof, weight);
+      loads.end_column();
+    }
     const auto &nodes    = body.friction_face().nodes;
+    const auto surface   = static_cast<unsigned int>(3 * nodes.size());
     const auto responses = body.respond(loads);
-    rows.reinit(n, 3 * nodes.size());
-    for (unsigned int i = 0; i < n; ++i)
-      for (unsigned int port = 0; port < rows.n(); ++port)
-        rows(i, port) = responses[static_cast<std::size_t>(i) * body.n_dofs() + nodes[port / 3].dofs[port % 3]];
+    rows.reinit(number(), surface + number());
+    for (unsigned int i = 0; i < number(); ++i)
+    {
+      const double *const response = &responses[static_cast<std::size_t>(i) * body.n_dofs()];
+      for (unsigned int port = 0; port < surface; ++port)
+        rows(i, port) = response[nodes[port / 3].dofs[port % 3]];
+      for (unsigned int j = 0; j < number(); ++j)
+        rows(i, surface + j) = sensors[j].compression(response);
+    }
   }
 
-  std::vector<SensorForces::Sides> SensorForces::operator()(const PortLoads &forces) const
+  std::vector<double> SensorForces::operator()(const PortLoads &forces) const
   {
-    std::vector<double> of_sensors(rows.m(), 0.);
-    for (unsigned int row = 0; row < rows.m(); ++row)
+    const std::size_t surface = 3 * body.friction_face().nodes.size();
+    std::vector<double> result(number(), 0.);
+    for (unsigned int row = 0; row < number(); ++row)
       for (unsigned int i = 0; i < forces.ports.size(); ++i)
-        if (forces.ports[i] < rows.n())
-          of_sensors[row] += rows(row, forces.ports[i]) * forces.values[i];
-    return sides_of(of_sensors);
+        if (forces.ports[i] < surface)
+          result[row] += stiffness() * rows(row, forces.ports[i]) * forces.values[i];
+    return result;
   }
 
-  std::vector<SensorForces::Sides> SensorForces::at(const dealii::Vector<double> &displacement) const
+  std::vector<double> SensorForces::compressions(const Vector<double> &displacement) const
   {
-    std::vector<double> of_sensors;
-    for (const auto &connector : body.connectors())
-      if (connector.type == ConnectorType::sensor)
-        of_sensors.push_back(connector.stiffness * connector.compression(displacement));
-    return sides_of(of_sensors);
+    std::vector<double> result;
+    for (const auto &sensor : sensors)
+      result.push_back(sensor.compression(displacement));
+    return result;
+  }
+
+  std::vector<double> SensorForces::at(const Vector<double> &displacement) const
+  {
+    auto result = compressions(displacement);
+    for (double &force : result)
+      force *= stiffness();
+    return result;
   }
 
   /// Of a half each sensor stands for both sides.
-  std::vector<SensorForces::Sides> SensorForces::sides_of(const std::vector<double> &forces) const
+  void SensorForces::tell(const std::vector<double> forces, Row &row) const
   {
-    std::vector<Sides> result;
+    row.sensor_forces.clear();
     for (std::size_t i = 0; i < forces.size(); i += body.is_half() ? 1 : 2)
-      result.push_back(body.is_half() ? Sides{ 0.5 * forces[i], 0.5 * forces[i] } : Sides{ forces[i], forces[i + 1] });
-    return result;
+    {
+      const double left  = body.is_half() ? 0.5 * forces[i] : forces[i];
+      const double right = body.is_half() ? left : forces[i + 1];
+      row.sensor_forces.push_back(left + right);
+      row.across.insert(row.across.end(), { left, right });
+    }
   }
 } // namespace sprag

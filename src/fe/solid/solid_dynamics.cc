@@ -45,55 +45,81 @@ namespace sprag
       return result;
     }
 
-    /// Shapes of the modes on the ports of the window, the slopes of the cylinder, the hub's rotation and the momentum.
-    FullMatrix<double> port_shapes(const SolidModes &modes, const FaceWindow &window, const unsigned int slopes)
+    /// Of the window, the sensors, the cylinder's axis, the hub and its momentum.
+    PortLayout layout_of(const FaceWindow &window, const SolidInTime &lever, const Scene &scene)
     {
-      const auto &nodes  = window.face.nodes;
-      const auto surface = static_cast<unsigned int>(3 * nodes.size());
-      const auto m       = static_cast<unsigned int>(modes.stiffness.size());
-      const auto hub     = surface + slopes;
-      FullMatrix<double> result(hub + 3, m);
+      PortLayout result{ static_cast<unsigned int>(3 * window.face.nodes.size()), true, lever.sensors->number() };
+      result.slopes = lever.body->is_half() || !scene.cylinder.has_free_axis() ? 0 : 2;
+      return result;
+    }
+
+    /// Shapes of the modes on these ports.
+    FullMatrix<double> port_shapes(const SolidInTime &lever, const FaceWindow &window, const PortLayout &ports)
+    {
+      const auto &modes = lever.modes;
+      const auto &nodes = window.face.nodes;
+      const auto m      = static_cast<unsigned int>(modes.stiffness.size());
+      FullMatrix<double> result(ports.of_a_lever(), m);
       for (unsigned int j = 0; j < m; ++j)
       {
-        for (unsigned int i = 0; i < surface; ++i)
+        for (unsigned int i = 0; i < ports.surface; ++i)
           result(i, j) = modes.displacements[j][nodes[i / 3].dofs[i % 3]];
-        result(hub, j)     = modes.rotation[j];
-        result(hub + 1, j) = modes.momentum[j][1];
-        result(hub + 2, j) = modes.momentum[j][0];
+        const auto compressions = lever.sensors->compressions(modes.displacements[j]);
+        for (unsigned int i = 0; i < ports.sensors; ++i)
+          result(ports.sensor(i), j) = compressions[i];
+        result(ports.rotation(), j)     = modes.rotation[j];
+        result(ports.momentum_eta(), j) = modes.momentum[j][1];
+        result(ports.momentum_xi(), j)  = modes.momentum[j][0];
       }
+      return result;
+    }
+
+    /// Static compliance of these ports up to the hub's rotation [mm/N].
+    FullMatrix<double> port_compliance(const SolidInTime &lever, const FaceWindow &window, const PortLayout &ports,
+                                       const Scene &scene)
+    {
+      FullMatrix<double> result(ports.rotation() + 1, ports.rotation() + 1);
+      result.fill(lever.compliance->among(ports_of(window)));
+      const auto &of_sensors     = lever.sensors->compliance();
+      const unsigned int in_face = 3 * window.first_node, of_face = static_cast<unsigned int>(of_sensors.n()) - ports.sensors;
+      for (unsigned int s = 0; s < ports.sensors; ++s)
+      {
+        const unsigned int port = ports.sensor(s);
+        for (unsigned int i = 0; i < ports.surface; ++i)
+          result(port, i) = result(i, port) = of_sensors(s, in_face + i);
+        for (unsigned int other = 0; other < ports.sensors; ++other)
+          result(port, ports.sensor(other)) = of_sensors(s, of_face + other);
+      }
+      for (unsigned int i = 0; i < ports.slopes; ++i)
+        result(ports.slope(i), ports.slope(i)) = slope_compliances(scene.cylinder)[i];
+      result(ports.rotation(), ports.rotation()) = 1. / scene.spring.stiffness;
       return result;
     }
 
     /// The basis as of a lever in a plane whose face is the window.
     CondensedBasis basis_on(const FaceWindow &window, const SolidInTime &lever, const Scene &scene)
     {
+      const auto ports = layout_of(window, lever, scene);
       CondensedBasis result;
-      result.slopes            = lever.body->is_half() || !scene.cylinder.has_free_axis() ? 0 : 2;
+      result.sensors           = ports.sensors;
+      result.slopes            = ports.slopes;
       result.stiffness         = lever.modes.stiffness;
-      result.shapes            = port_shapes(lever.modes, window, result.slopes);
+      result.shapes            = port_shapes(lever, window, ports);
       result.layer_stiffness   = lever.modes.layer_stiffness;
       result.density_factor    = lever.modes.density_factor;
       result.lever_mass        = lever.modes.total_mass;
       result.moment_of_inertia = lever.modes.moment_of_inertia;
+      result.face_compliance   = port_compliance(lever, window, ports, scene);
 
-      const auto of_face = lever.compliance->among(ports_of(window));
-      const auto n = static_cast<unsigned int>(of_face.m()), m = static_cast<unsigned int>(result.stiffness.size());
-      const unsigned int hub = n + result.slopes;
-      FullMatrix<double> at_ports(hub + 1, m), scaled(hub + 1, m);
-      for (unsigned int i = 0; i <= hub; ++i)
+      const auto n = ports.rotation() + 1, m = static_cast<unsigned int>(result.stiffness.size());
+      FullMatrix<double> at_ports(n, m), scaled(n, m);
+      for (unsigned int i = 0; i < n; ++i)
         for (unsigned int j = 0; j < m; ++j)
         {
           at_ports(i, j) = result.shapes(i, j);
           scaled(i, j)   = -result.shapes(i, j) / result.stiffness[j];
         }
-      result.face_compliance.reinit(hub + 1, hub + 1);
-      scaled.mTmult(result.face_compliance, at_ports);
-      for (unsigned int i = 0; i < n; ++i)
-        for (unsigned int j = 0; j < n; ++j)
-          result.face_compliance(i, j) += of_face(i, j);
-      for (unsigned int i = 0; i < result.slopes; ++i)
-        result.face_compliance(n + i, n + i) = slope_compliances(scene.cylinder)[i];
-      result.face_compliance(hub, hub) += 1. / scene.spring.stiffness;
+      scaled.mTmult(result.face_compliance, at_ports, true);
       result.face_compliance.symmetrize();
       return result;
     }
@@ -108,8 +134,8 @@ namespace sprag
                penalties_in_time(scene, face) };
     }
 
-    /// Tells the shapes of modes along an edge of the whole face, by the modes of the free lever. What these leave out is the
-    /// dent of the layer under the cylinder.
+    /// Tells the sensors' forces as the lever without inertia does, and the shapes of modes along an edge of the whole face, by
+    /// the modes of the free lever. What these leave out is the dent of the layer under the cylinder.
     class SolidDynamicLever : public DynamicLever<ModalStructure, SolidContact>
     {
     public:
@@ -118,6 +144,12 @@ namespace sprag
           : DynamicLever(std::move(modes), std::move(surface), std::move(of_scene))
           , lever(lever_)
       {
+      }
+
+      void observe(const Motion &motion, Row &row) const override
+      {
+        DynamicLever::observe(motion, row);
+        lever.sensors->tell(row.sensor_forces, row);
       }
 
       ModeShape mode_shape(const Eigenmode &mode) const override
@@ -168,6 +200,7 @@ namespace sprag
     const double room        = 0.1 * scene.geometry.cylinder_radius;
     const auto [first, last] = swept_contact(scene);
     result.compliance        = std::make_unique<LayeredCompliance>(*result.body, first - room, last + room);
+    result.sensors           = std::make_unique<const SensorForces>(*result.body);
     result.modes             = solid_modes(*result.body, inertia_of(scene), scene.spring.stiffness, scene.condensed.modes);
     return result;
   }
@@ -183,8 +216,9 @@ namespace sprag
     auto properties   = contact_properties(scene, whole, ports);
     auto contact      = std::make_unique<SolidContact>(std::move(window.face), std::move(properties), scene.friction,
                                                   scene.layer.thickness, lever.body->is_half());
-    return std::make_unique<SolidDynamicLever>(std::move(structure), std::move(contact),
-                                               lever_frame(scene, ports, basis.lever_mass), lever);
+    auto frame        = lever_frame(scene, ports, basis.lever_mass);
+    frame.sensor_stiffness = lever.sensors->stiffness();
+    return std::make_unique<SolidDynamicLever>(std::move(structure), std::move(contact), std::move(frame), lever);
   }
 
   ContactPenalties penalties_in_time(const Scene &scene, const FrictionFace<3> &face)
@@ -206,8 +240,10 @@ namespace sprag
       dofs.insert(dofs.end(), node.dofs.begin(), node.dofs.end());
     return [&lever, dofs](const Motion &motion, unsigned int)
     {
-      const auto &[body, compliance, modes] = lever;
-      // On the ports of the face, on slopes of the cylinder, which move no mode, and last on the hub's rotation.
+      const auto &body  = lever.body;
+      const auto &modes = lever.modes;
+      // On the ports of the face, on those of sensors and of the cylinder's axis, which are not loaded or move no mode, and last
+      // on the hub's rotation.
       const auto &forces = motion.face_force;
       std::vector<double> loads(body->n_dofs(), 0.);
       for (unsigned int port = 0; port < dofs.size() && forces.size() > 0; ++port)

@@ -2,6 +2,7 @@
 
 #include "fe/contact/face_contact_point.h"
 #include "fe/solid/layered_compliance.h"
+#include "fe/solid/sensor_forces.h"
 #include "fe/solid/solid_modes.h"
 #include "model/dynamic_model.h"
 
@@ -15,6 +16,7 @@ namespace sprag
   {
     std::unique_ptr<const SolidBody> body;
     std::unique_ptr<LayeredCompliance> compliance; ///< remembers what it found
+    std::unique_ptr<const SensorForces> sensors;
     SolidModes modes;
   };
 

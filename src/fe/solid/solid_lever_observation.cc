@@ -34,12 +34,7 @@ namespace sprag
     row[Column::support_displacement] = u;
     row[Column::Q_support]            = ports.sprung ? support * u : row[Column::Q];
     row[Column::support_energy]       = 0.5 * support * u * u;
-    row.sensor_forces.clear();
-    for (const auto &[left, right] : finite ? sensors.at(of_body(trial.coordinates)) : sensors(trial.forces))
-    {
-      row.sensor_forces.push_back(left + right);
-      row.across.insert(row.across.end(), { left, right });
-    }
+    sensors.tell(finite ? sensors.at(of_body(trial.coordinates)) : sensors(trial.forces), row);
   }
 
   const std::vector<unsigned int> &SolidLever::line_at(const double zeta) const

@@ -1,7 +1,6 @@
 #include "fe/solid/solid_mass.h"
 
-#include "base/errors.h"
-#include "base/text.h"
+#include "fe/body/end_face.h"
 #include "fe/solid/solid_stiffness.h"
 
 #include <deal.II/base/quadrature_lib.h>
@@ -15,7 +14,7 @@ namespace sprag
   namespace
   {
     /// Of unit density, between the scalar shape functions of a cell.
-    FullMatrix<double> unit_mass(const FEValues<3> &values)
+    FullMatrix<double> unit_mass(const FEValuesBase<3> &values)
     {
       const auto &fe       = values.get_fe();
       const unsigned int n = fe.base_element(0).n_dofs_per_cell();
@@ -27,35 +26,42 @@ namespace sprag
                             values.shape_value(fe.component_to_system_index(0, b), q);
       return result;
     }
+
+    /// Degrees of freedom of each node of a cell.
+    std::vector<std::array<unsigned int, 3>> dofs_of_nodes(const DoFHandler<3>::active_cell_iterator &cell)
+    {
+      const auto &fe = cell->get_fe();
+      std::vector<types::global_dof_index> indices(fe.n_dofs_per_cell());
+      cell->get_dof_indices(indices);
+      std::vector<std::array<unsigned int, 3>> result(fe.base_element(0).n_dofs_per_cell());
+      for (unsigned int a = 0; a < result.size(); ++a)
+        for (unsigned int d = 0; d < 3; ++d)
+          result[a][d] = static_cast<unsigned int>(indices[fe.component_to_system_index(d, a)]);
+      return result;
+    }
   } // namespace
 
   SolidMass::SolidMass(const SolidBody &body, const LeverInertia &inertia)
-      : hub(inertia.hub)
+      : hub(inertia.hub + inertia.leaf.inertia)
       , rotation_arms(body.n_dofs())
       , component(body.n_dofs())
   {
     find_arms(body);
-    find_cells(body);
-    const auto use_densities = [&](const double factor)
-    {
-      for (std::size_t i = 0; i < cells.size(); ++i)
-        cells[i].density = factor * inertia.densities.at(materials[i]) * body.body_properties().width;
-    };
-    use_densities(1.);
-    const double of_cells = rotation_arms * (*this)(rotation_arms);
-    if (inertia.source == InertiaSource::scaled)
-    {
-      if (inertia.moment_of_inertia <= hub)
-        throw InputError("Lever/Hub inertia alone is " + rounded_text(hub) +
-                         " t mm^2: Lever/Moment of inertia = " + rounded_text(inertia.moment_of_inertia) + " must be larger");
-      density_factor = (inertia.moment_of_inertia - hub) / of_cells;
-      use_densities(density_factor);
-    }
-    moment_of_inertia = density_factor * of_cells + hub;
+    const auto inertia_of_body = [&] { return rotation_arms * (*this)(rotation_arms); };
+    if (inertia.tip_mass > 0.)
+      add_tip(body, inertia.tip_mass);
+    const double added = inertia_of_body() + hub;
+    const auto of_tip  = cells.size();
+    find_cells(body, inertia);
+    const double of_cells = inertia_of_body() - (added - hub);
+    density_factor        = scaling_of_densities(inertia, of_cells, added);
+    moment_of_inertia     = density_factor * of_cells + added;
+    for (std::size_t i = of_tip; i < cells.size(); ++i)
+      cells[i].density *= density_factor;
     Vector<double> along(body.n_dofs());
     for (unsigned int dof = 0; dof < body.n_dofs(); ++dof)
       along[dof] = component[dof] == 0 ? 1. : 0.;
-    total_mass = along * (*this)(along);
+    total_mass = along * (*this)(along) + inertia.leaf.mass;
   }
 
   void SolidMass::find_arms(const SolidBody &body)
@@ -98,7 +104,7 @@ namespace sprag
     }
   }
 
-  Eigenmode::AcrossShares SolidMass::shares(const Vector<double> &displacement) const
+  Eigenmode::AcrossShares SolidMass::shares(const Vector<double> &displacement, const double whole) const
   {
     if (mirrored.empty())
       return {};
@@ -109,21 +115,19 @@ namespace sprag
     double sideways     = 0.;
     for (unsigned int dof = 0; dof < opposite.size(); ++dof)
       sideways += component[dof] == 2 ? opposite[dof] * momentum[dof] : 0.;
-    const double whole = displacement * (*this)(displacement), of_opposite = opposite * momentum;
+    const double of_opposite = opposite * momentum;
     return { 1. - of_opposite / whole, (of_opposite - sideways) / whole, sideways / whole };
   }
 
-  void SolidMass::find_cells(const SolidBody &body)
+  void SolidMass::find_cells(const SolidBody &body, const LeverInertia &inertia)
   {
-    const auto &fe          = body.dofs().get_fe();
-    const unsigned int n    = fe.n_dofs_per_cell();
-    const unsigned int each = fe.base_element(0).n_dofs_per_cell();
+    const auto &fe = body.dofs().get_fe();
     FEValues<3> values(body.cell_mapping(), fe, QGauss<3>(fe.degree + 1), update_values | update_JxW_values);
     std::map<std::vector<long>, const FullMatrix<double> *> known;
-    std::vector<types::global_dof_index> indices(n);
     for (const auto &cell : body.dofs().active_cell_iterators())
     {
-      if (cell->material_id() == material_id::hub)
+      const auto material = cell->material_id();
+      if (material == material_id::hub)
         continue;
       const auto [found, is_new] = known.try_emplace(likeness(cell));
       if (is_new)
@@ -131,13 +135,20 @@ namespace sprag
         values.reinit(cell);
         found->second = &masses.emplace_back(unit_mass(values));
       }
-      cell->get_dof_indices(indices);
-      Cell of_cell{ found->second, 0., std::vector<std::array<unsigned int, 3>>(each) };
-      for (unsigned int a = 0; a < each; ++a)
-        for (unsigned int d = 0; d < 3; ++d)
-          of_cell.dofs[a][d] = static_cast<unsigned int>(indices[fe.component_to_system_index(d, a)]);
-      cells.push_back(std::move(of_cell));
-      materials.push_back(cell->material_id());
+      cells.push_back({ found->second, inertia.densities.at(material) * body.body_properties().width, dofs_of_nodes(cell) });
+    }
+  }
+
+  void SolidMass::add_tip(const SolidBody &body, const double tip_mass)
+  {
+    const auto faces  = faces_of_tip(body.dofs());
+    const double area = total_measure<3>(faces);
+    const auto &fe    = body.dofs().get_fe();
+    FEFaceValues<3> values(body.cell_mapping(), fe, QGauss<2>(fe.degree + 1), update_values | update_JxW_values);
+    for (const auto &[cell, f] : faces)
+    {
+      values.reinit(cell, f);
+      cells.push_back({ &masses.emplace_back(unit_mass(values)), tip_mass / area, dofs_of_nodes(cell) });
     }
   }
 

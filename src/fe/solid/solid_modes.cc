@@ -26,14 +26,15 @@ namespace sprag
         throw AnalysisError("the eigenvalue solver failed (PETSc error " + std::to_string(code) + ")");
     }
 
-    /// The lever in its free elastic displacements and last the rotation of its hub. There the stiffness is that of the body and
-    /// of the spring, which feel nothing of each other.
+    /// The lever in its free elastic displacements, the vibrations of its leaf spring with the hub held and last the rotation of
+    /// its hub. There the stiffness is that of the body, of these vibrations and of the spring, which feel nothing of each other.
     class FreeLever
     {
     public:
-      FreeLever(const SolidBody &body_, const SolidMass &mass_, const double spring_)
+      FreeLever(const SolidBody &body_, const SolidMass &mass_, const LeafBehaviour &leaf_, const double spring_)
           : body(body_)
           , mass(mass_)
+          , leaf(leaf_)
           , spring(spring_)
       {
         for (unsigned int dof = 0; dof < body.n_dofs(); ++dof)
@@ -43,7 +44,7 @@ namespace sprag
 
       PetscInt size() const
       {
-        return static_cast<PetscInt>(free.size()) + 1;
+        return static_cast<PetscInt>(free.size() + leaf.modes.size()) + 1;
       }
 
       Vector<double> elastic(const double *const q) const
@@ -58,8 +59,21 @@ namespace sprag
       Vector<double> impulse(const double *const q) const
       {
         auto total = elastic(q);
-        total.add(q[free.size()], mass.arms());
+        total.add(rotation(q), mass.arms());
         return mass(total);
+      }
+
+      /// Along xi and eta, with that of the leaf spring; `impulses` of the motion.
+      std::array<double, 2> momentum(const double *const q, const Vector<double> &impulses) const
+      {
+        std::array<double, 2> result{};
+        for (unsigned int axis = 0; axis < 2; ++axis)
+        {
+          result[axis] = mass.sum_along(axis, impulses) + leaf.momentum[axis] * rotation(q);
+          for (std::size_t i = 0; i < leaf.modes.size(); ++i)
+            result[axis] += leaf.modes[i].momentum[axis] * q[free.size() + i];
+        }
+        return result;
       }
 
       void multiply_mass(const double *const q, double *const result) const
@@ -67,7 +81,14 @@ namespace sprag
         const auto impulses = impulse(q);
         for (std::size_t i = 0; i < free.size(); ++i)
           result[i] = impulses[free[i]];
-        result[free.size()] = mass.arms() * impulses + mass.hub * q[free.size()];
+        double of_hub = mass.arms() * impulses + mass.hub * rotation(q);
+        for (std::size_t i = 0; i < leaf.modes.size(); ++i)
+        {
+          const double vibration  = q[free.size() + i];
+          result[free.size() + i] = vibration + leaf.modes[i].participation * rotation(q);
+          of_hub += leaf.modes[i].participation * vibration;
+        }
+        result[free.size() + leaf.modes.size()] = of_hub;
       }
 
       /// K^-1 f.
@@ -79,12 +100,21 @@ namespace sprag
         body.respond(loads);
         for (std::size_t i = 0; i < free.size(); ++i)
           result[i] = loads[free[i]];
-        result[free.size()] = forces[free.size()] / spring;
+        for (std::size_t i = 0; i < leaf.modes.size(); ++i)
+          result[free.size() + i] = forces[free.size() + i] / leaf.modes[i].stiffness;
+        result[free.size() + leaf.modes.size()] = rotation(forces) / spring;
       }
 
     private:
+      /// Of a motion, or the moment of forces.
+      double rotation(const double *const q) const
+      {
+        return q[free.size() + leaf.modes.size()];
+      }
+
       const SolidBody &body;
       const SolidMass &mass;
+      const LeafBehaviour &leaf;
       const double spring;
       std::vector<unsigned int> free;
     };
@@ -243,7 +273,7 @@ namespace sprag
   SolidModes solid_modes(const SolidBody &body, const LeverInertia &inertia, const double spring_stiffness, const unsigned int n)
   {
     const SolidMass mass(body, inertia);
-    FreeLever lever(body, mass, spring_stiffness);
+    FreeLever lever(body, mass, inertia.leaf, spring_stiffness);
     Eigensolver solver(lever);
     SolidModes result;
     for (auto &[omega_squared, mode] : solver.solve(n, lever.size()))
@@ -257,8 +287,8 @@ namespace sprag
       result.rotation.push_back(mode.back());
       auto total = result.displacements.back();
       total.add(mode.back(), mass.arms());
-      result.across.push_back(mass.shares(total));
-      result.momentum.push_back({ { mass.sum_along(0, impulse), mass.sum_along(1, impulse) } });
+      result.across.push_back(mass.shares(total, 1.));
+      result.momentum.push_back(lever.momentum(mode.data(), impulse));
     }
     result.layer_stiffness   = stiffness_of_layer(body, result.displacements);
     result.density_factor    = mass.density_factor;

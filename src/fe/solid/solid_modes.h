@@ -7,13 +7,15 @@
 namespace sprag
 {
   /// Modes of undamped vibration of the lever on its rotational spring, out of contact, by increasing frequency, with a modal
-  /// mass of 1 t. Coordinates: elastic displacements of the body in axes that turn with its hub, and the hub's rotation.
+  /// mass of 1 t. Coordinates: elastic displacements of the body in axes that turn with its hub, vibrations of the leaf spring
+  /// with the hub held, and the hub's rotation.
   struct SolidModes
   {
     std::vector<double> stiffness;                     ///< omega^2 [1/s^2]
     std::vector<dealii::Vector<double>> displacements; ///< elastic, of all degrees of freedom of the body
     std::vector<double> rotation;                      ///< of the hub
-    std::vector<std::array<double, 2>> momentum;       ///< integral of rho times the total displacement along xi and eta [t]
+    std::vector<std::array<double, 2>>
+        momentum; ///< of rho times the total displacement along xi and eta, leaf spring included [t]
     std::vector<Eigenmode::AcrossShares> across;
     dealii::FullMatrix<double> layer_stiffness; ///< of the friction layer, in the modes
     double density_factor    = 1.;              ///< by which the densities were scaled to meet the moment of inertia
@@ -21,8 +23,9 @@ namespace sprag
     double moment_of_inertia = 0.;              ///< about the pivot [t mm^2]
   };
 
-  /// Finds the lowest `n` modes, by shift and invert with the body's factors. `inertia` without tip mass and leaf spring. Throws
-  /// InputError where the hub alone has more than the moment of inertia, AnalysisError where a residual is too large.
+  /// Finds the lowest `n` modes, by shift and invert with the body's factors. Throws InputError where hub, tip mass and leaf
+  /// spring alone have more than the moment of inertia or nothing carries the tip mass, AnalysisError where a residual is too
+  /// large.
   SolidModes solid_modes(const SolidBody &body, const LeverInertia &inertia, double spring_stiffness, unsigned int n);
 
   /// Tells how vibrations in these modes move, as far as the modes' own motions tell it.

@@ -1,0 +1,336 @@
+#include "base/errors.h"
+#include "fe/dynamics/lever_constants.h"
+#include "fe/leaf/leaf_spring.h"
+#include "fe/solid/solid_mass.h"
+#include "levers/dynamics.h"
+#include "verification/held_slides.h"
+#include "verification/solid_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <gtest/gtest.h>
+#include <numeric>
+
+// Parts of a lever in three dimensions with inertia: leaf spring, tip mass, friction plate on sensors.
+
+using namespace sprag;
+
+namespace
+{
+  const std::size_t first_sensor = columns_across().size(); ///< among the columns across, where the axis is fixed
+
+  /// Model A without contraction, where plane stress is exact.
+  Scene in_space(const AnalysisType type)
+  {
+    Scene scene                = with_face_size(solid_model_a(0.), 2.);
+    scene.layer.thickness      = 2.;
+    scene.mesh.elements_across = 2;
+    scene.analysis.type        = type;
+    scene.analysis.model       = ModelType::condensed;
+    scene.condensed.modes      = 12;
+    scene.stability.position   = 15.;
+    scene.stability.critical   = "none";
+    scene.friction.law         = CoulombFriction{ 0.73 }; // which nothing delays, see linearise()
+    scene.drive                = Drive(DriveProfile::triangle, 18., 20., 112., 1., 5e-3);
+    return with_fixed_step(scene, 1e-4);
+  }
+
+  Scene in_plane(Scene scene)
+  {
+    scene.analysis.dimension = 2;
+    return scene;
+  }
+
+  /// A leaf spring heavy enough to be felt, a tip mass, and a support that feels the momentum of both.
+  Scene on_leaf_with_tip(Scene scene)
+  {
+    scene.spring.type           = SpringType::leaf;
+    scene.spring.leaf.thickness = 2.;
+    scene.lever.tip_mass        = 2e-5;
+    scene.support.type          = SupportType::sprung;
+    return with_leaf_spring(scene);
+  }
+
+  /// A plate on two places of sensors, whose pads of half the width each are those of the plane.
+  Scene on_sensors(Scene scene)
+  {
+    scene.plate.type          = PlateType::on_sensors;
+    scene.plate.poisson_ratio = scene.lever.poisson_ratio;
+    scene.plate.sensors       = { 105., 195. };
+    scene.plate.sensor_width  = 0.5 * scene.lever.width;
+    return scene;
+  }
+
+  double sum(const std::vector<double> &values)
+  {
+    return std::accumulate(values.begin(), values.end(), 0.);
+  }
+
+  struct BothRuns
+  {
+    std::vector<Row> plane, solid;
+  };
+
+  /// The lever with those of twice the scene's modes that are no higher than one.
+  Dynamics with_modes_up_to(const double stiffness, Scene scene, DynamicsMaker &maker)
+  {
+    scene.condensed.modes *= 2;
+    const auto found = maker.make(scene).solid->modes.stiffness;
+    const auto number =
+        std::count_if(found.begin(), found.end(), [&](const double value) { return value < 1.00001 * stiffness; });
+    return maker.make_with_modes(scene, static_cast<unsigned int>(number));
+  }
+
+  BothRuns run_both(const Scene &scene)
+  {
+    DynamicsMaker of_plane(false), of_space(false);
+    const auto plane = of_plane.make(in_plane(scene));
+    const auto solid = with_modes_up_to(plane.lever->condensed.lever->stiffness.back(), scene, of_space);
+    return { run_in_time(plane.model(), scene).rows, run_in_time(solid.model(), scene).rows };
+  }
+
+  /// Largest difference of the places' forces over the largest of one.
+  double difference_of_sensors(const BothRuns &runs)
+  {
+    double difference = 0., largest = 0.;
+    for (std::size_t k = 0; k < runs.plane.size(); ++k)
+      for (std::size_t i = 0; i < runs.plane[k].sensor_forces.size(); ++i)
+      {
+        const double expected = runs.plane[k].sensor_forces[i];
+        difference            = std::max(difference, std::abs(expected - runs.solid.at(k).sensor_forces.at(i)));
+        largest               = std::max(largest, std::abs(expected));
+      }
+    return difference / largest;
+  }
+} // namespace
+
+// Scaled as in a plane, whether the half or the whole is there.
+TEST(SolidPartsInTime, MassAndMomentOfInertiaAreThePlanes)
+{
+  for (const auto outline : { LeverOutline::bar, LeverOutline::frame })
+    for (const auto source : { InertiaSource::scaled, InertiaSource::as_built })
+      for (const double tilt : { 0., 1e-4 })
+      {
+        Scene scene          = tilted(on_leaf_with_tip(in_space(AnalysisType::transient)), tilt);
+        scene.mesh.face_size = 8.;
+        scene.mesh.degree    = 1;
+        scene.lever.outline  = outline;
+        scene.lever.inertia  = source;
+        Mesh plane;
+        make_mesh(scene, plane);
+        const ElasticBody<2> of_plane(plane, lever_properties(scene).body);
+        const InertialMatrices<2> expected(of_plane, inertia_of(scene));
+        const SolidBody body(scene, plane);
+        const SolidMass mass(body, inertia_of(scene));
+        EXPECT_EQ(body.is_half(), tilt == 0.);
+        EXPECT_NEAR(mass.total_mass, expected.total_mass, 1e-10 * expected.total_mass);
+        EXPECT_NEAR(mass.moment_of_inertia, expected.moment_of_inertia, 1e-10 * expected.moment_of_inertia);
+        EXPECT_NEAR(mass.density_factor, expected.density_factor, 1e-10 * expected.density_factor);
+      }
+}
+
+TEST(SolidPartsInTime, PartsAloneMustNotHaveMoreThanTheMomentOfInertia)
+{
+  Scene scene          = in_space(AnalysisType::transient);
+  scene.lever.tip_mass = 1e-3;
+  Mesh plane;
+  make_mesh(scene, plane);
+  const SolidBody body(scene, plane);
+  EXPECT_THROW(SolidMass(body, inertia_of(scene)), InputError);
+}
+
+// What the solver leaves of the lowest frequency grows with the square of the ratio to those of the mesh.
+TEST(SolidPartsInTime, ModesOfThePlaneAreThoseOfTheHalf)
+{
+  const Scene bare = in_space(AnalysisType::transient);
+  for (const Scene &scene : { on_leaf_with_tip(bare), on_sensors(bare), on_sensors(on_leaf_with_tip(bare)) })
+  {
+    DynamicsMaker maker(false);
+    const auto plane    = maker.make(in_plane(scene)).lever;
+    const auto solid    = maker.make(scene).solid;
+    const auto &of_half = solid->modes.stiffness;
+    for (std::size_t i = 0; i < 6; ++i)
+    {
+      const double expected = plane->condensed.lever->stiffness[i];
+      const auto is_closer  = [&](const double a, const double b) { return std::abs(a - expected) < std::abs(b - expected); };
+      EXPECT_NEAR(*std::min_element(of_half.begin(), of_half.end(), is_closer), expected, 1e-6 * expected) << i;
+    }
+  }
+}
+
+// A hub that is as good as held lets the leaf vibrate as a beam clamped at both ends, beta L = 4.7300; shear and rotary inertia
+// lower that by (beta t)^2/24 (1 + E/(kappa G)), 4e-4.
+TEST(SolidPartsInTime, ALeafVibratesAtItsOwnFrequency)
+{
+  Scene scene                   = in_space(AnalysisType::transient);
+  scene.spring.type             = SpringType::leaf;
+  scene.spring.leaf.thickness   = 1.;
+  scene                         = with_leaf_spring(with_face_size(scene, 4.));
+  scene.lever.hub_inertia       = 1e3;
+  scene.lever.moment_of_inertia = 1.01e3;
+  const auto &leaf              = scene.spring.leaf;
+  const double wave             = 4.7300407 / leaf.length;
+  const double beam             = wave * wave * leaf.thickness * std::sqrt(leaf.young_modulus / (12. * leaf.density));
+  DynamicsMaker maker(false);
+  const auto found         = maker.make(scene).solid->modes;
+  const auto frequency_off = [&](const double stiffness) { return std::sqrt(stiffness) / beam - 1.; };
+  const auto is_closer = [&](const double a, const double b) { return std::abs(frequency_off(a)) < std::abs(frequency_off(b)); };
+  const double closest = *std::min_element(found.stiffness.begin(), found.stiffness.end(), is_closer);
+  EXPECT_LT(std::abs(frequency_off(closest)), 1e-3);
+}
+
+// Left is what the compliance of the face leaves out on a coarse mesh, 1e-5.
+TEST(SolidPartsInTime, ALeafSpringAndATipMassMoveAsInThePlane)
+{
+  const auto runs = run_both(on_leaf_with_tip(in_space(AnalysisType::transient)));
+  for (const Column column : { Column::P, Column::Q, Column::theta, Column::Q_support, Column::kinetic_energy })
+    EXPECT_LT(difference(runs.plane, runs.solid, column), 3e-5) << column_info(column).name;
+}
+
+// The skin of a plate is shallow, and its compliance leaves out more the thinner the layer.
+TEST(SolidPartsInTime, SensorsFeelWhatThePlanesFeel)
+{
+  Scene scene           = in_space(AnalysisType::transient);
+  scene.layer.thickness = 6.;
+  const auto runs       = run_both(on_sensors(scene));
+  for (const Column column : { Column::P, Column::Q, Column::theta })
+    EXPECT_LT(difference(runs.plane, runs.solid, column), 5e-5) << column_info(column).name;
+  EXPECT_LT(difference_of_sensors(runs), 5e-5);
+  for (const auto &row : runs.solid)
+    for (const std::size_t place : { 0u, 1u })
+      for (const std::size_t side : { 0u, 1u })
+        EXPECT_EQ(row.across.at(first_sensor + 2 * place + side), 0.5 * row.sensor_forces[place]);
+}
+
+// Eigenvalues of a slide in contact, friction and all.
+TEST(SolidPartsInTime, VibrationsOfASlideAreThoseOfThePlane)
+{
+  Scene bare           = in_space(AnalysisType::stability);
+  bare.layer.thickness = 6.;
+  for (const Scene &scene : { on_leaf_with_tip(bare), on_sensors(bare) })
+  {
+    const auto of = [](const Scene &some)
+    {
+      DynamicsMaker maker(false);
+      const auto dynamics = maker.make(some);
+      const auto slide    = dynamics.model().hold(held_drive(some), ContactFriction::sliding);
+      EXPECT_TRUE(slide);
+      return slide ? dynamics.model().eigenvalues(*slide, 40) : std::vector<std::complex<double>>();
+    };
+    const auto plane = of(in_plane(scene)), solid = of(scene);
+    unsigned int compared = 0;
+    for (const auto &value : plane)
+      if (value.imag() > 0. && ++compared <= 3)
+      {
+        double off = std::abs(value);
+        for (const auto &other : solid)
+          off = std::min(off, std::abs(other - value));
+        EXPECT_LT(off, 5e-5 * std::abs(value)) << value;
+      }
+    EXPECT_GE(compared, 3u);
+  }
+}
+
+namespace
+{
+  /// Narrow pads at the corners, with contraction, the axis out of true.
+  Scene at_corners(const double tilt, const AnalysisType type = AnalysisType::transient)
+  {
+    Scene scene               = tilted(on_sensors(with_face_size(in_space(type), 4.)), tilt);
+    scene.lever.poisson_ratio = scene.layer.poisson_ratio = scene.plate.poisson_ratio = 0.3;
+    scene.plate.sensor_width                                                          = 8.;
+    scene.drive = Drive(DriveProfile::triangle, 18., 19., 112., 1.);
+    return scene;
+  }
+
+  std::vector<Row> rows_of(const Scene &scene)
+  {
+    DynamicsMaker maker(false);
+    const auto dynamics = maker.make(scene);
+    return run_in_time(dynamics.model(), scene).rows;
+  }
+} // namespace
+
+// Round-off meets the contact's stiffness.
+TEST(SolidPartsInTime, AMirroredTiltSwapsLeftAndRight)
+{
+  const auto one = rows_of(at_corners(2e-4)), other = rows_of(at_corners(-2e-4));
+  ASSERT_EQ(one.size(), other.size());
+  double most = 0., off = 0.;
+  for (std::size_t k = 0; k < one.size(); ++k)
+    for (const std::size_t place : { 0u, 1u })
+    {
+      const auto force = [&](const Row &row, const std::size_t side) { return row.across.at(first_sensor + 2 * place + side); };
+      most             = std::max(most, std::abs(force(one[k], 1) - force(one[k], 0)));
+      for (const std::size_t side : { 0u, 1u })
+        off = std::max(off, std::abs(force(one[k], side) - force(other[k], 1 - side)));
+    }
+  EXPECT_GT(most, 0.1);
+  EXPECT_LT(off, 1e-5 * most);
+}
+
+// Round-off meets the contact's stiffness.
+TEST(SolidPartsInTime, TheWholeBeforeATrueCylinderIsItsHalf)
+{
+  DynamicsMaker of_half(false), of_whole(false);
+  const Scene scene = at_corners(0.);
+  const auto one    = of_half.make(scene);
+  const auto other  = with_modes_up_to(one.solid->modes.stiffness.back(), tilted(scene, 1e-13), of_whole);
+  const auto half = run_in_time(one.model(), scene).rows, whole = run_in_time(other.model(), scene).rows;
+  ASSERT_EQ(half.size(), whole.size());
+  double most = 0., off = 0.;
+  for (std::size_t k = 0; k < half.size(); ++k)
+    for (std::size_t i = first_sensor; i < first_sensor + 4; ++i)
+    {
+      most = std::max(most, half[k].across.at(i));
+      off  = std::max(off, std::abs(half[k].across[i] - whole[k].across.at(i)));
+    }
+  EXPECT_GT(most, 0.5);
+  EXPECT_LT(off, 1e-5 * most);
+}
+
+// At rest they balance the contact, whatever the number of modes; in motion they are those of the body as it is deformed.
+TEST(SolidPartsInTime, SensorsAreThoseOfTheDeformedBody)
+{
+  Scene scene           = at_corners(2e-4, AnalysisType::stability);
+  scene.condensed.modes = 3;
+  DynamicsMaker maker(false);
+  const auto dynamics = maker.make(scene);
+  auto &model         = dynamics.model();
+  const auto slide    = model.hold(held_drive(scene), ContactFriction::sliding);
+  ASSERT_TRUE(slide);
+  Row row;
+  model.observe(slide->motion, row);
+  EXPECT_NEAR(sum(row.sensor_forces), row[Column::P], 1e-8 * row[Column::P]);
+
+  auto motion = model.initial_motion(scene.drive.at(0.));
+  for (unsigned int i = 1; i <= 10; ++i)
+  {
+    motion = model.step(motion, scene.drive.at(i * 1e-4), StepWeights{ 1e-4, 0., 0., 0.25, 0.5 }).motion.value();
+    model.observe(motion, row);
+    const auto expected = dynamics.solid->sensors->at(dynamics.meshed.elastic_displacement(motion, 0));
+    ASSERT_EQ(row.across.size(), first_sensor + expected.size());
+    for (std::size_t side = 0; side < expected.size(); ++side)
+      EXPECT_NEAR(row.across[first_sensor + side], expected[side], 1e-7 * row[Column::P]);
+  }
+}
+
+// See Growth.
+TEST(SolidPartsInTime, AVibrationGrowsAsItsEigenvalueSays)
+{
+  Scene scene              = on_leaf_with_tip(at_corners(1e-4, AnalysisType::sprag_slip));
+  scene.support.type       = SupportType::rigid;
+  scene.lever.depth        = 6.;
+  scene.drive              = Drive(DriveProfile::triangle, 0., 65., 112., 1.);
+  scene.stability.position = 65.;
+  scene                    = with_leaf_spring(scene);
+  const JudgedSlide judged(scene);
+  ASSERT_EQ(judged.stability.kind, SlideKind::flutter);
+  HeldRun run(judged.dynamics.model(), judged.step());
+  const auto growth = measure_growth(judged.dynamics.model(), judged.stability, scene.sprag_slip, run, [](const Row &) {});
+  EXPECT_TRUE(growth.reached);
+  EXPECT_TRUE(growth.slid);
+  EXPECT_NEAR(growth.growth_difference(), 0., 0.003);
+  EXPECT_NEAR(growth.frequency_difference(), 0., 0.0005);
+}
