@@ -5,6 +5,7 @@
 #include "model/port_matrix.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace sprag
@@ -13,9 +14,32 @@ namespace sprag
 
   namespace
   {
+    constexpr std::size_t few_ports         = 12; ///< up to so many to look for what is zero takes longer than to compute with it
     constexpr std::size_t many_ports        = 128; ///< from so many on most of a Newton correction are its factors
     constexpr unsigned int most_refinements = 5;
     constexpr double refined                = 1e-10; ///< what is left of the right-hand side
+
+    /// (1 - G A)^-1 of all ports at once.
+    FullMatrix<double> whole_inverse(const PortCompliance &compliance, const std::vector<unsigned int> &ports,
+                                     const FullMatrix<double> &tangent)
+    {
+      const auto n = static_cast<unsigned int>(ports.size());
+      FullMatrix<double> result{ IdentityMatrix(n) };
+      for (const auto &block : compliance.blocks())
+      {
+        const auto [first, last] = block.places_among(ports);
+        for (unsigned int i = first; i < last; ++i)
+          for (unsigned int k = first; k < last; ++k)
+          {
+            const double yields = (*block.matrix)(ports[i] - block.begin, ports[k] - block.begin);
+            for (unsigned int j = 0; j < n; ++j)
+              result(i, j) -= yields * tangent(k, j);
+          }
+      }
+      result.gauss_jordan();
+      AssertThrow(std::isfinite(result.frobenius_norm()), LACExceptions::ExcSingular());
+      return result;
+    }
 
     /// b - (1 - G A) x.
     Vector<double> remainder(const PortCompliance &compliance, const std::vector<unsigned int> &ports,
@@ -103,7 +127,9 @@ namespace sprag
     Vector<double> change = displacements;
     try
     {
-      if (ports.size() < many_ports || !solve_by_refinement(compliance, ports, tangent, displacements, change))
+      if (ports.size() <= few_ports)
+        whole_inverse(compliance, ports, tangent).vmult(change, displacements);
+      else if (ports.size() < many_ports || !solve_by_refinement(compliance, ports, tangent, displacements, change))
       {
         change = displacements;
         PortMatrix<double>(compliance, ports, tangent).solve(change);

@@ -26,11 +26,11 @@ namespace
     return result;
   }
 
-  /// Two alike blocks of four ports and one of a single port.
-  PortCompliance of_two_levers_and_support()
+  /// Two alike blocks, by default of four ports, and one of a single port.
+  PortCompliance of_two_levers_and_support(const unsigned int ports = 4)
   {
     PortCompliance result;
-    const auto lever = std::make_shared<const Matrix>(symmetric(4));
+    const auto lever = std::make_shared<const Matrix>(symmetric(ports));
     result.append(lever);
     result.append(lever);
     result.append(0.7);
@@ -39,19 +39,25 @@ namespace
 
   const PortSelection all = all_ports(9);
 
-  /// On ports of both levers and the support, each lever's by its own displacements and, if coupled, by those of port 3, 7 and 8.
-  PortForces forces(const bool coupled)
+  /// On ports of both levers and the support, each lever's by its own displacements and, if coupled, by those of the last port of
+  /// each lever and the support.
+  PortForces forces(const bool coupled, const unsigned int ports = 4)
   {
     PortForces result;
-    result.ports = { 0, 1, 3, 5, 7, 8 };
-    result.values.reinit(6);
-    result.tangent.reinit(6, 6);
-    const auto lever = [&](const unsigned int a) { return result.ports[a] / 4; };
-    for (unsigned int a = 0; a < 6; ++a)
+    for (unsigned int port = 0; port <= 2 * ports; ++port)
+      if (port != 2 && port != ports && port != ports + 2)
+        result.ports.push_back(port);
+    const auto n = static_cast<unsigned int>(result.ports.size());
+    result.values.reinit(n);
+    result.tangent.reinit(n, n);
+    const auto lever     = [&](const unsigned int a) { return result.ports[a] / ports; };
+    const auto is_common = [&](const unsigned int a)
+    { return result.ports[a] % ports == ports - 1 || result.ports[a] == 2 * ports; };
+    for (unsigned int a = 0; a < n; ++a)
     {
       result.values[a] = any();
-      for (unsigned int b = 0; b < 6; ++b)
-        if (lever(a) == lever(b) || (coupled && (b == 2 || b >= 4)))
+      for (unsigned int b = 0; b < n; ++b)
+        if (lever(a) == lever(b) || (coupled && is_common(b)))
           result.tangent(a, b) = any();
     }
     return result;
@@ -76,26 +82,28 @@ TEST(PortForces, PortsOfDifferentBlocksFeelNothingOfEachOther)
   EXPECT_EQ(compliance(1, 2), compliance(5, 6));
 }
 
-// dz = mismatch + G (df/dz) dz, whatever the levers feel of each other through the forces.
+// dz = mismatch + G (df/dz) dz, whatever the levers feel of each other through the forces, of few ports and of more.
 TEST(PortForces, CorrectionSolvesTheLinearisedEquations)
 {
-  const auto compliance = of_two_levers_and_support();
-  for (const bool coupled : { false, true })
-  {
-    const auto f = forces(coupled);
-    Vector mismatch(9);
-    for (auto &value : mismatch)
-      value = any();
-    const auto change = port_correction(compliance, f.ports, f.tangent, all, mismatch);
-    Vector change_of_forces(6), at_forces(6);
-    for (unsigned int a = 0; a < 6; ++a)
-      at_forces[a] = change[f.ports[a]];
-    f.tangent.vmult(change_of_forces, at_forces);
-    Vector expected = mismatch;
-    add_response(compliance, f.ports, change_of_forces, all, expected);
-    expected -= change;
-    EXPECT_LE(expected.linfty_norm(), 1e-12 * change.linfty_norm()) << coupled;
-  }
+  for (const unsigned int ports : { 4u, 20u })
+    for (const bool coupled : { false, true })
+    {
+      const auto compliance = of_two_levers_and_support(ports);
+      const auto everywhere = all_ports(compliance.size());
+      const auto f          = forces(coupled, ports);
+      Vector mismatch(compliance.size());
+      for (auto &value : mismatch)
+        value = any();
+      const auto change = port_correction(compliance, f.ports, f.tangent, everywhere, mismatch);
+      Vector change_of_forces(f.values.size()), at_forces(f.values.size());
+      for (unsigned int a = 0; a < f.ports.size(); ++a)
+        at_forces[a] = change[f.ports[a]];
+      f.tangent.vmult(change_of_forces, at_forces);
+      Vector expected = mismatch;
+      add_response(compliance, f.ports, change_of_forces, everywhere, expected);
+      expected -= change;
+      EXPECT_LE(expected.linfty_norm(), 1e-12 * change.linfty_norm()) << ports << ' ' << coupled;
+    }
 }
 
 TEST(PortForces, DeterminantIsThatOfTheWholeMatrix)
