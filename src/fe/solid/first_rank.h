@@ -18,7 +18,9 @@ namespace sprag
     factorise_precisely, ///< in double precision
     solve_whole,         ///< with the factors of the whole body
     solve_near,          ///< with those of its skin
-    release_factors      ///< of a body that is still looked at
+    release_factors,     ///< of a body that is still looked at
+    recover_stress,      ///< of a body for its fields
+    write_rows           ///< of a file with fields
   };
 
   /// What the first rank calls the others to. Made of numbers alone.
