@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
+#include <iostream>
 #include <optional>
 #include <unistd.h>
 
@@ -37,12 +38,6 @@ namespace sprag
       return std::min(rows, (chunks * rank + ranks - 1) / ranks * hdf5::rows_together);
     }
 
-    std::size_t own_rows(const std::size_t rows, const MPI_Comm ranks)
-    {
-      const unsigned int rank = MPI::this_mpi_process(ranks), n = MPI::n_mpi_processes(ranks);
-      return first_row(rows, rank + 1, n) - first_row(rows, rank, n);
-    }
-
     /// Hands the first rank's rows out. The others receive theirs in `received`.
     void hand_out(const DatasetRows &all, const MPI_Comm ranks, std::vector<char> &received)
     {
@@ -63,51 +58,63 @@ namespace sprag
       MPI_Type_free(&row);
     }
 
-    /// Does something in all processes. Where one of them fails, all throw what that one says.
-    template <class Work>
-    void together(const MPI_Comm ranks, const Work &work)
+    std::string named(const std::string &problem, const std::size_t rank)
     {
+      return (rank > 0 ? "process " + std::to_string(rank) + " of mpirun: " : "") + problem;
+    }
+
+    /// Throws in all processes where one of them cannot write the file: in the midst of it the others would wait for ever.
+    void require_access(const std::string &path, const MPI_Comm ranks)
+    {
+      const int file = ::open(path.c_str(), O_RDWR | O_CLOEXEC);
       std::string problem;
+      if (file < 0)
+        problem = "cannot write " + path + ": " + std::strerror(errno) + ". All processes need the folder of --output";
+      else
+        ::close(file);
+      const auto problems = MPI::all_gather(ranks, problem);
+      for (std::size_t rank = 0; rank < problems.size(); ++rank)
+        if (!problems[rank].empty())
+          throw AnalysisError(named(problems[rank], rank));
+    }
+
+    /// What fails in one process alone, as by a disk that is suddenly full, ends all: the others wait for it inside of libraries.
+    template <class Work>
+    void all_or_end(const std::string &path, const MPI_Comm ranks, const Work &work)
+    {
       try
       {
         work();
       }
       catch (const AnalysisError &error)
       {
-        problem = error.what();
+        if (MPI::n_mpi_processes(ranks) == 1)
+          throw;
+        std::cerr << "sprag: " << named("writing " + path + ": " + error.what(), MPI::this_mpi_process(ranks)) << std::endl;
+        MPI_Abort(ranks, 1);
       }
-      const auto problems = MPI::all_gather(ranks, problem);
-      for (std::size_t rank = 0; rank < problems.size(); ++rank)
-        if (!problems[rank].empty())
-          throw AnalysisError((rank > 0 ? "process " + std::to_string(rank) + " of mpirun: " : "") + problems[rank]);
-    }
-
-    /// MPI waits for ever for a process that cannot open a file which others can.
-    void require_access(const std::string &path)
-    {
-      const int file = ::open(path.c_str(), O_RDWR | O_CLOEXEC);
-      if (file < 0)
-        throw AnalysisError("cannot write " + path + ": " + std::strerror(errno) + ". All processes need the folder of --output");
-      ::close(file);
     }
 
     void write_shares(const Plan &plan, const MPI_Comm ranks)
     {
-      const bool is_first = MPI::this_mpi_process(ranks) == 0, is_alone = MPI::n_mpi_processes(ranks) == 1;
+      const unsigned int rank = MPI::this_mpi_process(ranks), n = MPI::n_mpi_processes(ranks);
       std::vector<std::vector<char>> received(plan.datasets.size());
       for (std::size_t i = 0; i < received.size(); ++i)
         hand_out(plan.datasets[i], ranks, received[i]);
-      together(ranks, [&] { require_access(plan.path); });
-      std::optional<hdf5::Handle> file;
-      together(ranks, [&] { file.emplace(is_alone ? hdf5::open_file(plan.path) : hdf5::open_together(plan.path, ranks)); });
-      for (std::size_t i = 0; i < received.size(); ++i)
+      require_access(plan.path, ranks);
+      std::optional<hdf5::Handle> file; // not closed where one process fails, which would wait for the others
+      const auto write = [&]
       {
-        const auto &all         = plan.datasets[i];
-        const std::size_t first = first_row(all.rows, MPI::this_mpi_process(ranks), MPI::n_mpi_processes(ranks));
-        const void *const own   = is_first ? all.values : received[i].data();
-        together(ranks, [&] { hdf5::write_rows(*file, all.dataset, first, own_rows(all.rows, ranks), own); });
-      }
-      together(ranks, [&] { file->close(); });
+        file.emplace(n == 1 ? hdf5::open_file(plan.path) : hdf5::open_together(plan.path, ranks));
+        for (std::size_t i = 0; i < received.size(); ++i)
+        {
+          const auto &all         = plan.datasets[i];
+          const std::size_t first = first_row(all.rows, rank, n), end = first_row(all.rows, rank + 1, n);
+          hdf5::write_rows(*file, all.dataset, first, end - first, rank == 0 ? all.values : received[i].data());
+        }
+        file->close();
+      };
+      all_or_end(plan.path, ranks, write);
     }
   } // namespace
 

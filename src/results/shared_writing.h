@@ -31,7 +31,8 @@ namespace sprag
   void visit(Archive &archive, DatasetRows &rows);
 
   /// Writes the rows of datasets of a file that is closed: each process compresses and writes some chunks of each. To be called
-  /// by the first. Throws AnalysisError where any of the processes cannot write the file.
+  /// by the first. Throws AnalysisError where any of the processes cannot open the file; what fails later in one of several ends
+  /// all of them with a message.
   void write_rows(const std::string &path, const std::vector<DatasetRows> &all, const Writers &writers);
 
   /// Takes part in it. To be called by the others; throws as the first.
