@@ -76,11 +76,11 @@ class Ranks(RunTest):
                 self.assertEqual(fields[name], values, name)
                 continue
             self.assertEqual(fields[name].shape, values.shape, name)
-            apart = np.abs(fields[name].astype(float) - values)
+            apart, size = np.abs(fields[name].astype(float) - values), np.abs(values).max(initial=0)
             if name.startswith("mode-"):
                 apart = np.minimum(apart, np.abs(fields[name].astype(float) + values))
-            # The growth of an undamped mode is round-off itself.
-            self.assertLessEqual(apart.max(initial=0), 2e-6 * np.abs(values).max(initial=0) + 1e-12, name)
+                size = max(size, 10.5)  # its largest displacement [mm], whatever the phase of a frame
+            self.assertLessEqual(apart.max(initial=0), 2e-6 * size, name)
 
     def test_do_not_change_what_is_found(self):
         tables, fields = {}, {}

@@ -6,8 +6,8 @@
 
 namespace sprag
 {
-  // The first rank of a run in three dimensions follows the drive, looks at the contact and writes files alone. It asks the
-  // others to help with bodies.
+  // The first rank of a run in three dimensions follows the drive, looks at the contact and writes tables alone. It asks the
+  // others to help with bodies and their fields.
 
   enum class SharedTask
   {

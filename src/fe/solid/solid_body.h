@@ -29,7 +29,7 @@ namespace sprag
 
   /// The linear elastic lever in three dimensions, in axes in which its hub does not move. The ranks at hand hold the mesh and
   /// the numbers of its displacements, each for itself; they share stiffness and factors. The first asks the others for it, see
-  /// help_first_rank(): what calls them is for the first.
+  /// help_first_rank(): what responds, factorises or releases is for the first.
   class SolidBody
   {
   public:
