@@ -69,13 +69,13 @@ namespace sprag
       const int file = ::open(path.c_str(), O_RDWR | O_CLOEXEC);
       std::string problem;
       if (file < 0)
-        problem = "cannot write " + path + ": " + std::strerror(errno) + ". All processes need the folder of --output";
+        problem = "cannot write " + path + ": " + std::strerror(errno);
       else
         ::close(file);
       const auto problems = MPI::all_gather(ranks, problem);
       for (std::size_t rank = 0; rank < problems.size(); ++rank)
         if (!problems[rank].empty())
-          throw AnalysisError(named(problems[rank], rank));
+          throw AnalysisError(named(problems[rank], rank) + (rank > 0 ? ". All of them need the folder of --output" : ""));
     }
 
     /// What fails in one process alone, as by a disk that is suddenly full, ends all: the others wait for it inside of libraries.
