@@ -32,10 +32,35 @@ namespace sprag
         "    <Grid Name=\"frames\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
     const std::string closing = "    </Grid>\n  </Domain>\n</Xdmf>\n";
 
-    void write_field(const hdf5::Handle &group, const Field &field)
+    /// A group of datasets that are created, with what is to be written there.
+    class NewGroup
     {
-      describe(hdf5::write_rows(group, field.name, field.values, field.components), field.unit, field.description);
-    }
+    public:
+      /// `place`: its path in the file.
+      NewGroup(const hdf5::Handle &location, std::string place_, const std::string &name, std::vector<DatasetRows> &to_write)
+          : group(hdf5::create_group(location, name))
+          , place(std::move(place_))
+          , rows(to_write)
+      {
+      }
+
+      template <class Number>
+      hdf5::Handle add(const std::string &name, const std::vector<Number> &values, const std::size_t width)
+      {
+        rows.push_back({ place + "/" + name, values.size() / width, width * sizeof(Number), values.data() });
+        return hdf5::create_rows<Number>(group, name, values.size() / width, width);
+      }
+
+      void add(const Field &field)
+      {
+        describe(add(field.name, field.values, field.components), field.unit, field.description);
+      }
+
+    private:
+      const hdf5::Handle group;
+      const std::string place;
+      std::vector<DatasetRows> &rows;
+    };
 
     std::string item(const std::string &place, const std::size_t rows, const std::size_t width, const std::string &type,
                      const unsigned int precision)
@@ -96,10 +121,12 @@ namespace sprag
     }
   } // namespace
 
-  FieldFiles::FieldFiles(std::string folder_, std::string name_, std::vector<FieldMesh> meshes, const FrameStorage kept)
+  FieldFiles::FieldFiles(std::string folder_, std::string name_, std::vector<FieldMesh> meshes, const FrameStorage kept,
+                         Writers together)
       : folder(std::move(folder_))
       , name(std::move(name_))
       , storage(kept)
+      , writers(std::move(together))
   {
     for (auto &mesh : meshes)
       indices.push_back({ folder + "/" + mesh.name + ".xdmf", std::move(mesh) });
@@ -141,16 +168,18 @@ namespace sprag
       bytes += 8 * mesh.nodes.size() + 8 * mesh.cells.size() + bytes_of(mesh.fixed);
     require_space(folder + "/" + mesh_file(), bytes);
     auto file = hdf5::create_file(folder + "/" + mesh_file());
+    std::vector<DatasetRows> rows;
     for (const auto &[path, mesh, grids] : indices)
     {
-      const auto group = hdf5::create_group(file, mesh.name);
-      describe(hdf5::write_rows(group, "nodes", mesh.nodes, 3), "mm",
+      NewGroup group(file, "/" + mesh.name, mesh.name, rows);
+      describe(group.add("nodes", mesh.nodes, 3), "mm",
                "positions at rest: x along the cylinder's path towards the pivot, y up, z across");
-      hdf5::write_rows(group, "cells", mesh.cells, mesh.nodes_per_cell);
+      group.add("cells", mesh.cells, mesh.nodes_per_cell);
       for (const auto &field : mesh.fixed)
-        write_field(group, field);
+        group.add(field);
     }
     file.close();
+    write_rows(folder + "/" + mesh_file(), rows, writers);
   }
 
   void FieldFiles::write(const double time, const std::vector<std::vector<Field>> &fields, const std::vector<FrameFact> &facts)
@@ -159,7 +188,9 @@ namespace sprag
     const bool own_file         = storage == FrameStorage::files;
     const std::string file_name = own_file ? frame_file(frame) : mesh_file();
     const std::string of_frame  = own_file ? "" : formatted("frame-%04u", frame);
-    std::size_t bytes           = overhead;
+    const auto place_of         = [&](const Index &index) { return (own_file ? "/" : "/" + of_frame + "/") + index.mesh.name; };
+    std::vector<DatasetRows> rows;
+    std::size_t bytes = overhead;
     for (const auto &of_mesh : fields)
       bytes += bytes_of(of_mesh);
     if (own_file)
@@ -177,18 +208,18 @@ namespace sprag
         hdf5::write_attribute(place, shown_name(fact.name, fact.unit), fact.value);
       for (std::size_t i = 0; i < indices.size(); ++i)
       {
-        const auto group = hdf5::create_group(place, indices[i].mesh.name);
+        NewGroup group(place, place_of(indices[i]), indices[i].mesh.name, rows);
         for (const auto &field : fields.at(i))
-          write_field(group, field);
+          group.add(field);
       }
     }
     file.close();
+    write_rows(folder + "/" + file_name, rows, writers);
     for (std::size_t i = 0; i < indices.size(); ++i)
     {
       auto &index        = indices[i];
       const bool is_last = index.grids.empty() || time > index.grids.rbegin()->first;
-      const auto &text   = index.grids[time] =
-          grid(index, time, file_name + ":/" + (own_file ? "" : of_frame + "/") + index.mesh.name, fields[i], facts);
+      const auto &text = index.grids[time] = grid(index, time, file_name + ":" + place_of(index), fields[i], facts);
       if (is_last)
         append(index.path, text);
       else

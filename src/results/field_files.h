@@ -1,6 +1,6 @@
 #pragma once
 
-#include "base/archive.h"
+#include "results/shared_writing.h"
 
 #include <map>
 #include <string>
@@ -54,8 +54,9 @@ namespace sprag
   class FieldFiles
   {
   public:
-    /// Writes the meshes and empty indices.
-    FieldFiles(std::string folder, std::string name, std::vector<FieldMesh> meshes, FrameStorage storage = FrameStorage::files);
+    /// Writes the meshes and empty indices, as the frames with the help of other processes.
+    FieldFiles(std::string folder, std::string name, std::vector<FieldMesh> meshes, FrameStorage storage = FrameStorage::files,
+               Writers writers = {});
 
     /// Adds a frame: fields of each mesh, in the order of the meshes. `time` [s] differs from those of the frames before.
     void write(double time, const std::vector<std::vector<Field>> &fields, const std::vector<FrameFact> &facts = {});
@@ -81,6 +82,7 @@ namespace sprag
     const std::string folder;
     const std::string name;
     const FrameStorage storage;
+    const Writers writers;
     std::vector<Index> indices;
     unsigned int n_frames = 0;
   };

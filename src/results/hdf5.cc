@@ -2,6 +2,7 @@
 
 #include "base/errors.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace sprag::hdf5
@@ -63,12 +64,27 @@ namespace sprag::hdf5
                     H5Dclose);
     }
 
-    Handle write_dataset(const Handle &location, const std::string &name, const hid_t type, const Handle &space, const void *data,
-                         const Handle &how_stored = storage())
+    Handle open_dataset(const Handle &location, const std::string &name)
     {
-      Handle dataset = create_dataset(location, name, type, space, how_stored);
+      return Handle(checked("dataset " + name, H5Dopen2(location.id(), name.c_str(), H5P_DEFAULT)), H5Dclose);
+    }
+
+    Handle space_of(const Handle &dataset)
+    {
+      return Handle(checked("space of a dataset", H5Dget_space(dataset.id())), H5Sclose);
+    }
+
+    Handle write_dataset(const Handle &location, const std::string &name, const hid_t type, const Handle &space, const void *data)
+    {
+      Handle dataset = create_dataset(location, name, type, space, storage());
       checked("dataset " + name, H5Dwrite(dataset.id(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data));
       return dataset;
+    }
+
+    bool is_open_together(const Handle &file)
+    {
+      const Handle access(checked("file access", H5Fget_access_plist(file.id())), H5Pclose);
+      return H5Pget_driver(access.id()) == H5FD_MPIO;
     }
 
     std::vector<hsize_t> with_rows(const hsize_t rows, std::vector<hsize_t> row)
@@ -106,6 +122,13 @@ namespace sprag::hdf5
     return Handle(checked("opening " + path, H5Fopen(path.c_str(), H5F_ACC_RDWR, access.id())), H5Fclose);
   }
 
+  Handle open_together(const std::string &path, const MPI_Comm ranks)
+  {
+    const Handle access = file_access();
+    checked("file access", H5Pset_fapl_mpio(access.id(), ranks, MPI_INFO_NULL));
+    return Handle(checked("opening " + path, H5Fopen(path.c_str(), H5F_ACC_RDWR, access.id())), H5Fclose);
+  }
+
   Handle open_to_read(const std::string &path)
   {
     const Handle access = file_access();
@@ -122,8 +145,8 @@ namespace sprag::hdf5
 
   std::string read_text(const Handle &location, const std::string &name)
   {
-    const Handle dataset(checked("dataset " + name, H5Dopen2(location.id(), name.c_str(), H5P_DEFAULT)), H5Dclose);
-    char *text = nullptr;
+    const Handle dataset = open_dataset(location, name);
+    char *text           = nullptr;
     checked("dataset " + name, H5Dread(dataset.id(), text_type().id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, &text));
     const std::string result = text != nullptr ? text : "";
     H5free_memory(text);
@@ -181,19 +204,39 @@ namespace sprag::hdf5
     return write_dataset(location, name, H5T_NATIVE_DOUBLE, simple_space(extent, extent), values.data());
   }
 
-  /// One chunk, its bytes sorted before they are compressed.
-  Handle write_rows(const Handle &location, const std::string &name, const hid_t type, const void *values, const std::size_t rows,
-                    const std::size_t width)
+  /// Bytes are sorted before they are compressed.
+  Handle create_rows(const Handle &location, const std::string &name, const hid_t type, const std::size_t rows,
+                     const std::size_t width)
   {
-    const auto extent       = with_rows(rows, width > 1 ? std::vector<hsize_t>{ width } : std::vector<hsize_t>());
+    const auto row          = width > 1 ? std::vector<hsize_t>{ width } : std::vector<hsize_t>();
+    const auto extent       = with_rows(rows, row);
     const Handle compressed = storage();
     if (rows > 0)
     {
-      set_chunk(compressed, extent);
+      set_chunk(compressed, with_rows(std::min(rows, rows_together), row));
       checked("compression", H5Pset_shuffle(compressed.id()));
       checked("compression", H5Pset_deflate(compressed.id(), 1));
     }
-    return write_dataset(location, name, type, simple_space(extent, extent), values, compressed);
+    return create_dataset(location, name, type, simple_space(extent, extent), compressed);
+  }
+
+  void write_rows(const Handle &file, const std::string &name, const std::size_t first, const std::size_t rows,
+                  const void *values)
+  {
+    const Handle dataset = open_dataset(file, name);
+    const Handle type(checked("type of a dataset", H5Dget_type(dataset.id())), H5Tclose);
+    const Handle whole = space_of(dataset);
+    std::vector<hsize_t> count(checked("space of a dataset", H5Sget_simple_extent_ndims(whole.id())));
+    std::vector<hsize_t> start(count.size(), 0);
+    checked("space of a dataset", H5Sget_simple_extent_dims(whole.id(), count.data(), nullptr));
+    start[0] = first;
+    count[0] = rows;
+    checked("choosing rows", H5Sselect_hyperslab(whole.id(), H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr));
+    const Handle own = simple_space(count, count);
+    const Handle transfer(checked("transfer", H5Pcreate(H5P_DATASET_XFER)), H5Pclose);
+    if (is_open_together(file))
+      checked("transfer", H5Pset_dxpl_mpio(transfer.id(), H5FD_MPIO_COLLECTIVE)); // without it nothing can be compressed
+    checked("dataset " + name, H5Dwrite(dataset.id(), type.id(), own.id(), whole.id(), transfer.id(), values));
   }
 
   Series::Series(const Handle &location, const std::string &name, const std::size_t chunk, const std::vector<hsize_t> &row)
@@ -211,7 +254,7 @@ namespace sprag::hdf5
     count[0]                   = values.size() / width;
     extent[0] += count[0];
     checked("growing a dataset", H5Dset_extent(dataset.id(), extent.data()));
-    const Handle whole(checked("space of a dataset", H5Dget_space(dataset.id())), H5Sclose);
+    const Handle whole = space_of(dataset);
     checked("choosing rows", H5Sselect_hyperslab(whole.id(), H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr));
     const Handle rows = simple_space(count, count);
     checked("writing rows", H5Dwrite(dataset.id(), H5T_NATIVE_DOUBLE, rows.id(), whole.id(), H5P_DEFAULT, values.data()));

@@ -7,8 +7,8 @@
 #include <type_traits>
 #include <vector>
 
-/// Files of HDF5. Every function throws AnalysisError with the library's own message. deal.II brings the parallel HDF5; it is
-/// used serially here, with the default driver, and not after MPI is finalised.
+/// Files of HDF5. Every function throws AnalysisError with the library's own message. deal.II brings the parallel HDF5, which is
+/// not to be used after MPI is finalised. But for open_together() a file is used by one process, with the default driver.
 namespace sprag::hdf5
 {
   /// Creates or overwrites a file in the newest format.
@@ -17,6 +17,9 @@ namespace sprag::hdf5
   /// Opens an existing file for reading and writing; an abandoned one also where it is still marked as being written, as its
   /// writer was killed.
   Handle open_file(const std::string &path, bool abandoned = false);
+
+  /// Opens an existing file for writing by all of several processes together, which must make the same calls from then on.
+  Handle open_together(const std::string &path, MPI_Comm ranks);
 
   /// Opens an existing file for reading, also one that is being written or whose writer was killed.
   Handle open_to_read(const std::string &path);
@@ -42,18 +45,23 @@ namespace sprag::hdf5
   Handle write_dataset(const Handle &location, const std::string &name, const std::vector<double> &values,
                        const std::vector<std::size_t> &shape = {});
 
-  /// Writes `rows` rows of `width` numbers of a type of the library each, compressed.
-  Handle write_rows(const Handle &location, const std::string &name, hid_t type, const void *values, std::size_t rows,
-                    std::size_t width);
+  /// How many rows of create_rows() are compressed, and written, together.
+  constexpr std::size_t rows_together = 8192;
 
-  /// Writes float, double or unsigned int in rows of `width` numbers each, compressed.
+  /// Creates a dataset for `rows` rows of `width` numbers of a type of the library each, compressed.
+  Handle create_rows(const Handle &location, const std::string &name, hid_t type, std::size_t rows, std::size_t width);
+
+  /// The same of float, double or unsigned int.
   template <class Number>
-  Handle write_rows(const Handle &location, const std::string &name, const std::vector<Number> &values, const std::size_t width)
+  Handle create_rows(const Handle &location, const std::string &name, const std::size_t rows, const std::size_t width)
   {
     const hid_t of_double = std::is_same_v<Number, double> ? H5T_NATIVE_DOUBLE : H5T_NATIVE_UINT;
-    return write_rows(location, name, std::is_same_v<Number, float> ? H5T_NATIVE_FLOAT : of_double, values.data(),
-                      values.size() / width, width);
+    return create_rows(location, name, std::is_same_v<Number, float> ? H5T_NATIVE_FLOAT : of_double, rows, width);
   }
+
+  /// Writes so many rows of such a dataset from the one numbered `first` on. In a file of open_together() each process writes its
+  /// own, which may be none.
+  void write_rows(const Handle &file, const std::string &name, std::size_t first, std::size_t rows, const void *values);
 
   /// A dataset of doubles to which rows are appended.
   class Series

@@ -35,7 +35,7 @@ namespace sprag
       return;
     stream << "Processes:    " << processes
            << (scene.analysis.dimension == 3
-                   ? ", which share stiffness, factors and solves of the lever; the first alone follows the contact and writes\n"
+                   ? ", which share stiffness, factors, solves and fields of the lever; the first alone follows the contact\n"
                    : ", of which a lever in a plane needs the first alone\n");
   }
 } // namespace sprag

@@ -1,5 +1,6 @@
 #include "results/field_files.h"
 
+#include "mpi_environment.h"
 #include "support/temporary_folder.h"
 
 #include <filesystem>

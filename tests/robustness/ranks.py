@@ -1,8 +1,10 @@
-"""Runs in three dimensions by several processes of MPI: the same results, written once; what they cannot help refuses them."""
+"""Runs in three dimensions by several processes of MPI: the same results, tables written once and fields together; what they cannot
+help refuses them."""
 
 import os
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import unittest
@@ -19,45 +21,126 @@ SETTINGS = {**MESH, "Cylinder/Tilt": "1e-4", "Drive/Stroke": "15"}
 PARTS = {"Friction plate/Type": "on sensors", "Friction plate/Sensors": "105, 195", "Rotational spring/Type": "leaf"}
 HELD = {**MESH, "Analysis/Model": "condensed", "Condensed/Modes": "8", "Output/Fields": "none"}
 ALONE = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_rmaps_base_oversubscribe": "1"}
+OFTEN = {**ALONE, "SPRAG_CHECKPOINT_SECONDS": "0.02"}
+NUMBERS_IN_INDEX = re.compile('(?<=Time Value=")[^"]+|(?<=Format="XML">)[^<]+')
+
+
+def command(folder, changes):
+    sets = [part for name, value in changes.items() for part in ("--set", f"{name}={value}")]
+    return list(map(str, [SPRAG, SOURCE / "params" / "model-a.prm", "--output", folder, *sets]))
 
 
 def run(ranks, folder, changes):
-    sets = [part for name, value in changes.items() for part in ("--set", f"{name}={value}")]
     mpi = ["mpirun", "-n", str(ranks)] if ranks > 1 else []
-    command = [*mpi, SPRAG, SOURCE / "params" / "model-a.prm", "--output", folder, *sets]
-    return subprocess.run(list(map(str, command)), capture_output=True, text=True, check=False, timeout=TIMEOUT, env=ALONE)
+    return finished([*mpi, *command(folder, changes)])
 
 
-def fields_of(path):
-    """Of one file, by group and name."""
-    with h5py.File(path) as file:
-        return {f"{group}/{name}": data[:] for group, of_group in file.items() for name, data in of_group.items()}
+def finished(words, **options):
+    return subprocess.run(words, capture_output=True, text=True, check=False, timeout=TIMEOUT, env=ALONE, **options)
+
+
+def fields_of(folder):
+    """All datasets of all files with fields, attributes with numbers, and the text that each has beside numbers."""
+    found = {}
+    for path in sorted(folder.glob("*.xdmf")):
+        text = path.read_text(encoding="utf-8")
+        found[path.name] = NUMBERS_IN_INDEX.sub("", text)
+        found[f"{path.name} numbers"] = np.array(NUMBERS_IN_INDEX.findall(text), dtype=float)
+    for path in sorted({*folder.glob("fields-*.h5"), *folder.glob("mode-*.h5")}):
+
+        def note(name, entry, place=path.name):
+            if isinstance(entry, h5py.Dataset):
+                found[f"{place} {name}"] = entry[:]
+                found[f"{place} {name} stored"] = f"{entry.dtype} {entry.chunks} {entry.compression}"
+            for attribute, value in entry.attrs.items():
+                found[f"{place} {name} {attribute}"] = value if isinstance(value, str) else np.array([value])
+
+        with h5py.File(path) as file:
+            note("", file)
+            file.visititems(note)
+    return found
+
+
+def ranks_of(mpirun):
+    """Identifiers of the processes of one that has begun."""
+    words = [path.read_text().split() for path in Path(f"/proc/{mpirun.pid}/task").glob("*/children")]
+    return sorted(int(word) for word in sum(words, []))
 
 
 @unittest.skipUnless(shutil.which("mpirun"), "needs mpirun")
 class Ranks(RunTest):
+    def expect_alike(self, fields, alone):
+        """But for round-off in single precision, and the sign that a mode happens to have."""
+        self.assertEqual(list(fields), list(alone))
+        for name, values in alone.items():
+            if isinstance(values, str):
+                self.assertEqual(fields[name], values, name)
+                continue
+            self.assertEqual(fields[name].shape, values.shape, name)
+            apart, size = np.abs(fields[name].astype(float) - values), np.abs(values).max(initial=0)
+            if name.startswith("mode-"):
+                apart = np.minimum(apart, np.abs(fields[name].astype(float) + values))
+                size = max(size, 10.5)  # its largest displacement [mm], whatever the phase of a frame
+            self.assertLessEqual(apart.max(initial=0), 2e-6 * size, name)
+
     def test_do_not_change_what_is_found(self):
-        tables, fields = [], []
+        tables, fields = {}, {}
         for ranks in (1, 2):
             folder = self.folder / str(ranks)
             done = run(ranks, folder, SETTINGS)
             self.assertEqual(done.returncode, 0, done.stderr)
             self.assertEqual(done.stdout.count("largest P"), 1, done.stdout)
             with h5py.File(folder / "result.h5") as file:
-                tables.append({name: file["table"][name][:] for name in ("P", "Q", "theta", "centre_across")})
-            fields.append({path.name: fields_of(path) for path in sorted(folder.glob("fields-*.h5"))})
-            times = re.findall('Time Value="([^"]+)"', (folder / "fields.xdmf").read_text(encoding="utf-8"))
-            fields[-1]["index"] = {"times": np.array(times, dtype=float)}
-        for name, alone in tables[0].items():
-            self.assertEqual(len(alone), len(tables[1][name]))
-            apart = np.nanmax(np.abs(alone - tables[1][name])) / np.nanmax(np.abs(alone))
+                tables[ranks] = {name: file["table"][name][:] for name in ("P", "Q", "theta", "centre_across")}
+            fields[ranks] = fields_of(folder)
+        # More rows than one process writes together, see hdf5::rows_together.
+        self.assertGreater(len(fields[1]["fields-0000.h5 fields/stress"]), 8192)
+        self.assertGreater(len(fields[1]["fields.xdmf numbers"]), 2)
+        for name, alone in tables[1].items():
+            self.assertEqual(len(alone), len(tables[2][name]))
+            apart = np.nanmax(np.abs(alone - tables[2][name])) / np.nanmax(np.abs(alone))
             self.assertLess(apart, 1e-8 if name != "centre_across" else 1e-5, name)
-        self.assertEqual(list(fields[0]), list(fields[1]))
-        self.assertGreater(len(fields[0]), 2)
-        for name, alone in fields[0].items():
-            self.assertEqual(list(alone), list(fields[1][name]))
-            for data, values in alone.items():  # written in single precision
-                np.testing.assert_allclose(fields[1][name][data], values, rtol=0, atol=2e-6 * np.abs(values).max(initial=0), err_msg=data)
+        self.expect_alike(fields[2], fields[1])
+
+    def test_do_not_change_fields_of_modes(self):
+        changes = {**HELD, "Analysis/Type": "modal", "Stability/Modes": "2", "Output/Fields": "turning points"}
+        alone, shared = ({}, {})
+        for ranks, fields in ((1, alone), (2, shared)):
+            folder = self.folder / str(ranks)
+            done = run(ranks, folder, changes)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            fields.update(fields_of(folder))
+        self.assertGreater(np.abs(alone["mode-02.h5 frame-0023/mode-02/displacement"]).max(), 1)
+        self.expect_alike(shared, alone)
+
+    def test_go_on_after_one_was_killed(self):
+        whole = self.folder / "whole"
+        self.assertEqual(run(2, whole, SETTINGS).returncode, 0)
+        words = ["mpirun", "-n", "2", *command(self.output, SETTINGS)]
+        process = subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=OFTEN)
+        self.addCleanup(process.communicate)
+        checkpoint, frame = self.output / "run.checkpoint", self.output / "fields-0001.h5"
+        is_behind = lambda: checkpoint.exists() and frame.exists() and checkpoint.stat().st_mtime_ns > frame.stat().st_mtime_ns  # noqa: E731
+        self.wait_until(process, lambda: is_behind() or None)
+        os.kill(ranks_of(process)[1], signal.SIGKILL)
+        process.communicate(timeout=TIMEOUT)
+        self.assertNotEqual(process.returncode, 0)
+        done = run(2, self.output, SETTINGS)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stdout, "Goes on: .* of an interrupted run")
+        self.expect_alike(fields_of(self.output), fields_of(whole))
+
+    def test_without_the_folder_end_with_a_message(self):
+        """As on machines that do not share their disks."""
+        places = [self.folder / str(rank) for rank in range(2)]
+        words = ["mpirun"]
+        for place in places:
+            place.mkdir()
+            words += [":"] * (place != places[0]) + ["-n", "1", "-wdir", str(place), *command("output", SETTINGS)]
+        done = finished(words)
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertEqual(done.stderr.count("process 1 of mpirun: cannot write output/fields-mesh.h5: No such file"), 1, done.stderr)
+        self.assertEqual(list(places[1].iterdir()), [])
 
     def test_do_not_change_slides_and_motions(self):
         tables = {
@@ -102,8 +185,7 @@ class Ranks(RunTest):
         scene = SOURCE / "params" / "model-a.prm"
         sets = [part for name, value in SETTINGS.items() for part in ("--set", f"{name}={value}")]
         each = [scene, "--output", self.output, *sets]
-        command = ["mpirun", "-n", "1", program, *each, ":", "-n", "1", other, *each]
-        done = subprocess.run(list(map(str, command)), capture_output=True, text=True, check=False, timeout=TIMEOUT, env=ALONE)
+        done = finished(list(map(str, ["mpirun", "-n", "1", program, *each, ":", "-n", "1", other, *each])))
         self.assertEqual(done.returncode, 2, done.stderr)
         self.assertEqual(done.stderr.count("process 1 of mpirun runs another program"), 1, done.stderr)
         self.assertFalse(self.output.exists())

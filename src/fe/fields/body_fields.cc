@@ -121,12 +121,13 @@ namespace sprag
       return result;
     }
 
-    /// The stress of a body's elements, one after another.
+    /// The stress of a body's elements, which the ranks take by turns, at their nodes.
     template <int dim>
     void add_stress_of(const DoFHandler<dim> &dofs, const Mapping<dim> &mapping, const BodyProperties &properties,
                        const Vector<double> &displacement, const std::vector<unsigned int> &nodes_of_elements,
-                       std::vector<NodalField> &nodal)
+                       const MPI_Comm ranks, std::vector<SymmetricTensor<2, 3>> &sums)
     {
+      const unsigned int own = Utilities::MPI::this_mpi_process(ranks), n_ranks = Utilities::MPI::n_mpi_processes(ranks);
       const auto places = places_of<dim>(properties);
       const QGauss<1> points(std::max(2u, properties.degree));
       FEValues<dim> at_points(mapping, dofs.get_fe(), QGauss<dim>(points.size()), update_gradients);
@@ -136,15 +137,13 @@ namespace sprag
       const FEValuesExtractors::Vector vector(0);
       std::vector<Tensor<2, dim>> gradients_at_points(at_points.n_quadrature_points);
       FEValues<dim> at_places(mapping, dofs.get_fe(), places, update_quadrature_points);
-      const unsigned int *node = nodes_of_elements.data();
+      unsigned int element = 0;
       for (const auto &cell : dofs.active_cell_iterators())
       {
-        const auto material = cell->material_id();
-        if (material == material_id::hub)
-        {
-          node += places.size();
+        const unsigned int *const nodes = &nodes_of_elements[places.size() * element];
+        const auto material             = cell->material_id();
+        if (element++ % n_ranks != own || material == material_id::hub)
           continue;
-        }
         at_points.reinit(cell);
         at_points[vector].get_function_gradients(displacement, gradients_at_points);
         const auto gradients    = product(to_nodes, gradients_at_points);
@@ -156,13 +155,13 @@ namespace sprag
           elasticity.reinit(cell, of_element);
           at_places.reinit(cell);
         }
-        for (unsigned int q = 0; q < places.size(); ++q, ++node)
+        for (unsigned int q = 0; q < places.size(); ++q)
         {
           std::optional<double> pressure;
           if (is_projected)
             pressure =
                 plane_constants(constants, properties.plane).lambda * elasticity.dilatation()(at_places.quadrature_point(q));
-          nodal[*node].stress += stress_at<dim>(properties, constants, gradients[q], pressure);
+          sums[nodes[q]] += stress_at<dim>(properties, constants, gradients[q], pressure);
         }
       }
     }
@@ -192,6 +191,8 @@ namespace sprag
       : in_space(true)
       , of_half(body.is_half())
       , of_face(shown)
+      , calls(&body.calls())
+      , ranks(calls->ranks)
   {
     read<3>(body);
   }
@@ -238,8 +239,10 @@ namespace sprag
     sharing.assign(all_nodes.size(), 0);
     for (const unsigned int node : nodes_of_elements)
       ++sharing[node];
-    add_stress = [&body](const auto &displacement, const auto &elements, auto &nodal)
-    { add_stress_of<dim>(body.dofs(), body.cell_mapping(), body.body_properties(), displacement, elements, nodal); };
+    add_stress = [&body](const auto &displacement, const auto &elements, const auto ranks_at_work, auto &sums) {
+      add_stress_of<dim>(body.dofs(), body.cell_mapping(), body.body_properties(), displacement, elements, ranks_at_work, sums);
+    };
+    n_displacements = body.n_dofs();
   }
 
   std::vector<Tensor<1, 3>> BodyFields::moved(const Vector<double> &displacement) const
@@ -253,14 +256,31 @@ namespace sprag
 
   std::vector<NodalField> BodyFields::at(const Vector<double> &displacement) const
   {
+    if (calls != nullptr)
+      (*calls)(SharedTask::recover_stress);
     const auto displacements = moved(displacement);
+    const auto sums          = sums_of_stress(displacement);
     std::vector<NodalField> result(all_nodes.size());
-    add_stress(displacement, nodes_of_elements, result);
     for (std::size_t i = 0; i < result.size(); ++i)
-    {
-      result[i].displacement = displacements[i];
-      result[i].stress /= sharing[i];
-    }
+      result[i] = { displacements[i], sums[i] / sharing[i] };
+    return result;
+  }
+
+  void BodyFields::take_part() const
+  {
+    sums_of_stress(Vector<double>(n_displacements));
+  }
+
+  /// By the displacement that the first rank has. Returns to it the sums over the elements that meet in a node.
+  BodyFields::StressSums BodyFields::sums_of_stress(Vector<double> displacement) const
+  {
+    MPI_Bcast(displacement.begin(), static_cast<int>(displacement.size()), MPI_DOUBLE, 0, ranks);
+    StressSums result(all_nodes.size());
+    add_stress(displacement, nodes_of_elements, ranks, result);
+    const bool is_first   = Utilities::MPI::this_mpi_process(ranks) == 0;
+    double *const numbers = result.front().begin_raw();
+    const auto n_numbers  = static_cast<int>(result.size() * StressSums::value_type::n_independent_components);
+    MPI_Reduce(is_first ? MPI_IN_PLACE : numbers, numbers, n_numbers, MPI_DOUBLE, MPI_SUM, 0, ranks);
     return result;
   }
 } // namespace sprag

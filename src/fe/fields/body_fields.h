@@ -89,29 +89,39 @@ namespace sprag
       return of_face;
     }
 
-    /// Finds displacement and stress at the nodes by the displacements of the body's degrees of freedom.
+    /// Finds displacement and stress at the nodes by the displacements of the body's degrees of freedom. Of a body in space the
+    /// ranks at hand find the stress together.
     std::vector<NodalField> at(const dealii::Vector<double> &displacement) const;
+
+    /// Takes part in what the first rank finds of such a body.
+    void take_part() const;
 
     /// Finds the displacement alone.
     std::vector<dealii::Tensor<1, 3>> moved(const dealii::Vector<double> &displacement) const;
 
   private:
+    using StressSums = std::vector<dealii::SymmetricTensor<2, 3>>;
+
     template <int dim, class AnyBody>
     void read(const AnyBody &body);
+    StressSums sums_of_stress(dealii::Vector<double> displacement) const;
 
     bool in_space;
     bool of_half = false;
     FieldFace of_face;
-    unsigned int n_places = 0; ///< of nodes in an element
+    const BodyCalls *calls       = nullptr; ///< of a body in space, of which each rank finds a part
+    MPI_Comm ranks               = MPI_COMM_SELF;
+    unsigned int n_displacements = 0; ///< of the body
+    unsigned int n_places        = 0; ///< of nodes in an element
     std::vector<Node> all_nodes;
     std::vector<std::array<unsigned int, 3>> dofs; ///< of the nodes; in a plane the last has none
     std::vector<unsigned int> nodes_of_elements;
     std::vector<unsigned int> corners;
     std::vector<unsigned int> sharing; ///< number of elements that meet in a node
 
-    /// Adds the stress of each element at its nodes.
+    /// Adds the stress of the elements of this rank at their nodes.
     using AddStress =
-        std::function<void(const dealii::Vector<double> &, const std::vector<unsigned int> &, std::vector<NodalField> &)>;
+        std::function<void(const dealii::Vector<double> &, const std::vector<unsigned int> &, MPI_Comm, StressSums &)>;
     AddStress add_stress;
   };
 } // namespace sprag

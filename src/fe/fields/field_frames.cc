@@ -1,5 +1,6 @@
 #include "fe/fields/field_frames.h"
 
+#include "fe/fields/help_first_rank.h"
 #include "scene/mirrored_pair.h"
 
 #include <cmath>
@@ -57,7 +58,8 @@ namespace sprag
       remove_field_files(folder);
     auto mesh = device_mesh(scene, rest, blocks, fields, fields_of(leaf));
     mesh.name = "fields";
-    files     = std::make_unique<FieldFiles>(folder, "fields", std::vector<FieldMesh>{ std::move(mesh), face_mesh() });
+    files     = std::make_unique<FieldFiles>(folder, "fields", std::vector<FieldMesh>{ std::move(mesh), face_mesh() },
+                                         FrameStorage::files, writers_at_hand());
   }
 
   void FieldFrames::write(const DeviceState &state)

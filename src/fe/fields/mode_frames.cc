@@ -1,5 +1,7 @@
 #include "fe/fields/mode_frames.h"
 
+#include "fe/fields/help_first_rank.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -87,7 +89,7 @@ namespace sprag
       mesh.fixed.push_back(
           field(std::string("elastic_") + text, which + ", without rotation and support", parts[part].elastic, scale));
     }
-    FieldFiles files(folder, name, { std::move(mesh) }, FrameStorage::one_file);
+    FieldFiles files(folder, name, { std::move(mesh) }, FrameStorage::one_file, writers_at_hand());
     const bool swings = mode.frequency > 0.;
     // One of ParaView's readers (Xdmf3, 5.11) shows nothing at a time of 0.
     for (unsigned int k = swings ? 1 : n_phases; k <= n_phases; ++k)

@@ -6,8 +6,8 @@
 
 namespace sprag
 {
-  // The first rank of a run in three dimensions follows the drive, looks at the contact and writes files alone. It asks the
-  // others to help with bodies.
+  // The first rank of a run in three dimensions follows the drive, looks at the contact and writes tables alone. It asks the
+  // others to help with bodies and their fields.
 
   enum class SharedTask
   {
@@ -18,7 +18,9 @@ namespace sprag
     factorise_precisely, ///< in double precision
     solve_whole,         ///< with the factors of the whole body
     solve_near,          ///< with those of its skin
-    release_factors      ///< of a body that is still looked at
+    release_factors,     ///< of a body that is still looked at
+    recover_stress,      ///< of a body for its fields
+    write_rows           ///< of a file with fields
   };
 
   /// What the first rank calls the others to. Made of numbers alone.

@@ -334,23 +334,4 @@ namespace sprag
       return release();
     }
   }
-
-  void help_first_rank(const MPI_Comm ranks)
-  {
-    std::map<int, SolidBody> bodies;
-    for (auto call = next_call(ranks); call.task != SharedTask::end; call = next_call(ranks))
-      try
-      {
-        if (call.task == SharedTask::build)
-          bodies.try_emplace(call.body, ranks);
-        else if (call.task == SharedTask::release)
-          bodies.erase(call.body);
-        else
-          bodies.at(call.body).take_part(call.task);
-      }
-      catch (const std::runtime_error &)
-      {
-        // The first rank fails as well and tells why.
-      }
-  }
 } // namespace sprag

@@ -29,7 +29,7 @@ namespace sprag
 
   /// The linear elastic lever in three dimensions, in axes in which its hub does not move. The ranks at hand hold the mesh and
   /// the numbers of its displacements, each for itself; they share stiffness and factors. The first asks the others for it, see
-  /// help_first_rank(): all but take_part() is for the first.
+  /// help_first_rank(): what responds, factorises or releases is for the first.
   class SolidBody
   {
   public:
@@ -131,6 +131,12 @@ namespace sprag
     /// Takes part in what the first rank does with the factors.
     void take_part(SharedTask task);
 
+    /// Returns the calls by which the first rank asks the others for help with this body.
+    const BodyCalls &calls() const
+    {
+      return call_others;
+    }
+
   private:
     SolidBody(const BodyCalls &calls, SolidProperties of_first);
     void number_displacements(bool is_half);
@@ -162,7 +168,4 @@ namespace sprag
     BodyFactors factors;
     BodyFactors factors_of_skin;
   };
-
-  /// Builds bodies with the first rank and takes part in their solves as long as it has RanksAtHand. To be called by the others.
-  void help_first_rank(MPI_Comm ranks);
 } // namespace sprag
