@@ -91,7 +91,7 @@ namespace sprag
       forces.values[hub] += q.u_rate * across;
       forces.values[u] -= s * q.p_eta_acceleration - c * q.p_xi_acceleration + q.theta_rate * across;
 
-      if (forces.tangent.empty())
+      if (!forces.has_tangent)
         continue;
       const double m = w.mass();
       const double r = w.damping();

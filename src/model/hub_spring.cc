@@ -66,7 +66,7 @@ namespace sprag
     {
       const unsigned int row = place_of(layout.rotation(i), forces.ports);
       forces.values[row] += moments.values[i];
-      for (unsigned int j = 0; j < layout.levers && !forces.tangent.empty(); ++j)
+      for (unsigned int j = 0; j < layout.levers && forces.has_tangent; ++j)
         forces.tangent(row, place_of(layout.rotation(j), forces.ports)) += moments.tangent[i][j];
     }
   }

@@ -83,6 +83,7 @@ namespace sprag
       constexpr unsigned int most_corrections = 25;
       constexpr unsigned int most_renewals    = 8;
       constexpr double slow                   = 0.15; ///< share of the unbalance that a correction may leave
+      constexpr double hopeless               = 100.; ///< share that even a new tangent is not tried for
 
       NewtonResult result;
       phi = guess;
@@ -95,20 +96,19 @@ namespace sprag
       double by_unit        = 0.; // of unbalance, the largest movement
       unsigned int renewals = 0;
       const double least    = equations.smallest_movement();
-      while (result.iterations < most_corrections)
+      result.converged      = unbalance == 0.; // nothing touches
+      while (!result.converged && result.iterations < most_corrections)
       {
         ++result.iterations;
         const double before   = unbalance;
         const double movement = correct(z);
         evaluate(z, false);
         const double share = unbalance / before;
-        if (!(share < 1.))
+        if (!(share < hopeless))
           break;
         by_unit          = std::max(by_unit, movement / before);
         result.converged = by_unit * unbalance < left_out * (1. - share) * (relative_tolerance * overlap() + least);
-        if (result.converged)
-          break;
-        if (share > slow)
+        if (!result.converged && share > slow)
         {
           if (++renewals > most_renewals)
             break;

@@ -117,7 +117,8 @@ namespace sprag
     try
     {
       auto matrix = transposed_matrix(*kept, compliance);
-      matrix->compute_lu_factorization();
+      if (!kept->ports.empty())
+        matrix->compute_lu_factorization();
       if (known.size() >= most)
         known.erase(known.begin());
       known.push_back({ std::move(kept), weights.dt, weights.alpha_f, std::move(matrix) });
@@ -136,6 +137,7 @@ namespace sprag
 
   void KeptFactors::solve(Vector<float> &forces) const
   {
-    known.back().matrix->solve(forces, true);
+    if (!ports().empty())
+      known.back().matrix->solve(forces, true);
   }
 } // namespace sprag

@@ -84,6 +84,7 @@ namespace sprag
 
     sum.values.reinit(n);
     sum.tangent.reinit(n, n);
+    sum.has_tangent = true;
     for (const auto &some : loaded)
       for (unsigned int i = 0; i < some.ports.size(); ++i)
       {
@@ -107,7 +108,8 @@ namespace sprag
       places.push_back(place_of(port, result.ports));
     for (unsigned int i = 0; i < places.size(); ++i)
       result.values[places[i]] = forces.values[i];
-    if (!forces.tangent.empty())
+    result.has_tangent = forces.has_tangent;
+    if (forces.has_tangent)
     {
       result.tangent.reinit(n, n);
       forces.tangent.scatter_matrix_to(places, places, result.tangent);

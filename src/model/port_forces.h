@@ -14,7 +14,8 @@ namespace sprag
   {
     std::vector<unsigned int> ports; ///< increasing
     dealii::Vector<double> values;
-    dealii::FullMatrix<double> tangent; ///< empty where it was not wanted
+    dealii::FullMatrix<double> tangent;
+    bool has_tangent = true; ///< else it was not wanted and is empty
   };
 
   /// Gives forces further ports, increasing, where they are 0 so far.

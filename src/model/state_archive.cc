@@ -41,8 +41,8 @@ namespace sprag
 
   void visit(Archive &archive, PortForces &forces)
   {
-    auto &[ports, values, tangent] = forces;
-    archive(ports, values, tangent);
+    auto &[ports, values, tangent, has_tangent] = forces;
+    archive(ports, values, tangent, has_tangent);
   }
 
   void visit(Archive &archive, Motion &motion)

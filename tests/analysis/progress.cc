@@ -1,6 +1,7 @@
 #include "analysis/statics/quasi_static.h"
 #include "analysis/transient/step_clock.h"
 #include "base/errors.h"
+#include "model/kept_tangent.h"
 #include "model/state_archive.h"
 #include "results/row_archive.h"
 #include "toy_model.h"
@@ -167,12 +168,17 @@ TEST(Archive, KeepsEveryField)
   PointMemory<2> on_surface;
   on_surface.traction = dealii::Tensor<1, 2>({ 0.1, -0.2 });
   on_surface.point    = 7;
+  const dealii::FullMatrix<double> matrix(1, 1, std::array<double, 1>{ { -3. } }.data());
   const Motion motion{
-    drive_of(1.),  { vector_of({ 1., 2. }), vector_of({ 3. }), vector_of({ 4., 5., 6. }) }, vector_of({ 7., 8. }), memory, loads,
-    { on_surface }
+    drive_of(1.),   { vector_of({ 1., 2. }), vector_of({ 3. }), vector_of({ 4., 5., 6. }) }, vector_of({ 7., 8. }), memory, loads,
+    { on_surface }, std::make_shared<const KeptTangent>(KeptTangent{ { 5 }, matrix })
   };
   {
-    const auto &[drive, coordinates, face_force, contact, forces, surface_contact] = restored(motion);
+    const auto &[drive, coordinates, face_force, contact, forces, surface_contact, tangent] = restored(motion);
+    ASSERT_NE(tangent, nullptr);
+    EXPECT_EQ(tangent->ports, std::vector<unsigned int>{ 5 });
+    EXPECT_EQ(tangent->matrix, matrix);
+    EXPECT_EQ(restored(Motion()).tangent, nullptr);
     EXPECT_TRUE(same_bytes(drive, motion.drive));
     EXPECT_EQ(coordinates.position, motion.coordinates.position);
     EXPECT_EQ(coordinates.velocity, motion.coordinates.velocity);
@@ -211,7 +217,8 @@ TEST(Archive, KeepsEveryField)
   forces.tangent(0, 1) = 5.;
   forces.tangent(1, 0) = -6.;
   {
-    const auto &[ports, values, tangent] = restored(forces);
+    const auto &[ports, values, tangent, has_tangent] = restored(forces);
+    EXPECT_TRUE(has_tangent);
     EXPECT_EQ(ports, forces.ports);
     EXPECT_EQ(values, forces.values);
     EXPECT_TRUE(tangent == forces.tangent);

@@ -89,6 +89,7 @@ namespace sprag
     found.duration     = of.weights.dt;
     found.compression  = 0.;
     found.forces.tangent.reinit(0, 0);
+    found.forces.has_tangent = of.with_tangent;
     looked_at = clip(united(near({ of.end, of.to.x }, step.end), looked_at_first), found);
     pressed.clear();
     Patches::Indices touched;

@@ -1,0 +1,209 @@
+#include "model/kept_iteration.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
+
+using namespace sprag;
+using Vector = dealii::Vector<double>;
+
+namespace
+{
+  constexpr unsigned int n = 40;
+
+  /// A row of ports, which feel each other the less the further they are apart, and one of a block of its own.
+  PortCompliance row_of_ports()
+  {
+    dealii::FullMatrix<double> matrix(n);
+    for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int j = 0; j < n; ++j)
+        matrix(i, j) = std::exp(-0.3 * std::abs(static_cast<double>(i) - j));
+    PortCompliance result;
+    result.append(std::move(matrix));
+    result.append(0.5);
+    return result;
+  }
+
+  /// Springs that a ball touches from above at some place of the row, and rubs: only ports that touch carry forces.
+  struct Ball
+  {
+    double place;
+    double stiffness         = 5.;
+    double mu                = 0.3;
+    unsigned int evaluations = 0, tangents = 0;
+    double deepest    = 0.;
+    PortForces forces = PortForces();
+
+    const PortForces &operator()(const Vector &z, const bool with_tangent = true)
+    {
+      ++evaluations;
+      tangents += with_tangent ? 1 : 0;
+      forces  = PortForces();
+      deepest = 0.;
+      for (unsigned int i = 0; i < n; ++i)
+        if (overlap(z, i) > 0.)
+          forces.ports.push_back(i);
+      if (!forces.ports.empty())
+        forces.ports.push_back(n);
+      const auto m = static_cast<unsigned int>(forces.ports.size());
+      forces.values.reinit(m);
+      if (with_tangent)
+        forces.tangent.reinit(m, m);
+      for (unsigned int a = 0; a + 1 < m; ++a)
+      {
+        const double depth = overlap(z, forces.ports[a]);
+        deepest            = std::max(deepest, depth);
+        forces.values[a]   = -stiffness * depth * (1. + 0.1 * std::sin(z[n]));
+        forces.values[m - 1] += mu * stiffness * depth;
+        if (!with_tangent)
+          continue;
+        forces.tangent(a, a)     = -stiffness * (1. + 0.1 * std::sin(z[n]));
+        forces.tangent(a, m - 1) = -stiffness * depth * 0.1 * std::cos(z[n]);
+        forces.tangent(m - 1, a) = mu * stiffness;
+      }
+      return forces;
+    }
+
+    double overlap(const Vector &z, const unsigned int i) const
+    {
+      const double aside = i - place;
+      return z[i] - 0.01 * aside * aside;
+    }
+  };
+
+  struct Solved
+  {
+    PortSolution solution;
+    Vector z;
+    Ball ball;
+  };
+
+  const PortCompliance compliance = row_of_ports();
+  const Vector lengths            = []
+  {
+    Vector result(n + 1);
+    result    = 1.;
+    result[n] = 3.;
+    return result;
+  }();
+  const PortSelection selected = all_ports(n + 1);
+
+  Vector pressed_by(const double amount)
+  {
+    Vector result(n + 1);
+    result    = amount;
+    result[n] = 0.1;
+    return result;
+  }
+
+  Solved by_newton(const double place, const double amount)
+  {
+    Solved result{ {}, pressed_by(amount), { place } };
+    const Vector free = result.z;
+    result.solution   = solve_ports(
+          { compliance, free, lengths, selected }, [&](const Vector &z) -> const PortForces   &{ return result.ball(z); },
+          [&] { return result.ball.deepest; }, result.z);
+    return result;
+  }
+
+  PortLoads loads_of(const Solved &solved)
+  {
+    return { solved.ball.forces.ports, solved.ball.forces.values };
+  }
+
+  Solved by_kept_tangent(const double place, const double amount, const PortLoads &guess, KeptFactors &factors,
+                         std::shared_ptr<const KeptTangent> &kept)
+  {
+    Solved result{ {}, pressed_by(amount), { place } };
+    const Vector free = result.z;
+    const PortEquations equations{ compliance, free, lengths, selected };
+    const auto overlap = [&] { return result.ball.deepest; };
+    const auto weights = generalised_alpha(0.8, 1e-3);
+    auto &ball         = result.ball;
+    const auto forces  = [&](const Vector &z, const bool with_tangent) -> const PortForces  &{ return ball(z, with_tangent); };
+    result.solution    = KeptIteration(equations, forces, overlap, weights, factors).solve(guess, kept, result.z, 0.1);
+    return result;
+  }
+} // namespace
+
+// What is left out moves no point by more than 1e-8 of the overlap; a few times as much is allowed.
+TEST(KeptIteration, FindsWhatNewtonsMethodFinds)
+{
+  KeptFactors factors;
+  std::shared_ptr<const KeptTangent> kept;
+  auto guess            = loads_of(by_newton(12., 0.5));
+  unsigned int tangents = 0, given_up = 0;
+  for (unsigned int step = 0; step < 12; ++step)
+  {
+    const double place = 12. + 0.05 * step, amount = 0.5 + 0.005 * step;
+    const auto expected = by_newton(place, amount);
+    ASSERT_TRUE(expected.solution.newton.converged);
+    ASSERT_GT(expected.ball.deepest, 0.);
+    const auto found = by_kept_tangent(place, amount, guess, factors, kept);
+    if (!found.solution.newton.converged) // as between springs that touch and let go by turns
+    {
+      ++given_up;
+      kept  = nullptr;
+      guess = loads_of(expected);
+      continue;
+    }
+    EXPECT_EQ(found.ball.forces.ports, expected.ball.forces.ports);
+    for (unsigned int i = 0; i <= n; ++i)
+      EXPECT_NEAR(found.z[i], expected.z[i], 5e-8 * expected.ball.deepest) << "step " << step << ", port " << i;
+    guess = loads_of(found);
+    tangents += found.ball.tangents;
+    ASSERT_NE(kept, nullptr);
+  }
+  EXPECT_LE(given_up, 2u);
+  EXPECT_LT(tangents, 36u); // else nothing is kept
+}
+
+TEST(KeptIteration, GoesOnFromARestoredTangentToTheLastBit)
+{
+  KeptFactors factors;
+  std::shared_ptr<const KeptTangent> kept;
+  auto guess = loads_of(by_newton(12., 0.5));
+  guess      = loads_of(by_kept_tangent(12., 0.5, guess, factors, kept));
+
+  KeptFactors others;
+  Archive written;
+  visit(written, kept);
+  Archive read(written.bytes());
+  std::shared_ptr<const KeptTangent> restored;
+  visit(read, restored);
+  const auto next  = by_kept_tangent(12.1, 0.51, guess, factors, kept),
+             again = by_kept_tangent(12.1, 0.51, guess, others, restored);
+  EXPECT_EQ(next.z, again.z);
+  EXPECT_EQ(next.solution.newton.iterations, again.solution.newton.iterations);
+}
+
+TEST(KeptIteration, LetsGoOfWhatItHeld)
+{
+  KeptFactors factors;
+  std::shared_ptr<const KeptTangent> kept;
+  auto guess      = loads_of(by_newton(12., 0.5));
+  guess           = loads_of(by_kept_tangent(12., 0.5, guess, factors, kept));
+  const auto open = by_kept_tangent(12., -1., guess, factors, kept);
+  ASSERT_TRUE(open.solution.newton.converged);
+  EXPECT_TRUE(open.ball.forces.ports.empty());
+  for (unsigned int i = 0; i < n; ++i)
+    EXPECT_NEAR(open.z[i], -1., 1e-12);
+  const auto again = by_kept_tangent(12., -1., {}, factors, kept);
+  EXPECT_TRUE(again.solution.newton.converged);
+}
+
+TEST(KeptIteration, SaysWhereItDoesNotConverge)
+{
+  KeptFactors factors;
+  const auto wrong = std::make_shared<const KeptTangent>(KeptTangent{ { 3 }, dealii::FullMatrix<double>(1) });
+  auto kept        = wrong;
+  // Springs that pull: no correction makes the unbalance fall.
+  Solved result{ {}, pressed_by(0.5), { 12., -30. } };
+  const Vector free = result.z;
+  const PortEquations equations{ compliance, free, lengths, selected };
+  const auto forces = [&](const Vector &z, const bool with_tangent) -> const PortForces &
+  { return result.ball(z, with_tangent); };
+  const auto overlap = [&] { return result.ball.deepest; };
+  const auto found =
+      KeptIteration(equations, forces, overlap, generalised_alpha(0.8, 1e-3), factors).solve({}, kept, result.z, 0.1);
+  EXPECT_FALSE(found.newton.converged);
+}
