@@ -1,28 +1,48 @@
 #include "model/block_product.h"
 
-#include <deal.II/lac/lapack_templates.h>
+#include "base/lanes.h"
+
+#include <cstring>
 
 namespace sprag
 {
-  void add_block_product(const dealii::FullMatrix<double> &symmetric, const NumberRange &rows, const NumberRange &columns,
-                         const double *const values, double *const result)
+  namespace
   {
-    constexpr unsigned int few = 512; // entries that are summed in less time than a call of a library takes
-    if (rows.size() * columns.size() < few)
+    SPRAG_PART Lanes eight_at(const double *const place)
     {
-      for (unsigned int j = columns.begin; j < columns.end; ++j)
-      {
-        const double *const column = &symmetric(j, 0); // as it is symmetric
-        const double value         = values[j - columns.begin];
-        for (unsigned int i = rows.begin; i < rows.end; ++i)
-          result[i - rows.begin] += column[i] * value;
-      }
-      return;
+      Lanes result;
+      std::memcpy(&result, place, sizeof(Lanes));
+      return result;
     }
-    using Int        = dealii::types::blas_int;
-    const double one = 1.;
-    const Int m = static_cast<Int>(rows.size()), n = static_cast<Int>(columns.size());
-    const Int stride = static_cast<Int>(symmetric.n()), next = 1;
-    gemv("N", &m, &n, &one, &symmetric(columns.begin, rows.begin), &stride, values, &next, &one, result, &next);
+  } // namespace
+
+  /// Each row is summed column by column, whatever rows stand beside it: a library would let its last bits depend on these.
+  SPRAG_FOR_ANY_PROCESSOR void add_block_product(const dealii::FullMatrix<double> &symmetric, const NumberRange &rows,
+                                                 const NumberRange &columns, const double *const values, double *const result)
+  {
+    constexpr unsigned int n_together = 4;
+    const std::size_t stride          = symmetric.n();
+    const double *const first         = &symmetric(columns.begin, rows.begin); // of rows, as it is symmetric
+    unsigned int i                    = 0;
+    for (; i + n_together * n_lanes <= rows.size(); i += n_together * n_lanes)
+    {
+      SomeLanes<n_together> sums;
+      for (unsigned int k = 0; k < n_together; ++k)
+        sums[k] = eight_at(result + i + k * n_lanes);
+      for (unsigned int j = 0; j < columns.size(); ++j)
+        for (unsigned int k = 0; k < n_together; ++k)
+          sums[k] += values[j] * eight_at(first + j * stride + i + k * n_lanes);
+      std::memcpy(result + i, &sums, sizeof(sums));
+    }
+    for (; i + n_lanes <= rows.size(); i += n_lanes)
+    {
+      Lanes sum = eight_at(result + i);
+      for (unsigned int j = 0; j < columns.size(); ++j)
+        sum += values[j] * eight_at(first + j * stride + i);
+      std::memcpy(result + i, &sum, sizeof(sum));
+    }
+    for (; i < rows.size(); ++i)
+      for (unsigned int j = 0; j < columns.size(); ++j)
+        result[i] += values[j] * first[j * stride + i];
   }
 } // namespace sprag
