@@ -4,6 +4,10 @@
 
 #include <cstring>
 
+// Fused operations would round otherwise than processors without them, and than sums elsewhere.
+#pragma GCC push_options
+#pragma GCC optimize("fp-contract=off")
+
 namespace sprag
 {
   namespace
@@ -46,3 +50,5 @@ namespace sprag
         result[i] += values[j] * first[j * stride + i];
   }
 } // namespace sprag
+
+#pragma GCC pop_options

@@ -19,23 +19,20 @@ namespace sprag
     constexpr unsigned int most_refinements = 5;
     constexpr double refined                = 1e-10; ///< what is left of the right-hand side
 
-    /// (1 - G A)^-1 of all ports at once.
+    /// (1 - G A)^-1 of ports of a single block.
     FullMatrix<double> whole_inverse(const PortCompliance &compliance, const std::vector<unsigned int> &ports,
                                      const FullMatrix<double> &tangent)
     {
-      const auto n = static_cast<unsigned int>(ports.size());
+      const auto n         = static_cast<unsigned int>(ports.size());
+      const auto &of_ports = *compliance.blocks().front().matrix;
       FullMatrix<double> result{ IdentityMatrix(n) };
-      for (const auto &block : compliance.blocks())
-      {
-        const auto [first, last] = block.places_among(ports);
-        for (unsigned int i = first; i < last; ++i)
-          for (unsigned int k = first; k < last; ++k)
-          {
-            const double yields = (*block.matrix)(ports[i] - block.begin, ports[k] - block.begin);
-            for (unsigned int j = 0; j < n; ++j)
-              result(i, j) -= yields * tangent(k, j);
-          }
-      }
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int k = 0; k < n; ++k)
+        {
+          const double yields = of_ports(ports[i], ports[k]);
+          for (unsigned int j = 0; j < n; ++j)
+            result(i, j) -= yields * tangent(k, j);
+        }
       result.gauss_jordan();
       AssertThrow(std::isfinite(result.frobenius_norm()), LACExceptions::ExcSingular());
       return result;
@@ -129,7 +126,7 @@ namespace sprag
     Vector<double> change = displacements;
     try
     {
-      if (ports.size() <= few_ports)
+      if (ports.size() <= few_ports && compliance.blocks().size() == 1)
         whole_inverse(compliance, ports, tangent).vmult(change, displacements);
       else if (ports.size() < many_ports || !solve_by_refinement(compliance, ports, tangent, displacements, change))
       {

@@ -132,3 +132,28 @@ TEST(PortForces, DeterminantIsThatOfTheWholeMatrix)
     EXPECT_NEAR(port_determinant(compliance, f.ports, f.tangent), expected, 1e-11 * std::abs(expected)) << coupled;
   }
 }
+
+// Few ports of a single block, as of a beam, take the inverse of the whole.
+TEST(PortForces, CorrectionOfASingleBlockSolvesTheLinearisedEquations)
+{
+  for (const unsigned int n : { 5u, 12u, 20u })
+  {
+    PortCompliance compliance;
+    compliance.append(symmetric(n));
+    const auto everywhere = all_ports(n);
+    Matrix tangent(n);
+    Vector mismatch(n), change_of_forces(n);
+    for (unsigned int i = 0; i < n; ++i)
+    {
+      mismatch[i] = any();
+      for (unsigned int j = 0; j < n; ++j)
+        tangent(i, j) = any();
+    }
+    const auto change = port_correction(compliance, everywhere, tangent, everywhere, mismatch);
+    tangent.vmult(change_of_forces, change);
+    Vector expected = mismatch;
+    add_response(compliance, everywhere, change_of_forces, everywhere, expected);
+    expected -= change;
+    EXPECT_LE(expected.linfty_norm(), 1e-11 * change.linfty_norm()) << n;
+  }
+}

@@ -55,6 +55,7 @@ TEST(MirroredPairInTime, WithoutOffsetBothLeversDoWhatOneAloneDoes)
   for (const auto model : { ModelType::rigid, ModelType::beam, ModelType::condensed, ModelType::finite_element })
     for (const auto joint : { SpringJoint::free, SpringJoint::held })
     {
+      SCOPED_TRACE(testing::Message() << "model " << static_cast<int>(model) << ", joint " << static_cast<int>(joint));
       const auto scene = around_a_reversal(in_time(model_a(), model));
       const auto half  = run_any_in_time(scene).rows;
       const auto full  = run_any_in_time(paired(scene, joint)).rows;
