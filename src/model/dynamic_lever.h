@@ -72,7 +72,6 @@ namespace sprag
       const Kinematic drifted = rates ? unaccelerated(begin, weights) : Kinematic{};
       const auto free         = structure->free_ports(accepted, near);
       const OfLevers turned   = turns_of(frame.ports, begin.position);
-
       dealii::Vector<double> rate;
       const auto evaluate = [&](const dealii::Vector<double> &z, const bool with_tangent = true) -> const PortForces &
       {
@@ -90,29 +89,12 @@ namespace sprag
       };
 
       StepOutcome outcome;
-      const auto guess = [&]
-      {
-        dealii::Vector<double> z = free;
-        add_response(structure->compliance(), accepted.forces.ports, accepted.forces.values, near, z);
-        return z;
-      };
-      const PortEquations equations{ structure->compliance(), free, frame.lengths, near };
-      const auto overlap       = [&] { return found.overlap(); };
-      auto tangent             = accepted.tangent;
-      dealii::Vector<double> z = Contact::keeps_tangent ? free : guess();
-      PortSolution solved{};
-      if constexpr (Contact::keeps_tangent)
-        solved =
-            KeptIteration(equations, evaluate, overlap, weights, factors).solve(accepted.forces, tangent, z, left_out_in_time);
+      dealii::Vector<double> z;
+      auto tangent      = accepted.tangent;
+      const auto solved = solve_step<Contact::keeps_tangent>(
+          { structure->compliance(), free, frame.lengths, near }, evaluate, [&] { return found.overlap(); }, weights,
+          accepted.forces, factors, tangent, z);
       outcome.iterations = solved.newton.iterations;
-      if (!solved.newton.converged)
-      {
-        if (Contact::keeps_tangent)
-          z = guess();
-        solved = solve_ports(equations, evaluate, overlap, z, left_out_in_time);
-        outcome.iterations += solved.newton.iterations;
-        tangent.reset();
-      }
       if (!solved.newton.converged)
         return outcome;
       if (!found.within_reach)
@@ -303,11 +285,6 @@ namespace sprag
       return turns_of(frame.ports, structure->port_positions(motion, rotations));
     }
 
-    OfLevers inclinations(const OfLevers &of_turns) const
-    {
-      return { { frame.rest_inclination + of_turns[0], frame.rest_inclination + of_turns[1] } };
-    }
-
     /// `x` from the pivot frame's origin.
     void observe_lever(const Motion &motion, const unsigned int lever, const double x, Row &row) const
     {
@@ -330,7 +307,7 @@ namespace sprag
     const PortSelection &reachable_ports(const Motion &motion) const
     {
       const double u = frame.ports.sprung ? structure->port_state(motion, frame.ports.support()).position : 0.;
-      return contact->reachable_ports(motion.drive.x - u, inclinations(turns(motion)));
+      return contact->reachable_ports(motion.drive.x - u, inclinations_of(frame, turns(motion)));
     }
 
     /// Touching at x = 0. Further on as slowly slid there from x = 0, with friction as in a motion forward and mu at rest.
@@ -378,7 +355,7 @@ namespace sprag
     PortPerturbation perturbation(const HeldSlide &slide, const bool in_contact)
     {
       const auto turns_of_slide = turns_of(frame.ports, slide.ports);
-      const auto theta          = inclinations(turns_of_slide);
+      const auto theta          = inclinations_of(frame, turns_of_slide);
       contact->reachable_ports(slide.drive.x, theta);
       const auto of_contact = in_contact ? contact->linearise(sliding_state(slide), found) : PortPerturbation();
       auto ports            = of_contact.ports;

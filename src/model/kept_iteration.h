@@ -233,4 +233,28 @@ namespace sprag
       return movement;
     }
   };
+
+  /// Solves the equations of a step in time from a guess of its forces: where the contact keeps its tangent by that, else, and
+  /// where that does not lead there, by solve_ports(), which leaves none.
+  template <bool keeps_tangent, class Forces, class Overlap>
+  PortSolution solve_step(const PortEquations &equations, const Forces &forces_at, const Overlap &overlap,
+                          const StepWeights &weights, const PortLoads &guess, KeptFactors &factors,
+                          std::shared_ptr<const KeptTangent> &kept, dealii::Vector<double> &z)
+  {
+    unsigned int iterations = 0;
+    z                       = equations.free;
+    if constexpr (keeps_tangent)
+    {
+      const auto result = KeptIteration(equations, forces_at, overlap, weights, factors).solve(guess, kept, z, left_out_in_time);
+      if (result.newton.converged)
+        return result;
+      iterations = result.newton.iterations;
+      kept.reset();
+      z = equations.free;
+    }
+    add_response(equations.compliance, guess.ports, guess.values, equations.selected, z);
+    auto result = solve_ports(equations, forces_at, overlap, z, left_out_in_time);
+    result.newton.iterations += iterations;
+    return result;
+  }
 } // namespace sprag

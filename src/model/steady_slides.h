@@ -21,6 +21,12 @@ namespace sprag
     return result;
   }
 
+  /// Inclinations of the levers by these [rad].
+  inline OfLevers inclinations_of(const LeverFrame &frame, const OfLevers &turns)
+  {
+    return { { frame.rest_inclination + turns[0], frame.rest_inclination + turns[1] } };
+  }
+
   /// The drive at another position.
   inline DrivePoint moved(DrivePoint drive, const double dx)
   {

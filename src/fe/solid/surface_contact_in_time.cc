@@ -90,7 +90,7 @@ namespace sprag
     found.compression  = 0.;
     found.forces.tangent.reinit(0, 0);
     found.forces.has_tangent = of.with_tangent;
-    looked_at = clip(united(near({ of.end, of.to.x }, step.end), looked_at_first), found);
+    looked_at                = clip(united(near({ of.end, of.to.x }, step.end), looked_at_first), found);
     pressed.clear();
     Patches::Indices touched;
     for (const unsigned int patch : looked_at)

@@ -1,0 +1,154 @@
+#pragma once
+
+#include "fe/contact/face_contact_point.h"
+#include "fe/solid/surface_contact.h"
+#include "model/circle.h"
+#include "scenes.h"
+#include <cmath>
+#include <deal.II/dofs/dof_handler.h>
+#include <deal.II/fe/fe_q.h>
+#include <deal.II/fe/fe_system.h>
+#include <deal.II/fe/mapping_q1.h>
+#include <deal.II/grid/grid_generator.h>
+
+namespace sprag
+{
+  constexpr double width = 50.;
+
+  /// A flat friction face of quadratic elements under model A's cylinder at x = 64, without a body: a bed of springs.
+  class Bed
+  {
+  public:
+    explicit Bed(const Cylinder &cylinder, const double stiffness, const unsigned int elements_across = 20)
+        : fe(dealii::FE_Q<3>(2), 3)
+    {
+      const double e = model_a().geometry.interface_offset;
+      dealii::GridGenerator::subdivided_hyper_rectangle(triangulation, { 20, 1, elements_across },
+                                                        dealii::Point<3>(111., e, -0.5 * width),
+                                                        dealii::Point<3>(131., e + 1., 0.5 * width));
+      for (const auto &cell : triangulation.active_cell_iterators())
+      {
+        cell->set_material_id(material_id::lever);
+        for (const auto &side : cell->face_iterators())
+          if (side->at_boundary() && std::abs(side->center()[1] - e) < 1e-9)
+            side->set_boundary_id(boundary_id::friction_face);
+      }
+      dofs.reinit(triangulation);
+      dofs.distribute_dofs(fe);
+      BodyProperties properties;
+      properties.constants    = { { material_id::lever, { 1., 0. } } };
+      face                    = find_friction_face(dealii::MappingQ1<3>(), dofs, dealii::AffineConstraints<double>(), properties,
+                                                   boundary_id::friction_face);
+      ports                   = { 3 * static_cast<unsigned int>(face.nodes.size()), false };
+      ports.has_inertia       = false;
+      ports.slopes            = cylinder.has_free_axis() ? 2 : 0;
+      const Geometry geometry = model_a().geometry;
+      contact = std::make_unique<SurfaceContact>(face, SurfaceContactProperties{ RigidCylinder(geometry, cylinder),
+                                                                                 [geometry](const double at, const double theta)
+                                                                                 { return cylinder_centre(geometry, at, theta); },
+                                                                                 geometry.cylinder_radius,
+                                                                                 ports,
+                                                                                 0.,
+                                                                                 { stiffness, stiffness } });
+    }
+
+    /// Ports at rest and an inclination at which the cylinder overlaps by so much in the middle [mm].
+    dealii::Vector<double> pressed(const double overlap) const
+    {
+      const auto geometry = model_a().geometry;
+      dealii::Vector<double> result(ports.size());
+      result[ports.rotation()] =
+          std::asin((geometry.cylinder_radius - overlap - geometry.interface_offset) / (geometry.pivot_distance - x));
+      return result;
+    }
+
+    SurfaceEvaluation evaluated(const dealii::Vector<double> &begin, const double from_x, const dealii::Vector<double> &end,
+                                const double friction)
+    {
+      SurfaceEvaluation found;
+      contact->begin_step({ begin, from_x });
+      contact->evaluate({ end, x }, {}, 0., StaticTerms{ { CoulombFriction{ friction } }, 1. }, found);
+      return found;
+    }
+
+    SurfaceContact &surface()
+    {
+      return *contact;
+    }
+
+    const std::vector<FacePoint<3>> &points() const
+    {
+      return face.points;
+    }
+
+    /// The length that makes a movement of a unit of a port, see PortWindow [mm].
+    double length_of(const unsigned int port) const
+    {
+      return ports.is_slope(port) ? 0.5 * width : 1.;
+    }
+
+    /// Force and moment on the lever of an evaluation about the cylinder's middle, in the axes of the world.
+    std::array<dealii::Tensor<1, 3>, 2> resultant(const SurfaceEvaluation &found) const
+    {
+      const auto geometry = model_a().geometry;
+      const double theta  = found.displacement[ports.rotation()];
+      const double c = std::cos(theta), s = std::sin(theta);
+      std::array<dealii::Tensor<1, 3>, 2> result;
+      for (const auto &point : found.points)
+      {
+        const auto in_world = [&](const double xi, const double eta, const double zeta) {
+          return dealii::Tensor<1, 3>({ -xi * c + eta * s, xi * s + eta * c, zeta });
+        };
+        const auto &at    = point.position;
+        const auto arm    = in_world(at[0], at[1], at[2]) + dealii::Tensor<1, 3>({ geometry.pivot_distance - x, 0., 0. });
+        const double area = face.points[point.index].weight;
+        const auto force  = area * in_world(point.end_force[0], point.end_force[1], point.end_force[2]);
+        result[0] += force;
+        result[1] += cross_product_3d(arm, force);
+      }
+      return result;
+    }
+
+    /// Force along eta and its moment about the middle of the width.
+    std::array<double, 2> pressed_by(const double overlap)
+    {
+      const auto at    = pressed(overlap);
+      const auto found = evaluated(at, x, at, 0.);
+      std::array<double, 2> result{};
+      for (const auto &point : found.points)
+      {
+        const double force = face.points[point.index].weight * point.pressure;
+        result[0] += force;
+        result[1] += force * point.position[2];
+      }
+      return result;
+    }
+
+    static constexpr double x = 64.;
+    PortLayout ports;
+
+  private:
+    dealii::Triangulation<3> triangulation;
+    const dealii::FESystem<3> fe;
+    dealii::DoFHandler<3> dofs;
+    FrictionFace<3> face;
+    std::unique_ptr<SurfaceContact> contact;
+  };
+
+  inline Cylinder tilted(const double tilt)
+  {
+    Cylinder result;
+    result.tilt = tilt;
+    return result;
+  }
+
+  /// Out of true both ways, or also free to yield.
+  inline Cylinder skewed(const bool is_free)
+  {
+    Cylinder result = tilted(6e-4);
+    result.skew     = 2e-3;
+    if (is_free)
+      result.tilt_stiffness = result.skew_stiffness = 1e6;
+    return result;
+  }
+} // namespace sprag

@@ -1,0 +1,123 @@
+#include "bed_of_springs.h"
+#include "mpi_environment.h"
+
+#include <gtest/gtest.h>
+
+using namespace sprag;
+
+/// Whether the axis is free on its shaft.
+class StepInLanesOfAnAxis : public testing::TestWithParam<bool>
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(IsFree, StepInLanesOfAnAxis, testing::Bool());
+
+// Eight points at once are what each is by itself.
+TEST_P(StepInLanesOfAnAxis, AStepInTimeFollowsTheLawsAtEachPoint)
+{
+  Cylinder cylinder     = skewed(GetParam());
+  cylinder.length       = 40.;
+  cylinder.edge_radius  = 4.;
+  cylinder.crown_radius = 8000.;
+  const RigidCylinder rigid(model_a().geometry, cylinder);
+  FrictionLaw regularised{ CoulombFriction{ 0.6 } };
+  regularised.regularisation_speed = 20.;
+  for (const auto &friction : { FrictionLaw{ CoulombFriction{ 0.4 } }, FrictionLaw{ CoulombFriction{ 50. } }, FrictionLaw{},
+                                FrictionLaw{ StribeckFriction{} }, regularised })
+  {
+    Bed bed(cylinder, 12.5, 6);
+    const auto weights = generalised_alpha(0.8, 6e-3);
+    const std::vector<ContactMemory> none;
+    const auto step = [&](const auto &from, const auto &to, const double x, const std::vector<SurfaceMemory> &memory)
+    {
+      SurfaceEvaluation found;
+      bed.surface().evaluate(
+          PortStep{ { 0., x - 0.7, 112., 0. }, none, { 6e-3, x, 112., 0., 0.3 }, { from, {}, {} }, to, {}, weights, &memory },
+          friction, found);
+      bed.surface().complete(found);
+      return found;
+    };
+    const auto before = bed.pressed(0.12), begin = bed.pressed(0.1); // at places further back the cylinder lies lower
+    auto end = bed.pressed(0.03);
+    for (unsigned int port = 0; port < bed.ports.surface; ++port)
+      end[port] += 1e-3 * std::sin(1.3 * port);
+    const auto memory = step(before, begin, Bed::x - 0.7, {}).memory();
+    ASSERT_GT(memory.size(), 50u);
+    const auto found = step(begin, end, Bed::x, memory);
+
+    StepContactLaw law;
+    law.normal        = { bed.surface().penalties().normal, 1. };
+    law.tangential    = bed.surface().penalties().tangential;
+    law.friction      = friction;
+    law.weights       = weights;
+    const auto turned = [&](const dealii::Vector<double> &ports) {
+      return bed.ports.slopes > 0 ? AxisSlopes{ { ports[bed.ports.slope(0)], ports[bed.ports.slope(1)] } } : AxisSlopes{};
+    };
+    const double share = weights.stiffness();
+    const auto mixed   = [share](const double a, const double b) { return (1. - share) * a + share * b; };
+    const auto hub     = bed.ports.rotation();
+    const auto at_end = rigid.pose(Bed::x, end[hub], turned(end)), at_begin = rigid.pose(Bed::x - 0.7, begin[hub], turned(begin));
+    AxisSlopes between_slopes{};
+    for (unsigned int i = 0; i < 2; ++i)
+      between_slopes[i] = mixed(at_begin.turned[i], at_end.turned[i]);
+    const auto between = rigid.pose(mixed(at_begin.x, at_end.x), mixed(at_begin.theta, at_end.theta), between_slopes);
+    double energy = 0., dissipated = 0., algorithmic = 0., moment = 0.;
+    unsigned int pressed = 0;
+    for (const auto &state : found.points)
+    {
+      const auto &point = bed.points()[state.index];
+      auto from         = point.position;
+      for (const auto &[node, shape] : point.nodes)
+        for (unsigned int d = 0; d < 3; ++d)
+          from[d] += shape * begin[3 * node + d];
+      const auto known =
+          std::find_if(memory.begin(), memory.end(), [&](const auto &entry) { return entry.point == state.index; });
+      const double gap_begin = rigid.gap(at_begin, from);
+      if (state.gap >= 0. && gap_begin >= 0. && known == memory.end())
+      {
+        EXPECT_EQ(state.pressure, 0.);
+        continue;
+      }
+      const auto placed = rigid.kinematics(at_end, state.position);
+      const auto middle = rigid.kinematics(between, from + share * (state.position - from));
+      const auto slips  = rigid.slips(at_begin, from);
+      StepKinematics<7, 2> kinematics;
+      kinematics.gap_begin = gap_begin;
+      kinematics.gap_end   = placed.gap;
+      kinematics.gap_row   = middle.gap_row;
+      dealii::Tensor<1, 7> change;
+      for (unsigned int d = 0; d < 3; ++d)
+        change[d] = state.position[d] - from[d];
+      change[3] = at_end.theta - at_begin.theta;
+      change[4] = at_end.x - at_begin.x;
+      for (unsigned int i = 0; i < 2; ++i)
+        change[5 + i] = at_end.turned[i] - at_begin.turned[i];
+      kinematics.gap_bend = change * (middle.gap_curvature * change);
+      for (unsigned int s = 0; s < 2; ++s)
+      {
+        kinematics.slip_change[s] = placed.slip[s] - slips[s] + (s == 0 ? 0.3 : 0.);
+        kinematics.slip_row[s]    = middle.slip_row[s];
+        kinematics.slip_bend[s]   = change * (middle.slip_curvature[s] * change);
+      }
+      const auto expected = mean_response(kinematics, known != memory.end() ? *known : SurfaceMemory{}, law);
+      const double scale  = 1e-9; // of round-off that stiff springs make of places
+      EXPECT_NEAR(state.pressure, expected.pressure, scale);
+      EXPECT_LT((state.traction - expected.traction).norm(), scale);
+      EXPECT_NEAR(state.mu, expected.mu, scale);
+      EXPECT_EQ(state.slipping, expected.slipping);
+      EXPECT_LT((state.memory.slip_speed - expected.memory.slip_speed).norm(), 1e3 * scale);
+      energy += point.weight * expected.energy;
+      dissipated += point.weight * expected.friction;
+      algorithmic += point.weight * expected.algorithmic;
+      moment += point.weight * expected.force[3];
+      pressed += expected.pressure > 0. ? 1 : 0;
+    }
+    EXPECT_GT(pressed, 50u);
+    EXPECT_NEAR(found.stored, energy, 1e-9 * energy);
+    EXPECT_NEAR(found.works.friction, dissipated, 1e-9 * std::abs(dissipated));
+    EXPECT_NEAR(found.works.algorithmic, algorithmic, 1e-8 * std::abs(algorithmic));
+    const auto &forces = found.forces;
+    const auto place   = std::find(forces.ports.begin(), forces.ports.end(), hub) - forces.ports.begin();
+    EXPECT_NEAR(forces.values[static_cast<unsigned int>(place)], moment, 1e-9 * std::abs(moment));
+  }
+}
