@@ -112,23 +112,20 @@ namespace sprag
     begin_ports = begin.ports;
     begin_x     = begin.x;
     begin_pose  = pose_of(begin);
-    begin_points.resize(patches.patches.size());
-    for (auto &of_patch : begin_points)
+    begin_slips.resize(patches.patches.size());
+    for (auto &of_patch : begin_slips)
       of_patch.clear();
   }
 
-  const std::vector<SurfaceContact::BeginPoint> &SurfaceContact::at_begin_of(const unsigned int patch) const
+  const std::vector<SurfaceContact::Slips> &SurfaceContact::slips_of_patch_at_begin(const unsigned int patch) const
   {
-    auto &known    = begin_points[patch];
+    auto &known    = begin_slips[patch];
     const auto &of = patches.patches[patch];
     if (known.empty())
     {
       const auto nodal = Patches::nodal(of, begin_ports);
       for (unsigned int q = of.begin; q < of.end; ++q)
-      {
-        const auto place = Patches::position(patches.points[q], nodal);
-        known.push_back({ place, properties.cylinder.gap(begin_pose, place), properties.cylinder.slips(begin_pose, place) });
-      }
+        known.push_back(properties.cylinder.slips(begin_pose, Patches::position(patches.points[q], nodal)));
     }
     return known;
   }
@@ -136,7 +133,7 @@ namespace sprag
   const std::array<double, 2> &SurfaceContact::slips_at_begin(const unsigned int point) const
   {
     const unsigned int patch = patches.patch_of_point(point);
-    return at_begin_of(patch)[point - patches.patches[patch].begin].slips;
+    return slips_of_patch_at_begin(patch)[point - patches.patches[patch].begin];
   }
 
   /// The gap is convex: over a patch it lies above its tangent at the first node. The margin covers bending.
@@ -226,7 +223,7 @@ namespace sprag
       return;
     found.compression     = std::max(found.compression, state.trial_pressure / properties.penalties.normal);
     const auto placed     = properties.cylinder.kinematics<n>(step.pose, state.position);
-    const auto &begin     = at_begin_of(state.patch)[state.index - patches.patches[state.patch].begin].slips;
+    const auto &begin     = slips_of_patch_at_begin(state.patch)[state.index - patches.patches[state.patch].begin];
     const auto *const was = step.memory_of(state.index);
 
     StepKinematics<n, 2> kinematics;

@@ -143,13 +143,7 @@ namespace sprag
     struct Step;
     struct Sliding;
 
-    /// A point where a step begins.
-    struct BeginPoint
-    {
-      dealii::Point<3> position;
-      double gap;
-      std::array<double, 2> slips;
-    };
+    using Slips = std::array<double, 2>;
 
     void find_lines();
     void find_ends();
@@ -177,7 +171,7 @@ namespace sprag
     bool reaches_end(const SurfaceEvaluation &found) const;
     FacePointState<3> &add_point(unsigned int patch, unsigned int point, const Patches::Nodal &nodal,
                                  const RigidCylinder::Pose &pose, SurfaceEvaluation &found) const;
-    const std::vector<BeginPoint> &at_begin_of(unsigned int patch) const;
+    const std::vector<Slips> &slips_of_patch_at_begin(unsigned int patch) const;
     const std::array<double, 2> &slips_at_begin(unsigned int point) const;
     PortCoordinates coordinates_of(unsigned int patch) const;
     Patches::Indices clip(Patches::Indices near, SurfaceEvaluation &found) const;
@@ -192,7 +186,7 @@ namespace sprag
     dealii::Vector<double> begin_ports;
     double begin_x = 0.;
     RigidCylinder::Pose begin_pose{};
-    mutable std::vector<std::vector<BeginPoint>> begin_points; ///< by patches; of those that were looked at
+    mutable std::vector<std::vector<Slips>> begin_slips; ///< of the points by patches; of those that were looked at
 
     /// Patches whose forces are summed, and their ports.
     struct Summed
