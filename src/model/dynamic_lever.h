@@ -121,7 +121,7 @@ namespace sprag
       // There a lever touches without force.
       if (drive.v == 0. && drive.x == 0. && frame.ports.levers == 1)
         return SlidingForces{ 0., 0. };
-      if (slides.solve(drive, 1.) == nullptr)
+      if (slides.follow(drive) == nullptr)
         return {};
       return observed_forces();
     }

@@ -3,9 +3,9 @@
 #include "model/circle.h"
 #include "model/contact_of_levers.h"
 #include "model/hub_spring.h"
+#include "model/kept_iteration.h"
 #include "model/lever_frame.h"
 #include "model/linearisation.h"
-#include "model/port_newton.h"
 #include "model/port_step.h"
 #include "model/state_archive.h"
 #include "scene/closed_form.h"
@@ -68,6 +68,15 @@ namespace sprag
       return nullptr;
     }
 
+    /// The same for one drive after another: to what a step in time leaves out, from a kept tangent where the contact keeps one.
+    const PortForces *follow(const DrivePoint &drive)
+    {
+      if constexpr (Contact::keeps_tangent)
+        if (const auto *forces = solve_with_kept_tangent(drive))
+          return forces;
+      return solve(drive, 1.);
+    }
+
     /// Slip speed of the deformable lever over that of the rigid one, by equilibria at a distance h [mm] to both sides.
     double speed_ratio(const DrivePoint &drive, const double h)
     {
@@ -90,6 +99,7 @@ namespace sprag
     void visit_history(Archive &archive)
     {
       archive(last_sliding, last_forces, last_sliding_theta);
+      visit(archive, kept);
     }
 
   private:
@@ -101,6 +111,64 @@ namespace sprag
     dealii::Vector<double> last_sliding; ///< ports of the last equilibrium, from which the next one starts
     PortLoads last_forces;               ///< there
     OfLevers last_sliding_theta{};       ///< inclinations of ideal contact there
+    std::shared_ptr<const KeptTangent> kept;
+    KeptFactors factors;
+
+    /// A turn of the hub, from the last equilibrium with the change of ideal contact.
+    double guessed_turn(const unsigned int lever, const OfLevers &ideal) const
+    {
+      const unsigned int hub = frame.ports.rotation(lever);
+      return (last_sliding.size() > 0 ? last_sliding[hub] - last_sliding_theta[lever] : -frame.rest_inclination) + ideal[lever];
+    }
+
+    /// Evaluates the contact at displacements of the ports.
+    const PortForces &evaluate(const SlidingState &state)
+    {
+      contact.evaluate_sliding(state, found);
+      hub_spring.add_forces(turns_of(frame.ports, state.ports), true, found.forces);
+      return found.forces;
+    }
+
+    /// See follow(). Null where that does not converge. The guess are the last forces, all as much larger as the hub turns.
+    const PortForces *solve_with_kept_tangent(const DrivePoint &drive)
+    {
+      if (last_forces.ports.empty())
+        return nullptr;
+      structure.use_statics();
+      const auto ideal                  = ideal_inclinations(drive.x);
+      const auto &near                  = contact.reachable_ports(drive.x, ideal);
+      const dealii::Vector<double> free = structure.port_positions(structure.rest(), near);
+      dealii::Vector<double> z(free.size());
+      add_response(structure.compliance(), last_forces.ports, last_forces.values, near, z);
+      const unsigned int hub = frame.ports.rotation();
+      PortLoads guess        = last_forces;
+      guess.values *= (guessed_turn(0, ideal) - free[hub]) / z[hub];
+
+      z                  = free;
+      const double speed = sliding_speed(frame.geometries.front(), drive.x, drive.v);
+      const auto at      = [&](const dealii::Vector<double> &ports, const bool with_tangent) -> const PortForces      &{
+        return evaluate({ ports, drive, speed, nullptr, ContactFriction::sliding, with_tangent });
+      };
+      const auto solved =
+          KeptIteration(
+              { structure.compliance(), free, frame.lengths, near }, at, [&] { return found.overlap(); }, StepWeights{}, factors)
+              .solve(guess, kept, z, left_out_in_time);
+      if (!solved.newton.converged || !found.within_reach)
+      {
+        kept.reset();
+        return nullptr;
+      }
+      contact.complete(found);
+      return accept(z, ideal, *solved.forces);
+    }
+
+    const PortForces *accept(const dealii::Vector<double> &z, const OfLevers &ideal, const PortForces &forces)
+    {
+      last_sliding       = z;
+      last_sliding_theta = ideal;
+      last_forces        = { forces.ports, forces.values };
+      return &forces;
+    }
 
     /// See solve(), from the last equilibrium.
     const PortForces *solve_from_last(const DrivePoint &drive, const double ratio, const ContactFriction friction,
@@ -116,21 +184,14 @@ namespace sprag
       dealii::Vector<double> z = free;
       add_response(structure.compliance(), last_forces.ports, last_forces.values, near, z);
       for (unsigned int lever = 0; lever < frame.ports.levers; ++lever)
-      {
-        const unsigned int hub = frame.ports.rotation(lever);
-        z[hub] =
-            (last_sliding.size() > 0 ? last_sliding[hub] - last_sliding_theta[lever] : -frame.rest_inclination) + ideal[lever];
-      }
+        z[frame.ports.rotation(lever)] = guessed_turn(lever, ideal);
 
-      const double speed  = ratio * sliding_speed(frame.geometries.front(), drive.x, drive.v);
-      const auto evaluate = [&](const dealii::Vector<double> &ports) -> const PortForces &
-      {
-        contact.evaluate_sliding(SlidingState{ ports, drive, speed, nullptr, friction }, found);
-        hub_spring.add_forces(turns_of(frame.ports, ports), true, found.forces);
-        return found.forces;
+      const double speed = ratio * sliding_speed(frame.geometries.front(), drive.x, drive.v);
+      const auto at      = [&](const dealii::Vector<double> &ports) -> const PortForces      &{
+        return evaluate({ ports, drive, speed, nullptr, friction });
       };
       const auto solved = solve_ports(
-          { structure.compliance(), free, frame.lengths, near }, evaluate, [&] { return found.overlap(); }, z);
+          { structure.compliance(), free, frame.lengths, near }, at, [&] { return found.overlap(); }, z);
       if (!solved.newton.converged)
         return nullptr;
       if (!found.within_reach)
@@ -138,10 +199,7 @@ namespace sprag
         contact.widen_reach();
         return solve_from_last(drive, ratio, friction, round_off);
       }
-      last_sliding       = z;
-      last_sliding_theta = ideal;
-      last_forces        = { solved.forces->ports, solved.forces->values };
-      return solved.forces;
+      return accept(z, ideal, *solved.forces);
     }
 
     /// Inclinations of the levers in ideal contact [rad].

@@ -209,16 +209,27 @@ namespace sprag
           find_friction(begin, end, i, result);
   }
 
+  SPRAG_PART void StepInLanes::slide_on(const End &end, Friction &result) const
+  {
+    result                = Friction{};
+    result.traction[0]    = of.slide->coefficient * end.pressure;
+    result.mu             = all_lanes(of.slide->mu);
+    result.slipping       = of.slide->rubs ? ~LaneMask{} : LaneMask{};
+    result.slip_speed[0]  = all_lanes(of.slide->speed);
+    result.by_pressure[0] = all_lanes(of.slide->coefficient);
+    result.energy         = 0.5 * of.slide->compliance * result.traction[0] * result.traction[0];
+  }
+
   SPRAG_FOR_ANY_PROCESSOR bool StepInLanes::press(const unsigned int patch, const Patches::Nodal &from, const Patches::Nodal &to,
                                                   Forces &forces, double &compression)
   {
     auto &range = ranges[patch];
-    if (!range.is_placed)
+    if (!of.slide && !range.is_placed)
     {
       place(patch, from);
       recall(patch);
-      range.is_placed = true;
     }
+    range.is_placed     = !of.slide;
     const double normal = of.law.normal.stiffness, delay = of.law.weights.delay();
     const bool in_lanes = of.law.friction.regularisation_speed == 0. && never_falls(of.law.friction);
     const double c = of.balance.cosine, s = of.balance.sine;
@@ -227,12 +238,18 @@ namespace sprag
     for (unsigned int b = range.begin; b < range.end; ++b)
     {
       const auto &block = blocks[b];
-      const auto &begin = begins[b];
+      auto &begin       = begins[b];
       auto &end         = ends[b];
       end.place         = at_points(block.shapes, block.position, to);
       const auto ended  = places_of(of.cylinder, of.end, end.place);
       end.gap           = ended.gap;
-      end.takes_part    = (end.gap < 0.) | (begin.gap < 0.) | begin.known;
+      if (of.slide)
+      {
+        begin       = Begin();
+        begin.place = end.place;
+        begin.gap   = end.gap;
+      }
+      end.takes_part = (end.gap < 0.) | (begin.gap < 0.) | begin.known;
       if (!any(end.takes_part))
         continue;
       takes_part                 = true;
@@ -244,7 +261,9 @@ namespace sprag
                                        ended.along - begin.along } };
       end.pressure               = pressure_of(normal, end.gap);
       end.mean_pressure = mean_pressure_of(normal, begin.gap, end.gap) + delay * (end.pressure - pressure_of(normal, begin.gap));
-      if (in_lanes)
+      if (of.slide)
+        slide_on(end, end.friction);
+      else if (in_lanes)
         return_to_cone(begin, end, end.friction);
       else
         for (unsigned int i = 0; i < n_lanes; ++i)

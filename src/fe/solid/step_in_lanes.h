@@ -3,10 +3,12 @@
 #include "fe/contact/face_contact_point.h"
 #include "fe/solid/cylinder_in_lanes.h"
 
+#include <optional>
+
 namespace sprag
 {
-  /// Points of a friction face in a step in time, eight at once: their forces without derivatives, see mean_response() and
-  /// SurfaceContact. Points that touch neither at its beginning nor at its end take no part.
+  /// Points of a friction face in a step in time, eight at once: their forces, see mean_response() and SurfaceContact. Points
+  /// that touch neither at its beginning nor at its end take no part.
   class StepInLanes
   {
   public:
@@ -19,6 +21,16 @@ namespace sprag
     /// Generalised forces of a patch: along each axis those of its nodes, then of theta, x and the slopes.
     using Forces = std::array<double, n_coordinates>;
 
+    /// Steady sliding round the cylinder in place of a step in time.
+    struct Slide
+    {
+      double speed;       ///< [mm/s], != 0
+      double coefficient; ///< of friction, signed as the speed
+      double mu;
+      bool rubs;
+      double compliance; ///< of the springs of stick that keep energy [mm3/N]
+    };
+
     /// What all points of a step have in common.
     struct Constants
     {
@@ -29,6 +41,7 @@ namespace sprag
       double surface_run  = 0.;
       double advance      = 0.; ///< of the drive [mm]
       unsigned int slopes = 0;
+      std::optional<Slide> slide; ///< then `begin` and `balance` are as the end, and weights those of a step balanced there
     };
 
     /// `patches` must outlive it.
@@ -82,6 +95,7 @@ namespace sprag
     void recall(unsigned int patch);
     void find_friction(const Begin &begin, const End &end, unsigned int lane, Friction &result) const;
     void return_to_cone(const Begin &begin, const End &end, Friction &result) const;
+    void slide_on(const End &end, Friction &result) const;
     void add_point(unsigned int patch, unsigned int block, unsigned int lane, const std::array<double, 4> &force,
                    std::vector<FacePointState<3>> &points) const;
 

@@ -78,7 +78,8 @@ namespace sprag
     /// Finds works, energy and points of the step in time that was evaluated last.
     void complete(SurfaceEvaluation &found);
 
-    /// Evaluates steady sliding: the cylinder's surface runs round its axis at the slide's speed.
+    /// Evaluates steady sliding: the cylinder's surface runs round its axis at the slide's speed. Where the tangent is not
+    /// wanted, complete() finds what there is beside forces and compression.
     void slide(const SlidingState &sliding, const FrictionLaw &friction, SurfaceEvaluation &found);
 
     /// The same, with its forces linearised on their ports. What the spring of stick delays is left out: at a speed v it takes
@@ -160,6 +161,8 @@ namespace sprag
     void slide_in(Sliding &sliding, FacePointState<3> &state, SurfaceEvaluation &found) const;
     void slide_point(Sliding &sliding, FacePointState<3> &state, SurfaceEvaluation &found) const;
     void slide(Sliding &sliding, SurfaceEvaluation &found);
+    void slide_in_lanes(const SlidingState &sliding, const FrictionLaw &friction, SurfaceEvaluation &found);
+    void press_patches(const dealii::Vector<double> &begin, const dealii::Vector<double> &end, SurfaceEvaluation &found);
     template <int n>
     dealii::Tensor<1, 2> slip_rates(const Sliding &sliding, const Patches::Point &point, const SurfaceKinematicsIn<n> &placed,
                                     FacePointState<3> &state) const;
@@ -198,6 +201,7 @@ namespace sprag
 
     // In time.
     StepInLanes in_time;
+    bool slides = false;                      ///< whether a slide was evaluated last
     Patches::Indices looked_at_first;         ///< patches near where the step begins, and where it remembers a contact
     Patches::Indices looked_at;               ///< by the last evaluation
     std::vector<StepInLanes::Forces> pressed; ///< of the patches that are summed

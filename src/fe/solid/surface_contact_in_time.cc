@@ -83,6 +83,7 @@ namespace sprag
     }
     const auto step = constants_of(of, friction);
     in_time.set(step);
+    slides = false;
 
     found.displacement = of.end;
     found.x            = of.to.x;
@@ -91,12 +92,20 @@ namespace sprag
     found.forces.tangent.reinit(0, 0);
     found.forces.has_tangent = of.with_tangent;
     looked_at                = clip(united(near({ of.end, of.to.x }, step.end), looked_at_first), found);
+    press_patches(of.begin.position, of.end, found);
+    if (of.with_tangent)
+      find_tangent(found.forces);
+  }
+
+  /// Presses the patches that are looked at.
+  void SurfaceContact::press_patches(const Vector<double> &begin, const Vector<double> &end, SurfaceEvaluation &found)
+  {
     pressed.clear();
     Patches::Indices touched;
     for (const unsigned int patch : looked_at)
     {
-      const auto from = Patches::nodal(patches.patches[patch], of.begin.position);
-      const auto to   = Patches::nodal(patches.patches[patch], of.end);
+      const auto from = Patches::nodal(patches.patches[patch], begin);
+      const auto to   = Patches::nodal(patches.patches[patch], end);
       auto &forces    = pressed.emplace_back();
       if (in_time.press(patch, from, to, forces, found.compression))
         touched.push_back(patch);
@@ -104,8 +113,6 @@ namespace sprag
         pressed.pop_back();
     }
     sum_pressed(std::move(touched), found.forces);
-    if (of.with_tangent)
-      find_tangent(found.forces);
   }
 
   SurfaceContact::Patches::Indices SurfaceContact::patches_of(const std::vector<SurfaceMemory> &memory) const
@@ -148,13 +155,15 @@ namespace sprag
     found.points.clear();
     for (const unsigned int patch : looked_at)
       in_time.complete(patch, sums, found.points);
-    found.stored            = sums.stored;
-    found.works             = StepWork();
+    found.stored      = sums.stored;
+    found.beyond_face = reaches_end(found);
+    found.works       = StepWork();
+    if (slides)
+      return;
     found.works.drive       = sums.drive;
     found.works.friction    = sums.friction;
     found.works.algorithmic = sums.algorithmic;
     found.works.creep       = sums.creep;
-    found.beyond_face       = reaches_end(found);
   }
 
   void SurfaceContact::find_tangent(PortForces &forces) const
@@ -178,8 +187,43 @@ namespace sprag
 
   void SurfaceContact::slide(const SlidingState &sliding, const FrictionLaw &friction, SurfaceEvaluation &found)
   {
+    if (sliding.rates == nullptr && sliding.friction != ContactFriction::stuck)
+      return slide_in_lanes(sliding, friction, found);
     Sliding slide{ sliding, friction_of_step(friction, sliding.drive.v), pose_of({ sliding.ports, sliding.drive.x }), false };
     this->slide(slide, found);
+  }
+
+  /// A step that is balanced where it ends, and ends where it begins.
+  void SurfaceContact::slide_in_lanes(const SlidingState &sliding, const FrictionLaw &friction, SurfaceEvaluation &found)
+  {
+    const auto law    = friction_of_step(friction, sliding.drive.v);
+    const bool rubs   = sliding.friction == ContactFriction::sliding;
+    const auto pose   = pose_of({ sliding.ports, sliding.drive.x });
+    const double keep = law.regularisation_speed > 0. ? 0. : 1. / properties.penalties.tangential;
+    StepInLanes::Constants step;
+    step.law.normal     = { properties.penalties.normal, 1. };
+    step.law.tangential = properties.penalties.tangential;
+    step.law.weights    = StepWeights();
+    step.cylinder       = properties.cylinder.shape();
+    step.begin = step.balance = step.end = pose;
+    step.share                           = step.law.weights.stiffness();
+    step.slopes                          = properties.ports.slopes;
+    step.slide                           = { sliding.speed, rubs ? sliding_friction(law, sliding.speed).coefficient : 0.,
+                   rubs ? friction_coefficient(law, std::abs(sliding.speed)).coefficient : 0., rubs, keep };
+    in_time.set(step);
+    slides = true;
+    clear(found);
+    found.displacement = sliding.ports;
+    found.x            = sliding.drive.x;
+    found.duration     = 1.; // slips are those of a second
+    looked_at          = clip(near({ sliding.ports, sliding.drive.x }, pose), found);
+    press_patches(sliding.ports, sliding.ports, found);
+    found.forces.has_tangent = sliding.with_tangent;
+    found.forces.tangent.reinit(0, 0);
+    if (!sliding.with_tangent)
+      return;
+    find_tangent(found.forces);
+    complete(found);
   }
 
   PortPerturbation SurfaceContact::linearise(const SlidingState &sliding, const FrictionLaw &friction, SurfaceEvaluation &found)
