@@ -22,8 +22,10 @@ namespace sprag
     /// Rows of numbers in single precision.
     struct Rows
     {
+      static constexpr unsigned int of_four = 4 * Sixteen::n;
+
       Rows(const unsigned int n_rows, const unsigned int n_columns)
-          : stride((n_columns + Sixteen::n - 1) / Sixteen::n)
+          : stride((n_columns + of_four - 1) / of_four * 4)
           , values(static_cast<std::size_t>(n_rows) * stride)
       {
       }
@@ -33,27 +35,51 @@ namespace sprag
         return &values[static_cast<std::size_t>(row) * stride];
       }
 
+      const Sixteen *operator[](const unsigned int row) const
+      {
+        return &values[static_cast<std::size_t>(row) * stride];
+      }
+
       float &operator()(const unsigned int row, const unsigned int column)
       {
         return reinterpret_cast<float *>((*this)[row])[column];
       }
 
-      unsigned int stride;
+      unsigned int stride; ///< in groups of sixteen, a multiple of four
       std::vector<Sixteen> values;
     };
 
-    /// Subtracts the product of a matrix, most of which is 0, with rows from others.
-    SPRAG_FOR_ANY_PROCESSOR void subtract_product(const FullMatrix<double> &sparse, Rows &rows, Rows &result)
+    /// Sets rows to minus the product of a matrix, most of which is 0, with others. The three rows of a node are alike in where
+    /// they are not 0.
+    SPRAG_FOR_ANY_PROCESSOR void subtract_product(const FullMatrix<double> &sparse, const Rows &rows, Rows &result)
     {
-      for (unsigned int i = 0; i < sparse.m(); ++i)
-        for (unsigned int k = 0; k < sparse.n(); ++k)
-          if (const auto factor = static_cast<float>(sparse(i, k)); factor != 0.f)
-          {
-            const Sixteen *const from = rows[k];
-            Sixteen *const to         = result[i];
-            for (unsigned int j = 0; j < rows.stride; ++j)
-              to[j].values -= factor * from[j].values;
-          }
+      constexpr unsigned int n_alike = 3, n_together = 4; // whose sums stay in registers
+      const auto n = static_cast<unsigned int>(sparse.n()), m = static_cast<unsigned int>(sparse.m());
+      std::vector<std::array<float, n_alike>> factors(n);
+      std::vector<unsigned int> columns(n);
+      for (unsigned int i = 0; i < m; i += n_alike)
+      {
+        const double *const of_rows[n_alike] = { &sparse(i, 0), &sparse(std::min(i + 1, m - 1), 0),
+                                                 &sparse(std::min(i + 2, m - 1), 0) };
+        unsigned int filled                  = 0;
+        for (unsigned int k = 0; k < n; ++k)
+        {
+          columns[filled] = k;
+          for (unsigned int a = 0; a < n_alike; ++a)
+            factors[filled][a] = static_cast<float>(of_rows[a][k]);
+          filled += of_rows[0][k] != 0. || of_rows[1][k] != 0. || of_rows[2][k] != 0. ? 1 : 0;
+        }
+        for (unsigned int j = 0; j < rows.stride; j += n_together)
+        {
+          Sixteen sums[n_alike][n_together];
+          for (unsigned int f = 0; f < filled; ++f)
+            for (unsigned int t = 0; t < n_together; ++t)
+              for (unsigned int a = 0; a < n_alike; ++a)
+                sums[a][t].values -= factors[f][a] * rows[columns[f]][j + t].values;
+          for (unsigned int a = 0; a < n_alike && i + a < m; ++a)
+            std::copy_n(sums[a], n_together, result[i + a] + j);
+        }
+      }
     }
 
     Rows compliance_among(const std::vector<unsigned int> &ports, const PortCompliance &compliance)
@@ -76,8 +102,8 @@ namespace sprag
     /// The transpose of 1 - A G.
     std::unique_ptr<LAPACKFullMatrix<float>> transposed_matrix(const KeptTangent &kept, const PortCompliance &compliance)
     {
-      const auto n = static_cast<unsigned int>(kept.ports.size());
-      auto rows    = compliance_among(kept.ports, compliance);
+      const auto n    = static_cast<unsigned int>(kept.ports.size());
+      const auto rows = compliance_among(kept.ports, compliance);
       Rows product(n, n);
       subtract_product(kept.matrix, rows, product);
       auto result = std::make_unique<LAPACKFullMatrix<float>>(n);
