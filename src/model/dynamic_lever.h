@@ -73,7 +73,7 @@ namespace sprag
       const auto free         = structure->free_ports(accepted, near);
       const OfLevers turned   = turns_of(frame.ports, begin.position);
       dealii::Vector<double> rate;
-      const auto evaluate = [&](const dealii::Vector<double> &z, const bool with_tangent = true) -> const PortForces &
+      const auto evaluate = [&](const dealii::Vector<double> &z, const Wanted wanted = Wanted::with_tangent) -> const PortForces &
       {
         if (rates)
         {
@@ -81,8 +81,7 @@ namespace sprag
           rate.add(weights.rate(), z, -weights.rate(), drifted.position);
         }
         contact->evaluate(
-            PortStep{ accepted.drive, accepted.contact, to, begin, z, rate, weights, &accepted.surface_contact, with_tangent },
-            found);
+            PortStep{ accepted.drive, accepted.contact, to, begin, z, rate, weights, &accepted.surface_contact, wanted }, found);
         coupling.add_forces(begin, z, weights, found.forces);
         hub_spring.add_forces(turned, turns_of(frame.ports, z), weights, found.forces);
         return found.forces;

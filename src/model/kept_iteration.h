@@ -60,7 +60,7 @@ namespace sprag
   /// Solves z = z_free + G f(z) as an equation of forces, f(z_free + G phi) = phi, from a guess of phi, by corrections with a
   /// kept tangent; where these leave a large share of the unbalance, the tangent is renewed at the place that was reached.
   /// Converged where what is left would move no point by more than `left_out` says, see solve_by_newton(). `forces_at(z,
-  /// with_tangent)` returns the forces, `overlap()` the size of the contact's deformation at the last evaluation [mm]. Not
+  /// wanted)` returns the forces, `overlap()` the size of the contact's deformation at the last evaluation [mm]. Not
   /// converged where the unbalance does not fall fast: solve_ports() is to be tried then.
   template <class Forces, class Overlap>
   class KeptIteration
@@ -90,7 +90,7 @@ namespace sprag
       if (kept != nullptr)
         include(kept->ports);
       move(z);
-      evaluate(z, kept == nullptr);
+      evaluate(z, kept == nullptr ? Wanted::with_tangent : Wanted::forces);
       if (kept == nullptr ? !renew(kept) : !use(kept))
         return { result, forces };
       double by_unit        = 0.; // of unbalance, the largest movement
@@ -102,7 +102,7 @@ namespace sprag
         ++result.iterations;
         const double before   = unbalance;
         const double movement = correct(z);
-        evaluate(z, false);
+        evaluate(z, Wanted::forces);
         const double share = unbalance / before;
         if (!(share < hopeless))
           break;
@@ -112,7 +112,7 @@ namespace sprag
         {
           if (++renewals > most_renewals)
             break;
-          evaluate(z, true);
+          forces = &forces_at(z, Wanted::tangent_of_last);
           if (!renew(kept))
             break;
         }
@@ -173,9 +173,9 @@ namespace sprag
       return largest;
     }
 
-    void evaluate(const dealii::Vector<double> &z, const bool with_tangent)
+    void evaluate(const dealii::Vector<double> &z, const Wanted wanted)
     {
-      forces = &forces_at(z, with_tangent);
+      forces = &forces_at(z, wanted);
       include(forces->ports);
       difference.resize(phi.ports.size());
       for (unsigned int i = 0; i < phi.ports.size(); ++i)

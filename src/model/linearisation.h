@@ -17,7 +17,7 @@ namespace sprag
     double speed;                                  ///< of the cylinder's surface along the lever [mm/s], != 0
     const dealii::Vector<double> *rates = nullptr; ///< of the ports, which add to the slip; none: at rest
     ContactFriction friction            = ContactFriction::sliding;
-    bool with_tangent                   = true; ///< else a contact that keeps its tangent finds the forces alone
+    Wanted wanted                       = Wanted::with_tangent;
   };
 
   /// Displacements of points along the lever, in lever axes [mm].

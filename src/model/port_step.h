@@ -15,6 +15,6 @@ namespace sprag
     const dealii::Vector<double> &end_rate;
     StepWeights weights;
     const std::vector<PointMemory<2>> *surface_memory = nullptr; ///< of the contact of a surface, in place of `memory`
-    bool with_tangent                                 = true;    ///< whether the forces' derivatives are wanted
+    Wanted wanted                                     = Wanted::with_tangent;
   };
 } // namespace sprag

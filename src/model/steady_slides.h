@@ -146,8 +146,8 @@ namespace sprag
 
       z                  = free;
       const double speed = sliding_speed(frame.geometries.front(), drive.x, drive.v);
-      const auto at      = [&](const dealii::Vector<double> &ports, const bool with_tangent) -> const PortForces      &{
-        return evaluate({ ports, drive, speed, nullptr, ContactFriction::sliding, with_tangent });
+      const auto at      = [&](const dealii::Vector<double> &ports, const Wanted wanted) -> const PortForces      &{
+        return evaluate({ ports, drive, speed, nullptr, ContactFriction::sliding, wanted });
       };
       const auto solved =
           KeptIteration(

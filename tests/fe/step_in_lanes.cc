@@ -121,3 +121,37 @@ TEST_P(StepInLanesOfAnAxis, AStepInTimeFollowsTheLawsAtEachPoint)
     EXPECT_NEAR(forces.values[static_cast<unsigned int>(place)], moment, 1e-9 * std::abs(moment));
   }
 }
+
+// A tangent that is asked for afterwards is that which comes with the forces.
+TEST_P(StepInLanesOfAnAxis, TheTangentOfTheLastForcesIsTheirs)
+{
+  const FrictionLaw friction{ CoulombFriction{ 0.4 } };
+  const auto weights = generalised_alpha(0.8, 6e-3);
+  const std::vector<ContactMemory> none;
+  const std::vector<SurfaceMemory> nothing;
+  Bed bed(skewed(GetParam()), 12.5, 6);
+  const auto begin = bed.pressed(0.1), end = bed.pressed(0.03);
+  const DrivePoint from{ 0., Bed::x - 0.7, 112., 0. }, to{ 6e-3, Bed::x, 112., 0. };
+  const Kinematic at_begin{ begin, {}, {} };
+  const auto step = [&](const Wanted wanted, SurfaceEvaluation &found) {
+    bed.surface().evaluate(PortStep{ from, none, to, at_begin, end, {}, weights, &nothing, wanted }, friction, found);
+  };
+  const auto slide = [&](const Wanted wanted, SurfaceEvaluation &found) {
+    bed.surface().slide(SlidingState{ end, to, 112., nullptr, ContactFriction::sliding, wanted }, friction, found);
+  };
+  const auto check = [](const auto &evaluate)
+  {
+    SurfaceEvaluation at_once, one_by_one;
+    evaluate(Wanted::with_tangent, at_once);
+    evaluate(Wanted::forces, one_by_one);
+    EXPECT_FALSE(one_by_one.forces.has_tangent);
+    evaluate(Wanted::tangent_of_last, one_by_one);
+    EXPECT_TRUE(one_by_one.forces.has_tangent);
+    EXPECT_GT(at_once.forces.ports.size(), 20u);
+    EXPECT_EQ(one_by_one.forces.ports, at_once.forces.ports);
+    EXPECT_EQ(one_by_one.forces.values, at_once.forces.values);
+    EXPECT_EQ(one_by_one.forces.tangent, at_once.forces.tangent);
+  };
+  check(step);
+  check(slide);
+}

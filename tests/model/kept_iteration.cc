@@ -33,8 +33,9 @@ namespace
     double deepest    = 0.;
     PortForces forces = PortForces();
 
-    const PortForces &operator()(const Vector &z, const bool with_tangent = true)
+    const PortForces &operator()(const Vector &z, const Wanted wanted = Wanted::with_tangent)
     {
+      const bool with_tangent = wanted != Wanted::forces;
       ++evaluations;
       tangents += with_tangent ? 1 : 0;
       forces  = PortForces();
@@ -119,7 +120,7 @@ namespace
     const auto overlap = [&] { return result.ball.deepest; };
     const auto weights = generalised_alpha(0.8, 1e-3);
     auto &ball         = result.ball;
-    const auto forces  = [&](const Vector &z, const bool with_tangent) -> const PortForces  &{ return ball(z, with_tangent); };
+    const auto forces  = [&](const Vector &z, const Wanted wanted) -> const PortForces  &{ return ball(z, wanted); };
     result.solution    = KeptIteration(equations, forces, overlap, weights, factors).solve(guess, kept, result.z, 0.1);
     return result;
   }
@@ -200,8 +201,7 @@ TEST(KeptIteration, SaysWhereItDoesNotConverge)
   Solved result{ {}, pressed_by(0.5), { 12., -30. } };
   const Vector free = result.z;
   const PortEquations equations{ compliance, free, lengths, selected };
-  const auto forces = [&](const Vector &z, const bool with_tangent) -> const PortForces &
-  { return result.ball(z, with_tangent); };
+  const auto forces  = [&](const Vector &z, const Wanted wanted) -> const PortForces  &{ return result.ball(z, wanted); };
   const auto overlap = [&] { return result.ball.deepest; };
   const auto found =
       KeptIteration(equations, forces, overlap, generalised_alpha(0.8, 1e-3), factors).solve({}, kept, result.z, 0.1);

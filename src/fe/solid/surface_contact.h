@@ -72,7 +72,8 @@ namespace sprag
     void evaluate(const SurfacePlace &end, const std::vector<SurfaceMemory> &memory, double surface_run, const StaticTerms &terms,
                   SurfaceEvaluation &found);
 
-    /// Evaluates forces, compression and, where it is wanted, the tangent of a step in time.
+    /// Evaluates forces, compression and, where it is wanted, the tangent of a step in time. Where that of the last one is
+    /// wanted, the step has to be the same, or the slide.
     void evaluate(const PortStep &step, const FrictionLaw &friction, SurfaceEvaluation &found);
 
     /// Finds works, energy and points of the step in time that was evaluated last.
@@ -169,8 +170,9 @@ namespace sprag
     void add_patch(unsigned int patch, const Sums &sums, std::vector<PortForces> &loaded) const;
     StepInLanes::Constants constants_of(const PortStep &step, const FrictionLaw &friction) const;
     Patches::Indices patches_of(const std::vector<SurfaceMemory> &memory) const;
-    void sum_pressed(Patches::Indices touched, PortForces &forces);
-    void find_tangent(PortForces &forces) const;
+    void find_summed(Patches::Indices touched);
+    void set_forces(Wanted wanted, PortForces &forces) const;
+    void add_tangent(PortForces &forces) const;
     bool reaches_end(const SurfaceEvaluation &found) const;
     FacePointState<3> &add_point(unsigned int patch, unsigned int point, const Patches::Nodal &nodal,
                                  const RigidCylinder::Pose &pose, SurfaceEvaluation &found) const;

@@ -73,6 +73,8 @@ namespace sprag
 
   void SurfaceContact::evaluate(const PortStep &of, const FrictionLaw &friction, SurfaceEvaluation &found)
   {
+    if (of.wanted == Wanted::tangent_of_last)
+      return set_forces(of.wanted, found.forces);
     const auto &memory  = of.surface_memory != nullptr ? *of.surface_memory : no_memory;
     const bool is_first = begin_ports.size() != of.begin.position.size();
     if (is_first || begin_x != of.from.x || begin_ports != of.begin.position || !in_time.begins_with(memory))
@@ -89,12 +91,9 @@ namespace sprag
     found.x            = of.to.x;
     found.duration     = of.weights.dt;
     found.compression  = 0.;
-    found.forces.tangent.reinit(0, 0);
-    found.forces.has_tangent = of.with_tangent;
-    looked_at                = clip(united(near({ of.end, of.to.x }, step.end), looked_at_first), found);
+    looked_at          = clip(united(near({ of.end, of.to.x }, step.end), looked_at_first), found);
     press_patches(of.begin.position, of.end, found);
-    if (of.with_tangent)
-      find_tangent(found.forces);
+    set_forces(of.wanted, found.forces);
   }
 
   /// Presses the patches that are looked at.
@@ -112,7 +111,7 @@ namespace sprag
       else
         pressed.pop_back();
     }
-    sum_pressed(std::move(touched), found.forces);
+    find_summed(std::move(touched));
   }
 
   SurfaceContact::Patches::Indices SurfaceContact::patches_of(const std::vector<SurfaceMemory> &memory) const
@@ -125,28 +124,36 @@ namespace sprag
   }
 
   /// The ports of some patches and the places of their coordinates among these are found again where the patches change alone.
-  void SurfaceContact::sum_pressed(Patches::Indices touched, PortForces &forces)
+  void SurfaceContact::find_summed(Patches::Indices touched)
   {
-    if (touched != summed.patches)
+    if (touched == summed.patches)
+      return;
+    summed = { std::move(touched), {}, {} };
+    for (const unsigned int patch : summed.patches)
     {
-      summed = { std::move(touched), {}, {} };
-      for (const unsigned int patch : summed.patches)
-      {
-        summed.coordinates.push_back(coordinates_of(patch));
-        const auto ports = ports_of(summed.coordinates.back());
-        summed.ports.insert(summed.ports.end(), ports.begin(), ports.end());
-      }
-      std::sort(summed.ports.begin(), summed.ports.end());
-      summed.ports.erase(std::unique(summed.ports.begin(), summed.ports.end()), summed.ports.end());
-      for (auto &coordinates : summed.coordinates)
-        for (auto &coordinate : coordinates)
-          coordinate.port = place_of(coordinate.port, summed.ports);
+      summed.coordinates.push_back(coordinates_of(patch));
+      const auto ports = ports_of(summed.coordinates.back());
+      summed.ports.insert(summed.ports.end(), ports.begin(), ports.end());
     }
+    std::sort(summed.ports.begin(), summed.ports.end());
+    summed.ports.erase(std::unique(summed.ports.begin(), summed.ports.end()), summed.ports.end());
+    for (auto &coordinates : summed.coordinates)
+      for (auto &coordinate : coordinates)
+        coordinate.port = place_of(coordinate.port, summed.ports);
+  }
+
+  /// From the patches that were pressed last.
+  void SurfaceContact::set_forces(const Wanted wanted, PortForces &forces) const
+  {
+    forces.has_tangent = wanted != Wanted::forces;
+    forces.tangent.reinit(0, 0);
     forces.ports = summed.ports;
     forces.values.reinit(static_cast<unsigned int>(summed.ports.size()));
     for (unsigned int i = 0; i < summed.patches.size(); ++i)
       for (const auto &[index, place, sign] : summed.coordinates[i])
         forces.values[place] += sign * pressed[i][index];
+    if (forces.has_tangent)
+      add_tangent(forces);
   }
 
   void SurfaceContact::complete(SurfaceEvaluation &found)
@@ -166,7 +173,7 @@ namespace sprag
     found.works.creep       = sums.creep;
   }
 
-  void SurfaceContact::find_tangent(PortForces &forces) const
+  void SurfaceContact::add_tangent(PortForces &forces) const
   {
     const auto n = static_cast<unsigned int>(summed.ports.size());
     forces.tangent.reinit(n, n);
@@ -187,6 +194,8 @@ namespace sprag
 
   void SurfaceContact::slide(const SlidingState &sliding, const FrictionLaw &friction, SurfaceEvaluation &found)
   {
+    if (sliding.wanted == Wanted::tangent_of_last)
+      return set_forces(sliding.wanted, found.forces);
     if (sliding.rates == nullptr && sliding.friction != ContactFriction::stuck)
       return slide_in_lanes(sliding, friction, found);
     Sliding slide{ sliding, friction_of_step(friction, sliding.drive.v), pose_of({ sliding.ports, sliding.drive.x }), false };
@@ -218,12 +227,9 @@ namespace sprag
     found.duration     = 1.; // slips are those of a second
     looked_at          = clip(near({ sliding.ports, sliding.drive.x }, pose), found);
     press_patches(sliding.ports, sliding.ports, found);
-    found.forces.has_tangent = sliding.with_tangent;
-    found.forces.tangent.reinit(0, 0);
-    if (!sliding.with_tangent)
-      return;
-    find_tangent(found.forces);
-    complete(found);
+    set_forces(sliding.wanted, found.forces);
+    if (sliding.wanted == Wanted::with_tangent)
+      complete(found);
   }
 
   PortPerturbation SurfaceContact::linearise(const SlidingState &sliding, const FrictionLaw &friction, SurfaceEvaluation &found)
