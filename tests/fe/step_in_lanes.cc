@@ -178,6 +178,7 @@ TEST_P(StepInLanesOfAnAxis, ASlideIsThatOfItsParts)
     difference -= expected.values;
     EXPECT_LT(difference.linfty_norm(), 1e-9 * expected.values.linfty_norm());
     EXPECT_NEAR(found.stored, in_parts.stored, 1e-9 * in_parts.stored);
+    EXPECT_EQ(std::abs(found.works.drive) + std::abs(found.works.friction) + std::abs(found.works.algorithmic), 0.);
     ASSERT_EQ(found.points.size(), in_parts.points.size());
     for (unsigned int i = 0; i < found.points.size(); ++i)
     {

@@ -209,8 +209,10 @@ namespace sprag
           find_friction(begin, end, i, result);
   }
 
-  SPRAG_PART void StepInLanes::slide_on(const End &end, Friction &result) const
+  /// Nothing changes in a steady slide: it begins as it ends, so that it takes up no work.
+  SPRAG_PART void StepInLanes::slide_on(Begin &begin, End &end) const
   {
+    auto &result          = end.friction;
     result                = Friction{};
     result.traction[0]    = of.slide->coefficient * end.pressure;
     result.mu             = all_lanes(of.slide->mu);
@@ -218,6 +220,25 @@ namespace sprag
     result.slip_speed[0]  = all_lanes(of.slide->speed);
     result.by_pressure[0] = all_lanes(of.slide->coefficient);
     result.energy         = 0.5 * of.slide->compliance * result.traction[0] * result.traction[0];
+    end.slip_change       = result.slip_speed;
+    begin                 = Begin();
+    begin.place           = end.place;
+    begin.gap             = end.gap;
+    begin.traction        = result.traction;
+  }
+
+  SPRAG_PART void StepInLanes::rub(const Begin &begin, const PlacesInLanes &ended, const bool in_lanes, End &end) const
+  {
+    const auto &axes           = of.end.axes;
+    const PointsInLanes across = ended.radius * ended.normal;
+    end.slip_change            = { { of.cylinder.radius *
+                                             angle_between(begin.upward, -begin.right, dot(across, axes.upward), -dot(across, axes.right)) +
+                                         of.surface_run,
+                                     ended.along - begin.along } };
+    if (in_lanes)
+      return return_to_cone(begin, end, end.friction);
+    for (unsigned int i = 0; i < n_lanes; ++i)
+      find_friction(begin, end, i, end.friction);
   }
 
   SPRAG_FOR_ANY_PROCESSOR bool StepInLanes::press(const unsigned int patch, const Patches::Nodal &from, const Patches::Nodal &to,
@@ -233,8 +254,7 @@ namespace sprag
     const double normal = of.law.normal.stiffness, delay = of.law.weights.delay();
     const bool in_lanes = of.law.friction.regularisation_speed == 0. && never_falls(of.law.friction);
     const double c = of.balance.cosine, s = of.balance.sine;
-    const auto &axes = of.end.axes;
-    bool takes_part  = false;
+    bool takes_part = false;
     for (unsigned int b = range.begin; b < range.end; ++b)
     {
       const auto &block = blocks[b];
@@ -243,31 +263,17 @@ namespace sprag
       end.place         = at_points(block.shapes, block.position, to);
       const auto ended  = places_of(of.cylinder, of.end, end.place);
       end.gap           = ended.gap;
+      end.pressure      = pressure_of(normal, end.gap);
       if (of.slide)
-      {
-        begin       = Begin();
-        begin.place = end.place;
-        begin.gap   = end.gap;
-      }
+        slide_on(begin, end);
       end.takes_part = (end.gap < 0.) | (begin.gap < 0.) | begin.known;
       if (!any(end.takes_part))
         continue;
-      takes_part                 = true;
-      compression                = std::max(compression, largest(-smaller(end.gap, begin.gap)));
-      const PointsInLanes across = ended.radius * ended.normal;
-      end.slip_change            = { { of.cylinder.radius * angle_between(begin.upward, -begin.right, dot(across, axes.upward),
-                                                                          -dot(across, axes.right)) +
-                                           of.surface_run,
-                                       ended.along - begin.along } };
-      end.pressure               = pressure_of(normal, end.gap);
+      takes_part  = true;
+      compression = std::max(compression, largest(-smaller(end.gap, begin.gap)));
+      if (!of.slide)
+        rub(begin, ended, in_lanes, end);
       end.mean_pressure = mean_pressure_of(normal, begin.gap, end.gap) + delay * (end.pressure - pressure_of(normal, begin.gap));
-      if (of.slide)
-        slide_on(end, end.friction);
-      else if (in_lanes)
-        return_to_cone(begin, end, end.friction);
-      else
-        for (unsigned int i = 0; i < n_lanes; ++i)
-          find_friction(begin, end, i, end.friction);
       for (unsigned int d = 0; d < 2; ++d)
         end.mean_traction[d] = (0.5 - delay) * begin.traction[d] + (0.5 + delay) * end.friction.traction[d];
 

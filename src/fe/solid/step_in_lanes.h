@@ -95,7 +95,8 @@ namespace sprag
     void recall(unsigned int patch);
     void find_friction(const Begin &begin, const End &end, unsigned int lane, Friction &result) const;
     void return_to_cone(const Begin &begin, const End &end, Friction &result) const;
-    void slide_on(const End &end, Friction &result) const;
+    void slide_on(Begin &begin, End &end) const;
+    void rub(const Begin &begin, const PlacesInLanes &ended, bool in_lanes, End &end) const;
     void add_point(unsigned int patch, unsigned int block, unsigned int lane, const std::array<double, 4> &force,
                    std::vector<FacePointState<3>> &points) const;
 

@@ -256,7 +256,7 @@ namespace sprag
     {
       state.traction[d]          = friction.traction[d][i];
       state.memory.slip_speed[d] = friction.slip_speed[d][i];
-      state.slip_change[d]       = of.slide ? friction.slip_speed[d][i] : end.slip_change[d][i];
+      state.slip_change[d]       = end.slip_change[d][i];
     }
     state.memory.traction = state.traction;
     state.memory.step     = of.law.weights.dt;

@@ -203,7 +203,6 @@ namespace sprag
 
     // In time.
     StepInLanes in_time;
-    bool slides = false;                      ///< whether a slide was evaluated last
     Patches::Indices looked_at_first;         ///< patches near where the step begins, and where it remembers a contact
     Patches::Indices looked_at;               ///< by the last evaluation
     std::vector<StepInLanes::Forces> pressed; ///< of the patches that are summed

@@ -85,7 +85,6 @@ namespace sprag
     }
     const auto step = constants_of(of, friction);
     in_time.set(step);
-    slides = false;
 
     found.displacement = of.end;
     found.x            = of.to.x;
@@ -162,11 +161,9 @@ namespace sprag
     found.points.clear();
     for (const unsigned int patch : looked_at)
       in_time.complete(patch, sums, found.points);
-    found.stored      = sums.stored;
-    found.beyond_face = reaches_end(found);
-    found.works       = StepWork();
-    if (slides)
-      return;
+    found.stored            = sums.stored;
+    found.beyond_face       = reaches_end(found);
+    found.works             = StepWork();
     found.works.drive       = sums.drive;
     found.works.friction    = sums.friction;
     found.works.algorithmic = sums.algorithmic;
@@ -220,7 +217,6 @@ namespace sprag
     step.slide                           = { sliding.speed, rubs ? sliding_friction(law, sliding.speed).coefficient : 0.,
                    rubs ? friction_coefficient(law, std::abs(sliding.speed)).coefficient : 0., rubs, keep };
     in_time.set(step);
-    slides = true;
     clear(found);
     found.displacement = sliding.ports;
     found.x            = sliding.drive.x;
