@@ -180,23 +180,37 @@ TEST(SolidPartsInTime, ALeafVibratesAtItsOwnFrequency)
   EXPECT_LT(std::abs(frequency_off(closest)), 1e-3);
 }
 
-// Left is what the compliance of the face leaves out on a coarse mesh, 1e-5.
-TEST(SolidPartsInTime, ALeafSpringAndATipMassMoveAsInThePlane)
+namespace
 {
-  const auto runs = run_both(on_leaf_with_tip(in_space(AnalysisType::transient)));
-  for (const Column column : { Column::P, Column::Q, Column::theta, Column::Q_support, Column::kinetic_energy })
-    EXPECT_LT(difference(runs.plane, runs.solid, column), 3e-5) << column_info(column).name;
+  /// Ringing that dies away, so that what the compliance of the face leaves out does not add up from one oscillation to the next.
+  Scene hardly_ringing()
+  {
+    Scene scene           = in_space(AnalysisType::transient);
+    scene.contact.damping = 0.3;
+    return scene;
+  }
+} // namespace
+
+TEST(SolidPartsInTime, ALeverMovesAsInThePlane)
+{
+  const auto runs = run_both(hardly_ringing());
+  for (const Column column : { Column::P, Column::Q, Column::theta, Column::kinetic_energy })
+    EXPECT_LT(difference(runs.plane, runs.solid, column), 1e-6) << column_info(column).name;
 }
 
-// The skin of a plate is shallow, and its compliance leaves out more the thinner the layer.
+TEST(SolidPartsInTime, ALeafSpringAndATipMassMoveAsInThePlane)
+{
+  const auto runs = run_both(on_leaf_with_tip(hardly_ringing()));
+  for (const Column column : { Column::P, Column::Q, Column::theta, Column::Q_support, Column::kinetic_energy })
+    EXPECT_LT(difference(runs.plane, runs.solid, column), 1e-6) << column_info(column).name;
+}
+
 TEST(SolidPartsInTime, SensorsFeelWhatThePlanesFeel)
 {
-  Scene scene           = in_space(AnalysisType::transient);
-  scene.layer.thickness = 6.;
-  const auto runs       = run_both(on_sensors(scene));
+  const auto runs = run_both(on_sensors(hardly_ringing()));
   for (const Column column : { Column::P, Column::Q, Column::theta })
-    EXPECT_LT(difference(runs.plane, runs.solid, column), 5e-5) << column_info(column).name;
-  EXPECT_LT(difference_of_sensors(runs), 5e-5);
+    EXPECT_LT(difference(runs.plane, runs.solid, column), 1e-6) << column_info(column).name;
+  EXPECT_LT(difference_of_sensors(runs), 1e-6);
   for (const auto &row : runs.solid)
     for (const std::size_t place : { 0u, 1u })
       for (const std::size_t side : { 0u, 1u })
@@ -206,8 +220,7 @@ TEST(SolidPartsInTime, SensorsFeelWhatThePlanesFeel)
 // Eigenvalues of a slide in contact, friction and all.
 TEST(SolidPartsInTime, VibrationsOfASlideAreThoseOfThePlane)
 {
-  Scene bare           = in_space(AnalysisType::stability);
-  bare.layer.thickness = 6.;
+  const Scene bare = in_space(AnalysisType::stability);
   for (const Scene &scene : { on_leaf_with_tip(bare), on_sensors(bare) })
   {
     const auto of = [](const Scene &some)

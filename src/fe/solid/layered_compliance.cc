@@ -31,12 +31,12 @@ namespace sprag
     }
   } // namespace
 
-  LayeredCompliance::LayeredCompliance(const SolidBody &body_, const double begin, const double end)
+  LayeredCompliance::LayeredCompliance(const SolidBody &body_, const double begin, const double end, const double spacing)
       : body(body_)
   {
     find_tiles(surroundings_over_depth * body.skin());
     if (body.has_skin())
-      find_basis(begin, end, body.skin());
+      find_basis(begin, end, spacing * body.skin());
   }
 
   void LayeredCompliance::find_tiles(const double surroundings)
@@ -81,10 +81,11 @@ namespace sprag
     return result;
   }
 
-  void LayeredCompliance::find_basis(const double begin, const double end, const double depth)
+  void LayeredCompliance::find_basis(const double begin, const double end, const double spacing)
   {
     constexpr double beyond = 4.; // how far what the skin hands on spreads, over its depth
-    const auto loads        = bond_loads(body, { begin - beyond * depth, end + beyond * depth, depth, depth });
+    const double depth      = body.skin();
+    const auto loads        = bond_loads(body, { begin - beyond * depth, end + beyond * depth, spacing, depth });
     const int n             = loads.size();
     const auto n_ports      = static_cast<unsigned int>(dofs.size());
     FullMatrix<double> of_face(n_ports, n);

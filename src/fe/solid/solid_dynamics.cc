@@ -198,8 +198,9 @@ namespace sprag
     SolidInTime result;
     result.body              = std::make_unique<const SolidBody>(scene, plane);
     const double room        = 0.1 * scene.geometry.cylinder_radius;
+    constexpr double spacing = 0.5; // over the skin's depth: ringing adds up what the compliance leaves out
     const auto [first, last] = swept_contact(scene);
-    result.compliance        = std::make_unique<LayeredCompliance>(*result.body, first - room, last + room);
+    result.compliance        = std::make_unique<LayeredCompliance>(*result.body, first - room, last + room, spacing);
     result.sensors           = std::make_unique<const SensorForces>(*result.body);
     result.modes             = solid_modes(*result.body, inertia_of(scene), scene.spring.stiffness, scene.condensed.modes);
     return result;
