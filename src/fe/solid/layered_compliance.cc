@@ -31,12 +31,13 @@ namespace sprag
     }
   } // namespace
 
-  LayeredCompliance::LayeredCompliance(const SolidBody &body_, const double begin, const double end, const double spacing)
+  LayeredCompliance::LayeredCompliance(const SolidBody &body_, const double begin, const double end,
+                                       const double spacing_over_depth)
       : body(body_)
   {
     find_tiles(surroundings_over_depth * body.skin());
     if (body.has_skin())
-      find_basis(begin, end, spacing * body.skin());
+      find_basis(begin, end, spacing_over_depth * body.skin());
   }
 
   void LayeredCompliance::find_tiles(const double surroundings)

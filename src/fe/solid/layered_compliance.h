@@ -21,10 +21,9 @@ namespace sprag
   class LayeredCompliance
   {
   public:
-    /// `begin` ... `end`: part of the face where forces act, along xi [mm]. `spacing`: aimed at along xi between loads on the
-    /// bond, over the depth of the skin: with half of it runs in time are ten times nearer to plane stress. The body must outlive
-    /// this.
-    LayeredCompliance(const SolidBody &body, double begin, double end, double spacing = 1.);
+    /// `begin` ... `end`: part of the face where forces act, along xi [mm]. `spacing_over_depth`: of the loads on the bond along
+    /// xi, over the depth of the skin, > 0; the smaller, the less is left out. The body must outlive this.
+    LayeredCompliance(const SolidBody &body, double begin, double end, double spacing_over_depth = 1.);
 
     /// The columns of nodes that hold the given ports, as increasing ports. A port is a number among the face's displacements,
     /// sorted by the columns: see dof_of_port().

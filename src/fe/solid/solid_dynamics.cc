@@ -196,13 +196,13 @@ namespace sprag
   SolidInTime make_solid_in_time(const Scene &scene, const Mesh &plane)
   {
     SolidInTime result;
-    result.body              = std::make_unique<const SolidBody>(scene, plane);
-    const double room        = 0.1 * scene.geometry.cylinder_radius;
-    constexpr double spacing = 0.5; // over the skin's depth: ringing adds up what the compliance leaves out
-    const auto [first, last] = swept_contact(scene);
-    result.compliance        = std::make_unique<LayeredCompliance>(*result.body, first - room, last + room, spacing);
-    result.sensors           = std::make_unique<const SensorForces>(*result.body);
-    result.modes             = solid_modes(*result.body, inertia_of(scene), scene.spring.stiffness, scene.condensed.modes);
+    result.body                         = std::make_unique<const SolidBody>(scene, plane);
+    const double room                   = 0.1 * scene.geometry.cylinder_radius;
+    constexpr double spacing_over_depth = 0.5; // ringing adds up what the compliance leaves out
+    const auto [first, last]            = swept_contact(scene);
+    result.compliance = std::make_unique<LayeredCompliance>(*result.body, first - room, last + room, spacing_over_depth);
+    result.sensors    = std::make_unique<const SensorForces>(*result.body);
+    result.modes      = solid_modes(*result.body, inertia_of(scene), scene.spring.stiffness, scene.condensed.modes);
     return result;
   }
 
