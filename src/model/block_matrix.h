@@ -27,8 +27,6 @@ namespace sprag
   /// others, say the turn of a joint. So M is factorised block by block, D, and what stands beside the blocks, in few columns C,
   /// enters by Woodbury:
   ///   M = D + E,   x = D^-1 (b - E x_C),   (1 + (D^-1 E)_C) x_C = (D^-1 b)_C.
-  /// The factors of the blocks are numbers of type Number, double or, at half the cost, float.
-  template <class Number>
   class BlockMatrix
   {
   public:
@@ -46,8 +44,8 @@ namespace sprag
     {
       Places places;
       PortCompliance::Block of_ports;
-      dealii::LAPACKFullMatrix<Number> matrix;
-      dealii::LAPACKFullMatrix<Number> answers; ///< D^-1 E, a column for each of C
+      dealii::LAPACKFullMatrix<double> matrix;
+      dealii::LAPACKFullMatrix<double> answers; ///< D^-1 E, a column for each of C
     };
 
     std::vector<Block> blocks;

@@ -11,47 +11,10 @@ namespace sprag
 
   namespace
   {
-    /// Sixteen numbers in single precision that are computed with at once, see Lanes.
-    struct alignas(64) Sixteen
-    {
-      static constexpr unsigned int n = 16;
-
-      float values __attribute__((vector_size(4 * n))) = {};
-    };
-
-    /// Rows of numbers in single precision.
-    struct Rows
-    {
-      static constexpr unsigned int of_four = 4 * Sixteen::n;
-
-      Rows(const unsigned int n_rows, const unsigned int n_columns)
-          : stride((n_columns + of_four - 1) / of_four * 4)
-          , values(static_cast<std::size_t>(n_rows) * stride)
-      {
-      }
-
-      Sixteen *operator[](const unsigned int row)
-      {
-        return &values[static_cast<std::size_t>(row) * stride];
-      }
-
-      const Sixteen *operator[](const unsigned int row) const
-      {
-        return &values[static_cast<std::size_t>(row) * stride];
-      }
-
-      float &operator()(const unsigned int row, const unsigned int column)
-      {
-        return reinterpret_cast<float *>((*this)[row])[column];
-      }
-
-      unsigned int stride; ///< in groups of sixteen, a multiple of four
-      std::vector<Sixteen> values;
-    };
-
     /// Sets rows to minus the product of a matrix, most of which is 0, with others. The three rows of a node are alike in where
     /// they are not 0.
-    SPRAG_FOR_ANY_PROCESSOR void subtract_product(const FullMatrix<double> &sparse, const Rows &rows, Rows &result)
+    SPRAG_FOR_ANY_PROCESSOR void subtract_product(const FullMatrix<double> &sparse, const RowsOfSixteen &rows,
+                                                  RowsOfSixteen &result)
     {
       constexpr unsigned int n_alike = 3, n_together = 4; // whose sums stay in registers
       const auto n = static_cast<unsigned int>(sparse.n()), m = static_cast<unsigned int>(sparse.m());
@@ -69,7 +32,7 @@ namespace sprag
             factors[filled][a] = static_cast<float>(of_rows[a][k]);
           filled += of_rows[0][k] != 0. || of_rows[1][k] != 0. || of_rows[2][k] != 0. ? 1 : 0;
         }
-        for (unsigned int j = 0; j < rows.stride; j += n_together)
+        for (std::size_t j = 0; j < rows.groups(); j += n_together)
         {
           Sixteen sums[n_alike][n_together];
           for (unsigned int f = 0; f < filled; ++f)
@@ -82,29 +45,12 @@ namespace sprag
       }
     }
 
-    Rows compliance_among(const std::vector<unsigned int> &ports, const PortCompliance &compliance)
-    {
-      const auto n = static_cast<unsigned int>(ports.size());
-      Rows result(n, n);
-      for (const auto &block : compliance.blocks())
-      {
-        const auto [first, last] = block.places_among(ports);
-        for (unsigned int k = first; k < last; ++k)
-        {
-          const double *const row = &(*block.matrix)(ports[k] - block.begin, 0);
-          for (unsigned int j = first; j < last; ++j)
-            result(k, j) = static_cast<float>(row[ports[j] - block.begin]);
-        }
-      }
-      return result;
-    }
-
     /// The transpose of 1 - A G.
     std::unique_ptr<LAPACKFullMatrix<float>> transposed_matrix(const KeptTangent &kept, const PortCompliance &compliance)
     {
       const auto n    = static_cast<unsigned int>(kept.ports.size());
-      const auto rows = compliance_among(kept.ports, compliance);
-      Rows product(n, n);
+      const auto rows = rows_among(kept.ports, compliance);
+      RowsOfSixteen product(n, n);
       subtract_product(kept.matrix, rows, product);
       auto result = std::make_unique<LAPACKFullMatrix<float>>(n);
       for (unsigned int i = 0; i < n; ++i)

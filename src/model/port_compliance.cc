@@ -44,4 +44,21 @@ namespace sprag
       return 0.;
     return (*block->matrix)(row_port - block->begin, column_port - block->begin);
   }
+
+  RowsOfSixteen rows_among(const std::vector<unsigned int> &ports, const PortCompliance &compliance)
+  {
+    RowsOfSixteen result(ports.size(), ports.size());
+    for (const auto &block : compliance.blocks())
+    {
+      const auto [first, last] = block.places_among(ports);
+      for (unsigned int k = first; k < last; ++k)
+      {
+        const double *const row = &(*block.matrix)(ports[k] - block.begin, 0);
+        float *const filled     = &result(k, 0);
+        for (unsigned int j = first; j < last; ++j)
+          filled[j] = static_cast<float>(row[ports[j] - block.begin]);
+      }
+    }
+    return result;
+  }
 } // namespace sprag

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "base/sixteen.h"
+
 #include <deal.II/lac/full_matrix.h>
 
 #include <memory>
@@ -50,4 +52,7 @@ namespace sprag
   private:
     std::vector<Block> diagonal;
   };
+
+  /// Rows of the compliance among some ports, increasing, in single precision.
+  RowsOfSixteen rows_among(const std::vector<unsigned int> &ports, const PortCompliance &compliance);
 } // namespace sprag

@@ -3,10 +3,12 @@
 #include "base/errors.h"
 #include "model/block_product.h"
 #include "model/port_matrix.h"
+#include "model/reduced_factors.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 namespace sprag
 {
@@ -14,10 +16,8 @@ namespace sprag
 
   namespace
   {
-    constexpr std::size_t few_ports         = 12; ///< up to so many to look for what is zero takes longer than to compute with it
-    constexpr std::size_t many_ports        = 128; ///< from so many on most of a Newton correction are its factors
-    constexpr unsigned int most_refinements = 5;
-    constexpr double refined                = 1e-10; ///< what is left of the right-hand side
+    constexpr std::size_t few_ports  = 12;  ///< up to so many to look for what is zero takes longer than to compute with it
+    constexpr std::size_t many_ports = 128; ///< from so many on most of a Newton correction are its factors
 
     /// Solves (1 - G A) x = b on ports of a single block: x is b before, and the solution after. By factors, not by the inverse,
     /// which is no more accurate than the matrix is well conditioned.
@@ -39,33 +39,39 @@ namespace sprag
       matrix.solve(x);
     }
 
-    /// b - (1 - G A) x.
-    Vector<double> remainder(const PortCompliance &compliance, const std::vector<unsigned int> &ports,
-                             const FullMatrix<double> &tangent, const Vector<double> &b, const Vector<double> &x)
+    /// Forces of a tangent A that answer to displacements z, (1 - A G) f = A z: by factors of single precision, at half the cost
+    /// and less, whose errors are found in turn. None where that fails: badly conditioned tangents do not let it.
+    std::optional<Vector<double>> reaction_by_refinement(const PortCompliance &compliance, const std::vector<unsigned int> &ports,
+                                                         const FullMatrix<double> &tangent, const Vector<double> &displacements)
+    try
     {
-      Vector<double> forces(x.size()), displacements(compliance.size()), result(b);
-      tangent.vmult(forces, x);
-      add_response(compliance, ports, forces, ports, displacements);
-      for (unsigned int i = 0; i < result.size(); ++i)
-        result[i] += displacements[ports[i]] - x[i];
+      constexpr double refined = 1e-8; // what may be left of the right-hand side
+      constexpr double aim     = 1e-3; // of what is left, by a refinement
+      constexpr double least   = 0.5;
+      const ReducedFactors factors(compliance, ports, tangent);
+      Vector<double> wanted(displacements.size()), result(displacements.size());
+      factors.add_forces(displacements, wanted);
+      Vector<double> rest = wanted;
+      const double size   = factors.size(wanted);
+      for (double before = size, left = before; left > refined * size; before = left)
+      {
+        factors.add_solution(rest, aim, result);
+        Vector<double> moved(compliance.size()), followed(result.size());
+        add_response(compliance, ports, result, ports, moved);
+        for (unsigned int j = 0; j < result.size(); ++j)
+          followed[j] = moved[ports[j]];
+        rest = wanted;
+        rest -= result;
+        factors.add_forces(followed, rest);
+        left = factors.size(rest);
+        if (!(left < least * before))
+          return {};
+      }
       return result;
     }
-
-    /// Solves by factors of single precision, at half the cost, and refines what they find. Returns whether that converged: badly
-    /// conditioned tangents do not let it.
-    bool solve_by_refinement(const PortCompliance &compliance, const std::vector<unsigned int> &ports,
-                             const FullMatrix<double> &tangent, const Vector<double> &b, Vector<double> &x)
+    catch (const ExceptionBase &)
     {
-      const PortMatrix<float> factors(compliance, ports, tangent);
-      x.reinit(b.size());
-      Vector<double> left = b;
-      for (unsigned int i = 0; i <= most_refinements && left.l2_norm() > refined * b.l2_norm(); ++i)
-      {
-        factors.solve(left);
-        x += left;
-        left = remainder(compliance, ports, tangent, b, x);
-      }
-      return left.l2_norm() <= refined * b.l2_norm();
+      return {};
     }
   } // namespace
 
@@ -118,30 +124,29 @@ namespace sprag
   double port_determinant(const PortCompliance &compliance, const std::vector<unsigned int> &ports,
                           const FullMatrix<double> &tangent)
   {
-    return PortMatrix<double>(compliance, ports, tangent).determinant();
+    return PortMatrix(compliance, ports, tangent).determinant();
   }
 
   Vector<double> port_reaction(const PortCompliance &compliance, const std::vector<unsigned int> &ports,
                                const FullMatrix<double> &tangent, const Vector<double> &displacements)
   {
-    Vector<double> change = displacements;
     try
     {
+      if (ports.size() >= many_ports)
+        if (const auto forces = reaction_by_refinement(compliance, ports, tangent, displacements))
+          return *forces;
+      Vector<double> change = displacements, forces(displacements.size());
       if (ports.size() <= few_ports && compliance.blocks().size() == 1)
         solve_whole(compliance, ports, tangent, change);
-      else if (ports.size() < many_ports || !solve_by_refinement(compliance, ports, tangent, displacements, change))
-      {
-        change = displacements;
-        PortMatrix<double>(compliance, ports, tangent).solve(change);
-      }
+      else
+        PortMatrix(compliance, ports, tangent).solve(change);
+      tangent.vmult(forces, change);
+      return forces;
     }
     catch (const ExceptionBase &)
     {
       throw AnalysisError("the tangent of the contact is singular");
     }
-    Vector<double> forces(change.size());
-    tangent.vmult(forces, change);
-    return forces;
   }
 
   PortSelection all_ports(const unsigned int number)

@@ -27,9 +27,8 @@ namespace sprag
     }
   } // namespace
 
-  template <class Number>
-  PortMatrix<Number>::PortMatrix(const PortCompliance &compliance, const std::vector<unsigned int> &ports,
-                                 const FullMatrix<double> &tangent)
+  PortMatrix::PortMatrix(const PortCompliance &compliance, const std::vector<unsigned int> &ports,
+                         const FullMatrix<double> &tangent)
   {
     for (const auto &block : compliance.blocks())
     {
@@ -43,9 +42,8 @@ namespace sprag
       make_border(compliance, ports, tangent);
   }
 
-  template <class Number>
-  void PortMatrix<Number>::make_border(const PortCompliance &compliance, const std::vector<unsigned int> &ports,
-                                       const FullMatrix<double> &tangent)
+  void PortMatrix::make_border(const PortCompliance &compliance, const std::vector<unsigned int> &ports,
+                               const FullMatrix<double> &tangent)
   {
     const auto n = static_cast<unsigned int>(border.size()), n_inner = static_cast<unsigned int>(inner.size());
     const auto inner_ports = some_of(ports, inner);
@@ -78,8 +76,7 @@ namespace sprag
     of_border.compute_lu_factorization();
   }
 
-  template <class Number>
-  void PortMatrix<Number>::solve(Vector<double> &values) const
+  void PortMatrix::solve(Vector<double> &values) const
   {
     const auto n = static_cast<unsigned int>(border.size()), n_inner = static_cast<unsigned int>(inner.size());
     Vector<double> of_inside(n_inner), of_edge(n);
@@ -105,12 +102,9 @@ namespace sprag
       values[border[b]] = of_edge[b];
   }
 
-  template <class Number>
-  double PortMatrix<Number>::determinant() const
+  double PortMatrix::determinant() const
   {
     return (of_inner ? of_inner->determinant() : 1.) * (border.empty() ? 1. : of_border.determinant());
   }
 
-  template class PortMatrix<double>;
-  template class PortMatrix<float>;
 } // namespace sprag

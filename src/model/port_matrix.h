@@ -8,9 +8,7 @@ namespace sprag
 {
   /// Factors of M = 1 - G A on some of the ports, A = df/dz. Ports that follow no others, B (a hub on its spring, a support),
   /// have forces that follow all displacements: they border the matrix of the others, I.
-  /// Number is that of BlockMatrix.
   ///   S = M_BB - M_BI M_II^-1 M_IB,   x_B = S^-1 (b_B - M_BI M_II^-1 b_I),   x_I = M_II^-1 b_I - M_II^-1 M_IB x_B.
-  template <class Number>
   class PortMatrix
   {
   public:
@@ -30,7 +28,7 @@ namespace sprag
 
     Places inner;  ///< I
     Places border; ///< B
-    std::optional<BlockMatrix<Number>> of_inner;
+    std::optional<BlockMatrix> of_inner;
     dealii::FullMatrix<double> below;           ///< M_BI
     dealii::FullMatrix<double> aside;           ///< M_II^-1 M_IB
     dealii::LAPACKFullMatrix<double> of_border; ///< S

@@ -1,0 +1,184 @@
+#include "model/reduced_factors.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sprag
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// Sets an entry of the result for each of some rows: its product with a vector.
+    SPRAG_FOR_ANY_PROCESSOR void multiply(const RowsOfSixteen &matrix, const std::vector<unsigned int> &rows,
+                                          const RowsOfSixteen &vector, float *const result)
+    {
+      constexpr unsigned int together = 4; // whose sums stay in registers
+      const auto n                    = static_cast<unsigned int>(rows.size());
+      for (unsigned int i = 0; i < n; i += together)
+      {
+        const Sixteen *of[together];
+        for (unsigned int t = 0; t < together; ++t)
+          of[t] = matrix[rows[std::min(i + t, n - 1)]];
+        Sixteen sums[together];
+        for (std::size_t g = 0; g < matrix.groups(); ++g)
+          for (unsigned int t = 0; t < together; ++t)
+            sums[t].values += of[t][g].values * vector[0][g].values;
+        for (unsigned int t = 0; t < std::min(together, n - i); ++t)
+          result[i + t] = sum(sums[t]);
+      }
+    }
+
+    SPRAG_FOR_ANY_PROCESSOR void add(const float factor, const Sixteen *const some, const std::size_t n_groups,
+                                     Sixteen *const result)
+    {
+      for (std::size_t g = 0; g < n_groups; ++g)
+        result[g].values += factor * some[g].values;
+    }
+
+    void add(const float factor, const RowsOfSixteen &some, RowsOfSixteen &result)
+    {
+      add(factor, some[0], some.groups(), result[0]);
+    }
+
+    SPRAG_FOR_ANY_PROCESSOR float dot(const RowsOfSixteen &a, const RowsOfSixteen &b)
+    {
+      Sixteen result;
+      for (std::size_t g = 0; g < a.groups(); ++g)
+        result.values += a[0][g].values * b[0][g].values;
+      return sum(result);
+    }
+  } // namespace
+
+  ReducedFactors::ReducedFactors(const PortCompliance &of_ports, const std::vector<unsigned int> &ports,
+                                 const FullMatrix<double> &of_contact)
+      : n(static_cast<unsigned int>(ports.size()))
+      , units(n, 1.)
+      , compliance(rows_among(ports, of_ports))
+      , tangent(n)
+  {
+    for (unsigned int i = 0; i < n; ++i)
+      if (const double own = of_ports(ports[i], ports[i]); own > 0.)
+        units[i] = std::sqrt(own);
+    for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int j = 0; j < n; ++j)
+      {
+        compliance(i, j) /= static_cast<float>(units[i] * units[j]);
+        if (of_contact(i, j) != 0.)
+          tangent[i].push_back({ j, units[i] * of_contact(i, j) * units[j] });
+      }
+    sort_columns();
+    if (!heavy.empty())
+      reduce();
+  }
+
+  /// Heavy are those where a displacement, by the forces that follow it, displaces the ports many times as much.
+  void ReducedFactors::sort_columns()
+  {
+    constexpr double many = 10.;
+    std::vector<double> weights(n, 0.);
+    for (const auto &row : tangent)
+      for (const auto &[column, value] : row)
+        weights[column] += std::abs(value);
+    const auto n_heavy = std::count_if(weights.begin(), weights.end(), [](const double weight) { return weight > many; });
+    for (unsigned int j = 0; j < n; ++j)
+      (2 * n_heavy > n || weights[j] > many ? heavy : light).push_back(j);
+  }
+
+  /// Makes the factors of S.
+  void ReducedFactors::reduce()
+  {
+    const auto n_heavy = static_cast<unsigned int>(heavy.size());
+    std::vector<unsigned int> column_of(n, n_heavy);
+    for (unsigned int j = 0; j < n_heavy; ++j)
+      column_of[heavy[j]] = j;
+    RowsOfSixteen columns(n_heavy, n_heavy), of_port(1, n_heavy);
+    for (unsigned int k = 0; k < n; ++k)
+    {
+      for (unsigned int i = 0; i < n_heavy; ++i)
+        of_port(0, i) = compliance(k, heavy[i]);
+      for (const auto &[column, value] : tangent[k])
+        if (column_of[column] < n_heavy)
+          add(static_cast<float>(-value), of_port[0], of_port.groups(), columns[column_of[column]]);
+    }
+    reduced.reinit(n_heavy);
+    for (unsigned int j = 0; j < n_heavy; ++j)
+    {
+      std::copy_n(&columns(j, 0), n_heavy, &reduced(0, j));
+      reduced(j, j) += 1.f;
+    }
+    reduced.compute_lu_factorization();
+  }
+
+  void ReducedFactors::add_solution(const Vector<double> &r, const double left, Vector<double> &forces) const
+  {
+    constexpr unsigned int most_repetitions = 10;
+    RowsOfSixteen rest(1, n), found(1, n);
+    for (unsigned int i = 0; i < n; ++i)
+      rest(0, i) = static_cast<float>(units[i] * r[i]);
+    const float enough = static_cast<float>(left * left) * dot(rest, rest);
+    struct Change
+    {
+      RowsOfSixteen forces;
+      RowsOfSixteen image; ///< (1 - A G) of these, orthogonal to those before
+      float size;          ///< squared, of the image
+    };
+    std::vector<Change> changes;
+    while (dot(rest, rest) > enough && changes.size() < most_repetitions)
+    {
+      Change change{ rest, rest, 0.f };
+      auto followed = displacements_at(heavy, rest);
+      if (!heavy.empty())
+        reduced.solve(followed);
+      add_forces(1.f, heavy, followed, change.forces);
+      add_forces(-1.f, light, displacements_at(light, change.forces), change.image);
+      for (const auto &before : changes)
+      {
+        const float share = dot(change.image, before.image) / before.size;
+        add(-share, before.image, change.image);
+        add(-share, before.forces, change.forces);
+      }
+      change.size       = dot(change.image, change.image);
+      const float share = dot(rest, change.image) / change.size;
+      add(share, change.forces, found);
+      add(-share, change.image, rest);
+      changes.push_back(std::move(change));
+    }
+    for (unsigned int i = 0; i < n; ++i)
+      forces[i] += found(0, i) / units[i];
+  }
+
+  void ReducedFactors::add_forces(const Vector<double> &displacements, Vector<double> &forces) const
+  {
+    for (unsigned int i = 0; i < n; ++i)
+      for (const auto &[column, value] : tangent[i])
+        forces[i] += value * displacements[column] / (units[i] * units[column]);
+  }
+
+  double ReducedFactors::size(const Vector<double> &forces) const
+  {
+    double result = 0.;
+    for (unsigned int i = 0; i < n; ++i)
+      result += std::pow(units[i] * forces[i], 2);
+    return std::sqrt(result);
+  }
+
+  Vector<float> ReducedFactors::displacements_at(const Places &places, const RowsOfSixteen &forces) const
+  {
+    Vector<float> result(static_cast<unsigned int>(places.size()));
+    multiply(compliance, places, forces, result.begin());
+    return result;
+  }
+
+  /// Adds those that follow displacements at some places.
+  void ReducedFactors::add_forces(const float factor, const Places &places, const Vector<float> &displacements,
+                                  RowsOfSixteen &forces) const
+  {
+    std::vector<float> of_ports(n);
+    for (unsigned int i = 0; i < places.size(); ++i)
+      of_ports[places[i]] = factor * displacements[i];
+    for (unsigned int i = 0; i < n; ++i)
+      for (const auto &[column, value] : tangent[i])
+        forces(0, i) += static_cast<float>(value) * of_ports[column];
+  }
+} // namespace sprag

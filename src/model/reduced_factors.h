@@ -1,0 +1,54 @@
+#pragma once
+
+#include "base/sixteen.h"
+#include "model/port_compliance.h"
+
+#include <deal.II/lac/lapack_full_matrix.h>
+#include <deal.II/lac/vector.h>
+
+namespace sprag
+{
+  /// Solves (1 - A G) f = r on some of the ports, A = df/dz, in single precision. Where a contact slides its forces follow the
+  /// gaps and hardly anything else: few columns of A matter, the heavy ones H. By them alone
+  ///   f = r + A_H s,   S s = (G r)_H,   S = 1 - (G A)_HH.
+  /// That preconditions a method of minimal residuals (GCR: Eisenstat, Elman and Schultz 1983), which finds in a few repetitions
+  /// what the other columns do. Where most columns matter all are heavy. Inside, forces are measured by what they move:
+  /// otherwise the moment of a hub would hide forces on a face, and round-off of the one drown the others.
+  class ReducedFactors
+  {
+  public:
+    /// Throws an exception of deal.II where S is singular.
+    ReducedFactors(const PortCompliance &compliance, const std::vector<unsigned int> &ports,
+                   const dealii::FullMatrix<double> &tangent);
+
+    /// Adds f to forces, up to `left` of the size of r where that can be had.
+    void add_solution(const dealii::Vector<double> &r, double left, dealii::Vector<double> &forces) const;
+
+    /// Adds A z, in double precision.
+    void add_forces(const dealii::Vector<double> &displacements, dealii::Vector<double> &forces) const;
+
+    /// The size of forces as they are measured here.
+    double size(const dealii::Vector<double> &forces) const;
+
+  private:
+    using Places = std::vector<unsigned int>; ///< among the ports, increasing
+
+    struct Entry
+    {
+      unsigned int column;
+      double value;
+    };
+
+    unsigned int n;
+    std::vector<double> units;               ///< root of the compliance of each port
+    RowsOfSixteen compliance;                ///< in these, as all that follows
+    std::vector<std::vector<Entry>> tangent; ///< row by row, what is not 0
+    Places heavy, light;
+    dealii::LAPACKFullMatrix<float> reduced; ///< factors of S
+
+    void sort_columns();
+    void reduce();
+    dealii::Vector<float> displacements_at(const Places &places, const RowsOfSixteen &forces) const;
+    void add_forces(float factor, const Places &places, const dealii::Vector<float> &displacements, RowsOfSixteen &forces) const;
+  };
+} // namespace sprag
