@@ -16,8 +16,8 @@ namespace sprag
 
   namespace
   {
-    constexpr std::size_t few_ports  = 12;  ///< up to so many to look for what is zero takes longer than to compute with it
-    constexpr std::size_t many_ports = 128; ///< from so many on most of a Newton correction are its factors
+    constexpr std::size_t few_ports  = 12; ///< up to so many to look for what is zero takes longer than to compute with it
+    constexpr std::size_t many_ports = 64; ///< from so many on most of a Newton correction are its factors
 
     /// Solves (1 - G A) x = b on ports of a single block: x is b before, and the solution after. By factors, not by the inverse,
     /// which is no more accurate than the matrix is well conditioned.
