@@ -16,8 +16,8 @@ namespace sprag
 
   namespace
   {
-    constexpr std::size_t few_ports  = 12; ///< up to so many to look for what is zero takes longer than to compute with it
-    constexpr std::size_t many_ports = 64; ///< from so many on most of a Newton correction are its factors
+    constexpr std::size_t few_ports  = 12;  ///< up to so many to look for what is zero takes longer than to compute with it
+    constexpr std::size_t many_ports = 128; ///< from so many on most of a Newton correction are its factors
 
     /// Solves (1 - G A) x = b on ports of a single block: x is b before, and the solution after. By factors, not by the inverse,
     /// which is no more accurate than the matrix is well conditioned.
@@ -39,35 +39,39 @@ namespace sprag
       matrix.solve(x);
     }
 
-    /// Forces of a tangent A that answer to displacements z, (1 - A G) f = A z: by factors of single precision, at half the cost
-    /// and less, whose errors are found in turn. None where that fails: badly conditioned tangents do not let it.
+    /// Forces of a tangent A that answer to displacements z, f = A (z + G f): by factors of single precision, at half the cost
+    /// and less, whose errors are found in turn. What they may leave unbalanced is told by what it would move, as Newton's method
+    /// looks at that: forces follow displacements so strongly that a small share of them is a large share of these. None where
+    /// that fails: badly conditioned tangents do not let it.
     std::optional<Vector<double>> reaction_by_refinement(const PortCompliance &compliance, const std::vector<unsigned int> &ports,
                                                          const FullMatrix<double> &tangent, const Vector<double> &displacements)
     try
     {
-      constexpr double refined = 1e-8; // what may be left of the right-hand side
-      constexpr double aim     = 1e-3; // of what is left, by a refinement
-      constexpr double least   = 0.5;
+      constexpr unsigned int most_refinements = 12;
+      constexpr double refined                = 1e-10; // what may be left, of the displacements
+      constexpr double aim                    = 1e-3;  // of what is left, by a refinement
       const ReducedFactors factors(compliance, ports, tangent);
-      Vector<double> wanted(displacements.size()), result(displacements.size());
-      factors.add_forces(displacements, wanted);
-      Vector<double> rest = wanted;
-      const double size   = factors.size(wanted);
-      for (double before = size, left = before; left > refined * size; before = left)
+      const auto response = [&](const Vector<double> &forces)
+      {
+        Vector<double> of_all(compliance.size()), result(forces.size());
+        add_response(compliance, ports, forces, ports, of_all);
+        for (unsigned int i = 0; i < result.size(); ++i)
+          result[i] = of_all[ports[i]];
+        return result;
+      };
+      Vector<double> result(displacements.size()), rest(displacements.size());
+      factors.add_forces(displacements, rest);
+      for (unsigned int i = 0; i < most_refinements; ++i)
       {
         factors.add_solution(rest, aim, result);
-        Vector<double> moved(compliance.size()), followed(result.size());
-        add_response(compliance, ports, result, ports, moved);
-        for (unsigned int j = 0; j < result.size(); ++j)
-          followed[j] = moved[ports[j]];
-        rest = wanted;
-        rest -= result;
-        factors.add_forces(followed, rest);
-        left = factors.size(rest);
-        if (!(left < least * before))
-          return {};
+        auto moved = response(result);
+        moved += displacements;
+        rest.equ(-1., result);
+        factors.add_forces(moved, rest);
+        if (factors.movement(response(rest)) <= refined * factors.movement(displacements))
+          return result;
       }
-      return result;
+      return {};
     }
     catch (const ExceptionBase &)
     {

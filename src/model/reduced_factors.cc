@@ -163,6 +163,14 @@ namespace sprag
     return std::sqrt(result);
   }
 
+  double ReducedFactors::movement(const Vector<double> &displacements) const
+  {
+    double result = 0.;
+    for (unsigned int i = 0; i < n; ++i)
+      result += std::pow(displacements[i] / units[i], 2);
+    return std::sqrt(result);
+  }
+
   Vector<float> ReducedFactors::displacements_at(const Places &places, const RowsOfSixteen &forces) const
   {
     Vector<float> result(static_cast<unsigned int>(places.size()));

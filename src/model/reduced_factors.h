@@ -27,8 +27,9 @@ namespace sprag
     /// Adds A z, in double precision.
     void add_forces(const dealii::Vector<double> &displacements, dealii::Vector<double> &forces) const;
 
-    /// The size of forces as they are measured here.
+    /// The sizes of forces and of displacements as they are measured here.
     double size(const dealii::Vector<double> &forces) const;
+    double movement(const dealii::Vector<double> &displacements) const;
 
   private:
     using Places = std::vector<unsigned int>; ///< among the ports, increasing
