@@ -64,6 +64,8 @@ namespace
     case Kind::choice:
       return parameter.rule.choices;
     case Kind::text:
+      if (full_name(parameter) == "Condensed/Cache")
+        return { (folder.path / "other").string() };
       return { "none", "Lever/Width", folder.path };
     case Kind::file:
       break;
