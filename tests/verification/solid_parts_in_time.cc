@@ -191,11 +191,14 @@ namespace
   }
 } // namespace
 
+// What steps of the plane leave out, 1e-8 of the overlap, makes up to 7e-7 of the peak of P, more or less by the kernels of
+// OpenBLAS, and twice that of the kinetic energy.
 TEST(SolidPartsInTime, ALeverMovesAsInThePlane)
 {
   const auto runs = run_both(hardly_ringing());
-  for (const Column column : { Column::P, Column::Q, Column::theta, Column::kinetic_energy })
+  for (const Column column : { Column::P, Column::Q, Column::theta })
     EXPECT_LT(difference(runs.plane, runs.solid, column), 1e-6) << column_info(column).name;
+  EXPECT_LT(difference(runs.plane, runs.solid, Column::kinetic_energy), 2e-6);
 }
 
 TEST(SolidPartsInTime, ALeafSpringAndATipMassMoveAsInThePlane)
