@@ -78,10 +78,9 @@ namespace sprag
 
   SPRAG_PART double sum(const Lanes &value)
   {
-    double result = 0.;
-    for (unsigned int i = 0; i < n_lanes; ++i)
-      result += value[i];
-    return result;
+    using Half        = double __attribute__((vector_size(32)));
+    const Half halves = __builtin_shufflevector(value, value, 0, 1, 2, 3) + __builtin_shufflevector(value, value, 4, 5, 6, 7);
+    return (halves[0] + halves[2]) + (halves[1] + halves[3]);
   }
 
   SPRAG_PART double largest(const Lanes &value)

@@ -68,6 +68,7 @@ namespace sprag
       SurfaceEvaluation found;
       contact->begin_step({ begin, from_x });
       contact->evaluate({ end, x }, {}, 0., StaticTerms{ { CoulombFriction{ friction } }, 1. }, found);
+      contact->add_points(found);
       return found;
     }
 

@@ -122,6 +122,152 @@ TEST_P(StepInLanesOfAnAxis, AStepInTimeFollowsTheLawsAtEachPoint)
   }
 }
 
+namespace
+{
+  /// What a place `travel` before a point on its line tells of a quantity of points, between two of them; nothing beyond the
+  /// line.
+  template <class Quantity>
+  std::optional<double> before(const std::vector<FacePoint<3>> &points, const unsigned int point, const double travel,
+                               const Quantity &of_point)
+  {
+    const double xi = points[point].position[0] - travel;
+    std::optional<unsigned int> below, above;
+    for (unsigned int q = 0; q < points.size(); ++q)
+      if (std::abs(points[q].position[2] - points[point].position[2]) < 1e-6)
+      {
+        const double at = points[q].position[0];
+        if (at <= xi && (!below || at > points[*below].position[0]))
+          below = q;
+        if (at > xi && (!above || at < points[*above].position[0]))
+          above = q;
+      }
+    if (!below || !above)
+      return {};
+    const double from = points[*below].position[0], to = points[*above].position[0];
+    return of_point(*below) + (xi - from) / (to - from) * (of_point(*above) - of_point(*below));
+  }
+} // namespace
+
+TEST_P(StepInLanesOfAnAxis, AStepWithoutInertiaFollowsTheLawsAtEachPoint)
+{
+  Cylinder cylinder     = skewed(GetParam());
+  cylinder.length       = 40.;
+  cylinder.edge_radius  = 4.;
+  cylinder.crown_radius = 8000.;
+  const RigidCylinder rigid(model_a().geometry, cylinder);
+  const double run = 0.3;
+  for (const auto &friction : { FrictionLaw{ CoulombFriction{ 0.4 } }, FrictionLaw{ CoulombFriction{ 50. } }, FrictionLaw{},
+                                FrictionLaw{ StribeckFriction{} } })
+    for (const auto mode : { FrictionMode::cone, FrictionMode::stick })
+      for (const bool augmented : { false, true })
+      {
+        Bed bed(cylinder, 12.5, 6);
+        const StaticTerms terms{ friction, 6e-3, mode, augmented, 0.31, 1.2 };
+        const auto step = [&](const auto &from, const auto &to, const double x, const std::vector<SurfaceMemory> &memory)
+        {
+          SurfaceEvaluation found;
+          bed.surface().begin_step({ from, x - 0.7 });
+          bed.surface().evaluate({ to, x }, memory, run, terms, found);
+          bed.surface().add_points(found);
+          return found;
+        };
+        const auto begin = bed.pressed(0.1);
+        auto end         = bed.pressed(0.03);
+        for (unsigned int port = 0; port < bed.ports.surface; ++port)
+          end[port] += 1e-3 * std::sin(1.3 * port);
+        auto memory = step(bed.pressed(0.12), begin, Bed::x - 0.7, {}).memory();
+        ASSERT_GT(memory.size(), 50u);
+        for (auto &entry : memory)
+          entry.normal_multiplier = augmented ? 0.1 * (1. + std::sin(0.7 * entry.point)) : 0.;
+        const auto found = step(begin, end, Bed::x, memory);
+
+        StepContactLaw law;
+        law.normal        = { bed.surface().penalties().normal, 1. };
+        law.tangential    = bed.surface().penalties().tangential;
+        law.friction      = friction;
+        law.balance       = ForceBalance::end;
+        law.mode          = mode;
+        law.weights.dt    = terms.duration;
+        const auto turned = [&](const dealii::Vector<double> &ports) {
+          return bed.ports.slopes > 0 ? AxisSlopes{ { ports[bed.ports.slope(0)], ports[bed.ports.slope(1)] } } : AxisSlopes{};
+        };
+        const auto hub         = bed.ports.rotation();
+        const auto at_end      = rigid.pose(Bed::x, end[hub], turned(end));
+        const auto at_begin    = rigid.pose(Bed::x - 0.7, begin[hub], turned(begin));
+        const auto &points     = bed.points();
+        const auto slips_begin = [&](const unsigned int q)
+        {
+          auto from = points[q].position;
+          for (const auto &[node, shape] : points[q].nodes)
+            for (unsigned int d = 0; d < 3; ++d)
+              from[d] += shape * begin[3 * node + d];
+          return rigid.slips(at_begin, from);
+        };
+        const auto remembered = [&](const unsigned int q)
+        {
+          const auto known = std::find_if(memory.begin(), memory.end(), [q](const auto &entry) { return entry.point == q; });
+          return known != memory.end() ? *known : SurfaceMemory{};
+        };
+        double moment = 0., compression = 0.;
+        unsigned int pressed = 0, shifted = 0;
+        for (const auto &state : found.points)
+        {
+          const auto &point = points[state.index];
+          const auto was    = remembered(state.index);
+          const auto placed = rigid.kinematics(at_end, state.position);
+          EXPECT_NEAR(state.trial_pressure, was.normal_multiplier - law.normal.stiffness * placed.gap, 1e-9);
+          if (state.trial_pressure <= 0.)
+          {
+            EXPECT_EQ(state.pressure, 0.);
+            continue;
+          }
+          const auto from    = slips_begin(state.index);
+          auto kinematics    = StepKinematics<7, 2>();
+          kinematics.gap_end = placed.gap;
+          kinematics.gap_row = placed.gap_row;
+          for (unsigned int s = 0; s < 2; ++s)
+          {
+            kinematics.slip_change[s] = placed.slip[s] - from[s] + (s == 0 ? run : 0.);
+            kinematics.slip_row[s]    = placed.slip_row[s];
+          }
+          double slope = placed.slip_row[0][0], shift = 0., elastic = 0.;
+          for (unsigned int a = 0; a < point.nodes.size(); ++a)
+            for (unsigned int d = 0; d < 3; ++d)
+              slope += placed.slip_row[0][d] * point.slopes[a] * end[3 * point.nodes[a].first + d];
+          if (const auto slip = before(points, state.index, terms.travel, [&](const auto q) { return slips_begin(q)[0]; }))
+          {
+            const auto traction =
+                before(points, state.index, terms.travel, [&](const auto q) { return remembered(q).traction[0]; });
+            shift   = from[0] - *slip - terms.travel * slope;
+            elastic = augmented ? 0. : (*traction - was.traction[0]) / law.tangential;
+            ++shifted;
+          }
+          kinematics.slip_shift[0] = shift + elastic;
+          const auto expected      = end_response(kinematics, was, law);
+          const double scale       = 1e-9; // of round-off that stiff springs make of places
+          EXPECT_NEAR(state.pressure, expected.pressure, scale);
+          EXPECT_LT((state.traction - expected.traction).norm(), scale);
+          EXPECT_NEAR(state.mu, expected.mu, scale);
+          EXPECT_EQ(state.slipping, expected.slipping);
+          EXPECT_NEAR(state.slip_change[0], terms.speed_ratio * (kinematics.slip_change[0] + shift), scale);
+          EXPECT_NEAR(state.slip_change[1], terms.speed_ratio * kinematics.slip_change[1], scale);
+          EXPECT_NEAR(state.elastic_slip,
+                      (expected.traction - (augmented ? was.traction : dealii::Tensor<1, 2>())).norm() / law.tangential, scale);
+          for (unsigned int i = 0; i < 5; ++i)
+            EXPECT_NEAR(state.end_force[i], expected.force[i], 1e-7 * expected.force.norm());
+          moment += point.weight * expected.force[3];
+          compression = std::max(compression, expected.pressure / law.normal.stiffness);
+          ++pressed;
+        }
+        EXPECT_GT(pressed, 50u);
+        EXPECT_GT(shifted, 50u);
+        EXPECT_NEAR(found.compression, compression, 1e-10);
+        const auto &forces = found.forces;
+        const auto place   = std::find(forces.ports.begin(), forces.ports.end(), hub) - forces.ports.begin();
+        EXPECT_NEAR(forces.values[static_cast<unsigned int>(place)], moment, 1e-9 * std::abs(moment));
+      }
+}
+
 // A tangent that is asked for afterwards is that which comes with the forces.
 TEST_P(StepInLanesOfAnAxis, TheTangentOfTheLastForcesIsTheirs)
 {

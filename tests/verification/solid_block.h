@@ -239,6 +239,7 @@ namespace sprag
           elastic, 1e-14, evaluate, [&] { return window.correction(found.forces); },
           [&](const dealii::Vector<double> &change) { return window.largest(change); }, [&] { return found.compression; });
       EXPECT_TRUE(result.converged) << place;
+      contact.add_points(found);
       for (const unsigned int port : found.forces.ports)
         EXPECT_TRUE(!ports.is_surface(port) || std::binary_search(near.ports.begin(), near.ports.end(), port)) << port;
     }

@@ -170,6 +170,14 @@ namespace sprag
       widen_reach(trial, mode);
   }
 
+  /// The last evaluation with its points: Newton's method needs none.
+  const SurfaceEvaluation &SolidLever::with_points() const
+  {
+    if (found.points.empty())
+      contact.add_points(found);
+    return found;
+  }
+
   /// Evaluates again with more ports, which begin with what the forces there make of them.
   void SolidLever::widen_reach(State &trial, const FrictionMode mode)
   {
@@ -232,7 +240,7 @@ namespace sprag
 
   double SolidLever::penetration() const
   {
-    return augments() ? multipliers.largest_change(found.points, memory) / contact.penalties().normal : found.compression;
+    return augments() ? multipliers.largest_change(with_points().points, memory) / contact.penalties().normal : found.compression;
   }
 
   bool SolidLever::augments() const
@@ -243,7 +251,7 @@ namespace sprag
   std::string SolidLever::objection(const State &trial) const
   {
     Row row;
-    view.observe_resultants(found, row);
+    view.observe_resultants(with_points(), row);
     const double s    = row[Column::s];
     const double mu_e = row[Column::mu] * properties.interface_offset;
     if (direction_of(trial.drive.v) < 0 && row[Column::F] < 0. && s <= mu_e)
@@ -263,12 +271,12 @@ namespace sprag
 
   void SolidLever::augment(State &trial) const
   {
-    trial.surface_contact = multipliers.augmented(found.points);
+    trial.surface_contact = multipliers.augmented(with_points().points);
   }
 
   void SolidLever::remember(State &state) const
   {
-    state.surface_contact = augments() ? multipliers.augmented(found.points) : found.memory();
+    state.surface_contact = augments() ? multipliers.augmented(with_points().points) : with_points().memory();
   }
 
   void SolidLever::visit_history(Archive &archive)

@@ -91,6 +91,7 @@ namespace sprag
     PortLoads interpolation(const std::vector<unsigned int> &line, double xi) const;
     double indentation(const Row &row, const State &trial) const;
     bool augments() const;
+    const SurfaceEvaluation &with_points() const;
 
     const SolidBody &body;
     const LeverProperties properties;
@@ -111,7 +112,7 @@ namespace sprag
     dealii::Vector<double> begin; ///< displacements of the ports
     PortLoads begin_forces;
 
-    SurfaceEvaluation found;
+    mutable SurfaceEvaluation found;   ///< its points where with_points() was called for them
     std::vector<SurfaceMemory> memory; ///< and multipliers that it was evaluated with
     PortForces forces;                 ///< of the contact and of the spring beyond its linear part, at the last evaluation
   };

@@ -24,7 +24,7 @@ namespace sprag
     const double support       = properties.support_stiffness.value_or(0.);
     row[Column::theta]         = theta;
     row[Column::spring_energy] = properties.spring.law.energy(turn(trial));
-    view.observe(found, row);
+    view.observe(with_points(), row);
     if (finite)
       row[Column::elastic_energy] = finite->energy(of_body(trial.coordinates));
     row[Column::elastic_energy] += shaft_energy(trial);
@@ -99,7 +99,7 @@ namespace sprag
 
   FaceState SolidLever::face_state(const State &trial) const
   {
-    return view.state(found, trial.drive);
+    return view.state(with_points(), trial.drive);
   }
 
   Vector<double> SolidLever::body_displacement(const State &state) const

@@ -1,51 +1,60 @@
 #include "fe/solid/step_in_lanes_parts.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace sprag
 {
-  StepInLanes::StepInLanes(const Patches &patches_)
-      : patches(patches_)
+  StepInLanes::StepInLanes(const FrictionFace<3> &face_, const Patches &patches_)
+      : face(face_)
+      , patches(patches_)
+      , blocks(patches.patches.size())
   {
-    for (const auto &patch : patches.patches)
-    {
-      const auto first = static_cast<unsigned int>(blocks.size());
-      for (unsigned int begin = patch.begin; begin < patch.end; begin += n_lanes)
-      {
-        auto &block = blocks.emplace_back();
-        block.first = begin;
-        block.n     = std::min(n_lanes, patch.end - begin);
-        for (unsigned int i = 0; i < n_lanes; ++i)
-        {
-          const auto &point   = patches.points[begin + std::min(i, block.n - 1)];
-          block.position.x[i] = point.position[0];
-          block.position.y[i] = point.position[1];
-          block.position.z[i] = point.position[2];
-          block.weight[i]     = i < block.n ? point.weight : 0.;
-          for (unsigned int a = 0; a < Patches::max_nodes; ++a)
-            block.shapes[a][i] = point.shapes[a];
-        }
-      }
-      ranges.push_back({ first, static_cast<unsigned int>(blocks.size()), false });
-    }
-    begins.resize(blocks.size());
-    ends.resize(blocks.size());
   }
 
   StepInLanes::~StepInLanes() = default;
 
+  void StepInLanes::make_blocks(const unsigned int patch)
+  {
+    const auto &of_patch = patches.patches[patch];
+    for (unsigned int first = of_patch.begin; first < of_patch.end; first += n_lanes)
+    {
+      auto &block = blocks[patch].all.emplace_back();
+      block       = Block();
+      block.first = first;
+      block.n     = std::min(n_lanes, of_patch.end - first);
+      for (unsigned int i = 0; i < n_lanes; ++i)
+      {
+        const unsigned int q = first + std::min(i, block.n - 1);
+        const auto &point    = patches.points[q];
+        const auto &slopes   = face.points[q].slopes;
+        block.position.x[i]  = point.position[0];
+        block.position.y[i]  = point.position[1];
+        block.position.z[i]  = point.position[2];
+        block.weight[i]      = i < block.n ? point.weight : 0.;
+        for (unsigned int a = 0; a < Patches::max_nodes; ++a)
+          block.shapes[a][i] = point.shapes[a];
+        for (unsigned int a = 0; a < slopes.size(); ++a)
+          block.slopes[a][i] = slopes[a];
+      }
+    }
+  }
+
   void StepInLanes::begin(Memory memory)
   {
     remembered = std::move(memory);
-    for (auto &range : ranges)
-      range.is_placed = false;
+    for (const unsigned int patch : placed)
+      blocks[patch].first = dealii::numbers::invalid_unsigned_int;
+    placed.clear();
+    n_placed = 0;
   }
 
   bool StepInLanes::begins_with(const Memory &memory) const
   {
     const auto same = [](const PointMemory<2> &a, const PointMemory<2> &b)
-    { return a.point == b.point && a.step == b.step && a.traction == b.traction && a.slip_speed == b.slip_speed; };
+    {
+      return a.point == b.point && a.step == b.step && a.traction == b.traction && a.slip_speed == b.slip_speed &&
+             a.normal_multiplier == b.normal_multiplier;
+    };
     return std::equal(memory.begin(), memory.end(), remembered.begin(), remembered.end(), same);
   }
 
@@ -54,21 +63,48 @@ namespace sprag
     of = constants;
   }
 
-  SPRAG_FOR_ANY_PROCESSOR void StepInLanes::place(const unsigned int patch, const Patches::Nodal &nodal)
+  bool StepInLanes::is_placed(const unsigned int patch) const
   {
-    const auto &axes = of.begin.axes;
-    for (unsigned int b = ranges[patch].begin; b < ranges[patch].end; ++b)
+    return blocks[patch].first != dealii::numbers::invalid_unsigned_int;
+  }
+
+  SPRAG_FOR_ANY_PROCESSOR void StepInLanes::place(const unsigned int patch, const Patches::Nodal &nodal,
+                                                  const std::vector<SlipShift> &shifts)
+  {
+    if (blocks[patch].all.empty())
+      make_blocks(patch);
+    placed.push_back(patch);
+    blocks[patch].first = n_placed;
+    n_placed += static_cast<unsigned int>(blocks[patch].all.size());
+    if (n_placed > begins.size())
     {
-      auto &begin                = begins[b];
-      begin                      = Begin();
-      begin.place                = at_points(blocks[b].shapes, blocks[b].position, nodal);
+      begins.resize(n_placed);
+      ends.resize(n_placed);
+    }
+    const auto &axes = of.begin.axes;
+    for (unsigned int b = 0; b < blocks[patch].all.size(); ++b)
+    {
+      const auto &block = blocks[patch].all[b];
+      auto &begin       = begins[blocks[patch].first + b];
+      begin             = Begin();
+      if (of.slide)
+        continue;
+      begin.place                = at_points(block.shapes, block.position, nodal);
       const auto place           = places_of(of.cylinder, of.begin, begin.place);
       const PointsInLanes across = place.radius * place.normal;
       begin.gap                  = place.gap;
       begin.right                = dot(across, axes.right);
       begin.upward               = dot(across, axes.upward);
       begin.along                = place.along;
+      for (unsigned int i = 0; i < block.n && !shifts.empty(); ++i)
+      {
+        const auto &shift      = shifts[block.first - blocks[patch].all.front().first + i];
+        begin.shift[i]         = shift.slip;
+        begin.elastic_shift[i] = shift.elastic;
+        begin.by_slope[i]      = shift.d_slope;
+      }
     }
+    recall(patch);
   }
 
   void StepInLanes::recall(const unsigned int patch)
@@ -79,9 +115,10 @@ namespace sprag
          entry != remembered.end() && entry->point < patches.patches[patch].end; ++entry)
     {
       const unsigned int q = entry->point - first, i = q % n_lanes;
-      auto &begin    = begins[ranges[patch].begin + q / n_lanes];
-      begin.known[i] = -1;
-      begin.step[i]  = entry->step;
+      auto &begin         = begins[blocks[patch].first + q / n_lanes];
+      begin.known[i]      = -1;
+      begin.step[i]       = entry->step;
+      begin.multiplier[i] = entry->normal_multiplier;
       for (unsigned int s = 0; s < 2; ++s)
       {
         begin.traction[s][i]   = entry->traction[s];
@@ -90,22 +127,8 @@ namespace sprag
     }
   }
 
-  namespace
-  {
-    /// mu and its derivative, lane by lane.
-    void find_coefficients(const FrictionLaw &law, const Lanes &speed, Lanes &mu, Lanes &derivative)
-    {
-      for (unsigned int i = 0; i < n_lanes; ++i)
-      {
-        const auto value = friction_coefficient(law, speed[i]);
-        mu[i]            = value.coefficient;
-        derivative[i]    = value.derivative;
-      }
-    }
-  } // namespace
-
-  /// One lane of friction, by end_friction().
-  void StepInLanes::find_friction(const Begin &begin, const End &end, const unsigned int i, Friction &result) const
+  /// One lane of friction in time, by end_friction().
+  void StepInLanes::find_friction(const Begin &begin, const End &end, const unsigned int i, FrictionInLanes &result) const
   {
     const auto of_lane = [i](const TwoLanes &lanes) { return Tensor<1, 2>({ lanes[0][i], lanes[1][i] }); };
     const FrictionHistory<2> history{ of_lane(begin.traction), of_lane(begin.slip_speed), begin.step[i] };
@@ -126,94 +149,79 @@ namespace sprag
     result.creep[i]      = found.creep;
   }
 
-  /// The same as end_friction() where stick is resolved and mu nowhere falls: then the slip speed is the only root, and Newton's
-  /// method finds it from that of a contact without elastic slip.
-  SPRAG_PART void StepInLanes::return_to_cone(const Begin &begin, const End &end, Friction &result) const
+  /// As end_friction() where stick is resolved: the slip speed at the end is extrapolated from the step's mean and the last
+  /// one's.
+  SPRAG_PART void StepInLanes::rub_in_time(const Begin &begin, const bool in_lanes, End &end) const
   {
-    const double stiffness = of.law.tangential, dt = of.law.weights.dt;
-    const double round_off = 4. * std::numeric_limits<double>::epsilon();
-    const Lanes &t_0 = begin.traction[0], &t_1 = begin.traction[1];
-    const Lanes &g_0 = end.slip_change[0], &g_1 = end.slip_change[1];
-    const Lanes trial_0 = t_0 + stiffness * g_0, trial_1 = t_1 + stiffness * g_1;
-    const Lanes trial      = square_root(trial_0 * trial_0 + trial_1 * trial_1);
-    const LaneMask is_none = trial == 0.;
-    const Lanes one        = all_lanes(1.);
-    const Lanes inverse    = 1. / (is_none ? one : trial);
-    const Lanes d_0 = is_none ? one : trial_0 * inverse, d_1 = trial_1 * inverse;
-
-    // The slip speed at the end of the step, extrapolated from its mean and that of the last.
-    const Lanes before         = begin.slip_speed[0] * d_0 + begin.slip_speed[1] * d_1;
-    const LaneMask goes_on     = (begin.step > 0.) & (before >= 0.);
-    const Lanes share          = goes_on ? dt / (dt + begin.step) : Lanes{};
-    const Lanes duration       = dt / (1. + share);
-    const Lanes shift_of_speed = -duration * share;
-    const Lanes shift          = shift_of_speed * before;
-    const Lanes &p             = end.pressure;
-    const double mu_at_rest    = friction_coefficient(of.law.friction, 0.).coefficient;
-    const Lanes shifted        = trial + stiffness * shift;
-    const LaneMask pressed     = p > 0.;
-    const LaneMask sticks      = trial <= mu_at_rest * p;
-    const LaneMask at_rest     = ~sticks & (shifted <= mu_at_rest * p);
-    const LaneMask slips       = pressed & ~sticks & ~at_rest;
-
-    Lanes mu = all_lanes(mu_at_rest), rate{}; // derivative of mu p by the speed over the resistance
-    LaneMask unknown{};
-    if (any(slips))
+    auto &result     = end.friction;
+    LaneMask unknown = ~LaneMask{};
+    if (in_lanes)
     {
-      const Lanes resistance = stiffness * duration;
-      const Lanes fastest    = slips ? shifted / resistance : Lanes{};
-      Lanes speed            = smaller(larger(Lanes{}, (g_0 * d_0 + g_1 * d_1 + shift) / duration), fastest);
-      Lanes of_speed{}, derivative{};
-      unknown = slips;
-      for (unsigned int i = 0; i < 6 && any(unknown); ++i)
-      {
-        find_coefficients(of.law.friction, speed, of_speed, derivative);
-        const Lanes excess = shifted - resistance * speed - of_speed * p;
-        unknown            = slips & (absolute(excess) > round_off * shifted);
-        speed += unknown ? excess / (resistance + derivative * p) : Lanes{};
-        speed = smaller(larger(Lanes{}, speed), fastest);
-      }
-      mu   = slips ? of_speed : mu;
-      rate = slips ? derivative * p / resistance : Lanes{};
+      const double stiffness = of.law.tangential, dt = of.law.weights.dt;
+      const Lanes &t_0 = begin.traction[0], &t_1 = begin.traction[1];
+      const Lanes &g_0 = end.slip_change[0], &g_1 = end.slip_change[1];
+      const Lanes before     = begin.slip_speed[0] * (t_0 + stiffness * g_0) + begin.slip_speed[1] * (t_1 + stiffness * g_1);
+      const LaneMask goes_on = (begin.step > 0.) & (before >= 0.);
+      const Lanes share      = goes_on ? dt / (dt + begin.step) : Lanes{};
+      const Lanes duration   = dt / (1. + share);
+      const Lanes shift      = -duration * share;
+      const TrialInLanes trial{
+        begin.traction, end.slip_change, { { shift * begin.slip_speed[0], shift * begin.slip_speed[1] } }, duration, end.pressure
+      };
+      unknown              = return_to_cone(trial, of.law.friction, stiffness, result);
+      const Lanes traction = result.traction[0] * result.traction[0] + result.traction[1] * result.traction[1];
+      const Lanes s_0 = g_0 - (result.traction[0] - t_0) / stiffness, s_1 = g_1 - (result.traction[1] - t_1) / stiffness;
+      const LaneMask &slips = result.slipping;
+      result.slip_speed     = { { slips ? s_0 / dt : Lanes{}, slips ? s_1 / dt : Lanes{} } };
+      result.energy         = 0.5 / stiffness * traction;
+      result.dissipated     = 0.5 * ((t_0 + result.traction[0]) * s_0 + (t_1 + result.traction[1]) * s_1);
+      result.creep          = Lanes{};
     }
-    const LaneMask slipping = pressed & ~sticks & (at_rest | (mu * p <= trial));
-    const Lanes traction    = slipping ? mu * p : trial;
-    result.traction         = { { pressed ? traction * d_0 : Lanes{}, pressed ? traction * d_1 : Lanes{} } };
-    result.mu               = pressed ? mu : Lanes{};
-    result.slipping         = slipping;
-    const Lanes s_0 = g_0 - (result.traction[0] - t_0) / stiffness, s_1 = g_1 - (result.traction[1] - t_1) / stiffness;
-    result.slip_speed = { { slipping ? s_0 / dt : Lanes{}, slipping ? s_1 / dt : Lanes{} } };
-    result.energy     = pressed ? 0.5 / stiffness * traction * traction : Lanes{};
-    result.dissipated = 0.5 * ((t_0 + result.traction[0]) * s_0 + (t_1 + result.traction[1]) * s_1);
-    result.creep      = Lanes{};
-
-    const Lanes by_size      = rate / (1. + rate);
-    const Lanes by_pressure  = slipping ? mu / (1. + rate) : Lanes{};
-    const Lanes across       = traction * inverse;
-    const Lanes turned       = stiffness * by_size * shift_of_speed * inverse;
-    const Lanes turned_along = turned * before;
-    result.by_pressure       = { { by_pressure * d_0, by_pressure * d_1 } };
-    const Lanes d[2]         = { d_0, d_1 };
-    for (unsigned int q = 0; q < 2; ++q)
-      for (unsigned int r = 0; r < 2; ++r)
-      {
-        const Lanes along = d[q] * d[r];
-        const Lanes same  = all_lanes(q == r ? 1. : 0.);
-        const Lanes slip =
-            by_size * along + across * (same - along) + d[q] * (turned * begin.slip_speed[r] - turned_along * d[r]);
-        result.by_slip[2 * q + r] = pressed ? stiffness * (slipping ? slip : same) : Lanes{};
-      }
     if (any(unknown))
       for (unsigned int i = 0; i < n_lanes; ++i)
         if (unknown[i])
           find_friction(begin, end, i, result);
   }
 
+  /// Without inertia, as end_response().
+  SPRAG_PART void StepInLanes::rub_at_end(const Block &block, const Begin &begin, const PlacesInLanes &ended,
+                                          const Patches::Nodal &nodal, const bool in_lanes, End &end) const
+  {
+    const double stiffness = of.law.tangential;
+    auto &result           = end.friction;
+    result                 = FrictionInLanes();
+    // Derivative of the deformed place along the undeformed face.
+    const PointsInLanes along_xi{ all_lanes(1.), Lanes{}, Lanes{} };
+    end.direction     = in_lever(at_points(block.slopes, along_xi, nodal), of.end.cosine, of.end.sine);
+    const auto round  = cross(of.end.axes.axis, ended.normal);
+    const Lanes slope = of.cylinder.radius / ended.radius * dot(end.direction, round);
+    end.shift         = begin.shift + begin.by_slope * slope;
+    if (of.law.mode == FrictionMode::stick)
+    {
+      for (unsigned int s = 0; s < 2; ++s)
+      {
+        result.traction[s]        = begin.traction[s] + stiffness * end.slip_change[s];
+        result.by_slip[2 * s + s] = all_lanes(stiffness);
+      }
+      return;
+    }
+    const TrialInLanes trial{ begin.traction,
+                              end.slip_change,
+                              { { end.shift + begin.elastic_shift, Lanes{} } },
+                              all_lanes(of.law.weights.dt),
+                              end.pressure };
+    const LaneMask unknown = in_lanes ? return_to_cone(trial, of.law.friction, stiffness, result) : end.takes_part;
+    if (any(unknown))
+      for (unsigned int i = 0; i < n_lanes; ++i)
+        if (unknown[i])
+          return_to_cone(trial, of.law.friction, stiffness, i, result);
+  }
+
   /// Nothing changes in a steady slide: it begins as it ends, so that it takes up no work.
   SPRAG_PART void StepInLanes::slide_on(Begin &begin, End &end) const
   {
     auto &result          = end.friction;
-    result                = Friction{};
+    result                = FrictionInLanes();
     result.traction[0]    = of.slide->coefficient * end.pressure;
     result.mu             = all_lanes(of.slide->mu);
     result.slipping       = of.slide->rubs ? ~LaneMask{} : LaneMask{};
@@ -227,7 +235,7 @@ namespace sprag
     begin.traction        = result.traction;
   }
 
-  SPRAG_PART void StepInLanes::rub(const Begin &begin, const PlacesInLanes &ended, const bool in_lanes, End &end) const
+  SPRAG_PART void StepInLanes::find_slip(const Begin &begin, const PlacesInLanes &ended, End &end) const
   {
     const auto &axes           = of.end.axes;
     const PointsInLanes across = ended.radius * ended.normal;
@@ -235,50 +243,67 @@ namespace sprag
                                              angle_between(begin.upward, -begin.right, dot(across, axes.upward), -dot(across, axes.right)) +
                                          of.surface_run,
                                      ended.along - begin.along } };
-    if (in_lanes)
-      return return_to_cone(begin, end, end.friction);
-    for (unsigned int i = 0; i < n_lanes; ++i)
-      find_friction(begin, end, i, end.friction);
   }
 
-  SPRAG_FOR_ANY_PROCESSOR bool StepInLanes::press(const unsigned int patch, const Patches::Nodal &from, const Patches::Nodal &to,
-                                                  Forces &forces, double &compression)
+  SPRAG_PART void StepInLanes::press_in_time(const PlacesInLanes &ended, const bool in_lanes, Begin &begin, End &end) const
   {
-    auto &range = ranges[patch];
-    if (!of.slide && !range.is_placed)
-    {
-      place(patch, from);
-      recall(patch);
-    }
-    range.is_placed     = !of.slide;
     const double normal = of.law.normal.stiffness, delay = of.law.weights.delay();
-    const bool in_lanes = of.law.friction.regularisation_speed == 0. && never_falls(of.law.friction);
+    end.pressure = pressure_of(normal, end.gap);
+    if (of.slide)
+      slide_on(begin, end);
+    end.takes_part = (end.gap < 0.) | (begin.gap < 0.) | begin.known;
+    if (!any(end.takes_part))
+      return;
+    if (!of.slide)
+    {
+      find_slip(begin, ended, end);
+      rub_in_time(begin, in_lanes, end);
+    }
+    end.mean_pressure = mean_pressure_of(normal, begin.gap, end.gap) + delay * (end.pressure - pressure_of(normal, begin.gap));
+    for (unsigned int d = 0; d < 2; ++d)
+      end.mean_traction[d] = (0.5 - delay) * begin.traction[d] + (0.5 + delay) * end.friction.traction[d];
+  }
+
+  SPRAG_PART void StepInLanes::press_at_end(const Block &block, const PlacesInLanes &ended, const Patches::Nodal &nodal,
+                                            const bool in_lanes, const Begin &begin, End &end) const
+  {
+    const Lanes trial = begin.multiplier - of.law.normal.stiffness * end.gap;
+    end.takes_part    = trial > 0.;
+    if (!any(end.takes_part))
+      return;
+    end.pressure = end.mean_pressure = end.takes_part ? trial : Lanes{};
+    find_slip(begin, ended, end);
+    rub_at_end(block, begin, ended, nodal, in_lanes, end);
+    end.mean_traction = end.friction.traction;
+  }
+
+  SPRAG_FOR_ANY_PROCESSOR bool StepInLanes::press(const unsigned int patch, const Patches::Nodal &to, Forces &forces,
+                                                  double &compression)
+  {
+    const bool is_static = of.law.balance == ForceBalance::end;
+    const bool in_lanes  = (is_static || of.law.friction.regularisation_speed == 0.) && never_falls(of.law.friction);
     const double c = of.balance.cosine, s = of.balance.sine;
     bool takes_part = false;
-    for (unsigned int b = range.begin; b < range.end; ++b)
+    for (unsigned int b = 0; b < blocks[patch].all.size(); ++b)
     {
-      const auto &block = blocks[b];
-      auto &begin       = begins[b];
-      auto &end         = ends[b];
+      const auto &block = blocks[patch].all[b];
+      auto &begin       = begins[blocks[patch].first + b];
+      auto &end         = ends[blocks[patch].first + b];
       end.place         = at_points(block.shapes, block.position, to);
       const auto ended  = places_of(of.cylinder, of.end, end.place);
       end.gap           = ended.gap;
-      end.pressure      = pressure_of(normal, end.gap);
-      if (of.slide)
-        slide_on(begin, end);
-      end.takes_part = (end.gap < 0.) | (begin.gap < 0.) | begin.known;
+      if (is_static)
+        press_at_end(block, ended, to, in_lanes, begin, end);
+      else
+        press_in_time(ended, in_lanes, begin, end);
       if (!any(end.takes_part))
         continue;
-      takes_part  = true;
-      compression = std::max(compression, largest(-smaller(end.gap, begin.gap)));
-      if (!of.slide)
-        rub(begin, ended, in_lanes, end);
-      end.mean_pressure = mean_pressure_of(normal, begin.gap, end.gap) + delay * (end.pressure - pressure_of(normal, begin.gap));
-      for (unsigned int d = 0; d < 2; ++d)
-        end.mean_traction[d] = (0.5 - delay) * begin.traction[d] + (0.5 + delay) * end.friction.traction[d];
+      takes_part       = true;
+      const Lanes most = is_static ? end.pressure / of.law.normal.stiffness : -smaller(end.gap, begin.gap);
+      compression      = std::max(compression, largest(most));
 
-      const auto at       = begin.place + of.share * (end.place - begin.place);
-      const auto balanced = places_of(of.cylinder, of.balance, at);
+      const auto at       = of.share == 1. ? end.place : begin.place + of.share * (end.place - begin.place);
+      const auto balanced = of.share == 1. ? ended : places_of(of.cylinder, of.balance, at);
       const auto of_point = force_of(balanced, of.balance.axes.axis, of.cylinder.radius, end.mean_pressure, end.mean_traction);
       const Lanes weight  = end.takes_part ? block.weight : Lanes{};
       const auto force    = weight * of_point;

@@ -2,13 +2,14 @@
 
 #include "fe/contact/face_contact_point.h"
 #include "fe/solid/cylinder_in_lanes.h"
+#include "fe/solid/friction_in_lanes.h"
 
 #include <optional>
 
 namespace sprag
 {
-  /// Points of a friction face in a step in time, eight at once: their forces, see mean_response() and SurfaceContact. Points
-  /// that touch neither at its beginning nor at its end take no part.
+  /// Points of a friction face in a step, eight at once: their forces, see step_response() and SurfaceContact. In time points
+  /// that touch neither where it begins nor where it ends take no part, without inertia those that do not where it ends.
   class StepInLanes
   {
   public:
@@ -16,7 +17,8 @@ namespace sprag
     using Memory  = std::vector<PointMemory<2>>;
 
     static constexpr unsigned int n_displacements = 3 * Patches::max_nodes;
-    static constexpr unsigned int n_coordinates   = n_displacements + 4; ///< theta, x and slopes follow
+    static constexpr unsigned int n_frame         = 4; ///< theta, x and slopes
+    static constexpr unsigned int n_coordinates   = n_displacements + n_frame;
 
     /// Generalised forces of a patch: along each axis those of its nodes, then of theta, x and the slopes.
     using Forces = std::array<double, n_coordinates>;
@@ -36,19 +38,23 @@ namespace sprag
     {
       RigidCylinder::Shape cylinder{};
       RigidCylinder::Pose begin, balance, end; ///< `balance`: where forces are balanced
-      double share = 0.;                       ///< of the step until there
-      StepContactLaw law;
+      double share = 0.;                       ///< of the step until there; 1: `balance` is as the end
+      StepContactLaw law;                      ///< balanced at the end: a step without inertia
       double surface_run  = 0.;
-      double advance      = 0.; ///< of the drive [mm]
+      double advance      = 0.; ///< of the drive; in time alone [mm]
       unsigned int slopes = 0;
       std::optional<Slide> slide; ///< then `begin` and `balance` are as the end, and weights those of a step balanced there
+
+      // Without inertia, see StaticTerms.
+      bool augmented     = false;
+      double speed_ratio = 1.;
     };
 
-    /// `patches` must outlive it.
-    explicit StepInLanes(const Patches &patches);
+    /// The face and its patches must outlive it.
+    StepInLanes(const FrictionFace<3> &face, const Patches &patches);
     ~StepInLanes();
 
-    /// Forgets the points where the last step began. `memory`: of the points in contact there, by increasing point.
+    /// Forgets the patches where the last step began. `memory`: of the points in contact there, by increasing point.
     void begin(Memory memory);
 
     bool begins_with(const Memory &memory) const;
@@ -56,9 +62,15 @@ namespace sprag
     /// Sets what the following functions refer to.
     void set(const Constants &constants);
 
-    /// Presses a patch from the displacements where the step begins to those where it ends. Adds its forces and returns whether
-    /// it takes part; raises the largest compression of the springs [mm].
-    bool press(unsigned int patch, const Patches::Nodal &from, const Patches::Nodal &to, Forces &forces, double &compression);
+    bool is_placed(unsigned int patch) const;
+
+    /// Places a patch where the step begins. `shifts`: of its points, see slip_shift(), with their slip where the slope is 0;
+    /// none in time.
+    void place(unsigned int patch, const Patches::Nodal &nodal, const std::vector<SlipShift> &shifts = {});
+
+    /// Presses a patch, which is placed, at the displacements where the step ends. Adds its forces and returns whether it takes
+    /// part; raises the largest compression of the springs, with multipliers the pressure over their stiffness [mm].
+    bool press(unsigned int patch, const Patches::Nodal &to, Forces &forces, double &compression);
 
     /// Derivatives of these forces by the same coordinates at the end of the step.
     using Tangent = std::array<std::array<double, n_coordinates>, n_coordinates>;
@@ -74,36 +86,46 @@ namespace sprag
       double creep = 0.; ///< the largest [mm]
     };
 
-    /// Adds the works and the points of a patch as it was pressed last.
-    void complete(unsigned int patch, Sums &sums, std::vector<FacePointState<3>> &points);
+    /// Adds the works of a patch as it was pressed last; in time alone.
+    void add_works(unsigned int patch, Sums &sums) const;
+
+    /// Adds its points.
+    void add_points(unsigned int patch, std::vector<FacePointState<3>> &points) const;
 
   private:
     struct Block;
     struct Begin;
     struct End;
-    struct Friction;
     struct TangentSums;
 
-    /// Ranges of blocks that belong to a patch.
-    struct Range
+    /// The blocks of a patch, made when it is met first, and the place of its first one in `begins` and `ends`.
+    struct Blocks
     {
-      unsigned int begin, end;
-      bool is_placed; ///< where the step begins
+      std::vector<Block> all;
+      unsigned int first = dealii::numbers::invalid_unsigned_int; ///< where it is placed
     };
 
-    void place(unsigned int patch, const Patches::Nodal &nodal);
+    void make_blocks(unsigned int patch);
     void recall(unsigned int patch);
-    void find_friction(const Begin &begin, const End &end, unsigned int lane, Friction &result) const;
-    void return_to_cone(const Begin &begin, const End &end, Friction &result) const;
+    void find_friction(const Begin &begin, const End &end, unsigned int lane, FrictionInLanes &result) const;
+    void rub_in_time(const Begin &begin, bool in_lanes, End &end) const;
+    void rub_at_end(const Block &block, const Begin &begin, const PlacesInLanes &ended, const Patches::Nodal &nodal,
+                    bool in_lanes, End &end) const;
     void slide_on(Begin &begin, End &end) const;
-    void rub(const Begin &begin, const PlacesInLanes &ended, bool in_lanes, End &end) const;
-    void add_point(unsigned int patch, unsigned int block, unsigned int lane, const std::array<double, 4> &force,
-                   std::vector<FacePointState<3>> &points) const;
+    void find_slip(const Begin &begin, const PlacesInLanes &ended, End &end) const;
+    void press_in_time(const PlacesInLanes &ended, bool in_lanes, Begin &begin, End &end) const;
+    void press_at_end(const Block &block, const PlacesInLanes &ended, const Patches::Nodal &nodal, bool in_lanes,
+                      const Begin &begin, End &end) const;
+    void add_slope_of_slip(unsigned int patch, Tangent &tangent) const;
+    void set_point(const Block &block, const Begin &begin, const End &end, unsigned int lane, const std::array<double, 4> &force,
+                   FacePointState<3> &state) const;
 
+    const FrictionFace<3> &face;
     const Patches &patches;
-    std::vector<Range> ranges; ///< of the patches
-    std::vector<Block> blocks;
-    std::vector<Begin> begins; ///< of the blocks
+    std::vector<Blocks> blocks; ///< of the patches
+    std::vector<unsigned int> placed;
+    unsigned int n_placed = 0; ///< blocks of these
+    std::vector<Begin> begins; ///< of them, and room for more
     std::vector<End> ends;
     Memory remembered;
     Constants of;

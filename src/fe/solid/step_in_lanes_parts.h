@@ -6,15 +6,14 @@ namespace sprag
 {
   using dealii::Tensor;
 
-  using TwoLanes = SomeLanes<2>;
-
   struct StepInLanes::Block
   {
     PointsInLanes position; ///< undeformed
     Lanes weight;           ///< 0 beyond the patch's last point
     SomeLanes<Patches::max_nodes> shapes;
-    unsigned int first; ///< point
-    unsigned int n;     ///< of points
+    SomeLanes<Patches::max_nodes> slopes; ///< of the shapes along xi [1/mm]
+    unsigned int first;                   ///< point
+    unsigned int n;                       ///< of points
   };
 
   struct StepInLanes::Begin
@@ -26,19 +25,8 @@ namespace sprag
     TwoLanes traction;
     TwoLanes slip_speed;
     Lanes step;
-  };
-
-  struct StepInLanes::Friction
-  {
-    TwoLanes traction;
-    Lanes mu;
-    LaneMask slipping;
-    TwoLanes slip_speed;
-    SomeLanes<4> by_slip; ///< derivatives of the traction, row by row
-    SomeLanes<2> by_pressure;
-    Lanes energy;
-    Lanes dissipated;
-    Lanes creep;
+    Lanes multiplier;                     ///< of the gap [MPa]
+    Lanes shift, elastic_shift, by_slope; ///< see SlipShift; with a slope of 0
   };
 
   struct StepInLanes::End
@@ -48,9 +36,11 @@ namespace sprag
     LaneMask takes_part;
     Lanes pressure;
     TwoLanes slip_change;
-    Friction friction;
+    FrictionInLanes friction;
     Lanes mean_pressure; ///< of the step
     TwoLanes mean_traction;
+    Lanes shift;             ///< of the slip round the cylinder, without its elastic part [mm]
+    PointsInLanes direction; ///< of the deformed face along xi, in the axes of the world
   };
 
   /// Linear unilateral spring, see mean_normal_force().

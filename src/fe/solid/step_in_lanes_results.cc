@@ -8,7 +8,6 @@ namespace sprag
   struct StepInLanes::TangentSums
   {
     static constexpr unsigned int n_pairs = Patches::max_nodes * (Patches::max_nodes + 1) / 2;
-    static constexpr unsigned int n_frame = n_coordinates - n_displacements;
 
     Lanes displacements[9][n_pairs];
     Lanes columns[n_frame][n_displacements]; ///< derivatives of the nodes' forces by theta, x and slopes
@@ -42,19 +41,79 @@ namespace sprag
     };
   } // namespace
 
+  /// Adds what follows from the slope of the slip round the cylinder along the face, which shifts the slip of a step without
+  /// inertia: of each point a product of how forces grow with it and of its derivatives.
+  SPRAG_PART void StepInLanes::add_slope_of_slip(const unsigned int patch, Tangent &tangent) const
+  {
+    const unsigned int n           = n_displacements + 2 + of.slopes;
+    constexpr unsigned int n_nodes = Patches::max_nodes;
+    const double radius = of.cylinder.radius, c = of.end.cosine, s = of.end.sine;
+    const auto &axes = of.end.axes;
+    std::vector<SomeLanes<n_coordinates>> by_slope, slope_by;
+    for (unsigned int b = 0; b < blocks[patch].all.size(); ++b)
+    {
+      const auto &block  = blocks[patch].all[b];
+      const auto &end    = ends[blocks[patch].first + b];
+      const Lanes &moves = begins[blocks[patch].first + b].by_slope;
+      if (!any(end.takes_part & (moves != 0.)))
+        continue;
+      const auto ended = places_of(of.cylinder, of.end, end.place);
+      const auto round = cross(axes.axis, ended.normal);
+      const auto slip  = (radius / ended.radius) * round;
+      const auto force = (end.takes_part ? -block.weight * moves : Lanes{}) *
+                         (end.friction.by_shift[0] * slip + times(end.friction.by_shift[1], axes.axis));
+      const auto by_place = (-radius / (ended.radius * ended.radius)) *
+                            (dot(end.direction, round) * ended.normal + dot(end.direction, ended.normal) * round);
+      PointsInLanes moved[n_frame]{}, turned[n_frame]{}; // place and direction, by theta, x and slopes
+      moved[0]   = with_theta(end.place, c, s);
+      turned[0]  = with_theta(in_lever(end.direction, c, s), c, s);
+      moved[1].x = all_lanes(-1.);
+      for (unsigned int i = 0; i < of.slopes; ++i)
+      {
+        moved[2 + i]  = times(axes.turn[i], ended.from_centre);
+        turned[2 + i] = times(axes.turn[i], end.direction);
+      }
+      const auto force_in_lever = in_lever(force, c, s), place_in_lever = in_lever(by_place, c, s),
+                 slip_in_lever = in_lever(slip, c, s);
+      auto &forces             = by_slope.emplace_back();
+      auto &slopes             = slope_by.emplace_back();
+      for (unsigned int a = 0; a < n_nodes; ++a)
+      {
+        const auto of_force = block.shapes[a] * force_in_lever;
+        const auto of_slope = block.shapes[a] * place_in_lever + block.slopes[a] * slip_in_lever;
+        forces[a] = of_force.x, forces[n_nodes + a] = of_force.y, forces[2 * n_nodes + a] = of_force.z;
+        slopes[a] = of_slope.x, slopes[n_nodes + a] = of_slope.y, slopes[2 * n_nodes + a] = of_slope.z;
+      }
+      for (unsigned int k = 0; k < n - n_displacements; ++k)
+      {
+        forces[n_displacements + k] = dot(force, moved[k]);
+        slopes[n_displacements + k] = dot(by_place, moved[k]) + dot(slip, turned[k]);
+      }
+    }
+    for (unsigned int i = 0; i < n && !by_slope.empty(); ++i)
+      for (unsigned int j = 0; j < n; ++j)
+      {
+        Lanes products{};
+        for (std::size_t b = 0; b < by_slope.size(); ++b)
+          products += by_slope[b][i] * slope_by[b][j];
+        tangent[i][j] += sum(products);
+      }
+  }
+
   SPRAG_FOR_ANY_PROCESSOR StepInLanes::Tangent StepInLanes::tangent(const unsigned int patch) const
   {
     constexpr unsigned int n_nodes = Patches::max_nodes;
     const double normal = of.law.normal.stiffness, delay = of.law.weights.delay(), radius = of.cylinder.radius;
     const double c = of.balance.cosine, s = of.balance.sine, c_end = of.end.cosine, s_end = of.end.sine;
     const auto &axes = of.balance.axes, &axes_end = of.end.axes;
-    const unsigned int n_frame = 2 + of.slopes;
+    const unsigned int n_moved = 2 + of.slopes;
+    const bool is_static       = of.law.balance == ForceBalance::end;
     TangentSums sums{};
-    for (unsigned int b = ranges[patch].begin; b < ranges[patch].end; ++b)
+    for (unsigned int b = 0; b < blocks[patch].all.size(); ++b)
     {
-      const auto &block = blocks[b];
-      const auto &begin = begins[b];
-      const auto &end   = ends[b];
+      const auto &block = blocks[patch].all[b];
+      const auto &begin = begins[blocks[patch].first + b];
+      const auto &end   = ends[blocks[patch].first + b];
       if (!any(end.takes_part))
         continue;
       const auto at            = begin.place + of.share * (end.place - begin.place);
@@ -69,9 +128,10 @@ namespace sprag
       const auto &friction            = end.friction;
 
       // Of the force by the displacement of the point, in the axes of the world.
-      const Lanes d_end = end.gap < 0. ? all_lanes(-normal) : Lanes{};
+      const Lanes d_end  = (is_static ? end.takes_part : end.gap < 0.) ? all_lanes(-normal) : Lanes{};
+      const Lanes d_mean = is_static ? d_end : d_mean_pressure_of(normal, begin.gap, end.gap) + delay * d_end;
       MatrixInLanes by_place{};
-      by_place.add_product((d_mean_pressure_of(normal, begin.gap, end.gap) + delay * d_end) * gap, gap_end);
+      by_place.add_product(d_mean * gap, gap_end);
       for (unsigned int q = 0; q < 2; ++q)
         by_place.add_product((-0.5 - delay) * slip[q], friction.by_pressure[q] * d_end * gap_end +
                                                            friction.by_slip[2 * q] * slip_end[0] +
@@ -83,7 +143,7 @@ namespace sprag
       by_place.add_product(pressed * balanced.profile_curvature * axis, axis);
 
       const auto force = of.share * force_of(balanced, axes.axis, radius, end.mean_pressure, end.mean_traction);
-      PointsInLanes frame[TangentSums::n_frame]{}, frame_end[TangentSums::n_frame]{};
+      PointsInLanes frame[n_frame]{}, frame_end[n_frame]{};
       frame[0]     = with_theta(at, c, s);
       frame_end[0] = with_theta(end.place, c_end, s_end);
       frame[1].x = frame_end[1].x = all_lanes(-1.);
@@ -94,11 +154,11 @@ namespace sprag
       }
 
       const Lanes weight = end.takes_part ? block.weight : Lanes{};
-      for (unsigned int k = 0; k < n_frame; ++k)
+      for (unsigned int k = 0; k < n_moved; ++k)
       {
         auto column = in_lever(by_place * frame_end[k], c, s);
         auto row    = in_lever(by_place.transposed(frame[k]), c_end, s_end);
-        for (unsigned int l = 0; l < n_frame; ++l)
+        for (unsigned int l = 0; l < n_moved; ++l)
           sums.frame[k][l] += weight * dot(frame[k], by_place * frame_end[l]);
         // The force on a place that turns.
         PointsInLanes bend{};
@@ -160,108 +220,132 @@ namespace sprag
           for (unsigned int other = 0; other <= a; ++other, ++pair)
             result[n_nodes * d + a][n_nodes * e + other] = result[n_nodes * d + other][n_nodes * e + a] =
                 sum(sums.displacements[3 * d + e][pair]);
-    for (unsigned int k = 0; k < n_frame; ++k)
+    for (unsigned int k = 0; k < n_moved; ++k)
     {
       for (unsigned int i = 0; i < n_displacements; ++i)
       {
         result[i][n_displacements + k] = sum(sums.columns[k][i]);
         result[n_displacements + k][i] = sum(sums.rows[k][i]);
       }
-      for (unsigned int l = 0; l < n_frame; ++l)
+      for (unsigned int l = 0; l < n_moved; ++l)
         result[n_displacements + k][n_displacements + l] = sum(sums.frame[k][l]);
     }
+    if (is_static && of.law.mode == FrictionMode::cone)
+      add_slope_of_slip(patch, result);
     return result;
   }
 
-  SPRAG_FOR_ANY_PROCESSOR void StepInLanes::complete(const unsigned int patch, Sums &sums, std::vector<FacePointState<3>> &points)
+  SPRAG_FOR_ANY_PROCESSOR void StepInLanes::add_works(const unsigned int patch, Sums &sums) const
   {
     const double normal = of.law.normal.stiffness, delay = of.law.weights.delay(), radius = of.cylinder.radius;
     const double c = of.balance.cosine, s = of.balance.sine;
     const double d_theta = of.end.theta - of.begin.theta, d_x = of.end.x - of.begin.x;
     const auto &axes = of.balance.axes;
-    for (unsigned int b = ranges[patch].begin; b < ranges[patch].end; ++b)
+    for (unsigned int b = 0; b < blocks[patch].all.size(); ++b)
     {
-      const auto &block = blocks[b];
-      const auto &begin = begins[b];
-      const auto &end   = ends[b];
-      PointsInLanes at_end{};
-      Lanes theta{};
-      if (any(end.takes_part))
+      const auto &block = blocks[patch].all[b];
+      const auto &begin = begins[blocks[patch].first + b];
+      const auto &end   = ends[blocks[patch].first + b];
+      if (!any(end.takes_part))
+        continue;
+      // How the points move past the cylinder in the step, and of second order.
+      const auto moved    = end.place - begin.place;
+      const auto at       = begin.place + of.share * moved;
+      const auto balanced = places_of(of.cylinder, of.balance, at);
+      PointsInLanes rate  = { s * moved.y - c * moved.x + d_theta * (at.x * s + at.y * c) - d_x,
+                              s * moved.x + c * moved.y + d_theta * (at.x * c - at.y * s), moved.z };
+      PointsInLanes bend  = { d_theta * (2. * (s * moved.x + c * moved.y) + d_theta * (at.x * c - at.y * s)),
+                              d_theta * (2. * (c * moved.x - s * moved.y) - d_theta * (at.x * s + at.y * c)), Lanes{} };
+      const auto of_lever = rate;
+      for (unsigned int i = 0; i < of.slopes; ++i)
       {
-        // How the points move past the cylinder in the step, and of second order.
-        const auto moved    = end.place - begin.place;
-        const auto at       = begin.place + of.share * moved;
-        const auto balanced = places_of(of.cylinder, of.balance, at);
-        PointsInLanes rate  = { s * moved.y - c * moved.x + d_theta * (at.x * s + at.y * c) - d_x,
-                                s * moved.x + c * moved.y + d_theta * (at.x * c - at.y * s), moved.z };
-        PointsInLanes bend  = { d_theta * (2. * (s * moved.x + c * moved.y) + d_theta * (at.x * c - at.y * s)),
-                                d_theta * (2. * (c * moved.x - s * moved.y) - d_theta * (at.x * s + at.y * c)), Lanes{} };
-        const auto of_lever = rate;
-        for (unsigned int i = 0; i < of.slopes; ++i)
-        {
-          const double turned = of.end.turned[i] - of.begin.turned[i];
-          rate                = rate + turned * times(axes.turn[i], balanced.from_centre);
-          bend                = bend + 2. * turned * times(axes.turn[i], of_lever);
-          for (unsigned int j = 0; j < 2; ++j)
-            bend = bend + turned * (of.end.turned[j] - of.begin.turned[j]) * times(axes.bend[i][j], balanced.from_centre);
-        }
-        const auto round     = cross(axes.axis, balanced.normal);
-        const Lanes by_round = dot(rate, round), by_normal = dot(rate, balanced.normal), by_axis = dot(rate, axes.axis);
-        const Lanes bend_round = dot(bend, round), bend_axis = dot(bend, axes.axis);
-        const Lanes ratio    = radius / balanced.radius;
-        const Lanes gap_bend = by_round * by_round / balanced.radius + balanced.profile_curvature * by_axis * by_axis +
-                               dot(bend, balanced.normal) + balanced.profile_slope * bend_axis;
-        const Lanes slip_bend = ratio * (bend_round - 2. * by_normal * by_round / balanced.radius);
-
-        const auto &friction    = end.friction;
-        const Lanes weight      = end.takes_part ? block.weight : Lanes{};
-        const Lanes by_traction = (friction.traction[0] - begin.traction[0]) * end.slip_change[0] +
-                                  (friction.traction[1] - begin.traction[1]) * end.slip_change[1] +
-                                  end.mean_traction[0] * slip_bend + end.mean_traction[1] * bend_axis;
-        const Lanes by_pressure =
-            (end.pressure - pressure_of(normal, begin.gap)) * (end.gap - begin.gap) + end.mean_pressure * gap_bend;
-        const auto force = force_of(balanced, axes.axis, radius, end.mean_pressure, end.mean_traction);
-        sums.stored += sum(weight * (0.5 / normal * end.pressure * end.pressure + friction.energy));
-        sums.friction += sum(weight * friction.dissipated);
-        sums.algorithmic += delay * sum(weight * (by_traction - by_pressure));
-        sums.drive += sum(weight * (of.surface_run * end.mean_traction[0] + of.advance * force.x));
-        sums.creep = std::max(sums.creep, largest(end.takes_part ? friction.creep : Lanes{}));
-
-        const auto ended = places_of(of.cylinder, of.end, end.place);
-        at_end           = force_of(ended, of.end.axes.axis, radius, end.pressure, friction.traction);
-        theta            = dot(at_end, with_theta(end.place, of.end.cosine, of.end.sine));
+        const double turned = of.end.turned[i] - of.begin.turned[i];
+        rate                = rate + turned * times(axes.turn[i], balanced.from_centre);
+        bend                = bend + 2. * turned * times(axes.turn[i], of_lever);
+        for (unsigned int j = 0; j < 2; ++j)
+          bend = bend + turned * (of.end.turned[j] - of.begin.turned[j]) * times(axes.bend[i][j], balanced.from_centre);
       }
-      for (unsigned int i = 0; i < block.n; ++i)
-        add_point(patch, b, i, { { at_end.x[i], at_end.y[i], at_end.z[i], theta[i] } }, points);
+      const auto round     = cross(axes.axis, balanced.normal);
+      const Lanes by_round = dot(rate, round), by_normal = dot(rate, balanced.normal), by_axis = dot(rate, axes.axis);
+      const Lanes bend_round = dot(bend, round), bend_axis = dot(bend, axes.axis);
+      const Lanes ratio    = radius / balanced.radius;
+      const Lanes gap_bend = by_round * by_round / balanced.radius + balanced.profile_curvature * by_axis * by_axis +
+                             dot(bend, balanced.normal) + balanced.profile_slope * bend_axis;
+      const Lanes slip_bend = ratio * (bend_round - 2. * by_normal * by_round / balanced.radius);
+
+      const auto &friction    = end.friction;
+      const Lanes weight      = end.takes_part ? block.weight : Lanes{};
+      const Lanes by_traction = (friction.traction[0] - begin.traction[0]) * end.slip_change[0] +
+                                (friction.traction[1] - begin.traction[1]) * end.slip_change[1] +
+                                end.mean_traction[0] * slip_bend + end.mean_traction[1] * bend_axis;
+      const Lanes by_pressure =
+          (end.pressure - pressure_of(normal, begin.gap)) * (end.gap - begin.gap) + end.mean_pressure * gap_bend;
+      const auto force = force_of(balanced, axes.axis, radius, end.mean_pressure, end.mean_traction);
+      sums.stored += sum(weight * (0.5 / normal * end.pressure * end.pressure + friction.energy));
+      sums.friction += sum(weight * friction.dissipated);
+      sums.algorithmic += delay * sum(weight * (by_traction - by_pressure));
+      sums.drive += sum(weight * (of.surface_run * end.mean_traction[0] + of.advance * force.x));
+      sums.creep = std::max(sums.creep, largest(end.takes_part ? friction.creep : Lanes{}));
     }
   }
 
-  void StepInLanes::add_point(const unsigned int patch, const unsigned int b, const unsigned int i,
-                              const std::array<double, 4> &force, std::vector<FacePointState<3>> &points) const
+  SPRAG_FOR_ANY_PROCESSOR void StepInLanes::add_points(const unsigned int patch, std::vector<FacePointState<3>> &points) const
   {
-    const auto &end      = ends[b];
-    auto &state          = points.emplace_back();
-    state.index          = blocks[b].first + i;
-    state.patch          = patch;
+    for (unsigned int b = 0; b < blocks[patch].all.size(); ++b)
+    {
+      const auto &block = blocks[patch].all[b];
+      const auto &begin = begins[blocks[patch].first + b];
+      const auto &end   = ends[blocks[patch].first + b];
+      PointsInLanes force{};
+      Lanes theta{};
+      if (any(end.takes_part))
+      {
+        const auto ended = places_of(of.cylinder, of.end, end.place);
+        force            = force_of(ended, of.end.axes.axis, of.cylinder.radius, end.pressure, end.friction.traction);
+        theta            = dot(force, with_theta(end.place, of.end.cosine, of.end.sine));
+      }
+      for (unsigned int i = 0; i < block.n; ++i)
+      {
+        auto &state = points.emplace_back();
+        state.patch = patch;
+        set_point(block, begin, end, i, { { force.x[i], force.y[i], force.z[i], theta[i] } }, state);
+      }
+    }
+  }
+
+  void StepInLanes::set_point(const Block &block, const Begin &begin, const End &end, const unsigned int i,
+                              const std::array<double, 4> &force, FacePointState<3> &state) const
+  {
+    state.index          = block.first + i;
     state.position       = dealii::Point<3>(end.place.x[i], end.place.y[i], end.place.z[i]);
     state.gap            = end.gap[i];
-    state.trial_pressure = -of.law.normal.stiffness * state.gap;
+    state.trial_pressure = begin.multiplier[i] - of.law.normal.stiffness * state.gap;
     if (!end.takes_part[i])
       return;
     const auto &friction = end.friction;
+    const bool is_static = of.law.balance == ForceBalance::end;
     state.pressure       = end.pressure[i];
     state.mu             = friction.mu[i];
     state.slipping       = friction.slipping[i] != 0;
+    dealii::Tensor<1, 2> remembered_traction;
     for (unsigned int d = 0; d < 2; ++d)
     {
       state.traction[d]          = friction.traction[d][i];
       state.memory.slip_speed[d] = friction.slip_speed[d][i];
       state.slip_change[d]       = end.slip_change[d][i];
+      if (of.augmented)
+        remembered_traction[d] = begin.traction[d][i];
     }
     state.memory.traction = state.traction;
-    state.memory.step     = of.law.weights.dt;
     state.memory.point    = state.index;
-    state.elastic_slip    = state.traction.norm() / of.law.tangential;
+    state.elastic_slip    = (state.traction - remembered_traction).norm() / of.law.tangential;
+    if (is_static)
+    {
+      state.slip_change[0] += end.shift[i];
+      state.slip_change *= of.speed_ratio;
+    }
+    else
+      state.memory.step = of.law.weights.dt;
     const double c = of.end.cosine, s = of.end.sine;
     state.end_force =
         dealii::Tensor<1, 5>({ s * force[1] - c * force[0], s * force[0] + c * force[1], force[2], force[3], -force[0] });

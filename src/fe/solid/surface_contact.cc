@@ -22,35 +22,11 @@ namespace sprag
     return result;
   }
 
-  /// What evaluates one patch after another.
-  struct SurfaceContact::Step
-  {
-    RigidCylinder::Pose pose;
-    double surface_run;
-    const StaticTerms &terms;
-    StepContactLaw law;
-    const std::vector<SurfaceMemory> &memory;
-    Patches::Nodal nodal{}; ///< displacements of the patch
-
-    const SurfaceMemory *memory_of(const unsigned int point) const
-    {
-      const auto is_before = [](const SurfaceMemory &entry, const unsigned int q) { return entry.point < q; };
-      const auto found     = std::lower_bound(memory.begin(), memory.end(), point, is_before);
-      return found != memory.end() && found->point == point ? &*found : nullptr;
-    }
-
-    double traction_of(const unsigned int point) const
-    {
-      const auto *const found = memory_of(point);
-      return found != nullptr ? found->traction[0] : 0.;
-    }
-  };
-
   SurfaceContact::SurfaceContact(const FrictionFace<3> &face_, SurfaceContactProperties properties_)
       : face(face_)
       , properties(std::move(properties_))
       , patches(face)
-      , in_time(patches)
+      , in_lanes(face, patches)
       , place_of_port(properties.ports.size())
   {
     find_lines();
@@ -115,6 +91,7 @@ namespace sprag
     begin_slips.resize(patches.patches.size());
     for (auto &of_patch : begin_slips)
       of_patch.clear();
+    in_lanes.begin({});
   }
 
   const std::vector<SurfaceContact::Slips> &SurfaceContact::slips_of_patch_at_begin(const unsigned int patch) const
@@ -164,34 +141,43 @@ namespace sprag
   void SurfaceContact::evaluate(const SurfacePlace &end, const std::vector<SurfaceMemory> &memory, const double surface_run,
                                 const StaticTerms &terms, SurfaceEvaluation &found)
   {
-    StepContactLaw law;
-    law.normal     = { properties.penalties.normal, 1. };
-    law.tangential = properties.penalties.tangential;
-    law.friction   = terms.friction;
-    law.balance    = ForceBalance::end;
-    law.mode       = terms.mode;
-    law.weights.dt = terms.duration;
-    Step step{ pose_of(end), surface_run, terms, law, memory };
+    if (!in_lanes.begins_with(memory))
+      in_lanes.begin(memory);
+    StepInLanes::Constants step = constants();
+    step.law.friction           = terms.friction;
+    step.law.balance            = ForceBalance::end;
+    step.law.mode               = terms.mode;
+    step.law.weights.dt         = terms.duration;
+    step.begin                  = begin_pose;
+    step.balance = step.end = pose_of(end);
+    step.share              = 1.;
+    step.surface_run        = surface_run;
+    step.augmented          = terms.augmented;
+    step.speed_ratio        = terms.speed_ratio;
+    in_lanes.set(step);
 
     found.displacement = end.ports;
     found.x            = end.x;
     found.compression  = 0.;
     found.points.clear();
-    std::vector<PortForces> loaded;
-    for (const unsigned int patch : clip(near(end, step.pose), found))
-    {
-      step.nodal = Patches::nodal(patches.patches[patch], end.ports);
-      Sums sums;
-      for (unsigned int q = patches.patches[patch].begin; q < patches.patches[patch].end; ++q)
-      {
-        auto &state = add_point(patch, q, step.nodal, step.pose, found);
-        if (const auto *const was = step.memory_of(q))
-          state.trial_pressure += was->normal_multiplier;
-        evaluate_point(step, state, sums, found);
-      }
-      add_patch(patch, sums, loaded);
-    }
-    sum_forces(loaded, place_of_port, found.forces);
+    looked_at = clip(near(end, step.end), found);
+    for (const unsigned int patch : looked_at)
+      if (!in_lanes.is_placed(patch))
+        in_lanes.place(patch, Patches::nodal(patches.patches[patch], begin_ports), shifts_of(patch, memory, terms));
+    press_patches(end.ports, found);
+    set_forces(Wanted::with_tangent, found.forces);
+  }
+
+  /// What is the same in every step.
+  StepInLanes::Constants SurfaceContact::constants() const
+  {
+    StepInLanes::Constants result;
+    result.law.normal     = { properties.penalties.normal, 1. };
+    result.law.tangential = properties.penalties.tangential;
+    result.law.weights    = StepWeights();
+    result.cylinder       = properties.cylinder.shape();
+    result.slopes         = properties.ports.slopes;
+    return result;
   }
 
   FacePointState<3> &SurfaceContact::add_point(const unsigned int patch, const unsigned int point, const Patches::Nodal &nodal,
@@ -215,80 +201,36 @@ namespace sprag
         { ports_of(coordinates), row_on_ports(coordinates, sums.values), matrix_on_ports(coordinates, sums.tangent) });
   }
 
-  template <int n>
-  void SurfaceContact::evaluate_in(const Step &step, FacePointState<3> &state, Sums &sums, SurfaceEvaluation &found) const
-  {
-    const auto &point = patches.points[state.index];
-    if (state.trial_pressure <= 0.)
-      return;
-    found.compression     = std::max(found.compression, state.trial_pressure / properties.penalties.normal);
-    const auto placed     = properties.cylinder.kinematics<n>(step.pose, state.position);
-    const auto &begin     = slips_of_patch_at_begin(state.patch)[state.index - patches.patches[state.patch].begin];
-    const auto *const was = step.memory_of(state.index);
-
-    StepKinematics<n, 2> kinematics;
-    kinematics.gap_begin = kinematics.gap_end = placed.gap;
-    kinematics.gap_row_end = kinematics.gap_row = placed.gap_row;
-    kinematics.gap_curvature                    = placed.gap_curvature;
-    for (unsigned int s = 0; s < 2; ++s)
-      kinematics.slip_change[s] = placed.slip[s] - begin[s];
-    kinematics.slip_change[0] += step.surface_run;
-    kinematics.slip_change_row = kinematics.slip_row = placed.slip_row;
-    kinematics.slip_curvature                        = placed.slip_curvature;
-
-    // Derivative of the deformed place along the undeformed face.
-    const auto &slopes = face.points[state.index].slopes;
-    Tensor<1, n> direction;
-    direction[0] = 1.;
-    for (unsigned int i = 0; i < 3 * slopes.size(); ++i)
-      direction[i % 3] += slopes[i / 3] * step.nodal[i];
-    const auto shift         = shift_of(state.index, placed.slip_row[0] * direction, step);
-    kinematics.slip_shift[0] = shift.total();
-
-    const auto response = step_response(kinematics, was != nullptr ? *was : SurfaceMemory{}, step.law);
-
-    static_cast<PointTraction<2> &>(state) = response;
-    state.memory.point                     = state.index;
-    state.slip_change                      = step.terms.speed_ratio * kinematics.slip_change;
-    state.slip_change[0] += step.terms.speed_ratio * shift.slip;
-    state.elastic_slip = (response.traction - (was != nullptr && step.terms.augmented ? was->traction : Tensor<1, 2>())).norm() /
-                         step.law.tangential;
-    state.end_force = on_lever(response.force);
-    auto tangent    = response.tangent;
-    Tensor<1, n> by_slope;
-    for (unsigned int s = 0; s < 2; ++s)
-      by_slope -= shift.d_slope * response.d_shift[s][0] * placed.slip_row[s];
-    tangent += outer_product(by_slope, placed.slip_curvature[0] * direction);
-    sums.add(point, response.force, tangent);
-    if (shift.d_slope != 0.)
-      sums.add_slope(point, slopes, by_slope, placed.slip_row[0]);
-  }
-
-  /// Slopes are coordinates where the axis is free: they cost a third of a point.
-  void SurfaceContact::evaluate_point(const Step &step, FacePointState<3> &state, Sums &sums, SurfaceEvaluation &found) const
-  {
-    if (properties.ports.slopes > 0)
-      evaluate_in<SurfaceKinematics::n>(step, state, sums, found);
-    else
-      evaluate_in<FixedSurfaceKinematics::n>(step, state, sums, found);
-  }
   /// See slip_shift(): the place that had the same distance from the contact when the step began has the same zeta.
-  SlipShift SurfaceContact::shift_of(const unsigned int point, const double slope, const Step &step) const
+  std::vector<SlipShift> SurfaceContact::shifts_of(const unsigned int patch, const std::vector<SurfaceMemory> &memory,
+                                                   const StaticTerms &terms) const
   {
-    const double travel = step.terms.travel;
-    const auto &line    = points_of_line[place_in_line[point].first];
-    const auto xi_of    = [&](const unsigned int q) { return face.points[q].position[0]; };
-    const double xi     = xi_of(point) - travel;
-    if (travel == 0. || line.size() < 2 || xi < xi_of(line.front()) || xi > xi_of(line.back()))
-      return {};
-    const auto after     = std::upper_bound(line.begin() + 1, line.end() - 1, xi,
-                                            [&](const double value, const unsigned int q) { return value < xi_of(q); });
-    const unsigned int a = *(after - 1), b = *after;
-    const double share     = (xi - xi_of(a)) / (xi_of(b) - xi_of(a));
-    const auto between     = [share](const double first, const double second) { return (1. - share) * first + share * second; };
-    const double slip      = slips_at_begin(point)[0] - between(slips_at_begin(a)[0], slips_at_begin(b)[0]) - travel * slope;
-    const double unwinding = between(step.traction_of(a), step.traction_of(b)) - step.traction_of(point);
-    return { slip, step.terms.augmented ? 0. : unwinding / step.law.tangential, -travel };
+    const auto traction_of = [&](const unsigned int point)
+    {
+      const auto is_before = [](const SurfaceMemory &entry, const unsigned int q) { return entry.point < q; };
+      const auto found     = std::lower_bound(memory.begin(), memory.end(), point, is_before);
+      return found != memory.end() && found->point == point ? found->traction[0] : 0.;
+    };
+    const auto xi_of = [&](const unsigned int q) { return face.points[q].position[0]; };
+    std::vector<SlipShift> result;
+    for (unsigned int point = patches.patches[patch].begin; point < patches.patches[patch].end; ++point)
+    {
+      auto &shift      = result.emplace_back();
+      const auto &line = points_of_line[place_in_line[point].first];
+      const double xi  = xi_of(point) - terms.travel;
+      if (terms.travel == 0. || line.size() < 2 || xi < xi_of(line.front()) || xi > xi_of(line.back()))
+        continue;
+      const auto after     = std::upper_bound(line.begin() + 1, line.end() - 1, xi,
+                                              [&](const double value, const unsigned int q) { return value < xi_of(q); });
+      const unsigned int a = *(after - 1), b = *after;
+      const double share   = (xi - xi_of(a)) / (xi_of(b) - xi_of(a));
+      const auto between   = [share](const double first, const double second) { return (1. - share) * first + share * second; };
+      const double winding = traction_of(point) - between(traction_of(a), traction_of(b));
+      shift.slip           = slips_at_begin(point)[0] - between(slips_at_begin(a)[0], slips_at_begin(b)[0]);
+      shift.elastic        = terms.augmented ? 0. : -winding / properties.penalties.tangential;
+      shift.d_slope        = -terms.travel;
+    }
+    return result;
   }
 
   PortCoordinates SurfaceContact::coordinates_of(const unsigned int patch) const

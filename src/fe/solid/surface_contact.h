@@ -67,8 +67,8 @@ namespace sprag
     /// Sets the accepted state in which the following steps begin.
     void begin_step(const SurfacePlace &begin);
 
-    /// Evaluates the step without inertia that ends at `end`. `memory`: of the points in contact where it begins. `surface_run`:
-    /// of the cylinder by turning [mm].
+    /// Evaluates forces, compression and tangent of the step without inertia that ends at `end`. `memory`: of the points in
+    /// contact where it begins. `surface_run`: of the cylinder by turning [mm].
     void evaluate(const SurfacePlace &end, const std::vector<SurfaceMemory> &memory, double surface_run, const StaticTerms &terms,
                   SurfaceEvaluation &found);
 
@@ -77,7 +77,10 @@ namespace sprag
     void evaluate(const PortStep &step, const FrictionLaw &friction, SurfaceEvaluation &found);
 
     /// Finds works, energy and points of the step in time that was evaluated last.
-    void complete(SurfaceEvaluation &found);
+    void complete(SurfaceEvaluation &found) const;
+
+    /// Finds its points alone, in time or without inertia.
+    void add_points(SurfaceEvaluation &found) const;
 
     /// Evaluates steady sliding: the cylinder's surface runs round its axis at the slide's speed. Where the tangent is not
     /// wanted, complete() finds what there is beside forces and compression.
@@ -142,7 +145,6 @@ namespace sprag
     static constexpr unsigned int n_local         = n_displacements + n_frame;
 
     struct Sums;
-    struct Step;
     struct Sliding;
 
     using Slips = std::array<double, 2>;
@@ -154,16 +156,16 @@ namespace sprag
     template <int n>
     double along(const dealii::Tensor<1, n> &row, const dealii::Tensor<1, 3> &moved, const dealii::Vector<double> &ports) const;
     Patches::Indices near(const SurfacePlace &place, const RigidCylinder::Pose &pose) const;
-    template <int n>
-    void evaluate_in(const Step &step, FacePointState<3> &state, Sums &sums, SurfaceEvaluation &found) const;
-    SlipShift shift_of(unsigned int point, double slope, const Step &step) const;
-    void evaluate_point(const Step &step, FacePointState<3> &state, Sums &sums, SurfaceEvaluation &found) const;
+    StepInLanes::Constants constants() const;
+    std::vector<SlipShift> shifts_of(unsigned int patch, const std::vector<SurfaceMemory> &memory,
+                                     const StaticTerms &terms) const;
     template <int n>
     void slide_in(Sliding &sliding, FacePointState<3> &state, SurfaceEvaluation &found) const;
     void slide_point(Sliding &sliding, FacePointState<3> &state, SurfaceEvaluation &found) const;
     void slide(Sliding &sliding, SurfaceEvaluation &found);
     void slide_in_lanes(const SlidingState &sliding, const FrictionLaw &friction, SurfaceEvaluation &found);
-    void press_patches(const dealii::Vector<double> &begin, const dealii::Vector<double> &end, SurfaceEvaluation &found);
+    void place_patches(const dealii::Vector<double> &begin);
+    void press_patches(const dealii::Vector<double> &end, SurfaceEvaluation &found);
     template <int n>
     dealii::Tensor<1, 2> slip_rates(const Sliding &sliding, const Patches::Point &point, const SurfaceKinematicsIn<n> &placed,
                                     FacePointState<3> &state) const;
@@ -201,9 +203,8 @@ namespace sprag
       std::vector<PortCoordinates> coordinates; ///< of the patches, with places among the ports in place of these
     };
 
-    // In time.
-    StepInLanes in_time;
-    Patches::Indices looked_at_first;         ///< patches near where the step begins, and where it remembers a contact
+    StepInLanes in_lanes;
+    Patches::Indices looked_at_first;         ///< patches near where a step in time begins, and where it remembers a contact
     Patches::Indices looked_at;               ///< by the last evaluation
     std::vector<StepInLanes::Forces> pressed; ///< of the patches that are summed
     Summed summed;

@@ -51,12 +51,9 @@ namespace sprag
 
   StepInLanes::Constants SurfaceContact::constants_of(const PortStep &of, const FrictionLaw &friction) const
   {
-    StepInLanes::Constants result;
-    result.law.normal               = { properties.penalties.normal, 1. };
-    result.law.tangential           = properties.penalties.tangential;
+    auto result                     = constants();
     result.law.friction             = friction_of_step(friction, of.to.v);
     result.law.weights              = of.weights;
-    result.cylinder                 = properties.cylinder.shape();
     result.begin                    = begin_pose;
     result.end                      = pose_of({ of.end, of.to.x });
     result.share                    = of.weights.stiffness();
@@ -67,7 +64,6 @@ namespace sprag
                                  { { balanced(begin.turned[0], end.turned[0]), balanced(begin.turned[1], end.turned[1]) } });
     result.surface_run = of.to.surface - of.from.surface;
     result.advance     = of.to.x - of.from.x;
-    result.slopes      = properties.ports.slopes;
     return result;
   }
 
@@ -77,35 +73,41 @@ namespace sprag
       return set_forces(of.wanted, found.forces);
     const auto &memory  = of.surface_memory != nullptr ? *of.surface_memory : no_memory;
     const bool is_first = begin_ports.size() != of.begin.position.size();
-    if (is_first || begin_x != of.from.x || begin_ports != of.begin.position || !in_time.begins_with(memory))
+    if (is_first || begin_x != of.from.x || begin_ports != of.begin.position || !in_lanes.begins_with(memory))
     {
       begin_step({ of.begin.position, of.from.x });
-      in_time.begin(memory);
+      in_lanes.begin(memory);
       looked_at_first = united(near({ begin_ports, begin_x }, begin_pose), patches_of(memory));
     }
     const auto step = constants_of(of, friction);
-    in_time.set(step);
+    in_lanes.set(step);
 
     found.displacement = of.end;
     found.x            = of.to.x;
     found.duration     = of.weights.dt;
     found.compression  = 0.;
     looked_at          = clip(united(near({ of.end, of.to.x }, step.end), looked_at_first), found);
-    press_patches(of.begin.position, of.end, found);
+    place_patches(of.begin.position);
+    press_patches(of.end, found);
     set_forces(of.wanted, found.forces);
   }
 
-  /// Presses the patches that are looked at.
-  void SurfaceContact::press_patches(const Vector<double> &begin, const Vector<double> &end, SurfaceEvaluation &found)
+  void SurfaceContact::place_patches(const Vector<double> &begin)
+  {
+    for (const unsigned int patch : looked_at)
+      if (!in_lanes.is_placed(patch))
+        in_lanes.place(patch, Patches::nodal(patches.patches[patch], begin));
+  }
+
+  /// Presses the patches that are looked at, which are placed.
+  void SurfaceContact::press_patches(const Vector<double> &end, SurfaceEvaluation &found)
   {
     pressed.clear();
     Patches::Indices touched;
     for (const unsigned int patch : looked_at)
     {
-      const auto from = Patches::nodal(patches.patches[patch], begin);
-      const auto to   = Patches::nodal(patches.patches[patch], end);
-      auto &forces    = pressed.emplace_back();
-      if (in_time.press(patch, from, to, forces, found.compression))
+      auto &forces = pressed.emplace_back();
+      if (in_lanes.press(patch, Patches::nodal(patches.patches[patch], end), forces, found.compression))
         touched.push_back(patch);
       else
         pressed.pop_back();
@@ -155,12 +157,19 @@ namespace sprag
       add_tangent(forces);
   }
 
-  void SurfaceContact::complete(SurfaceEvaluation &found)
+  void SurfaceContact::add_points(SurfaceEvaluation &found) const
   {
-    StepInLanes::Sums sums;
     found.points.clear();
     for (const unsigned int patch : looked_at)
-      in_time.complete(patch, sums, found.points);
+      in_lanes.add_points(patch, found.points);
+  }
+
+  void SurfaceContact::complete(SurfaceEvaluation &found) const
+  {
+    StepInLanes::Sums sums;
+    for (const unsigned int patch : looked_at)
+      in_lanes.add_works(patch, sums);
+    add_points(found);
     found.stored            = sums.stored;
     found.beyond_face       = reaches_end(found);
     found.works             = StepWork();
@@ -176,7 +185,7 @@ namespace sprag
     forces.tangent.reinit(n, n);
     for (unsigned int i = 0; i < summed.patches.size(); ++i)
     {
-      const auto tangent = in_time.tangent(summed.patches[i]);
+      const auto tangent = in_lanes.tangent(summed.patches[i]);
       for (const auto &row : summed.coordinates[i])
         for (const auto &column : summed.coordinates[i])
           forces.tangent(row.port, column.port) += row.sign * column.sign * tangent[row.index][column.index];
@@ -206,23 +215,20 @@ namespace sprag
     const bool rubs   = sliding.friction == ContactFriction::sliding;
     const auto pose   = pose_of({ sliding.ports, sliding.drive.x });
     const double keep = law.regularisation_speed > 0. ? 0. : 1. / properties.penalties.tangential;
-    StepInLanes::Constants step;
-    step.law.normal     = { properties.penalties.normal, 1. };
-    step.law.tangential = properties.penalties.tangential;
-    step.law.weights    = StepWeights();
-    step.cylinder       = properties.cylinder.shape();
+    auto step         = constants();
     step.begin = step.balance = step.end = pose;
     step.share                           = step.law.weights.stiffness();
-    step.slopes                          = properties.ports.slopes;
     step.slide                           = { sliding.speed, rubs ? sliding_friction(law, sliding.speed).coefficient : 0.,
                    rubs ? friction_coefficient(law, std::abs(sliding.speed)).coefficient : 0., rubs, keep };
-    in_time.set(step);
+    in_lanes.set(step);
     clear(found);
     found.displacement = sliding.ports;
     found.x            = sliding.drive.x;
     found.duration     = 1.; // slips are those of a second
     looked_at          = clip(near({ sliding.ports, sliding.drive.x }, pose), found);
-    press_patches(sliding.ports, sliding.ports, found);
+    in_lanes.begin({});
+    place_patches(sliding.ports);
+    press_patches(sliding.ports, found);
     set_forces(sliding.wanted, found.forces);
     if (sliding.wanted == Wanted::with_tangent)
       complete(found);

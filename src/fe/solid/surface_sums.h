@@ -56,24 +56,6 @@ namespace sprag
       }
     }
 
-    /// Adds what changes with the slope of the slip round the cylinder along the face, as far as the face's direction goes with
-    /// it: `by_slope` the derivative of the force by that slope.
-    template <int n_coordinates>
-    void add_slope(const Patches::Point &point, const std::vector<double> &slopes,
-                   const dealii::Tensor<1, n_coordinates> &by_slope, const dealii::Tensor<1, n_coordinates> &slip_row)
-    {
-      for (unsigned int b = 0; b < slopes.size(); ++b)
-        for (unsigned int e = 0; e < 3; ++e)
-        {
-          const double slope = point.weight * slip_row[e] * slopes[b];
-          for (unsigned int a = 0; a < slopes.size(); ++a)
-            for (unsigned int d = 0; d < 3; ++d)
-              tangent[place(a, d)][place(b, e)] += point.shapes[a] * by_slope[d] * slope;
-          for (unsigned int i = 0; i + 3 < n_coordinates; ++i)
-            tangent[n_displacements + i][place(b, e)] += by_slope[3 + i] * slope;
-        }
-    }
-
   private:
     static void add_scaled(const double factor, const std::array<double, Patches::max_nodes> &shapes, double *const sums)
     {
