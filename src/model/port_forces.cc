@@ -51,24 +51,19 @@ namespace sprag
       constexpr double refined                = 1e-10; // what may be left, of the displacements
       constexpr double aim                    = 1e-3;  // of what is left, by a refinement
       const ReducedFactors factors(compliance, ports, tangent);
-      const auto response = [&](const Vector<double> &forces)
-      {
-        Vector<double> of_all(compliance.size()), result(forces.size());
-        add_response(compliance, ports, forces, ports, of_all);
-        for (unsigned int i = 0; i < result.size(); ++i)
-          result[i] = of_all[ports[i]];
-        return result;
-      };
-      Vector<double> result(displacements.size()), rest(displacements.size());
+      Vector<double> result(displacements.size()), rest(displacements.size()), moved(displacements.size());
+      Vector<double> of_all(compliance.size());
       factors.add_forces(displacements, rest);
       for (unsigned int i = 0; i < most_refinements; ++i)
       {
         factors.add_solution(rest, aim, result);
-        auto moved = response(result);
-        moved += displacements;
+        of_all = 0.;
+        add_response(compliance, ports, result, ports, of_all);
+        for (unsigned int j = 0; j < moved.size(); ++j)
+          moved[j] = displacements[j] + of_all[ports[j]];
         rest.equ(-1., result);
         factors.add_forces(moved, rest);
-        if (factors.movement(response(rest)) <= refined * factors.movement(displacements))
+        if (factors.movement_by(rest) <= refined * factors.movement(displacements))
           return result;
       }
       return {};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace sprag
 {
@@ -36,6 +37,13 @@ namespace sprag
         result[g].values += factor * some[g].values;
     }
 
+    SPRAG_FOR_ANY_PROCESSOR void scale(const float factor, const Sixteen *const factors, const std::size_t n_groups,
+                                       Sixteen *const result)
+    {
+      for (std::size_t g = 0; g < n_groups; ++g)
+        result[g].values *= factor * factors[g].values;
+    }
+
     void add(const float factor, const RowsOfSixteen &some, RowsOfSixteen &result)
     {
       add(factor, some[0], some.groups(), result[0]);
@@ -55,18 +63,27 @@ namespace sprag
       : n(static_cast<unsigned int>(ports.size()))
       , units(n, 1.)
       , compliance(rows_among(ports, of_ports))
-      , tangent(n)
   {
+    RowsOfSixteen inverse(1, n);
     for (unsigned int i = 0; i < n; ++i)
+    {
       if (const double own = of_ports(ports[i], ports[i]); own > 0.)
         units[i] = std::sqrt(own);
+      inverse(0, i) = static_cast<float>(1. / units[i]);
+    }
     for (unsigned int i = 0; i < n; ++i)
+    {
+      scale(inverse(0, i), inverse[0], inverse.groups(), compliance[i]);
+      tangent.begin.push_back(tangent.column.size());
       for (unsigned int j = 0; j < n; ++j)
-      {
-        compliance(i, j) /= static_cast<float>(units[i] * units[j]);
         if (of_contact(i, j) != 0.)
-          tangent[i].push_back({ j, units[i] * of_contact(i, j) * units[j] });
-      }
+        {
+          tangent.column.push_back(j);
+          tangent.value.push_back(units[i] * of_contact(i, j) * units[j]);
+        }
+    }
+    tangent.begin.push_back(tangent.column.size());
+    tangent.rounded.assign(tangent.value.begin(), tangent.value.end());
     sort_columns();
     if (!heavy.empty())
       reduce();
@@ -77,9 +94,8 @@ namespace sprag
   {
     constexpr double many = 10.;
     std::vector<double> weights(n, 0.);
-    for (const auto &row : tangent)
-      for (const auto &[column, value] : row)
-        weights[column] += std::abs(value);
+    for (std::size_t k = 0; k < tangent.column.size(); ++k)
+      weights[tangent.column[k]] += std::abs(tangent.value[k]);
     const auto n_heavy = std::count_if(weights.begin(), weights.end(), [](const double weight) { return weight > many; });
     for (unsigned int j = 0; j < n; ++j)
       (2 * n_heavy > n || weights[j] > many ? heavy : light).push_back(j);
@@ -97,9 +113,9 @@ namespace sprag
     {
       for (unsigned int i = 0; i < n_heavy; ++i)
         of_port(0, i) = compliance(k, heavy[i]);
-      for (const auto &[column, value] : tangent[k])
-        if (column_of[column] < n_heavy)
-          add(static_cast<float>(-value), of_port[0], of_port.groups(), columns[column_of[column]]);
+      for (std::size_t entry = tangent.begin[k]; entry < tangent.begin[k + 1]; ++entry)
+        if (const unsigned int column = column_of[tangent.column[entry]]; column < n_heavy)
+          add(-tangent.rounded[entry], of_port[0], of_port.groups(), columns[column]);
     }
     reduced.reinit(n_heavy);
     for (unsigned int j = 0; j < n_heavy; ++j)
@@ -150,9 +166,11 @@ namespace sprag
 
   void ReducedFactors::add_forces(const Vector<double> &displacements, Vector<double> &forces) const
   {
+    std::vector<double> in_units(n);
     for (unsigned int i = 0; i < n; ++i)
-      for (const auto &[column, value] : tangent[i])
-        forces[i] += value * displacements[column] / (units[i] * units[column]);
+      in_units[i] = displacements[i] / units[i];
+    for (unsigned int i = 0; i < n; ++i)
+      forces[i] += row_product(i, tangent.value, in_units) / units[i];
   }
 
   double ReducedFactors::size(const Vector<double> &forces) const
@@ -171,11 +189,37 @@ namespace sprag
     return std::sqrt(result);
   }
 
+  double ReducedFactors::movement_by(const Vector<double> &forces) const
+  {
+    RowsOfSixteen of_ports(1, n);
+    for (unsigned int i = 0; i < n; ++i)
+      of_ports(0, i) = static_cast<float>(units[i] * forces[i]);
+    Places all(n);
+    std::iota(all.begin(), all.end(), 0u);
+    return displacements_at(all, of_ports).l2_norm();
+  }
+
   Vector<float> ReducedFactors::displacements_at(const Places &places, const RowsOfSixteen &forces) const
   {
     Vector<float> result(static_cast<unsigned int>(places.size()));
     multiply(compliance, places, forces, result.begin());
     return result;
+  }
+
+  /// A row of the tangent times a vector, in some sums that do not wait for each other.
+  template <class Number>
+  Number ReducedFactors::row_product(const unsigned int row, const std::vector<Number> &values,
+                                     const std::vector<Number> &vector) const
+  {
+    constexpr unsigned int together = 4;
+    Number sums[together]{};
+    std::size_t k = tangent.begin[row];
+    for (; k + together <= tangent.begin[row + 1]; k += together)
+      for (unsigned int s = 0; s < together; ++s)
+        sums[s] += values[k + s] * vector[tangent.column[k + s]];
+    for (; k < tangent.begin[row + 1]; ++k)
+      sums[0] += values[k] * vector[tangent.column[k]];
+    return (sums[0] + sums[1]) + (sums[2] + sums[3]);
   }
 
   /// Adds those that follow displacements at some places.
@@ -186,7 +230,6 @@ namespace sprag
     for (unsigned int i = 0; i < places.size(); ++i)
       of_ports[places[i]] = factor * displacements[i];
     for (unsigned int i = 0; i < n; ++i)
-      for (const auto &[column, value] : tangent[i])
-        forces(0, i) += static_cast<float>(value) * of_ports[column];
+      forces(0, i) += row_product(i, tangent.rounded, of_ports);
   }
 } // namespace sprag

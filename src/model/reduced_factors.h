@@ -31,24 +31,32 @@ namespace sprag
     double size(const dealii::Vector<double> &forces) const;
     double movement(const dealii::Vector<double> &displacements) const;
 
+    /// The size of G f, in single precision.
+    double movement_by(const dealii::Vector<double> &forces) const;
+
   private:
     using Places = std::vector<unsigned int>; ///< among the ports, increasing
 
-    struct Entry
+    /// What is not 0 of the tangent, row by row.
+    struct Entries
     {
-      unsigned int column;
-      double value;
+      std::vector<std::size_t> begin; ///< of a row, and beyond the last one
+      std::vector<unsigned int> column;
+      std::vector<double> value;
+      std::vector<float> rounded;
     };
 
     unsigned int n;
-    std::vector<double> units;               ///< root of the compliance of each port
-    RowsOfSixteen compliance;                ///< in these, as all that follows
-    std::vector<std::vector<Entry>> tangent; ///< row by row, what is not 0
+    std::vector<double> units; ///< root of the compliance of each port
+    RowsOfSixteen compliance;  ///< in these, as all that follows
+    Entries tangent;
     Places heavy, light;
     dealii::LAPACKFullMatrix<float> reduced; ///< factors of S
 
     void sort_columns();
     void reduce();
+    template <class Number>
+    Number row_product(unsigned int row, const std::vector<Number> &values, const std::vector<Number> &vector) const;
     dealii::Vector<float> displacements_at(const Places &places, const RowsOfSixteen &forces) const;
     void add_forces(float factor, const Places &places, const dealii::Vector<float> &displacements, RowsOfSixteen &forces) const;
   };

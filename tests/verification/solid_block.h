@@ -211,7 +211,8 @@ namespace sprag
         , ports(layout(block))
         , window(ports, { 1e12, 0., 1. },
                  { { ports.surface, [this](const PortSelection &) { return near.ports; },
-                     [this](const PortSelection &) { return near.compliance; } } })
+                     [this](const PortSelection &)
+                     { return std::make_shared<const dealii::FullMatrix<double>>(near.compliance); } } })
         , contact(block.friction_face(), properties_of(obstacle, ports))
         , elastic(ports.size())
         , placed(ports.size())

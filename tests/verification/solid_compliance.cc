@@ -32,7 +32,8 @@ TEST(SolidCompliance, BetweenPortsItIsThatOfTheWholeBody)
     if (const double xi = nodes[port / 3].position[0]; xi > begin && xi < end)
       inner.push_back(port);
   LayeredCompliance compliance(body, begin, end);
-  const auto found = compliance.among(inner);
+  const auto of_ports = compliance.among(inner);
+  const auto &found   = *of_ports;
 
   const auto dof_of = [&](const unsigned int place) { return nodes[inner[place] / 3].dofs[inner[place] % 3]; };
   double worst = 0., largest = 0.;

@@ -4,6 +4,7 @@
 #include "fe/solid/bond_loads.h"
 
 #include <deal.II/lac/lapack_full_matrix.h>
+#include <deal.II/lac/lapack_templates.h>
 
 #include <algorithm>
 #include <cmath>
@@ -28,6 +29,42 @@ namespace sprag
     long rounded(const double place)
     {
       return std::lround(1e6 * place);
+    }
+
+    struct SkinCell
+    {
+      double begin, end; ///< along xi
+      std::vector<Point<3>> corners;
+    };
+
+    std::vector<SkinCell> skin_cells(const SolidBody &body)
+    {
+      std::vector<SkinCell> result;
+      for (const auto &cell : body.dofs().active_cell_iterators())
+        if (body.is_skin(cell))
+        {
+          const double middle = cell->center()[0], half = 0.5 * cell->extent_in_direction(0);
+          auto &found = result.emplace_back(SkinCell{ middle - half, middle + half, {} });
+          for (const unsigned int v : cell->vertex_indices())
+            found.corners.push_back(cell->vertex(v));
+        }
+      return result;
+    }
+
+    /// The corners of the cells near a place, seen from there.
+    std::set<std::vector<long>> surroundings_of(const double xi, const double distance, const std::vector<SkinCell> &cells)
+    {
+      std::set<std::vector<long>> result;
+      for (const auto &cell : cells)
+        if (cell.begin < xi + distance && cell.end > xi - distance)
+        {
+          std::vector<long> corners;
+          for (const auto &corner : cell.corners)
+            for (unsigned int d = 0; d < 3; ++d)
+              corners.push_back(rounded(corner[d] - (d == 0 ? xi : 0.)));
+          result.insert(corners);
+        }
+      return result;
     }
   } // namespace
 
@@ -55,31 +92,16 @@ namespace sprag
 
     if (!body.has_skin())
       return;
+    const auto cells = skin_cells(body);
     std::map<std::set<std::vector<long>>, std::vector<unsigned int>> alike;
     for (unsigned int t = 0; t < tiles.size(); ++t)
-      alike[surroundings_of(tiles[t].xi, surroundings)].push_back(t);
+      alike[surroundings_of(tiles[t].xi, surroundings, cells)].push_back(t);
     for (const auto &[around, some] : alike)
       for (const unsigned int t : some)
       {
         tiles[t].like    = some[some.size() / 2];
         tiles[t].n_alike = static_cast<unsigned int>(some.size());
       }
-  }
-
-  /// The corners of the skin's cells near a place, seen from there.
-  std::set<std::vector<long>> LayeredCompliance::surroundings_of(const double xi, const double distance) const
-  {
-    std::set<std::vector<long>> result;
-    for (const auto &cell : body.dofs().active_cell_iterators())
-      if (body.is_skin(cell) && std::abs(cell->center()[0] - xi) < distance + 0.5 * cell->extent_in_direction(0))
-      {
-        std::vector<long> corners;
-        for (const unsigned int v : cell->vertex_indices())
-          for (unsigned int d = 0; d < 3; ++d)
-            corners.push_back(rounded(cell->vertex(v)[d] - (d == 0 ? xi : 0.)));
-        result.insert(corners);
-      }
-    return result;
   }
 
   void LayeredCompliance::find_basis(const double begin, const double end, const double spacing)
@@ -238,18 +260,17 @@ namespace sprag
 
   FullMatrix<double> LayeredCompliance::block(const unsigned int row_tile, const unsigned int column_tile)
   {
-    const auto rows_of = [&](const Tile &tile)
-    {
-      FullMatrix<double> result(tile.end - tile.begin, basis.n());
-      if (basis.n() > 0)
-        std::copy_n(&basis(tile.begin, 0), result.m() * result.n(), &result(0, 0));
-      return result;
-    };
     const auto &rows    = tiles[row_tile];
     const auto &columns = tiles[column_tile];
+    const int n_rows = static_cast<int>(rows.end - rows.begin), n_columns = static_cast<int>(columns.end - columns.begin),
+              n = static_cast<int>(basis.n());
     FullMatrix<double> result(rows.end - rows.begin, columns.end - columns.begin);
-    if (basis.n() > 0)
-      rows_of(rows).mTmult(result, rows_of(columns));
+    if (n > 0)
+    {
+      const double once = 1., none = 0.; // row by row is column by column of what is transposed
+      gemm("T", "N", &n_columns, &n_rows, &n, &once, &basis(columns.begin, 0), &n, &basis(rows.begin, 0), &n, &none,
+           &result(0, 0), &n_columns);
+    }
     // It is symmetric: where columns of another tile do not serve, those for the row may. Of two that must be solved for, the
     // kind that is rarer is met again.
     const bool by_column = is_like(row_tile, column_tile) || (!is_like(column_tile, row_tile) && columns.n_alike <= rows.n_alike);
@@ -269,10 +290,13 @@ namespace sprag
     return result;
   }
 
-  FullMatrix<double> LayeredCompliance::among(const PortSelection &whole_tiles)
+  std::shared_ptr<const FullMatrix<double>> LayeredCompliance::among(const PortSelection &whole_tiles)
   {
     const auto n = static_cast<unsigned int>(whole_tiles.size());
-    FullMatrix<double> result(n, n);
+    if (spare_matrix.use_count() != 1)
+      spare_matrix = std::make_shared<FullMatrix<double>>();
+    auto &result = *spare_matrix;
+    result.TableBase<2, double>::reinit({ n, n }, true); // all of it is set below
     // Most of it was found last time, in one piece.
     const auto first =
         std::find_if(whole_tiles.begin(), whole_tiles.end(),
@@ -283,7 +307,7 @@ namespace sprag
     while (end < n && before + end - begin < last_ports.size() && last_ports[before + end - begin] == whole_tiles[end])
       ++end;
     for (unsigned int row = begin; row < end; ++row)
-      std::copy_n(&last_matrix(before + row - begin, before), end - begin, &result(row, begin));
+      std::copy_n(&(*last_matrix)(before + row - begin, before), end - begin, &result(row, begin));
 
     const auto all      = tiles_of(whole_tiles);
     const auto is_known = [&](const unsigned int place) { return begin <= place && place < end; };
@@ -296,9 +320,9 @@ namespace sprag
             for (unsigned int b = 0; b < fresh.n() && column + b <= row + a; ++b)
               result(row + a, column + b) = result(column + b, row + a) = fresh(a, b);
         }
-    last_ports  = whole_tiles;
-    last_matrix = result;
-    return result;
+    last_ports = whole_tiles;
+    std::swap(last_matrix, spare_matrix);
+    return last_matrix;
   }
 
   Vector<double> LayeredCompliance::displacements(const PortSelection &ports, const PortLoads &forces)

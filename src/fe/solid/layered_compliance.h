@@ -6,7 +6,7 @@
 #include <deal.II/lac/full_matrix.h>
 
 #include <map>
-#include <set>
+#include <memory>
 
 namespace sprag
 {
@@ -30,7 +30,7 @@ namespace sprag
     PortSelection whole_tiles(const PortSelection &ports) const;
 
     /// The compliance between some ports, which make up whole columns.
-    dealii::FullMatrix<double> among(const PortSelection &whole_tiles);
+    std::shared_ptr<const dealii::FullMatrix<double>> among(const PortSelection &whole_tiles);
 
     /// Displacements of some ports by forces on others, those of the skin left out where they are further away than it reaches
     /// [mm].
@@ -60,7 +60,6 @@ namespace sprag
     };
 
     void find_tiles(double surroundings);
-    std::set<std::vector<long>> surroundings_of(double xi, double distance) const;
     void find_basis(double begin, double end, double spacing);
     bool is_like(unsigned int row_tile, unsigned int column_tile) const;
     unsigned int stand_in(unsigned int row_tile, unsigned int column_tile) const;
@@ -80,8 +79,8 @@ namespace sprag
     std::map<unsigned int, std::vector<double>> known_rows;
     dealii::FullMatrix<double> basis; ///< Z, a row a port
 
-    // What was found last, most of which the next one holds too.
+    // What was found last, most of which the next one holds too, and before, whose room the next one takes.
     PortSelection last_ports;
-    dealii::FullMatrix<double> last_matrix;
+    std::shared_ptr<dealii::FullMatrix<double>> last_matrix, spare_matrix;
   };
 } // namespace sprag

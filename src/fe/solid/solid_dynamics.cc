@@ -79,7 +79,7 @@ namespace sprag
                                        const Scene &scene)
     {
       FullMatrix<double> result(ports.rotation() + 1, ports.rotation() + 1);
-      result.fill(lever.compliance->among(ports_of(window)));
+      result.fill(*lever.compliance->among(ports_of(window)));
       const auto &of_sensors     = lever.sensors->compliance();
       const unsigned int in_face = 3 * window.first_node, of_face = static_cast<unsigned int>(of_sensors.n()) - ports.sensors;
       for (unsigned int s = 0; s < ports.sensors; ++s)

@@ -6,6 +6,11 @@ namespace sprag
 {
   using namespace dealii;
 
+  namespace
+  {
+    constexpr std::size_t together = 16; ///< columns, whose pages the processor knows by heart
+  }
+
   StiffnessProduct::StiffnessProduct(const StiffnessSource &source, const std::vector<int> &number_in_part,
                                      std::vector<Connector> connectors)
       : size(size_of_part(source, number_in_part))
@@ -26,19 +31,22 @@ namespace sprag
   {
     if (cells.empty())
       return;
-    const auto n       = static_cast<unsigned int>(cells.front().numbers.size());
-    const auto columns = static_cast<unsigned int>(displacements.size() / size);
-    FullMatrix<double> moved(columns, n), answer(columns, n); // a row a column, which lies in one piece
-    for (const auto &[stiffness, numbers] : cells)
+    const auto n = static_cast<unsigned int>(cells.front().numbers.size());
+    for (std::size_t first = 0; first < displacements.size(); first += together * size)
     {
-      for (unsigned int j = 0; j < columns; ++j)
-        for (unsigned int i = 0; i < n; ++i)
-          moved(j, i) = numbers[i] < 0 ? 0. : displacements[j * static_cast<std::size_t>(size) + numbers[i]];
-      moved.mmult(answer, *stiffness); // which is symmetric
-      for (unsigned int j = 0; j < columns; ++j)
-        for (unsigned int i = 0; i < n; ++i)
-          if (numbers[i] >= 0)
-            forces[j * static_cast<std::size_t>(size) + numbers[i]] -= answer(j, i);
+      const auto columns = static_cast<unsigned int>(std::min<std::size_t>(together, (displacements.size() - first) / size));
+      FullMatrix<double> moved(columns, n), answer(columns, n); // a row a column, which lies in one piece
+      for (const auto &[stiffness, numbers] : cells)
+      {
+        for (unsigned int j = 0; j < columns; ++j)
+          for (unsigned int i = 0; i < n; ++i)
+            moved(j, i) = numbers[i] < 0 ? 0. : displacements[first + j * static_cast<std::size_t>(size) + numbers[i]];
+        moved.mmult(answer, *stiffness); // which is symmetric
+        for (unsigned int j = 0; j < columns; ++j)
+          for (unsigned int i = 0; i < n; ++i)
+            if (numbers[i] >= 0)
+              forces[first + j * static_cast<std::size_t>(size) + numbers[i]] -= answer(j, i);
+      }
     }
     for (const auto &spring : springs)
       for (std::size_t begin = 0; begin < displacements.size(); begin += size)

@@ -13,8 +13,8 @@ namespace sprag
   struct FaceResponse
   {
     unsigned int n_ports;
-    std::function<PortSelection(const PortSelection &)> whole_tiles;                   ///< those that hold some ports
-    std::function<dealii::FullMatrix<double>(const PortSelection &whole_tiles)> among; ///< [mm/N]
+    std::function<PortSelection(const PortSelection &)> whole_tiles; ///< those that hold some ports
+    std::function<std::shared_ptr<const dealii::FullMatrix<double>>(const PortSelection &whole_tiles)> among; ///< [mm/N]
   };
 
   /// Linear levers on linear springs in statics, seen through their ports, z = G f(z). The compliance G is dense on the faces of

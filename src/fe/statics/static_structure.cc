@@ -10,7 +10,7 @@ namespace sprag
     {
       return { 2 * static_cast<unsigned int>(of_body.nodes.size()),
                [&face](const PortSelection &some) { return face.whole_tiles(some); },
-               [&face](const PortSelection &tiles) { return face.among(tiles); } };
+               [&face](const PortSelection &tiles) { return std::make_shared<const FullMatrix<double>>(face.among(tiles)); } };
     }
   } // namespace
 
