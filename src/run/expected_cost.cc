@@ -28,7 +28,7 @@ namespace sprag
     constexpr double static_window     = 3.5e-10; ///< a step, times N^1.45
     constexpr double general_step      = 2.3e-5;  ///< times N
     constexpr double solid_body        = 2.2e-7;  ///< times N^1.45, with the basis of its face and the checks of it
-    constexpr double solid_step        = 1.3e-9;  ///< times N^1.4
+    constexpr double solid_step        = 8e-10;   ///< times N^1.4
     constexpr double solid_finite      = 4e-6;    ///< at finite strain, times N^1.1
     constexpr double solid_modes       = 8e-7;    ///< times N^1.45, body and held slide included
     constexpr double solid_in_time     = 1.1e-8;  ///< a step, times displacements of the face^1.55

@@ -5,6 +5,19 @@
 
 using namespace sprag;
 
+namespace
+{
+  /// Out of true, with all that a profile may have.
+  Cylinder short_barrel(const bool is_free)
+  {
+    Cylinder result     = skewed(is_free);
+    result.length       = 40.;
+    result.edge_radius  = 4.;
+    result.crown_radius = 8000.;
+    return result;
+  }
+} // namespace
+
 /// Whether the axis is free on its shaft.
 class StepInLanesOfAnAxis : public testing::TestWithParam<bool>
 {
@@ -15,10 +28,7 @@ INSTANTIATE_TEST_SUITE_P(IsFree, StepInLanesOfAnAxis, testing::Bool());
 // Eight points at once are what each is by itself.
 TEST_P(StepInLanesOfAnAxis, AStepInTimeFollowsTheLawsAtEachPoint)
 {
-  Cylinder cylinder     = skewed(GetParam());
-  cylinder.length       = 40.;
-  cylinder.edge_radius  = 4.;
-  cylinder.crown_radius = 8000.;
+  const Cylinder cylinder = short_barrel(GetParam());
   const RigidCylinder rigid(model_a().geometry, cylinder);
   FrictionLaw regularised{ CoulombFriction{ 0.6 } };
   regularised.regularisation_speed = 20.;
@@ -150,10 +160,7 @@ namespace
 
 TEST_P(StepInLanesOfAnAxis, AStepWithoutInertiaFollowsTheLawsAtEachPoint)
 {
-  Cylinder cylinder     = skewed(GetParam());
-  cylinder.length       = 40.;
-  cylinder.edge_radius  = 4.;
-  cylinder.crown_radius = 8000.;
+  const Cylinder cylinder = short_barrel(GetParam());
   const RigidCylinder rigid(model_a().geometry, cylinder);
   const double run = 0.3;
   for (const auto &friction : { FrictionLaw{ CoulombFriction{ 0.4 } }, FrictionLaw{ CoulombFriction{ 50. } }, FrictionLaw{},
