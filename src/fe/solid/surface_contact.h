@@ -36,7 +36,7 @@ namespace sprag
     double compression = 0.;               ///< of the contact springs, the largest; with multipliers p / penalty [mm]
     double stored      = 0.;               ///< energy of the contact springs; in time alone [N mm]
     StepWork works;                        ///< of the step; in time alone
-    std::vector<FacePointState<3>> points; ///< of the patches near the cylinder, by increasing point
+    std::vector<FacePointState<3>> points; ///< of the patches near the cylinder, by increasing point; see add_points()
     PortForces forces;
 
     /// Returns the memory of the points in contact, by increasing point. Throws AnalysisError beyond the face.
