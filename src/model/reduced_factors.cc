@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace sprag
 {
@@ -194,9 +193,7 @@ namespace sprag
     RowsOfSixteen of_ports(1, n);
     for (unsigned int i = 0; i < n; ++i)
       of_ports(0, i) = static_cast<float>(units[i] * forces[i]);
-    Places all(n);
-    std::iota(all.begin(), all.end(), 0u);
-    return displacements_at(all, of_ports).l2_norm();
+    return std::hypot(displacements_at(heavy, of_ports).l2_norm(), displacements_at(light, of_ports).l2_norm());
   }
 
   Vector<float> ReducedFactors::displacements_at(const Places &places, const RowsOfSixteen &forces) const

@@ -64,9 +64,7 @@ namespace
     case Kind::choice:
       return parameter.rule.choices;
     case Kind::text:
-      if (full_name(parameter) == "Condensed/Cache")
-        return { (folder.path / "other").string() };
-      return { "none", "Lever/Width", folder.path };
+      return { (folder.path / "other").string(), "none", "Lever/Width", folder.path };
     case Kind::file:
       break;
     }

@@ -96,6 +96,7 @@ namespace sprag
     struct Block;
     struct Begin;
     struct End;
+    struct Pressed;
     struct TangentSums;
 
     /// The blocks of a patch, made when it is met first, and the place of its first one in `begins` and `ends`.
@@ -106,6 +107,7 @@ namespace sprag
     };
 
     void make_blocks(unsigned int patch);
+    Pressed pressed(unsigned int patch, unsigned int block) const;
     void recall(unsigned int patch);
     void find_friction(const Begin &begin, const End &end, unsigned int lane, FrictionInLanes &result) const;
     void rub_in_time(const Begin &begin, bool in_lanes, End &end) const;

@@ -43,6 +43,20 @@ namespace sprag
     PointsInLanes direction; ///< of the deformed face along xi, in the axes of the world
   };
 
+  /// A block of a patch as it was pressed last.
+  struct StepInLanes::Pressed
+  {
+    const Block &block;
+    const Begin &begin;
+    const End &end;
+  };
+
+  SPRAG_PART StepInLanes::Pressed StepInLanes::pressed(const unsigned int patch, const unsigned int b) const
+  {
+    const auto &of_patch = blocks[patch];
+    return { of_patch.all[b], begins[of_patch.first + b], ends[of_patch.first + b] };
+  }
+
   /// Linear unilateral spring, see mean_normal_force().
   SPRAG_PART Lanes pressure_of(const double stiffness, const Lanes &gap)
   {

@@ -52,15 +52,13 @@ namespace sprag
     std::vector<SomeLanes<n_coordinates>> by_slope, slope_by;
     for (unsigned int b = 0; b < blocks[patch].all.size(); ++b)
     {
-      const auto &block  = blocks[patch].all[b];
-      const auto &end    = ends[blocks[patch].first + b];
-      const Lanes &moves = begins[blocks[patch].first + b].by_slope;
-      if (!any(end.takes_part & (moves != 0.)))
+      const auto [block, begin, end] = pressed(patch, b);
+      if (!any(end.takes_part & (begin.by_slope != 0.)))
         continue;
       const auto ended = places_of(of.cylinder, of.end, end.place);
       const auto round = cross(axes.axis, ended.normal);
       const auto slip  = (radius / ended.radius) * round;
-      const auto force = (end.takes_part ? -block.weight * moves : Lanes{}) *
+      const auto force = (end.takes_part ? -block.weight * begin.by_slope : Lanes{}) *
                          (end.friction.by_shift[0] * slip + times(end.friction.by_shift[1], axes.axis));
       const auto by_place = (-radius / (ended.radius * ended.radius)) *
                             (dot(end.direction, round) * ended.normal + dot(end.direction, ended.normal) * round);
@@ -111,9 +109,7 @@ namespace sprag
     TangentSums sums{};
     for (unsigned int b = 0; b < blocks[patch].all.size(); ++b)
     {
-      const auto &block = blocks[patch].all[b];
-      const auto &begin = begins[blocks[patch].first + b];
-      const auto &end   = ends[blocks[patch].first + b];
+      const auto [block, begin, end] = pressed(patch, b);
       if (!any(end.takes_part))
         continue;
       const auto at            = begin.place + of.share * (end.place - begin.place);
@@ -243,9 +239,7 @@ namespace sprag
     const auto &axes = of.balance.axes;
     for (unsigned int b = 0; b < blocks[patch].all.size(); ++b)
     {
-      const auto &block = blocks[patch].all[b];
-      const auto &begin = begins[blocks[patch].first + b];
-      const auto &end   = ends[blocks[patch].first + b];
+      const auto [block, begin, end] = pressed(patch, b);
       if (!any(end.takes_part))
         continue;
       // How the points move past the cylinder in the step, and of second order.
@@ -293,9 +287,7 @@ namespace sprag
   {
     for (unsigned int b = 0; b < blocks[patch].all.size(); ++b)
     {
-      const auto &block = blocks[patch].all[b];
-      const auto &begin = begins[blocks[patch].first + b];
-      const auto &end   = ends[blocks[patch].first + b];
+      const auto [block, begin, end] = pressed(patch, b);
       PointsInLanes force{};
       Lanes theta{};
       if (any(end.takes_part))

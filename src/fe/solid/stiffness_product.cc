@@ -8,7 +8,7 @@ namespace sprag
 
   namespace
   {
-    constexpr std::size_t together = 16; ///< columns, whose pages the processor knows by heart
+    constexpr std::size_t together = 16; ///< columns: pages of more are too many for a processor to find at once
   }
 
   StiffnessProduct::StiffnessProduct(const StiffnessSource &source, const std::vector<int> &number_in_part,

@@ -68,7 +68,8 @@ namespace sprag
     void begin_step(const SurfacePlace &begin);
 
     /// Evaluates forces, compression and tangent of the step without inertia that ends at `end`. `memory`: of the points in
-    /// contact where it begins. `surface_run`: of the cylinder by turning [mm].
+    /// contact where it begins. `surface_run`: of the cylinder by turning [mm]. Of the terms `travel` and `augmented` belong to
+    /// the step: they are the same until the next begin_step().
     void evaluate(const SurfacePlace &end, const std::vector<SurfaceMemory> &memory, double surface_run, const StaticTerms &terms,
                   SurfaceEvaluation &found);
 
