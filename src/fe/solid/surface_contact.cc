@@ -251,8 +251,12 @@ namespace sprag
     constexpr double infinity    = std::numeric_limits<double>::max();
     const double aside           = reach_factor * over_radius * properties.radius;
     const double end             = properties.centre(x, theta).xi;
-    const auto [first, last]     = std::minmax({ end, end - travel });
-    auto now = patches.patches_in({ { { first - aside, -infinity, -infinity }, { last + aside, infinity, infinity } } });
+    const double begin           = end - travel;
+    const auto between           = [&](const double a, const double b) {
+      return patches.patches_in({ { { a - aside, -infinity, -infinity }, { b + aside, infinity, infinity } } });
+    };
+    const auto [first, last] = std::minmax(begin, end);
+    auto now = last - first > 2. * aside ? united(between(first, first), between(last, last)) : between(first, last);
     if (reachable.empty() || now != reached)
     {
       reached   = std::move(now);

@@ -101,8 +101,8 @@ namespace sprag
     /// The slip coordinate round the cylinder of a point of an evaluation, in another configuration [mm].
     double slip_at(const FacePointState<3> &point, const SurfacePlace &place) const;
 
-    /// Returns the ports near the cylinder at the end of a step in which the contact travels along xi [mm], and those near it on
-    /// its way there.
+    /// Returns the ports near the cylinder at the beginning and at the end of a step in which the contact travels along xi [mm];
+    /// those that it passes between take no part.
     const PortSelection &reachable_ports(double x, double theta, double travel);
 
     /// Doubles how far these ports reach, from their next call on.
