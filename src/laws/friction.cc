@@ -72,13 +72,16 @@ namespace sprag
       return { law.coefficient, 0. };
     }
 
+    constexpr FrictionPiece cork_on_aluminium[] = { { 0., -9.235e-6, 4.422e-3, 0.3491 },
+                                                    { 200., -7.086e-7, 1.058e-3, 0.6809 },
+                                                    { 750., 0., 0., 1.076 } };
+
     FrictionValue value_of(const CorkOnAluminium & /*law*/, const double v)
     {
-      if (v < 200.)
-        return { (-9.235e-6 * v + 4.422e-3) * v + 0.3491, -2. * 9.235e-6 * v + 4.422e-3 };
-      if (v < 750.)
-        return { (-7.086e-7 * v + 1.058e-3) * v + 0.6809, -2. * 7.086e-7 * v + 1.058e-3 };
-      return { 1.076, 0. };
+      const auto *piece = std::begin(cork_on_aluminium);
+      while (std::next(piece) != std::end(cork_on_aluminium) && v >= std::next(piece)->from)
+        ++piece;
+      return { (piece->quadratic * v + piece->linear) * v + piece->constant, 2. * piece->quadratic * v + piece->linear };
     }
 
     FrictionValue value_of(const StribeckFriction &law, const double speed)
@@ -103,9 +106,9 @@ namespace sprag
 
     double knot_after(const double speed, const CorkOnAluminium & /*law*/)
     {
-      if (speed < 200.)
-        return 200.;
-      return speed < 750. ? 750. : no_knot;
+      const auto *next = std::find_if(std::begin(cork_on_aluminium), std::end(cork_on_aluminium),
+                                      [speed](const FrictionPiece &piece) { return piece.from > speed; });
+      return next != std::end(cork_on_aluminium) ? next->from : no_knot;
     }
 
     /// The exponential's inflexion.
@@ -128,9 +131,20 @@ namespace sprag
     return { law.factor * value.coefficient, law.factor * value.derivative };
   }
 
-  bool never_falls(const FrictionLaw &law)
+  std::vector<FrictionPiece> rising_pieces(const FrictionLaw &law)
   {
-    return std::holds_alternative<CoulombFriction>(law.law) || std::holds_alternative<CorkOnAluminium>(law.law);
+    std::vector<FrictionPiece> result;
+    if (const auto *const constant = std::get_if<CoulombFriction>(&law.law))
+      result = { { 0., 0., 0., constant->coefficient } };
+    else if (std::holds_alternative<CorkOnAluminium>(law.law))
+      result = { std::begin(cork_on_aluminium), std::end(cork_on_aluminium) };
+    for (auto &piece : result)
+    {
+      piece.quadratic *= law.factor;
+      piece.linear *= law.factor;
+      piece.constant *= law.factor;
+    }
+    return result;
   }
 
   double next_friction_knot(const FrictionLaw &law, const double speed)

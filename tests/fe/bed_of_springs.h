@@ -77,6 +77,11 @@ namespace sprag
       return *contact;
     }
 
+    const FrictionFace<3> &friction_face() const
+    {
+      return face;
+    }
+
     const std::vector<FacePoint<3>> &points() const
     {
       return face.points;

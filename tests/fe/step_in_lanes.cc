@@ -309,6 +309,57 @@ TEST_P(StepInLanesOfAnAxis, TheTangentOfTheLastForcesIsTheirs)
   check(slide);
 }
 
+// Where a contact goes on its way, what it knows of the way does not change what it finds: to the last bit it is what one finds
+// that has been nowhere else.
+TEST_P(StepInLanesOfAnAxis, NothingIsPassedOverThatTouches)
+{
+  const FrictionLaw friction{ CoulombFriction{ 0.4 } };
+  const auto weights = generalised_alpha(0.8, 6e-3);
+  const std::vector<ContactMemory> none;
+  const std::vector<SurfaceMemory> nothing;
+  Bed traveller(short_barrel(GetParam()), 12.5, 6);
+  unsigned int touching = 0;
+  double x              = Bed::x - 0.3;
+  auto begin            = traveller.pressed(-0.01);
+  for (unsigned int k = 0; k < 40; ++k)
+  {
+    auto end = traveller.pressed(0.02 + 0.06 * std::sin(0.3 * k));
+    for (unsigned int port = 0; port < traveller.ports.surface; ++port)
+      end[port] += 2e-3 * std::sin(1.3 * port + k);
+    const double to = x + (k % 4 == 0 ? 0.05 : 0.02);
+    const auto step = [&](Bed &bed)
+    {
+      SurfaceEvaluation found;
+      bed.surface().evaluate(
+          PortStep{ { 0., x, 112., 0. }, none, { 6e-3, to, 112., 0. }, { begin, {}, {} }, end, {}, weights, &nothing }, friction,
+          found);
+      bed.surface().complete(found);
+      return found;
+    };
+    Bed newcomer(short_barrel(GetParam()), 12.5, 6);
+    const auto found = step(traveller), expected = step(newcomer);
+    EXPECT_EQ(found.forces.ports, expected.forces.ports);
+    EXPECT_EQ(found.forces.values, expected.forces.values);
+    EXPECT_EQ(found.forces.tangent, expected.forces.tangent);
+    EXPECT_EQ(found.stored, expected.stored);
+    ASSERT_EQ(found.points.size(), expected.points.size());
+    for (unsigned int i = 0; i < found.points.size(); ++i)
+    {
+      EXPECT_EQ(found.points[i].gap, expected.points[i].gap);
+      EXPECT_EQ(found.points[i].position, expected.points[i].position);
+      EXPECT_EQ(found.points[i].traction, expected.points[i].traction);
+    }
+    touching += found.forces.ports.empty() ? 0 : 1;
+    if (k % 3 == 0) // steps are tried several times before the next begins
+    {
+      begin = end;
+      x     = to;
+    }
+  }
+  EXPECT_GT(touching, 15u);
+  EXPECT_LT(touching, 40u);
+}
+
 // Steady sliding is evaluated point by point where its parts are wanted, and eight at once where not.
 TEST_P(StepInLanesOfAnAxis, ASlideIsThatOfItsParts)
 {

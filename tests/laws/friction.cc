@@ -108,6 +108,27 @@ TEST(Friction, DerivativesAgreeWithFiniteDifferences)
     expect_derivative(law_of(measured), speed);
 }
 
+TEST(Friction, PiecesOfALawThatRisesAreTheLaw)
+{
+  for (auto law : { law_of(CorkOnAluminium{}), law_of(CoulombFriction{ 0.4 }) })
+  {
+    law.factor        = 1.3;
+    const auto pieces = rising_pieces(law);
+    ASSERT_FALSE(pieces.empty());
+    EXPECT_EQ(pieces.front().from, 0.);
+    for (const double speed : { 0., 1., 199.9, 200., 500., 749.9, 750., 2000. })
+    {
+      const auto beyond   = std::find_if(pieces.begin(), pieces.end(), [&](const auto &piece) { return piece.from > speed; });
+      const auto &piece   = *(beyond - 1);
+      const auto expected = friction_coefficient(law, speed);
+      EXPECT_DOUBLE_EQ((piece.quadratic * speed + piece.linear) * speed + piece.constant, expected.coefficient);
+      EXPECT_NEAR(2. * piece.quadratic * speed + piece.linear, expected.derivative, 1e-17);
+    }
+  }
+  EXPECT_TRUE(rising_pieces(law_of(StribeckFriction{})).empty());
+  EXPECT_TRUE(rising_pieces(law_of(measured)).empty());
+}
+
 TEST(Friction, TableMeetsItsRowsAndIsConstantBeyondThem)
 {
   const auto law = law_of(measured);

@@ -34,20 +34,19 @@ namespace sprag
     Lanes pressure;
   };
 
-  /// mu and its derivative, lane by lane.
-  SPRAG_PART void find_coefficients(const FrictionLaw &law, const Lanes &speed, Lanes &mu, Lanes &derivative)
+  SPRAG_PART void find_coefficients(const std::vector<FrictionPiece> &law, const Lanes &speed, Lanes &mu, Lanes &derivative)
   {
-    for (unsigned int i = 0; i < n_lanes; ++i)
+    for (const auto &piece : law)
     {
-      const auto value = friction_coefficient(law, speed[i]);
-      mu[i]            = value.coefficient;
-      derivative[i]    = value.derivative;
+      const LaneMask here = speed >= piece.from;
+      mu                  = here ? (piece.quadratic * speed + piece.linear) * speed + piece.constant : mu;
+      derivative          = here ? 2. * piece.quadratic * speed + piece.linear : derivative;
     }
   }
 
-  /// Sets traction, mu, slipping and derivatives as friction_traction() does, where mu nowhere falls: then the slip speed is the
+  /// Sets traction, mu, slipping and derivatives as friction_traction() does, for a law of rising pieces: the slip speed is its
   /// only root, and Newton's method finds it from that of a contact without elastic slip. Returns the lanes where it did not.
-  SPRAG_PART LaneMask return_to_cone(const TrialInLanes &of, const FrictionLaw &law, const double stiffness,
+  SPRAG_PART LaneMask return_to_cone(const TrialInLanes &of, const std::vector<FrictionPiece> &law, const double stiffness,
                                      FrictionInLanes &result)
   {
     const double round_off  = 4. * std::numeric_limits<double>::epsilon();
@@ -61,7 +60,7 @@ namespace sprag
     const Lanes shift       = of.shift[0] * d[0] + of.shift[1] * d[1];
     const Lanes shifted     = trial + stiffness * shift;
     const Lanes &p          = of.pressure;
-    const double mu_at_rest = friction_coefficient(law, 0.).coefficient;
+    const double mu_at_rest = law.front().constant;
     const LaneMask pressed  = p > 0.;
     const LaneMask sticks   = trial <= mu_at_rest * p;
     const LaneMask at_rest  = ~sticks & (shifted <= mu_at_rest * p);

@@ -69,6 +69,12 @@ namespace sprag
     return { x, theta, turned, std::cos(theta), std::sin(theta), slopes == at_rest ? axes_at_rest : CylinderAxes(slopes) };
   }
 
+  double RigidCylinder::Shape::largest_slope(const double distance) const
+  {
+    const double of_rounding = last_of_rounding / std::sqrt(1. - last_of_rounding * last_of_rounding);
+    return std::abs(crown) * distance + (edge_radius > 0. ? of_rounding : 0.);
+  }
+
   RigidCylinder::Shape RigidCylinder::shape() const
   {
     return {

@@ -65,6 +65,9 @@ namespace sprag
 
       /// Share of the rounding's depth beyond which the end is a wall.
       static constexpr double last_of_rounding = 0.999;
+
+      /// Bound of the slope of barrel and rounding within some distance from the middle [mm].
+      double largest_slope(double distance) const;
     };
 
     Shape shape() const;

@@ -3,13 +3,15 @@
 #include "fe/contact/face_contact_point.h"
 #include "fe/solid/cylinder_in_lanes.h"
 #include "fe/solid/friction_in_lanes.h"
+#include "fe/solid/patch_travel.h"
 
 #include <optional>
 
 namespace sprag
 {
   /// Points of a friction face in a step, eight at once: their forces, see step_response() and SurfaceContact. In time points
-  /// that touch neither where it begins nor where it ends take no part, without inertia those that do not where it ends.
+  /// that touch neither where it begins nor where it ends take no part, without inertia those that do not where it ends. Blocks
+  /// of eight that cannot have come to the cylinder are passed over, see PatchTravel.
   class StepInLanes
   {
   public:
@@ -104,23 +106,31 @@ namespace sprag
     {
       std::vector<Block> all;
       unsigned int first = dealii::numbers::invalid_unsigned_int; ///< where it is placed
+      PatchTravel travel{ 0., 0. };
+      Patches::Nodal begin; ///< where the step begins
     };
 
     void make_blocks(unsigned int patch);
     Pressed pressed(unsigned int patch, unsigned int block) const;
+    void place_block(const Block &block, const Patches::Nodal &nodal, Begin &begin) const;
     void recall(unsigned int patch);
-    void find_friction(const Begin &begin, const End &end, unsigned int lane, FrictionInLanes &result) const;
-    void rub_in_time(const Begin &begin, bool in_lanes, End &end) const;
-    void rub_at_end(const Block &block, const Begin &begin, const PlacesInLanes &ended, const Patches::Nodal &nodal,
-                    bool in_lanes, End &end) const;
-    void slide_on(Begin &begin, End &end) const;
+    bool passes_over(const Blocks &of_patch, unsigned int b) const;
+    LaneMask rub_in_time(const Begin &begin, const End &end, FrictionInLanes &result) const;
+    TrialInLanes trial_at_end(const Begin &begin, const End &end) const;
+    void slide_on(const End &end, FrictionInLanes &result) const;
+    LaneMask rub(const Begin &begin, const End &end, FrictionInLanes &result) const;
+    void rub_alone(const Begin &begin, const End &end, unsigned int lane, FrictionInLanes &result) const;
+    FrictionInLanes friction_of(const Begin &begin, const End &end) const;
+    void set_traction(const Begin &begin, End &end) const;
     void find_slip(const Begin &begin, const PlacesInLanes &ended, End &end) const;
-    void press_in_time(const PlacesInLanes &ended, bool in_lanes, Begin &begin, End &end) const;
-    void press_at_end(const Block &block, const PlacesInLanes &ended, const Patches::Nodal &nodal, bool in_lanes,
-                      const Begin &begin, End &end) const;
+    void find_shift(const Block &block, const Begin &begin, const PlacesInLanes &ended, const Patches::Nodal &nodal,
+                    End &end) const;
+    void press_in_time(const PlacesInLanes &ended, Begin &begin, End &end) const;
+    void press_at_end(const Block &block, const PlacesInLanes &ended, const Patches::Nodal &nodal, const Begin &begin,
+                      End &end) const;
     void add_slope_of_slip(unsigned int patch, Tangent &tangent) const;
-    void set_point(const Block &block, const Begin &begin, const End &end, unsigned int lane, const std::array<double, 4> &force,
-                   FacePointState<3> &state) const;
+    void set_point(const Block &block, const Begin &begin, const End &end, unsigned int lane, const FrictionInLanes &friction,
+                   const std::array<double, 4> &force, FacePointState<3> &state) const;
 
     const FrictionFace<3> &face;
     const Patches &patches;
@@ -131,5 +141,6 @@ namespace sprag
     std::vector<End> ends;
     Memory remembered;
     Constants of;
+    std::vector<FrictionPiece> law; ///< of its friction, none where each point is looked at by itself
   };
 } // namespace sprag

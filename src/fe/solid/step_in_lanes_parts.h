@@ -14,6 +14,8 @@ namespace sprag
     SomeLanes<Patches::max_nodes> slopes; ///< of the shapes along xi [1/mm]
     unsigned int first;                   ///< point
     unsigned int n;                       ///< of points
+    double clear_until;                   ///< length of the patch's travel until which no point comes to the cylinder [mm]
+    bool is_clear;                        ///< as the patch was pressed last: nothing was computed
   };
 
   struct StepInLanes::Begin
@@ -27,6 +29,8 @@ namespace sprag
     Lanes step;
     Lanes multiplier;                     ///< of the gap [MPa]
     Lanes shift, elastic_shift, by_slope; ///< see SlipShift; with a slope of 0
+    bool is_placed;                       ///< else the rest is unknown
+    bool touches;                         ///< a point does, or remembers a contact
   };
 
   struct StepInLanes::End
@@ -36,19 +40,24 @@ namespace sprag
     LaneMask takes_part;
     Lanes pressure;
     TwoLanes slip_change;
-    FrictionInLanes friction;
+    TwoLanes traction;   ///< of the springs where the step ends
     Lanes mean_pressure; ///< of the step
     TwoLanes mean_traction;
     Lanes shift;             ///< of the slip round the cylinder, without its elastic part [mm]
     PointsInLanes direction; ///< of the deformed face along xi, in the axes of the world
   };
 
-  /// A block of a patch as it was pressed last.
+  /// A block of a patch as it was pressed last. Where it is clear, begin and end are unknown.
   struct StepInLanes::Pressed
   {
     const Block &block;
     const Begin &begin;
     const End &end;
+
+    SPRAG_PART bool takes_part() const
+    {
+      return !block.is_clear && any(end.takes_part);
+    }
   };
 
   SPRAG_PART StepInLanes::Pressed StepInLanes::pressed(const unsigned int patch, const unsigned int b) const

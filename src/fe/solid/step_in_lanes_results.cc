@@ -1,4 +1,4 @@
-#include "fe/solid/step_in_lanes_parts.h"
+#include "fe/solid/step_in_lanes_friction.h"
 
 #include <algorithm>
 
@@ -52,14 +52,16 @@ namespace sprag
     std::vector<SomeLanes<n_coordinates>> by_slope, slope_by;
     for (unsigned int b = 0; b < blocks[patch].all.size(); ++b)
     {
-      const auto [block, begin, end] = pressed(patch, b);
-      if (!any(end.takes_part & (begin.by_slope != 0.)))
+      const auto of_block             = pressed(patch, b);
+      const auto &[block, begin, end] = of_block;
+      if (!of_block.takes_part() || !any(end.takes_part & (begin.by_slope != 0.)))
         continue;
-      const auto ended = places_of(of.cylinder, of.end, end.place);
-      const auto round = cross(axes.axis, ended.normal);
-      const auto slip  = (radius / ended.radius) * round;
-      const auto force = (end.takes_part ? -block.weight * begin.by_slope : Lanes{}) *
-                         (end.friction.by_shift[0] * slip + times(end.friction.by_shift[1], axes.axis));
+      const auto ended    = places_of(of.cylinder, of.end, end.place);
+      const auto round    = cross(axes.axis, ended.normal);
+      const auto slip     = (radius / ended.radius) * round;
+      const auto friction = friction_of(begin, end);
+      const auto force    = (end.takes_part ? -block.weight * begin.by_slope : Lanes{}) *
+                         (friction.by_shift[0] * slip + times(friction.by_shift[1], axes.axis));
       const auto by_place = (-radius / (ended.radius * ended.radius)) *
                             (dot(end.direction, round) * ended.normal + dot(end.direction, ended.normal) * round);
       PointsInLanes moved[n_frame]{}, turned[n_frame]{}; // place and direction, by theta, x and slopes
@@ -109,8 +111,9 @@ namespace sprag
     TangentSums sums{};
     for (unsigned int b = 0; b < blocks[patch].all.size(); ++b)
     {
-      const auto [block, begin, end] = pressed(patch, b);
-      if (!any(end.takes_part))
+      const auto of_block             = pressed(patch, b);
+      const auto &[block, begin, end] = of_block;
+      if (!of_block.takes_part())
         continue;
       const auto at            = begin.place + of.share * (end.place - begin.place);
       const auto balanced      = places_of(of.cylinder, of.balance, at);
@@ -121,7 +124,7 @@ namespace sprag
       const PointsInLanes slip_end[2] = { (radius / ended.radius) * cross(axes_end.axis, ended.normal), axis_end };
       const PointsInLanes gap         = balanced.normal + balanced.profile_slope * axis;
       const PointsInLanes gap_end     = ended.normal + ended.profile_slope * axis_end;
-      const auto &friction            = end.friction;
+      const auto friction             = friction_of(begin, end);
 
       // Of the force by the displacement of the point, in the axes of the world.
       const Lanes d_end  = (is_static ? end.takes_part : end.gap < 0.) ? all_lanes(-normal) : Lanes{};
@@ -239,8 +242,9 @@ namespace sprag
     const auto &axes = of.balance.axes;
     for (unsigned int b = 0; b < blocks[patch].all.size(); ++b)
     {
-      const auto [block, begin, end] = pressed(patch, b);
-      if (!any(end.takes_part))
+      const auto of_block             = pressed(patch, b);
+      const auto &[block, begin, end] = of_block;
+      if (!of_block.takes_part())
         continue;
       // How the points move past the cylinder in the step, and of second order.
       const auto moved    = end.place - begin.place;
@@ -267,7 +271,7 @@ namespace sprag
                              dot(bend, balanced.normal) + balanced.profile_slope * bend_axis;
       const Lanes slip_bend = ratio * (bend_round - 2. * by_normal * by_round / balanced.radius);
 
-      const auto &friction    = end.friction;
+      const auto friction     = friction_of(begin, end);
       const Lanes weight      = end.takes_part ? block.weight : Lanes{};
       const Lanes by_traction = (friction.traction[0] - begin.traction[0]) * end.slip_change[0] +
                                 (friction.traction[1] - begin.traction[1]) * end.slip_change[1] +
@@ -285,28 +289,41 @@ namespace sprag
 
   SPRAG_FOR_ANY_PROCESSOR void StepInLanes::add_points(const unsigned int patch, std::vector<FacePointState<3>> &points) const
   {
+    const Begin nowhere{};
     for (unsigned int b = 0; b < blocks[patch].all.size(); ++b)
     {
-      const auto [block, begin, end] = pressed(patch, b);
+      const auto of_block = pressed(patch, b);
+      const auto &block   = of_block.block;
       PointsInLanes force{};
       Lanes theta{};
-      if (any(end.takes_part))
+      FrictionInLanes friction{};
+      if (of_block.takes_part())
       {
+        const auto &end  = of_block.end;
+        friction         = friction_of(of_block.begin, end);
         const auto ended = places_of(of.cylinder, of.end, end.place);
-        force            = force_of(ended, of.end.axes.axis, of.cylinder.radius, end.pressure, end.friction.traction);
+        force            = force_of(ended, of.end.axes.axis, of.cylinder.radius, end.pressure, end.traction);
         theta            = dot(force, with_theta(end.place, of.end.cosine, of.end.sine));
       }
+      End clear{};
+      if (block.is_clear)
+      {
+        clear.place = at_points(block.shapes, block.position, blocks[patch].travel.displacement());
+        clear.gap   = places_of(of.cylinder, of.end, clear.place).gap;
+      }
+      const auto &begin = block.is_clear ? nowhere : of_block.begin;
+      const auto &end   = block.is_clear ? clear : of_block.end;
       for (unsigned int i = 0; i < block.n; ++i)
       {
         auto &state = points.emplace_back();
         state.patch = patch;
-        set_point(block, begin, end, i, { { force.x[i], force.y[i], force.z[i], theta[i] } }, state);
+        set_point(block, begin, end, i, friction, { { force.x[i], force.y[i], force.z[i], theta[i] } }, state);
       }
     }
   }
 
   void StepInLanes::set_point(const Block &block, const Begin &begin, const End &end, const unsigned int i,
-                              const std::array<double, 4> &force, FacePointState<3> &state) const
+                              const FrictionInLanes &friction, const std::array<double, 4> &force, FacePointState<3> &state) const
   {
     state.index          = block.first + i;
     state.position       = dealii::Point<3>(end.place.x[i], end.place.y[i], end.place.z[i]);
@@ -314,7 +331,6 @@ namespace sprag
     state.trial_pressure = begin.multiplier[i] - of.law.normal.stiffness * state.gap;
     if (!end.takes_part[i])
       return;
-    const auto &friction = end.friction;
     const bool is_static = of.law.balance == ForceBalance::end;
     state.pressure       = end.pressure[i];
     state.mu             = friction.mu[i];

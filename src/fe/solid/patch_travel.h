@@ -1,0 +1,48 @@
+#pragma once
+
+#include "fe/contact/face_patches.h"
+#include "fe/solid/rigid_cylinder.h"
+
+#include <optional>
+
+namespace sprag
+{
+  /// How much nearer to the cylinder the points of a patch may have come on all of their way: a bound that only grows, so that a
+  /// point whose gap is known at some place of the way touches nothing until it has grown by as much.
+  class PatchTravel
+  {
+  public:
+    using Nodal = FacePatches<3>::Nodal;
+
+    /// `farthest`: of the undeformed points from the lever's pivot [mm]; `most_shapes`: the largest sum of sizes of a point's
+    /// shapes.
+    PatchTravel(double farthest, double most_shapes);
+
+    /// Goes on to these displacements of the patch's nodes and this place of the cylinder; begins there the first time.
+    void go_to(const Nodal &displacement, const RigidCylinder::Pose &pose, const RigidCylinder::Shape &cylinder);
+
+    /// The bound, over all of the way [mm].
+    double length() const
+    {
+      return sum;
+    }
+
+    /// Displacements where it went to last.
+    const Nodal &displacement() const
+    {
+      return last->displacement;
+    }
+
+  private:
+    struct Place
+    {
+      Nodal displacement;
+      double x, theta;
+      dealii::Tensor<1, 3> axis;
+    };
+
+    double farthest, most_shapes;
+    std::optional<Place> last;
+    double sum = 0.;
+  };
+} // namespace sprag

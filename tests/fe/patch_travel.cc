@@ -1,0 +1,70 @@
+#include "fe/solid/patch_travel.h"
+
+#include "bed_of_springs.h"
+#include "mpi_environment.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+using namespace sprag;
+
+namespace
+{
+  /// Skewed, with all that a profile may have.
+  Cylinder rounded_barrel()
+  {
+    Cylinder result     = skewed(true);
+    result.length       = 49.;
+    result.edge_radius  = 1.;
+    result.crown_radius = 4000.;
+    return result;
+  }
+} // namespace
+
+// Wherever nodes, lever, cylinder and axis go, no point comes nearer than the travel tells: neither below the rounded ends, where
+// the profile is steep, nor anywhere else. Without slopes and ends it is little more than the points move.
+TEST(PatchTravel, BoundsHowMuchNearerAnyPointComes)
+{
+  using Patches = FacePatches<3>;
+  for (const bool has_profile : { true, false })
+  {
+    const Bed bed(rounded_barrel(), 12.5, 4);
+    const RigidCylinder cylinder(model_a().geometry, has_profile ? rounded_barrel() : Cylinder());
+    const Patches patches(bed.friction_face());
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> size(-1., 1.);
+    double nearest = 0.; // share of the travel
+    for (const auto &patch : patches.patches)
+    {
+      PatchTravel travel(140., 1.5625);
+      Patches::Nodal nodes{};
+      std::vector<double> first, gaps(patch.end - patch.begin);
+      for (unsigned int k = 0; k < 30; ++k)
+      {
+        for (double &displacement : nodes)
+          displacement += (k % 3 == 0 ? 1e-3 : 0.) * size(random);
+        const double slope = has_profile && k % 5 == 0 ? 1e-4 * size(random) : 0.;
+        const auto pose    = cylinder.pose(Bed::x + (k % 2 == 0 ? 0.01 * k : 0.), 0.085 - 1e-4 * k, { { slope, -slope } });
+        travel.go_to(nodes, pose, cylinder.shape());
+        for (unsigned int q = patch.begin; q < patch.end; ++q)
+          gaps[q - patch.begin] = cylinder.gap(pose, Patches::position(patches.points[q], nodes));
+        if (k == 0)
+        {
+          first = gaps;
+          EXPECT_EQ(travel.length(), 0.);
+        }
+        for (unsigned int i = 0; i < gaps.size(); ++i)
+        {
+          EXPECT_LE(first[i] - gaps[i], travel.length());
+          nearest = std::max(nearest, travel.length() > 0. ? (first[i] - gaps[i]) / travel.length() : 0.);
+        }
+      }
+      EXPECT_EQ(travel.displacement(), nodes);
+    }
+    if (!has_profile)
+    {
+      EXPECT_GT(nearest, 0.3);
+    }
+  }
+}
