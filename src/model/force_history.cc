@@ -2,43 +2,81 @@
 
 #include "model/state_archive.h"
 
-#include <utility>
+#include <algorithm>
 
 namespace sprag
 {
+  namespace
+  {
+    /// Of that through some values at different places, by Lagrange.
+    double value_of_polynomial(const std::vector<double> &at, const std::vector<double> &values, const double place)
+    {
+      double result = 0.;
+      for (std::size_t i = 0; i < at.size(); ++i)
+      {
+        double share = values[i];
+        for (std::size_t j = 0; j < at.size(); ++j)
+          if (j != i)
+            share *= (place - at[j]) / (at[i] - at[j]);
+        result += share;
+      }
+      return result;
+    }
+  } // namespace
+
   void ForceHistory::begin(const PortLoads &forces)
   {
-    last            = forces;
-    before          = {};
-    duration_before = last_duration = 0.;
+    time   = 0.;
+    places = { { forces, time } };
   }
 
   void ForceHistory::accept(const PortLoads &forces, const double duration)
   {
-    std::swap(before, last);
-    last            = forces;
-    duration_before = last_duration;
-    last_duration   = duration;
+    accept_at(forces, time + 0.5 * duration);
+    time += duration;
   }
 
   void ForceHistory::guess(const double duration, PortLoads &result) const
   {
-    result = last;
-    if (last_duration == 0.)
-      return;
-    const double ratio = (duration + last_duration) / (last_duration + duration_before);
-    unsigned int j     = 0;
-    for (unsigned int i = 0; i < last.ports.size(); ++i)
+    result = guess_at(time + 0.5 * duration);
+  }
+
+  void ForceHistory::accept_at(const PortLoads &forces, const double place, const bool goes_on)
+  {
+    constexpr std::size_t most = 3; // a cubic follows the noise of points that come and go
+    if (!goes_on)
+      places.clear();
+    if (places.size() == most)
+      places.pop_back();
+    places.insert(places.begin(), { forces, place });
+  }
+
+  PortLoads ForceHistory::guess_at(const double place) const
+  {
+    PortLoads result = places.front().forces;
+    for (unsigned int i = 0; i < result.ports.size(); ++i)
     {
-      while (j < before.ports.size() && before.ports[j] < last.ports[i])
-        ++j;
-      if (j < before.ports.size() && before.ports[j] == last.ports[i])
-        result.values[i] += ratio * (last.values[i] - before.values[j]);
+      std::vector<double> values, at;
+      for (const auto &[forces, of_place] : places)
+      {
+        const auto port = std::lower_bound(forces.ports.begin(), forces.ports.end(), result.ports[i]);
+        if (port == forces.ports.end() || *port != result.ports[i])
+          break;
+        values.push_back(forces.values[static_cast<unsigned int>(port - forces.ports.begin())]);
+        at.push_back(of_place);
+      }
+      result.values[i] = value_of_polynomial(at, values, place);
     }
+    return result;
+  }
+
+  void visit(Archive &archive, ForcesAtPlace &forces)
+  {
+    archive(forces.forces, forces.place);
   }
 
   void visit(Archive &archive, ForceHistory &history)
   {
-    archive(history.before, history.last, history.duration_before, history.last_duration);
+    archive(history.places, history.time);
   }
 } // namespace sprag

@@ -3,26 +3,53 @@
 #include "base/archive.h"
 #include "model/port_forces.h"
 
+#include <vector>
+
 namespace sprag
 {
-  /// Forces of the last two steps in a row, which tell where the search for those of the next one best starts.
+  struct ForcesAtPlace
+  {
+    PortLoads forces;
+    double place;
+  };
+
+  void visit(Archive &archive, ForcesAtPlace &forces);
+
+  /// Forces at the last few places of a way, or in the middle of the last steps in time, which tell where the search for the next
+  /// ones best starts.
   class ForceHistory
   {
   public:
-    /// Begins at the forces of a motion that no step led to.
+    /// Forgets what was before, and begins at the forces of a motion that no step led to.
     void begin(const PortLoads &forces);
 
     /// Takes the mean forces of an accepted step of some duration > 0 [s].
     void accept(const PortLoads &forces, double duration);
 
-    /// Writes what they lead to along a line, from the middle of a step to that of the next, which has some duration > 0 [s].
-    /// Ports that the last forces do not have are left out.
+    /// Writes what they lead to in the next step, which has some duration > 0 [s].
     void guess(double duration, PortLoads &result) const;
+
+    /// Takes the forces at a place beyond the last one. Forgets all others where `goes_on` is false.
+    void accept_at(const PortLoads &forces, double place, bool goes_on = true);
+
+    /// Returns what they lead to at a place, on the ports of the last: each along the polynomial through its forces as far back
+    /// as it has any. There must be some.
+    PortLoads guess_at(double place) const;
+
+    bool empty() const
+    {
+      return places.empty();
+    }
+
+    const ForcesAtPlace &last() const
+    {
+      return places.front();
+    }
 
     friend void visit(Archive &archive, ForceHistory &history);
 
   private:
-    PortLoads before, last;
-    double duration_before = 0., last_duration = 0.; ///< 0: no step [s]
+    std::vector<ForcesAtPlace> places; ///< the last one first
+    double time = 0.;                  ///< at the end of the last step
   };
 } // namespace sprag

@@ -2,6 +2,7 @@
 
 #include "model/circle.h"
 #include "model/contact_of_levers.h"
+#include "model/force_history.h"
 #include "model/hub_spring.h"
 #include "model/kept_iteration.h"
 #include "model/lever_frame.h"
@@ -71,10 +72,15 @@ namespace sprag
     /// The same for one drive after another: to what a step in time leaves out, from a kept tangent where the contact keeps one.
     const PortForces *follow(const DrivePoint &drive)
     {
+      const PortForces *forces = nullptr;
       if constexpr (Contact::keeps_tangent)
-        if (const auto *forces = solve_with_kept_tangent(drive))
-          return forces;
-      return solve(drive, 1.);
+        forces = solve_with_kept_tangent(drive);
+      if (forces == nullptr)
+        forces = solve(drive, 1.);
+      if (forces != nullptr)
+        followed.accept_at({ forces->ports, forces->values }, drive.x, goes_on(drive));
+      followed_speed = drive.v;
+      return forces;
     }
 
     /// Slip speed of the deformable lever over that of the rigid one, by equilibria at a distance h [mm] to both sides.
@@ -98,7 +104,7 @@ namespace sprag
     /// Visits the equilibrium from which the next one is sought.
     void visit_history(Archive &archive)
     {
-      archive(last_sliding, last_forces, last_sliding_theta);
+      archive(last_sliding, last_forces, last_sliding_theta, followed, followed_speed);
       visit(archive, kept);
     }
 
@@ -111,8 +117,16 @@ namespace sprag
     dealii::Vector<double> last_sliding; ///< ports of the last equilibrium, from which the next one starts
     PortLoads last_forces;               ///< there
     OfLevers last_sliding_theta{};       ///< inclinations of ideal contact there
+    ForceHistory followed;               ///< see follow()
+    double followed_speed = 0.;
     std::shared_ptr<const KeptTangent> kept;
     KeptFactors factors;
+
+    /// Whether a drive goes on from the last that was followed.
+    bool goes_on(const DrivePoint &drive) const
+    {
+      return !followed.empty() && (drive.x - followed.last().place) * drive.v > 0. && drive.v * followed_speed > 0.;
+    }
 
     /// A turn of the hub, from the last equilibrium with the change of ideal contact.
     double guessed_turn(const unsigned int lever, const OfLevers &ideal) const
@@ -129,7 +143,7 @@ namespace sprag
       return found.forces;
     }
 
-    /// See follow(). Null where that does not converge. The guess are the last forces, all as much larger as the hub turns.
+    /// See follow(). Null where that does not converge.
     const PortForces *solve_with_kept_tangent(const DrivePoint &drive)
     {
       if (last_forces.ports.empty())
@@ -138,15 +152,10 @@ namespace sprag
       const auto ideal                  = ideal_inclinations(drive.x);
       const auto &near                  = contact.reachable_ports(drive.x, ideal);
       const dealii::Vector<double> free = structure.port_positions(structure.rest(), near);
-      dealii::Vector<double> z(free.size());
-      add_response(structure.compliance(), last_forces.ports, last_forces.values, near, z);
-      const unsigned int hub = frame.ports.rotation();
-      PortLoads guess        = last_forces;
-      guess.values *= (guessed_turn(0, ideal) - free[hub]) / z[hub];
-
-      z                  = free;
-      const double speed = sliding_speed(frame.geometries.front(), drive.x, drive.v);
-      const auto at      = [&](const dealii::Vector<double> &ports, const Wanted wanted) -> const PortForces      &{
+      const PortLoads guess             = goes_on(drive) ? followed.guess_at(drive.x) : turned_forces(free, near, ideal);
+      dealii::Vector<double> z          = free;
+      const double speed                = sliding_speed(frame.geometries.front(), drive.x, drive.v);
+      const auto at                     = [&](const dealii::Vector<double> &ports, const Wanted wanted) -> const PortForces                     &{
         return evaluate({ ports, drive, speed, nullptr, ContactFriction::sliding, wanted });
       };
       const auto solved =
@@ -160,6 +169,17 @@ namespace sprag
       }
       contact.complete(found);
       return accept(z, ideal, *solved.forces);
+    }
+
+    /// The last forces, all as much larger as the hub turns.
+    PortLoads turned_forces(const dealii::Vector<double> &free, const PortSelection &near, const OfLevers &ideal) const
+    {
+      dealii::Vector<double> z(free.size());
+      add_response(structure.compliance(), last_forces.ports, last_forces.values, near, z);
+      const unsigned int hub = frame.ports.rotation();
+      PortLoads result       = last_forces;
+      result.values *= (guessed_turn(0, ideal) - free[hub]) / z[hub];
+      return result;
     }
 
     const PortForces *accept(const dealii::Vector<double> &z, const OfLevers &ideal, const PortForces &forces)

@@ -39,6 +39,22 @@ TEST(ForceHistory, HasThePortsOfTheLastForces)
   history.accept(loads({ 2, 7 }, { 2., 5. }), 1.);
   const auto found = guessed(history, 1.);
   EXPECT_EQ(found.ports, (std::vector<unsigned int>{ 2, 7 }));
-  EXPECT_DOUBLE_EQ(found.values[0], 3.);
+  EXPECT_DOUBLE_EQ(found.values[0], 13. / 3.);
   EXPECT_DOUBLE_EQ(found.values[1], 5.);
+}
+
+// f(t) = 1 + t^2 and f(x) = x^2: through three places, the oldest of four is forgotten.
+TEST(ForceHistory, FollowsAParabolaThroughPlaces)
+{
+  ForceHistory history;
+  EXPECT_TRUE(history.empty());
+  history.begin(loads({ 4 }, { 100. }));
+  for (const double t : { 0.5, 2., 5. })
+    history.accept(loads({ 4 }, { 1. + t * t }), t == 0.5 ? 1. : t == 2. ? 2. : 4.);
+  EXPECT_DOUBLE_EQ(guessed(history, 2.).values[0], 1. + 8. * 8.);
+
+  for (const double x : { 3., 2., 1.5 })
+    history.accept_at(loads({ 4 }, { x * x }), x, x < 3.);
+  EXPECT_DOUBLE_EQ(history.last().place, 1.5);
+  EXPECT_NEAR(history.guess_at(0.5).values[0], 0.25, 1e-14);
 }
