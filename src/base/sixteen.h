@@ -17,10 +17,14 @@ namespace sprag
 
   SPRAG_PART float sum(const Sixteen &some)
   {
-    float result = 0.f;
-    for (unsigned int i = 0; i < Sixteen::n; ++i)
-      result += some.values[i];
-    return result;
+    using Eight        = float __attribute__((vector_size(32)));
+    using Four         = float __attribute__((vector_size(16)));
+    const auto &all    = some.values;
+    const Eight halves = __builtin_shufflevector(all, all, 0, 1, 2, 3, 4, 5, 6, 7) +
+                         __builtin_shufflevector(all, all, 8, 9, 10, 11, 12, 13, 14, 15);
+    const Four quarters =
+        __builtin_shufflevector(halves, halves, 0, 1, 2, 3) + __builtin_shufflevector(halves, halves, 4, 5, 6, 7);
+    return (quarters[0] + quarters[2]) + (quarters[1] + quarters[3]);
   }
 
   /// Rows of numbers in single precision, 0 at first. A row is a number of groups of sixteen that four divides, and 0 beyond its

@@ -82,7 +82,7 @@ namespace sprag
     {
       constexpr unsigned int most_corrections = 25;
       constexpr unsigned int most_renewals    = 8;
-      constexpr double slow                   = 0.15; ///< share of the unbalance that a correction may leave
+      constexpr double slow                   = 0.05; ///< share of the unbalance that a correction may leave
       constexpr double hopeless               = 100.; ///< share that even a new tangent is not tried for
 
       NewtonResult result;
@@ -90,9 +90,12 @@ namespace sprag
       if (kept != nullptr)
         include(kept->ports);
       move(z);
+      if (kept != nullptr && !use(kept))
+        kept.reset();
       evaluate(z, kept == nullptr ? Wanted::with_tangent : Wanted::forces);
-      if (kept == nullptr ? !renew(kept) : !use(kept))
+      if (kept == nullptr && !renew(kept))
         return { result, forces };
+      measure();
       double by_unit        = 0.; // of unbalance, the largest movement
       unsigned int renewals = 0;
       const double least    = equations.smallest_movement();
@@ -103,6 +106,7 @@ namespace sprag
         const double before   = unbalance;
         const double movement = correct(z);
         evaluate(z, Wanted::forces);
+        measure();
         const double share = unbalance / before;
         if (!(share < hopeless))
           break;
@@ -129,8 +133,8 @@ namespace sprag
 
     PortLoads phi;
     const PortForces *forces = nullptr; ///< at the last evaluation
-    std::vector<double> difference;     ///< f - phi
-    double unbalance = 0.;              ///< its size
+    dealii::Vector<double> difference;  ///< f - phi
+    double unbalance = 0.;              ///< its size, by what it would move
     std::vector<unsigned int> places;   ///< of the kept tangent's ports in phi
     ForceSteps steps;
     dealii::Vector<double> moved; ///< room for displacements of all ports
@@ -177,22 +181,32 @@ namespace sprag
     {
       forces = &forces_at(z, wanted);
       include(forces->ports);
-      difference.resize(phi.ports.size());
-      for (unsigned int i = 0; i < phi.ports.size(); ++i)
-        difference[i] = -phi.values[i];
+      difference = phi.values;
+      difference *= -1.;
       for (unsigned int i = 0, place = 0; i < forces->ports.size(); ++i, ++place)
       {
         while (phi.ports[place] != forces->ports[i])
           ++place;
         difference[place] += forces->values[i];
       }
+    }
+
+    /// As KeptFactors::movement_by(), also where there are other ports than theirs.
+    void measure()
+    {
+      if (places.size() == phi.ports.size())
+      {
+        unbalance = factors.movement_by(difference);
+        return;
+      }
       for (const unsigned int port : phi.ports)
         moved[port] = 0.;
-      add_response(equations.compliance, phi.ports, dealii::Vector<double>(difference.begin(), difference.end()), phi.ports,
-                   moved);
-      unbalance = 0.;
+      add_response(equations.compliance, phi.ports, difference, phi.ports, moved);
+      double squares = 0.;
       for (const unsigned int port : phi.ports)
-        unbalance = std::max(unbalance, std::abs(equations.lengths[port] * moved[port]));
+        if (const double own = equations.compliance(port, port); own > 0.)
+          squares += moved[port] * moved[port] / own;
+      unbalance = std::sqrt(squares);
     }
 
     bool renew(std::shared_ptr<const KeptTangent> &kept)
@@ -212,11 +226,10 @@ namespace sprag
     /// Returns the largest movement.
     double correct(dealii::Vector<double> &z)
     {
-      auto change = difference;
-      dealii::Vector<float> of_kept(static_cast<unsigned int>(places.size()));
-      for (unsigned int i = 0; i < places.size(); ++i)
-        of_kept[i] = static_cast<float>(difference[places[i]]);
-      factors.solve(of_kept);
+      dealii::Vector<double> of_kept(static_cast<unsigned int>(places.size()));
+      difference.extract_subvector_to(places.begin(), places.end(), of_kept.begin());
+      of_kept = factors.solve(of_kept);
+      std::vector<double> change(difference.begin(), difference.end());
       for (unsigned int i = 0; i < places.size(); ++i)
         change[places[i]] = of_kept[i];
       steps.improve(change);

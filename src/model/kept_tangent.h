@@ -3,8 +3,7 @@
 #include "base/archive.h"
 #include "model/generalised_alpha.h"
 #include "model/port_forces.h"
-
-#include <deal.II/lac/lapack_full_matrix.h>
+#include "model/reduced_factors.h"
 
 #include <memory>
 
@@ -20,7 +19,7 @@ namespace sprag
 
   void visit(Archive &archive, std::shared_ptr<const KeptTangent> &kept);
 
-  /// Factors of 1 - A G of kept tangents A with the compliances G of steps, in single precision: what a correction of forces
+  /// Factors of 1 - A G of kept tangents A with the compliances G of steps, see ReducedFactors: what a correction of forces
   /// leaves of their unbalance the next one finds.
   class KeptFactors
   {
@@ -32,8 +31,11 @@ namespace sprag
     /// The ports of the tangent in use.
     const std::vector<unsigned int> &ports() const;
 
-    /// Solves for the change of forces on these ports by which they follow displacements, from what they differ by.
-    void solve(dealii::Vector<float> &forces) const;
+    /// Returns the change of forces on these ports by which they follow displacements, from what they differ by.
+    dealii::Vector<double> solve(const dealii::Vector<double> &difference) const;
+
+    /// The size of what forces on these ports move, see ReducedFactors::movement_by().
+    double movement_by(const dealii::Vector<double> &forces) const;
 
   private:
     struct Factors
@@ -41,7 +43,7 @@ namespace sprag
       std::shared_ptr<const KeptTangent> of;
       double dt;
       double alpha_f;
-      std::unique_ptr<const dealii::LAPACKFullMatrix<float>> matrix; ///< a copy would lose its pivots
+      std::unique_ptr<const ReducedFactors> factors; ///< none of no ports
     };
 
     std::vector<Factors> known; ///< the latest in use last

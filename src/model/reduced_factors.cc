@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace sprag
 {
@@ -55,10 +56,48 @@ namespace sprag
         result.values += a[0][g].values * b[0][g].values;
       return sum(result);
     }
+
+    constexpr unsigned int n_alike = 3; // rows
+
+    /// Adds the sizes of some numbers, times a factor, to sums.
+    SPRAG_FOR_ANY_PROCESSOR void add_sizes(const double *const numbers, const double factor, const unsigned int n,
+                                           double *const sums)
+    {
+      unsigned int i = 0;
+      for (; i + n_lanes <= n; i += n_lanes)
+      {
+        Lanes some, sum;
+        std::memcpy(&some, numbers + i, sizeof(some));
+        std::memcpy(&sum, sums + i, sizeof(sum));
+        sum += factor * absolute(some);
+        std::memcpy(sums + i, &sum, sizeof(sum));
+      }
+      for (; i < n; ++i)
+        sums[i] += factor * std::abs(numbers[i]);
+    }
+
+    /// Adds the products of three rows at once with a vector to `result`, which has room for three more.
+    template <class Number, class Entries, class Values>
+    SPRAG_PART void add_products(const Entries &entries, const Values &values, const Number *const vector, Number *const result)
+    {
+      for (std::size_t g = 0; g + 1 < entries.begin.size(); ++g)
+      {
+        typename Values::value_type sums[2]{};
+        std::size_t k         = entries.begin[g];
+        const std::size_t end = entries.begin[g + 1];
+        for (; k + 1 < end; k += 2)
+          for (unsigned int s = 0; s < 2; ++s)
+            sums[s].values += values[k + s].values * vector[entries.column[k + s]];
+        if (k < end)
+          sums[0].values += values[k].values * vector[entries.column[k]];
+        for (unsigned int a = 0; a < n_alike; ++a)
+          result[n_alike * g + a] += sums[0].values[a] + sums[1].values[a];
+      }
+    }
   } // namespace
 
   ReducedFactors::ReducedFactors(const PortCompliance &of_ports, const std::vector<unsigned int> &ports,
-                                 const FullMatrix<double> &of_contact)
+                                 const FullMatrix<double> &tangent)
       : n(static_cast<unsigned int>(ports.size()))
       , units(n, 1.)
       , compliance(rows_among(ports, of_ports))
@@ -71,50 +110,102 @@ namespace sprag
       inverse(0, i) = static_cast<float>(1. / units[i]);
     }
     for (unsigned int i = 0; i < n; ++i)
-    {
       scale(inverse(0, i), inverse[0], inverse.groups(), compliance[i]);
-      tangent.begin.push_back(tangent.column.size());
-      for (unsigned int j = 0; j < n; ++j)
-        if (of_contact(i, j) != 0.)
-        {
-          tangent.column.push_back(j);
-          tangent.value.push_back(units[i] * of_contact(i, j) * units[j]);
-        }
-    }
-    tangent.begin.push_back(tangent.column.size());
-    tangent.rounded.assign(tangent.value.begin(), tangent.value.end());
-    sort_columns();
+    sort_columns(tangent);
+    fill(tangent);
     if (!heavy.empty())
       reduce();
   }
 
+  void ReducedFactors::Entries::resize(const std::size_t number)
+  {
+    column.resize(number);
+    value.resize(number);
+    rounded.resize(number);
+  }
+
   /// Heavy are those where a displacement, by the forces that follow it, displaces the ports many times as much.
-  void ReducedFactors::sort_columns()
+  void ReducedFactors::sort_columns(const FullMatrix<double> &tangent)
   {
     constexpr double many = 10.;
     std::vector<double> weights(n, 0.);
-    for (std::size_t k = 0; k < tangent.column.size(); ++k)
-      weights[tangent.column[k]] += std::abs(tangent.value[k]);
+    for (unsigned int i = 0; i < n; ++i)
+      add_sizes(&tangent(i, 0), units[i], n, weights.data());
+    for (unsigned int j = 0; j < n; ++j)
+      weights[j] *= units[j];
     const auto n_heavy = std::count_if(weights.begin(), weights.end(), [](const double weight) { return weight > many; });
     for (unsigned int j = 0; j < n; ++j)
       (2 * n_heavy > n || weights[j] > many ? heavy : light).push_back(j);
   }
 
+  /// Sets the entries of heavy and light columns.
+  SPRAG_FOR_ANY_PROCESSOR void ReducedFactors::fill(const FullMatrix<double> &tangent)
+  {
+    std::vector<unsigned int> is_heavy(n, 0), columns(n);
+    for (const unsigned int j : heavy)
+      is_heavy[j] = 1;
+    for (unsigned int i = 0; i < n; i += n_alike)
+    {
+      const double *rows[n_alike];
+      Entries::Four<double> of_rows{};
+      for (unsigned int a = 0; a < n_alike; ++a)
+      {
+        rows[a] = &tangent(std::min(i + a, n - 1), 0);
+        if (i + a < n)
+          of_rows.values[a] = units[i + a];
+      }
+      unsigned int filled = 0;
+      for (unsigned int j = 0; j < n; ++j)
+      {
+        columns[filled] = j;
+        filled += static_cast<unsigned int>((rows[0][j] != 0.) | (rows[1][j] != 0.) | (rows[2][j] != 0.));
+      }
+      Entries *const of[]  = { &of_light, &of_heavy };
+      std::size_t places[] = { of_light.column.size(), of_heavy.column.size() };
+      for (auto *entries : of)
+        entries->resize(entries->column.size() + filled);
+      for (unsigned int k = 0; k < filled; ++k)
+      {
+        const unsigned int j    = columns[k];
+        auto &entries           = *of[is_heavy[j]];
+        const std::size_t place = places[is_heavy[j]]++;
+        Entries::Four<double> value{ { rows[0][j], rows[1][j], rows[2][j], 0. } };
+        value.values *= units[j] * of_rows.values;
+        entries.column[place]         = j;
+        entries.value[place]          = value;
+        entries.rounded[place].values = __builtin_convertvector(value.values, decltype(entries.rounded[place].values));
+      }
+      for (unsigned int some : { 0, 1 })
+      {
+        of[some]->resize(places[some]);
+        of[some]->begin.push_back(places[some]);
+      }
+    }
+  }
+
   /// Makes the factors of S.
-  void ReducedFactors::reduce()
+  SPRAG_FOR_ANY_PROCESSOR void ReducedFactors::reduce()
   {
     const auto n_heavy = static_cast<unsigned int>(heavy.size());
-    std::vector<unsigned int> column_of(n, n_heavy);
+    std::vector<unsigned int> place(n);
     for (unsigned int j = 0; j < n_heavy; ++j)
-      column_of[heavy[j]] = j;
-    RowsOfSixteen columns(n_heavy, n_heavy), of_port(1, n_heavy);
-    for (unsigned int k = 0; k < n; ++k)
+      place[heavy[j]] = j;
+    RowsOfSixteen columns(n_heavy, n_heavy), of_ports(n_alike, n_heavy);
+    for (std::size_t g = 0; g + 1 < of_heavy.begin.size(); ++g)
     {
-      for (unsigned int i = 0; i < n_heavy; ++i)
-        of_port(0, i) = compliance(k, heavy[i]);
-      for (std::size_t entry = tangent.begin[k]; entry < tangent.begin[k + 1]; ++entry)
-        if (const unsigned int column = column_of[tangent.column[entry]]; column < n_heavy)
-          add(-tangent.rounded[entry], of_port[0], of_port.groups(), columns[column]);
+      for (unsigned int a = 0; a < n_alike; ++a)
+      {
+        const float *const row = &compliance(std::min<std::size_t>(n_alike * g + a, n - 1), 0);
+        for (unsigned int j = 0; j < n_heavy; ++j)
+          of_ports(a, j) = row[heavy[j]];
+      }
+      for (std::size_t k = of_heavy.begin[g]; k < of_heavy.begin[g + 1]; ++k)
+      {
+        const auto &value  = of_heavy.rounded[k].values;
+        Sixteen *const sum = columns[place[of_heavy.column[k]]];
+        for (std::size_t i = 0; i < columns.groups(); ++i)
+          sum[i].values -= value[0] * of_ports[0][i].values + value[1] * of_ports[1][i].values + value[2] * of_ports[2][i].values;
+      }
     }
     reduced.reinit(n_heavy);
     for (unsigned int j = 0; j < n_heavy; ++j)
@@ -145,8 +236,8 @@ namespace sprag
       auto followed = displacements_at(heavy, rest);
       if (!heavy.empty())
         reduced.solve(followed);
-      add_forces(1.f, heavy, followed, change.forces);
-      add_forces(-1.f, light, displacements_at(light, change.forces), change.image);
+      add_forces(1.f, heavy, of_heavy, followed, change.forces);
+      add_forces(-1.f, light, of_light, displacements_at(light, change.forces), change.image);
       for (const auto &before : changes)
       {
         const float share = dot(change.image, before.image) / before.size;
@@ -163,13 +254,15 @@ namespace sprag
       forces[i] += found(0, i) / units[i];
   }
 
-  void ReducedFactors::add_forces(const Vector<double> &displacements, Vector<double> &forces) const
+  SPRAG_FOR_ANY_PROCESSOR void ReducedFactors::add_forces(const Vector<double> &displacements, Vector<double> &forces) const
   {
-    std::vector<double> in_units(n);
+    std::vector<double> in_units(n), result(n + n_alike);
     for (unsigned int i = 0; i < n; ++i)
       in_units[i] = displacements[i] / units[i];
+    for (const auto *entries : { &of_heavy, &of_light })
+      add_products(*entries, entries->value, in_units.data(), result.data());
     for (unsigned int i = 0; i < n; ++i)
-      forces[i] += row_product(i, tangent.value, in_units) / units[i];
+      forces[i] += result[i] / units[i];
   }
 
   double ReducedFactors::size(const Vector<double> &forces) const
@@ -203,30 +296,15 @@ namespace sprag
     return result;
   }
 
-  /// A row of the tangent times a vector, in some sums that do not wait for each other.
-  template <class Number>
-  Number ReducedFactors::row_product(const unsigned int row, const std::vector<Number> &values,
-                                     const std::vector<Number> &vector) const
+  /// Adds those that follow displacements at some places, by the entries of their columns.
+  SPRAG_FOR_ANY_PROCESSOR void ReducedFactors::add_forces(const float factor, const Places &places, const Entries &entries,
+                                                          const Vector<float> &displacements, RowsOfSixteen &forces) const
   {
-    constexpr unsigned int together = 4;
-    Number sums[together]{};
-    std::size_t k = tangent.begin[row];
-    for (; k + together <= tangent.begin[row + 1]; k += together)
-      for (unsigned int s = 0; s < together; ++s)
-        sums[s] += values[k + s] * vector[tangent.column[k + s]];
-    for (; k < tangent.begin[row + 1]; ++k)
-      sums[0] += values[k] * vector[tangent.column[k]];
-    return (sums[0] + sums[1]) + (sums[2] + sums[3]);
-  }
-
-  /// Adds those that follow displacements at some places.
-  void ReducedFactors::add_forces(const float factor, const Places &places, const Vector<float> &displacements,
-                                  RowsOfSixteen &forces) const
-  {
-    std::vector<float> of_ports(n);
+    std::vector<float> of_ports(n), result(n + n_alike);
     for (unsigned int i = 0; i < places.size(); ++i)
       of_ports[places[i]] = factor * displacements[i];
+    add_products(entries, entries.rounded, of_ports.data(), result.data());
     for (unsigned int i = 0; i < n; ++i)
-      forces(0, i) += row_product(i, tangent.rounded, of_ports);
+      forces(0, i) += result[i];
   }
 } // namespace sprag

@@ -37,27 +37,36 @@ namespace sprag
   private:
     using Places = std::vector<unsigned int>; ///< among the ports, increasing
 
-    /// What is not 0 of the tangent, row by row.
+    /// What is not 0 of some columns of the tangent, three rows at once: those of a node are alike in where they are not 0.
     struct Entries
     {
-      std::vector<std::size_t> begin; ///< of a row, and beyond the last one
+      /// Of the rows, and one that is 0.
+      template <class Number>
+      struct alignas(4 * sizeof(Number)) Four
+      {
+        Number values __attribute__((vector_size(4 * sizeof(Number))));
+      };
+
+      std::vector<std::size_t> begin{ 0 }; ///< of three rows, and beyond the last ones
       std::vector<unsigned int> column;
-      std::vector<double> value;
-      std::vector<float> rounded;
+      std::vector<Four<double>> value;
+      std::vector<Four<float>> rounded;
+
+      void resize(std::size_t number);
     };
 
     unsigned int n;
     std::vector<double> units; ///< root of the compliance of each port
     RowsOfSixteen compliance;  ///< in these, as all that follows
-    Entries tangent;
     Places heavy, light;
+    Entries of_heavy, of_light;              ///< columns of the tangent
     dealii::LAPACKFullMatrix<float> reduced; ///< factors of S
 
-    void sort_columns();
+    void sort_columns(const dealii::FullMatrix<double> &tangent);
+    void fill(const dealii::FullMatrix<double> &tangent);
     void reduce();
-    template <class Number>
-    Number row_product(unsigned int row, const std::vector<Number> &values, const std::vector<Number> &vector) const;
     dealii::Vector<float> displacements_at(const Places &places, const RowsOfSixteen &forces) const;
-    void add_forces(float factor, const Places &places, const dealii::Vector<float> &displacements, RowsOfSixteen &forces) const;
+    void add_forces(float factor, const Places &places, const Entries &entries, const dealii::Vector<float> &displacements,
+                    RowsOfSixteen &forces) const;
   };
 } // namespace sprag
