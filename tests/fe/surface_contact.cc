@@ -294,3 +294,30 @@ TEST_P(SurfaceContactOfAnAxis, AStepInTimeHasItsTangent)
     expect_tangent(bed, end, evaluated, friction);
   }
 }
+
+// On a long way the contact is at both ends, and passes over the rest.
+TEST(SurfaceContact, ALongStepReachesWhereItBeginsAndEnds)
+{
+  const double theta = 0.085, middle = cylinder_centre(model_a().geometry, Bed::x, theta).xi;
+  const auto reached = [&](const double travel)
+  {
+    Bed bed(Cylinder(), 12.5, 2);
+    const auto &ports = bed.surface().reachable_ports(Bed::x - 0.5 * travel, theta, travel);
+    return [nodes = bed.friction_face().nodes, ports](const double xi)
+    {
+      return std::any_of(nodes.begin(), nodes.end(),
+                         [&](const auto &node)
+                         {
+                           const auto port = 3 * static_cast<unsigned int>(&node - nodes.data());
+                           return std::abs(node.position[0] - xi) < 0.5 && std::binary_search(ports.begin(), ports.end(), port);
+                         });
+    };
+  };
+  for (const double travel : { 2., 5., 9. })
+  {
+    const auto is_reached = reached(travel);
+    EXPECT_TRUE(is_reached(middle - 0.5 * travel));
+    EXPECT_TRUE(is_reached(middle + 0.5 * travel));
+    EXPECT_EQ(is_reached(middle), travel < 9.);
+  }
+}
