@@ -68,3 +68,22 @@ TEST(PatchTravel, BoundsHowMuchNearerAnyPointComes)
     }
   }
 }
+
+// An iteration that diverged once must not hide what comes after it.
+TEST(PatchTravel, IsEndlessFromFarAwayOn)
+{
+  const RigidCylinder cylinder(model_a().geometry, Cylinder());
+  const double nowhere = std::nan("");
+  for (const double far : { 1e17, 1e200, nowhere })
+  {
+    PatchTravel travel(140., 1.5625);
+    PatchTravel::Nodal nodes{};
+    const auto go = [&] { travel.go_to(nodes, cylinder.pose(Bed::x, 0.085), cylinder.shape()); };
+    go();
+    nodes[1] = far;
+    go();
+    nodes[1] = 0.;
+    go();
+    EXPECT_EQ(travel.length(), std::numeric_limits<double>::infinity());
+  }
+}

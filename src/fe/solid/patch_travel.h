@@ -21,7 +21,7 @@ namespace sprag
     /// Goes on to these displacements of the patch's nodes and this place of the cylinder; begins there the first time.
     void go_to(const Nodal &displacement, const RigidCylinder::Pose &pose, const RigidCylinder::Shape &cylinder);
 
-    /// The bound, over all of the way [mm].
+    /// The bound, over all of the way [mm]; infinite from then on where that went far away.
     double length() const
     {
       return sum;

@@ -1,4 +1,4 @@
-#include "fe/solid/step_in_lanes_friction.h"
+#include "fe/solid/step_in_lanes_parts.h"
 
 #include <algorithm>
 
@@ -159,6 +159,71 @@ namespace sprag
     }
   }
 
+  /// As end_friction() where stick is resolved: the slip speed at the end is extrapolated from the step's mean and the last
+  /// one's. Returns the lanes that it did not find.
+  SPRAG_PART LaneMask StepInLanes::rub_in_time(const Begin &begin, const End &end, FrictionInLanes &result) const
+  {
+    const double stiffness = of.law.tangential, dt = of.law.weights.dt;
+    const Lanes &t_0 = begin.traction[0], &t_1 = begin.traction[1];
+    const Lanes &g_0 = end.slip_change[0], &g_1 = end.slip_change[1];
+    const Lanes before     = begin.slip_speed[0] * (t_0 + stiffness * g_0) + begin.slip_speed[1] * (t_1 + stiffness * g_1);
+    const LaneMask goes_on = (begin.step > 0.) & (before >= 0.);
+    const Lanes share      = goes_on ? dt / (dt + begin.step) : Lanes{};
+    const Lanes duration   = dt / (1. + share);
+    const Lanes shift      = -duration * share;
+    const TrialInLanes trial{
+      begin.traction, end.slip_change, { { shift * begin.slip_speed[0], shift * begin.slip_speed[1] } }, duration, end.pressure
+    };
+    const LaneMask unknown = return_to_cone(trial, law, stiffness, result);
+    const Lanes traction   = result.traction[0] * result.traction[0] + result.traction[1] * result.traction[1];
+    const Lanes s_0 = g_0 - (result.traction[0] - t_0) / stiffness, s_1 = g_1 - (result.traction[1] - t_1) / stiffness;
+    const LaneMask &slips = result.slipping;
+    result.slip_speed     = { { slips ? s_0 / dt : Lanes{}, slips ? s_1 / dt : Lanes{} } };
+    result.energy         = 0.5 / stiffness * traction;
+    result.dissipated     = 0.5 * ((t_0 + result.traction[0]) * s_0 + (t_1 + result.traction[1]) * s_1);
+    return unknown;
+  }
+
+  /// Without inertia, as end_response().
+  SPRAG_PART TrialInLanes StepInLanes::trial_at_end(const Begin &begin, const End &end) const
+  {
+    return { begin.traction,
+             end.slip_change,
+             { { end.shift + begin.elastic_shift, Lanes{} } },
+             all_lanes(of.law.weights.dt),
+             end.pressure };
+  }
+
+  SPRAG_PART void StepInLanes::slide_on(const End &end, FrictionInLanes &result) const
+  {
+    result.traction[0]    = of.slide->coefficient * end.pressure;
+    result.mu             = all_lanes(of.slide->mu);
+    result.slipping       = of.slide->rubs ? ~LaneMask{} : LaneMask{};
+    result.slip_speed[0]  = all_lanes(of.slide->speed);
+    result.by_pressure[0] = all_lanes(of.slide->coefficient);
+    result.energy         = 0.5 * of.slide->compliance * result.traction[0] * result.traction[0];
+  }
+
+  /// Sets friction by lanes. Returns the lanes that are to be looked at one by one.
+  SPRAG_PART LaneMask StepInLanes::rub(const Begin &begin, const End &end, FrictionInLanes &result) const
+  {
+    result                 = FrictionInLanes();
+    const double stiffness = of.law.tangential;
+    const bool is_static   = of.law.balance == ForceBalance::end;
+    if (is_static && of.law.mode == FrictionMode::stick)
+    {
+      for (unsigned int s = 0; s < 2; ++s)
+      {
+        result.traction[s]        = begin.traction[s] + stiffness * end.slip_change[s];
+        result.by_slip[2 * s + s] = all_lanes(stiffness);
+      }
+      return LaneMask{};
+    }
+    if (law.empty() || (!is_static && of.law.friction.regularisation_speed > 0.))
+      return is_static ? end.takes_part : ~LaneMask{};
+    return is_static ? return_to_cone(trial_at_end(begin, end), law, stiffness, result) : rub_in_time(begin, end, result);
+  }
+
   /// One lane, by the laws.
   void StepInLanes::rub_alone(const Begin &begin, const End &end, const unsigned int i, FrictionInLanes &result) const
   {
@@ -183,21 +248,14 @@ namespace sprag
     result.creep[i]      = found.creep;
   }
 
-  /// Sets what forces need of it alone: the rest is found again where it is asked for.
-  SPRAG_PART void StepInLanes::set_traction(const Begin &begin, End &end) const
+  /// Sets the friction of a block whose pressure and slip are known, in all lanes.
+  SPRAG_PART void StepInLanes::find_friction(const Begin &begin, End &end) const
   {
-    FrictionInLanes friction;
-    const LaneMask unknown = rub(begin, end, friction);
-    end.traction           = friction.traction;
+    const LaneMask unknown = rub(begin, end, end.friction);
     if (any(unknown))
       for (unsigned int i = 0; i < n_lanes; ++i)
         if (unknown[i])
-        {
-          FrictionInLanes alone;
-          rub_alone(begin, end, i, alone);
-          for (unsigned int s = 0; s < 2; ++s)
-            end.traction[s][i] = alone.traction[s][i];
-        }
+          rub_alone(begin, end, i, end.friction);
   }
 
   SPRAG_PART void StepInLanes::find_slip(const Begin &begin, const PlacesInLanes &ended, End &end) const
@@ -229,23 +287,25 @@ namespace sprag
     if (of.slide)
     {
       // Nothing changes: it begins as it ends, so that it takes up no work.
-      FrictionInLanes friction{};
-      slide_on(end, friction);
-      end.slip_change = friction.slip_speed;
+      end.friction = FrictionInLanes();
+      slide_on(end, end.friction);
+      end.slip_change = end.friction.slip_speed;
       begin           = Begin();
       begin.place     = end.place;
       begin.gap       = end.gap;
-      begin.traction  = friction.traction;
+      begin.traction  = end.friction.traction;
     }
     end.takes_part = (end.gap < 0.) | (begin.gap < 0.) | begin.known;
     if (!any(end.takes_part))
       return;
     if (!of.slide)
+    {
       find_slip(begin, ended, end);
-    set_traction(begin, end);
+      find_friction(begin, end);
+    }
     end.mean_pressure = mean_pressure_of(normal, begin.gap, end.gap) + delay * (end.pressure - pressure_of(normal, begin.gap));
     for (unsigned int d = 0; d < 2; ++d)
-      end.mean_traction[d] = (0.5 - delay) * begin.traction[d] + (0.5 + delay) * end.traction[d];
+      end.mean_traction[d] = (0.5 - delay) * begin.traction[d] + (0.5 + delay) * end.friction.traction[d];
   }
 
   SPRAG_PART void StepInLanes::press_at_end(const Block &block, const PlacesInLanes &ended, const Patches::Nodal &nodal,
@@ -258,8 +318,8 @@ namespace sprag
     end.pressure = end.mean_pressure = end.takes_part ? trial : Lanes{};
     find_slip(begin, ended, end);
     find_shift(block, begin, ended, nodal, end);
-    set_traction(begin, end);
-    end.mean_traction = end.traction;
+    find_friction(begin, end);
+    end.mean_traction = end.friction.traction;
   }
 
   SPRAG_FOR_ANY_PROCESSOR bool StepInLanes::press(const unsigned int patch, const Patches::Nodal &to, Forces &forces,
@@ -267,8 +327,9 @@ namespace sprag
   {
     const bool is_static = of.law.balance == ForceBalance::end;
     const double c = of.balance.cosine, s = of.balance.sine;
-    auto &of_patch  = blocks[patch];
-    bool takes_part = false;
+    constexpr double round_off = 1e-9; // of gaps and travels [mm]
+    auto &of_patch             = blocks[patch];
+    bool takes_part            = false;
     SomeLanes<n_coordinates> sums{};
     of_patch.travel.go_to(to, of.end, of.cylinder);
     for (unsigned int b = 0; b < of_patch.all.size(); ++b)
@@ -284,7 +345,7 @@ namespace sprag
       end.place         = at_points(block.shapes, block.position, to);
       const auto ended  = places_of(of.cylinder, of.end, end.place);
       end.gap           = ended.gap;
-      block.clear_until = of_patch.travel.length() - largest(-end.gap);
+      block.clear_until = of_patch.travel.length() - largest(-end.gap) - round_off;
       if (is_static)
         press_at_end(block, ended, to, begin, end);
       else

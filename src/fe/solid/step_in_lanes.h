@@ -120,8 +120,7 @@ namespace sprag
     void slide_on(const End &end, FrictionInLanes &result) const;
     LaneMask rub(const Begin &begin, const End &end, FrictionInLanes &result) const;
     void rub_alone(const Begin &begin, const End &end, unsigned int lane, FrictionInLanes &result) const;
-    FrictionInLanes friction_of(const Begin &begin, const End &end) const;
-    void set_traction(const Begin &begin, End &end) const;
+    void find_friction(const Begin &begin, End &end) const;
     void find_slip(const Begin &begin, const PlacesInLanes &ended, End &end) const;
     void find_shift(const Block &block, const Begin &begin, const PlacesInLanes &ended, const Patches::Nodal &nodal,
                     End &end) const;
@@ -129,8 +128,8 @@ namespace sprag
     void press_at_end(const Block &block, const PlacesInLanes &ended, const Patches::Nodal &nodal, const Begin &begin,
                       End &end) const;
     void add_slope_of_slip(unsigned int patch, Tangent &tangent) const;
-    void set_point(const Block &block, const Begin &begin, const End &end, unsigned int lane, const FrictionInLanes &friction,
-                   const std::array<double, 4> &force, FacePointState<3> &state) const;
+    void set_point(const Block &block, const Begin &begin, const End &end, unsigned int lane, const std::array<double, 4> &force,
+                   FacePointState<3> &state) const;
 
     const FrictionFace<3> &face;
     const Patches &patches;

@@ -40,7 +40,7 @@ namespace sprag
     LaneMask takes_part;
     Lanes pressure;
     TwoLanes slip_change;
-    TwoLanes traction;   ///< of the springs where the step ends
+    FrictionInLanes friction;
     Lanes mean_pressure; ///< of the step
     TwoLanes mean_traction;
     Lanes shift;             ///< of the slip round the cylinder, without its elastic part [mm]

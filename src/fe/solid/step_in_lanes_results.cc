@@ -1,4 +1,4 @@
-#include "fe/solid/step_in_lanes_friction.h"
+#include "fe/solid/step_in_lanes_parts.h"
 
 #include <algorithm>
 
@@ -56,11 +56,11 @@ namespace sprag
       const auto &[block, begin, end] = of_block;
       if (!of_block.takes_part() || !any(end.takes_part & (begin.by_slope != 0.)))
         continue;
-      const auto ended    = places_of(of.cylinder, of.end, end.place);
-      const auto round    = cross(axes.axis, ended.normal);
-      const auto slip     = (radius / ended.radius) * round;
-      const auto friction = friction_of(begin, end);
-      const auto force    = (end.takes_part ? -block.weight * begin.by_slope : Lanes{}) *
+      const auto ended     = places_of(of.cylinder, of.end, end.place);
+      const auto round     = cross(axes.axis, ended.normal);
+      const auto slip      = (radius / ended.radius) * round;
+      const auto &friction = end.friction;
+      const auto force     = (end.takes_part ? -block.weight * begin.by_slope : Lanes{}) *
                          (friction.by_shift[0] * slip + times(friction.by_shift[1], axes.axis));
       const auto by_place = (-radius / (ended.radius * ended.radius)) *
                             (dot(end.direction, round) * ended.normal + dot(end.direction, ended.normal) * round);
@@ -124,7 +124,7 @@ namespace sprag
       const PointsInLanes slip_end[2] = { (radius / ended.radius) * cross(axes_end.axis, ended.normal), axis_end };
       const PointsInLanes gap         = balanced.normal + balanced.profile_slope * axis;
       const PointsInLanes gap_end     = ended.normal + ended.profile_slope * axis_end;
-      const auto friction             = friction_of(begin, end);
+      const auto &friction            = end.friction;
 
       // Of the force by the displacement of the point, in the axes of the world.
       const Lanes d_end  = (is_static ? end.takes_part : end.gap < 0.) ? all_lanes(-normal) : Lanes{};
@@ -271,7 +271,7 @@ namespace sprag
                              dot(bend, balanced.normal) + balanced.profile_slope * bend_axis;
       const Lanes slip_bend = ratio * (bend_round - 2. * by_normal * by_round / balanced.radius);
 
-      const auto friction     = friction_of(begin, end);
+      const auto &friction    = end.friction;
       const Lanes weight      = end.takes_part ? block.weight : Lanes{};
       const Lanes by_traction = (friction.traction[0] - begin.traction[0]) * end.slip_change[0] +
                                 (friction.traction[1] - begin.traction[1]) * end.slip_change[1] +
@@ -296,13 +296,11 @@ namespace sprag
       const auto &block   = of_block.block;
       PointsInLanes force{};
       Lanes theta{};
-      FrictionInLanes friction{};
       if (of_block.takes_part())
       {
         const auto &end  = of_block.end;
-        friction         = friction_of(of_block.begin, end);
         const auto ended = places_of(of.cylinder, of.end, end.place);
-        force            = force_of(ended, of.end.axes.axis, of.cylinder.radius, end.pressure, end.traction);
+        force            = force_of(ended, of.end.axes.axis, of.cylinder.radius, end.pressure, end.friction.traction);
         theta            = dot(force, with_theta(end.place, of.end.cosine, of.end.sine));
       }
       End clear{};
@@ -317,13 +315,13 @@ namespace sprag
       {
         auto &state = points.emplace_back();
         state.patch = patch;
-        set_point(block, begin, end, i, friction, { { force.x[i], force.y[i], force.z[i], theta[i] } }, state);
+        set_point(block, begin, end, i, { { force.x[i], force.y[i], force.z[i], theta[i] } }, state);
       }
     }
   }
 
   void StepInLanes::set_point(const Block &block, const Begin &begin, const End &end, const unsigned int i,
-                              const FrictionInLanes &friction, const std::array<double, 4> &force, FacePointState<3> &state) const
+                              const std::array<double, 4> &force, FacePointState<3> &state) const
   {
     state.index          = block.first + i;
     state.position       = dealii::Point<3>(end.place.x[i], end.place.y[i], end.place.z[i]);
@@ -331,6 +329,7 @@ namespace sprag
     state.trial_pressure = begin.multiplier[i] - of.law.normal.stiffness * state.gap;
     if (!end.takes_part[i])
       return;
+    const auto &friction = end.friction;
     const bool is_static = of.law.balance == ForceBalance::end;
     state.pressure       = end.pressure[i];
     state.mu             = friction.mu[i];
