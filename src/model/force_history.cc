@@ -3,19 +3,24 @@
 #include "model/state_archive.h"
 
 #include <algorithm>
+#include <array>
 
 namespace sprag
 {
   namespace
   {
-    /// Of that through some values at different places, by Lagrange.
-    double value_of_polynomial(const std::vector<double> &at, const std::vector<double> &values, const double place)
+    constexpr std::size_t most = 3; // a cubic follows the noise of points that come and go
+
+    using Values = std::array<double, most>;
+
+    /// Of that through the first n values at different places, by Lagrange.
+    double value_of_polynomial(const Values &at, const Values &values, const std::size_t n, const double place)
     {
       double result = 0.;
-      for (std::size_t i = 0; i < at.size(); ++i)
+      for (std::size_t i = 0; i < n; ++i)
       {
         double share = values[i];
-        for (std::size_t j = 0; j < at.size(); ++j)
+        for (std::size_t j = 0; j < n; ++j)
           if (j != i)
             share *= (place - at[j]) / (at[i] - at[j]);
         result += share;
@@ -43,7 +48,6 @@ namespace sprag
 
   void ForceHistory::accept_at(const PortLoads &forces, const double place, const bool goes_on)
   {
-    constexpr std::size_t most = 3; // a cubic follows the noise of points that come and go
     if (!goes_on)
       places.clear();
     if (places.size() == most)
@@ -56,16 +60,17 @@ namespace sprag
     PortLoads result = places.front().forces;
     for (unsigned int i = 0; i < result.ports.size(); ++i)
     {
-      std::vector<double> values, at;
+      Values values, at;
+      std::size_t n = 0;
       for (const auto &[forces, of_place] : places)
       {
         const auto port = std::lower_bound(forces.ports.begin(), forces.ports.end(), result.ports[i]);
         if (port == forces.ports.end() || *port != result.ports[i])
           break;
-        values.push_back(forces.values[static_cast<unsigned int>(port - forces.ports.begin())]);
-        at.push_back(of_place);
+        values[n] = forces.values[static_cast<unsigned int>(port - forces.ports.begin())];
+        at[n++]   = of_place;
       }
-      result.values[i] = value_of_polynomial(at, values, place);
+      result.values[i] = value_of_polynomial(at, values, n, place);
     }
     return result;
   }

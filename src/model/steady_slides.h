@@ -72,15 +72,18 @@ namespace sprag
     /// The same for one drive after another: to what a step in time leaves out, from a kept tangent where the contact keeps one.
     const PortForces *follow(const DrivePoint &drive)
     {
-      const PortForces *forces = nullptr;
       if constexpr (Contact::keeps_tangent)
-        forces = solve_with_kept_tangent(drive);
-      if (forces == nullptr)
-        forces = solve(drive, 1.);
-      if (forces != nullptr)
-        followed.accept_at({ forces->ports, forces->values }, drive.x, goes_on(drive));
-      followed_speed = drive.v;
-      return forces;
+      {
+        const auto *forces = solve_with_kept_tangent(drive);
+        if (forces == nullptr)
+          forces = solve(drive, 1.);
+        if (forces != nullptr)
+          followed.accept_at({ forces->ports, forces->values }, drive.x, goes_on(drive));
+        followed_speed = drive.v;
+        return forces;
+      }
+      else
+        return solve(drive, 1.);
     }
 
     /// Slip speed of the deformable lever over that of the rigid one, by equilibria at a distance h [mm] to both sides.
@@ -117,8 +120,8 @@ namespace sprag
     dealii::Vector<double> last_sliding; ///< ports of the last equilibrium, from which the next one starts
     PortLoads last_forces;               ///< there
     OfLevers last_sliding_theta{};       ///< inclinations of ideal contact there
-    ForceHistory followed;               ///< see follow()
-    double followed_speed = 0.;
+    ForceHistory followed;               ///< by follow(), where the contact keeps a tangent
+    double followed_speed = 0.;          ///< v of the last of them
     std::shared_ptr<const KeptTangent> kept;
     KeptFactors factors;
 

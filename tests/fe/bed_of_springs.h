@@ -157,4 +157,14 @@ namespace sprag
       result.tilt_stiffness = result.skew_stiffness = 1e6;
     return result;
   }
+
+  /// Skewed, with all that a profile may have [mm].
+  inline Cylinder barrel(const bool is_free, const double length, const double edge_radius, const double crown_radius)
+  {
+    Cylinder result     = skewed(is_free);
+    result.length       = length;
+    result.edge_radius  = edge_radius;
+    result.crown_radius = crown_radius;
+    return result;
+  }
 } // namespace sprag

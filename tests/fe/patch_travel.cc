@@ -9,28 +9,16 @@
 
 using namespace sprag;
 
-namespace
-{
-  /// Skewed, with all that a profile may have.
-  Cylinder rounded_barrel()
-  {
-    Cylinder result     = skewed(true);
-    result.length       = 49.;
-    result.edge_radius  = 1.;
-    result.crown_radius = 4000.;
-    return result;
-  }
-} // namespace
-
 // Wherever nodes, lever, cylinder and axis go, no point comes nearer than the travel tells: neither below the rounded ends, where
 // the profile is steep, nor anywhere else. Without slopes and ends it is little more than the points move.
 TEST(PatchTravel, BoundsHowMuchNearerAnyPointComes)
 {
-  using Patches = FacePatches<3>;
+  using Patches          = FacePatches<3>;
+  const Cylinder rounded = barrel(true, 49., 1., 4000.);
   for (const bool has_profile : { true, false })
   {
-    const Bed bed(rounded_barrel(), 12.5, 4);
-    const RigidCylinder cylinder(model_a().geometry, has_profile ? rounded_barrel() : Cylinder());
+    const Bed bed(rounded, 12.5, 4);
+    const RigidCylinder cylinder(model_a().geometry, has_profile ? rounded : Cylinder());
     const Patches patches(bed.friction_face());
     std::mt19937 random(7);
     std::uniform_real_distribution<double> size(-1., 1.);

@@ -7,14 +7,9 @@ using namespace sprag;
 
 namespace
 {
-  /// Out of true, with all that a profile may have.
   Cylinder short_barrel(const bool is_free)
   {
-    Cylinder result     = skewed(is_free);
-    result.length       = 40.;
-    result.edge_radius  = 4.;
-    result.crown_radius = 8000.;
-    return result;
+    return barrel(is_free, 40., 4., 8000.);
   }
 } // namespace
 
