@@ -36,9 +36,9 @@ namespace sprag
     /// as it has any. There must be some.
     PortLoads guess_at(double place) const;
 
-    bool empty() const
+    std::size_t size() const
     {
-      return places.empty();
+      return places.size();
     }
 
     const ForcesAtPlace &last() const

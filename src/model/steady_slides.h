@@ -128,7 +128,7 @@ namespace sprag
     /// Whether a drive goes on from the last that was followed.
     bool goes_on(const DrivePoint &drive) const
     {
-      return !followed.empty() && (drive.x - followed.last().place) * drive.v > 0. && drive.v * followed_speed > 0.;
+      return followed.size() > 0 && (drive.x - followed.last().place) * drive.v > 0. && drive.v * followed_speed > 0.;
     }
 
     /// A turn of the hub, from the last equilibrium with the change of ideal contact.
@@ -155,7 +155,8 @@ namespace sprag
       const auto ideal                  = ideal_inclinations(drive.x);
       const auto &near                  = contact.reachable_ports(drive.x, ideal);
       const dealii::Vector<double> free = structure.port_positions(structure.rest(), near);
-      const PortLoads guess             = goes_on(drive) ? followed.guess_at(drive.x) : turned_forces(free, near, ideal);
+      const bool in_line                = goes_on(drive) && followed.size() > 1;
+      const PortLoads guess             = in_line ? followed.guess_at(drive.x) : turned_forces(free, near, ideal);
       dealii::Vector<double> z          = free;
       const double speed                = sliding_speed(frame.geometries.front(), drive.x, drive.v);
       const auto at                     = [&](const dealii::Vector<double> &ports, const Wanted wanted) -> const PortForces                     &{

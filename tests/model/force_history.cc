@@ -47,7 +47,7 @@ TEST(ForceHistory, HasThePortsOfTheLastForces)
 TEST(ForceHistory, FollowsAParabolaThroughPlaces)
 {
   ForceHistory history;
-  EXPECT_TRUE(history.empty());
+  EXPECT_EQ(history.size(), 0u);
   history.begin(loads({ 4 }, { 100. }));
   for (const double t : { 0.5, 2., 5. })
     history.accept(loads({ 4 }, { 1. + t * t }), t == 0.5 ? 1. : t == 2. ? 2. : 4.);
@@ -55,6 +55,7 @@ TEST(ForceHistory, FollowsAParabolaThroughPlaces)
 
   for (const double x : { 3., 2., 1.5 })
     history.accept_at(loads({ 4 }, { x * x }), x, x < 3.);
+  EXPECT_EQ(history.size(), 3u);
   EXPECT_DOUBLE_EQ(history.last().place, 1.5);
   EXPECT_NEAR(history.guess_at(0.5).values[0], 0.25, 1e-14);
 }
