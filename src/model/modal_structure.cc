@@ -1,6 +1,5 @@
 #include "model/modal_structure.h"
 
-#include "model/block_product.h"
 #include "model/modal_vibration.h"
 
 #include <algorithm>
@@ -46,28 +45,6 @@ namespace sprag
       return forces;
     }
 
-    /// Places of the entries that are not 0.
-    std::vector<unsigned int> filled_places(const Vector<double> &sparse)
-    {
-      std::vector<unsigned int> result;
-      const auto *const end = sparse.end();
-      for (const auto *value = sparse.begin(); value != end; ++value)
-        if (*value != 0.)
-          result.push_back(static_cast<unsigned int>(value - sparse.begin()));
-      return result;
-    }
-
-    /// Of a symmetric matrix.
-    double quadratic_form(const FullMatrix<double> &matrix, const Vector<double> &sparse)
-    {
-      const auto filled = filled_places(sparse);
-      const auto ranges = ranges_of(filled.begin(), filled.end());
-      Vector<double> product(sparse.size());
-      for (const auto &rows : ranges)
-        for (const auto &columns : ranges)
-          add_block_product(matrix, rows, columns, sparse.begin() + columns.begin, product.begin() + rows.begin);
-      return product.size() > 0 ? product * sparse : 0.;
-    }
   } // namespace
 
   ModalStructure::ModalStructure(ModalData modal_data)
@@ -128,6 +105,11 @@ namespace sprag
   double ModalStructure::static_weight(const StepWeights &w) const
   {
     return w.stiffness() + data.relaxation / w.dt;
+  }
+
+  double ModalStructure::kept_share(const StepWeights &w) const
+  {
+    return -(w.alpha_f - data.relaxation / w.dt) / static_weight(w);
   }
 
   ModalStructure::Step ModalStructure::make_step(const StepWeights &weights) const
@@ -213,22 +195,22 @@ namespace sprag
     return first_selected < motion.face_force.size() ? filled_places(motion.face_force) : std::vector<unsigned int>();
   }
 
+  void ModalStructure::add_positions(const Vector<double> &coordinates, const PortSelection &selected,
+                                     Vector<double> &result) const
+  {
+    for (const unsigned int port : selected)
+    {
+      const double *const shape = &data.shapes(port, 0);
+      for (unsigned int i = 0; i < coordinates.size(); ++i)
+        result[port] += shape[i] * coordinates[i];
+    }
+  }
+
   Vector<double> ModalStructure::port_positions(const Motion &motion, const PortSelection &selected) const
   {
     Vector<double> result(n_ports());
-    if (selected.empty())
-      return result;
-    const auto loaded = loaded_ports(motion, selected.front());
-    if (loaded.empty() && motion.coordinates.position.all_zero())
-      return result;
-    for (const unsigned int port : selected)
-      result[port] = port_position(motion, {}, port);
-    const auto beyond = std::lower_bound(selected.begin(), selected.end(), motion.face_force.size());
-    const auto rows   = ranges_of(selected.begin(), beyond);
-    for (const auto &columns : ranges_of(loaded.begin(), loaded.end()))
-      for (const auto &row : rows)
-        add_block_product(data.face_compliance, row, columns, motion.face_force.begin() + columns.begin,
-                          result.begin() + row.begin);
+    add_positions(motion.coordinates.position, selected, result);
+    answers.add_displacements(data.face_compliance, motion.face_force, 1., selected, result);
     return result;
   }
 
@@ -265,10 +247,10 @@ namespace sprag
     current->inverse.vmult(free_motion, right);
 
     looked_at = selected;
-    Motion unloaded;
-    unloaded.coordinates.position = free_motion;
-    unloaded.face_force           = scaled(accepted.face_force, -(w.alpha_f - data.relaxation / w.dt) / static_weight(w));
-    return port_positions(unloaded, selected);
+    Vector<double> result(n_ports());
+    add_positions(free_motion, selected, result);
+    answers.add_displacements(data.face_compliance, accepted.face_force, kept_share(w), selected, result);
+    return result;
   }
 
   Motion ModalStructure::advance(const Motion &accepted, const PortForces &forces, const DrivePoint &to) const
@@ -282,7 +264,7 @@ namespace sprag
     motion.coordinates = unaccelerated(accepted.coordinates, w);
     set_position(motion.coordinates, position, w);
 
-    motion.face_force = scaled(accepted.face_force, -(w.alpha_f - data.relaxation / w.dt) / static_weight(w));
+    motion.face_force = scaled(accepted.face_force, kept_share(w));
     for (unsigned int a = 0; a < forces.ports.size(); ++a)
       if (forces.ports[a] < motion.face_force.size())
         motion.face_force[forces.ports[a]] += forces.values[a] / static_weight(w);
@@ -305,10 +287,7 @@ namespace sprag
     for (unsigned int i = 0; i < n_modes(); ++i)
       work.algorithmic += w.delay() * data.stiffness[i] * change[i] * change[i];
 
-    Vector<double> change_of_force = end.face_force;
-    if (change_of_force.size() > 0)
-      change_of_force -= begin.face_force;
-    const double static_change = quadratic_form(data.face_compliance, change_of_force);
+    const double static_change = answers.form_of_change(data.face_compliance, begin.face_force, end.face_force);
     work.damping += data.relaxation / w.dt * static_change;
     work.algorithmic += w.delay() * static_change;
   }
@@ -321,7 +300,7 @@ namespace sprag
     energy.layer   = std::numeric_limits<double>::quiet_NaN();
     for (unsigned int i = 0; i < n_modes(); ++i)
       (i == data.support ? energy.support : energy.elastic) += 0.5 * data.stiffness[i] * q.position[i] * q.position[i];
-    energy.elastic += 0.5 * quadratic_form(data.face_compliance, motion.face_force);
+    energy.elastic += 0.5 * answers.form(data.face_compliance, motion.face_force);
     const double rotation = port_state(motion, data.ports.rotation()).position;
     energy.spring         = 0.5 * data.spring_stiffness * rotation * rotation;
     energy.elastic -= energy.spring;

@@ -3,6 +3,7 @@
 #include "model/dynamic_model.h"
 #include "model/linearisation.h"
 #include "model/port_layout.h"
+#include "model/static_answers.h"
 
 #include <deal.II/lac/lapack_full_matrix.h>
 
@@ -99,6 +100,10 @@ namespace sprag
 
     unsigned int n_ports() const;
 
+    /// Adds the displacements of selected ports by modes.
+    void add_positions(const dealii::Vector<double> &coordinates, const PortSelection &selected,
+                       dealii::Vector<double> &result) const;
+
     /// Returns the ports with static forces, which move those of the face; none where no port from `first_selected` on is of it.
     std::vector<unsigned int> loaded_ports(const Motion &motion, unsigned int first_selected) const;
     double port_position(const Motion &motion, const std::vector<unsigned int> &loaded, unsigned int port) const;
@@ -107,11 +112,15 @@ namespace sprag
     dealii::Vector<double> modal_forces(const PortForces &forces) const;
     double static_weight(const StepWeights &w) const;
 
+    /// The share of static forces at the beginning of a step that is left of them at its end where no others act.
+    double kept_share(const StepWeights &w) const;
+
     const ModalData data;
     Step statics;
     std::vector<std::unique_ptr<Step>> steps; ///< the latest last
     const Step *current = nullptr;
     mutable dealii::Vector<double> free_motion; ///< modal, of the last free_ports()
     mutable PortSelection looked_at;            ///< by it
+    mutable StaticAnswers answers;              ///< of the static shapes in the last steps
   };
 } // namespace sprag

@@ -1,4 +1,5 @@
 #include "bed_of_springs.h"
+#include "fe/solid/surface_observation.h"
 #include "mpi_environment.h"
 
 #include <gtest/gtest.h>
@@ -329,6 +330,7 @@ TEST_P(StepInLanesOfAnAxis, NothingIsPassedOverThatTouches)
           PortStep{ { 0., x, 112., 0. }, none, { 6e-3, to, 112., 0. }, { begin, {}, {} }, end, {}, weights, &nothing }, friction,
           found);
       bed.surface().complete(found);
+      bed.surface().add_points(found);
       return found;
     };
     Bed newcomer(short_barrel(GetParam()), 12.5, 6);
@@ -355,6 +357,46 @@ TEST_P(StepInLanesOfAnAxis, NothingIsPassedOverThatTouches)
   EXPECT_LT(touching, 40u);
 }
 
+// Of a step those points alone are found that matter to what is recorded of it.
+TEST_P(StepInLanesOfAnAxis, PointsInContactTellWhatAllPointsTell)
+{
+  const FrictionLaw friction{ CoulombFriction{ 0.4 } };
+  const auto weights = generalised_alpha(0.8, 6e-3);
+  const std::vector<ContactMemory> none;
+  const std::vector<SurfaceMemory> nothing;
+  Bed bed(short_barrel(GetParam()), 12.5, 6);
+  const SurfaceView view(bed.friction_face(), bed.surface(), false);
+  for (const double overlap : { 0.06, 0.02, -0.01 })
+  {
+    const auto begin = bed.pressed(overlap - 0.01), end = bed.pressed(overlap);
+    SurfaceEvaluation found;
+    bed.surface().evaluate(
+        PortStep{
+            { 0., Bed::x - 0.1, 112., 0. }, none, { 6e-3, Bed::x, 112., 0. }, { begin, {}, {} }, end, {}, weights, &nothing },
+        friction, found);
+    bed.surface().complete(found);
+    auto all = found;
+    bed.surface().add_points(all);
+    EXPECT_EQ(found.points.size() < all.points.size(), overlap > 0.);
+    const auto before = [](const auto &a, const auto &b) { return a.index < b.index; };
+    EXPECT_TRUE(std::is_sorted(found.points.begin(), found.points.end(), before));
+    const auto deepest = [](const SurfaceEvaluation &of)
+    { return std::min_element(of.points.begin(), of.points.end(), [](const auto &a, const auto &b) { return a.gap < b.gap; }); };
+    EXPECT_EQ(deepest(found)->index, deepest(all)->index);
+    Row of_some, of_all;
+    view.observe(found, of_some);
+    view.observe(all, of_all);
+    EXPECT_GE(of_all[Column::active_points], overlap > 0. ? 100. : 0.);
+    for (std::size_t i = 0; i < n_columns; ++i)
+    {
+      const auto column = static_cast<Column>(i);
+      EXPECT_TRUE(of_some[column] == of_all[column] || (std::isnan(of_some[column]) && std::isnan(of_all[column]))) << i;
+    }
+    EXPECT_EQ(of_some.across, of_all.across);
+    EXPECT_EQ(found.memory().size(), all.memory().size());
+  }
+}
+
 // Steady sliding is evaluated point by point where its parts are wanted, and eight at once where not.
 TEST_P(StepInLanesOfAnAxis, ASlideIsThatOfItsParts)
 {
@@ -367,6 +409,7 @@ TEST_P(StepInLanesOfAnAxis, ASlideIsThatOfItsParts)
     const SlidingState state{ ports, drive, -112., nullptr, rubs };
     SurfaceEvaluation found, in_parts;
     bed.surface().slide(state, friction, found);
+    bed.surface().add_points(found);
     auto rest            = bed.surface().linearise(state, friction, in_parts).stiffness();
     const auto &expected = in_parts.forces;
     ASSERT_GT(expected.ports.size(), 20u);

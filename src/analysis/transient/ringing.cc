@@ -149,10 +149,12 @@ namespace sprag
         dense::matrix<double> matrix = dense::zero_matrix<double>(unknowns, unknowns);
         dense::vector<double> change = dense::zero_vector<double>(unknowns);
         dense::permutation_matrix<std::size_t> order(unknowns);
-        for (std::size_t i = 0; i < signal.values.size(); ++i)
+        Complex wave       = 1.;
+        const Complex turn = std::exp(Complex(parameters[5], parameters[4]) * time(1));
+        for (std::size_t i = 0; i < signal.values.size(); ++i, wave *= turn)
         {
           const double t        = time(i);
-          const Vector gradient = gradient_at(t);
+          const Vector gradient = gradient_at(t, wave);
           const double rest     = signal.values[i] - value_at(gradient, t);
           for (unsigned int row = 0; row < unknowns; ++row)
           {
@@ -185,13 +187,12 @@ namespace sprag
         return static_cast<double>(i) / static_cast<double>(signal.values.size());
       }
 
-      Vector gradient_at(const double t) const
+      /// `wave`: exp((growth + i omega) t).
+      Vector gradient_at(const double t, const Complex &wave) const
       {
-        const double envelope = std::exp(parameters[5] * t);
-        const double cosine   = envelope * std::cos(parameters[4] * t);
-        const double sine     = envelope * std::sin(parameters[4] * t);
-        const double wave     = parameters[0] * cosine + parameters[1] * sine;
-        return { { cosine, sine, 1., t, t * (parameters[1] * cosine - parameters[0] * sine), t * wave } };
+        const double cosine = wave.real(), sine = wave.imag();
+        const double value = parameters[0] * cosine + parameters[1] * sine;
+        return { { cosine, sine, 1., t, t * (parameters[1] * cosine - parameters[0] * sine), t * value } };
       }
 
       double value_at(const Vector &gradient, const double t) const

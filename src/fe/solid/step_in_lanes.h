@@ -91,8 +91,11 @@ namespace sprag
     /// Adds the works of a patch as it was pressed last; in time alone.
     void add_works(unsigned int patch, Sums &sums) const;
 
-    /// Adds its points.
-    void add_points(unsigned int patch, std::vector<FacePointState<3>> &points) const;
+    /// The largest pressure on its points [MPa].
+    double largest_pressure(unsigned int patch) const;
+
+    /// Adds its points, all or those of blocks that take part.
+    void add_points(unsigned int patch, bool all, std::vector<FacePointState<3>> &points) const;
 
   private:
     struct Block;

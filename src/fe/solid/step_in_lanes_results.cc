@@ -287,13 +287,25 @@ namespace sprag
     }
   }
 
-  SPRAG_FOR_ANY_PROCESSOR void StepInLanes::add_points(const unsigned int patch, std::vector<FacePointState<3>> &points) const
+  SPRAG_FOR_ANY_PROCESSOR double StepInLanes::largest_pressure(const unsigned int patch) const
+  {
+    double result = 0.;
+    for (unsigned int b = 0; b < blocks[patch].all.size(); ++b)
+      if (const auto of_block = pressed(patch, b); of_block.takes_part())
+        result = std::max(result, largest(of_block.end.takes_part ? of_block.end.pressure : Lanes{}));
+    return result;
+  }
+
+  SPRAG_FOR_ANY_PROCESSOR void StepInLanes::add_points(const unsigned int patch, const bool all,
+                                                       std::vector<FacePointState<3>> &points) const
   {
     const Begin nowhere{};
     for (unsigned int b = 0; b < blocks[patch].all.size(); ++b)
     {
       const auto of_block = pressed(patch, b);
       const auto &block   = of_block.block;
+      if (!all && !of_block.takes_part())
+        continue;
       PointsInLanes force{};
       Lanes theta{};
       if (of_block.takes_part())

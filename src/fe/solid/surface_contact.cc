@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace sprag
 {
@@ -57,6 +58,13 @@ namespace sprag
       for (unsigned int i = 0; i < points.size(); ++i)
         place_in_line[points[i]] = { static_cast<unsigned int>(points_of_line.size()), i };
       points_of_line.push_back(std::move(points));
+    }
+    for (const auto &patch : patches.patches)
+    {
+      std::set<unsigned int> lines;
+      for (unsigned int q = patch.begin; q < patch.end; ++q)
+        lines.insert(place_in_line[q].first);
+      lines_of_patch.emplace_back(lines.begin(), lines.end());
     }
   }
 

@@ -36,7 +36,7 @@ namespace sprag
     double compression = 0.;               ///< of the contact springs, the largest; with multipliers p / penalty [mm]
     double stored      = 0.;               ///< energy of the contact springs; in time alone [N mm]
     StepWork works;                        ///< of the step; in time alone
-    std::vector<FacePointState<3>> points; ///< of the patches near the cylinder, by increasing point; see add_points()
+    std::vector<FacePointState<3>> points; ///< by increasing point, see complete() and add_points()
     PortForces forces;
 
     /// Returns the memory of the points in contact, by increasing point. Throws AnalysisError beyond the face.
@@ -77,10 +77,11 @@ namespace sprag
     /// wanted, the step has to be the same, or the slide.
     void evaluate(const PortStep &step, const FrictionLaw &friction, SurfaceEvaluation &found);
 
-    /// Finds works, energy and points of the step in time that was evaluated last.
+    /// Finds works, energy and points of the step in time that was evaluated last: those that may take part and, along the lines
+    /// where the pressure is largest, all near the cylinder. Where nothing touches those are all.
     void complete(SurfaceEvaluation &found) const;
 
-    /// Finds its points alone, in time or without inertia.
+    /// Finds all points near the cylinder of the last evaluation, in time or without inertia.
     void add_points(SurfaceEvaluation &found) const;
 
     /// Evaluates steady sliding: the cylinder's surface runs round its axis at the slide's speed. Where the tangent is not
@@ -152,6 +153,8 @@ namespace sprag
 
     void find_lines();
     void find_ends();
+    bool share_line(unsigned int patch, unsigned int other) const;
+    void add_points_in_contact(SurfaceEvaluation &found) const;
     RigidCylinder::Pose pose_of(const SurfacePlace &place) const;
     AxisSlopes turned_by(const dealii::Vector<double> &ports) const;
     template <int n>
@@ -188,6 +191,7 @@ namespace sprag
     SurfaceContactProperties properties;
     Patches patches;
     std::vector<std::vector<unsigned int>> points_of_line;
+    std::vector<std::vector<unsigned int>> lines_of_patch;            ///< increasing
     std::vector<bool> is_at_end;                                      ///< whether a patch is at an end of the face along xi
     std::vector<std::pair<unsigned int, unsigned int>> place_in_line; ///< of a point: its line and its place there
 

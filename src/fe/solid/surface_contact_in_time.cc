@@ -157,28 +157,6 @@ namespace sprag
       add_tangent(forces);
   }
 
-  void SurfaceContact::add_points(SurfaceEvaluation &found) const
-  {
-    found.points.clear();
-    for (const unsigned int patch : looked_at)
-      in_lanes.add_points(patch, found.points);
-  }
-
-  void SurfaceContact::complete(SurfaceEvaluation &found) const
-  {
-    StepInLanes::Sums sums;
-    for (const unsigned int patch : looked_at)
-      in_lanes.add_works(patch, sums);
-    add_points(found);
-    found.stored            = sums.stored;
-    found.beyond_face       = reaches_end(found);
-    found.works             = StepWork();
-    found.works.drive       = sums.drive;
-    found.works.friction    = sums.friction;
-    found.works.algorithmic = sums.algorithmic;
-    found.works.creep       = sums.creep;
-  }
-
   void SurfaceContact::add_tangent(PortForces &forces) const
   {
     const auto n = static_cast<unsigned int>(summed.ports.size());
@@ -190,12 +168,6 @@ namespace sprag
         for (const auto &column : summed.coordinates[i])
           forces.tangent(row.port, column.port) += row.sign * column.sign * tangent[row.index][column.index];
     }
-  }
-
-  bool SurfaceContact::reaches_end(const SurfaceEvaluation &found) const
-  {
-    return std::any_of(found.points.begin(), found.points.end(),
-                       [&](const auto &point) { return point.pressure > 0. && is_at_end[point.patch]; });
   }
 
   void SurfaceContact::slide(const SlidingState &sliding, const FrictionLaw &friction, SurfaceEvaluation &found)
