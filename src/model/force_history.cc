@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 
 namespace sprag
 {
@@ -11,19 +12,18 @@ namespace sprag
   {
     constexpr std::size_t most = 3; // a cubic follows the noise of points that come and go
 
-    using Values = std::array<double, most>;
+    using Shares = std::array<double, most>;
 
-    /// Of that through the first n values at different places, by Lagrange.
-    double value_of_polynomial(const Values &at, const Values &values, const std::size_t n, const double place)
+    /// Of the values at the first n places, which differ, in that of the polynomial through them at another, by Lagrange.
+    Shares shares_at(const double place, const std::vector<ForcesAtPlace> &places, const std::size_t n)
     {
-      double result = 0.;
+      Shares result{};
       for (std::size_t i = 0; i < n; ++i)
       {
-        double share = values[i];
+        result[i] = 1.;
         for (std::size_t j = 0; j < n; ++j)
           if (j != i)
-            share *= (place - at[j]) / (at[i] - at[j]);
-        result += share;
+            result[i] *= (place - places[j].place) / (places[i].place - places[j].place);
       }
       return result;
     }
@@ -57,20 +57,25 @@ namespace sprag
 
   PortLoads ForceHistory::guess_at(const double place) const
   {
+    std::array<Shares, most + 1> shares{}; // of polynomials through so many places
+    for (std::size_t n = 1; n <= places.size(); ++n)
+      shares[n] = shares_at(place, places, n);
+    std::array<unsigned int, most> next{}; // of the ports at each place
     PortLoads result = places.front().forces;
     for (unsigned int i = 0; i < result.ports.size(); ++i)
     {
-      Values values, at;
+      Shares values{};
       std::size_t n = 0;
-      for (const auto &[forces, of_place] : places)
+      for (; n < places.size(); ++n)
       {
-        const auto port = std::lower_bound(forces.ports.begin(), forces.ports.end(), result.ports[i]);
-        if (port == forces.ports.end() || *port != result.ports[i])
+        const auto &[ports, of_ports] = places[n].forces;
+        while (next[n] < ports.size() && ports[next[n]] < result.ports[i])
+          ++next[n];
+        if (next[n] == ports.size() || ports[next[n]] != result.ports[i])
           break;
-        values[n] = forces.values[static_cast<unsigned int>(port - forces.ports.begin())];
-        at[n++]   = of_place;
+        values[n] = of_ports[next[n]];
       }
-      result.values[i] = value_of_polynomial(at, values, n, place);
+      result.values[i] = std::inner_product(values.begin(), values.begin() + n, shares[n].begin(), 0.);
     }
     return result;
   }

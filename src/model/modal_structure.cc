@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace sprag
 {
@@ -85,19 +86,23 @@ namespace sprag
 
   PortCompliance ModalStructure::port_compliance(const FullMatrix<double> &inverse, const double share_of_static) const
   {
-    FullMatrix<double> half(n_ports(), n_modes());
-    FullMatrix<double> of_all(n_ports());
+    // Without a matrix of all ports beside it, whose room in memory would not serve again.
+    const unsigned int n = data.ports.of_a_lever();
+    FullMatrix<double> of_lever(n), half(n_ports(), n_modes()), shapes(n, n_modes()), own(n, n_modes());
     data.shapes.mmult(half, inverse);
-    half.mTmult(of_all, data.shapes);
-    FullMatrix<double> of_lever(data.ports.of_a_lever());
-    of_lever.fill(of_all);
+    shapes.fill(data.shapes);
+    own.fill(half);
+    own.mTmult(of_lever, shapes);
     for (unsigned int i = 0; i < data.face_compliance.m(); ++i)
       for (unsigned int j = 0; j < data.face_compliance.n(); ++j)
         of_lever(i, j) += share_of_static * data.face_compliance(i, j);
     PortCompliance result;
     result.append(std::move(of_lever));
     if (data.ports.sprung)
-      result.append(of_all(data.ports.support(), data.ports.support()));
+    {
+      const double *const of_support = &half(data.ports.support(), 0);
+      result.append(std::inner_product(of_support, of_support + n_modes(), &data.shapes(data.ports.support(), 0), 0.));
+    }
     return result;
   }
 

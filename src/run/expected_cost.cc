@@ -53,6 +53,7 @@ namespace sprag
     constexpr double table_steps_exponent  = 0.45;  ///< with which they grow as the tolerance falls
     constexpr double condensed_table_step  = 5e-5;
     constexpr double condensed_table_faces = 5e-7; ///< a step, times the square of the faces in contact
+    constexpr double solid_table_step      = 0.5;  ///< in three dimensions, over one of a lever in time
 
     constexpr double judgements_of_cell = 0.4;  ///< both ways, in models that are kept from cell to cell
     constexpr double usual_tolerance    = 5e-3; ///< Time/Tolerance at which meshed levers take twice a beam's steps
@@ -124,6 +125,8 @@ namespace sprag
           scene.isolation.duration * (scene.time.tolerance > 0.
                                           ? table_steps * std::pow(usual_tolerance / scene.time.tolerance, table_steps_exponent)
                                           : 1. / scene.time.step);
+      if (scene.analysis.dimension == 3)
+        return solid_with_inertia(scene, solid_table_step * steps);
       if (!is_meshed(scene.analysis.model))
         return start + steps * reduced_step * parts(scene);
       const double faces = estimated_contact_width(scene, contact_reference(scene).P) / scene.mesh.face_size;

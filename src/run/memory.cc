@@ -161,16 +161,21 @@ namespace sprag
     /// Matrices of plate and bar over those of the plate.
     constexpr double bar_behind_plate = 1.5;
 
-    /// Modes, and matrices of the part of the face that a contact in three dimensions can reach, as many as a run in time keeps.
+    /// Matrices of the ports that a lever in three dimensions keeps: a few, and one for each duration of its steps.
+    constexpr double matrices_of_ports = 20.;
+
+    /// Modes, and matrices of the part of the face that a contact in three dimensions can reach.
     double bytes_of_solid_modes(const Scene &scene, const double displacements, const double ports)
     {
       if (scene.analysis.type == AnalysisType::quasi_static)
         return 0.;
-      const double room    = 2. * (0.1 * scene.geometry.cylinder_radius + 4. * scene.layer.thickness);
-      const double reached = holds_slide(scene.analysis.type)
-                                 ? ports * std::min(1., room / scene.mesh.face_size / elements_along_face(scene))
-                                 : ports;
-      return 8. * (3. * scene.condensed.modes * displacements + 4. * reached * reached);
+      const double room        = 2. * (0.1 * scene.geometry.cylinder_radius + 4. * scene.layer.thickness);
+      const bool is_held       = holds_slide(scene.analysis.type) && scene.analysis.type != AnalysisType::sprag_slip;
+      const auto [first, last] = swept_contact(scene);
+      const double swept       = is_held ? 0. : last - first;
+      const double reached     = ports * std::min(1., (swept + room) / scene.mesh.face_size / elements_along_face(scene));
+      const double kept        = (scene.analysis.type == AnalysisType::isolation ? 2. : 1.) * matrices_of_ports;
+      return 8. * (3. * scene.condensed.modes * displacements + kept * reached * reached);
     }
 
     /// Of factors of double precision of the whole of a body in three dimensions, over displacements^(4/3).

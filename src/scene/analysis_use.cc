@@ -25,7 +25,7 @@ namespace sprag
   {
     const auto type        = scene.analysis.type;
     const bool is_in_space = scene.analysis.dimension == 3 || scene.accuracy.is_dimension_open;
-    return is_in_space && runs_model(type) && !works_in_parallel(type);
+    return is_in_space && !works_in_parallel(type) && (runs_model(type) || isolates_by_model(scene));
   }
 
   bool isolates_by_model(const Scene &scene)

@@ -18,13 +18,14 @@ namespace sprag
       const auto &analysis = scene.analysis;
       const auto type      = analysis.type == AnalysisType::study ? scene.study.type : analysis.type;
       const bool is_static = type == AnalysisType::quasi_static;
-      need(is_static || holds_slide(type) || type == AnalysisType::transient,
+      need(runs_model(type) || type == AnalysisType::isolation,
            analysis.type == AnalysisType::study ? "Study/Type" : "Analysis/Type",
-           "quasi-static, modal, stability, sprag-slip, map or transient");
+           "quasi-static, modal, stability, sprag-slip, map, transient or isolation");
       if (is_static)
         need(analysis.model == ModelType::finite_element, "Analysis/Model", "finite element without inertia");
       else
         need(analysis.model == ModelType::condensed, "Analysis/Model", "condensed with inertia");
+      need(type != AnalysisType::isolation || scene.isolation.damper == DamperType::lever, "Isolation/Damper", "lever");
       need(analysis.solution == Solution::automatic, "Analysis/Solution", "automatic");
       need(scene.cylinder.type == CylinderType::rigid, "Cylinder/Type", "rigid");
       need(scene.pair.type == PairType::half, "Mirrored pair/Type", "half");

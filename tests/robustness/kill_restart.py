@@ -75,6 +75,10 @@ ALL = {
          "Isolation/Spectrum lines": "300", "Isolation/Base acceleration": "500"},
     ),
     "table on finite elements": ("isolation-a", {**TABLE, "Analysis/Model": "finite element", "Mesh/Face size": "4", "Isolation/Duration": "0.1"}),
+    "table on levers in three dimensions": (
+        "solid-isolation-a",
+        {**TABLE, "Mesh/Face size": "6", "Mesh/Elements across": "2", "Condensed/Modes": "6", "Isolation/Duration": "0.2"},
+    ),
     "elastic cylinder in time": ("cylinder-a", {**CONDENSED, "Analysis/Type": "transient", "Drive/Start": "64"}),
 }
 # What a run cost, and where it came from.

@@ -37,6 +37,7 @@ CHANGES = {
         name: {"Mesh/Elements across": "2", "Condensed/Modes": "6", "Drive/Start": "63"}
         for name in ("solid-reversal-a", "solid-plate-reversal-a")
     },
+    "solid-isolation-a": {"Mesh/Elements across": "2", "Condensed/Modes": "6", "Isolation/Duration": "0.2"},
     "study-growth-a": {**STUDY, "Study/Vary": "Mesh/Face size = 5, 6, 8", "Condensed/Modes": "3"},
     "study-reversal-a": {
         "Study/Vary": "Mesh/Face size = 2, 3; Time/Tolerance = 1e-2",

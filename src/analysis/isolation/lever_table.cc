@@ -67,7 +67,7 @@ namespace sprag
       , way_tolerance(share_of_way * settings.force_scale / settings.contact_stiffness * local_tolerance())
       , sides{ { { outward, 1, {}, {}, {} }, { inward, -1, {}, {}, {} } } }
   {
-    if (scene.analysis.model == ModelType::finite_element)
+    if (scene.analysis.model == ModelType::finite_element || scene.analysis.dimension == 3)
       course.grid.use_halves_alone();
     course.wanted_step = settings.time.step;
     course.tangent     = settings.contact_stiffness;
