@@ -19,6 +19,7 @@ COARSE = {"Mesh/Face size": "4", "Analysis/Step": "5"}
 MAP = {"Map/First points": "3", "Map/Second points": "3", "Map/Coarsest": "1", "Map/Bisections": "1"}
 SHORT = {"Sprag slip/Continuation": "1", "Sprag slip/Turn": "64", "Sprag slip/Settling time": "0.02"}
 STUDY = {"Study/Vary": "Mesh/Face size = 5, 6, 8; Mesh/Degree = 2", "Study/Reference": "Mesh/Face size = 4"}
+SOLID_REVERSAL = {"Mesh/Elements across": "2", "Condensed/Modes": "6", "Drive/Start": "63"}
 CHANGES = {
     "neo-hookean-a": {"Drive/Stroke": "10"},
     "onset-a": SHORT,
@@ -32,11 +33,11 @@ CHANGES = {
     **{name: {"Mesh/Elements across": "2", "Condensed/Modes": "6"} for name in ("solid-modal-a", "solid-stability-a")},
     **{name: {"Mesh/Elements across": "2"} for name in ("solid-shaft-a", "solid-tilted-a")},
     "solid-rib-a": {"Mesh/Degree": "1"},
+    "solid-plate-a": {"Mesh/Elements across": "4"},
+    "solid-frame-a": {"Mesh/Elements across": "2"},
     "solid-neo-hookean-a": {"Mesh/Face size": "4", "Mesh/Elements across": "2", "Drive/Stroke": "10"},
-    **{
-        name: {"Mesh/Elements across": "2", "Condensed/Modes": "6", "Drive/Start": "63"}
-        for name in ("solid-reversal-a", "solid-plate-reversal-a")
-    },
+    "solid-reversal-a": SOLID_REVERSAL,
+    "solid-plate-reversal-a": {**SOLID_REVERSAL, "Mesh/Face size": "8"},
     "solid-isolation-a": {"Mesh/Elements across": "2", "Condensed/Modes": "6", "Isolation/Duration": "0.2"},
     "study-growth-a": {**STUDY, "Study/Vary": "Mesh/Face size = 5, 6, 8", "Condensed/Modes": "3"},
     "study-reversal-a": {

@@ -4,18 +4,18 @@ namespace sprag
 {
   namespace
   {
-    using Vector = CylinderAxes::Vector;
-
     /// A vector with its first and second derivatives by both slopes.
     struct Differentiated
     {
+      using Vector = CylinderAxes::Vector;
+
       Vector value;
       std::array<Vector, 2> first;
       std::array<std::array<Vector, 2>, 2> second;
     };
 
     /// b = v/|v| of a v that is linear in the slopes: b_i = (v_i - b n_i)/n with n = |v|, n_i = b . v_i.
-    Differentiated unit(const Vector &v, const std::array<Vector, 2> &derivatives)
+    Differentiated unit(const CylinderAxes::Vector &v, const std::array<CylinderAxes::Vector, 2> &derivatives)
     {
       const double n = v.norm();
       Differentiated b;

@@ -155,17 +155,23 @@ namespace sprag
   Vector<double> SolidMass::operator()(const Vector<double> &displacement) const
   {
     Vector<double> result(displacement.size());
+    std::vector<std::array<double, 3>> of_cell;
     for (const auto &[mass, density, dofs] : cells)
+    {
+      of_cell.clear();
+      for (const auto &of_node : dofs)
+        of_cell.push_back({ { displacement[of_node[0]], displacement[of_node[1]], displacement[of_node[2]] } });
       for (unsigned int a = 0; a < dofs.size(); ++a)
       {
         std::array<double, 3> sum{};
         const double *const row = &(*mass)(a, 0);
         for (unsigned int b = 0; b < dofs.size(); ++b)
           for (unsigned int d = 0; d < 3; ++d)
-            sum[d] += row[b] * displacement[dofs[b][d]];
+            sum[d] += row[b] * of_cell[b][d];
         for (unsigned int d = 0; d < 3; ++d)
           result[dofs[a][d]] += density * sum[d];
       }
+    }
     return result;
   }
 

@@ -2,12 +2,12 @@
 
 #include "base/errors.h"
 #include "base/text.h"
+#include "fe/algebra/block_krylov.h"
 #include "fe/solid/solid_mass.h"
 #include "fe/solid/solid_stiffness.h"
 
 #include <algorithm>
 #include <cmath>
-#include <slepceps.h>
 
 namespace sprag
 {
@@ -16,15 +16,9 @@ namespace sprag
   namespace
   {
     /// Of |phi - omega^2 K^-1 M phi| over |phi|, times omega^2 over that of the lowest mode, by which round-off grows there.
-    constexpr double largest_residual = 1e-10;
+    constexpr double largest_residual = 1e-9;
 
     constexpr double alike = 1e-6; ///< relative difference of displacements, as those of both sides in a mode that twists
-
-    void check(const PetscErrorCode code)
-    {
-      if (code != 0)
-        throw AnalysisError("the eigenvalue solver failed (PETSc error " + std::to_string(code) + ")");
-    }
 
     /// The lever in its free elastic displacements, the vibrations of its leaf spring with the hub held and last the rotation of
     /// its hub. There the stiffness is that of the body, of these vibrations and of the spring, which feel nothing of each other.
@@ -42,9 +36,9 @@ namespace sprag
             free.push_back(dof);
       }
 
-      PetscInt size() const
+      std::size_t size() const
       {
-        return static_cast<PetscInt>(free.size() + leaf.modes.size()) + 1;
+        return free.size() + leaf.modes.size() + 1;
       }
 
       Vector<double> elastic(const double *const q) const
@@ -91,18 +85,35 @@ namespace sprag
         result[free.size() + leaf.modes.size()] = of_hub;
       }
 
-      /// K^-1 f.
-      void deform(const double *const forces, double *const result) const
+      /// M q of motions, one after another.
+      std::vector<double> inertia(const std::vector<double> &motions) const
       {
-        std::vector<double> loads(body.n_dofs(), 0.);
-        for (std::size_t i = 0; i < free.size(); ++i)
-          loads[free[i]] = forces[i];
+        std::vector<double> result(motions.size());
+        for (std::size_t begin = 0; begin < motions.size(); begin += size())
+          multiply_mass(&motions[begin], &result[begin]);
+        return result;
+      }
+
+      /// K^-1 f of forces, one after another, in their place.
+      void deform(std::vector<double> &columns) const
+      {
+        const std::size_t n_dofs = body.n_dofs();
+        std::vector<double> loads(columns.size() / size() * n_dofs, 0.);
+        const auto each = [&](const auto &of_dof)
+        {
+          for (std::size_t j = 0; j < columns.size() / size(); ++j)
+            for (std::size_t i = 0; i < free.size(); ++i)
+              of_dof(loads[j * n_dofs + free[i]], columns[j * size() + i]);
+        };
+        each([](double &load, const double force) { load = force; });
         body.respond(loads);
-        for (std::size_t i = 0; i < free.size(); ++i)
-          result[i] = loads[free[i]];
-        for (std::size_t i = 0; i < leaf.modes.size(); ++i)
-          result[free.size() + i] = forces[free.size() + i] / leaf.modes[i].stiffness;
-        result[free.size() + leaf.modes.size()] = rotation(forces) / spring;
+        each([](const double displacement, double &place) { place = displacement; });
+        for (std::size_t begin = 0; begin < columns.size(); begin += size())
+        {
+          for (std::size_t i = 0; i < leaf.modes.size(); ++i)
+            columns[begin + free.size() + i] /= leaf.modes[i].stiffness;
+          columns[begin + size() - 1] /= spring;
+        }
       }
 
     private:
@@ -117,99 +128,6 @@ namespace sprag
       const LeafBehaviour &leaf;
       const double spring;
       std::vector<unsigned int> free;
-    };
-
-    template <class Of>
-    PetscErrorCode applied(const Vec from, Vec to, const Of &of)
-    {
-      const PetscScalar *q = nullptr;
-      PetscScalar *result  = nullptr;
-      VecGetArrayRead(from, &q);
-      VecGetArray(to, &result);
-      of(q, result);
-      VecRestoreArray(to, &result);
-      return VecRestoreArrayRead(from, &q);
-    }
-
-    PetscErrorCode multiply_mass(Mat matrix, Vec from, Vec to)
-    {
-      void *lever = nullptr;
-      MatShellGetContext(matrix, &lever);
-      return applied(from, to,
-                     [&](const double *q, double *result) { static_cast<const FreeLever *>(lever)->multiply_mass(q, result); });
-    }
-
-    PetscErrorCode deform(PC factors, Vec from, Vec to)
-    {
-      void *lever = nullptr;
-      PCShellGetContext(factors, &lever);
-      return applied(
-          from, to, [&](const double *forces, double *result) { static_cast<const FreeLever *>(lever)->deform(forces, result); });
-    }
-
-    class Eigensolver
-    {
-    public:
-      explicit Eigensolver(FreeLever &lever)
-      {
-        const PetscInt n  = lever.size();
-        ST transformation = nullptr;
-        KSP solver        = nullptr;
-        PC factors        = nullptr;
-        // Of the stiffness there is but the inverse.
-        check(MatCreateShell(PETSC_COMM_SELF, n, n, n, n, &lever, &stiffness));
-        check(MatCreateShell(PETSC_COMM_SELF, n, n, n, n, &lever, &mass));
-        check(MatShellSetOperation(mass, MATOP_MULT, reinterpret_cast<void (*)()>(multiply_mass)));
-        check(EPSCreate(PETSC_COMM_SELF, &eps));
-        check(EPSSetOperators(eps, stiffness, mass));
-        check(EPSSetProblemType(eps, EPS_GHEP));
-        check(EPSSetType(eps, EPSKRYLOVSCHUR));
-        check(EPSSetWhichEigenpairs(eps, EPS_TARGET_MAGNITUDE));
-        check(EPSSetTarget(eps, 0.));
-        check(EPSGetST(eps, &transformation));
-        check(STSetType(transformation, STSINVERT));
-        check(STGetKSP(transformation, &solver));
-        check(KSPSetType(solver, KSPPREONLY));
-        check(KSPGetPC(solver, &factors));
-        check(PCSetType(factors, PCSHELL));
-        check(PCShellSetContext(factors, &lever));
-        check(PCShellSetApply(factors, deform));
-      }
-      Eigensolver &operator=(Eigensolver &&) = delete;
-      ~Eigensolver()
-      {
-        EPSDestroy(&eps);
-        MatDestroy(&mass);
-        MatDestroy(&stiffness);
-      }
-
-      /// Returns so many of the lowest eigenvalues and their vectors.
-      std::vector<std::pair<double, std::vector<double>>> solve(const unsigned int wanted, const PetscInt size)
-      {
-        check(EPSSetDimensions(eps, static_cast<PetscInt>(wanted), PETSC_DEFAULT, PETSC_DEFAULT));
-        check(EPSSetTolerances(eps, 1e-13, 1000));
-        check(EPSSolve(eps));
-        PetscInt converged = 0;
-        check(EPSGetConverged(eps, &converged));
-        if (converged < static_cast<PetscInt>(wanted))
-          throw AnalysisError("only " + std::to_string(converged) + " of " + std::to_string(wanted) +
-                              " vibration modes were found");
-        std::vector<std::pair<double, std::vector<double>>> result;
-        for (PetscInt i = 0; i < static_cast<PetscInt>(wanted); ++i)
-        {
-          auto &[value, vector] = result.emplace_back(0., std::vector<double>(static_cast<std::size_t>(size)));
-          Vec into              = nullptr;
-          check(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, size, vector.data(), &into));
-          check(EPSGetEigenpair(eps, i, &value, nullptr, into, nullptr));
-          check(VecDestroy(&into));
-        }
-        return result;
-      }
-
-    private:
-      Mat stiffness = nullptr;
-      Mat mass      = nullptr;
-      EPS eps       = nullptr;
     };
 
     /// With a modal mass of 1, the hub turning forward, or where it hardly turns, the first of the largest displacements
@@ -230,21 +148,26 @@ namespace sprag
         value *= factor;
     }
 
-    void require_residual(const FreeLever &lever, const double omega_squared, const double lowest,
-                          const std::vector<double> &mode, const std::size_t number)
+    void require_residuals(const FreeLever &lever, const std::vector<Eigenpair> &modes)
     {
-      std::vector<double> image(mode.size()), inertia(mode.size());
-      lever.multiply_mass(mode.data(), inertia.data());
-      lever.deform(inertia.data(), image.data());
-      double difference = 0., size = 0.;
-      for (std::size_t i = 0; i < mode.size(); ++i)
+      std::vector<double> images;
+      for (const auto &[omega_squared, mode] : modes)
+        images.insert(images.end(), mode.begin(), mode.end());
+      images = lever.inertia(images);
+      lever.deform(images);
+      for (std::size_t j = 0; j < modes.size(); ++j)
       {
-        difference = std::max(difference, std::abs(omega_squared * image[i] - mode[i]));
-        size       = std::max(size, std::abs(mode[i]));
+        const auto &[omega_squared, mode] = modes[j];
+        double difference = 0., size = 0.;
+        for (std::size_t i = 0; i < mode.size(); ++i)
+        {
+          difference = std::max(difference, std::abs(omega_squared * images[j * mode.size() + i] - mode[i]));
+          size       = std::max(size, std::abs(mode[i]));
+        }
+        if (!(difference < largest_residual * omega_squared / modes.front().value * size))
+          throw AnalysisError("vibration mode " + std::to_string(j + 1) + " was found with a residual of only " +
+                              number_text(difference / size));
       }
-      if (!(difference < largest_residual * omega_squared / lowest * size))
-        throw AnalysisError("vibration mode " + std::to_string(number) + " was found with a residual of only " +
-                            number_text(difference / size));
     }
 
     FullMatrix<double> stiffness_of_layer(const SolidBody &body, const std::vector<Vector<double>> &modes)
@@ -274,13 +197,17 @@ namespace sprag
   {
     const SolidMass mass(body, inertia);
     FreeLever lever(body, mass, inertia.leaf, spring_stiffness);
-    Eigensolver solver(lever);
+    const auto deformed = [&](std::vector<double> forces)
+    {
+      lever.deform(forces);
+      return forces;
+    };
+    auto modes = lowest_eigenpairs({ lever.size(), deformed, [&](const auto &motions) { return lever.inertia(motions); } }, n);
+    require_residuals(lever, modes);
     SolidModes result;
-    for (auto &[omega_squared, mode] : solver.solve(n, lever.size()))
+    for (auto &[omega_squared, mode] : modes)
     {
       normalise(lever, mode);
-      require_residual(lever, omega_squared, result.stiffness.empty() ? omega_squared : result.stiffness.front(), mode,
-                       result.stiffness.size() + 1);
       const auto impulse = lever.impulse(mode.data());
       result.stiffness.push_back(omega_squared);
       result.displacements.push_back(lever.elastic(mode.data()));

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+namespace sprag
+{
+  /// The pencil K phi = lambda M phi of symmetric positive definite matrices, by products with columns of `size` numbers, one
+  /// after another.
+  struct Pencil
+  {
+    using Product = std::function<std::vector<double>(std::vector<double> columns)>;
+
+    std::size_t size;
+    Product inverse_stiffness; ///< K^-1
+    Product mass;              ///< M
+  };
+
+  struct Eigenpair
+  {
+    double value;
+    std::vector<double> vector; ///< of mass 1
+  };
+
+  /// Returns the `wanted` pairs of the lowest eigenvalues, increasing. The Krylov space of K^-1 M grows by a block of four
+  /// columns at a time (block Lanczos with full orthogonalisation, Golub & Van Loan, Matrix Computations, section 10.3.6):
+  /// factors of a large K have to pass through memory for each solve, so that one with four columns takes 1.4 times as long as
+  /// with one. It begins with the same columns each time. Converged where a pair's residual |K^-1 M phi - phi/lambda| is below
+  /// 1e-13/lambda by what the space tells, or round-off. `wanted` is at most a twentieth of `size`. Throws AnalysisError where a
+  /// space of ten times as many columns does not hold the pairs.
+  std::vector<Eigenpair> lowest_eigenpairs(const Pencil &pencil, unsigned int wanted);
+} // namespace sprag
