@@ -175,7 +175,8 @@ namespace sprag
       const double swept       = is_held ? 0. : last - first;
       const double reached     = ports * std::min(1., (swept + room) / scene.mesh.face_size / elements_along_face(scene));
       const double kept        = (scene.analysis.type == AnalysisType::isolation ? 2. : 1.) * matrices_of_ports;
-      return 8. * (3. * scene.condensed.modes * displacements + kept * reached * reached);
+      const double sought_in   = 2. * (4. * scene.condensed.modes + 50.); // columns, see lowest_eigenpairs(), and their inertia
+      return 8. * (sought_in * displacements + kept * reached * reached);
     }
 
     /// Of factors of double precision of the whole of a body in three dimensions, over displacements^(4/3).

@@ -100,28 +100,40 @@ namespace sprag
           for (unsigned int i = 0; i < known; ++i)
             vector[i] = vectors(i, j);
           double squares = 0.;
-          for (unsigned int row = known; row < known + width; ++row)
-          {
-            double sum = 0.;
-            for (unsigned int i = known - width; i < known; ++i)
-              sum += operator_in_space[i][row] * vector[i];
-            squares += sum * sum;
-          }
+          for (unsigned int i = 0; i < width; ++i)
+            squares += std::pow(onto_last_block(vector, i), 2);
           result.residuals.push_back(std::sqrt(squares));
         }
         return result;
       }
 
+      /// Leaves of all but the last block so many of the vectors with the largest values, which goes on as if these had been
+      /// found first (thick restart).
+      void keep(const Ritz &ritz, const unsigned int number)
+      {
+        std::vector<Block> kept(number / width);
+        std::vector<std::vector<double>> kept_operator;
+        for (unsigned int k = 0; k < number; ++k)
+        {
+          const unsigned int place = ritz.values.size() - 1 - k;
+          const auto &vector       = ritz.vectors[place];
+          auto &[columns, inertia] = kept[k / width];
+          const auto add_to        = [](Columns more, Columns &all) { all.insert(all.end(), more.begin(), more.end()); };
+          add_to(combination(vector, &Block::columns), columns);
+          add_to(combination(vector, &Block::inertia), inertia);
+          auto &made_of = kept_operator.emplace_back(number + width, 0.);
+          made_of[k]    = ritz.values[place];
+          for (unsigned int i = 0; i < width; ++i)
+            made_of[number + i] = onto_last_block(vector, i);
+        }
+        kept.push_back(std::move(blocks.back()));
+        blocks            = std::move(kept);
+        operator_in_space = std::move(kept_operator);
+      }
+
       Columns combination(const Vector<double> &amounts) const
       {
-        Columns result(n, 0.);
-        for (unsigned int i = 0; i < amounts.size(); ++i)
-        {
-          const double *const column = &blocks[i / width].columns[i % width * n];
-          for (std::size_t k = 0; k < n; ++k)
-            result[k] += amounts[i] * column[k];
-        }
-        return result;
+        return combination(amounts, &Block::columns);
       }
 
     private:
@@ -135,6 +147,28 @@ namespace sprag
       const std::size_t n;
       std::vector<Block> blocks;
       std::vector<std::vector<double>> operator_in_space; ///< of each column, what it becomes by all, the next block's included
+
+      Columns combination(const Vector<double> &amounts, Columns Block::*const of) const
+      {
+        Columns result(n, 0.);
+        for (unsigned int i = 0; i < amounts.size(); ++i)
+        {
+          const double *const column = &(blocks[i / width].*of)[i % width * n];
+          for (std::size_t k = 0; k < n; ++k)
+            result[k] += amounts[i] * column[k];
+        }
+        return result;
+      }
+
+      /// The share of a column of the last block in what the operator makes of a vector of the others.
+      double onto_last_block(const Vector<double> &vector, const unsigned int column) const
+      {
+        const unsigned int row = vector.size() + column;
+        double sum             = 0.;
+        for (unsigned int i = 0; i < vector.size(); ++i)
+          sum += row < operator_in_space[i].size() ? operator_in_space[i][row] * vector[i] : 0.;
+        return sum;
+      }
 
       /// Adds a block, orthogonal to all and in itself, and notes what it was made of.
       void add(Columns columns)
@@ -195,27 +229,33 @@ namespace sprag
 
   std::vector<Eigenpair> lowest_eigenpairs(const Pencil &pencil, const unsigned int wanted)
   {
-    constexpr unsigned int most = 10; ///< columns of the space, over those wanted
+    constexpr unsigned int most_restarts = 100;
+    const unsigned int kept              = (wanted / width + 3) * width;
+    const unsigned int most              = 4 * kept;
     KrylovSpace space(pencil);
-    while (true)
+    for (unsigned int restarts = 0;;)
     {
       space.grow();
-      const auto [values, vectors, residuals] = space.ritz();
-      const unsigned int found                = values.size();
-      unsigned int first                      = found; // of those that are wanted, which have the largest values
+      const auto ritz          = space.ritz();
+      const auto &values       = ritz.values;
+      const unsigned int found = values.size();
+      unsigned int first       = found; // of those that are wanted, which have the largest values
       while (first > 0 && found - first < wanted &&
-             residuals[first - 1] < converged * values[first - 1] + round_off * values[found - 1])
+             ritz.residuals[first - 1] < converged * values[first - 1] + round_off * values[found - 1])
         --first;
       if (found - first == wanted)
       {
         std::vector<Eigenpair> result;
         for (unsigned int i = found; i-- > first;)
-          result.push_back({ 1. / values[i], space.combination(vectors[i]) });
+          result.push_back({ 1. / values[i], space.combination(ritz.vectors[i]) });
         return result;
       }
-      if (space.dimension() > most * (wanted + width))
+      if (space.dimension() < most)
+        continue;
+      if (++restarts > most_restarts)
         throw AnalysisError("only " + std::to_string(found - first) + " of " + std::to_string(wanted) +
                             " vibration modes were found");
+      space.keep(ritz, kept);
     }
   }
 } // namespace sprag

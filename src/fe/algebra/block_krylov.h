@@ -25,8 +25,9 @@ namespace sprag
   /// Returns the `wanted` pairs of the lowest eigenvalues, increasing. The Krylov space of K^-1 M grows by a block of four
   /// columns at a time (block Lanczos with full orthogonalisation, Golub & Van Loan, Matrix Computations, section 10.3.6):
   /// factors of a large K have to pass through memory for each solve, so that one with four columns takes 1.4 times as long as
-  /// with one. It begins with the same columns each time. Converged where a pair's residual |K^-1 M phi - phi/lambda| is below
-  /// 1e-13/lambda by what the space tells, or round-off. `wanted` is at most a twentieth of `size`. Throws AnalysisError where a
-  /// space of ten times as many columns does not hold the pairs.
+  /// with one. When it has some four times as many columns as are wanted, the best go on alone (thick restart, Wu & Simon 2000).
+  /// It begins with the same columns each time. Converged where a pair's residual |K^-1 M phi - phi/lambda| is below 1e-13/lambda
+  /// by what the space tells, or round-off. `wanted` is at most a twentieth of `size`. Throws AnalysisError where a hundred
+  /// restarts do not find them.
   std::vector<Eigenpair> lowest_eigenpairs(const Pencil &pencil, unsigned int wanted);
 } // namespace sprag
