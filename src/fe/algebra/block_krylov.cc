@@ -55,10 +55,13 @@ namespace sprag
     class KrylovSpace
     {
     public:
-      explicit KrylovSpace(const Pencil &of)
+      /// With room for so many columns.
+      KrylovSpace(const Pencil &of, const unsigned int most)
           : pencil(of)
           , n(of.size)
       {
+        basis.reserve(most * n);
+        inertia.reserve(most * n);
         std::mt19937 numbers;
         Columns first(width * n);
         for (double &value : first)
@@ -68,13 +71,13 @@ namespace sprag
 
       unsigned int dimension() const
       {
-        return width * static_cast<unsigned int>(blocks.size());
+        return static_cast<unsigned int>(basis.size() / n);
       }
 
       /// Adds what the operator makes of the last block.
       void grow()
       {
-        add(pencil.inverse_stiffness(blocks.back().inertia));
+        add(pencil.inverse_stiffness(last_block(inertia)));
       }
 
       struct Ritz
@@ -111,53 +114,48 @@ namespace sprag
       /// found first (thick restart).
       void keep(const Ritz &ritz, const unsigned int number)
       {
-        std::vector<Block> kept(number / width);
+        FullMatrix<double> vectors(dimension() - width, number);
         std::vector<std::vector<double>> kept_operator;
         for (unsigned int k = 0; k < number; ++k)
         {
           const unsigned int place = ritz.values.size() - 1 - k;
-          const auto &vector       = ritz.vectors[place];
-          auto &[columns, inertia] = kept[k / width];
-          const auto add_to        = [](Columns more, Columns &all) { all.insert(all.end(), more.begin(), more.end()); };
-          add_to(combination(vector, &Block::columns), columns);
-          add_to(combination(vector, &Block::inertia), inertia);
+          for (unsigned int i = 0; i < vectors.m(); ++i)
+            vectors(i, k) = ritz.vectors[place][i];
           auto &made_of = kept_operator.emplace_back(number + width, 0.);
           made_of[k]    = ritz.values[place];
           for (unsigned int i = 0; i < width; ++i)
-            made_of[number + i] = onto_last_block(vector, i);
+            made_of[number + i] = onto_last_block(ritz.vectors[place], i);
         }
-        kept.push_back(std::move(blocks.back()));
-        blocks            = std::move(kept);
+        for (auto *const columns : { &basis, &inertia })
+        {
+          const auto last = last_block(*columns);
+          Columns kept(number * n, 0.);
+          add_combinations(1., *columns, vectors, n, kept);
+          columns->assign(kept.begin(), kept.end());
+          columns->insert(columns->end(), last.begin(), last.end());
+        }
         operator_in_space = std::move(kept_operator);
       }
 
       Columns combination(const Vector<double> &amounts) const
       {
-        return combination(amounts, &Block::columns);
+        Columns result(n, 0.);
+        for (unsigned int i = 0; i < amounts.size(); ++i)
+          for (std::size_t k = 0; k < n; ++k)
+            result[k] += amounts[i] * basis[i * n + k];
+        return result;
       }
 
     private:
-      struct Block
-      {
-        Columns columns;
-        Columns inertia; ///< M times these
-      };
-
       const Pencil &pencil;
       const std::size_t n;
-      std::vector<Block> blocks;
+      Columns basis;
+      Columns inertia;                                    ///< M times this
       std::vector<std::vector<double>> operator_in_space; ///< of each column, what it becomes by all, the next block's included
 
-      Columns combination(const Vector<double> &amounts, Columns Block::*const of) const
+      Columns last_block(const Columns &of) const
       {
-        Columns result(n, 0.);
-        for (unsigned int i = 0; i < amounts.size(); ++i)
-        {
-          const double *const column = &(blocks[i / width].*of)[i % width * n];
-          for (std::size_t k = 0; k < n; ++k)
-            result[k] += amounts[i] * column[k];
-        }
-        return result;
+        return Columns(of.end() - static_cast<std::ptrdiff_t>(width * n), of.end());
       }
 
       /// The share of a column of the last block in what the operator makes of a vector of the others.
@@ -171,13 +169,13 @@ namespace sprag
       }
 
       /// Adds a block, orthogonal to all and in itself, and notes what it was made of.
-      void add(Columns columns)
+      void add(Columns block)
       {
         const unsigned int before = dimension();
-        Columns inertia           = pencil.mass(columns);
-        const auto first          = orthonormalise(columns, inertia);
-        inertia                   = pencil.mass(columns); // what cancelled in the columns did not do so alike in this
-        const auto second         = orthonormalise(columns, inertia);
+        Columns of_block          = pencil.mass(block);
+        const auto first          = orthonormalise(block, of_block);
+        of_block                  = pencil.mass(block); // what cancelled in the columns did not do so alike in this
+        const auto second         = orthonormalise(block, of_block);
         for (unsigned int j = 0; j < width && before > 0; ++j)
         {
           auto &made_of = operator_in_space.emplace_back(before + width, 0.);
@@ -188,38 +186,42 @@ namespace sprag
               made_of[i] += second(i, k) * first(before + k, j);
           }
         }
-        blocks.push_back({ std::move(columns), std::move(inertia) });
+        basis.insert(basis.end(), block.begin(), block.end());
+        inertia.insert(inertia.end(), of_block.begin(), of_block.end());
       }
 
-      /// Returns how the columns, as they were, are made of the space and of what they become.
-      FullMatrix<double> orthonormalise(Columns &columns, Columns &inertia) const
+      /// Makes a block orthogonal to the basis and in itself. Returns how its columns, as they were, are made of the basis and of
+      /// what they become.
+      FullMatrix<double> orthonormalise(Columns &block, Columns &of_block) const
       {
-        FullMatrix<double> made_of(dimension() + width, width);
-        for (unsigned int b = 0; b < blocks.size(); ++b)
+        const unsigned int before = dimension();
+        FullMatrix<double> made_of(before + width, width);
+        if (before > 0)
         {
-          const auto shares = products(blocks[b].columns, inertia, n);
-          add_combinations(-1., blocks[b].columns, shares, n, columns);
-          add_combinations(-1., blocks[b].inertia, shares, n, inertia);
-          made_of.fill(shares, b * width);
+          const auto shares = products(basis, of_block, n);
+          add_combinations(-1., basis, shares, n, block);
+          add_combinations(-1., inertia, shares, n, of_block);
+          made_of.fill(shares);
         }
         for (unsigned int j = 0; j < width; ++j)
         {
+          double *const column = &block[j * n], *const of_column = &of_block[j * n];
           for (unsigned int i = 0; i < j; ++i)
           {
-            const double share = made_of(dimension() + i, j) = product(&columns[i * n], &inertia[j * n], n);
+            const double share = made_of(before + i, j) = product(&block[i * n], of_column, n);
             for (std::size_t k = 0; k < n; ++k)
             {
-              columns[j * n + k] -= share * columns[i * n + k];
-              inertia[j * n + k] -= share * inertia[i * n + k];
+              column[k] -= share * block[i * n + k];
+              of_column[k] -= share * of_block[i * n + k];
             }
           }
-          const double size = made_of(dimension() + j, j) = std::sqrt(product(&columns[j * n], &inertia[j * n], n));
+          const double size = made_of(before + j, j) = std::sqrt(product(column, of_column, n));
           if (!(size > 0.))
             throw AnalysisError("the space in which vibration modes are sought does not grow");
-          for (std::size_t k = j * n; k < (j + 1) * n; ++k)
+          for (std::size_t k = 0; k < n; ++k)
           {
-            columns[k] /= size;
-            inertia[k] /= size;
+            column[k] /= size;
+            of_column[k] /= size;
           }
         }
         return made_of;
@@ -232,7 +234,7 @@ namespace sprag
     constexpr unsigned int most_restarts = 100;
     const unsigned int kept              = (wanted / width + 3) * width;
     const unsigned int most              = 4 * kept;
-    KrylovSpace space(pencil);
+    KrylovSpace space(pencil, most + width);
     for (unsigned int restarts = 0;;)
     {
       space.grow();
