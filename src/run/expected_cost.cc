@@ -53,7 +53,7 @@ namespace sprag
     constexpr double table_steps_exponent  = 0.45;  ///< with which they grow as the tolerance falls
     constexpr double condensed_table_step  = 5e-5;
     constexpr double condensed_table_faces = 5e-7; ///< a step, times the square of the faces in contact
-    constexpr double solid_table_step      = 0.5;  ///< in three dimensions, over one of a lever in time
+    constexpr double solid_table_step      = 0.2;  ///< in three dimensions, over one of a lever in time
 
     constexpr double judgements_of_cell = 0.4;  ///< both ways, in models that are kept from cell to cell
     constexpr double usual_tolerance    = 5e-3; ///< Time/Tolerance at which meshed levers take twice a beam's steps
