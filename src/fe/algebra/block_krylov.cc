@@ -229,7 +229,7 @@ namespace sprag
     };
   } // namespace
 
-  std::vector<Eigenpair> lowest_eigenpairs(const Pencil &pencil, const unsigned int wanted)
+  std::vector<NormalMode> lowest_eigenpairs(const Pencil &pencil, const unsigned int wanted)
   {
     constexpr unsigned int most_restarts = 100;
     const unsigned int kept              = (wanted / width + 3) * width;
@@ -247,7 +247,7 @@ namespace sprag
         --first;
       if (found - first == wanted)
       {
-        std::vector<Eigenpair> result;
+        std::vector<NormalMode> result;
         for (unsigned int i = found; i-- > first;)
           result.push_back({ 1. / values[i], space.combination(ritz.vectors[i]) });
         return result;

@@ -16,7 +16,7 @@ namespace sprag
     Product mass;              ///< M
   };
 
-  struct Eigenpair
+  struct NormalMode
   {
     double value;
     std::vector<double> vector; ///< of mass 1
@@ -29,5 +29,5 @@ namespace sprag
   /// It begins with the same columns each time. Converged where a pair's residual |K^-1 M phi - phi/lambda| is below 1e-13/lambda
   /// by what the space tells, or round-off. `wanted` is at most a twentieth of `size`. Throws AnalysisError where a hundred
   /// restarts do not find them.
-  std::vector<Eigenpair> lowest_eigenpairs(const Pencil &pencil, unsigned int wanted);
+  std::vector<NormalMode> lowest_eigenpairs(const Pencil &pencil, unsigned int wanted);
 } // namespace sprag

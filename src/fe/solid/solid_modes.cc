@@ -150,7 +150,7 @@ namespace sprag
         value *= factor;
     }
 
-    void require_residuals(const FreeLever &lever, const std::vector<Eigenpair> &modes)
+    void require_residuals(const FreeLever &lever, const std::vector<NormalMode> &modes)
     {
       std::vector<double> images;
       for (const auto &[omega_squared, mode] : modes)
