@@ -52,11 +52,11 @@ namespace sprag
     }
 
     /// A basis with V^T M V = 1 that grows block by block, and the operator K^-1 M in it.
-    class KrylovSpace
+    class BlockSpace
     {
     public:
       /// With room for so many columns.
-      KrylovSpace(const Pencil &of, const unsigned int most)
+      BlockSpace(const Pencil &of, const unsigned int most)
           : pencil(of)
           , n(of.size)
       {
@@ -234,7 +234,7 @@ namespace sprag
     constexpr unsigned int most_restarts = 100;
     const unsigned int kept              = (wanted / width + 3) * width;
     const unsigned int most              = 4 * kept;
-    KrylovSpace space(pencil, most + width);
+    BlockSpace space(pencil, most + width);
     for (unsigned int restarts = 0;;)
     {
       space.grow();
