@@ -5,10 +5,12 @@
 #include "base/available_memory.h"
 #include "base/errors.h"
 #include "base/text.h"
+#include "fe/algebra/block_krylov.h"
 #include "run/recorder.h"
 #include "scene/across.h"
 #include "scene/analysis_use.h"
 #include "scene/contact_width.h"
+#include "scene/held_slide.h"
 #include "scene/lever_shape.h"
 
 #include <algorithm>
@@ -169,13 +171,10 @@ namespace sprag
     {
       if (scene.analysis.type == AnalysisType::quasi_static)
         return 0.;
-      const double room        = 2. * (0.1 * scene.geometry.cylinder_radius + 4. * scene.layer.thickness);
-      const bool is_held       = holds_slide(scene.analysis.type) && scene.analysis.type != AnalysisType::sprag_slip;
-      const auto [first, last] = swept_contact(scene);
-      const double swept       = is_held ? 0. : last - first;
-      const double reached     = ports * std::min(1., (swept + room) / scene.mesh.face_size / elements_along_face(scene));
-      const double kept        = (scene.analysis.type == AnalysisType::isolation ? 2. : 1.) * matrices_of_ports;
-      const double sought_in   = 2. * (4. * scene.condensed.modes + 50.); // columns, see lowest_eigenpairs(), and their inertia
+      const auto [begin, end] = reachable_contact(scene);
+      const double reached    = ports * std::min(1., (end - begin) / scene.mesh.face_size / elements_along_face(scene));
+      const double kept       = (scene.analysis.type == AnalysisType::isolation ? 2. : 1.) * matrices_of_ports;
+      const double sought_in  = 2. * most_columns(scene.condensed.modes); // these and their inertia
       return 8. * (sought_in * displacements + kept * reached * reached);
     }
 

@@ -2,6 +2,9 @@
 
 #include "base/text.h"
 #include "laws/friction_of_step.h"
+#include "scene/analysis_use.h"
+#include "scene/closed_form.h"
+#include "scene/lever_shape.h"
 
 #include <boost/algorithm/string/join.hpp>
 
@@ -69,6 +72,15 @@ namespace sprag
       held.support.damping         = 0.;
     }
     return held;
+  }
+
+  std::array<double, 2> reachable_contact(const Scene &scene)
+  {
+    const double room    = 0.1 * scene.geometry.cylinder_radius + 4. * scene.layer.thickness;
+    const bool stays     = holds_slide(scene.analysis.type) && scene.analysis.type != AnalysisType::sprag_slip; // which wanders
+    const double held_at = kinematics(scene.geometry, held_drive(scene).x).s;
+    const auto way       = stays ? std::array<double, 2>{ { held_at, held_at } } : swept_contact(scene);
+    return { { way[0] - room, way[1] + room } };
   }
 
   std::optional<std::vector<ParameterRange>> critical_searches(const Scene &scene)

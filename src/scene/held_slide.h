@@ -2,6 +2,7 @@
 
 #include "scene/scene.h"
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -14,6 +15,10 @@ namespace sprag
   /// Returns the scene as it is while the drive keeps its velocity: a friction that depends on the drive's speed is a constant
   /// then. With Stability/Damping = off it has no damping.
   Scene held_scene(const Scene &scene);
+
+  /// Returns the first and last xi of the part of the face that models in three dimensions with inertia look at [mm]: where the
+  /// contact of a held slide, else of the whole drive, may come, with what it is looked at beside.
+  std::array<double, 2> reachable_contact(const Scene &scene);
 
   /// Returns the parameters of Stability/Critical with their ranges; none if it cannot be read. `points` is how many are tried
   /// before a root is searched.

@@ -121,10 +121,8 @@ namespace sprag
           const unsigned int place = ritz.values.size() - 1 - k;
           for (unsigned int i = 0; i < vectors.m(); ++i)
             vectors(i, k) = ritz.vectors[place][i];
-          auto &made_of = kept_operator.emplace_back(number + width, 0.);
-          made_of[k]    = ritz.values[place];
-          for (unsigned int i = 0; i < width; ++i)
-            made_of[number + i] = onto_last_block(ritz.vectors[place], i);
+          // What they become by the last block, that one's own columns tell, as the operator is symmetric.
+          kept_operator.emplace_back(number, 0.)[k] = ritz.values[place];
         }
         for (auto *const columns : { &basis, &inertia })
         {
@@ -227,14 +225,24 @@ namespace sprag
         return made_of;
       }
     };
+
+    /// Of a restart: those wanted and two or three blocks more.
+    unsigned int kept_columns(const unsigned int wanted)
+    {
+      return (wanted / width + 3) * width;
+    }
   } // namespace
+
+  unsigned int most_columns(const unsigned int wanted)
+  {
+    return 4 * kept_columns(wanted);
+  }
 
   std::vector<NormalMode> lowest_eigenpairs(const Pencil &pencil, const unsigned int wanted)
   {
     constexpr unsigned int most_restarts = 100;
-    const unsigned int kept              = (wanted / width + 3) * width;
-    const unsigned int most              = 4 * kept;
-    BlockSpace space(pencil, most + width);
+    const unsigned int most              = most_columns(wanted);
+    BlockSpace space(pencil, most);
     for (unsigned int restarts = 0;;)
     {
       space.grow();
@@ -257,7 +265,7 @@ namespace sprag
       if (++restarts > most_restarts)
         throw AnalysisError("only " + std::to_string(found - first) + " of " + std::to_string(wanted) +
                             " vibration modes were found");
-      space.keep(ritz, kept);
+      space.keep(ritz, kept_columns(wanted));
     }
   }
 } // namespace sprag

@@ -30,4 +30,7 @@ namespace sprag
   /// by what the space tells, or round-off. `wanted` is at most a twentieth of `size`. Throws AnalysisError where a hundred
   /// restarts do not find them.
   std::vector<NormalMode> lowest_eigenpairs(const Pencil &pencil, unsigned int wanted);
+
+  /// Returns how many columns that space has at most.
+  unsigned int most_columns(unsigned int wanted);
 } // namespace sprag

@@ -21,20 +21,10 @@ namespace sprag
 
   namespace
   {
-    /// The part of the face where the contact may come, with what it is looked at beside: of a held slide about its place, else
-    /// of the whole drive.
     FaceWindow window_of_scene(const Scene &scene, const FrictionFace<3> &face)
     {
-      constexpr double over_radius = 0.1;
-      const double room            = over_radius * scene.geometry.cylinder_radius + 4. * scene.layer.thickness;
-      if (!holds_slide(scene.analysis.type) || scene.analysis.type == AnalysisType::sprag_slip) // whose vibration wanders
-      {
-        const auto [first, last] = swept_contact(scene);
-        return window_of(face, first - room, last + room);
-      }
-      const auto drive = held_drive(scene);
-      const double xi  = cylinder_centre(scene.geometry, drive.x, kinematics(scene.geometry, drive.x).theta).xi;
-      return window_of(face, xi - room, xi + room);
+      const auto [begin, end] = reachable_contact(scene);
+      return window_of(face, begin, end);
     }
 
     PortSelection ports_of(const FaceWindow &window)
