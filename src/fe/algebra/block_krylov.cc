@@ -17,7 +17,7 @@ namespace sprag
 
   namespace
   {
-    constexpr unsigned int width = 4;     ///< of a block
+    constexpr unsigned int width = krylov_block_width;
     constexpr double converged   = 1e-13; ///< residual over the value
     constexpr double round_off   = 1e-15; ///< over the largest value
 
@@ -225,18 +225,7 @@ namespace sprag
         return made_of;
       }
     };
-
-    /// Of a restart: those wanted and two or three blocks more.
-    unsigned int kept_columns(const unsigned int wanted)
-    {
-      return (wanted / width + 3) * width;
-    }
   } // namespace
-
-  unsigned int most_columns(const unsigned int wanted)
-  {
-    return 4 * kept_columns(wanted);
-  }
 
   std::vector<NormalMode> lowest_eigenpairs(const Pencil &pencil, const unsigned int wanted)
   {
