@@ -28,11 +28,12 @@ class SolidFrame:
     stress: np.ndarray  # von Mises [n]
     part: np.ndarray
     cells: np.ndarray  # [m x 8]
-    is_lever: np.ndarray  # of the nodes
+    lever: np.ndarray  # to which a node belongs: 1, of a pair 2, of none 0
     face: np.ndarray  # nodes of the face at rest
     face_rigid: np.ndarray
     face_elastic: np.ndarray
     face_cells: np.ndarray  # [m x 4]
+    face_lever: np.ndarray
     pressure: np.ndarray
 
     def at(self, magnify):
@@ -40,6 +41,14 @@ class SolidFrame:
 
     def face_at(self, magnify):
         return self.face + self.face_rigid + magnify * self.face_elastic
+
+    @property
+    def is_lever(self):
+        """Of the nodes."""
+        return self.lever > 0
+
+    def cells_of(self, lever):
+        return self.lever[self.cells[:, 0]] == lever
 
 
 def read_solid_frame(result, path):
@@ -50,8 +59,9 @@ def read_solid_frame(result, path):
             now, on_face = ({name: data[:] for name, data in file[group].items()} for group in ("fields", "face"))
         elastic, of_face = now["elastic_displacement"], on_face["elastic_displacement"]
         return SolidFrame(mesh["nodes"], now["displacement"] - elastic, elastic, now["von_mises_stress"],
-                          mesh["part"].round().astype(int), mesh["cells"].astype(int), mesh["lever"] == 1, face["nodes"],
-                          on_face["displacement"] - of_face, of_face, face["cells"].astype(int), on_face["pressure"])  # fmt: skip
+                          mesh["part"].round().astype(int), mesh["cells"].astype(int), mesh["lever"].round(), face["nodes"],
+                          on_face["displacement"] - of_face, of_face, face["cells"].astype(int), face["lever"].round(),
+                          on_face["pressure"])  # fmt: skip
     except (OSError, KeyError, ValueError) as error:
         raise NotAResult(f"{path}: cannot be read as fields of this version of sprag ({error})") from error
 
@@ -107,24 +117,26 @@ def grey(sides, shade="0.94"):
 
 
 def draw_lever(axes, frame, view, magnify, norm):
-    """Lever and cylinder, which lies below it."""
-    of_lever = frame.is_lever[frame.cells[:, 0]]
+    """From the lowest on: of a pair the second lever, the cylinder, the first."""
     points = frame.at(magnify)
-    tube = outer_sides(frame.nodes, frame.cells[~of_lever])
-    draw_sides(axes, view, points, tube, grey(tube), zorder=1)
-    sides = outer_sides(frame.nodes, frame.cells[of_lever])
-    draw_sides(axes, view, points, sides, stress_colours(frame, sides, norm), zorder=2)
+    for order, lever in enumerate((2, 0, 1)):
+        sides = outer_sides(frame.nodes, frame.cells[frame.cells_of(lever)])
+        colours = grey(sides) if lever == 0 else stress_colours(frame, sides, norm)
+        draw_sides(axes, view, points, sides, colours, zorder=order)
 
 
-def draw_contact(axes, frame, view, magnify, norm, pressure_norm, chosen):
-    """A piece of the lever from below, the pressure on its face."""
+def draw_contact(axes, frame, lever, magnify, norm, pressure_norm, chosen):
+    """A piece of a lever as the cylinder sees it, the pressure on its face."""
+    view = View(FROM_BELOW if lever == 1 else FROM_ABOVE)
     points, face = frame.at(magnify), frame.face_at(magnify)
     sides = outer_sides(frame.nodes, frame.cells[chosen])
     draw_sides(axes, view, points, sides, stress_colours(frame, sides, norm), zorder=1)
-    pressed = frame.face_cells[(frame.pressure[frame.face_cells] > 0).any(axis=1)]
+    face_cells = frame.face_cells[frame.face_lever[frame.face_cells[:, 0]] == lever]
+    pressed = face_cells[(frame.pressure[face_cells] > 0).any(axis=1)]
     colours = plt.get_cmap(PRESSURE_MAP)(pressure_norm(frame.pressure[pressed].mean(axis=1)))
     style = {"linewidth": 0.3, "rasterized": True, "zorder": 2}
     axes.add_collection(PolyCollection(view(face[pressed]), facecolor=colours, edgecolor=colours, **style))
+    draw_axes(axes, view, 0.2 * ARROW)
 
 
 def draw_axes(axes, view, length):
@@ -150,12 +162,12 @@ def automatic_magnification(result, frame, row):
     return rounded(min((drawn / size for drawn, size in sizes if drawn > 0 and size > 0), default=1.0))
 
 
-def near_contact(result, frame, row):
-    """Cells of the lever about the contact."""
+def near_contact(result, frame, row, lever):
+    """Cells of a lever about its contact. The second of a pair is the first's mirror image at rest."""
     half = 0.25 * number(result, "Lever", "Width")
-    xi = pose(result).in_axes(frame.nodes[:, :2])[:, 0]
-    away = np.abs(xi - result.table["s"][row])
-    return frame.is_lever[frame.cells[:, 0]] & (away[frame.cells].max(axis=1) < half)
+    xi = pose(result).in_axes(frame.nodes[:, :2] * ((1, 1) if lever == 1 else (1, -1)))[:, 0]
+    away = np.abs(xi - result.table["s" if lever == 1 else "s_2"][row])
+    return frame.cells_of(lever) & (away[frame.cells].max(axis=1) < half)
 
 
 def solid_fields(result, x=None, way=None, magnify=None):
@@ -163,26 +175,28 @@ def solid_fields(result, x=None, way=None, magnify=None):
     written = chosen_frame(result, x, way)
     frame = read_solid_frame(result, written.file)
     magnify = magnify or automatic_magnification(result, frame, written.row)
-    chosen = near_contact(result, frame, written.row)
+    levers = (1, 2) if (frame.lever == 2).any() else (1,)
+    chosen = [near_contact(result, frame, written.row, lever) for lever in levers]
     elastic = frame.is_lever & (frame.part != NUMBERS["hub"])
-    near = np.unique(frame.cells[chosen])
+    near = np.unique(frame.cells[np.any(chosen, axis=0)])
     norms = [norm_of([frame.stress[elastic]]), norm_of([frame.stress[near]])]
     pressure_norm = plt.Normalize(0, frame.pressure.max(initial=0) or 1)
     figure = plt.figure(figsize=(TWO_COLUMNS, 92 * MILLIMETRE), constrained_layout=False)
-    whole, contact = (figure.add_axes(place) for place in ((0.01, 0.19, 0.56, 0.7), (0.6, 0.19, 0.39, 0.7)))
-    above, below = View(FROM_ABOVE), View(FROM_BELOW)
+    whole, above = figure.add_axes((0.01, 0.19, 0.56, 0.7)), View(FROM_ABOVE)
     draw_lever(whole, frame, above, magnify, norms[0])
-    draw_contact(contact, frame, below, magnify, norms[1], pressure_norm, chosen)
     draw_axes(whole, above, ARROW)
-    draw_axes(contact, below, 0.2 * ARROW)
+    titles = ("the contact from below",) if len(levers) == 1 else ("first lever from below", "second lever from above")
+    tops = [0.91 - 0.37 * index for index in range(len(levers))]
+    for lever, cells, top, letter, title in zip(levers, chosen, tops, "bc", titles):
+        height = 0.7 if len(levers) == 1 else 0.31
+        draw_contact(figure.add_axes((0.6, top - 0.02 - height, 0.39, height)), frame, lever, magnify, norms[1], pressure_norm, cells)
+        figure.text(0.6, top, f"({letter}) {title}; arrows: {0.2 * ARROW:g} mm", fontsize=8)
     pressure = plt.cm.ScalarMappable(pressure_norm, PRESSURE_MAP)
     bars = ((0.09, "von Mises", mappable_of(norms[0]), "max"), (0.6, "von Mises", mappable_of(norms[1]), "max"), (0.82, "pressure", pressure, "neither"))
     for left, name, mappable, extend in bars:
         bar = figure.add_axes((left, 0.13, 0.4 if left < 0.5 else 0.16, 0.025))
         figure.colorbar(mappable, cax=bar, orientation="horizontal", label=f"{name} [MPa]", extend=extend)
-    titles = ("lever and cylinder from above", "the contact from below")
-    for left, letter, text, length in zip((0.02, 0.6), "ab", titles, (ARROW, 0.2 * ARROW)):
-        figure.text(left, 0.91, f"({letter}) {text}; arrows: {length:g} mm", fontsize=8)
+    figure.text(0.02, 0.91, f"(a) {'lever' if len(levers) == 1 else 'levers'} and cylinder from above; arrows: {ARROW:g} mm", fontsize=8)
     figure.suptitle(caption(result, written, magnify), fontsize=8)
     return figure
 

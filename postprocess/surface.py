@@ -85,5 +85,10 @@ def draw_load_across(axes, face, states):
 
 
 def draw_centre(axes, result):
-    axes.plot(result.table["x"], result.table["centre_across"], **look(0))
+    levers = [("centre_across", "first lever"), ("centre_across_2", "second lever")]
+    drawn = [(name, label) for name, label in levers if name in result.table]
+    for index, (name, label) in enumerate(drawn):
+        axes.plot(result.table["x"], result.table[name], label=label, **look(index))
+    if len(drawn) > 1:
+        show_legend(axes)
     set_labels(axes, result.units, "x", "centre_across")

@@ -46,6 +46,10 @@ RUNS = {
     "three dimensions, plate": ("solid-plate-a", (*SLIDE, "Mesh/Face size=8", "Mesh/Elements across=2", "Mesh/Degree=1")),
     "three dimensions, stability": ("solid-stability-a", ("Mesh/Face size=8", "Mesh/Elements across=2", "Condensed/Modes=6")),
     "three dimensions, reversal": ("solid-reversal-a", (*REVERSAL, "Mesh/Face size=8", "Mesh/Elements across=2", "Condensed/Modes=6")),
+    "three dimensions, pair": ("solid-pair-a", (*SLIDE, "Mesh/Face size=8", "Mesh/Elements across=2", "Mesh/Degree=1")),
+    "three dimensions, pair in time": (
+        "solid-pair-a", (*REVERSAL, *IN_TIME, "Analysis/Model=condensed", "Mesh/Face size=8", "Mesh/Elements across=2", "Condensed/Modes=4")
+    ),
     "slope": ("fig11", ("Slope/Number of points=5",)),
     "reversal, rigid": ("reversal-a", (*REVERSAL, "Analysis/Model=rigid")),
     "reversal, beam": ("reversal-a", REVERSAL),

@@ -63,15 +63,8 @@ namespace sprag
     }
     const PhaseTimer::Scope scope(time, "model");
     Dynamics result;
-    result.solid                       = solid.second;
-    result.reduced                     = make_solid_dynamics(scene, *result.solid, contact_reference(scene).relaxation, n_modes);
-    const auto &modes                  = result.solid->modes;
-    result.meshed.elastic_displacement = solid_displacement(scene, *result.solid);
-    result.meshed.density_factor       = modes.density_factor;
-    result.meshed.lever_mass           = modes.total_mass;
-    result.meshed.moment_of_inertia    = modes.moment_of_inertia;
-    result.meshed.n_coordinates        = n_modes;
-    result.meshed.penalties            = penalties_in_time(scene, result.solid->body->friction_face());
+    result.solid  = solid.second;
+    result.meshed = make_solid_dynamics(scene, *result.solid, contact_reference(scene).relaxation, n_modes);
     return result;
   }
 

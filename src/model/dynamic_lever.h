@@ -298,9 +298,10 @@ namespace sprag
       for (unsigned int i = 0; i < frame.ports.sensors; ++i)
         sensors.push_back(frame.ports.sensor(i, lever));
       const auto compressions = structure->port_positions(motion, sensors);
-      row.sensor_forces.clear();
+      std::vector<double> forces;
       for (const unsigned int port : sensors)
-        row.sensor_forces.push_back(frame.sensor_stiffness * compressions[port]);
+        forces.push_back(frame.sensor_stiffness * compressions[port]);
+      frame.tell_sensors(std::move(forces), row);
     }
 
     const PortSelection &reachable_ports(const Motion &motion) const

@@ -2,7 +2,6 @@
 
 #include "model/contact_point.h"
 
-#include <array>
 #include <vector>
 
 namespace sprag
@@ -11,10 +10,11 @@ namespace sprag
   // which has `points` contact points.
 
   /// Returns the entries of one lever, with the numbers that its points have alone.
-  inline std::vector<ContactMemory> memory_of_lever(const unsigned int lever, const unsigned int points,
-                                                    const std::vector<ContactMemory> &of_pair)
+  template <int slips>
+  std::vector<PointMemory<slips>> memory_of_lever(const unsigned int lever, const unsigned int points,
+                                                  const std::vector<PointMemory<slips>> &of_pair)
   {
-    std::vector<ContactMemory> result;
+    std::vector<PointMemory<slips>> result;
     for (auto entry : of_pair)
       if (entry.point / points == lever)
       {
@@ -25,15 +25,15 @@ namespace sprag
   }
 
   /// Joins the entries of both levers.
-  inline std::vector<ContactMemory> joined_memory(const unsigned int points,
-                                                  const std::array<std::vector<ContactMemory>, 2> &of_levers)
+  template <int slips>
+  std::vector<PointMemory<slips>> joined_memory(const unsigned int points, std::vector<PointMemory<slips>> first,
+                                                const std::vector<PointMemory<slips>> &second)
   {
-    std::vector<ContactMemory> result = of_levers[0];
-    for (auto entry : of_levers[1])
+    for (auto entry : second)
     {
       entry.point += points;
-      result.push_back(entry);
+      first.push_back(entry);
     }
-    return result;
+    return first;
   }
 } // namespace sprag

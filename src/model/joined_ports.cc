@@ -35,8 +35,10 @@ namespace sprag
                     [&](const auto &forces) { return !forces->ports.empty() && forces->ports.back() == layout.of_a_lever(); }))
       result.ports.push_back(layout.support());
 
+    result.has_tangent = std::all_of(of_levers.begin(), of_levers.end(), [](const auto &forces) { return forces->has_tangent; });
     result.values.reinit(static_cast<unsigned int>(result.ports.size()));
-    result.tangent.reinit(result.ports.size(), result.ports.size());
+    const auto n_of_tangent = result.has_tangent ? result.ports.size() : 0;
+    result.tangent.reinit(n_of_tangent, n_of_tangent);
     unsigned int first = 0; // place of the lever's first port
     for (const auto &forces : of_levers)
     {
@@ -46,6 +48,8 @@ namespace sprag
       {
         const unsigned int row = a < own ? first + a : support;
         result.values[row] += forces->values[a];
+        if (!result.has_tangent)
+          continue;
         std::copy_n(&forces->tangent(a, 0), own, &result.tangent(row, 0) + first);
         if (own < n)
           result.tangent(row, support) += forces->tangent(a, own);

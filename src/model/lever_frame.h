@@ -1,9 +1,12 @@
 #pragma once
 
 #include "model/port_layout.h"
+#include "results/columns.h"
 #include "scene/scene.h"
 
 #include <deal.II/lac/vector.h>
+
+#include <functional>
 
 namespace sprag
 {
@@ -19,6 +22,10 @@ namespace sprag
     dealii::Vector<double> lengths;  ///< what a unit of each port moves [mm]: 1, and an arm for rotations
     double sensor_stiffness = 0.;    ///< of each force sensor of a friction plate [N/mm]
     bool joined             = false; ///< the springs of a pair by a joint that nothing else carries
+
+    /// Tells the row of a lever the forces of its sensors [N].
+    std::function<void(std::vector<double> forces, Row &row)> tell_sensors = [](std::vector<double> forces, Row &row)
+    { row.sensor_forces = std::move(forces); };
   };
 
   /// The frame of a scene, with lengths 1 but for the hubs' rotations. `lever_mass` [t], of one lever, moves with a sprung

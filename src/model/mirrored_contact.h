@@ -19,7 +19,7 @@ namespace sprag
   {
   public:
     static constexpr bool uses_rates       = Contact::uses_rates;
-    static constexpr bool keeps_tangent    = false;
+    static constexpr bool keeps_tangent    = Contact::keeps_tangent;
     static constexpr bool stands_for_layer = Contact::stands_for_layer;
     static constexpr unsigned int levers   = 2;
 
@@ -31,9 +31,9 @@ namespace sprag
       bool within_reach   = true;
       unsigned int points = 0; ///< of a lever, see joined_memory()
 
-      std::vector<ContactMemory> memory() const
+      auto memory() const
       {
-        return joined_memory(points, { { of_lever[0].memory(), of_lever[1].memory() } });
+        return joined_memory(points, of_lever[0].memory(), of_lever[1].memory());
       }
       StepWork work() const
       {
@@ -64,13 +64,22 @@ namespace sprag
       for (unsigned int lever = 0; lever < levers; ++lever)
       {
         const auto memory = memory_of_lever(lever, points, step.memory);
+        const auto surface =
+            step.surface_memory != nullptr ? memory_of_lever(lever, points, *step.surface_memory) : std::vector<PointMemory<2>>();
         const Kinematic begin{ ports_of(lever, step.begin.position), ports_of(lever, step.begin.velocity),
                                ports_of(lever, step.begin.acceleration) };
         const auto end  = ports_of(lever, step.end);
         const auto rate = ports_of(lever, step.end_rate);
-        contact[lever]->evaluate(PortStep{ step.from, memory, step.to, begin, end, rate, step.weights }, found.of_lever[lever]);
+        contact[lever]->evaluate(PortStep{ step.from, memory, step.to, begin, end, rate, step.weights, &surface, step.wanted },
+                                 found.of_lever[lever]);
       }
       join(found);
+    }
+
+    void complete(Evaluation &found) const
+    {
+      for (unsigned int lever = 0; lever < levers; ++lever)
+        contact[lever]->complete(found.of_lever[lever]);
     }
 
     void evaluate_sliding(const SlidingState &state, Evaluation &found) const
@@ -114,13 +123,14 @@ namespace sprag
         of_lever->widen_reach();
     }
 
-    std::vector<ContactMemory> touch(const dealii::Vector<double> &ports, const DrivePoint &drive, Evaluation &found) const
+    auto touch(const dealii::Vector<double> &ports, const DrivePoint &drive, Evaluation &found) const
     {
-      std::array<std::vector<ContactMemory>, 2> memory;
-      for (unsigned int lever = 0; lever < levers; ++lever)
-        memory[lever] = contact[lever]->touch(ports_of(lever, ports), drive, found.of_lever[lever]);
+      const auto of_lever = [&](const unsigned int lever)
+      { return contact[lever]->touch(ports_of(lever, ports), drive, found.of_lever[lever]); };
+      const auto first  = of_lever(0);
+      const auto memory = joined_memory(points, first, of_lever(1));
       join(found);
-      return joined_memory(points, memory);
+      return memory;
     }
 
     double gap_change(const Evaluation &found, const dealii::Vector<double> &change_of_ports, const unsigned int lever) const
@@ -185,8 +195,8 @@ namespace sprag
       {
         const auto ports = ports_of(lever, state.ports);
         const auto rates = state.rates != nullptr ? ports_of(lever, *state.rates) : dealii::Vector<double>();
-        evaluate(lever,
-                 SlidingState{ ports, state.drive, state.speed, state.rates != nullptr ? &rates : nullptr, state.friction });
+        evaluate(lever, SlidingState{ ports, state.drive, state.speed, state.rates != nullptr ? &rates : nullptr, state.friction,
+                                      state.wanted });
       }
       join(found);
     }

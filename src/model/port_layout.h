@@ -21,6 +21,14 @@ namespace sprag
     bool has_inertia     = true;
     unsigned int slopes  = 0; ///< 2: those of the cylinder's axis may change
 
+    /// The layout of one lever alone.
+    PortLayout of_one_lever() const
+    {
+      PortLayout result = *this;
+      result.levers     = 1;
+      return result;
+    }
+
     unsigned int of_a_lever() const
     {
       return surface + sensors + slopes + (sprung && has_inertia ? 3 : 1);

@@ -9,11 +9,11 @@ namespace sprag
 {
   namespace
   {
-    std::unique_ptr<PointContact> contact_of(const Scene &scene, const BeamMesh &mesh, PortLayout ports, const unsigned int lever)
+    std::unique_ptr<PointContact> contact_of(const Scene &scene, const BeamMesh &mesh, const PortLayout &ports,
+                                             const unsigned int lever)
     {
       const auto reference = contact_reference(scene);
       const Scene own      = scene_of_lever(scene, lever);
-      ports.levers         = 1;
       PointContactProperties properties;
       properties.geometry            = own.geometry;
       properties.mesh                = mesh;
@@ -38,7 +38,7 @@ namespace sprag
       for (unsigned int lever = 0; lever < ports.levers; ++lever)
         for (unsigned int slope = 1; slope < mesh.ports(); slope += 2)
           frame.lengths[ports.first(lever) + slope] = mesh.element_length();
-      const auto contact = [&](const unsigned int lever) { return contact_of(scene, mesh, ports, lever); };
+      const auto contact = [&](const unsigned int lever) { return contact_of(scene, mesh, ports.of_one_lever(), lever); };
       return assemble_lever(std::move(structure), std::move(frame), contact, 1);
     };
     const auto of_lever = [&](const Scene &of) { return std::make_unique<ModalStructure>(beam_modes(of, mesh)); };

@@ -4,6 +4,7 @@
 #include "model/contact_of_levers.h"
 #include "model/force_history.h"
 #include "model/hub_spring.h"
+#include "model/joined_ports.h"
 #include "model/kept_iteration.h"
 #include "model/lever_frame.h"
 #include "model/linearisation.h"
@@ -13,16 +14,7 @@
 
 namespace sprag
 {
-  /// Rotations of the hubs among the displacements of the ports [rad].
-  inline OfLevers turns_of(const PortLayout &layout, const dealii::Vector<double> &ports)
-  {
-    OfLevers result{};
-    for (unsigned int lever = 0; lever < layout.levers; ++lever)
-      result[lever] = ports[layout.rotation(lever)];
-    return result;
-  }
-
-  /// Inclinations of the levers by these [rad].
+  /// Inclinations of the levers by turns of their hubs [rad].
   inline OfLevers inclinations_of(const LeverFrame &frame, const OfLevers &turns)
   {
     return { { frame.rest_inclination + turns[0], frame.rest_inclination + turns[1] } };
@@ -175,14 +167,18 @@ namespace sprag
       return accept(z, ideal, *solved.forces);
     }
 
-    /// The last forces, all as much larger as the hub turns.
+    /// The last forces, those of each lever as much larger as its hub turns.
     PortLoads turned_forces(const dealii::Vector<double> &free, const PortSelection &near, const OfLevers &ideal) const
     {
       dealii::Vector<double> z(free.size());
       add_response(structure.compliance(), last_forces.ports, last_forces.values, near, z);
-      const unsigned int hub = frame.ports.rotation();
-      PortLoads result       = last_forces;
-      result.values *= (guessed_turn(0, ideal) - free[hub]) / z[hub];
+      OfLevers growth{ { 1., 1. } };
+      for (unsigned int lever = 0; lever < frame.ports.levers; ++lever)
+        if (const unsigned int hub = frame.ports.rotation(lever); z[hub] != 0.)
+          growth[lever] = (guessed_turn(lever, ideal) - free[hub]) / z[hub];
+      PortLoads result = last_forces;
+      for (unsigned int i = 0; i < result.ports.size(); ++i)
+        result.values[i] *= growth[std::min(frame.ports.lever_of(result.ports[i]), frame.ports.levers - 1)];
       return result;
     }
 

@@ -84,14 +84,19 @@ namespace sprag
       columns.push_back({ "sensor_sum", "N", "sum of the forces of the friction plate's sensors" + reason });
     }
 
+    void add_as_second(const std::vector<ColumnInfo> &of_a_lever, std::vector<ColumnInfo> &columns)
+    {
+      for (const auto &[name, unit, description] : of_a_lever)
+        columns.push_back({ name + "_2", unit, "of the pair's second lever, in its mirrored axes: " + description });
+    }
+
     void add_pair(const FrictionPlate &plate, std::vector<ColumnInfo> &columns)
     {
       std::vector<ColumnInfo> of_second;
       for (const Column column : columns_of_a_lever())
         of_second.push_back(column_info(column));
       add_sensors(plate, of_second);
-      for (const auto &[name, unit, description] : of_second)
-        columns.push_back({ name + "_2", unit, "of the pair's second lever, in its mirrored axes: " + description });
+      add_as_second(of_second, columns);
       columns.push_back(
           { "swing", "rad", "(theta - theta_2)/2: what both levers turn together, the first away from the cylinder" });
       columns.push_back({ "Q_pair", "N", "x-force of the cylinder on both levers, Q + Q_2" });
@@ -100,21 +105,23 @@ namespace sprag
             "y-force of both levers on the cylinder, towards the first lever where positive; 0 where they mirror" });
     }
 
-    void add_across(const FrictionPlate &plate, const Cylinder &cylinder, std::vector<ColumnInfo> &columns)
+    /// What each lever has in three dimensions.
+    std::vector<ColumnInfo> across_a_lever(const FrictionPlate &plate, const Cylinder &cylinder)
     {
-      columns.insert(columns.end(), columns_across().begin(), columns_across().end());
+      std::vector<ColumnInfo> columns = columns_across();
       if (cylinder.has_free_axis())
       {
         columns.push_back({ "tilt", "1", "slope of the cylinder's axis towards the lever, Tilt and what its shaft yields" });
         columns.push_back({ "skew", "1", "slope of the cylinder's axis along x, Skew and what its shaft yields" });
       }
       if (plate.type == PlateType::none)
-        return;
+        return columns;
       for (std::size_t i = 1; i <= plate.sensors.size(); ++i)
         for (const auto &[side, where] : { std::pair("left", "zeta < 0"), std::pair("right", "zeta > 0") })
           columns.push_back(
               { "sensor_" + std::to_string(i) + "_" + side, "N",
                 "part of sensor_" + std::to_string(i) + " at the plate's " + side + ", " + where + ", positive in compression" });
+      return columns;
     }
   } // namespace
 
@@ -159,7 +166,12 @@ namespace sprag
     if (pair.type == PairType::full)
       add_pair(plate, result);
     if (dimension == 3)
-      add_across(plate, cylinder, result);
+    {
+      const auto of_lever = across_a_lever(plate, cylinder);
+      result.insert(result.end(), of_lever.begin(), of_lever.end());
+      if (pair.type == PairType::full)
+        add_as_second(of_lever, result);
+    }
     return result;
   }
 
@@ -169,6 +181,7 @@ namespace sprag
     for (const Column column : columns_of_a_lever())
       of_second.push_back(second[column]);
     sensor_forces.insert(sensor_forces.end(), second.sensor_forces.begin(), second.sensor_forces.end());
+    across.insert(across.end(), second.across.begin(), second.across.end());
     for (const Column column :
          { Column::friction_power, Column::friction_work, Column::drive_work, Column::spring_energy, Column::elastic_energy,
            Column::layer_energy, Column::support_energy, Column::contact_energy, Column::active_points })

@@ -83,7 +83,7 @@ namespace sprag
   /// Lists the columns of the table of a run: with a friction plate on sensors also sensor_1 ... sensor_n and sensor_sum; of a
   /// full pair those of the second lever, named ..._2, and swing, Q_pair and lateral_force.
   /// In three dimensions those of columns_across(), of a cylinder whose axis is free tilt and skew and, of each sensor place,
-  /// sensor_1_left, sensor_1_right ...
+  /// sensor_1_left, sensor_1_right ..., of a full pair again those of the second lever, named ..._2.
   std::vector<ColumnInfo> table_columns(const FrictionPlate &plate, const MirroredPair &pair, unsigned int dimension = 2,
                                         const Cylinder &cylinder = {});
 

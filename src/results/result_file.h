@@ -75,13 +75,15 @@ namespace sprag
     // Of a pair's second lever; empty without. Fields have them, /face does not.
     std::vector<double> pressure_2;
     std::vector<double> traction_2;
+    std::vector<double> traction_across_2{};
   };
 
   /// Returns the state of the first lever's face with that of the second's.
   inline FaceState joined_faces(FaceState first, FaceState second)
   {
-    first.pressure_2 = std::move(second.pressure);
-    first.traction_2 = std::move(second.traction);
+    first.pressure_2        = std::move(second.pressure);
+    first.traction_2        = std::move(second.traction);
+    first.traction_across_2 = std::move(second.traction_across);
     return first;
   }
 

@@ -37,9 +37,9 @@ namespace sprag
 
   void visit(Archive &archive, FaceState &face)
   {
-    auto &[time, x, pressure, traction, traction_across, pressure_2, traction_2] = face;
+    auto &[time, x, pressure, traction, traction_across, pressure_2, traction_2, traction_across_2] = face;
     archive(time, x);
-    for (auto *const values : { &pressure, &traction, &traction_across, &pressure_2, &traction_2 })
+    for (auto *const values : { &pressure, &traction, &traction_across, &pressure_2, &traction_2, &traction_across_2 })
       visit(archive, Sparse{ *values });
   }
 } // namespace sprag

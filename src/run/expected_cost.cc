@@ -30,7 +30,7 @@ namespace sprag
     constexpr double solid_body        = 2.2e-7;  ///< times N^1.45, with the basis of its face and the checks of it
     constexpr double solid_step        = 8e-10;   ///< times N^1.4
     constexpr double solid_finite      = 4e-6;    ///< at finite strain, times N^1.1
-    constexpr double solid_modes       = 8e-7;    ///< times N^1.45, body and held slide included
+    constexpr double solid_modes       = 6.5e-7;  ///< times N^1.45, body and held slide included
     constexpr double solid_in_time     = 1.1e-8;  ///< a step, times displacements of the face^1.55
     constexpr double fields_of_solid   = 1.4e-5;  ///< of eight modes, times N
     constexpr double reduced_step      = 2e-5;
@@ -84,7 +84,7 @@ namespace sprag
       const double steps = expected_rows(scene) + steps_of_reversal * turns;
       const double step =
           scene.lever.material == MaterialModel::linear ? solid_step * std::pow(N, 1.4) : solid_finite * std::pow(N, 1.1);
-      return start + solid_body * std::pow(N, 1.45) + steps * step;
+      return start + solid_body * std::pow(N, 1.45) + steps * step * parts(scene);
     }
 
     double steps_in_time(const Scene &scene)
@@ -99,7 +99,7 @@ namespace sprag
     double solid_with_inertia(const Scene &scene, const double steps)
     {
       const auto [N, of_face] = expected_size(scene);
-      return start + solid_modes * std::pow(N, 1.45) + steps * solid_in_time * std::pow(of_face, 1.55);
+      return start + solid_modes * std::pow(N, 1.45) + steps * solid_in_time * std::pow(of_face, 1.55) * parts(scene);
     }
 
     double in_time(const Scene &scene)

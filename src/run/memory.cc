@@ -173,7 +173,8 @@ namespace sprag
         return 0.;
       const auto [begin, end] = reachable_contact(scene);
       const double reached    = ports * std::min(1., (end - begin) / scene.mesh.face_size / elements_along_face(scene));
-      const double kept       = (scene.analysis.type == AnalysisType::isolation ? 2. : 1.) * matrices_of_ports;
+      const bool has_two      = scene.analysis.type == AnalysisType::isolation || scene.pair.type == PairType::full;
+      const double kept       = (has_two ? 2. : 1.) * matrices_of_ports;
       const double sought_in  = 2. * most_columns(scene.condensed.modes); // these and their inertia
       return 8. * (sought_in * displacements + kept * reached * reached);
     }

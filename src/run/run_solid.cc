@@ -1,4 +1,5 @@
 #include "analysis/statics/quasi_static.h"
+#include "base/append.h"
 #include "fe/solid/solid_lever.h"
 #include "model/state_archive.h"
 #include "run/analyses.h"
@@ -61,7 +62,7 @@ namespace sprag
         if (travel < next || state.forces.ports.empty())
           return;
         next = travel + interval;
-        of_face.push_back(lever.sample(state));
+        append(of_face, lever.samples(state));
       }
 
       /// None of a body at finite strain, which is solved as a whole.
@@ -101,7 +102,7 @@ namespace sprag
       checkpoint.add_part([&](Archive &archive) { visit(archive, samples); });
       const bool has_frames    = scene.output.fields != FieldOutput::none;
       const auto displacements = [&lever](const FieldSource &source) {
-        return std::vector<dealii::Vector<double>>{ lever.body_displacement({ {}, source.coordinates, {}, source.forces }) };
+        return lever.body_displacements({ {}, source.coordinates, {}, source.forces });
       };
       std::optional<FieldRecorder> fields;
       timed(timer, "fields",

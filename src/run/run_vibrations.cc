@@ -15,6 +15,7 @@
 #include "run/vibration_report.h"
 #include "run/warnings.h"
 #include "scene/held_slide.h"
+#include "scene/mirrored_pair.h"
 
 #include <algorithm>
 #include <iostream>
@@ -114,7 +115,7 @@ namespace sprag
       const auto found      = timed(maker, [&] { return model.vibrations(*slide, in_contact, scene.stability.modes); });
       auto modes            = reported(found, scene.stability.modes);
       if (dynamics.solid)
-        tell_motion(dynamics.solid->modes, modes);
+        tell_motion(modes_of_structures(*dynamics.solid, number_of_levers(undamped)), modes);
       if (!options.quiet)
         print_modes(std::cout, modes);
       RunEnd result;
@@ -145,7 +146,7 @@ namespace sprag
         result.meta         = meshed_entries(dynamics);
         auto modes          = reported(found.modes, scene.stability.modes);
         if (dynamics.solid)
-          tell_motion(dynamics.solid->modes, modes);
+          tell_motion(modes_of_structures(*dynamics.solid, number_of_levers(held)), modes);
         result.groups = { mode_group(modes, dynamics.model()) };
         if (found.slide)
           write_fields(scene, dynamics, pose_of_slide(scene, dynamics.model(), *found.slide), modes, options);

@@ -28,7 +28,10 @@ namespace sprag
       need(type != AnalysisType::isolation || scene.isolation.damper == DamperType::lever, "Isolation/Damper", "lever");
       need(analysis.solution == Solution::automatic, "Analysis/Solution", "automatic");
       need(scene.cylinder.type == CylinderType::rigid, "Cylinder/Type", "rigid");
-      need(scene.pair.type == PairType::half, "Mirrored pair/Type", "half");
+      rules.need(scene.pair.type == PairType::half || !scene.cylinder.has_free_axis(),
+                 scene.cylinder.tilt_stiffness ? "Cylinder/Tilt stiffness" : "Cylinder/Skew stiffness",
+                 { "Mirrored pair/Type", "Analysis/Dimension" },
+                 "must be auto between the levers of a full pair: an axis that yields to both is not looked at yet");
     }
 
     void cylinder_across(const Scene &scene, Rules &rules)

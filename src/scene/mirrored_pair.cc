@@ -85,6 +85,8 @@ namespace sprag
     Scene result    = scene;
     result.geometry = geometry_of_lever(scene, lever);
     result.friction = friction_of_lever(scene, lever);
+    if (lever == 1)
+      result.cylinder.tilt = -result.cylinder.tilt;
     return result;
   }
 

@@ -8,8 +8,8 @@ namespace sprag
   unsigned int number_of_levers(const Scene &scene);
 
   /// Returns the scene that a lever of a full pair stands in, in axes mirrored for the second (lever = 1): an offset of the
-  /// cylinder is an offset of the pivot the other way, and friction is the lever's own. A single lever stands in the scene
-  /// itself.
+  /// cylinder is an offset of the pivot the other way, a tilt of its axis towards the first lever is one away from the second,
+  /// and friction is the lever's own. A single lever stands in the scene itself.
   Scene scene_of_lever(const Scene &scene, unsigned int lever);
 
   // These two parts are what differs in it.

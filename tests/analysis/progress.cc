@@ -202,9 +202,9 @@ TEST(Archive, KeepsEveryField)
     EXPECT_TRUE(same_bytes(contact, memory));
     EXPECT_EQ(forces.values, loads.values);
   }
-  const FaceState face{ 1., 2., { 3., 4. }, { 5. }, { 10., 0. }, { 6., 7., 8. }, { 9. } };
+  const FaceState face{ 1., 2., { 3., 4. }, { 5. }, { 10., 0. }, { 6., 7., 8. }, { 9. }, { 0., 11. } };
   {
-    const auto &[time, x, pressure, traction, traction_across, pressure_2, traction_2] = restored(face);
+    const auto &[time, x, pressure, traction, traction_across, pressure_2, traction_2, traction_across_2] = restored(face);
     EXPECT_EQ(traction_across, face.traction_across);
     EXPECT_EQ(time, 1.);
     EXPECT_EQ(x, 2.);
@@ -212,6 +212,7 @@ TEST(Archive, KeepsEveryField)
     EXPECT_EQ(traction, face.traction);
     EXPECT_EQ(pressure_2, face.pressure_2);
     EXPECT_EQ(traction_2, face.traction_2);
+    EXPECT_EQ(traction_across_2, face.traction_across_2);
   }
   PortForces forces{ { 1, 4 }, vector_of({ 2., 3. }), dealii::FullMatrix<double>(2, 2) };
   forces.tangent(0, 1) = 5.;

@@ -79,7 +79,16 @@ def write(path, groups):
                 file[f"{group}/{name}"] = values
 
 
-def make_run(folder, x=(20.0, 30.0)):
+def of_levers(values, number, image=lambda values: values):
+    """Values of a lever and, of a pair, of its mirror image."""
+    return values if number == 1 else np.concatenate((values, image(values)))
+
+
+def mirrored(vectors):
+    return vectors * (1, -1, 1)
+
+
+def make_run(folder, x=(20.0, 30.0), number=1):
     file = new_file(folder)
     del file["parameters"]
     file["parameters"] = PARAMETERS
@@ -88,6 +97,8 @@ def make_run(folder, x=(20.0, 30.0)):
     s = np.sqrt((DISTANCE - x) ** 2 - (RADIUS - OFFSET) ** 2)
     columns = {"time": x / 10, "x": x, "P": x / 2, "s": s, "theta": touching(x), "indentation": 0 * x + 0.01, "contact_width": 0 * x + 2,
                "penetration": 0 * x + 1e-5, "Q": x / 3, "centre_across": 0 * x}  # fmt: skip
+    if number == 2:
+        columns |= {name + "_2": columns[name] for name in ("s", "P", "theta")}
     for name, values in columns.items():
         put(table, name, values, "1")
     lever = Lever()
@@ -98,20 +109,25 @@ def make_run(folder, x=(20.0, 30.0)):
         put(group, name, values, "1")
     finish(file)
     rest, on_face = place(lever.nodes, touching(0)), np.column_stack((xi, 0 * xi + OFFSET, zeta))
-    number = np.arange(len(xi)).reshape(9, -1)
-    quads = np.stack((number[:-1, :-1], number[:-1, 1:], number[1:, 1:], number[1:, :-1]), axis=-1).reshape(-1, 4)
+    point = np.arange(len(xi)).reshape(9, -1)
+    quads = np.stack((point[:-1, :-1], point[:-1, 1:], point[1:, 1:], point[1:, :-1]), axis=-1).reshape(-1, 4)
+    of_number = lambda nodes: np.repeat(np.arange(1.0, number + 1), len(nodes))  # noqa: E731
     write(folder / "fields-mesh.h5", {
-        "fields": {"nodes": rest, "cells": lever.cells, "part": lever.part.astype("f4"), "lever": np.ones(len(rest))},
-        "face": {"nodes": place(on_face, touching(0)), "cells": quads},
+        "fields": {"nodes": of_levers(rest, number, mirrored),
+                   "cells": of_levers(lever.cells, number, lambda cells: len(rest) + cells[:, (0, 3, 2, 1, 4, 7, 6, 5)]),
+                   "part": of_levers(lever.part.astype("f4"), number), "lever": of_number(rest)},
+        "face": {"nodes": of_levers(place(on_face, touching(0)), number, mirrored),
+                 "cells": of_levers(quads, number, lambda cells: len(xi) + cells), "lever": of_number(xi)},
     })  # fmt: skip
     index = ""
     for row, theta in enumerate(touching(x)):
         groups = {}
         for name, nodes in (("fields", lever.nodes), ("face", on_face)):
             elastic = place(bent(nodes), theta) - (DISTANCE, 0, 0)
-            groups[name] = {"displacement": place(nodes, theta) + elastic - place(nodes, touching(0)), "elastic_displacement": elastic}
-        groups["fields"]["von_mises_stress"] = 90 - lever.nodes[:, 0]
-        groups["face"]["pressure"] = pressure[row]
+            whole = place(nodes, theta) + elastic - place(nodes, touching(0))
+            groups[name] = {"displacement": of_levers(whole, number, mirrored), "elastic_displacement": of_levers(elastic, number, mirrored)}
+        groups["fields"]["von_mises_stress"] = of_levers(90 - lever.nodes[:, 0], number)
+        groups["face"]["pressure"] = of_levers(pressure[row], number)
         write(folder / f"fields-{row:04}.h5", groups)
         index += f'<Time Value="{x[row] / 10:.17g}"/> <DataItem>fields-{row:04}.h5:/fields/displacement</DataItem>\n'
     (folder / "fields.xdmf").write_text(index)
@@ -152,10 +168,20 @@ class SolidFieldsTest(PictureTest):
 
     def test_piece_at_the_contact_is_about_it(self):
         result, frame = self.frame(30)
-        chosen = solid_fields.near_contact(result, frame, 1)
+        chosen = solid_fields.near_contact(result, frame, 1, 1)
         xi = Lever().nodes[np.unique(frame.cells[chosen]), 0]
         self.assertLessEqual(np.abs(xi - result.table["s"][1]).max(), 0.25 * WIDTH)
         self.assertTrue(chosen.any())
+
+    def test_pieces_of_a_pair_mirror_each_other(self):
+        result = make_run(self.folder / "pair", number=2)
+        frame = solid_fields.read_solid_frame(result, frames.chosen_frame(result, 30).file)
+        first, second = (solid_fields.near_contact(result, frame, 1, lever) for lever in (1, 2))
+        np.testing.assert_array_equal(first[: len(first) // 2], second[len(first) // 2 :])
+        self.assertFalse((first & second).any())
+        self.assertTrue(first.any())
+        titles = [text.get_text() for text in solid_fields.solid_fields(result, 30).texts]
+        self.assertTrue(any("second lever from above" in title for title in titles), titles)
 
     def test_picture_tells_place_and_exaggeration(self):
         result, _ = self.frame(20)

@@ -62,6 +62,11 @@ ALL = {
     ),
     "elastic cylinder": ("cylinder-a", {"Mesh/Face size": "4", "Drive/Stroke": "20", "Analysis/Step": "1"}),
     "pair without inertia": ("pair-a", {"Mesh/Face size": "4", "Drive/Stroke": "20", "Analysis/Step": "1"}),
+    "pair in three dimensions": ("solid-pair-a", {"Mesh/Face size": "4", "Mesh/Elements across": "2", "Drive/Stroke": "15"}),
+    "pair in three dimensions, in time": (
+        "solid-pair-a",
+        {**CONDENSED, "Analysis/Type": "transient", "Drive/Start": "64", "Mesh/Elements across": "2"},
+    ),
     "plate without inertia": ("plate-a", {"Mesh/Face size": "4", "Drive/Stroke": "20", "Analysis/Step": "1"}),
     "support, beam": ("support-a", {"Drive/Start": "60"}),
     "support, finite element": ("support-a", {**IN_TIME, "Analysis/Model": "finite element"}),

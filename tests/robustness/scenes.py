@@ -31,7 +31,7 @@ CHANGES = {
     "design-machine": {"Design/Demands": "friction ratio = 0.5 +- 0.005; largest pressure <= 0.8", "Design/Judges": "none"},
     "design-front-machine": {"Design/Front points": "3", "Design/Evaluations": "300"},
     **{name: {"Mesh/Elements across": "2", "Condensed/Modes": "6"} for name in ("solid-modal-a", "solid-stability-a")},
-    **{name: {"Mesh/Elements across": "2"} for name in ("solid-shaft-a", "solid-tilted-a")},
+    **{name: {"Mesh/Elements across": "2"} for name in ("solid-shaft-a", "solid-tilted-a", "solid-pair-a")},
     "solid-rib-a": {"Mesh/Degree": "1"},
     "solid-plate-a": {"Mesh/Elements across": "4"},
     "solid-frame-a": {"Mesh/Elements across": "2"},

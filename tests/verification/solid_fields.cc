@@ -63,7 +63,7 @@ namespace
     {
       SolidLever lever(body, scene);
       const auto state = last_state(lever, scene);
-      found            = nodal(fields, lever.body_displacement(state));
+      found            = nodal(fields, lever.body_displacements(state).front());
     }
 
     Mesh mesh;

@@ -138,7 +138,7 @@ TEST(SolidLever, TheHubCarriesTheForcesOfTheFace)
       [&](const SolidBody &body, const SolidLever &lever, const State &state, const Row &row)
       {
         const auto of_face = forces_on(body, state)[0];
-        const auto of_hub  = forces_of_hub(body, lever.body_displacement(state));
+        const auto of_hub  = forces_of_hub(body, lever.body_displacements(state).front());
         EXPECT_LT((of_face.force + of_hub.force).norm(), 1e-8 * of_face.force.norm());
         EXPECT_LT((of_face.moment + of_hub.moment).norm(), 1e-8 * of_face.moment.norm());
         const auto where_moved  = forces_on(body, state)[1];

@@ -40,7 +40,7 @@ namespace sprag
                        {
                          rows.push_back(row);
                          if (rows.size() == 10)
-                           exactness = lever.exactness({ lever.sample(state) });
+                           exactness = lever.exactness(lever.samples(state));
                        });
     }
 

@@ -18,11 +18,10 @@ namespace sprag
       return { scene.condensed.modes, scene.spring.stiffness, inertia_of(scene), scene.condensed.cache, body_key(scene) };
     }
 
-    FaceContactProperties contact_of(const Scene &scene, PortLayout ports, const ContactPenalties &penalties,
+    FaceContactProperties contact_of(const Scene &scene, const PortLayout &ports, const ContactPenalties &penalties,
                                      const unsigned int lever)
     {
       const Scene own = scene_of_lever(scene, lever);
-      ports.levers    = 1;
       FaceContactProperties result;
       set_cylinder(own.geometry, result);
       result.ports            = ports;
@@ -50,7 +49,7 @@ namespace sprag
     {
       const PortLayout ports = structure->ports();
       const auto contact     = [&](const unsigned int lever)
-      { return std::make_unique<FaceContact>(body, contact_of(scene, ports, facts.penalties, lever)); };
+      { return std::make_unique<FaceContact>(body, contact_of(scene, ports.of_one_lever(), facts.penalties, lever)); };
       return assemble_lever(std::move(structure), lever_frame(scene, ports, facts.lever_mass), contact,
                             static_cast<unsigned int>(body.friction_face().points.size()));
     }

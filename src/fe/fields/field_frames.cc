@@ -174,7 +174,7 @@ namespace sprag
       const auto now      = axes_of(scene, state.pose, block);
       const auto &p       = block.lever == 0 ? state.face.pressure : state.face.pressure_2;
       const auto &t       = block.lever == 0 ? state.face.traction : state.face.traction_2;
-      const auto &t_aside = state.face.traction_across;
+      const auto &t_aside = block.lever == 0 ? state.face.traction_across : state.face.traction_across_2;
       for (unsigned int q = 0; q < block.positions.size(); ++q)
       {
         const auto elastically = now.turned(fields.face().moved(q, state.displacements[block.lever]));

@@ -33,7 +33,7 @@ namespace sprag
         loads[dof] += on_face.values[i];
   }
 
-  const Vector<double> &FiniteStrain::unbalance(const Vector<double> &displacement, const PortLoads &on_face)
+  Vector<double> FiniteStrain::unbalance(const Vector<double> &displacement, const PortLoads &on_face)
   {
     std::vector<double> loads(body.n_dofs(), 0.);
     Vector<double> internal(of_cell.size());
@@ -50,18 +50,18 @@ namespace sprag
       load = -load;
     add(on_face, loads);
     body.respond(loads);
-    mismatch = Vector<double>(loads.begin(), loads.end());
-    mismatch -= displacement;
-    return mismatch;
+    Vector<double> result(loads.begin(), loads.end());
+    result -= displacement;
+    return result;
   }
 
-  Vector<double> FiniteStrain::correction(const PortLoads &change) const
+  Vector<double> FiniteStrain::correction(const Vector<double> &unbalance, const PortLoads &change) const
   {
     std::vector<double> loads(body.n_dofs(), 0.);
     add(change, loads);
     body.respond(loads);
     Vector<double> result(loads.begin(), loads.end());
-    return result += mismatch;
+    return result += unbalance;
   }
 
   double FiniteStrain::energy(const Vector<double> &displacement)

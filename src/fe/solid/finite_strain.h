@@ -16,12 +16,12 @@ namespace sprag
     /// The body must outlive this.
     explicit FiniteStrain(const SolidBody &body);
 
-    /// Finds by how much a displacement falls short of what its own strain and the forces make of it, K^-1 (f + K u - R(u)) - u.
-    /// Throws AnalysisError where an element turned inside out.
-    const dealii::Vector<double> &unbalance(const dealii::Vector<double> &displacement, const PortLoads &on_face);
+    /// Returns by how much a displacement falls short of what its own strain and the forces make of it,
+    /// K^-1 (f + K u - R(u)) - u. Throws AnalysisError where an element turned inside out.
+    dealii::Vector<double> unbalance(const dealii::Vector<double> &displacement, const PortLoads &on_face);
 
-    /// Returns the correction by the last unbalance() and a change of the forces that goes with it.
-    dealii::Vector<double> correction(const PortLoads &change) const;
+    /// Returns the correction by an unbalance and a change of the forces that goes with it.
+    dealii::Vector<double> correction(const dealii::Vector<double> &unbalance, const PortLoads &change) const;
 
     /// Elastic energy, that of the connectors included [mJ].
     double energy(const dealii::Vector<double> &displacement);
@@ -47,6 +47,5 @@ namespace sprag
     CellElasticity<3> elasticity;
     std::vector<Cell> cells;
     dealii::Vector<double> of_cell;
-    dealii::Vector<double> mismatch;
   };
 } // namespace sprag

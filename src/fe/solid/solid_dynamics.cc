@@ -3,17 +3,16 @@
 #include "fe/dynamics/condensed_basis.h"
 #include "fe/dynamics/lever_constants.h"
 #include "fe/solid/face_window.h"
-#include "fe/solid/solid_contact.h"
+#include "fe/solid/solid_dynamic_lever.h"
 #include "fe/statics/contact_penalties.h"
 #include "fe/statics/lever_properties.h"
-#include "model/dynamic_lever.h"
+#include "model/mirrored_contact.h"
+#include "model/mirrored_structure.h"
 #include "scene/across.h"
 #include "scene/analysis_use.h"
 #include "scene/held_slide.h"
 #include "scene/lever_shape.h"
 #include "scene/mirrored_pair.h"
-
-#include <algorithm>
 
 namespace sprag
 {
@@ -44,9 +43,9 @@ namespace sprag
     }
 
     /// Shapes of the modes on these ports.
-    FullMatrix<double> port_shapes(const SolidInTime &lever, const FaceWindow &window, const PortLayout &ports)
+    FullMatrix<double> port_shapes(const SolidInTime &lever, const SolidModes &modes, const FaceWindow &window,
+                                   const PortLayout &ports)
     {
-      const auto &modes = lever.modes;
       const auto &nodes = window.face.nodes;
       const auto m      = static_cast<unsigned int>(modes.stiffness.size());
       FullMatrix<double> result(ports.of_a_lever(), m);
@@ -87,18 +86,18 @@ namespace sprag
     }
 
     /// The basis as of a lever in a plane whose face is the window.
-    CondensedBasis basis_on(const FaceWindow &window, const SolidInTime &lever, const Scene &scene)
+    CondensedBasis basis_on(const FaceWindow &window, const SolidInTime &lever, const SolidModes &modes, const Scene &scene)
     {
       const auto ports = layout_of(window, lever, scene);
       CondensedBasis result;
       result.sensors           = ports.sensors;
       result.slopes            = ports.slopes;
-      result.stiffness         = lever.modes.stiffness;
-      result.shapes            = port_shapes(lever, window, ports);
-      result.layer_stiffness   = lever.modes.layer_stiffness;
-      result.density_factor    = lever.modes.density_factor;
-      result.lever_mass        = lever.modes.total_mass;
-      result.moment_of_inertia = lever.modes.moment_of_inertia;
+      result.stiffness         = modes.stiffness;
+      result.shapes            = port_shapes(lever, modes, window, ports);
+      result.layer_stiffness   = modes.layer_stiffness;
+      result.density_factor    = modes.density_factor;
+      result.lever_mass        = modes.total_mass;
+      result.moment_of_inertia = modes.moment_of_inertia;
       result.face_compliance   = port_compliance(lever, window, ports, scene);
 
       const auto n = ports.rotation() + 1, m = static_cast<unsigned int>(result.stiffness.size());
@@ -114,74 +113,78 @@ namespace sprag
       return result;
     }
 
-    SurfaceContactProperties contact_properties(const Scene &scene, const FrictionFace<3> &face, const PortLayout &ports)
+    SurfaceContactProperties contact_properties(const Scene &own, const double rest, const FrictionFace<3> &face,
+                                                const PortLayout &ports)
     {
-      return { RigidCylinder(scene.geometry, scene.cylinder),
-               [geometry = scene.geometry](const double x, const double theta) { return cylinder_centre(geometry, x, theta); },
-               scene.geometry.cylinder_radius,
+      return { RigidCylinder(own.geometry, own.cylinder),
+               [geometry = own.geometry](const double x, const double theta) { return cylinder_centre(geometry, x, theta); },
+               own.geometry.cylinder_radius,
                ports,
-               rest_inclination(scene),
-               penalties_in_time(scene, face) };
+               rest,
+               penalties_in_time(own, face) };
     }
 
-    /// Tells the sensors' forces as the lever without inertia does, and the shapes of modes along an edge of the whole face, by
-    /// the modes of the free lever. What these leave out is the dent of the layer under the cylinder.
-    class SolidDynamicLever : public DynamicLever<ModalStructure, SolidContact>
+    std::unique_ptr<SolidContact> contact_of(const Scene &scene, const SolidInTime &lever, FrictionFace<3> face,
+                                             const PortLayout &ports, const unsigned int index)
     {
-    public:
-      SolidDynamicLever(std::unique_ptr<ModalStructure> modes, std::unique_ptr<SolidContact> surface, LeverFrame of_scene,
-                        const SolidInTime &lever_)
-          : DynamicLever(std::move(modes), std::move(surface), std::move(of_scene))
-          , lever(lever_)
-      {
-      }
+      const Scene own = scene_of_lever(scene, index);
+      return std::make_unique<SolidContact>(std::move(face),
+                                            contact_properties(own, rest_inclination(scene), lever.body->friction_face(), ports),
+                                            own.friction, scene.layer.thickness, lever.body->is_half());
+    }
 
-      void observe(const Motion &motion, Row &row) const override
-      {
-        DynamicLever::observe(motion, row);
-        lever.sensors->tell(row.sensor_forces, row);
-      }
+    LeverFrame frame_of(const Scene &scene, const SolidInTime &lever, const PortLayout &ports)
+    {
+      LeverFrame result       = lever_frame(scene, ports, lever.modes.total_mass);
+      result.sensor_stiffness = lever.sensors->stiffness();
+      result.tell_sensors     = [&lever](const std::vector<double> &forces, Row &row) { lever.sensors->tell(forces, row); };
+      return result;
+    }
 
-      ModeShape mode_shape(const Eigenmode &mode) const override
+    /// Displacement of all degrees of freedom in a motion of a structure that has these modes [mm].
+    Vector<double> displacement(const SolidBody &body, const SolidModes &modes, const std::vector<unsigned int> &face_dofs,
+                                const Motion &motion)
+    {
+      // On the ports of the face, on those of sensors and of the cylinder's axis, which are not loaded or move no mode, and last
+      // on the hub's rotation.
+      const auto &forces  = motion.face_force;
+      const bool has_face = forces.size() > 0;
+      std::vector<double> loads(body.n_dofs(), 0.);
+      for (unsigned int port = 0; port < face_dofs.size() && has_face; ++port)
+        if (!body.is_held(face_dofs[port]))
+          loads[face_dofs[port]] = forces[port];
+      body.respond(loads);
+      Vector<double> result(loads.begin(), loads.end());
+      for (unsigned int j = 0; j < modes.stiffness.size(); ++j)
       {
-        ModeShape result = DynamicLever::mode_shape(mode);
-        auto &shape      = result.levers.front();
-        result.xi.clear();
-        const auto &nodes = lever.body->friction_face().nodes;
-        for (unsigned int i = 0; i < 2; ++i)
-        {
-          shape.along[i].clear();
-          shape.across[i].clear();
-        }
-        const double edge = std::max_element(nodes.begin(), nodes.end(),
-                                             [](const auto &a, const auto &b) { return a.position[2] < b.position[2]; })
-                                ->position[2];
-        for (const auto &node : nodes)
-          if (node.position[2] > edge - 1e-6)
-          {
-            result.xi.push_back(node.position[0]);
-            for (unsigned int i = 0; i < 2; ++i)
-            {
-              shape.along[i].push_back(moved(mode.mode.coordinates[i], node.dofs[0]));
-              shape.across[i].push_back(moved(mode.mode.coordinates[i], node.dofs[1]));
-              shape.sideways[i].push_back(moved(mode.mode.coordinates[i], node.dofs[2]));
-            }
-          }
-        return result;
+        double work = 0.;
+        for (unsigned int port = 0; port < face_dofs.size() && has_face; ++port)
+          work += forces[port] * modes.displacements[j][face_dofs[port]];
+        if (has_face)
+          work += forces[forces.size() - 1] * modes.rotation[j];
+        result.add(motion.coordinates.position[j] - work / modes.stiffness[j], modes.displacements[j]);
       }
+      return result;
+    }
 
-    private:
-      const SolidInTime &lever;
-
-      double moved(const Vector<double> &coordinates, const unsigned int dof) const
-      {
-        double result = 0.;
-        for (unsigned int j = 0; j < coordinates.size(); ++j)
-          result += coordinates[j] * lever.modes.displacements[j][dof];
-        return result;
-      }
-    };
+    MeshedDynamics facts(const Scene &scene, const SolidInTime &lever, const unsigned int n_modes)
+    {
+      MeshedDynamics result;
+      result.n_coordinates     = number_of_levers(scene) * n_modes + (scene.support.type == SupportType::sprung ? 1 : 0);
+      result.density_factor    = lever.modes.density_factor;
+      result.lever_mass        = lever.modes.total_mass;
+      result.moment_of_inertia = lever.modes.moment_of_inertia;
+      result.penalties         = penalties_in_time(scene, lever.body->friction_face());
+      return result;
+    }
   } // namespace
+
+  std::vector<const SolidModes *> modes_of_structures(const SolidInTime &lever, const unsigned int levers)
+  {
+    if (levers == 1)
+      return { &lever.modes };
+    return { &lever.modes, lever.swinging ? &*lever.swinging : &lever.modes };
+  }
 
   SolidInTime make_solid_in_time(const Scene &scene, const Mesh &plane)
   {
@@ -192,24 +195,56 @@ namespace sprag
     const auto [first, last]            = swept_contact(scene);
     result.compliance = std::make_unique<LayeredCompliance>(*result.body, first - room, last + room, spacing_over_depth);
     result.sensors    = std::make_unique<const SensorForces>(*result.body);
-    result.modes      = solid_modes(*result.body, inertia_of(scene), scene.spring.stiffness, scene.condensed.modes);
+    const auto modes  = [&](const Scene &of)
+    { return solid_modes(*result.body, inertia_of(of), of.spring.stiffness, of.condensed.modes); };
+    result.modes = modes(scene);
+    if (swings_otherwise(scene))
+      result.swinging = modes(swinging_scene(scene));
     return result;
   }
 
-  std::unique_ptr<DynamicModel> make_solid_dynamics(const Scene &scene, const SolidInTime &lever, const double relaxation,
-                                                    const unsigned int n_modes)
+  MeshedDynamics make_solid_dynamics(const Scene &scene, const SolidInTime &lever, const double relaxation,
+                                     const unsigned int n_modes)
   {
-    auto window       = window_of_scene(scene, lever.body->friction_face());
-    const auto basis  = truncated(basis_on(window, lever, scene), n_modes);
-    auto structure    = std::make_unique<ModalStructure>(modal_data(basis, constants_of(scene, relaxation, basis.lever_mass)));
-    const auto ports  = structure->ports();
-    const auto &whole = lever.body->friction_face();
-    auto properties   = contact_properties(scene, whole, ports);
-    auto contact      = std::make_unique<SolidContact>(std::move(window.face), std::move(properties), scene.friction,
-                                                  scene.layer.thickness, lever.body->is_half());
-    auto frame        = lever_frame(scene, ports, basis.lever_mass);
-    frame.sensor_stiffness = lever.sensors->stiffness();
-    return std::make_unique<SolidDynamicLever>(std::move(structure), std::move(contact), std::move(frame), lever);
+    const auto window    = window_of_scene(scene, lever.body->friction_face());
+    const auto structure = [&](const SolidModes &modes)
+    {
+      const auto basis = truncated(basis_on(window, lever, modes, scene), n_modes);
+      return std::make_unique<ModalStructure>(modal_data(basis, constants_of(scene, relaxation, basis.lever_mass)));
+    };
+    std::vector<unsigned int> dofs;
+    for (const auto &node : window.face.nodes)
+      dofs.insert(dofs.end(), node.dofs.begin(), node.dofs.end());
+    const auto contact = [&](const PortLayout &ports, const unsigned int index)
+    { return contact_of(scene, lever, window.face, ports.of_one_lever(), index); };
+    MeshedDynamics result = facts(scene, lever, n_modes);
+    if (number_of_levers(scene) == 1)
+    {
+      auto alone                  = structure(lever.modes);
+      const auto ports            = alone->ports();
+      result.elastic_displacement = [&lever, dofs](const Motion &motion, unsigned int)
+      { return displacement(*lever.body, lever.modes, dofs, motion); };
+      result.model = std::make_unique<SolidDynamicLever<ModalStructure, SolidContact>>(std::move(alone), contact(ports, 0),
+                                                                                       frame_of(scene, lever, ports), lever);
+      return result;
+    }
+    using Pair                  = MirroredStructure<ModalStructure>;
+    using OfPair                = MirroredContact<SolidContact>;
+    const auto both             = modes_of_structures(lever, 2);
+    auto pair                   = std::make_unique<Pair>(structure(*both[0]), structure(*both[1]), both[0] == both[1]);
+    const auto ports            = pair->ports();
+    result.elastic_displacement = [of = pair.get(), &lever, both, dofs](const Motion &motion, const unsigned int index)
+    {
+      return of->of_lever(motion, index,
+                          [&](const unsigned int part, const Motion &of_part)
+                          { return displacement(*lever.body, *both[part], dofs, of_part); });
+    };
+    auto contacts =
+        std::make_unique<OfPair>(std::array<std::unique_ptr<SolidContact>, 2>{ { contact(ports, 0), contact(ports, 1) } }, ports,
+                                 static_cast<unsigned int>(window.face.points.size()));
+    result.model = std::make_unique<SolidDynamicLever<Pair, OfPair>>(std::move(pair), std::move(contacts),
+                                                                     frame_of(scene, lever, ports), lever);
+    return result;
   }
 
   ContactPenalties penalties_in_time(const Scene &scene, const FrictionFace<3> &face)
@@ -222,36 +257,5 @@ namespace sprag
   FrictionFace<3> reached_face(const Scene &scene, const SolidBody &body)
   {
     return window_of_scene(scene, body.friction_face()).face;
-  }
-
-  std::function<Vector<double>(const Motion &, unsigned int)> solid_displacement(const Scene &scene, const SolidInTime &lever)
-  {
-    std::vector<unsigned int> dofs;
-    for (const auto &node : reached_face(scene, *lever.body).nodes)
-      dofs.insert(dofs.end(), node.dofs.begin(), node.dofs.end());
-    return [&lever, dofs](const Motion &motion, unsigned int)
-    {
-      const auto &body  = lever.body;
-      const auto &modes = lever.modes;
-      // On the ports of the face, on those of sensors and of the cylinder's axis, which are not loaded or move no mode, and last
-      // on the hub's rotation.
-      const auto &forces = motion.face_force;
-      std::vector<double> loads(body->n_dofs(), 0.);
-      for (unsigned int port = 0; port < dofs.size() && forces.size() > 0; ++port)
-        if (!body->is_held(dofs[port]))
-          loads[dofs[port]] = forces[port];
-      body->respond(loads);
-      Vector<double> result(loads.begin(), loads.end());
-      for (unsigned int j = 0; j < modes.stiffness.size(); ++j)
-      {
-        double work = 0.;
-        for (unsigned int port = 0; port < dofs.size() && forces.size() > 0; ++port)
-          work += forces[port] * modes.displacements[j][dofs[port]];
-        if (forces.size() > 0)
-          work += forces[forces.size() - 1] * modes.rotation[j];
-        result.add(motion.coordinates.position[j] - work / modes.stiffness[j], modes.displacements[j]);
-      }
-      return result;
-    };
   }
 } // namespace sprag

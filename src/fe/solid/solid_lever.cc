@@ -4,9 +4,12 @@
 #include "base/text.h"
 #include "fe/statics/contact_penalties.h"
 #include "fe/statics/static_terms.h"
+#include "model/joined_memory.h"
+#include "model/joined_ports.h"
 #include "scene/across.h"
 #include "scene/contact_width.h"
 #include "scene/lever_shape.h"
+#include "scene/mirrored_pair.h"
 
 #include <algorithm>
 #include <cmath>
@@ -24,19 +27,20 @@ namespace sprag
     /// Slopes of the cylinder's axis that a scene may have.
     constexpr double largest_slope = 0.1;
 
-    PortLayout ports_of(const SolidBody &body, const Scene &scene, const LeverProperties &properties)
+    PortLayout ports_of(const SolidBody &body, const Scene &scene)
     {
       PortLayout result{ 3 * static_cast<unsigned int>(body.friction_face().nodes.size()),
-                         properties.support_stiffness.has_value() };
+                         scene.support.type == SupportType::sprung };
+      result.levers      = number_of_levers(scene);
       result.has_inertia = false;
       result.slopes      = body.is_half() || !scene.cylinder.has_free_axis() ? 0 : 2;
       return result;
     }
 
-    SurfaceContactProperties contact_properties(const SolidBody &body, const Scene &scene, const LeverProperties &properties,
+    SurfaceContactProperties contact_properties(const SolidBody &body, const Scene &own, const LeverProperties &properties,
                                                 const PortLayout &ports)
     {
-      return { RigidCylinder(scene.geometry, scene.cylinder),
+      return { RigidCylinder(own.geometry, own.cylinder),
                properties.centre,
                properties.radius,
                ports,
@@ -71,22 +75,30 @@ namespace sprag
     }
   } // namespace
 
+  SolidLever::Lever::Lever(const SolidBody &body, const Scene &own, const PortLayout &ports, LeverProperties of_lever)
+      : properties(std::move(of_lever))
+      , contact(body.friction_face(), contact_properties(body, own, properties, ports))
+      , view(body.friction_face(), contact, body.is_half())
+  {
+  }
+
   SolidLever::SolidLever(const SolidBody &body_, const Scene &scene)
       : body(body_)
-      , properties(lever_properties(scene))
-      , ports(ports_of(body, scene, properties))
+      , ports(ports_of(body, scene))
       , compliance(compliance_of(body, scene))
       , node_lines(lines_along(body.friction_face()))
-      , springs(springs_of(scene, properties))
+      , springs(springs_of(scene, lever_properties(scene)))
       , window(ports, springs,
                { { ports.surface, [this](const PortSelection &some) { return compliance.whole_tiles(some); },
                    [this](const PortSelection &tiles) { return compliance.among(tiles); } } })
-      , contact(body.friction_face(), contact_properties(body, scene, properties, ports))
       , multipliers(body.friction_face())
-      , view(body.friction_face(), contact, body.is_half())
-      , excess(ports, properties.spring.law)
+      , excess(ports, lever_properties(scene).spring.law, swings(scene), 0.)
+      , joint_is_free(swings(scene))
       , sensors(body)
   {
+    for (unsigned int i = 0; i < ports.levers; ++i)
+      levers.emplace_back(body, scene_of_lever(scene, i), ports.of_one_lever(),
+                          ports.levers == 1 ? lever_properties(scene) : properties_of_lever(scene, i));
     if (body.body_properties().material != MaterialModel::linear)
       finite.emplace(body);
   }
@@ -95,8 +107,9 @@ namespace sprag
   {
     State state;
     state.drive = drive;
-    state.coordinates.reinit(window.n_coordinates() + (finite ? body.n_dofs() : 0));
-    state.coordinates[ports.rotation()] = properties.ideal_theta(drive.x) - properties.spring.rest;
+    state.coordinates.reinit(window.n_coordinates() + (finite ? ports.levers * body.n_dofs() : 0));
+    for (unsigned int i = 0; i < ports.levers; ++i)
+      state.coordinates[ports.rotation(i)] = levers[i].properties.ideal_theta(drive.x) - levers[i].properties.spring.rest;
     return state;
   }
 
@@ -105,73 +118,116 @@ namespace sprag
     State trial    = accepted;
     trial.drive    = end;
     const double u = support_displacement(accepted);
-    trial.coordinates[ports.rotation()] += properties.ideal_theta(end.x - u) - properties.ideal_theta(accepted.drive.x - u);
+    for (unsigned int i = 0; i < ports.levers; ++i)
+    {
+      const auto &ideal = levers[i].properties.ideal_theta;
+      trial.coordinates[ports.rotation(i)] += ideal(end.x - u) - ideal(accepted.drive.x - u);
+    }
     start        = accepted.drive;
     begin_forces = accepted.forces;
     begin        = accepted.coordinates;
     window.enter(reachable(trial));
-    const auto displacement = of_body(begin);
-    set_face(begin_forces, displacement, begin);
-    set_face(begin_forces, displacement, trial.coordinates);
-    contact.begin_step({ begin, start.x });
+    set_faces(begin_forces, accepted.coordinates, begin);
+    set_faces(begin_forces, accepted.coordinates, trial.coordinates);
+    begin_contacts();
     return trial;
   }
 
-  /// At finite strain.
-  Vector<double> SolidLever::of_body(const Vector<double> &coordinates) const
+  void SolidLever::begin_contacts()
   {
-    return { coordinates.begin() + window.n_coordinates(), coordinates.end() };
+    for (unsigned int i = 0; i < ports.levers; ++i)
+      levers[i].contact.begin_step({ ports_of_lever(ports, i, begin), start.x });
   }
 
-  /// Sets the ports of the face to what forces on them make of a linear body, or to the body's displacement at finite strain.
-  void SolidLever::set_face(const PortLoads &acting, const Vector<double> &displacement, Vector<double> &coordinates) const
+  /// At finite strain.
+  Vector<double> SolidLever::of_body(const Vector<double> &coordinates, const unsigned int lever) const
+  {
+    const auto first = coordinates.begin() + window.n_coordinates() + lever * body.n_dofs();
+    return { first, first + body.n_dofs() };
+  }
+
+  /// Sets the ports of the faces to what forces on them make of linear bodies, or at finite strain to the displacements of the
+  /// bodies in `from`.
+  void SolidLever::set_faces(const PortLoads &acting, const Vector<double> &from, Vector<double> &coordinates) const
   {
     if (!finite)
       return window.set_faces(acting, coordinates);
-    for (unsigned int port = 0; port < ports.surface; ++port)
-      coordinates[port] = displacement[finite->dof_of(port)];
+    for (unsigned int i = 0; i < ports.levers; ++i)
+      for (unsigned int port = 0; port < ports.surface; ++port)
+        coordinates[ports.first(i) + port] = from[window.n_coordinates() + i * body.n_dofs() + finite->dof_of(port)];
   }
 
-  /// Ports within reach of the contact in a step that ends near `trial`, and those of the forces it begins with.
+  /// Ports within reach of the contacts in a step that ends near `trial`, and those of the forces it begins with.
   PortSelection SolidLever::reachable(const State &trial)
   {
     const double begin_x = start.x - (ports.sprung ? begin[ports.support()] : 0.);
     const double x       = trial.drive.x - support_displacement(trial);
-    const double theta   = properties.spring.rest + turn(trial);
-    const double travel =
-        properties.centre(x, theta).xi - properties.centre(begin_x, properties.spring.rest + begin[ports.rotation()]).xi;
-    return united(begin_forces.ports, contact.reachable_ports(x, theta, travel));
+    PortSelection result = begin_forces.ports;
+    for (unsigned int i = 0; i < ports.levers; ++i)
+    {
+      const auto &properties = levers[i].properties;
+      const double theta     = properties.spring.rest + turns(trial)[i];
+      const double travel =
+          properties.centre(x, theta).xi - properties.centre(begin_x, properties.spring.rest + begin[ports.rotation(i)]).xi;
+      PortSelection of_lever;
+      for (const unsigned int port : levers[i].contact.reachable_ports(x, theta, travel))
+        of_lever.push_back(joined_port(ports, i, port));
+      result = united(result, of_lever);
+    }
+    return result;
   }
 
   Unbalance SolidLever::evaluate(State &trial, const FrictionMode mode)
   {
-    evaluate_contact(trial, mode);
-    forces = found.forces;
-    excess.add_forces({ { turn(trial), 0. } }, !forces.ports.empty(), forces);
-    trial.forces = { forces.ports, forces.values };
-    if (!finite)
-      return { window.unbalance(trial.coordinates, forces), found.compression };
-    const auto displacement = of_body(trial.coordinates);
-    const auto &of_strain   = finite->unbalance(displacement, on_face(trial.forces));
-    Vector<double> of_face(ports.surface);
-    for (unsigned int port = 0; port < ports.surface; ++port)
-      of_face[port] = displacement[finite->dof_of(port)] + of_strain[finite->dof_of(port)];
-    return { std::hypot(window.unbalance(trial.coordinates, forces, &of_face), of_strain.l2_norm()), found.compression };
+    evaluate_contacts(trial, mode);
+    excess.add_forces(turns(trial), !forces.ports.empty(), forces);
+    trial.forces   = { forces.ports, forces.values };
+    double overlap = 0.;
+    for (const auto &lever : levers)
+      overlap = std::max(overlap, lever.found.compression);
+    return { finite ? unbalance_with_strain(trial) : window.unbalance(trial.coordinates, forces), overlap };
   }
 
-  void SolidLever::evaluate_contact(State &trial, const FrictionMode mode)
+  double SolidLever::unbalance_with_strain(const State &trial)
   {
-    auto terms      = static_terms(properties.friction, properties.geometry, start, trial.drive, mode);
-    terms.augmented = augments();
-    memory          = trial.surface_contact;
-    found.duration  = trial.drive.time - start.time;
-    contact.evaluate({ trial.coordinates, trial.drive.x }, memory, trial.drive.surface - start.surface, terms, found);
-    if (!found.within_reach)
-      widen_reach(trial, mode);
+    Vector<double> of_faces(ports.size());
+    double squares = 0.;
+    for (unsigned int i = 0; i < ports.levers; ++i)
+    {
+      auto &of_strain         = levers[i].of_strain;
+      const auto displacement = of_body(trial.coordinates, i);
+      of_strain               = finite->unbalance(displacement, on_face(trial.forces, i));
+      squares += of_strain.norm_sqr();
+      for (unsigned int port = 0; port < ports.surface; ++port)
+        of_faces[ports.first(i) + port] = displacement[finite->dof_of(port)] + of_strain[finite->dof_of(port)];
+    }
+    return std::hypot(window.unbalance(trial.coordinates, forces, &of_faces), std::sqrt(squares));
+  }
+
+  void SolidLever::evaluate_contacts(State &trial, const FrictionMode mode)
+  {
+    std::vector<const PortForces *> of_levers;
+    bool within_reach = true;
+    for (unsigned int i = 0; i < ports.levers; ++i)
+    {
+      auto &[properties, contact, view, memory, found, of_strain] = levers[i];
+
+      auto terms      = static_terms(properties.friction, properties.geometry, start, trial.drive, mode);
+      terms.augmented = augments();
+      memory          = memory_of_lever(i, n_face_points(), trial.surface_contact);
+      found.duration  = trial.drive.time - start.time;
+      contact.evaluate({ ports_of_lever(ports, i, trial.coordinates), trial.drive.x }, memory,
+                       trial.drive.surface - start.surface, terms, found);
+      of_levers.push_back(&found.forces);
+      within_reach = within_reach && found.within_reach;
+    }
+    if (!within_reach)
+      return widen_reach(trial, mode);
+    join_forces(ports, of_levers, forces);
   }
 
   /// The last evaluation with its points: Newton's method needs none.
-  const SurfaceEvaluation &SolidLever::with_points() const
+  const SurfaceEvaluation &SolidLever::Lever::with_points() const
   {
     if (found.points.empty())
       contact.add_points(found);
@@ -181,42 +237,51 @@ namespace sprag
   /// Evaluates again with more ports, which begin with what the forces there make of them.
   void SolidLever::widen_reach(State &trial, const FrictionMode mode)
   {
-    contact.widen_reach();
+    for (auto &lever : levers)
+      lever.contact.widen_reach();
     const auto entered = window.enter(reachable(trial));
-    set_face(begin_forces, of_body(begin), begin);
-    contact.begin_step({ begin, start.x });
+    set_faces(begin_forces, Vector<double>(begin), begin);
+    begin_contacts();
     for (const unsigned int port : entered)
       trial.coordinates[port] = begin[port];
-    evaluate_contact(trial, mode);
+    evaluate_contacts(trial, mode);
   }
 
   Vector<double> SolidLever::correction()
   {
-    auto of_ports = window.correction(forces);
+    auto result = window.correction(forces);
     if (!finite)
-      return of_ports;
+      return result;
     PortLoads change{ forces.ports, Vector<double>(forces.values.size()) };
     Vector<double> moved(forces.values.size());
-    of_ports.extract_subvector_to(forces.ports.begin(), forces.ports.end(), moved.begin());
+    result.extract_subvector_to(forces.ports.begin(), forces.ports.end(), moved.begin());
     forces.tangent.vmult(change.values, moved);
-    const auto of_strain = finite->correction(on_face(change));
-    Vector<double> result(of_ports.size() + of_strain.size());
-    std::copy(of_strain.begin(), of_strain.end(), std::copy(of_ports.begin(), of_ports.end(), result.begin()));
+    result.grow_or_shrink(window.n_coordinates() + ports.levers * body.n_dofs());
+    for (unsigned int i = 0; i < ports.levers; ++i)
+    {
+      const auto of_strain = finite->correction(levers[i].of_strain, on_face(change, i));
+      std::copy(of_strain.begin(), of_strain.end(), result.begin() + window.n_coordinates() + i * body.n_dofs());
+    }
     return result;
   }
 
-  PortLoads SolidLever::on_face(const PortLoads &acting) const
+  /// With the numbers that its ports have alone.
+  PortLoads SolidLever::on_face(const PortLoads &acting, const unsigned int lever) const
   {
-    PortLoads result{ {}, acting.values };
-    for (const unsigned int port : acting.ports)
-      if (ports.is_surface(port))
-        result.ports.push_back(port); // those of the face come first
+    const auto &all  = acting.ports;
+    const auto begin = std::lower_bound(all.begin(), all.end(), ports.first(lever));
+    const auto end   = std::lower_bound(begin, all.end(), ports.first(lever) + ports.surface);
+    PortLoads result{
+      { begin, end }, Vector<double>(acting.values.begin() + (begin - all.begin()), acting.values.begin() + (end - all.begin()))
+    };
+    for (auto &port : result.ports)
+      port -= ports.first(lever);
     return result;
   }
 
-  double SolidLever::turn(const State &state) const
+  OfLevers SolidLever::turns(const State &state) const
   {
-    return state.coordinates[ports.rotation()];
+    return turns_of(ports, state.coordinates);
   }
 
   double SolidLever::support_displacement(const State &state) const
@@ -227,41 +292,58 @@ namespace sprag
   double SolidLever::movement(const Vector<double> &correction) const
   {
     Vector<double> in_lengths = correction;
-    in_lengths[ports.rotation()] *= properties.spring.arm;
+    for (unsigned int i = 0; i < ports.levers; ++i)
+      in_lengths[ports.rotation(i)] *= springs.arm;
     for (unsigned int i = 0; i < ports.slopes; ++i)
       in_lengths[ports.slope(i)] *= springs.slope_arm;
-    return std::max(window.largest(in_lengths), finite ? of_body(correction).linfty_norm() : 0.);
+    double result = window.largest(in_lengths);
+    for (unsigned int i = 0; i < ports.levers && finite; ++i)
+      result = std::max(result, of_body(correction, i).linfty_norm());
+    return result;
   }
 
   double SolidLever::length_scale() const
   {
-    return properties.spring.arm;
+    return springs.arm;
   }
 
   double SolidLever::penetration() const
   {
-    return augments() ? multipliers.largest_change(with_points().points, memory) / contact.penalties().normal : found.compression;
+    double result = 0.;
+    for (const auto &lever : levers)
+      result = std::max(result, augments() ? multipliers.largest_change(lever.with_points().points, lever.memory) /
+                                                 lever.contact.penalties().normal
+                                           : lever.found.compression);
+    return result;
   }
 
   bool SolidLever::augments() const
   {
-    return properties.contact.enforcement == Enforcement::augmented_lagrangian;
+    return levers.front().properties.contact.enforcement == Enforcement::augmented_lagrangian;
   }
 
   std::string SolidLever::objection(const State &trial) const
   {
+    for (unsigned int i = 0; i < ports.levers; ++i)
+      if (const auto found = objection(levers[i], trial.drive); !found.empty())
+        return (i == 0 ? "" : "of the pair's second lever, ") + found;
+    return {};
+  }
+
+  std::string SolidLever::objection(const Lever &lever, const DrivePoint &drive) const
+  {
     Row row;
-    view.observe_resultants(with_points(), row);
+    lever.view.observe_resultants(lever.with_points(), row);
     const double s    = row[Column::s];
-    const double mu_e = row[Column::mu] * properties.interface_offset;
-    if (direction_of(trial.drive.v) < 0 && row[Column::F] < 0. && s <= mu_e)
+    const double mu_e = row[Column::mu] * lever.properties.interface_offset;
+    if (direction_of(drive.v) < 0 && row[Column::F] < 0. && s <= mu_e)
       return "the lever locks: moving back, s = " + rounded_text(s) + " mm <= mu e = " + rounded_text(mu_e) + " mm";
-    const double pressure = found.compression * contact.penalties().normal;
+    const double pressure = lever.found.compression * lever.contact.penalties().normal;
     const double limit    = largest_strain * body.friction_face().young_modulus;
     if (!finite && pressure > limit)
       return "the pressure on the friction face exceeds " + rounded_text(limit) +
              " MPa, half of Young's modulus there (Friction layer or Lever/Young's modulus), which linear theory does not bear";
-    const auto [tilt, skew] = contact.slopes_in(found);
+    const auto [tilt, skew] = lever.contact.slopes_in(lever.found);
     if (std::max(std::abs(tilt), std::abs(skew)) > largest_slope)
       return "the shaft lets the cylinder's axis turn to the slopes " + rounded_text(tilt) + " (tilt) and " + rounded_text(skew) +
              " (skew), of which " + rounded_text(largest_slope) +
@@ -269,19 +351,40 @@ namespace sprag
     return {};
   }
 
+  std::vector<SurfaceMemory> SolidLever::joined(const std::function<std::vector<SurfaceMemory>(const Lever &)> &memory) const
+  {
+    if (ports.levers == 1)
+      return memory(levers[0]);
+    return joined_memory(n_face_points(), memory(levers[0]), memory(levers[1]));
+  }
+
   void SolidLever::augment(State &trial) const
   {
-    trial.surface_contact = multipliers.augmented(with_points().points);
+    trial.surface_contact = joined([&](const Lever &lever) { return multipliers.augmented(lever.with_points().points); });
   }
 
   void SolidLever::remember(State &state) const
   {
-    state.surface_contact = augments() ? multipliers.augmented(with_points().points) : with_points().memory();
+    state.surface_contact =
+        joined([&](const Lever &lever)
+               { return augments() ? multipliers.augmented(lever.with_points().points) : lever.with_points().memory(); });
+  }
+
+  void SolidLever::use_penalties(const ContactPenalties &penalties)
+  {
+    for (auto &lever : levers)
+      lever.contact.use_penalties(penalties);
+  }
+
+  unsigned int SolidLever::n_face_points() const
+  {
+    return static_cast<unsigned int>(body.friction_face().points.size());
   }
 
   void SolidLever::visit_history(Archive &archive)
   {
-    contact.visit_history(archive);
+    for (auto &lever : levers)
+      lever.contact.visit_history(archive);
     window.visit_history(archive);
   }
 } // namespace sprag

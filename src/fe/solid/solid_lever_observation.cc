@@ -19,22 +19,39 @@ namespace sprag
 
   void SolidLever::observe(const State &trial, Row &row) const
   {
-    const double theta         = properties.spring.rest + turn(trial);
+    observe(0, trial, row);
+    if (ports.levers == 1)
+      return;
+    Row second;
+    second[Column::friction_work] = 0.;
+    second[Column::drive_work]    = 0.;
+    observe(1, trial, second);
+    row.add_second_lever(second);
+    if (joint_is_free)
+      row[Column::spring_energy] = 2. * levers[0].properties.spring.law.energy(0.5 * (turns(trial)[0] + turns(trial)[1]));
+  }
+
+  void SolidLever::observe(const unsigned int lever, const State &trial, Row &row) const
+  {
+    const auto &properties     = levers[lever].properties;
+    const double turn          = turns(trial)[lever];
+    const double theta         = properties.spring.rest + turn;
     const double u             = support_displacement(trial);
     const double support       = properties.support_stiffness.value_or(0.);
     row[Column::theta]         = theta;
-    row[Column::spring_energy] = properties.spring.law.energy(turn(trial));
-    view.observe(with_points(), row);
+    row[Column::spring_energy] = properties.spring.law.energy(turn);
+    levers[lever].view.observe(levers[lever].with_points(), row);
+    const auto displacement = finite ? of_body(trial.coordinates, lever) : Vector<double>();
     if (finite)
-      row[Column::elastic_energy] = finite->energy(of_body(trial.coordinates));
+      row[Column::elastic_energy] = finite->energy(displacement);
     row[Column::elastic_energy] += shaft_energy(trial);
     row[Column::centre_offset]        = row[Column::s] - properties.centre(trial.drive.x - u, theta).xi;
-    row[Column::indentation]          = indentation(row, trial);
+    row[Column::indentation]          = indentation(lever, row, trial);
     row[Column::Q]                    = row[Column::P] * std::sin(theta) + row[Column::F] * std::cos(theta);
     row[Column::support_displacement] = u;
     row[Column::Q_support]            = ports.sprung ? support * u : row[Column::Q];
     row[Column::support_energy]       = 0.5 * support * u * u;
-    sensors.tell(finite ? sensors.at(of_body(trial.coordinates)) : sensors(trial.forces), row);
+    sensors.tell(finite ? sensors.at(displacement) : sensors(on_face(trial.forces, lever)), row);
   }
 
   const std::vector<unsigned int> &SolidLever::line_at(const double zeta) const
@@ -67,10 +84,11 @@ namespace sprag
   }
 
   /// Where the pressure is largest.
-  double SolidLever::indentation(const Row &row, const State &trial) const
+  double SolidLever::indentation(const unsigned int lever, const Row &row, const State &trial) const
   {
-    const auto acting = on_face(trial.forces);
-    if (properties.layer_thickness == 0. || acting.ports.empty() || node_lines.empty())
+    const double thickness = levers[lever].properties.layer_thickness;
+    const auto acting      = on_face(trial.forces, lever);
+    if (thickness == 0. || acting.ports.empty() || node_lines.empty())
       return 0.;
     const auto displacements = [&](const PortSelection &some)
     {
@@ -78,12 +96,12 @@ namespace sprag
         return compliance.displacements(some, acting);
       Vector<double> result(static_cast<unsigned int>(some.size()));
       for (unsigned int i = 0; i < result.size(); ++i)
-        result[i] = trial.coordinates[window.n_coordinates() + finite->dof_of(some[i])];
+        result[i] = trial.coordinates[ports.first(lever) + some[i]];
       return result;
     };
     const auto &line   = line_at(row.across[4]);
     const double s     = row[Column::s];
-    const double aside = 0.5 * row[Column::contact_width] + 4. * properties.layer_thickness;
+    const double aside = 0.5 * row[Column::contact_width] + 4. * thickness;
     const auto at      = [&](const double xi)
     {
       const auto shares = interpolation(line, xi);
@@ -94,52 +112,72 @@ namespace sprag
 
   FacePoints SolidLever::face_points() const
   {
-    return view.points();
+    return levers.front().view.points();
   }
 
   FaceState SolidLever::face_state(const State &trial) const
   {
-    return view.state(with_points(), trial.drive);
+    const auto of_lever = [&](const Lever &lever) { return lever.view.state(lever.with_points(), trial.drive); };
+    return ports.levers == 1 ? of_lever(levers[0]) : joined_faces(of_lever(levers[0]), of_lever(levers[1]));
   }
 
-  Vector<double> SolidLever::body_displacement(const State &state) const
+  std::vector<Vector<double>> SolidLever::body_displacements(const State &state) const
   {
+    std::vector<Vector<double>> result;
     if (finite)
-      return of_body(state.coordinates);
-    SparseColumns loads;
-    const auto &nodes = body.friction_face().nodes;
-    for (unsigned int i = 0; i < state.forces.ports.size(); ++i)
-      if (const unsigned int port = state.forces.ports[i]; ports.is_surface(port))
-        if (const unsigned int dof = nodes[port / 3].dofs[port % 3]; !body.is_held(dof))
-          loads.add(dof, state.forces.values[i]);
-    loads.end_column();
-    const auto result = body.respond(loads);
-    return { result.begin(), result.end() };
-  }
-
-  FaceSample SolidLever::sample(const State &state) const
-  {
-    FaceSample result{ on_face(state.forces), {} };
-    auto &[forces_there, displacements] = result;
-    displacements.reinit(static_cast<unsigned int>(forces_there.ports.size()));
-    for (unsigned int i = 0; i < displacements.size(); ++i)
-      displacements[i] = state.coordinates[forces_there.ports[i]];
+    {
+      for (unsigned int i = 0; i < ports.levers; ++i)
+        result.push_back(of_body(state.coordinates, i));
+      return result;
+    }
+    std::vector<PortLoads> loads;
+    for (unsigned int i = 0; i < ports.levers; ++i)
+      loads.push_back(on_face(state.forces, i));
+    const auto of_levers = responses(loads);
+    for (auto column = of_levers.begin(); column != of_levers.end(); column += body.n_dofs())
+      result.emplace_back(column, column + body.n_dofs());
     return result;
   }
 
-  SolidLever::Exactness SolidLever::exactness(const std::vector<FaceSample> &samples) const
+  /// Displacements of all degrees of freedom of the whole body by forces on the face, one after another.
+  std::vector<double> SolidLever::responses(const std::vector<PortLoads> &on_faces) const
   {
-    const auto &nodes = body.friction_face().nodes;
-    const auto dof_of = [&](const unsigned int port) { return nodes[port / 3].dofs[port % 3]; };
     SparseColumns loads;
-    for (const auto &[acting, displacements] : samples)
+    for (const auto &acting : on_faces)
     {
       for (unsigned int i = 0; i < acting.ports.size(); ++i)
         if (const unsigned int dof = dof_of(acting.ports[i]); !body.is_held(dof))
           loads.add(dof, acting.values[i]);
       loads.end_column();
     }
-    const auto of_whole = body.respond(loads);
+    return body.respond(loads);
+  }
+
+  unsigned int SolidLever::dof_of(const unsigned int port) const
+  {
+    return body.friction_face().nodes[port / 3].dofs[port % 3];
+  }
+
+  std::vector<FaceSample> SolidLever::samples(const State &state) const
+  {
+    std::vector<FaceSample> result;
+    for (unsigned int lever = 0; lever < ports.levers; ++lever)
+    {
+      result.push_back({ on_face(state.forces, lever), {} });
+      auto &[acting, displacements] = result.back();
+      displacements.reinit(static_cast<unsigned int>(acting.ports.size()));
+      for (unsigned int i = 0; i < displacements.size(); ++i)
+        displacements[i] = state.coordinates[ports.first(lever) + acting.ports[i]];
+    }
+    return result;
+  }
+
+  SolidLever::Exactness SolidLever::exactness(const std::vector<FaceSample> &samples) const
+  {
+    std::vector<PortLoads> loads;
+    for (const auto &sample : samples)
+      loads.push_back(sample.first);
+    const auto of_whole = responses(loads);
 
     Exactness result{};
     for (std::size_t k = 0; k < samples.size(); ++k)

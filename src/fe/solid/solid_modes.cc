@@ -222,21 +222,25 @@ namespace sprag
     return result;
   }
 
-  void tell_motion(const SolidModes &modes, std::vector<Eigenmode> &vibrations)
+  void tell_motion(const std::vector<const SolidModes *> &structures, std::vector<Eigenmode> &vibrations)
   {
     for (auto &vibration : vibrations)
     {
       Eigenmode::AcrossShares sum{ 0., 0., 0. };
-      double whole = 0.;
-      for (unsigned int j = 0; j < modes.across.size(); ++j)
-      {
-        const auto &[real, imaginary] = vibration.mode.coordinates;
-        const double energy           = real[j] * real[j] + imaginary[j] * imaginary[j];
-        whole += energy;
-        sum.plane += energy * modes.across[j].plane;
-        sum.twisting += energy * modes.across[j].twisting;
-        sum.sideways += energy * modes.across[j].sideways;
-      }
+      double whole                  = 0.;
+      const auto &[real, imaginary] = vibration.mode.coordinates;
+      const auto n                  = static_cast<unsigned int>(real.size() / structures.size());
+      for (unsigned int i = 0; i < structures.size(); ++i)
+        for (unsigned int j = 0; j < structures[i]->across.size(); ++j)
+        {
+          const auto &own       = structures[i]->across[j];
+          const unsigned int at = i * n + j;
+          const double energy   = real[at] * real[at] + imaginary[at] * imaginary[at];
+          whole += energy;
+          sum.plane += energy * own.plane;
+          sum.twisting += energy * own.twisting;
+          sum.sideways += energy * own.sideways;
+        }
       vibration.across = { sum.plane / whole, sum.twisting / whole, sum.sideways / whole };
     }
   }

@@ -28,6 +28,7 @@ namespace sprag
   /// large.
   SolidModes solid_modes(const SolidBody &body, const LeverInertia &inertia, double spring_stiffness, unsigned int n);
 
-  /// Tells how vibrations in these modes move, as far as the modes' own motions tell it.
-  void tell_motion(const SolidModes &modes, std::vector<Eigenmode> &vibrations);
+  /// Tells how vibrations move, as far as the modes' own motions tell it. `structures`: the modes of each structure whose
+  /// coordinates a vibration has, one after the other.
+  void tell_motion(const std::vector<const SolidModes *> &structures, std::vector<Eigenmode> &vibrations);
 } // namespace sprag

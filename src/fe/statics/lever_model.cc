@@ -28,9 +28,9 @@ namespace sprag
       return result;
     }
 
-    FaceContactProperties contact_properties(const ElasticBody<2> &body, const LeverProperties &properties, PortLayout ports)
+    FaceContactProperties contact_properties(const ElasticBody<2> &body, const LeverProperties &properties,
+                                             const PortLayout &ports)
     {
-      ports.levers = 1;
       return { properties.obstacle,
                properties.centre,
                properties.radius,
@@ -63,7 +63,7 @@ namespace sprag
 
   LeverModel::Lever::Lever(const ElasticBody<2> &body, const PortLayout &ports, LeverProperties lever)
       : properties(std::move(lever))
-      , contact(body, contact_properties(body, properties, ports))
+      , contact(body, contact_properties(body, properties, ports.of_one_lever()))
       , multipliers(body.friction_face())
   {
   }
@@ -275,7 +275,7 @@ namespace sprag
   {
     if (levers.size() == 1)
       return memory(levers[0]);
-    return joined_memory(n_face_points(), { { memory(levers[0]), memory(levers[1]) } });
+    return joined_memory(n_face_points(), memory(levers[0]), memory(levers[1]));
   }
 
   void LeverModel::augment(State &trial) const

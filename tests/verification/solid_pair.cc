@@ -1,0 +1,201 @@
+#include "levers/dynamics.h"
+#include "scene/held_slide.h"
+#include "scene/mirrored_pair.h"
+#include "support/scene_parts.h"
+#include "verification/solid_run.h"
+
+#include <functional>
+
+// A full pair of levers in three dimensions.
+
+using namespace sprag;
+
+namespace
+{
+  /// Levers that differ in all that a plane knows, joined so that they swing together.
+  Scene unlike_levers(Scene scene)
+  {
+    return paired(std::move(scene), SpringJoint::free, 0.2, 0.9);
+  }
+
+  using Value = std::function<double(const Row &)>;
+
+  Value of_first(const Column column)
+  {
+    return [column](const Row &row) { return row[column]; };
+  }
+
+  Value of_second(const Column column)
+  {
+    return [column](const Row &row) { return row.of_second_lever(column); };
+  }
+
+  /// Of columns_across(), of the first lever or the second.
+  Value across(const std::size_t index, const unsigned int lever = 0)
+  {
+    return [i = index + lever * columns_across().size()](const Row &row) { return row.across.at(i); };
+  }
+
+  /// Largest difference of a value from `factor` times another's, over the largest of it.
+  double apart(const std::vector<Row> &rows, const Value &value, const std::vector<Row> &others, const Value &other,
+               const double factor = 1.)
+  {
+    EXPECT_EQ(rows.size(), others.size());
+    double difference = 0., largest = 0.;
+    for (std::size_t i = 0; i < std::min(rows.size(), others.size()); ++i)
+    {
+      difference = std::max(difference, std::abs(value(rows[i]) - factor * other(others[i])));
+      largest    = std::max(largest, std::abs(value(rows[i])));
+    }
+    EXPECT_GT(largest, 0.);
+    return difference / largest;
+  }
+
+  constexpr std::size_t centre_across = 1, twisting_moment = 2, turning_moment = 3;
+
+  Scene in_time(const unsigned int dimension)
+  {
+    Scene scene                = unlike_levers(solid_model_a(0.));
+    scene.analysis.type        = AnalysisType::transient;
+    scene.analysis.model       = ModelType::condensed;
+    scene.analysis.dimension   = dimension;
+    scene.mesh.elements_across = 2;
+    scene.condensed.modes      = 12;
+    scene.spring.swing         = scene.spring.behaviour; // of which levers have more than when they mirror each other
+    scene.spring.swing->inertia += 1.;
+    scene.drive = Drive(DriveProfile::triangle, 20., 24., 112., 0.5);
+    return scene;
+  }
+
+  std::vector<Row> first_steps(const Scene &scene)
+  {
+    DynamicsMaker maker(false);
+    const auto dynamics = maker.make(scene);
+    auto motion         = dynamics.model().initial_motion(scene.drive.at(0.));
+    std::vector<Row> result;
+    for (unsigned int i = 1; i <= 40; ++i)
+    {
+      const double dt = 1e-4;
+      auto outcome    = dynamics.model().step(motion, scene.drive.at(i * dt), StepWeights{ dt, 0., 0., 0.25, 0.5 });
+      EXPECT_TRUE(outcome.motion);
+      if (!outcome.motion)
+        break;
+      motion = *outcome.motion;
+      dynamics.model().observe(motion, result.emplace_back());
+    }
+    return result;
+  }
+} // namespace
+
+TEST(SolidPair, WithoutContractionItIsThatOfThePlane)
+{
+  const Scene scene = unlike_levers(solid_model_a(0.));
+  Scene plane       = scene;
+  plane.analysis    = {};
+  const SolidRun solid(scene);
+  const auto rows = run_scene(plane);
+  for (const Column column : { Column::P, Column::Q, Column::theta })
+  {
+    EXPECT_LT(apart(rows, of_first(column), solid.rows, of_first(column)), 1e-6) << column_info(column).name;
+    EXPECT_LT(apart(rows, of_second(column), solid.rows, of_second(column)), 1e-6) << column_info(column).name;
+  }
+  EXPECT_LT(apart(rows, of_first(Column::friction_work), solid.rows, of_first(Column::friction_work)), 1e-6);
+  const Value lateral = [](const Row &row) { return row.lateral_force(); };
+  EXPECT_LT(apart(rows, lateral, solid.rows, lateral), 1e-5); // a difference of forces
+  EXPECT_LT(solid.exactness.displacement, 1e-5);
+}
+
+// Half a turn about the cylinder's path brings the second lever in place of the first, the other side of the width in place of
+// one, and leaves a tilted axis where it is.
+TEST(SolidPair, ATiltedAxisPressesTheOtherSideOfTheSecondLever)
+{
+  const SolidRun run(paired(tilted(solid_model_a(0.3), 2e-4), SpringJoint::free));
+  const auto &rows = run.rows;
+  EXPECT_GT(rows[15].across[centre_across], 1.);
+  for (const Column column : { Column::P, Column::F, Column::theta, Column::largest_pressure })
+    EXPECT_LT(apart(rows, of_first(column), rows, of_second(column)), 1e-6) << column_info(column).name;
+  for (const std::size_t column : { centre_across, twisting_moment, turning_moment })
+    EXPECT_LT(apart(rows, across(column), rows, across(column, 1), -1.), 1e-5) << columns_across()[column].name;
+}
+
+// The mirror plane leaves a skewed axis where it is.
+TEST(SolidPair, ASkewedAxisPressesTheSameSideOfBoth)
+{
+  Scene scene                = paired(tilted(solid_model_a(0.3), 0., 2e-3), SpringJoint::free);
+  scene.mesh.elements_across = 2;
+  const SolidRun run(scene);
+  const auto &rows = run.rows;
+  EXPECT_GT(std::abs(rows[15].across[turning_moment]), 0.1);
+  for (const std::size_t column : { centre_across, twisting_moment, turning_moment })
+    EXPECT_LT(apart(rows, across(column), rows, across(column, 1)), 1e-5) << columns_across()[column].name;
+}
+
+// Held springs on a rigid support: a lever feels nothing of the other.
+TEST(SolidPair, LeversThatNothingJoinsAreAsAlone)
+{
+  for (const auto material : { MaterialModel::linear, MaterialModel::neo_hookean })
+  {
+    SCOPED_TRACE(static_cast<int>(material));
+    Scene scene                = paired(tilted(solid_model_a(0.3), 2e-4, 1e-3), SpringJoint::held, 0., 0.85);
+    scene.lever.material       = material;
+    scene.layer.young_modulus  = 1.;
+    scene.mesh.elements_across = 2;
+    scene.drive                = Drive(DriveProfile::triangle, 0., 6., 112., 1.);
+    const SolidRun pair(scene);
+    for (const unsigned int lever : { 0u, 1u })
+    {
+      Scene alone     = scene_of_lever(scene, lever);
+      alone.pair.type = PairType::half;
+      const SolidRun single(alone);
+      const auto of_pair = [&](const Column column) { return lever == 0 ? of_first(column) : of_second(column); };
+      for (const Column column : { Column::P, Column::Q, Column::theta, Column::largest_pressure })
+        EXPECT_LT(apart(single.rows, of_first(column), pair.rows, of_pair(column)), 2e-6) << column_info(column).name;
+      for (const std::size_t column : { twisting_moment, turning_moment })
+        EXPECT_LT(apart(single.rows, across(column), pair.rows, across(column, lever)), 1e-5) << columns_across()[column].name;
+    }
+  }
+}
+
+TEST(SolidPair, InTimeItIsThatOfThePlane)
+{
+  const auto plane = first_steps(in_time(2)), solid = first_steps(in_time(3));
+  EXPECT_GT(largest(plane, Column::P), 0.5);
+  for (const Column column : { Column::P, Column::Q, Column::theta })
+  {
+    EXPECT_LT(apart(plane, of_first(column), solid, of_first(column)), 1e-5) << column_info(column).name;
+    EXPECT_LT(apart(plane, of_second(column), solid, of_second(column)), 1e-5) << column_info(column).name;
+  }
+}
+
+// Modes in which levers mirror each other and in which they swing, under an axis out of true; those of a lever alone are those in
+// which its mirror image moves with it.
+TEST(SolidPair, ItsModesAreThoseOfALeverAndOfTheSwing)
+{
+  Scene scene              = in_time(3);
+  scene.pair               = paired(scene, SpringJoint::free).pair;
+  scene.analysis.type      = AnalysisType::stability;
+  scene.stability.critical = "none";
+  scene.stability.position = 22.;
+  Scene alone              = scene;
+  alone.pair.type          = PairType::half;
+  const auto modes_of      = [](const Scene &of)
+  {
+    DynamicsMaker maker(false);
+    const auto dynamics = maker.make(of);
+    const auto slide    = dynamics.model().hold(held_drive(of), ContactFriction::sliding);
+    EXPECT_TRUE(slide);
+    return dynamics.model().vibrations(*slide, true, 40);
+  };
+  const auto of_pair = modes_of(scene), of_lever = modes_of(alone);
+  unsigned int mirroring = 0;
+  for (const auto &mode : of_pair)
+  {
+    EXPECT_NEAR(std::abs(mode.mirroring), 1., 1e-6);
+    const auto is_same = [&](const Eigenmode &other)
+    { return std::abs(other.mode.eigenvalue - mode.mode.eigenvalue) < 1e-6 * std::abs(mode.mode.eigenvalue); };
+    if (mode.mirroring > 0.)
+      mirroring += std::any_of(of_lever.begin(), of_lever.end(), is_same) ? 1 : 0;
+  }
+  EXPECT_EQ(of_pair.size(), 2 * of_lever.size());
+  EXPECT_EQ(mirroring, of_lever.size());
+}
