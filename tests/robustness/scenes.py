@@ -104,10 +104,10 @@ class ScenesTest(RunTest):
                 self.assertEqual((done.returncode, done.stderr), (0, ""))
 
     def test_a_pair_of_meshed_levers_writes_its_fields_in_time(self):
-        for model in ("condensed", "finite element"):
-            changes = {"Analysis/Model": model, "Mesh/Face size": 4, "Drive/Start": 59, "Drive/Stroke": 60, "Condensed/Cache": self.output.parent / "cache"}
+        for model, dimension in (("condensed", 2), ("finite element", 2), ("condensed", 3)):
+            changes = {"Analysis/Model": model, "Analysis/Dimension": dimension, "Mesh/Elements across": 2, "Condensed/Modes": 12, "Mesh/Face size": 4, "Drive/Start": 59, "Drive/Stroke": 60, "Condensed/Cache": self.output.parent / "cache"}
             run = sprag(SOURCE / "params/pair-reversal-a.prm", "--output", self.output, "--overwrite", "--quiet", *(word for name, value in changes.items() for word in ("--set", f"{name}={value}")))
-            self.assertEqual((run.returncode, run.stderr), (0, ""), model)
+            self.assertEqual((run.returncode, run.stderr), (0, ""), (model, dimension))
             self.assertGreater(len(list(self.output.glob("fields*"))), 0)
 
     def test_table_1(self):

@@ -69,7 +69,10 @@ TEST(CheckScene, WhatThisVersionCannotDoIsRefused)
   EXPECT_EQ(mistakes_of({ "Analysis/Dimension=3", "Lever/Outline=frame", "Mirrored pair/Type=full", "Cylinder/Type=ring",
                           "Contact/Enforcement=augmented Lagrangian" })
                 .size(),
-            2u);
+            1u);
+  EXPECT_EQ(mistakes_of({ "Analysis/Dimension=3", "Mirrored pair/Type=full", "Cylinder/Skew stiffness=1e6" }),
+            (Messages{ "--set: Cylinder/Skew stiffness = 1e6: must be auto "
+                       "between the levers of a full pair: an axis that yields to both is not looked at yet" }));
   EXPECT_EQ(
       mistakes_of({ "Analysis/Dimension=3", "Cylinder/Length=10", "Cylinder/Position=26", "Cylinder/Edge radius=6" }).size(), 2u);
   EXPECT_EQ(mistakes_of({ "Analysis/Minimum step=2" }),
