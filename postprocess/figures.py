@@ -159,6 +159,7 @@ FIGURES = {
     "solid-tilted-a": drawn("solid-tilted-a", "contact"),
     "solid-plate-a": drawn("solid-plate-a", "sensors"),
     "solid-modal-a": drawn("solid-modal-a", "modes"),
+    "solid-pair-a": lambda run: fields(run("solid-pair-a"), way="backward"),
     "solid-fields-a": lambda run: fields(run("solid-tilted-a"), way="backward"),
     # In time.
     "support-a": lambda run: reversal(run("support-a")),

@@ -1,11 +1,11 @@
 #include "fe/solid/solid_dynamics.h"
 
 #include "fe/fields/body_fields.h"
-#include "levers/dynamics.h"
 #include "run_scene.h"
 #include "scene/held_slide.h"
 #include "scenes.h"
 #include "verification/held_slides.h"
+#include "verification/solid_steps.h"
 
 #include <algorithm>
 #include <gtest/gtest.h>
@@ -93,23 +93,9 @@ TEST_P(SolidRunInTime, IsThatOfThePlane)
   {
     Scene scene = held_model_a(dimension, AnalysisType::transient);
     scene.drive = Drive(DriveProfile::triangle, start, start + 4., 112., 0.5);
-    DynamicsMaker maker(false);
-    const auto dynamics = maker.make(scene);
-    auto motion         = dynamics.model().initial_motion(scene.drive.at(0.));
     std::vector<double> result;
-    StepWork all;
-    for (unsigned int i = 1; i <= 40; ++i)
-    {
-      const double dt = 1e-4;
-      auto outcome    = dynamics.model().step(motion, scene.drive.at(i * dt), StepWeights{ dt, 0., 0., 0.25, 0.5 });
-      EXPECT_TRUE(outcome.motion);
-      if (!outcome.motion)
-        break;
-      motion = *outcome.motion;
-      Row row;
-      dynamics.model().observe(motion, row);
+    for (const Row &row : first_steps(scene))
       result.push_back(row[Column::P]);
-    }
     return result;
   };
   const auto plane = P_of(2), solid = P_of(3);

@@ -1,8 +1,8 @@
-#include "levers/dynamics.h"
 #include "scene/held_slide.h"
 #include "scene/mirrored_pair.h"
 #include "support/scene_parts.h"
 #include "verification/solid_run.h"
+#include "verification/solid_steps.h"
 
 #include <functional>
 
@@ -65,25 +65,6 @@ namespace
     scene.spring.swing->inertia += 1.;
     scene.drive = Drive(DriveProfile::triangle, 20., 24., 112., 0.5);
     return scene;
-  }
-
-  std::vector<Row> first_steps(const Scene &scene)
-  {
-    DynamicsMaker maker(false);
-    const auto dynamics = maker.make(scene);
-    auto motion         = dynamics.model().initial_motion(scene.drive.at(0.));
-    std::vector<Row> result;
-    for (unsigned int i = 1; i <= 40; ++i)
-    {
-      const double dt = 1e-4;
-      auto outcome    = dynamics.model().step(motion, scene.drive.at(i * dt), StepWeights{ dt, 0., 0., 0.25, 0.5 });
-      EXPECT_TRUE(outcome.motion);
-      if (!outcome.motion)
-        break;
-      motion = *outcome.motion;
-      dynamics.model().observe(motion, result.emplace_back());
-    }
-    return result;
   }
 } // namespace
 

@@ -1,5 +1,7 @@
 #include "fe/solid/solid_lever.h"
 
+#include "fe/statics/observe_levers.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -19,14 +21,8 @@ namespace sprag
 
   void SolidLever::observe(const State &trial, Row &row) const
   {
-    observe(0, trial, row);
-    if (ports.levers == 1)
-      return;
-    Row second;
-    second[Column::friction_work] = 0.;
-    second[Column::drive_work]    = 0.;
-    observe(1, trial, second);
-    row.add_second_lever(second);
+    observe_levers(
+        ports.levers, [&](const unsigned int lever, Row &of_lever) { observe(lever, trial, of_lever); }, row);
     if (joint_is_free)
       row[Column::spring_energy] = 2. * levers[0].properties.spring.law.energy(0.5 * (turns(trial)[0] + turns(trial)[1]));
   }

@@ -3,6 +3,7 @@
 #include "base/text.h"
 #include "fe/contact/face_observation.h"
 #include "fe/statics/contact_penalties.h"
+#include "fe/statics/observe_levers.h"
 #include "fe/statics/static_terms.h"
 #include "model/joined_memory.h"
 #include "model/joined_ports.h"
@@ -296,14 +297,9 @@ namespace sprag
 
   void LeverModel::observe(const State &trial, Row &row) const
   {
-    observe(0, trial, row);
-    if (levers.size() == 1)
-      return;
-    Row second;
-    second[Column::friction_work] = 0.;
-    second[Column::drive_work]    = 0.;
-    observe(1, trial, second);
-    row.add_second_lever(second);
+    observe_levers(
+        static_cast<unsigned int>(levers.size()),
+        [&](const unsigned int lever, Row &of_lever) { observe(lever, trial, of_lever); }, row);
     if (joint_is_free)
       row[Column::spring_energy] = 2. * levers[0].properties.spring.law.energy(0.5 * (turns(trial)[0] + turns(trial)[1]));
   }
