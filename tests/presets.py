@@ -48,7 +48,7 @@ RUNS = {
     "three dimensions, reversal": ("solid-reversal-a", (*REVERSAL, "Mesh/Face size=8", "Mesh/Elements across=2", "Condensed/Modes=6")),
     "three dimensions, pair": ("solid-pair-a", (*SLIDE, "Mesh/Face size=8", "Mesh/Elements across=2", "Mesh/Degree=1")),
     "three dimensions, pair in time": (
-        "solid-pair-a", (*REVERSAL, *IN_TIME, "Analysis/Model=condensed", "Mesh/Face size=8", "Mesh/Elements across=2", "Condensed/Modes=4")
+        "solid-pair-a", (*REVERSAL, *IN_TIME, *FEW_STEPS, "Analysis/Model=condensed", "Mesh/Face size=8", "Mesh/Elements across=2", "Mesh/Degree=1")
     ),
     "slope": ("fig11", ("Slope/Number of points=5",)),
     "reversal, rigid": ("reversal-a", (*REVERSAL, "Analysis/Model=rigid")),
@@ -61,9 +61,9 @@ RUNS = {
     "map": ("map-position-depth-a", MAP),
     "study": ("study-a", (*SLIDE, *STUDY)),
     "sprag slip": ("onset-a", ONSET),
-    "calibration": ("calibration-a", ()),
+    "calibration": ("calibration-a", ("Mesh/Face size=8", "Mesh/Degree=1")),
     "full pair": ("pair-a", SLIDE),
-    "full pair, reversal": ("pair-reversal-a", REVERSAL),
+    "full pair, reversal": ("pair-reversal-a", (*REVERSAL, *FEW_STEPS)),
 }
 
 # The other scenes and models.

@@ -286,7 +286,9 @@ namespace sprag
     RowsOfSixteen of_ports(1, n);
     for (unsigned int i = 0; i < n; ++i)
       of_ports(0, i) = static_cast<float>(units[i] * forces[i]);
-    return std::hypot(displacements_at(heavy, of_ports).l2_norm(), displacements_at(light, of_ports).l2_norm());
+    const auto size_at = [&](const Places &places)
+    { return places.empty() ? 0.f : displacements_at(places, of_ports).l2_norm(); };
+    return std::hypot(size_at(heavy), size_at(light));
   }
 
   Vector<float> ReducedFactors::displacements_at(const Places &places, const RowsOfSixteen &forces) const

@@ -144,13 +144,14 @@ namespace
   Scene frame_with_plate(const TemporaryFolder &folder)
   {
     return scene_of(folder, { "Lever/Outline=frame", "Friction plate/Type=on sensors", "Cylinder/Type=solid",
-                              "Cylinder/Face size=4", "Support/Type=sprung", "Lever/Tip mass=1e-5", "Lever/Hub inertia=0.1" });
+                              "Cylinder/Face size=5", "Support/Type=sprung", "Lever/Tip mass=1e-5", "Lever/Hub inertia=0.1" });
   }
 
   Scene pair_on_leaves(const TemporaryFolder &folder)
   {
-    return scene_of(folder, { "Mirrored pair/Type=full", "Rotational spring/Type=leaf", "Mirrored pair/Joint mass=1e-4",
-                              "Lever/Inertia=as built", "Drive/Profile=harmonic", "Friction/Law=Coulomb" });
+    return scene_of(folder,
+                    { "Mirrored pair/Type=full", "Mesh/Degree=1", "Rotational spring/Type=leaf", "Mirrored pair/Joint mass=1e-4",
+                      "Lever/Inertia=as built", "Drive/Profile=harmonic", "Friction/Law=Coulomb" });
   }
 
   Scene from_files(const TemporaryFolder &folder)
