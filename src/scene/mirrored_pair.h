@@ -12,7 +12,7 @@ namespace sprag
   /// and friction is the lever's own. A single lever stands in the scene itself.
   Scene scene_of_lever(const Scene &scene, unsigned int lever);
 
-  // These two parts are what differs in it.
+  // These two parts are what differs in it, beside the tilt.
   Geometry geometry_of_lever(const Scene &scene, unsigned int lever);
   FrictionLaw friction_of_lever(const Scene &scene, unsigned int lever);
 
