@@ -25,6 +25,11 @@ namespace sprag
 
   void join_forces(const PortLayout &layout, const std::vector<const PortForces *> &of_levers, PortForces &result)
   {
+    if (of_levers.size() == 1)
+    {
+      result = *of_levers.front();
+      return;
+    }
     result.ports.clear();
     for (unsigned int lever = 0; lever < of_levers.size(); ++lever)
       for (const unsigned int port : of_levers[lever]->ports)

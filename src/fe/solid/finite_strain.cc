@@ -29,7 +29,7 @@ namespace sprag
   void FiniteStrain::add(const PortLoads &on_face, std::vector<double> &loads) const
   {
     for (unsigned int i = 0; i < on_face.ports.size(); ++i)
-      if (const unsigned int dof = dof_of(on_face.ports[i]); !body.is_held(dof))
+      if (const unsigned int dof = dof_of_port(body, on_face.ports[i]); !body.is_held(dof))
         loads[dof] += on_face.values[i];
   }
 

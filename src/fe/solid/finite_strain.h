@@ -6,6 +6,12 @@
 
 namespace sprag
 {
+  /// Returns the degree of freedom of a port of the body's face, three ports a node.
+  inline unsigned int dof_of_port(const SolidBody &body, const unsigned int port)
+  {
+    return body.friction_face().nodes[port / 3].dofs[port % 3];
+  }
+
   /// A body at finite strain under forces f on its friction face, by the factors of its stiffness K without load: what its
   /// internal forces R differ from K u by are loads,
   ///   u = K^-1 (f + K u - R(u)).
@@ -25,12 +31,6 @@ namespace sprag
 
     /// Elastic energy, that of the connectors included [mJ].
     double energy(const dealii::Vector<double> &displacement);
-
-    /// Index of a port of the face among the degrees of freedom.
-    unsigned int dof_of(unsigned int port) const
-    {
-      return body.friction_face().nodes[port / 3].dofs[port % 3];
-    }
 
   private:
     struct Cell

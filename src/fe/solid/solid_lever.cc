@@ -146,6 +146,12 @@ namespace sprag
     return { first, first + body.n_dofs() };
   }
 
+  /// Index among the coordinates, at finite strain, of the body's displacement at a port of a lever's face.
+  unsigned int SolidLever::of_body_at(const unsigned int lever, const unsigned int port) const
+  {
+    return window.n_coordinates() + lever * body.n_dofs() + dof_of_port(body, port);
+  }
+
   /// Sets the ports of the faces to what forces on them make of linear bodies, or at finite strain to the displacements of the
   /// bodies in `from`.
   void SolidLever::set_faces(const PortLoads &acting, const Vector<double> &from, Vector<double> &coordinates) const
@@ -154,7 +160,7 @@ namespace sprag
       return window.set_faces(acting, coordinates);
     for (unsigned int i = 0; i < ports.levers; ++i)
       for (unsigned int port = 0; port < ports.surface; ++port)
-        coordinates[ports.first(i) + port] = from[window.n_coordinates() + i * body.n_dofs() + finite->dof_of(port)];
+        coordinates[ports.first(i) + port] = from[of_body_at(i, port)];
   }
 
   /// Ports within reach of the contacts in a step that ends near `trial`, and those of the forces it begins with.
@@ -199,7 +205,7 @@ namespace sprag
       of_strain               = finite->unbalance(displacement, on_face(trial.forces, i));
       squares += of_strain.norm_sqr();
       for (unsigned int port = 0; port < ports.surface; ++port)
-        of_faces[ports.first(i) + port] = displacement[finite->dof_of(port)] + of_strain[finite->dof_of(port)];
+        of_faces[ports.first(i) + port] = displacement[dof_of_port(body, port)] + of_strain[dof_of_port(body, port)];
     }
     return std::hypot(window.unbalance(trial.coordinates, forces, &of_faces), std::sqrt(squares));
   }

@@ -11,6 +11,7 @@
 #include "model/model.h"
 
 #include <deque>
+#include <functional>
 
 namespace sprag
 {
@@ -92,6 +93,7 @@ namespace sprag
     };
 
     dealii::Vector<double> of_body(const dealii::Vector<double> &coordinates, unsigned int lever) const;
+    unsigned int of_body_at(unsigned int lever, unsigned int port) const;
     void set_faces(const PortLoads &forces, const dealii::Vector<double> &from, dealii::Vector<double> &coordinates) const;
     PortLoads on_face(const PortLoads &forces, unsigned int lever) const;
     PortSelection reachable(const State &trial);
@@ -106,7 +108,6 @@ namespace sprag
     void observe(unsigned int lever, const State &trial, Row &row) const;
     std::vector<SurfaceMemory> joined(const std::function<std::vector<SurfaceMemory>(const Lever &)> &memory) const;
     std::vector<double> responses(const std::vector<PortLoads> &on_faces) const;
-    unsigned int dof_of(unsigned int port) const;
     const std::vector<unsigned int> &line_at(double zeta) const;
     PortLoads interpolation(const std::vector<unsigned int> &line, double xi) const;
     double indentation(unsigned int lever, const Row &row, const State &trial) const;

@@ -92,7 +92,7 @@ namespace sprag
         return compliance.displacements(some, acting);
       Vector<double> result(static_cast<unsigned int>(some.size()));
       for (unsigned int i = 0; i < result.size(); ++i)
-        result[i] = trial.coordinates[ports.first(lever) + some[i]];
+        result[i] = trial.coordinates[of_body_at(lever, some[i])];
       return result;
     };
     const auto &line   = line_at(row.across[4]);
@@ -142,16 +142,11 @@ namespace sprag
     for (const auto &acting : on_faces)
     {
       for (unsigned int i = 0; i < acting.ports.size(); ++i)
-        if (const unsigned int dof = dof_of(acting.ports[i]); !body.is_held(dof))
+        if (const unsigned int dof = dof_of_port(body, acting.ports[i]); !body.is_held(dof))
           loads.add(dof, acting.values[i]);
       loads.end_column();
     }
     return body.respond(loads);
-  }
-
-  unsigned int SolidLever::dof_of(const unsigned int port) const
-  {
-    return body.friction_face().nodes[port / 3].dofs[port % 3];
   }
 
   std::vector<FaceSample> SolidLever::samples(const State &state) const
@@ -182,7 +177,7 @@ namespace sprag
       double difference = 0., largest = 0., missed = 0., work = 0.;
       for (unsigned int i = 0; i < acting.ports.size(); ++i)
       {
-        const double exact = of_whole[k * body.n_dofs() + dof_of(acting.ports[i])];
+        const double exact = of_whole[k * body.n_dofs() + dof_of_port(body, acting.ports[i])];
         difference         = std::max(difference, std::abs(exact - displacements[i]));
         largest            = std::max(largest, std::abs(exact));
         missed += (exact - displacements[i]) * acting.values[i];
