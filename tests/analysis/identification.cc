@@ -1,7 +1,9 @@
 #include "analysis/identification/identification.h"
+#include "laws/friction.h"
 
-#include "analysis/statics/closed_form.h"
+#include "analytic/closed_form.h"
 #include "base/errors.h"
+#include "scene/scene.h"
 #include "scenes.h"
 #include "support/measured_stroke.h"
 #include "verification/run_transient.h"
@@ -101,6 +103,15 @@ namespace
       ::testing::Test::RecordProperty(name, static_cast<int>(count));
       EXPECT_NEAR(count, 0.95 * number_of_seeds, band) << name;
     }
+  }
+
+  /// Q of every twelfth row of the way back is 20 N too large.
+  MeasuredStroke spoilt(const std::vector<Row> &rows, const unsigned int seed)
+  {
+    auto stroke = measured(rows, { 0.2, 0. }, seed);
+    for (std::size_t i = stroke.rows() / 2; i < stroke.rows(); i += 12)
+      stroke.channels[1].values[i] += 20.;
+    return stroke;
   }
 
   double inclination(const Scene &scene)
@@ -233,23 +244,47 @@ TEST(Identification, NamesALawOfFrictionThatOneSpeedCannotTell)
 
 TEST(Identification, HubersLossBearsOutliers)
 {
-  const Scene truth = device();
-  const auto rows   = rows_of(truth);
-  Scene scene       = guess(truth, { Unknown::friction_constant, Unknown::stiffness });
-  const auto spoilt = [&](const unsigned int seed)
-  {
-    auto stroke = measured(rows, { 0.2, 0. }, seed);
-    for (std::size_t i = stroke.rows() / 2; i < stroke.rows(); i += 12) // of the way back
-      stroke.channels[1].values[i] += 20.;
-    return stroke;
-  };
-  scene.identification.measured = spoilt(1);
+  const Scene truth             = device();
+  const auto rows               = rows_of(truth);
+  Scene scene                   = guess(truth, { Unknown::friction_constant, Unknown::stiffness });
+  scene.identification.measured = spoilt(rows, 1);
   const double by_squares       = number(identified(scene), "mu").deviation;
   scene.identification.loss     = IdentificationLoss::huber;
   const auto found              = identified(scene);
   EXPECT_NEAR(number(found, "mu").value, 0.73, 5e-3);
   EXPECT_LT(number(found, "mu").deviation, by_squares / 1.5);
   EXPECT_NEAR(found.noise[1].deviation, 0.2, 0.03);
+}
+
+TEST(Identification, HubersLossIsLeastWhereTheFitEnds)
+{
+  const Scene truth             = device();
+  Scene scene                   = guess(truth, { Unknown::friction_constant, Unknown::stiffness });
+  scene.identification.measured = spoilt(rows_of(truth), 1);
+  scene.identification.loss     = IdentificationLoss::huber;
+  const MeasuredMotion motion(scene);
+  const LeverUnknowns unknowns(scene, motion);
+  const auto found = identify(scene, motion, unknowns);
+  const StrokeFit fit(scene, motion, unknowns);
+  std::vector<double> scaled, deviations;
+  for (const auto &one : found.found)
+    scaled.push_back(one.value / one.number.scale);
+  for (const auto &channel : found.noise)
+    deviations.push_back(channel.deviation);
+  const auto residuals = [&](const auto &at) { return fit.residuals(at, found.used, deviations, found.correction); };
+  const auto at_end    = residuals(scaled);
+  const auto slopes    = jacobian(residuals, scaled);
+  for (std::size_t j = 0; j < scaled.size(); ++j)
+  {
+    double slope = 0., size = 0.;
+    for (std::size_t i = 0; i < at_end.size(); ++i)
+    {
+      const double share = influence(IdentificationLoss::huber, at_end[i]) * slopes[i * scaled.size() + j];
+      slope += share;
+      size += std::abs(share);
+    }
+    EXPECT_NEAR(slope, 0., 1e-3 * size) << found.found[j].number.name;
+  }
 }
 
 TEST(Identification, HubersIntervalsHoldTheTruth)

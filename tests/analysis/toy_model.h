@@ -23,6 +23,7 @@ namespace sprag
     std::function<Value(double q, double x)> equation = [](double at, double drive) { return Value{ drive - at, -1. }; };
     std::function<bool(double from, double to)> fails = [](double, double) { return false; }; ///< whether a step has no solution
     std::function<std::string(double x)> objects      = [](double) { return std::string(); };
+    std::function<double(double x)> friction          = [](double) { return 0.; }; ///< F, whatever it sticks to
 
     bool history_intact = true; ///< whether every trial began at the accepted history
 
@@ -82,7 +83,7 @@ namespace sprag
     void observe(const State & /*trial*/, Row &row) const override
     {
       row[Column::P]              = 0.;
-      row[Column::F]              = 0.;
+      row[Column::F]              = friction(x);
       row[Column::Q]              = q;
       row[Column::friction_power] = 0.;
     }

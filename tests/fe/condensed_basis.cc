@@ -2,6 +2,7 @@
 
 #include "bar.h"
 #include "mpi_environment.h"
+#include "scene/scene.h"
 #include "support/lever_in_time.h"
 #include "support/temporary_folder.h"
 
@@ -166,6 +167,12 @@ TEST(CondensedBasis, OfOtherLeversIsAnother)
   auto heavier = settings_of(3, folder.path);
   heavier.inertia.moment_of_inertia *= 1.01;
   EXPECT_FALSE(condensed_basis(*MeshedBar({}), heavier).from_cache);
+  auto with_tip = settings_of(3, folder.path);
+  with_tip.inertia.tip_mass *= 1.01;
+  EXPECT_FALSE(condensed_basis(*MeshedBar({}), with_tip).from_cache);
+  auto softer = settings_of(3, folder.path);
+  softer.spring_stiffness *= 0.99;
+  EXPECT_FALSE(condensed_basis(*MeshedBar({}), softer).from_cache);
   EXPECT_TRUE(condensed_basis(*MeshedBar({}), settings_of(3, folder.path)).from_cache);
 }
 

@@ -1,4 +1,5 @@
 #include "laws/contact_step.h"
+#include "laws/friction.h"
 
 #include <algorithm>
 #include <cmath>
@@ -166,6 +167,8 @@ TEST(EndDamping, ResistsBothWaysButNeverPulls)
   EXPECT_DOUBLE_EQ(end_damping(0.05, 20., -0.01, 30.).force, -1.5);
   EXPECT_DOUBLE_EQ(end_damping(0.05, 20., -0.01, 1e4).force, -20.);
   EXPECT_EQ(end_damping(0.05, 0., 0.01, -30.).force, 0.);
+  for (double rate = 0.; rate < 2e3; rate += 10.)
+    EXPECT_GE(20. + end_damping(0.05, 20., -0.01, rate).force, 0.) << rate;
 }
 
 TEST(EndDamping, DerivativesAgreeWithFiniteDifferences)

@@ -1,6 +1,7 @@
 #include "model/beam.h"
 
 #include "scene/contact_reference.h"
+#include "scene/scene.h"
 #include "scenes.h"
 
 #include <cmath>
@@ -208,6 +209,18 @@ TEST(BeamStatics, DeflectsAndTurnsAsBeamTheorySays)
   EXPECT_NEAR(compliance(hub, tip) / (L * L / (2. * EI)), 0., 1e-9);
   const double a = 0.5 * L; // node 4
   EXPECT_NEAR(compliance(2 * 4 - 2, tip) / (a * a * (3. * L - a) / (6. * EI)), 1., 1e-9);
+}
+
+TEST(BeamStatics, InPlaneStrainBendsAsAPlate)
+{
+  Scene scene          = bar(7.4e4, 56.6, 0.);
+  scene.analysis.plane = PlaneState::strain;
+  const double EI      = bending_stiffness(scene) / (1. - std::pow(scene.lever.poisson_ratio, 2));
+  const double L       = scene.lever.length;
+  ModalStructure structure(beam_modes(scene, mesh_of(scene)));
+  structure.use_statics();
+  const unsigned int tip = 2 * elements - 2;
+  EXPECT_NEAR(structure.compliance()(tip, tip) / (L * L * L / (3. * EI)), 1., 1e-9);
 }
 
 TEST(BeamDamping, IsTheShareOfCriticalOnBendingModesAlone)

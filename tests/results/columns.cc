@@ -2,7 +2,10 @@
 
 #include <cmath>
 #include <gtest/gtest.h>
+#include <map>
 #include <set>
+#include <string>
+#include <vector>
 
 using namespace sprag;
 
@@ -28,6 +31,25 @@ TEST(Columns, EachHasItsOwnNameAUnitAndAMeaning)
     EXPECT_FALSE(column.unit.empty()) << column.name;
     EXPECT_FALSE(column.description.empty()) << column.name;
   }
+}
+
+TEST(Columns, TheirUnitsAreThoseOfTheNumbers)
+{
+  using C                                                = Column;
+  const std::map<std::string, std::vector<Column>> known = {
+    { "s", { C::time, C::time_step } },
+    { "rad", { C::theta, C::theta_closed_form } },
+    { "rad/s", { C::theta_rate } },
+    { "mm/s", { C::v, C::v_rel } },
+    { "mm", { C::x, C::s, C::centre_offset, C::contact_width, C::largest_pressure_xi, C::penetration, C::indentation } },
+    { "N", { C::P, C::F, C::Q, C::Q_support, C::P_quasi_static, C::Q_quasi_static, C::P_closed_form, C::Q_closed_form } },
+    { "MPa", { C::largest_pressure } },
+    { "N mm/s", { C::friction_power } },
+    { "N mm", { C::friction_work, C::drive_work, C::spring_energy, C::elastic_energy, C::kinetic_energy, C::damping_work } }
+  };
+  for (const auto &[unit, columns] : known)
+    for (const Column column : columns)
+      EXPECT_EQ(column_info(column).unit, unit) << column_info(column).name;
 }
 
 TEST(Columns, OfAPairTellWhatTheSecondLeverHasAndWhatIsLeftBetweenThem)
