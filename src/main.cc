@@ -3,15 +3,16 @@
 #include "base/hdf5_handle.h"
 #include "base/interrupt.h"
 #include "base/neighbour.h"
-#include "run/cost.h"
-#include "run/memory.h"
-#include "run/outcome.h"
-#include "run/output_folder.h"
-#include "run/run.h"
-#include "run/run_log.h"
-#include "run/warnings.h"
+#include "program/cost.h"
+#include "program/memory.h"
+#include "program/outcome.h"
+#include "program/output_folder.h"
+#include "program/run_by_formulas.h"
+#include "program/run_log.h"
+#include "report/warnings.h"
 #include "scene/analysis_use.h"
 #include "scene/read.h"
+#include "scene/scene.h"
 
 #include <csignal>
 #include <cstring>

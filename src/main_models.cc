@@ -6,14 +6,15 @@
 #include "base/interrupt.h"
 #include "fe/fields/help_first_rank.h"
 #include "fe/solid/first_rank.h"
-#include "run/memory.h"
-#include "run/outcome.h"
-#include "run/output_folder.h"
+#include "program/memory.h"
+#include "program/outcome.h"
+#include "program/output_folder.h"
+#include "program/run_log.h"
 #include "run/processes.h"
 #include "run/run.h"
-#include "run/run_log.h"
 #include "scene/analysis_use.h"
 #include "scene/read.h"
+#include "scene/scene.h"
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/multithread_info.h>

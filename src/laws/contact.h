@@ -1,6 +1,6 @@
 #pragma once
 
-#include "laws/friction.h"
+#include "laws/friction_law.h"
 
 #include <deal.II/base/point.h>
 #include <deal.II/base/symmetric_tensor.h>

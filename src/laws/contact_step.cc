@@ -1,4 +1,5 @@
 #include "laws/contact_step.h"
+#include "laws/friction.h"
 
 #include "laws/contact.h"
 

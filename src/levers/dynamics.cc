@@ -4,6 +4,7 @@
 #include "fe/statics/lever_properties.h"
 #include "model/reduced_lever.h"
 #include "scene/contact_reference.h"
+#include "scene/scene.h"
 #include "scene/scene_key.h"
 
 #include <algorithm>

@@ -11,6 +11,8 @@
 
 namespace sprag
 {
+  struct Scene;
+
   /// A meshed lever at rest, to be shared by models that differ in friction, damping, drive and contact.
   struct MeshedLever
   {

@@ -5,6 +5,7 @@
 #include "fe/mesh/mesh.h"
 #include "fe/statics/lever_properties.h"
 #include "scene/closed_form.h"
+#include "scene/scene.h"
 
 namespace sprag
 {

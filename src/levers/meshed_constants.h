@@ -1,10 +1,11 @@
 #pragma once
 
 #include "fe/body/effective_bending.h"
-#include "scene/scene.h"
 
 namespace sprag
 {
+  struct Scene;
+
   /// Finds by finite elements the k that the scene's leaf spring would have, unloaded, with another thickness [mm] [N mm/rad].
   double leaf_stiffness(const Scene &scene, double thickness);
 

@@ -3,6 +3,7 @@
 #include "base/errors.h"
 #include "fe/leaf/leaf_spring.h"
 #include "scene/check.h"
+#include "scene/scene.h"
 
 namespace sprag
 {

@@ -3,6 +3,7 @@
 #include "fe/mesh/mesh.h"
 #include "fe/statics/contact_penalties.h"
 #include "fe/statics/lever_model.h"
+#include "scene/scene.h"
 
 namespace sprag
 {

@@ -2,12 +2,13 @@
 
 #include "fe/body/dimension.h"
 #include "model/model.h"
-#include "scene/scene.h"
 
 #include <memory>
 
 namespace sprag
 {
+  struct Scene;
+
   /// A meshed lever without inertia and the mesh that it stands on.
   struct StaticLever
   {

@@ -1,13 +1,14 @@
 #pragma once
 
 #include "fe/body/dimension.h"
-#include "scene/scene.h"
 
 #include <memory>
 #include <string>
 
 namespace sprag
 {
+  struct Scene;
+
   /// Makes meshes of levers without inertia, one after another; one that is as the last is not made again.
   class StaticMeshes
   {

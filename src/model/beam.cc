@@ -2,6 +2,7 @@
 
 #include "model/lever_frame.h"
 #include "scene/contact_reference.h"
+#include "scene/scene.h"
 
 #include <cmath>
 

@@ -1,10 +1,11 @@
 #pragma once
 
 #include "model/modal_structure.h"
-#include "scene/scene.h"
 
 namespace sprag
 {
+  struct Scene;
+
   /// Hermite elements of equal length along a lever's axis, from the pivot to the tip. No elements: a rigid lever.
   struct BeamMesh
   {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "model/contact_point.h"
-#include "scene/scene.h"
+#include "scene/lever.h"
 
 #include <cmath>
 

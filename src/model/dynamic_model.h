@@ -1,5 +1,6 @@
 #pragma once
 
+#include "analytic/works.h"
 #include "base/archive.h"
 #include "model/contact_point.h"
 #include "model/generalised_alpha.h"
@@ -43,27 +44,6 @@ namespace sprag
   {
     double position;
     double velocity;
-  };
-
-  /// Energies at an instant [N mm].
-  struct StoredEnergy
-  {
-    double kinetic = 0.;
-    double spring  = 0.; ///< rotational spring
-    double elastic = 0.; ///< lever and friction layer, or the contact law that stands for the layer
-    double layer   = 0.; ///< the friction layer's part of it; NaN where it cannot be told
-    double support = 0.;
-    double contact = 0.; ///< springs of the penalties, normal and tangential: numerical
-  };
-
-  /// Works done in a step [N mm], each from forces times displacements or the scheme's own formula, none as a remainder.
-  struct StepWork
-  {
-    double drive       = 0.; ///< by the drive
-    double friction    = 0.; ///< dissipated by friction
-    double damping     = 0.; ///< dissipated by structure, support and contact damping
-    double algorithmic = 0.; ///< dissipated by the time integration
-    double creep       = 0.; ///< slip below the regularisation speed [mm]
   };
 
   struct StepOutcome

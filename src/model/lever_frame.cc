@@ -1,6 +1,7 @@
 #include "model/lever_frame.h"
 
 #include "scene/mirrored_pair.h"
+#include "scene/scene.h"
 
 #include <cmath>
 

@@ -2,7 +2,7 @@
 
 #include "model/port_layout.h"
 #include "results/columns.h"
-#include "scene/scene.h"
+#include "scene/lever.h"
 
 #include <deal.II/lac/vector.h>
 
@@ -10,6 +10,8 @@
 
 namespace sprag
 {
+  struct Scene;
+
   /// Constants that a lever, or a mirrored pair, has from the scene it stands in.
   struct LeverFrame
   {

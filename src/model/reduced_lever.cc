@@ -4,6 +4,7 @@
 #include "model/point_contact.h"
 #include "scene/contact_reference.h"
 #include "scene/mirrored_pair.h"
+#include "scene/scene.h"
 
 namespace sprag
 {

@@ -1,12 +1,13 @@
 #pragma once
 
 #include "model/dynamic_model.h"
-#include "scene/scene.h"
 
 #include <memory>
 
 namespace sprag
 {
+  struct Scene;
+
   /// Elements of the beam: 8 give frequencies in contact to 5e-4 and growth rates to 0.7 %.
   inline constexpr unsigned int beam_elements = 8;
 

@@ -1,28 +1,16 @@
 #pragma once
 
-#include "analysis/stability/jamming.h"
-#include "run/run.h"
-
-#include <functional>
+#include "program/run_by_formulas.h"
 
 namespace sprag
 {
+  struct Scene;
+
   // What run() does for each Analysis/Type. Each writes and prints what it finds, adds the warnings that follow from it and
   // throws what run() throws; what was finished before an AnalysisError is written.
 
-  /// What carries out an analysis.
-  using Run = std::function<void(const Scene &, const RunOptions &, Warnings &)>;
-
-  /// Carries out an analysis from its first line to the last: tells the margin to jamming, which `margin` finds for one lever,
-  /// before anything is computed and the warnings at the end.
-  void run_from_margin_to_warnings(const Scene &scene, const RunOptions &options,
-                                   const std::function<JammingMargin(const Scene &)> &margin, const Run &analysis);
-
   /// Does what the Analysis/Type of a prepared scene says.
   void carry_out(const Scene &scene, const RunOptions &options, Warnings &warnings);
-
-  /// Does what formulas do: see follows_formulas().
-  void run_formulas(const Scene &scene, const RunOptions &options, Warnings &warnings);
 
   /// Follows the drive without inertia by finite elements.
   void run_quasi_static_scene(const Scene &scene, const RunOptions &options, Warnings &warnings);
@@ -30,14 +18,7 @@ namespace sprag
   /// The same in three dimensions, with the help of the other ranks, see help_first_rank().
   void run_solid_scene(const Scene &scene, const RunOptions &options, Warnings &warnings);
 
-  /// Sweeps the representative slope C_Q.
-  void run_slope(const Scene &scene, const RunOptions &options, Warnings &warnings);
-
-  /// Follows the table of an isolation system. Throws AnalysisError too where its damper ends or locks and where the energy
-  /// ledger leaves more open than Analysis/Maximum energy residual.
-  void run_isolation_scene(const Scene &scene, const RunOptions &options, Warnings &warnings);
-
-  /// Does so with levers of a model in time.
+  /// Follows the table of an isolation system with levers of a model in time.
   void run_isolation_by_models(const Scene &scene, const RunOptions &options, Warnings &warnings);
 
   /// Follows the drive in time with a model. Throws AnalysisError too where the energy ledger leaves more open than

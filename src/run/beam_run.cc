@@ -2,6 +2,7 @@
 
 #include "levers/dynamics.h"
 #include "run/transient_settings.h"
+#include "scene/scene.h"
 
 namespace sprag
 {

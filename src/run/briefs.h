@@ -1,7 +1,7 @@
 #pragma once
 
 #include "results/result_file.h"
-#include "scene/scene.h"
+#include "scene/vibration_settings.h"
 
 #include <iosfwd>
 #include <vector>
@@ -11,7 +11,6 @@ namespace sprag
   // What a reader wants to know first of an analysis that is no run along a drive, from the entries of its summary. Entries that
   // are missing or unknown (NaN) leave no trace. All else is in the file.
 
-  void print_brief_of_isolation(std::ostream &stream, const std::vector<Entry> &summary);
   void print_brief_of_sprag_slip(std::ostream &stream, const std::vector<Entry> &summary);
   void print_brief_of_calibration(std::ostream &stream, const std::vector<Entry> &summary);
   void print_brief_of_contact_law(std::ostream &stream, const std::vector<Entry> &summary);

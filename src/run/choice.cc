@@ -1,8 +1,9 @@
 #include "run/choice.h"
 
+#include "report/percent.h"
 #include "run/expected_cost.h"
-#include "run/percent.h"
 #include "scene/read.h"
+#include "scene/scene.h"
 
 #include <boost/algorithm/string/join.hpp>
 

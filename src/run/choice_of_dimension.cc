@@ -7,12 +7,13 @@
 #include "fe/mesh/mesh.h"
 #include "fe/solid/solid_lever.h"
 #include "fe/statics/lever_model.h"
-#include "run/percent.h"
+#include "report/percent.h"
 #include "scene/accuracy.h"
 #include "scene/contact_reference.h"
 #include "scene/contact_width.h"
 #include "scene/held_slide.h"
 #include "scene/lever_shape.h"
+#include "scene/scene.h"
 
 #include <boost/algorithm/string/join.hpp>
 

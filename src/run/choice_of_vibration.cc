@@ -1,19 +1,20 @@
 #include "run/choice.h"
 
 #include "analysis/accuracy/dilation.h"
-#include "analysis/accuracy/error_estimate.h"
 #include "analysis/stability/stability.h"
+#include "analytic/error_estimate.h"
 #include "base/errors.h"
 #include "base/text.h"
+#include "report/percent.h"
 #include "results/row_statistics.h"
 #include "run/beam_run.h"
 #include "run/coarser_scene.h"
-#include "run/percent.h"
 #include "scene/accuracy.h"
 #include "scene/check_parts.h"
 #include "scene/contact_reference.h"
 #include "scene/contact_width.h"
 #include "scene/held_slide.h"
+#include "scene/scene.h"
 
 #include <algorithm>
 #include <cmath>

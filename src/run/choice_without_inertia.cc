@@ -1,19 +1,20 @@
 #include "run/choice.h"
 
-#include "analysis/accuracy/error_estimate.h"
 #include "analysis/accuracy/row_spacing.h"
 #include "analysis/accuracy/sample_changes.h"
 #include "analysis/accuracy/slide_samples.h"
+#include "analytic/error_estimate.h"
 #include "base/text.h"
 #include "fe/mesh/mesh.h"
 #include "fe/statics/lever_model.h"
+#include "report/percent.h"
+#include "report/report.h"
 #include "run/coarser_scene.h"
-#include "run/percent.h"
-#include "run/report.h"
 #include "scene/accuracy.h"
 #include "scene/contact_reference.h"
 #include "scene/contact_width.h"
 #include "scene/lever_shape.h"
+#include "scene/scene.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,7 @@
 #include "run/coarser_scene.h"
 
+#include "scene/scene.h"
+
 #include <algorithm>
 #include <cmath>
 

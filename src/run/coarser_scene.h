@@ -1,13 +1,14 @@
 #pragma once
 
-#include "analysis/accuracy/error_estimate.h"
+#include "analytic/error_estimate.h"
 #include "fe/contact/face_contact_point.h"
-#include "scene/scene.h"
 
 #include <string>
 
 namespace sprag
 {
+  struct Scene;
+
   // Scenes whose results tell the error of another's, and the parts of that error.
 
   constexpr double softer  = 3.; ///< penalty of a run over that of its probe

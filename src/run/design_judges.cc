@@ -1,17 +1,18 @@
 #include "run/design_judges.h"
 
-#include "analysis/isolation/isolation.h"
 #include "analysis/stability/stability.h"
+#include "analytic/isolation.h"
 #include "base/append.h"
 #include "base/errors.h"
 #include "levers/prepared_scene.h"
+#include "program/memory.h"
+#include "report/report.h"
 #include "run/analyses.h"
-#include "run/memory.h"
-#include "run/report.h"
 #include "scene/closed_form.h"
 #include "scene/contact_width.h"
 #include "scene/held_slide.h"
 #include "scene/read.h"
+#include "scene/scene.h"
 
 #include <algorithm>
 #include <cmath>

@@ -7,6 +7,8 @@
 
 namespace sprag
 {
+  struct Scene;
+
   /// What a judge found of a lever that was proposed to it.
   struct Judgement
   {
@@ -44,7 +46,7 @@ namespace sprag
 
   private:
     const Scene design;
-    InMemory in_memory;
+    InMemory in_memory = run_in_memory();
 
     Scene scene_of(const Proposal &lever, const std::vector<std::string> &changes) const;
     void judge_table(Judgement &judgement) const;

@@ -2,15 +2,16 @@
 
 #include "analysis/study/study_points.h"
 #include "base/errors.h"
+#include "program/memory.h"
+#include "program/recorder.h"
 #include "run/beam_run.h"
-#include "run/memory.h"
-#include "run/recorder.h"
 #include "scene/analysis_use.h"
 #include "scene/contact_reference.h"
 #include "scene/contact_width.h"
 #include "scene/held_slide.h"
 #include "scene/mirrored_pair.h"
 #include "scene/read.h"
+#include "scene/scene.h"
 
 #include <cmath>
 #include <functional>

@@ -1,9 +1,11 @@
 #pragma once
 
-#include "run/cost.h"
+#include "program/cost.h"
 
 namespace sprag
 {
+  struct Scene;
+
   /// Estimates the CPU time of a scene's run on this machine, from the sizes of its parts and the times that such parts took
   /// where that was measured, by slowness(): right within a factor of 2 for runs along the drive, under a table, held slides,
   /// maps and studies, see tests/benchmarks/expected_cost.py. Steps in time are counted by a beam, which rings as finite elements

@@ -3,6 +3,7 @@
 #include "model/state_archive.h"
 #include "results/row_archive.h"
 #include "scene/mirrored_pair.h"
+#include "scene/scene.h"
 
 #include <algorithm>
 #include <cmath>

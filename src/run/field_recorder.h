@@ -13,6 +13,8 @@
 
 namespace sprag
 {
+  struct Scene;
+
   /// What the displacements of a state follow from, as far as its model needs it.
   struct FieldSource
   {

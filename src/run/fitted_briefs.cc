@@ -1,6 +1,6 @@
 #include "base/phase_timer.h"
 #include "base/text.h"
-#include "run/brief_lines.h"
+#include "report/brief_lines.h"
 #include "run/briefs.h"
 
 namespace sprag

@@ -2,9 +2,10 @@
 
 #include "base/text.h"
 #include "base/unknown.h"
-#include "run/brief_lines.h"
+#include "report/brief_lines.h"
 #include "scene/closed_form.h"
 #include "scene/identification_text.h"
+#include "scene/scene.h"
 
 #include <boost/algorithm/string/join.hpp>
 

@@ -8,6 +8,8 @@
 
 namespace sprag
 {
+  struct Scene;
+
   std::vector<ColumnInfo> identification_columns(const MeasuredStroke &measured);
 
   /// Returns the rows of the columns, one a row of the measurement.

@@ -2,6 +2,12 @@
 
 namespace sprag
 {
+  InMemory run_in_memory()
+  {
+    return { std::make_shared<DynamicsMaker>(false, 2), // finite elements in time take two
+             std::make_shared<StaticMeshes>() };
+  }
+
   bool estimates_errors(const RunOptions &options)
   {
     return options.in_memory == nullptr;

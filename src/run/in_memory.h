@@ -1,22 +1,16 @@
 #pragma once
 
-#include "analysis/study/measures.h"
 #include "levers/dynamics.h"
 #include "levers/static_meshes.h"
-#include "results/warning.h"
-#include "run/run.h"
+#include "program/in_memory.h"
+#include "program/run_options.h"
 
 #include <memory>
 
 namespace sprag
 {
-  /// What one process has for its runs that write no files: the meshes that they share, and what the last of them found.
-  struct InMemory
-  {
-    std::shared_ptr<DynamicsMaker> dynamics = std::make_shared<DynamicsMaker>(false, 2); // finite elements in time take two
-    std::shared_ptr<StaticMeshes> meshes    = std::make_shared<StaticMeshes>();
-    Comparable found                        = {};
-  };
+  /// Returns what the runs of one process share, with nothing in it yet.
+  InMemory run_in_memory();
 
   /// Returns whether a run estimates the errors of its results by others, which cost more than the run: not in memory, where runs
   /// stand beside finer ones.

@@ -3,6 +3,7 @@
 #include "results/row_statistics.h"
 #include "scene/closed_form.h"
 #include "scene/contact_reference.h"
+#include "scene/scene.h"
 
 #include <algorithm>
 #include <cmath>

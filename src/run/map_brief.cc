@@ -1,5 +1,5 @@
 #include "base/text.h"
-#include "run/brief_lines.h"
+#include "report/brief_lines.h"
 #include "run/briefs.h"
 
 #include <algorithm>

@@ -2,8 +2,9 @@
 
 #include "base/errors.h"
 #include "base/text.h"
-#include "run/memory.h"
+#include "program/memory.h"
 #include "scene/analysis_use.h"
+#include "scene/scene.h"
 
 #include <ostream>
 

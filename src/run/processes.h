@@ -1,11 +1,11 @@
 #pragma once
 
-#include "scene/scene.h"
-
 #include <iosfwd>
 
 namespace sprag
 {
+  struct Scene;
+
   /// Throws InputError where an analysis gains nothing from as many processes of MPI: one that shares nothing, or a body in three
   /// dimensions that is too small for them.
   void require_useful_processes(const Scene &scene, unsigned int processes);

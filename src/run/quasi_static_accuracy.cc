@@ -3,10 +3,11 @@
 #include "analysis/accuracy/sample_changes.h"
 #include "base/errors.h"
 #include "base/text.h"
+#include "report/peak_report.h"
 #include "results/row_statistics.h"
 #include "run/coarser_scene.h"
 #include "run/left_out_inertia.h"
-#include "run/peak_report.h"
+#include "scene/scene.h"
 
 #include <algorithm>
 #include <cmath>

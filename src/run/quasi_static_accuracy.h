@@ -1,12 +1,14 @@
 #pragma once
 
-#include "analysis/accuracy/error_estimate.h"
+#include "analytic/error_estimate.h"
 #include "run/quasi_static_probes.h"
 
 #include <functional>
 
 namespace sprag
 {
+  struct Scene;
+
   /// Estimates the errors of a finished run without inertia, of P, Q, loop_area, largest_pressure, contact_width and
   /// largest_stress.
   ///

@@ -4,6 +4,7 @@
 #include "analysis/accuracy/slide_samples.h"
 #include "fe/mesh/mesh.h"
 #include "run/coarser_scene.h"
+#include "scene/scene.h"
 
 #include <algorithm>
 

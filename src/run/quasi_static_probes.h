@@ -7,6 +7,8 @@
 
 namespace sprag
 {
+  struct Scene;
+
   /// Some states of a run in full sliding, and what other models make of them in single steps from one to the next.
   struct Probes
   {

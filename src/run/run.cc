@@ -3,15 +3,16 @@
 #include "fe/mesh/mesh.h"
 #include "fe/mesh/solid_file.h"
 #include "levers/prepared_scene.h"
+#include "program/memory.h"
+#include "program/output_folder.h"
+#include "report/warnings.h"
 #include "run/analyses.h"
 #include "run/choice.h"
 #include "run/expected_cost.h"
-#include "run/memory.h"
-#include "run/output_folder.h"
 #include "run/processes.h"
 #include "run/study_runs.h"
-#include "run/warnings.h"
 #include "scene/analysis_use.h"
+#include "scene/scene.h"
 
 #include <iostream>
 #include <map>

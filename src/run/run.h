@@ -1,32 +1,10 @@
 #pragma once
 
-#include "results/warning.h"
-#include "scene/scene.h"
-
-#include <string>
+#include "program/run_options.h"
 
 namespace sprag
 {
-  struct InMemory;
-  class RunLog;
-
-  struct RunOptions
-  {
-    std::string folder; ///< for results; made if it does not exist
-    bool quiet             = false;
-    bool is_first          = true;    ///< of several processes that run the scene together: it prints
-    InMemory *in_memory    = nullptr; ///< for a run that writes no files, in place of a folder; else null
-    unsigned int processes = 1;       ///< that run the scene together
-    bool verbose           = false;   ///< prints all of a summary
-    RunLog *log            = nullptr; ///< begins in the folder once that is made; null: none
-    std::string chosen     = {};      ///< settings that follow from the scene's Accuracy, "Section/Name = VALUE; ..."
-  };
-
-  /// Throws AnalysisError where there are warnings and Analysis/Warnings = error; the message quotes the first of them.
-  void check_warnings(const Scene &scene, const Warnings &warnings);
-
-  /// Carries out the analysis of a scene that follows_formulas() and has no leaf spring. It throws what run() throws.
-  void run_by_formulas(const Scene &scene, const RunOptions &options);
+  struct Scene;
 
   /// Checks that the scene's mesh can serve, which read_scene() cannot, and throws InputError if not. Returns the warnings
   /// that follow from the scene alone.

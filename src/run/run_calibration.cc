@@ -1,11 +1,12 @@
 #include "analysis/calibration/calibration.h"
 #include "base/append.h"
 #include "levers/prepared_scene.h"
+#include "program/result_writer.h"
+#include "report/report.h"
 #include "run/analyses.h"
 #include "run/briefs.h"
-#include "run/report.h"
-#include "run/result_writer.h"
 #include "scene/read.h"
+#include "scene/scene.h"
 
 #include <cmath>
 #include <fstream>

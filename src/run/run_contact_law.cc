@@ -1,8 +1,8 @@
 #include "analysis/statics/contact_law.h"
+#include "program/result_writer.h"
+#include "report/report.h"
 #include "run/analyses.h"
 #include "run/briefs.h"
-#include "run/report.h"
-#include "run/result_writer.h"
 
 #include <cmath>
 #include <iomanip>

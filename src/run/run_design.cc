@@ -1,9 +1,10 @@
 #include "base/errors.h"
 #include "base/interrupt.h"
+#include "program/result_writer.h"
 #include "run/analyses.h"
 #include "run/design_report.h"
-#include "run/result_writer.h"
 #include "scene/read.h"
+#include "scene/scene.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,10 +2,11 @@
 #include "base/errors.h"
 #include "base/interrupt.h"
 #include "base/text.h"
+#include "program/result_writer.h"
 #include "run/analyses.h"
 #include "run/identification_report.h"
-#include "run/result_writer.h"
 #include "scene/read.h"
+#include "scene/scene.h"
 
 #include <filesystem>
 #include <fstream>

@@ -1,8 +1,8 @@
 #include "analysis/isolation/lever_table.h"
 #include "levers/dynamics.h"
+#include "program/isolation_report.h"
 #include "run/analyses.h"
 #include "run/in_memory.h"
-#include "run/isolation_report.h"
 #include "run/table_recorder.h"
 #include "run/transient_settings.h"
 

@@ -1,12 +1,13 @@
 #include "analysis/map/map_team.h"
 #include "base/append.h"
 #include "base/progress.h"
+#include "program/result_writer.h"
+#include "program/run_files.h"
+#include "report/brief_lines.h"
+#include "report/report.h"
 #include "run/analyses.h"
-#include "run/brief_lines.h"
 #include "run/briefs.h"
-#include "run/report.h"
-#include "run/result_writer.h"
-#include "run/run_files.h"
+#include "scene/scene.h"
 
 #include <deal.II/base/mpi.h>
 
@@ -20,11 +21,6 @@ namespace sprag
   namespace
   {
     namespace MPI = dealii::Utilities::MPI;
-
-    bool is_first_rank()
-    {
-      return MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
-    }
 
     /// A line at the beginning of each round and how far it has come.
     struct MapProgress

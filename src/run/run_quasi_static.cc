@@ -1,11 +1,12 @@
 #include "analysis/statics/quasi_static.h"
 #include "fe/statics/lever_model.h"
+#include "program/recorder.h"
+#include "report/report.h"
 #include "run/analyses.h"
 #include "run/field_recorder.h"
 #include "run/in_memory.h"
 #include "run/quasi_static_accuracy.h"
-#include "run/recorder.h"
-#include "run/report.h"
+#include "scene/scene.h"
 
 #include <iostream>
 #include <optional>

@@ -2,13 +2,14 @@
 #include "base/append.h"
 #include "fe/solid/solid_lever.h"
 #include "model/state_archive.h"
+#include "program/memory.h"
+#include "program/recorder.h"
+#include "report/report.h"
 #include "run/analyses.h"
 #include "run/field_recorder.h"
 #include "run/in_memory.h"
-#include "run/memory.h"
 #include "run/quasi_static_accuracy.h"
-#include "run/recorder.h"
-#include "run/report.h"
+#include "scene/scene.h"
 
 #include <filesystem>
 #include <iostream>

@@ -1,14 +1,16 @@
 #include "base/progress.h"
 #include "base/text.h"
+#include "laws/friction.h"
+#include "program/result_writer.h"
+#include "report/report.h"
+#include "report/transient_report.h"
+#include "report/warnings.h"
 #include "run/analyses.h"
 #include "run/briefs.h"
 #include "run/in_memory.h"
-#include "run/report.h"
-#include "run/result_writer.h"
 #include "run/sprag_slip_report.h"
-#include "run/transient_report.h"
-#include "run/warnings.h"
 #include "scene/held_slide.h"
+#include "scene/scene.h"
 
 #include <cmath>
 #include <deque>

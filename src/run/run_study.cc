@@ -1,12 +1,13 @@
 #include "analysis/team/team.h"
 #include "base/progress.h"
+#include "program/result_writer.h"
+#include "program/run_files.h"
+#include "report/report.h"
 #include "run/analyses.h"
-#include "run/report.h"
-#include "run/result_writer.h"
-#include "run/run_files.h"
 #include "run/study_print.h"
 #include "run/study_report.h"
 #include "run/study_runs.h"
+#include "scene/scene.h"
 
 #include <deal.II/base/mpi.h>
 
@@ -19,11 +20,6 @@ namespace sprag
   namespace
   {
     namespace MPI = dealii::Utilities::MPI;
-
-    bool is_first_rank()
-    {
-      return MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
-    }
 
     void announce(const Journal &journal, const std::size_t runs, const ProgressStyle style)
     {

@@ -3,16 +3,17 @@
 #include "base/append.h"
 #include "base/text.h"
 #include "levers/dynamics.h"
+#include "program/recorder.h"
+#include "program/steps_in_time.h"
 #include "results/stress_entries.h"
 #include "run/analyses.h"
 #include "run/field_recorder.h"
 #include "run/in_memory.h"
-#include "run/recorder.h"
 #include "run/shown_body.h"
-#include "run/steps_in_time.h"
 #include "run/transient_accuracy.h"
 #include "run/transient_settings.h"
 #include "scene/mirrored_pair.h"
+#include "scene/scene.h"
 
 #include <algorithm>
 #include <functional>

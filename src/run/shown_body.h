@@ -5,6 +5,8 @@
 
 namespace sprag
 {
+  struct Scene;
+
   /// Returns the body of a meshed model in time for its fields.
   inline BodyFields shown_body(const Scene &scene, const Dynamics &dynamics)
   {

@@ -2,6 +2,7 @@
 
 #include "run/coarser_scene.h"
 #include "scene/held_slide.h"
+#include "scene/scene.h"
 
 #include <cmath>
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "analysis/accuracy/error_estimate.h"
 #include "analysis/stability/stability.h"
+#include "analytic/error_estimate.h"
 #include "fe/contact/face_contact_point.h"
 
 #include <functional>
@@ -9,6 +9,8 @@
 
 namespace sprag
 {
+  struct Scene;
+
   /// The slide of a scene by models that are less accurate, each in one respect.
   struct SlideProbes
   {

@@ -1,5 +1,5 @@
 #include "base/phase_timer.h"
-#include "run/brief_lines.h"
+#include "report/brief_lines.h"
 #include "run/briefs.h"
 
 namespace sprag

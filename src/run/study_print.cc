@@ -2,8 +2,8 @@
 
 #include "base/phase_timer.h"
 #include "base/text.h"
-#include "run/brief_lines.h"
-#include "run/percent.h"
+#include "report/brief_lines.h"
+#include "report/percent.h"
 #include "run/study_report.h"
 
 #include <algorithm>

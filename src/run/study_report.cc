@@ -3,6 +3,7 @@
 #include "base/append.h"
 #include "base/text.h"
 #include "base/unknown.h"
+#include "scene/scene.h"
 #include "scene/sections.h"
 
 #include <boost/algorithm/string/join.hpp>

@@ -5,10 +5,11 @@
 #include "base/peak_memory.h"
 #include "base/progress.h"
 #include "levers/prepared_scene.h"
+#include "program/memory.h"
+#include "report/warnings.h"
 #include "run/analyses.h"
-#include "run/memory.h"
-#include "run/warnings.h"
 #include "scene/analysis_use.h"
+#include "scene/scene.h"
 #include "scene/scene_key.h"
 
 #include <algorithm>

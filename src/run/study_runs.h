@@ -3,11 +3,14 @@
 #include "analysis/study/study_points.h"
 #include "analysis/study/study_record.h"
 #include "run/in_memory.h"
+#include "scene/scene.h"
 
 #include <vector>
 
 namespace sprag
 {
+  struct Scene;
+
   /// Throws InputError where no run of a study is possible, or not its reference.
   void require_possible_runs(const Scene &study);
 
@@ -40,7 +43,7 @@ namespace sprag
     const Scene study;
     const std::vector<StudyPoint> all_points;
     const bool has_reference;
-    InMemory in_memory;
+    InMemory in_memory = run_in_memory();
 
     Scene scene_of(std::size_t index) const;
     void carry_out_run(std::size_t index, StudyRecord &record);

@@ -1,7 +1,8 @@
 #include "run/table_recorder.h"
 
 #include "base/text.h"
-#include "run/isolation_report.h"
+#include "program/isolation_report.h"
+#include "scene/scene.h"
 
 #include <cstdint>
 #include <iostream>

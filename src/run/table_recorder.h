@@ -1,14 +1,16 @@
 #pragma once
 
-#include "analysis/isolation/isolated_table.h"
+#include "analytic/isolated_table.h"
 #include "base/progress.h"
-#include "run/checkpoint.h"
-#include "run/result_writer.h"
+#include "program/checkpoint.h"
+#include "program/result_writer.h"
 
 #include <vector>
 
 namespace sprag
 {
+  struct Scene;
+
   /// Takes the rows of a table on levers in time as they come: writes them, hands them to the checkpoint and shows the progress.
   class TableRecorder
   {

@@ -2,12 +2,13 @@
 
 #include "analysis/accuracy/dilation.h"
 #include "analysis/transient/growing_modes.h"
-#include "analysis/transient/oscillation.h"
+#include "analytic/oscillation.h"
 #include "base/errors.h"
 #include "results/row_statistics.h"
 #include "run/coarser_scene.h"
 #include "run/slide_probes.h"
 #include "scene/held_slide.h"
+#include "scene/scene.h"
 
 #include <algorithm>
 #include <cmath>

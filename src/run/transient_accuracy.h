@@ -1,10 +1,12 @@
 #pragma once
 
-#include "analysis/accuracy/error_estimate.h"
+#include "analytic/error_estimate.h"
 #include "levers/dynamics.h"
 
 namespace sprag
 {
+  struct Scene;
+
   /// Estimates the errors of a finished run in time, of P, overshoot and frequency of the ringing behind the first reversal.
   ///
   /// The slide behind that reversal is held, and the vibration nearest to the frequency of P judged as vibration_accuracy() does:

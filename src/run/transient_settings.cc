@@ -1,6 +1,7 @@
 #include "run/transient_settings.h"
 
 #include "scene/contact_reference.h"
+#include "scene/scene.h"
 
 namespace sprag
 {

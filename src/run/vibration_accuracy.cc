@@ -3,6 +3,7 @@
 #include "base/errors.h"
 #include "run/coarser_scene.h"
 #include "run/slide_probes.h"
+#include "scene/scene.h"
 
 namespace sprag
 {

@@ -1,7 +1,7 @@
 #include "run/vibration_print.h"
 
 #include "base/text.h"
-#include "run/brief_lines.h"
+#include "report/brief_lines.h"
 #include "run/vibration_report.h"
 
 #include <algorithm>

@@ -1,5 +1,7 @@
 #include "scene/accuracy.h"
 
+#include "scene/scene.h"
+
 #include <boost/algorithm/string.hpp>
 
 namespace sprag

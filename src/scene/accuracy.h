@@ -1,12 +1,14 @@
 #pragma once
 
-#include "scene/scene.h"
+#include "scene/analysis_settings.h"
 
 #include <string>
 #include <vector>
 
 namespace sprag
 {
+  struct Scene;
+
   // The quantities whose errors are told in /accuracy and may be asked for in Accuracy/Quantity, by their names.
 
   /// Returns those that an analysis tells; none where it tells none.

@@ -1,6 +1,7 @@
 #include "scene/across.h"
 
 #include "scene/analysis_use.h"
+#include "scene/scene.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,12 +1,14 @@
 #pragma once
 
-#include "scene/scene.h"
+#include "scene/apparatus.h"
 
 #include <array>
 #include <vector>
 
 namespace sprag
 {
+  struct Scene;
+
   /// Returns the distance of the middles of the force sensors in three dimensions from the middle of the width [mm]: where the
   /// scene has them, else flush with the sides of the plate.
   double sensors_across(const Scene &scene);

@@ -2,6 +2,7 @@
 
 #include "scene/design_text.h"
 #include "scene/identification_text.h"
+#include "scene/scene.h"
 
 namespace sprag
 {

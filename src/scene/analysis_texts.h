@@ -2,10 +2,11 @@
 
 #include "base/parameters.h"
 #include "scene/isolation_tables.h"
-#include "scene/scene.h"
 
 namespace sprag
 {
+  struct Scene;
+
   /// Reads what texts and tables say that one analysis alone has, and reports what is wrong with them.
   void read_analysis_texts(Scene &scene, const std::vector<Parameter> &declared, const ReportMistake &report);
 } // namespace sprag

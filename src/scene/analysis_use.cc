@@ -1,5 +1,7 @@
 #include "scene/analysis_use.h"
 
+#include "scene/scene.h"
+
 #include <algorithm>
 #include <tuple>
 

@@ -1,9 +1,11 @@
 #pragma once
 
-#include "scene/scene.h"
+#include "scene/analysis_settings.h"
 
 namespace sprag
 {
+  struct Scene;
+
   /// Returns whether an analysis looks at the slide held at one x.
   bool holds_slide(AnalysisType type);
 

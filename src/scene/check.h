@@ -1,12 +1,12 @@
 #pragma once
 
-#include "scene/scene.h"
-
 #include <string>
 #include <vector>
 
 namespace sprag
 {
+  struct Scene;
+
   /// A rule between parameters that a scene breaks.
   struct Violation
   {

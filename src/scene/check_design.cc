@@ -1,6 +1,7 @@
 #include "base/text.h"
 #include "scene/check_parts.h"
 #include "scene/design_quantities.h"
+#include "scene/scene.h"
 
 #include <algorithm>
 

@@ -1,6 +1,7 @@
 #include "scene/check_parts.h"
 
 #include "base/text.h"
+#include "scene/scene.h"
 
 #include <algorithm>
 #include <cmath>

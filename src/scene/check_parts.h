@@ -4,6 +4,8 @@
 
 namespace sprag
 {
+  struct Scene;
+
   /// Collects the rules that are broken.
   struct Rules
   {

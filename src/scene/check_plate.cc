@@ -3,6 +3,7 @@
 #include "base/append.h"
 #include "base/text.h"
 #include "scene/lever_shape.h"
+#include "scene/scene.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,6 +3,7 @@
 #include "base/text.h"
 #include "scene/across.h"
 #include "scene/analysis_use.h"
+#include "scene/scene.h"
 
 #include <cmath>
 

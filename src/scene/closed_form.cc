@@ -1,4 +1,6 @@
 #include "scene/closed_form.h"
+#include "laws/friction.h"
+#include "scene/scene.h"
 
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 

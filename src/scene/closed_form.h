@@ -1,12 +1,16 @@
 #pragma once
 
-#include "scene/scene.h"
+#include "laws/friction_law.h"
+#include "scene/drive.h"
+#include "scene/lever.h"
 
 #include <functional>
 #include <optional>
 
 namespace sprag
 {
+  struct Scene;
+
   // The damper with a massless rigid lever and ideal contact: Yamaguchi & Yoshida eqs. 4-12 and 20-25.
 
   /// Ideal contact of cylinder and friction interface at a position x.

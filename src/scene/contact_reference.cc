@@ -1,6 +1,7 @@
 #include "scene/contact_reference.h"
 
 #include "scene/closed_form.h"
+#include "scene/scene.h"
 
 #include <algorithm>
 #include <cmath>

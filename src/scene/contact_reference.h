@@ -1,9 +1,9 @@
 #pragma once
 
-#include "scene/scene.h"
-
 namespace sprag
 {
+  struct Scene;
+
   /// State to which the contact's damping and stiffness in stick refer: the largest P of the closed form over the drive.
   struct ContactReference
   {

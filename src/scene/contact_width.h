@@ -1,11 +1,11 @@
 #pragma once
 
-#include "scene/scene.h"
-
 #include <optional>
 
 namespace sprag
 {
+  struct Scene;
+
   /// Estimates how wide the contact is under a force P >= 0 [N] between the scene's layer, or the bare lever, and a rigid
   /// cylinder [mm]: the smaller of Hertz's width on a body of the layer's material, which holds while the contact is narrower
   /// than the layer is thick, and that on a thin bonded layer, 2 (3 P R h (1 - nu^2)/(2 b E))^(1/3).

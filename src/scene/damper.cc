@@ -1,4 +1,6 @@
 #include "scene/damper.h"
+#include "laws/friction.h"
+#include "scene/scene.h"
 
 #include "base/monotone_cubic.h"
 #include "scene/closed_form.h"

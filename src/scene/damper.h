@@ -1,13 +1,13 @@
 #pragma once
 
-#include "scene/scene.h"
-
 #include <functional>
 #include <limits>
 #include <string>
 
 namespace sprag
 {
+  struct Scene;
+
   // Dampers of an isolation system act alike on both sides of z = 0. y = |z| is the way from there; `away` is +1 while it grows
   // and -1 while it shrinks. The force against the sign of z is the resistance.
 

@@ -1,5 +1,7 @@
 #include "scene/discretisation.h"
 
+#include "scene/scene.h"
+
 namespace sprag
 {
   namespace

@@ -5,6 +5,7 @@
 #include "scene/analysis_use.h"
 #include "scene/closed_form.h"
 #include "scene/lever_shape.h"
+#include "scene/scene.h"
 
 #include <boost/algorithm/string/join.hpp>
 

@@ -1,6 +1,7 @@
 #pragma once
 
-#include "scene/scene.h"
+#include "scene/drive.h"
+#include "scene/vibration_settings.h"
 
 #include <array>
 #include <optional>
@@ -8,6 +9,8 @@
 
 namespace sprag
 {
+  struct Scene;
+
   /// Returns position and velocity of the drive at the slide that a scene's stability is judged at: Stability/Position and
   /// Stability/Direction at the drive's peak speed.
   DrivePoint held_drive(const Scene &scene);

@@ -1,3 +1,4 @@
+#include "scene/scene.h"
 #include "scene/section.h"
 #include "scene/sections.h"
 

@@ -1,6 +1,7 @@
 #include "scene/lever_shape.h"
 
 #include "scene/closed_form.h"
+#include "scene/scene.h"
 
 namespace sprag
 {

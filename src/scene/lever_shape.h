@@ -1,11 +1,11 @@
 #pragma once
 
-#include "scene/scene.h"
-
 #include <array>
 
 namespace sprag
 {
+  struct Scene;
+
   // Dimensions that follow from those of the scene, in lever axes [mm].
 
   /// Radius of the pivot's axle, the rigid hub that holds a lever frame.

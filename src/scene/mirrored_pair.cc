@@ -4,6 +4,7 @@
 #include "scene/analysis_use.h"
 #include "scene/check_parts.h"
 #include "scene/closed_form.h"
+#include "scene/scene.h"
 
 #include <cmath>
 

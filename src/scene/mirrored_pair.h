@@ -1,9 +1,12 @@
 #pragma once
 
-#include "scene/scene.h"
+#include "laws/friction_law.h"
+#include "scene/lever.h"
 
 namespace sprag
 {
+  struct Scene;
+
   /// Returns 2 for a full pair, else 1.
   unsigned int number_of_levers(const Scene &scene);
 

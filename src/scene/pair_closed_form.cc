@@ -1,6 +1,7 @@
 #include "scene/pair_closed_form.h"
 
 #include "scene/mirrored_pair.h"
+#include "scene/scene.h"
 
 #include <algorithm>
 

@@ -6,6 +6,8 @@
 
 namespace sprag
 {
+  struct Scene;
+
   // The closed form of a full mirrored pair: both levers massless and rigid, each with eqs. 4-9 of Yamaguchi & Yoshida in its own
   // (for the second: mirrored) axes, geometry_of_lever() and friction_of_lever(). Both turn from rest_inclination(). With a joint
   // that is held each has a spring of its own, M_i = M(phi_i). With a free one nothing holds them but each other: the springs'

@@ -10,6 +10,7 @@
 #include "scene/check.h"
 #include "scene/discretisation.h"
 #include "scene/held_slide.h"
+#include "scene/scene.h"
 #include "scene/sections.h"
 #include "scene/variation.h"
 

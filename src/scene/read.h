@@ -1,12 +1,12 @@
 #pragma once
 
-#include "scene/scene.h"
-
 #include <string>
 #include <vector>
 
 namespace sprag
 {
+  struct Scene;
+
   /// Reads a parameter file and the overrides "Section/Name=value", which count more. Paths in the file are relative to its
   /// folder. Throws InputError holding every mistake, each as "FILE:LINE: Section/Name = value: RULE", FILE alone where a
   /// default is at fault and "--set" for an override.

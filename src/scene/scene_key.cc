@@ -3,6 +3,7 @@
 #include "base/fingerprint.h"
 #include "base/text.h"
 #include "scene/across.h"
+#include "scene/scene.h"
 #include "scene/sections.h"
 
 namespace sprag

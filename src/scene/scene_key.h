@@ -1,12 +1,12 @@
 #pragma once
 
-#include "scene/scene.h"
-
 #include <set>
 #include <string>
 
 namespace sprag
 {
+  struct Scene;
+
   // Texts that are equal for scenes which have something in common. They hold every parameter of the program, so that a new one
   // counts as long as nobody has shown that it does not. A file counts by what it holds, not by its name or time.
 

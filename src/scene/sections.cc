@@ -1,6 +1,7 @@
 #include "scene/sections.h"
 
 #include "base/append.h"
+#include "scene/scene.h"
 #include "scene/section.h"
 
 namespace sprag

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "base/parameters.h"
-#include "scene/scene.h"
+#include "scene/study_settings.h"
 
 #include <string>
 #include <vector>

@@ -1,9 +1,10 @@
 #include "analysis/accuracy/dilation.h"
-#include "analysis/accuracy/error_estimate.h"
 #include "analysis/accuracy/row_spacing.h"
 #include "analysis/accuracy/sample_changes.h"
 #include "analysis/accuracy/slide_samples.h"
+#include "analytic/error_estimate.h"
 #include "scene/closed_form.h"
+#include "scene/scene.h"
 #include "scenes.h"
 
 #include <cmath>

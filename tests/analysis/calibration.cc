@@ -3,6 +3,8 @@
 #include "base/errors.h"
 #include "levers/prepared_scene.h"
 #include "scene/read.h"
+#include "scene/scene.h"
+#include "support/params_folder.h"
 
 #include <cmath>
 #include <filesystem>
@@ -16,7 +18,7 @@ namespace
   Scene calibration(const std::string &model, std::vector<std::string> changes = {})
   {
     changes.push_back("Mesh/Face size=1");
-    const auto file = std::filesystem::path(__FILE__).parent_path() / ("../../params/calibration-" + model + ".prm");
+    const auto file = params_folder() / ("calibration-" + model + ".prm");
     return read_scene(file.string(), changes);
   }
 

@@ -1,6 +1,7 @@
-#include "analysis/statics/closed_form.h"
+#include "analytic/closed_form.h"
 
 #include "scene/closed_form.h"
+#include "scene/scene.h"
 #include "scenes.h"
 #include "support/work_of_drive.h"
 

@@ -1,10 +1,12 @@
 #include "analysis/stability/critical.h"
 
-#include "analysis/stability/jamming.h"
 #include "analysis/stability/roles.h"
+#include "analytic/jamming.h"
 #include "scene/closed_form.h"
 #include "scene/read.h"
+#include "scene/scene.h"
 #include "scenes.h"
+#include "support/params_folder.h"
 
 #include <cmath>
 #include <filesystem>
@@ -17,7 +19,7 @@ namespace
 {
   Scene from_params(const std::string &name, const std::vector<std::string> &changes)
   {
-    const auto file = std::filesystem::path(__FILE__).parent_path() / "../../params" / name;
+    const auto file = params_folder() / name;
     return read_scene(file.string(), changes);
   }
 

@@ -2,6 +2,7 @@
 #include "base/errors.h"
 #include "scene/closed_form.h"
 #include "scene/read.h"
+#include "scene/scene.h"
 #include "support/temporary_folder.h"
 
 #include <gtest/gtest.h>

@@ -6,6 +6,7 @@
 #include "mpi_environment.h"
 #include "scene/held_slide.h"
 #include "scene/read.h"
+#include "scene/scene.h"
 #include "scene/scene_key.h"
 #include "scene/sections.h"
 #include "support/temporary_folder.h"
@@ -284,7 +285,7 @@ TEST(EveryParameter, OfABarIsSharedWhereItDoesNotCount)
   change_each(bar(folder), folder, true, admitted);
 }
 
-TEST(EveryParameterSlow, OfAFrameAndOfAPairIsSharedWhereItDoesNotCount)
+TEST(EveryParameterThorough, OfAFrameAndOfAPairIsSharedWhereItDoesNotCount)
 {
   const TemporaryFolder folder;
   std::set<std::string> admitted;

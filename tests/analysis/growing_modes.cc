@@ -1,6 +1,7 @@
 #include "analysis/transient/growing_modes.h"
 
 #include "model/reduced_lever.h"
+#include "scene/scene.h"
 #include "scenes.h"
 
 #include <cmath>

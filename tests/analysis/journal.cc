@@ -3,6 +3,7 @@
 #include "analysis/map/map_team.h"
 
 #include "base/errors.h"
+#include "scene/scene.h"
 #include "support/temporary_folder.h"
 
 #include <cmath>

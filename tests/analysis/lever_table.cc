@@ -4,6 +4,7 @@
 #include "levers/dynamics.h"
 #include "mpi_environment.h"
 #include "run/transient_settings.h"
+#include "scene/scene.h"
 #include "support/isolated.h"
 
 #include <cmath>

@@ -1,6 +1,6 @@
-#include "analysis/transient/oscillation.h"
+#include "analytic/oscillation.h"
 
-#include "analysis/transient/ringing.h"
+#include "analytic/ringing.h"
 
 #include <algorithm>
 #include <cmath>

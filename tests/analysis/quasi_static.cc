@@ -1,6 +1,7 @@
 #include "analysis/statics/quasi_static.h"
 
 #include "analysis/toy_model.h"
+#include "scene/scene.h"
 #include "verification/run_scene.h"
 
 #include <algorithm>

@@ -1,6 +1,7 @@
-#include "analysis/statics/slope.h"
+#include "analytic/slope.h"
 
 #include "scene/closed_form.h"
+#include "scene/scene.h"
 #include "scenes.h"
 
 #include <algorithm>

@@ -3,6 +3,7 @@
 #include "analysis/study/trade.h"
 
 #include "scene/messages.h"
+#include "scene/scene.h"
 
 #include <cmath>
 #include <limits>

@@ -1,8 +1,9 @@
 #include "analysis/transient/transient.h"
 
-#include "analysis/transient/step_clock.h"
+#include "analytic/step_clock.h"
 #include "base/errors.h"
 #include "model/force_history.h"
+#include "scene/scene.h"
 #include "verification/run_transient.h"
 
 #include <algorithm>

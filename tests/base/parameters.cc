@@ -3,6 +3,7 @@
 #include "base/errors.h"
 #include "base/table_file.h"
 #include "base/text.h"
+#include "scene/scene.h"
 #include "support/written.h"
 
 #include <cmath>

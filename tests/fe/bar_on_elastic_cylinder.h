@@ -2,6 +2,7 @@
 
 #include "bar_on_cylinder.h"
 #include "fe/mesh/mesh.h"
+#include "scene/scene.h"
 
 namespace sprag
 {

@@ -5,6 +5,7 @@
 #include "fe/algebra/mumps.h"
 #include "mpi_environment.h"
 #include "plate.h"
+#include "scene/scene.h"
 
 #include <deal.II/base/function_lib.h>
 #include <deal.II/numerics/vector_tools.h>

@@ -4,6 +4,7 @@
 #include "base/errors.h"
 #include "fe/dynamics/inertial_matrices.h"
 #include "mpi_environment.h"
+#include "scene/scene.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_values.h>

@@ -1,4 +1,5 @@
 #include "fe/contact/face_contact.h"
+#include "laws/friction.h"
 
 #include "bar_on_elastic_cylinder.h"
 #include "mpi_environment.h"

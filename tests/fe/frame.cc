@@ -3,6 +3,7 @@
 #include "fe/mesh/mesh.h"
 #include "fe/statics/lever_properties.h"
 #include "mpi_environment.h"
+#include "scene/scene.h"
 #include "scenes.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "scene/apparatus.h"
+#include "scene/scene.h"
 
 #include <array>
 #include <cmath>

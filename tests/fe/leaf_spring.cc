@@ -5,6 +5,7 @@
 #include "leaf_beam.h"
 #include "mpi_environment.h"
 #include "scene/closed_form.h"
+#include "scene/scene.h"
 
 #include <algorithm>
 #include <cstdio>

@@ -3,6 +3,7 @@
 #include "fe/meshed.h"
 #include "mpi_environment.h"
 #include "scene/closed_form.h"
+#include "scene/scene.h"
 #include "scenes.h"
 #include "support/newton_step.h"
 #include "support/quadratic_return.h"

@@ -2,6 +2,7 @@
 
 #include "base/errors.h"
 #include "fe/body/body_properties.h"
+#include "scene/scene.h"
 #include "scenes.h"
 #include "support/temporary_folder.h"
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "fe/mesh/mesh.h"
+#include "scene/scene.h"
 
 namespace sprag
 {

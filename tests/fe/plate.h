@@ -1,6 +1,7 @@
 #pragma once
 
 #include "fe/dynamics/inertial_matrices.h"
+#include "scene/scene.h"
 
 #include <deal.II/grid/grid_generator.h>
 #include <deal.II/grid/tria.h>

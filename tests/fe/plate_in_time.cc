@@ -4,6 +4,7 @@
 #include "model/modal_structure.h"
 #include "mpi_environment.h"
 #include "plate.h"
+#include "scene/scene.h"
 #include "support/lever_in_time.h"
 
 #include <deal.II/base/quadrature_lib.h>

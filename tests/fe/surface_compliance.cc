@@ -4,6 +4,7 @@
 #include "fe/statics/lever_properties.h"
 #include "fe/statics/port_springs.h"
 #include "mpi_environment.h"
+#include "scene/scene.h"
 #include "scenes.h"
 
 #include <gtest/gtest.h>

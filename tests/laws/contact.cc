@@ -1,4 +1,5 @@
 #include "laws/contact.h"
+#include "laws/friction.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

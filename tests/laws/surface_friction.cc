@@ -1,5 +1,6 @@
 #include "laws/contact.h"
 #include "laws/contact_step.h"
+#include "laws/friction.h"
 
 #include <algorithm>
 #include <cmath>

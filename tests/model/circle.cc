@@ -1,6 +1,7 @@
 #include "model/circle.h"
 
 #include "scene/closed_form.h"
+#include "scene/scene.h"
 #include "scenes.h"
 
 #include <cmath>

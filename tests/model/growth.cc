@@ -5,6 +5,7 @@
 #include "model/reduced_lever.h"
 #include "scene/closed_form.h"
 #include "scene/held_slide.h"
+#include "scene/scene.h"
 #include "scenes.h"
 
 #include <cmath>

@@ -3,6 +3,7 @@
 #include "model/beam.h"
 #include "scenes.h"
 
+#include "scene/scene.h"
 #include "support/hardening.h"
 
 #include <cmath>

@@ -2,6 +2,7 @@
 #include "model/frame_coupling.h"
 #include "model/point_contact.h"
 #include "scene/closed_form.h"
+#include "scene/scene.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

@@ -1,6 +1,7 @@
 #include "model/point_contact.h"
 
 #include "scene/closed_form.h"
+#include "scene/scene.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,6 +3,8 @@
 #include "mpi_environment.h"
 #include "run/expected_cost.h"
 #include "scene/read.h"
+#include "scene/scene.h"
+#include "support/params_folder.h"
 
 #include <filesystem>
 #include <gtest/gtest.h>
@@ -14,7 +16,7 @@ namespace
   Scene asked(const std::string &name, std::vector<std::string> overrides)
   {
     overrides.push_back("Output/Fields=none");
-    return read_scene((std::filesystem::path(__FILE__).parent_path() / "../../params" / (name + ".prm")).string(), overrides);
+    return read_scene((params_folder() / (name + ".prm")).string(), overrides);
   }
 
   std::string chosen(const Choice &choice, const std::string &parameter)

@@ -1,12 +1,13 @@
-#include "analysis/isolation/isolation.h"
 #include "analysis/stability/stability.h"
+#include "analytic/isolation.h"
 #include "base/errors.h"
 #include "levers/prepared_scene.h"
 #include "mpi_environment.h"
+#include "report/report.h"
 #include "run/analyses.h"
 #include "run/design_judges.h"
-#include "run/report.h"
 #include "scene/read.h"
+#include "scene/scene.h"
 #include "support/temporary_folder.h"
 
 #include <filesystem>
@@ -46,7 +47,7 @@ namespace
 
   std::vector<Entry> in_time(const Scene &lever)
   {
-    InMemory in_memory;
+    InMemory in_memory = run_in_memory();
     Warnings warnings;
     carry_out(prepared(lever), { {}, true, true, &in_memory }, warnings);
     return in_memory.found.summary;

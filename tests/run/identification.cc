@@ -5,6 +5,7 @@
 #include "run/analyses.h"
 #include "scene/closed_form.h"
 #include "scene/read.h"
+#include "scene/scene.h"
 #include "support/temporary_folder.h"
 
 #include <cmath>

@@ -1,6 +1,7 @@
-#include "run/memory.h"
+#include "program/memory.h"
 
 #include "base/errors.h"
+#include "scene/scene.h"
 #include "scenes.h"
 
 #include <filesystem>

@@ -1,5 +1,6 @@
-#include "run/peak_report.h"
-#include "run/report.h"
+#include "report/peak_report.h"
+#include "report/report.h"
+#include "scene/scene.h"
 #include "scenes.h"
 
 #include <gtest/gtest.h>

@@ -6,6 +6,7 @@
 #include "scene/contact_reference.h"
 
 #include "results/row_statistics.h"
+#include "scene/scene.h"
 #include "verification/run_scene.h"
 
 #include <gtest/gtest.h>

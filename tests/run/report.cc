@@ -1,6 +1,7 @@
-#include "run/report.h"
+#include "report/report.h"
 
 #include "scene/closed_form.h"
+#include "scene/scene.h"
 #include "scenes.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "run/result_writer.h"
+#include "program/result_writer.h"
 
 #include "mpi_environment.h"
 #include "results/hdf5.h"

@@ -1,11 +1,13 @@
 #include "run/transient_accuracy.h"
 
 #include "analysis/stability/stability.h"
-#include "analysis/transient/oscillation.h"
+#include "analytic/oscillation.h"
 #include "mpi_environment.h"
 #include "results/row_statistics.h"
 #include "run/beam_run.h"
 #include "scene/read.h"
+#include "scene/scene.h"
+#include "support/params_folder.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +20,7 @@ namespace
 {
   Scene shipped(const std::string &name, const std::vector<std::string> &overrides)
   {
-    return read_scene((std::filesystem::path(__FILE__).parent_path() / "../../params" / (name + ".prm")).string(), overrides);
+    return read_scene((params_folder() / (name + ".prm")).string(), overrides);
   }
 
   /// P at a time, linear between rows.

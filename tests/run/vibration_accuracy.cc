@@ -2,6 +2,7 @@
 
 #include "mpi_environment.h"
 #include "scene/held_slide.h"
+#include "scene/scene.h"
 #include "scenes.h"
 
 #include <cmath>

@@ -1,6 +1,7 @@
-#include "run/warnings.h"
+#include "report/warnings.h"
 #include "scene/closed_form.h"
 #include "scene/contact_width.h"
+#include "scene/scene.h"
 #include "scenes.h"
 #include "support/row_of.h"
 

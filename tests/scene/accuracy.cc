@@ -3,6 +3,8 @@
 #include "scene/read.h"
 
 #include "base/errors.h"
+#include "scene/scene.h"
+#include "support/params_folder.h"
 
 #include <boost/algorithm/string/join.hpp>
 #include <filesystem>
@@ -14,7 +16,7 @@ namespace
 {
   std::string scene_file(const std::string &name)
   {
-    return (std::filesystem::path(__FILE__).parent_path() / "../../params" / (name + ".prm")).string();
+    return (params_folder() / (name + ".prm")).string();
   }
 
   std::string refusal(const std::vector<std::string> &overrides)

@@ -1,6 +1,7 @@
 #include "scene/check.h"
 
 #include "scene/messages.h"
+#include "scene/scene.h"
 
 using namespace sprag;
 

@@ -1,5 +1,7 @@
 #include "scene/closed_form.h"
+#include "laws/friction.h"
 
+#include "scene/scene.h"
 #include "scenes.h"
 #include "support/work_of_drive.h"
 

@@ -1,5 +1,7 @@
 #include "messages.h"
 #include "scene/design_quantities.h"
+#include "scene/scene.h"
+#include "support/params_folder.h"
 
 #include <filesystem>
 #include <fstream>
@@ -106,7 +108,7 @@ TEST(ReadDesign, EveryQuantityHasOneName)
 
 TEST(ReadDesign, EveryQuantityStandsOnThePage)
 {
-  std::ifstream file(std::filesystem::path(__FILE__).parent_path() / "../../params/design.md");
+  std::ifstream file(params_folder() / "design.md");
   const std::string page{ std::istreambuf_iterator<char>(file), {} };
   for (const auto &info : design_quantities())
   {

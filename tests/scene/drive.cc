@@ -1,6 +1,7 @@
 #include "scene/drive.h"
 
 #include "base/errors.h"
+#include "scene/scene.h"
 #include "scenes.h"
 #include "support/work_of_drive.h"
 

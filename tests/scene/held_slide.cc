@@ -1,6 +1,8 @@
 #include "scene/held_slide.h"
+#include "laws/friction.h"
 
 #include "scene/read.h"
+#include "scene/scene.h"
 #include "scenes.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,7 @@
 #include "base/text.h"
 #include "messages.h"
 #include "scene/identification_text.h"
+#include "scene/scene.h"
 #include "support/temporary_folder.h"
 
 #include <cmath>

@@ -3,6 +3,7 @@
 #include "results/hdf5.h"
 #include "scene/base_motion.h"
 #include "scene/damper.h"
+#include "scene/scene.h"
 #include "support/temporary_folder.h"
 
 #include <cmath>

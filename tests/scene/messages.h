@@ -2,6 +2,7 @@
 
 #include "base/errors.h"
 #include "scene/read.h"
+#include "scene/scene.h"
 #include "support/written.h"
 
 #include <gtest/gtest.h>

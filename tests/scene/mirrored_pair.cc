@@ -1,6 +1,7 @@
 #include "scene/mirrored_pair.h"
 
 #include "scene/messages.h"
+#include "scene/scene.h"
 #include "scenes.h"
 
 using namespace sprag;

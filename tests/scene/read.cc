@@ -1,8 +1,11 @@
 #include "scene/read.h"
+#include "laws/friction.h"
 
 #include "base/parameters.h"
 #include "scene/messages.h"
+#include "scene/scene.h"
 #include "scene/sections.h"
+#include "support/params_folder.h"
 
 #include <cmath>
 #include <hdf5.h>
@@ -32,7 +35,7 @@ namespace
 
   std::filesystem::path scenes()
   {
-    return std::filesystem::path(__FILE__).parent_path() / "../../params";
+    return params_folder();
   }
 
   std::string content(const std::filesystem::path &file)

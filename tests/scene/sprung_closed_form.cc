@@ -1,5 +1,6 @@
 #include "scene/sprung_closed_form.h"
 
+#include "scene/scene.h"
 #include "scenes.h"
 #include "support/scene_parts.h"
 

@@ -1,6 +1,7 @@
 #include "scene/variation.h"
 
 #include "scene/messages.h"
+#include "scene/scene.h"
 #include "support/temporary_folder.h"
 
 #include <cmath>

@@ -10,7 +10,7 @@ ROOT = pathlib.Path(os.environ.get("SPRAG_SOURCE", pathlib.Path(__file__).parent
 
 # A folder of src/ includes itself and what stands before it; the programs include any. An analysis knows no mesh.
 PROGRAMS = ["main.cc", "main_models.cc"]
-ORDER = ["base", "laws", "scene", "results", "model", "fe", "levers", "analysis", "run"]
+ORDER = ["base", "laws", "scene", "results", "analytic", "report", "program", "model", "fe", "levers", "analysis", "run"]
 UNSEEN = {"analysis": ["fe"]}
 # So do the rooms of a folder.
 ROOMS = {
@@ -19,7 +19,6 @@ ROOMS = {
 }
 CODE = {".cc", ".h", ".py", ".sh", ".geo", ".cmake", ".txt"}
 MAX_LINES = 500
-MAX_LINES_OF_SOURCES = 400
 # Of a page as wc counts them. The reference of all parameters is looked into, not read.
 MAX_WORDS = 1500
 REFERENCES = [pathlib.Path("params/README.md")]
@@ -73,9 +72,8 @@ for path in own_files():
         lines = path.read_text(encoding="utf-8").splitlines()
     except UnicodeDecodeError:
         continue  # pictures
-    most = MAX_LINES_OF_SOURCES if path.is_relative_to(ROOT / "src") else MAX_LINES
-    if (path.suffix in CODE or path.name in ("run", "test")) and len(lines) > most:
-        report(path, len(lines), f"{len(lines)} lines; over {most} a file wants to be two")
+    if (path.suffix in CODE or path.name in ("run", "test")) and len(lines) > MAX_LINES:
+        report(path, len(lines), f"{len(lines)} lines; the limit is {MAX_LINES}")
     for number, line in enumerate(lines, 1):
         if found := UNFINISHED.search(line):
             report(path, number, f"{found[1]} left")

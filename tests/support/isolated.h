@@ -1,6 +1,7 @@
 #pragma once
 
-#include "analysis/isolation/isolation.h"
+#include "analytic/isolation.h"
+#include "scene/scene.h"
 
 #include <cmath>
 #include <vector>

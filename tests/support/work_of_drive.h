@@ -1,6 +1,7 @@
 #pragma once
 
 #include "scene/closed_form.h"
+#include "scene/scene.h"
 
 namespace sprag
 {

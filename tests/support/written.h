@@ -1,5 +1,7 @@
 #pragma once
 
+#include "scene/scene.h"
+
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>

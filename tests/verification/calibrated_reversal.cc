@@ -3,6 +3,8 @@
 #include "levers/prepared_scene.h"
 #include "scene/held_slide.h"
 #include "scene/read.h"
+#include "scene/scene.h"
+#include "support/params_folder.h"
 #include "verification/run_transient.h"
 
 #include <algorithm>
@@ -17,7 +19,7 @@ namespace
 {
   Scene calibration(const std::string &model)
   {
-    const auto file = std::filesystem::path(__FILE__).parent_path() / ("../../params/calibration-" + model + ".prm");
+    const auto file = params_folder() / ("calibration-" + model + ".prm");
     return read_scene(file.string());
   }
 

@@ -1,4 +1,5 @@
 #include "run_scene.h"
+#include "scene/scene.h"
 
 #include <gtest/gtest.h>
 

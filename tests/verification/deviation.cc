@@ -1,5 +1,6 @@
 #include "mpi_environment.h"
 #include "scene/closed_form.h"
+#include "scene/scene.h"
 #include "scenes.h"
 #include "verification/run_scene.h"
 

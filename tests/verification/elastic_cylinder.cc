@@ -1,3 +1,4 @@
+#include "scene/scene.h"
 #include "support/scene_parts.h"
 #include "verification/run_scene.h"
 

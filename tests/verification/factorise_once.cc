@@ -2,6 +2,7 @@
 #include "fe/mesh/mesh.h"
 #include "fe/statics/lever_model.h"
 #include "mpi_environment.h"
+#include "scene/scene.h"
 #include "scenes.h"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+#include "scene/scene.h"
 #include "verification/meshed_in_time.h"
 #include "verification/run_scene.h"
 

@@ -1,3 +1,4 @@
+#include "scene/scene.h"
 #include "verification/held_slides.h"
 
 #include <algorithm>

@@ -3,6 +3,7 @@
 #include "analysis/limit_cycle/sprag_slip.h"
 #include "mpi_environment.h"
 #include "scene/held_slide.h"
+#include "scene/scene.h"
 #include "verification/run_transient.h"
 
 namespace sprag

@@ -1,4 +1,5 @@
 #include "mpi_environment.h"
+#include "scene/scene.h"
 #include "two_blocks.h"
 
 #include <cstdio>

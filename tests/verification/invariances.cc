@@ -1,5 +1,6 @@
-#include "analysis/statics/closed_form.h"
+#include "analytic/closed_form.h"
 #include "scene/closed_form.h"
+#include "scene/scene.h"
 #include "verification/run_scene.h"
 
 #include <deal.II/grid/grid_tools.h>

@@ -1,6 +1,8 @@
 #include "analysis/calibration/calibration.h"
 #include "scene/closed_form.h"
 #include "scene/read.h"
+#include "scene/scene.h"
+#include "support/params_folder.h"
 #include "verification/run_scene.h"
 
 #include <algorithm>
@@ -23,7 +25,7 @@ namespace
   Scene calibration(const std::string &model, std::vector<std::string> changes)
   {
     changes.insert(changes.end(), { "Analysis/Type=quasi-static", "Drive/Reversal duration=0" });
-    const auto file = std::filesystem::path(__FILE__).parent_path() / ("../../params/calibration-" + model + ".prm");
+    const auto file = params_folder() / ("calibration-" + model + ".prm");
     return with_coulomb(read_scene(file.string(), changes), 0.73);
   }
 

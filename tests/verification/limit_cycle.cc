@@ -1,4 +1,5 @@
 #include "analysis/limit_cycle/continuation.h"
+#include "scene/scene.h"
 #include "verification/held_slides.h"
 
 #include <algorithm>

@@ -1,10 +1,11 @@
 #pragma once
 
-#include "analysis/transient/oscillation.h"
+#include "analytic/oscillation.h"
 #include "fe/dynamics/dynamic_face_lever.h"
 #include "fe/mesh/mesh.h"
 #include "fe/statics/lever_properties.h"
 #include "mpi_environment.h"
+#include "scene/scene.h"
 #include "verification/run_transient.h"
 
 namespace sprag

@@ -1,6 +1,7 @@
-#include "analysis/statics/closed_form.h"
+#include "analytic/closed_form.h"
 #include "results/row_statistics.h"
 #include "scene/pair_closed_form.h"
+#include "scene/scene.h"
 #include "support/scene_parts.h"
 #include "verification/run_scene.h"
 

@@ -1,6 +1,7 @@
 #include "fe/leaf/leaf_spring.h"
 #include "results/row_statistics.h"
 #include "scene/mirrored_pair.h"
+#include "scene/scene.h"
 #include "support/scene_parts.h"
 #include "verification/held_slides.h"
 #include "verification/meshed_in_time.h"

@@ -1,4 +1,5 @@
 #include "scene/closed_form.h"
+#include "scene/scene.h"
 #include "support/scene_parts.h"
 #include "verification/run_scene.h"
 

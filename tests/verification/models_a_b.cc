@@ -1,5 +1,7 @@
+#include "laws/friction.h"
 #include "results/row_statistics.h"
 #include "scene/closed_form.h"
+#include "scene/scene.h"
 #include "verification/run_scene.h"
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 #include "fe/contact/augmentation.h"
 #include "fe/contact/face_contact.h"
 #include "mpi_environment.h"
+#include "scene/scene.h"
 #include "two_blocks.h"
 
 #include <deal.II/dofs/dof_tools.h>

@@ -2,6 +2,7 @@
 
 #include "analysis/statics/quasi_static.h"
 #include "fe/statics/lever_model.h"
+#include "scene/scene.h"
 #include "verification/block.h"
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 #include "fe/dynamics/dynamic_face_lever.h"
 #include "scene/closed_form.h"
 #include "scene/contact_reference.h"
+#include "scene/scene.h"
 #include "support/scene_parts.h"
 #include "verification/run_scene.h"
 

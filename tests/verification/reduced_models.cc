@@ -1,6 +1,7 @@
 #include "analysis/transient/growing_modes.h"
-#include "analysis/transient/oscillation.h"
+#include "analytic/oscillation.h"
 #include "scene/closed_form.h"
+#include "scene/scene.h"
 #include "verification/run_transient.h"
 
 #include <algorithm>

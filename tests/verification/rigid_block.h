@@ -2,6 +2,7 @@
 
 #include "analysis/statics/quasi_static.h"
 #include "model/contact_step.h"
+#include "scene/scene.h"
 #include "support/small_model.h"
 
 #include <deal.II/base/tensor.h>

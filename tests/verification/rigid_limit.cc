@@ -1,3 +1,4 @@
+#include "scene/scene.h"
 #include "verification/run_scene.h"
 
 #include <cstdio>

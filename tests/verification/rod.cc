@@ -1,4 +1,4 @@
-#include "analysis/transient/energy_ledger.h"
+#include "analytic/energy_ledger.h"
 #include "model/contact_step.h"
 #include "verification/point_at_port.h"
 

@@ -4,7 +4,8 @@
 #include "fe/mesh/mesh.h"
 #include "fe/statics/lever_model.h"
 #include "mpi_environment.h"
-#include "run/report.h"
+#include "report/report.h"
+#include "scene/scene.h"
 #include "scenes.h"
 #include "support/scene_parts.h"
 

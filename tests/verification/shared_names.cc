@@ -1,6 +1,7 @@
-#include "analysis/statics/closed_form.h"
-#include "run/transient_report.h"
+#include "analytic/closed_form.h"
+#include "report/transient_report.h"
 #include "run/vibration_report.h"
+#include "scene/scene.h"
 #include "verification/meshed_in_time.h"
 #include "verification/run_scene.h"
 

@@ -1,3 +1,5 @@
+#include "laws/friction.h"
+#include "scene/scene.h"
 #include "verification/rigid_block.h"
 
 #include <gtest/gtest.h>

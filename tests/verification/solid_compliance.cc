@@ -1,3 +1,4 @@
+#include "scene/scene.h"
 #include "verification/solid_run.h"
 
 using namespace sprag;

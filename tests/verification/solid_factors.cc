@@ -1,5 +1,6 @@
 #include "base/errors.h"
 #include "fe/solid/solid_body.h"
+#include "scene/scene.h"
 #include "verification/solid_run.h"
 
 #include <filesystem>

@@ -2,6 +2,7 @@
 #include "fe/fields/device_mesh.h"
 #include "fe/solid/solid_lever.h"
 #include "run_scene.h"
+#include "scene/scene.h"
 
 #include <algorithm>
 #include <gtest/gtest.h>

@@ -1,6 +1,7 @@
 #include "fe/mesh/solid_file.h"
 #include "fe/mesh/geometry_script.h"
 #include "scene/lever_shape.h"
+#include "scene/scene.h"
 #include "support/written.h"
 #include "verification/solid_run.h"
 

@@ -1,6 +1,7 @@
 #include "fe/dynamics/inertial_matrices.h"
 #include "fe/dynamics/lever_constants.h"
 #include "fe/solid/solid_mass.h"
+#include "scene/scene.h"
 #include "verification/solid_run.h"
 
 using namespace sprag;

@@ -3,6 +3,7 @@
 #include "fe/fields/body_fields.h"
 #include "run_scene.h"
 #include "scene/held_slide.h"
+#include "scene/scene.h"
 #include "scenes.h"
 #include "verification/held_slides.h"
 #include "verification/solid_steps.h"

@@ -1,6 +1,7 @@
 #include "analysis/isolation/lever_table.h"
 #include "levers/dynamics.h"
 #include "run/transient_settings.h"
+#include "scene/scene.h"
 #include "scenes.h"
 #include "support/isolated.h"
 #include "verification/run_scene.h"
@@ -63,6 +64,7 @@ TEST(SolidIsolation, ATableOnLeversMovesAsInThePlane)
   EXPECT_LT(plane.z.back(), -5.);
   for (std::size_t i = 0; i < plane.z.size(); ++i)
     EXPECT_NEAR(solid.z[i], plane.z[i], 1e-6 * 30.) << i;
-  EXPECT_NEAR(solid.found.dissipated, plane.found.dissipated, 1e-6 * plane.found.dissipated);
+  // Forces of the plane's run differ by up to 1e-6 of their peak between kernels of OpenBLAS, and their work by twice that each way.
+  EXPECT_NEAR(solid.found.dissipated, plane.found.dissipated, 4e-6 * plane.found.dissipated);
   EXPECT_LT(solid.found.energy_residual, 1e-7);
 }

@@ -1,5 +1,6 @@
 #include "fe/body/cell_elasticity.h"
 #include "scene/closed_form.h"
+#include "scene/scene.h"
 #include "verification/face_forces.h"
 #include "verification/solid_run.h"
 

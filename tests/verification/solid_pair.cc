@@ -1,5 +1,6 @@
 #include "scene/held_slide.h"
 #include "scene/mirrored_pair.h"
+#include "scene/scene.h"
 #include "support/scene_parts.h"
 #include "verification/solid_run.h"
 #include "verification/solid_steps.h"

@@ -3,6 +3,7 @@
 #include "fe/leaf/leaf_spring.h"
 #include "fe/solid/solid_mass.h"
 #include "levers/dynamics.h"
+#include "scene/scene.h"
 #include "verification/held_slides.h"
 #include "verification/solid_run.h"
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "fe/solid/solid_lever.h"
+#include "scene/scene.h"
 #include "verification/run_scene.h"
 
 #include <algorithm>

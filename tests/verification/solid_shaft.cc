@@ -1,5 +1,6 @@
 #include "model/circle.h"
 #include "scene/closed_form.h"
+#include "scene/scene.h"
 #include "support/turning_axis.h"
 #include "verification/face_forces.h"
 #include "verification/solid_run.h"

@@ -1,5 +1,6 @@
 #include "levers/dynamics.h"
 #include "scene/held_slide.h"
+#include "scene/scene.h"
 #include "verification/held_slides.h"
 #include "verification/solid_run.h"
 

@@ -2,6 +2,7 @@
 #include "fe/mesh/mesh.h"
 #include "fe/solid/solid_body.h"
 #include "mpi_environment.h"
+#include "scene/scene.h"
 #include "scenes.h"
 
 #include <deal.II/dofs/dof_tools.h>

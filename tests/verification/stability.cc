@@ -5,6 +5,7 @@
 #include "model/reduced_lever.h"
 #include "mpi_environment.h"
 #include "scene/held_slide.h"
+#include "scene/scene.h"
 #include "scenes.h"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 #include "scene/closed_form.h"
+#include "scene/scene.h"
 #include "verification/meshed_in_time.h"
 #include "verification/run_scene.h"
 

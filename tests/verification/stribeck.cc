@@ -1,4 +1,6 @@
 #include "scene/read.h"
+#include "scene/scene.h"
+#include "support/params_folder.h"
 #include "verification/held_slides.h"
 
 #include <algorithm>
@@ -50,7 +52,7 @@ namespace
 
   Scene scene_with(const std::vector<std::string> &changes)
   {
-    return read_scene((std::filesystem::path(__FILE__).parent_path() / "../../params/stribeck-a.prm").string(), changes);
+    return read_scene((params_folder() / "stribeck-a.prm").string(), changes);
   }
 
   /// c = -2 Re(lambda) K/|lambda|^2 of the frame [N s/mm], on a contact so stiff that the lever has nothing to follow with.

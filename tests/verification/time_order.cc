@@ -1,3 +1,4 @@
+#include "scene/scene.h"
 #include "verification/run_transient.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+#include "scene/scene.h"
 #include "verification/rigid_block.h"
 
 #include <gtest/gtest.h>

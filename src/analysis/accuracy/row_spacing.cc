@@ -1,8 +1,9 @@
 #include "analysis/accuracy/row_spacing.h"
 
 #include "analysis/accuracy/sample_changes.h"
-#include "analysis/statics/closed_form.h"
+#include "analytic/closed_form.h"
 #include "results/row_statistics.h"
+#include "scene/scene.h"
 
 #include <algorithm>
 #include <cmath>

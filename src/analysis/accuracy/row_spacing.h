@@ -1,9 +1,9 @@
 #pragma once
 
-#include "scene/scene.h"
-
 namespace sprag
 {
+  struct Scene;
+
   /// Returns the largest Analysis/Step, at most a quarter of the drive's way [mm], with which rows represent the closed form of a
   /// scene without inertia to `error` > 0: P and Q by straight lines between rows, over their peaks, and with `wants_loop` also
   /// the work of the drive by the trapezoidal rule.

@@ -7,6 +7,7 @@
 #include "scene/closed_form.h"
 #include "scene/held_slide.h"
 #include "scene/read.h"
+#include "scene/scene.h"
 
 #include <boost/math/tools/toms748_solve.hpp>
 

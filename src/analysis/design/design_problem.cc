@@ -2,6 +2,7 @@
 
 #include "base/text.h"
 #include "scene/read.h"
+#include "scene/scene.h"
 
 #include <algorithm>
 #include <cmath>

@@ -12,6 +12,8 @@
 
 namespace sprag
 {
+  struct Scene;
+
   /// A lever within the bounds and what it does.
   struct Proposal
   {

@@ -1,5 +1,7 @@
 #include "analysis/design/design_search.h"
 
+#include "scene/scene.h"
+
 #include <algorithm>
 #include <cmath>
 

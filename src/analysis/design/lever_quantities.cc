@@ -1,11 +1,12 @@
 #include "analysis/design/lever_quantities.h"
 
-#include "analysis/isolation/harmonic_balance.h"
-#include "analysis/isolation/isolation.h"
+#include "analytic/harmonic_balance.h"
+#include "analytic/isolation.h"
 #include "base/errors.h"
 #include "scene/closed_form.h"
 #include "scene/contact_width.h"
 #include "scene/damper.h"
+#include "scene/scene.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "scene/design.h"
 #include "scene/design_quantities.h"
-#include "scene/scene.h"
 
 #include <array>
 #include <limits>
@@ -10,6 +10,8 @@
 
 namespace sprag
 {
+  struct Scene;
+
   /// Values of all quantities of a lever; NaN of what is not known.
   class DesignQuantities
   {

@@ -2,6 +2,7 @@
 
 #include "analysis/identification/vibration_window.h"
 #include "base/errors.h"
+#include "scene/scene.h"
 
 #include <algorithm>
 #include <cmath>

@@ -7,6 +7,8 @@
 
 namespace sprag
 {
+  struct Scene;
+
   struct FoundNumber
   {
     UnknownNumber number;

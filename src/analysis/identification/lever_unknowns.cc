@@ -1,4 +1,6 @@
 #include "analysis/identification/lever_unknowns.h"
+#include "laws/friction.h"
+#include "scene/scene.h"
 
 #include "base/append.h"
 #include "base/errors.h"

@@ -1,13 +1,17 @@
 #pragma once
 
 #include "analysis/identification/measured_motion.h"
-#include "scene/scene.h"
+#include "laws/friction_law.h"
+#include "scene/identification.h"
+#include "scene/lever.h"
 
 #include <string>
 #include <vector>
 
 namespace sprag
 {
+  struct Scene;
+
   struct UnknownNumber
   {
     std::string name; ///< "mu", "k", "offset_P"

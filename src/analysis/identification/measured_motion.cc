@@ -1,6 +1,7 @@
 #include "analysis/identification/measured_motion.h"
 
 #include "base/least_squares.h"
+#include "scene/scene.h"
 
 #include <algorithm>
 #include <cmath>

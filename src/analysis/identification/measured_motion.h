@@ -1,12 +1,12 @@
 #pragma once
 
-#include "scene/scene.h"
-
 #include <cstddef>
 #include <vector>
 
 namespace sprag
 {
+  struct Scene;
+
   /// How the cylinder moved at the rows of a measurement: strokes one way, between turns of at least 2 % of the whole range.
   class MeasuredMotion
   {

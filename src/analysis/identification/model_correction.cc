@@ -7,6 +7,7 @@
 #include "scene/analysis_use.h"
 #include "scene/closed_form.h"
 #include "scene/held_slide.h"
+#include "scene/scene.h"
 
 #include <array>
 

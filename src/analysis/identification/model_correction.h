@@ -1,11 +1,11 @@
 #pragma once
 
-#include "scene/scene.h"
-
 #include <functional>
 
 namespace sprag
 {
+  struct Scene;
+
   /// What a model's steady slide has above the closed form, P and Q [N].
   struct ForceDifference
   {

@@ -3,6 +3,7 @@
 #include "base/errors.h"
 #include "scene/analysis_use.h"
 #include "scene/closed_form.h"
+#include "scene/scene.h"
 
 #include <algorithm>
 #include <cmath>

@@ -9,6 +9,8 @@
 
 namespace sprag
 {
+  struct Scene;
+
   /// One measured force at one row.
   struct UsedValue
   {

@@ -1,9 +1,10 @@
 #include "analysis/isolation/lever_table.h"
 
-#include "analysis/isolation/isolation.h"
+#include "analytic/isolation.h"
 #include "base/errors.h"
 #include "base/text.h"
 #include "model/state_archive.h"
+#include "scene/scene.h"
 
 #include <algorithm>
 #include <cmath>

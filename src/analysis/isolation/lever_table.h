@@ -1,11 +1,11 @@
 #pragma once
 
-#include "analysis/isolation/isolated_table.h"
 #include "analysis/isolation/step_grid.h"
 #include "analysis/transient/transient.h"
+#include "analytic/isolated_table.h"
 #include "base/archive.h"
 #include "model/force_history.h"
-#include "scene/scene.h"
+#include "scene/drive.h"
 
 #include <array>
 #include <cmath>
@@ -14,6 +14,8 @@
 
 namespace sprag
 {
+  struct Scene;
+
   /// A table on levers in time: a model of a lever for z > 0 and one for z < 0, each standing for Isolation/Levers of them. The
   /// end of the table's way is one more unknown of their implicit step: m [z'] = h (-K <z> - f) - m [x_b'] with [z] = h <z'>, < >
   /// the mean and [ ] the change over the step of h, where f is the force that the levers' steps to that end have, so that the

@@ -28,8 +28,8 @@ namespace sprag
       return 0.5 * (highest->value - lowest->value);
     }
 
-    VibrationWindow next_window(HeldRun &run, const HeldSlide &slide, const DrivePath &path, const double duration,
-                                const RowSink &sink)
+    CycleWindow next_window(HeldRun &run, const HeldSlide &slide, const DrivePath &path, const double duration,
+                            const RowSink &sink)
     {
       std::vector<Sample> P, indentation;
       double open = 0., stuck = 0., mean = 0.;
@@ -59,14 +59,14 @@ namespace sprag
       return std::abs(a - b) <= same * std::max(a, b);
     }
 
-    bool agree(const VibrationWindow &a, const VibrationWindow &b)
+    bool agree(const CycleWindow &a, const CycleWindow &b)
     {
       return agree(a.amplitude_P, b.amplitude_P) && agree(a.amplitude_indentation, b.amplitude_indentation) &&
              agree(a.frequency, b.frequency) && std::abs(a.open_share - b.open_share) <= same;
     }
 
     /// Mean of amplitudes over some windows.
-    double mean_amplitude(const std::vector<VibrationWindow> &windows, const std::size_t begin, const std::size_t end)
+    double mean_amplitude(const std::vector<CycleWindow> &windows, const std::size_t begin, const std::size_t end)
     {
       double sum = 0.;
       for (std::size_t i = begin; i < end; ++i)
@@ -75,9 +75,9 @@ namespace sprag
     }
 
     /// All windows from `begin` on as one: the largest amplitudes, the means of everything else.
-    VibrationWindow joined(const std::vector<VibrationWindow> &windows, const std::size_t begin)
+    CycleWindow joined(const std::vector<CycleWindow> &windows, const std::size_t begin)
     {
-      VibrationWindow sum{ windows[begin].begin, windows.back().end };
+      CycleWindow sum{ windows[begin].begin, windows.back().end };
       const double share = 1. / static_cast<double>(windows.size() - begin);
       for (std::size_t i = begin; i < windows.size(); ++i)
       {
@@ -93,7 +93,7 @@ namespace sprag
     }
 
     /// What the windows so far amount to; undecided while they do not.
-    Settling judged(const std::vector<VibrationWindow> &windows, const double P)
+    Settling judged(const std::vector<CycleWindow> &windows, const double P)
     {
       const std::size_t n = windows.size();
       if (n < 3)
@@ -105,7 +105,7 @@ namespace sprag
     }
 
     /// At the end of the time: a large vibration stays unless its second half is clearly smaller than its first.
-    Settling judged_at_last(const std::vector<VibrationWindow> &windows, const double P)
+    Settling judged_at_last(const std::vector<CycleWindow> &windows, const double P)
     {
       const std::size_t n = windows.size();
       if (windows.back().amplitude_P < small_vibration * P || n < 4)
@@ -125,7 +125,7 @@ namespace sprag
   {
     const auto path    = held_path(run.drive(), slide);
     const double begin = run.drive().time;
-    std::vector<VibrationWindow> windows;
+    std::vector<CycleWindow> windows;
     Settled result;
     double passed = 0.;
     while (result.kind == Settling::undecided && passed < times.longest)

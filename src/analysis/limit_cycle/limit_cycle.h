@@ -5,7 +5,7 @@
 namespace sprag
 {
   /// Means and amplitudes of a vibration about a held slide over a number of its periods.
-  struct VibrationWindow
+  struct CycleWindow
   {
     double begin                 = 0.; ///< [s]
     double end                   = 0.; ///< [s]
@@ -32,8 +32,8 @@ namespace sprag
   struct Settled
   {
     Settling kind = Settling::undecided;
-    VibrationWindow window; ///< the last; of an irregular vibration over its last half
-    double agreement = 0.;  ///< relative difference of amplitude_P in the last two windows
+    CycleWindow window;    ///< the last; of an irregular vibration over its last half
+    double agreement = 0.; ///< relative difference of amplitude_P in the last two windows
 
     bool vibrates() const
     {

@@ -3,7 +3,7 @@
 #include "analysis/stability/stability.h"
 #include "analysis/transient/envelope.h"
 #include "analysis/transient/held_run.h"
-#include "scene/scene.h"
+#include "scene/vibration_settings.h"
 
 namespace sprag
 {

@@ -6,6 +6,7 @@
 #include "scene/closed_form.h"
 #include "scene/held_slide.h"
 #include "scene/read.h"
+#include "scene/scene.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,6 +3,7 @@
 #include "analysis/map/map_grid.h"
 #include "levers/dynamics.h"
 #include "results/columns.h"
+#include "scene/scene.h"
 
 #include <optional>
 

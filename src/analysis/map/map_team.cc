@@ -1,5 +1,7 @@
 #include "analysis/map/map_team.h"
 
+#include "scene/scene.h"
+
 #include <algorithm>
 
 namespace sprag

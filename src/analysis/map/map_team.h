@@ -5,6 +5,8 @@
 
 namespace sprag
 {
+  struct Scene;
+
   using MapCells = std::map<MapSite, MapCell>;
 
   /// Writes a cell and its site as a line of a journal, to the last bit.

@@ -3,6 +3,7 @@
 #include "base/errors.h"
 #include "levers/prepared_scene.h"
 #include "scene/read.h"
+#include "scene/scene.h"
 
 #include <algorithm>
 #include <cmath>

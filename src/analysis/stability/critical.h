@@ -1,13 +1,15 @@
 #pragma once
 
 #include "analysis/stability/stability.h"
-#include "scene/scene.h"
+#include "scene/vibration_settings.h"
 
 #include <array>
 #include <functional>
 
 namespace sprag
 {
+  struct Scene;
+
   /// A value of a parameter at which the kind of a slide changes.
   struct CriticalValue
   {

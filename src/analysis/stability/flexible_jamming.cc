@@ -1,5 +1,6 @@
-#include "analysis/stability/jamming.h"
+#include "analytic/jamming.h"
 #include "model/reduced_lever.h"
+#include "scene/scene.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,6 +2,7 @@
 
 #include "base/errors.h"
 #include "scene/held_slide.h"
+#include "scene/scene.h"
 
 namespace sprag
 {

@@ -1,10 +1,11 @@
 #pragma once
 
 #include "analysis/stability/stability.h"
-#include "scene/scene.h"
 
 namespace sprag
 {
+  struct Scene;
+
   /// A slide with one of its ingredients left out.
   struct Role
   {

@@ -2,6 +2,7 @@
 
 #include "model/mirroring.h"
 #include "scene/held_slide.h"
+#include "scene/scene.h"
 
 #include <algorithm>
 #include <cmath>

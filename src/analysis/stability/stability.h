@@ -9,6 +9,8 @@
 
 namespace sprag
 {
+  struct Scene;
+
   enum class SlideKind
   {
     stable,

@@ -6,6 +6,7 @@
 #include "model/circle.h"
 #include "scene/closed_form.h"
 #include "scene/contact_reference.h"
+#include "scene/scene.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,12 +1,13 @@
 #pragma once
 
 #include "results/result_file.h"
-#include "scene/scene.h"
 
 #include <vector>
 
 namespace sprag
 {
+  struct Scene;
+
   /// An indentation without friction: what the reduced models have to lump into their contact.
   struct Indentation
   {

@@ -3,7 +3,8 @@
 #include "base/progress_keeper.h"
 #include "model/model.h"
 #include "model/newton.h"
-#include "scene/scene.h"
+#include "scene/contact_settings.h"
+#include "scene/drive.h"
 
 #include <functional>
 #include <optional>

@@ -2,6 +2,7 @@
 
 #include "base/append.h"
 #include "scene/read.h"
+#include "scene/scene.h"
 #include "scene/sections.h"
 
 #include <algorithm>

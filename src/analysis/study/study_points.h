@@ -1,12 +1,14 @@
 #pragma once
 
-#include "scene/scene.h"
+#include "scene/study_settings.h"
 
 #include <string>
 #include <vector>
 
 namespace sprag
 {
+  struct Scene;
+
   /// The values of one run: for each of the study's varied parameters the index of its value.
   using StudyPoint = std::vector<std::size_t>;
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/study/measures.h"
+#include "analytic/measures.h"
 
 #include <string>
 #include <vector>

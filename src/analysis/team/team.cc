@@ -3,6 +3,7 @@
 #include "base/errors.h"
 #include "base/fingerprint.h"
 #include "base/interrupt.h"
+#include "scene/scene.h"
 #include "scene/scene_key.h"
 
 #include <deal.II/base/mpi.h>
@@ -216,10 +217,15 @@ namespace sprag
     };
   }
 
+  bool is_first_rank()
+  {
+    return dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+  }
+
   void on_first_rank(const std::function<void()> &work)
   {
     std::vector<std::string> input, analysis;
-    if (MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+    if (is_first_rank())
       try
       {
         work();

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "analysis/team/journal.h"
-#include "scene/scene.h"
 
 #include <cstddef>
 #include <functional>
@@ -11,6 +10,8 @@
 
 namespace sprag
 {
+  struct Scene;
+
   /// All ranks of MPI, doing the pieces of a long analysis together. The result of a piece is a line of text, which goes into the
   /// journal. Every rank calls what is here.
   class Team
@@ -58,6 +59,9 @@ namespace sprag
 
   /// Returns all that the pieces of such an analysis depend on, for the journal.
   std::string inputs_key(const Scene &scene, const std::vector<std::string> &files = {});
+
+  /// Returns whether this process has rank 0, which prints and writes.
+  bool is_first_rank();
 
   /// Does `work` on rank 0 and throws its InputError or AnalysisError on all ranks.
   void on_first_rank(const std::function<void()> &work);

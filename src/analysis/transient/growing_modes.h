@@ -2,7 +2,8 @@
 
 #include "model/dynamic_model.h"
 #include "results/warning.h"
-#include "scene/scene.h"
+#include "scene/discretisation_settings.h"
+#include "scene/drive.h"
 
 #include <vector>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/transient/energy_ledger.h"
+#include "analytic/energy_ledger.h"
 #include "model/dynamic_model.h"
 #include "model/force_history.h"
 

@@ -1,6 +1,6 @@
 #include "analysis/transient/transient.h"
 
-#include "analysis/transient/step_clock.h"
+#include "analytic/step_clock.h"
 #include "base/errors.h"
 #include "base/text.h"
 #include "model/force_history.h"

@@ -1,9 +1,10 @@
 #pragma once
 
-#include "analysis/transient/energy_ledger.h"
+#include "analytic/energy_ledger.h"
 #include "base/progress_keeper.h"
 #include "model/dynamic_model.h"
-#include "scene/scene.h"
+#include "scene/discretisation_settings.h"
+#include "scene/drive.h"
 
 #include <functional>
 #include <limits>
@@ -11,9 +12,6 @@
 
 namespace sprag
 {
-  /// How often adaptive steps may double Time/Step.
-  constexpr unsigned int largest_doublings = 4;
-
   struct TransientSettings
   {
     TimeSettings time;
@@ -25,13 +23,6 @@ namespace sprag
 
   /// Called with every accepted motion, the first included, right after the model made it.
   using MotionSink = std::function<void(const Motion &motion, const Row &row)>;
-
-  struct TransientReport
-  {
-    unsigned int steps    = 0;
-    unsigned int rejected = 0;
-    LedgerReport ledger;
-  };
 
   /// Integrates the model along the drive by the generalised-alpha method. Every kink of the drive ends a step. With a tolerance
   /// the step adapts: it is halved and tried again where the local error of P, over force_scale, exceeds the tolerance, and

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "base/krylov_size.h"
+
 #include <functional>
 #include <vector>
 
@@ -30,18 +32,4 @@ namespace sprag
   /// by what the space tells, or round-off. `wanted` is at most a twentieth of `size`. Throws AnalysisError where a hundred
   /// restarts do not find them.
   std::vector<NormalMode> lowest_eigenpairs(const Pencil &pencil, unsigned int wanted);
-
-  constexpr unsigned int krylov_block_width = 4;
-
-  /// Returns how many columns a restart of that space keeps: those wanted and two or three blocks more.
-  constexpr unsigned int kept_columns(const unsigned int wanted)
-  {
-    return (wanted / krylov_block_width + 3) * krylov_block_width;
-  }
-
-  /// Returns how many columns that space has at most.
-  constexpr unsigned int most_columns(const unsigned int wanted)
-  {
-    return 4 * kept_columns(wanted);
-  }
 } // namespace sprag

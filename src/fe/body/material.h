@@ -1,6 +1,7 @@
 #pragma once
 
-#include "scene/scene.h"
+#include "scene/analysis_settings.h"
+#include "scene/lever.h"
 
 #include <deal.II/base/tensor.h>
 

@@ -1,4 +1,5 @@
 #include "fe/contact/face_contact_point.h"
+#include "laws/friction.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,6 +4,7 @@
 #include "fe/statics/contact_penalties.h"
 #include "model/assemble_lever.h"
 #include "scene/mirrored_pair.h"
+#include "scene/scene.h"
 #include "scene/scene_key.h"
 
 #include <algorithm>

@@ -9,6 +9,8 @@
 
 namespace sprag
 {
+  struct Scene;
+
   /// A meshed lever in time, and what there is to tell about it.
   struct MeshedDynamics
   {

@@ -1,7 +1,8 @@
 #pragma once
 
 #include "fe/body/elastic_body.h"
-#include "scene/scene.h"
+#include "scene/apparatus.h"
+#include "scene/lever.h"
 
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
 

@@ -1,6 +1,7 @@
 #include "fe/dynamics/lever_constants.h"
 
 #include "model/lever_frame.h"
+#include "scene/scene.h"
 
 namespace sprag
 {

@@ -5,6 +5,8 @@
 
 namespace sprag
 {
+  struct Scene;
+
   /// The masses of a scene's meshed lever.
   LeverInertia inertia_of(const Scene &scene);
 

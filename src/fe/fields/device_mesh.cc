@@ -2,6 +2,7 @@
 
 #include "fe/fields/rigid_block.h"
 #include "scene/mirrored_pair.h"
+#include "scene/scene.h"
 
 #include <cmath>
 

@@ -4,12 +4,13 @@
 #include "fe/fields/world_axes.h"
 #include "results/columns.h"
 #include "results/field_files.h"
-#include "scene/scene.h"
 
 #include <array>
 
 namespace sprag
 {
+  struct Scene;
+
   /// Where the parts of the apparatus stand, see WorldAxes.
   struct DevicePose
   {

@@ -2,6 +2,7 @@
 
 #include "fe/fields/help_first_rank.h"
 #include "scene/mirrored_pair.h"
+#include "scene/scene.h"
 
 #include <cmath>
 #include <limits>

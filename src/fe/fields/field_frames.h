@@ -9,6 +9,8 @@
 
 namespace sprag
 {
+  struct Scene;
+
   /// One state of the apparatus.
   struct DeviceState
   {

@@ -3,12 +3,15 @@
 #include "base/errors.h"
 #include "fe/fields/body_fields.h"
 #include "fe/leaf/leaf_body.h"
+#include "scene/scene.h"
 
 #include <cmath>
 #include <optional>
 
 namespace sprag
 {
+  struct Scene;
+
   /// Shapes of a scene's leaf spring, in the axes of the lever at rest: in equilibrium at a turn of the hub, its vibrations left
   /// out.
   class LeafShapes

@@ -1,6 +1,7 @@
 #include "fe/fields/mode_frames.h"
 
 #include "fe/fields/help_first_rank.h"
+#include "scene/scene.h"
 
 #include <algorithm>
 #include <cmath>

@@ -8,6 +8,8 @@
 
 namespace sprag
 {
+  struct Scene;
+
   /// A vibration exp(lambda t) of the apparatus about a held slide.
   struct DeviceMode
   {

@@ -1,6 +1,7 @@
 #include "fe/fields/rigid_block.h"
 
 #include "fe/solid/rigid_cylinder.h"
+#include "scene/scene.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,6 +4,8 @@
 
 namespace sprag
 {
+  struct Scene;
+
   /// A rigid cylinder in a plane: kites between its middle and its rim. Positions are from its middle, along the axes of the
   /// world.
   DeviceBlock rigid_disc(const Scene &scene);

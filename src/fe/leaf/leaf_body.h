@@ -2,7 +2,8 @@
 
 #include "fe/body/finite_statics.h"
 #include "fe/leaf/leaf_mesh.h"
-#include "scene/scene.h"
+#include "scene/analysis_settings.h"
+#include "scene/apparatus.h"
 
 #include <vector>
 

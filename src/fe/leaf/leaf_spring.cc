@@ -4,6 +4,7 @@
 #include "fe/leaf/leaf_body.h"
 #include "scene/closed_form.h"
 #include "scene/mirrored_pair.h"
+#include "scene/scene.h"
 
 #include <algorithm>
 #include <cmath>

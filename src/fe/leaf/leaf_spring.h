@@ -1,9 +1,12 @@
 #pragma once
 
-#include "scene/scene.h"
+#include "scene/analysis_settings.h"
+#include "scene/apparatus.h"
 
 namespace sprag
 {
+  struct Scene;
+
   /// Finds the behaviour of a leaf spring by finite elements, over its whole width: finite rotations in the moment, sampled from
   /// `smallest_turn` <= 0 to `largest_turn` >= 0 [rad] of the hub so finely that between samples it is within 1e-8 of the largest
   /// moment of them; inertia and vibrations linear about rest. Throws InputError for a shape that has no mesh, AnalysisError

@@ -3,6 +3,7 @@
 #include "fe/body/body_properties.h"
 #include "fe/mesh/geometry_script.h"
 #include "fe/mesh/mesh.h"
+#include "scene/scene.h"
 
 #include <deal.II/grid/grid_tools.h>
 #include <deal.II/grid/manifold_lib.h>

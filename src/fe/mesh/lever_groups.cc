@@ -2,6 +2,7 @@
 
 #include "base/text.h"
 #include "fe/body/body_properties.h"
+#include "scene/scene.h"
 
 namespace sprag
 {

@@ -1,10 +1,11 @@
 #pragma once
 
 #include "fe/mesh/geometry_script.h"
-#include "scene/scene.h"
 
 namespace sprag
 {
+  struct Scene;
+
   /// The physical groups of a lever's mesh, in a plane (dimension 2) surfaces and curves, in three dimensions volumes and
   /// surfaces. The scene must outlive them.
   MeshGroups lever_groups(const Scene &scene, int dimension);

@@ -9,6 +9,7 @@
 #include "fe/mesh/solid_file.h"
 #include "scene/contact_width.h"
 #include "scene/lever_shape.h"
+#include "scene/scene.h"
 
 #include <deal.II/base/bounding_box.h>
 

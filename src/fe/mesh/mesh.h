@@ -1,10 +1,11 @@
 #pragma once
 
 #include "fe/body/dimension.h"
-#include "scene/scene.h"
 
 namespace sprag
 {
+  struct Scene;
+
   /// Fills `triangulation` with the scene's lever in lever axes (first axis along the lever from the pivot at the origin, second
   /// from the friction interface into the lever): the built-in `meshes/lever.geo` or `meshes/frame.geo` with the scene's
   /// dimensions, or the user's Mesh/File, a gmsh .geo or .msh of quadrilaterals [mm]. Physical groups: surfaces "lever", "web",

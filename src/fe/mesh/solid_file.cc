@@ -6,6 +6,7 @@
 #include "fe/mesh/geometry_script.h"
 #include "fe/mesh/lever_groups.h"
 #include "scene/lever_shape.h"
+#include "scene/scene.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,11 +1,11 @@
 #pragma once
 
-#include "scene/scene.h"
-
 #include <deal.II/grid/tria.h>
 
 namespace sprag
 {
+  struct Scene;
+
   /// Returns whether the scene has a Mesh/File with volumes for three dimensions. Throws InputError for one that cannot be read.
   bool has_solid_file(const Scene &scene);
 

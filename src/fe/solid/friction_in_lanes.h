@@ -2,6 +2,7 @@
 
 #include "base/lanes.h"
 #include "laws/contact.h"
+#include "laws/friction.h"
 
 #include <limits>
 

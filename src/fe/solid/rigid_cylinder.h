@@ -1,7 +1,8 @@
 #pragma once
 
 #include "fe/solid/cylinder_axes.h"
-#include "scene/scene.h"
+#include "scene/apparatus.h"
+#include "scene/lever.h"
 
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>

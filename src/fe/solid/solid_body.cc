@@ -7,6 +7,7 @@
 #include "fe/statics/lever_properties.h"
 #include "scene/across.h"
 #include "scene/analysis_use.h"
+#include "scene/scene.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_q.h>

@@ -11,6 +11,8 @@
 
 namespace sprag
 {
+  struct Scene;
+
   struct FactorSettings
   {
     std::optional<bool> single = {}; ///< whether in single precision; without it those of large bodies without inertia are

@@ -3,6 +3,7 @@
 #include "base/errors.h"
 #include "base/text.h"
 #include "scene/across.h"
+#include "scene/scene.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_values.h>

@@ -2,10 +2,11 @@
 
 #include "fe/body/connectors.h"
 #include "fe/solid/shared_factors.h"
-#include "scene/scene.h"
 
 namespace sprag
 {
+  struct Scene;
+
   /// A body in three dimensions that a friction plate may belong to.
   struct PlateAndLever
   {

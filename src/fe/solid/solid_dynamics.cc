@@ -13,6 +13,7 @@
 #include "scene/held_slide.h"
 #include "scene/lever_shape.h"
 #include "scene/mirrored_pair.h"
+#include "scene/scene.h"
 
 namespace sprag
 {

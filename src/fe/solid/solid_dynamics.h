@@ -11,6 +11,8 @@
 
 namespace sprag
 {
+  struct Scene;
+
   /// A lever in three dimensions at rest, to be shared by models that differ in friction, damping, drive and contact. Both of a
   /// pair are alike.
   struct SolidInTime

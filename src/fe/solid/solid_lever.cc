@@ -10,6 +10,7 @@
 #include "scene/contact_width.h"
 #include "scene/lever_shape.h"
 #include "scene/mirrored_pair.h"
+#include "scene/scene.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,9 +22,6 @@ namespace sprag
 
   namespace
   {
-    /// Compression of the friction face beyond which linear elasticity says nothing.
-    constexpr double largest_strain = 0.5;
-
     /// Slopes of the cylinder's axis that a scene may have.
     constexpr double largest_slope = 0.1;
 
@@ -340,15 +338,11 @@ namespace sprag
   {
     Row row;
     lever.view.observe_resultants(lever.with_points(), row);
-    const double s    = row[Column::s];
-    const double mu_e = row[Column::mu] * lever.properties.interface_offset;
-    if (direction_of(drive.v) < 0 && row[Column::F] < 0. && s <= mu_e)
-      return "the lever locks: moving back, s = " + rounded_text(s) + " mm <= mu e = " + rounded_text(mu_e) + " mm";
+    if (const auto locks = locking_objection(row, lever.properties.interface_offset, drive); !locks.empty())
+      return locks;
     const double pressure = lever.found.compression * lever.contact.penalties().normal;
-    const double limit    = largest_strain * body.friction_face().young_modulus;
-    if (!finite && pressure > limit)
-      return "the pressure on the friction face exceeds " + rounded_text(limit) +
-             " MPa, half of Young's modulus there (Friction layer or Lever/Young's modulus), which linear theory does not bear";
+    if (const auto beyond = pressure_objection(pressure, body.friction_face().young_modulus); !finite && !beyond.empty())
+      return beyond;
     const auto [tilt, skew] = lever.contact.slopes_in(lever.found);
     if (std::max(std::abs(tilt), std::abs(skew)) > largest_slope)
       return "the shaft lets the cylinder's axis turn to the slopes " + rounded_text(tilt) + " (tilt) and " + rounded_text(skew) +

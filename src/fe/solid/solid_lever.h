@@ -15,6 +15,8 @@
 
 namespace sprag
 {
+  struct Scene;
+
   /// Forces on the ports of the face of a lever, and the displacements of these ports.
   using FaceSample = std::pair<PortLoads, dealii::Vector<double>>;
 

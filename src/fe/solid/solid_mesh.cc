@@ -4,6 +4,7 @@
 #include "fe/body/body_properties.h"
 #include "fe/mesh/solid_file.h"
 #include "scene/across.h"
+#include "scene/scene.h"
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/grid/grid_tools.h>

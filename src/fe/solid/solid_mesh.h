@@ -1,12 +1,13 @@
 #pragma once
 
 #include "fe/body/dimension.h"
-#include "scene/scene.h"
 
 #include <deal.II/distributed/shared_tria.h>
 
 namespace sprag
 {
+  struct Scene;
+
   /// A mesh of three dimensions, which every rank knows whole and shares the work on.
   using SolidMesh = dealii::parallel::shared::Triangulation<3>;
 

@@ -2,7 +2,7 @@
 
 #include "fe/body/elastic_body.h"
 #include "fe/contact/face_contact_point.h"
-#include "scene/scene.h"
+#include "scene/contact_settings.h"
 
 #include <optional>
 

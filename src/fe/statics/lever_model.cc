@@ -8,6 +8,7 @@
 #include "model/joined_memory.h"
 #include "model/joined_ports.h"
 #include "scene/mirrored_pair.h"
+#include "scene/scene.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,9 +19,6 @@ namespace sprag
 
   namespace
   {
-    /// Compression of the friction face beyond which linear elasticity says nothing.
-    constexpr double largest_strain = 0.5;
-
     PortLayout static_ports(const ElasticBody<2> &body, const LeverProperties &properties, const unsigned int levers)
     {
       PortLayout result{ static_cast<unsigned int>(surface_dofs(body).size()), properties.support_stiffness.has_value() };
@@ -255,20 +253,15 @@ namespace sprag
   {
     Row row;
     observe_resultants(body, lever.found, row);
-    const double s    = row[Column::s];
-    const double mu_e = row[Column::mu] * lever.properties.interface_offset;
-    if (direction_of(drive.v) < 0 && row[Column::F] < 0. && s <= mu_e)
-      return "the lever locks: moving back, s = " + rounded_text(s) + " mm <= mu e = " + rounded_text(mu_e) + " mm";
+    if (const auto locks = locking_objection(row, lever.properties.interface_offset, drive); !locks.empty())
+      return locks;
 
     if (const auto beyond = lever.found.objection(); !beyond.empty())
       return beyond;
 
     // A linear material knows no limit of its own.
-    const double pressure = lever.found.overlap() * lever.contact.penalties().normal;
-    const double limit    = largest_strain * body.friction_face().young_modulus;
-    if (lever.properties.body.material == MaterialModel::linear && pressure > limit)
-      return "the pressure on the friction face exceeds " + rounded_text(limit) +
-             " MPa, half of Young's modulus there (Friction layer or Lever/Young's modulus), which linear theory does not bear";
+    if (lever.properties.body.material == MaterialModel::linear)
+      return pressure_objection(lever.found.overlap() * lever.contact.penalties().normal, body.friction_face().young_modulus);
     return {};
   }
 

@@ -14,6 +14,8 @@
 
 namespace sprag
 {
+  struct Scene;
+
   /// A meshed lever on its hub, rotational spring and support against a rigid obstacle or, where the body has a cylinder's face,
   /// an elastic one, or the two of a full mirrored pair, each on its side of the cylinder; of an elastic one each presses on a
   /// half of its own, which the shaft holds. Nothing but the joint of their springs and a sprung support connects the levers of a

@@ -1,9 +1,11 @@
 #include "fe/statics/lever_properties.h"
 
+#include "base/text.h"
 #include "scene/closed_form.h"
 #include "scene/contact_width.h"
 #include "scene/mirrored_pair.h"
 #include "scene/pair_closed_form.h"
+#include "scene/scene.h"
 
 namespace sprag
 {
@@ -69,5 +71,24 @@ namespace sprag
     result.spring.rest     = rest_inclination(scene);
     result.ideal_theta     = [scene, lever](const double x) { return pair_inclinations(scene, x)[lever]; };
     return result;
+  }
+
+  std::string locking_objection(const Row &row, const double interface_offset, const DrivePoint &drive)
+  {
+    const double s    = row[Column::s];
+    const double mu_e = row[Column::mu] * interface_offset;
+    if (direction_of(drive.v) >= 0 || row[Column::F] >= 0. || s > mu_e)
+      return {};
+    return "the lever locks: moving back, s = " + rounded_text(s) + " mm <= mu e = " + rounded_text(mu_e) + " mm";
+  }
+
+  std::string pressure_objection(const double pressure, const double young_modulus)
+  {
+    constexpr double largest_strain = 0.5;
+    const double limit              = largest_strain * young_modulus;
+    if (pressure <= limit)
+      return {};
+    return "the pressure on the friction face exceeds " + rounded_text(limit) +
+           " MPa, half of Young's modulus there (Friction layer or Lever/Young's modulus), which linear theory does not bear";
   }
 } // namespace sprag

@@ -2,14 +2,20 @@
 
 #include "fe/body/body_properties.h"
 #include "fe/contact/face_contact_point.h"
+#include "laws/friction_law.h"
 #include "laws/moment_law.h"
-#include "scene/scene.h"
+#include "results/columns.h"
+#include "scene/analysis_settings.h"
+#include "scene/contact_settings.h"
+#include "scene/lever.h"
 
 #include <functional>
 #include <optional>
 
 namespace sprag
 {
+  struct Scene;
+
   /// The rotational spring at the hub.
   struct HubSpring
   {
@@ -42,4 +48,11 @@ namespace sprag
 
   /// Properties of a lever of a full pair, in its own (for the second: mirrored) axes.
   LeverProperties properties_of_lever(const Scene &scene, unsigned int lever);
+
+  /// Returns that the lever locks where it moves back with s <= mu e; empty elsewhere. The row holds s, mu and F.
+  std::string locking_objection(const Row &row, double interface_offset, const DrivePoint &drive);
+
+  /// Returns that linear elasticity does not hold where the pressure exceeds half of Young's modulus of the friction face [MPa];
+  /// empty elsewhere.
+  std::string pressure_objection(double pressure, double young_modulus);
 } // namespace sprag

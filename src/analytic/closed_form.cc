@@ -1,0 +1,145 @@
+#include "analytic/closed_form.h"
+
+#include "scene/mirrored_pair.h"
+#include "scene/pair_closed_form.h"
+#include "scene/scene.h"
+#include "scene/sprung_closed_form.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace sprag
+{
+  namespace
+  {
+    Row row_at(const DrivePoint &point, const ClosedFormState &state, const double spring_energy, const Work &work)
+    {
+      Row row                        = ideal_contact_row(point, state, spring_energy);
+      row[Column::P_closed_form]     = state.P;
+      row[Column::Q_closed_form]     = state.Q;
+      row[Column::theta_closed_form] = state.contact.theta;
+      row[Column::drive_work]        = work.drive;
+      row[Column::friction_work]     = work.friction;
+      return row;
+    }
+
+    Row row_at(const DrivePoint &point, const PairedLever &lever, const Work &work)
+    {
+      Row row = row_at(point, lever.state, lever.spring_energy, work);
+      if (!lever.touches)
+        for (const auto column : { Column::s, Column::v_rel, Column::mu })
+          row[column] = std::numeric_limits<double>::quiet_NaN();
+      return row;
+    }
+
+    double spring_energy(const Scene &scene, const ClosedFormState &state)
+    {
+      return moment_law(scene.spring).energy(state.contact.theta - kinematics(scene.geometry, 0.).theta);
+    }
+
+    void add(const Work &more, Work &work)
+    {
+      work.drive += more.drive;
+      work.friction += more.friction;
+    }
+
+    /// Goes on from one point of the drive to another: the row there.
+    using Advance = std::function<Row(const DrivePoint &from, const DrivePoint &to)>;
+
+    Advance on_rigid_support(const Scene &scene)
+    {
+      return [&scene, work = Work()](const DrivePoint &from, const DrivePoint &to) mutable
+      {
+        add(work_between(scene, from.time, to.time), work);
+        const auto state = closed_form(scene, to.x, to.v);
+        return row_at(to, state, spring_energy(scene, state), work);
+      };
+    }
+
+    Advance on_sprung_support(const Scene &scene)
+    {
+      return [&scene, lever = SprungClosedForm(scene), begins = true](const DrivePoint &, const DrivePoint &to) mutable
+      {
+        const auto at                     = begins ? lever.start(to.x, to.v) : lever.advance(to.x, to.v);
+        begins                            = false;
+        Row row                           = row_at(to, at.lever, spring_energy(scene, at.lever), at.work);
+        row[Column::support_displacement] = at.displacement;
+        row[Column::support_energy]       = at.support_energy;
+        return row;
+      };
+    }
+
+    Advance of_pair(const Scene &scene)
+    {
+      return [&scene, works = std::array<Work, 2>()](const DrivePoint &from, const DrivePoint &to) mutable
+      {
+        const auto more   = pair_work_between(scene, from.time, to.time);
+        const auto levers = pair_closed_form(scene, to.x, to.v);
+        for (unsigned int lever = 0; lever < 2; ++lever)
+          add(more[lever], works[lever]);
+        Row row = row_at(to, levers[0], works[0]);
+        row.add_second_lever(row_at(to, levers[1], works[1]));
+        return row;
+      };
+    }
+
+    Advance make_advance(const Scene &scene)
+    {
+      if (number_of_levers(scene) == 2)
+        return of_pair(scene);
+      return scene.support.type == SupportType::sprung ? on_sprung_support(scene) : on_rigid_support(scene);
+    }
+  } // namespace
+
+  Row ideal_contact_row(const DrivePoint &point, const ClosedFormState &state, const double spring_energy)
+  {
+    Row row;
+    row[Column::time]               = point.time;
+    row[Column::x]                  = point.x;
+    row[Column::v]                  = point.v;
+    row[Column::theta]              = state.contact.theta;
+    row[Column::s]                  = state.contact.s;
+    row[Column::P]                  = state.P;
+    row[Column::F]                  = state.F;
+    row[Column::Q]                  = state.Q;
+    row[Column::Q_support]          = state.Q;
+    row[Column::normal_resultant]   = state.P;
+    row[Column::friction_resultant] = state.F;
+    row[Column::v_rel]              = state.v_rel;
+    row[Column::mu]                 = state.mu;
+    row[Column::friction_power]     = state.F * state.v_rel;
+    row[Column::spring_energy]      = spring_energy;
+    for (const auto column :
+         { Column::centre_offset, Column::contact_width, Column::penetration, Column::indentation, Column::cone_violation,
+           Column::elastic_slip, Column::elastic_energy, Column::support_displacement, Column::support_energy })
+      row[column] = 0.;
+    return row;
+  }
+
+  void run_closed_form(const Scene &scene, const std::function<void(const Row &)> &sink)
+  {
+    const auto &drive  = scene.drive;
+    const auto advance = make_advance(scene);
+    const auto hand_on = [&](const DrivePoint &from, const DrivePoint &to)
+    {
+      Row row           = advance(from, to);
+      row[Column::step] = to.x - from.x;
+      sink(row);
+    };
+
+    DrivePoint point = drive.at(0., Drive::Side::after);
+    hand_on(point, point);
+    while (point.time < drive.duration())
+    {
+      const auto next = drive.step(point.time, scene.analysis.step);
+      hand_on(point, next);
+      point = next;
+      if (drive.turns_at(point.time))
+      {
+        point = drive.at(point.time, Drive::Side::after);
+        hand_on(point, point);
+      }
+    }
+  }
+} // namespace sprag

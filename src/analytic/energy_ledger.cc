@@ -1,0 +1,91 @@
+#include "analytic/energy_ledger.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sprag
+{
+  namespace
+  {
+    double total(const StoredEnergy &energy)
+    {
+      return energy.kinetic + energy.spring + energy.elastic + energy.support + energy.contact;
+    }
+
+    double dissipated(const StepWork &work)
+    {
+      return work.friction + work.damping + work.algorithmic;
+    }
+
+    /// Name of the term that changed most.
+    std::string largest_term(const StoredEnergy &before, const StoredEnergy &after, const StepWork &work)
+    {
+      const std::pair<double, const char *> terms[] = { { after.kinetic - before.kinetic, "kinetic energy" },
+                                                        { after.spring - before.spring, "energy of the rotational spring" },
+                                                        { after.elastic - before.elastic, "elastic energy" },
+                                                        { after.support - before.support, "energy of the support" },
+                                                        { after.contact - before.contact, "energy of the contact" },
+                                                        { work.drive, "work of the drive" },
+                                                        { work.friction, "friction" },
+                                                        { work.damping, "damping" },
+                                                        { work.algorithmic, "algorithmic dissipation" } };
+      return std::max_element(std::begin(terms), std::end(terms),
+                              [](const auto &a, const auto &b) { return std::abs(a.first) < std::abs(b.first); })
+          ->second;
+    }
+  } // namespace
+
+  void visit(Archive &archive, LedgerReport &report)
+  {
+    auto &[residual, largest_work, time, term] = report;
+    archive(residual, largest_work, time, term);
+  }
+
+  void visit(Archive &archive, EnergyLedger &ledger)
+  {
+    auto &[start, now, sum, largest_change, found] = ledger;
+    archive(start, now, sum, largest_change, found);
+  }
+
+  double EnergyLedger::residual() const
+  {
+    return sum.drive - (total(now) - total(start)) - dissipated(sum);
+  }
+
+  void EnergyLedger::add(const double time, const StoredEnergy &stored, const StepWork &work)
+  {
+    const double before       = residual();
+    const std::string largest = largest_term(now, stored, work);
+    now                       = stored;
+    sum.drive += work.drive;
+    sum.friction += work.friction;
+    sum.damping += work.damping;
+    sum.algorithmic += work.algorithmic;
+    sum.creep += work.creep;
+
+    found.residual     = std::max(found.residual, std::abs(residual()));
+    found.largest_work = std::max({ found.largest_work, std::abs(sum.drive), sum.friction, std::abs(total(now) - total(start)) });
+    if (const double change = std::abs(residual() - before); change > largest_change)
+    {
+      largest_change = change;
+      found.time     = time;
+      found.term     = largest;
+    }
+  }
+
+  void EnergyLedger::fill(Row &row) const
+  {
+    row[Column::kinetic_energy]   = now.kinetic;
+    row[Column::spring_energy]    = now.spring;
+    row[Column::elastic_energy]   = now.elastic;
+    row[Column::layer_energy]     = now.layer;
+    row[Column::support_energy]   = now.support;
+    row[Column::contact_energy]   = now.contact;
+    row[Column::drive_work]       = sum.drive;
+    row[Column::friction_work]    = sum.friction;
+    row[Column::damping_work]     = sum.damping;
+    row[Column::algorithmic_work] = sum.algorithmic;
+    row[Column::energy_residual]  = residual();
+    row[Column::creep]            = sum.creep;
+  }
+} // namespace sprag

@@ -1,0 +1,69 @@
+#pragma once
+
+#include "analytic/works.h"
+#include "base/archive.h"
+#include "results/columns.h"
+
+#include <string>
+
+namespace sprag
+{
+  /// The largest gap in the energy ledger of a run.
+  struct LedgerReport
+  {
+    double residual     = 0.; ///< largest |residual| [N mm]
+    double largest_work = 0.; ///< largest energy or work of the run [N mm]
+    double time         = 0.; ///< end of the step in which the residual changed most [s]
+    std::string term;         ///< that changed most in it
+
+    double share() const
+    {
+      return largest_work > 0. ? residual / largest_work : 0.;
+    }
+  };
+
+  void visit(Archive &archive, LedgerReport &report);
+
+  /// Adds up the works of accepted steps:
+  ///   residual = work of the drive - change of the stored energies - friction - damping - algorithmic dissipation.
+  class EnergyLedger
+  {
+  public:
+    explicit EnergyLedger(const StoredEnergy &at_start = {})
+        : start(at_start)
+        , now(at_start)
+    {
+    }
+
+    void add(double time, const StoredEnergy &stored, const StepWork &work);
+
+    /// Fills the columns of energies and works.
+    void fill(Row &row) const;
+
+    double residual() const;
+
+    const LedgerReport &report() const
+    {
+      return found;
+    }
+
+  private:
+    friend void visit(Archive &archive, EnergyLedger &ledger);
+
+    StoredEnergy start;
+    StoredEnergy now;
+    StepWork sum;
+    double largest_change = 0.;
+    LedgerReport found;
+  };
+
+  void visit(Archive &archive, EnergyLedger &ledger);
+
+  /// What a run in time tells of its steps.
+  struct TransientReport
+  {
+    unsigned int steps    = 0;
+    unsigned int rejected = 0;
+    LedgerReport ledger;
+  };
+} // namespace sprag

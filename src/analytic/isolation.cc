@@ -1,0 +1,282 @@
+#include "analytic/isolation.h"
+
+#include "analytic/steady_state.h"
+#include "base/errors.h"
+#include "base/interrupt.h"
+#include "base/text.h"
+#include "scene/scene.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sprag
+{
+  namespace
+  {
+    /// Of one period of a harmonic base.
+    struct Period
+    {
+      double peak, displacement, square, cosine, sine;
+      unsigned int stops;
+    };
+
+    /// What a run goes on from, beside its findings and the table.
+    struct Course
+    {
+      std::size_t rows           = 1;
+      unsigned int periods_ended = 0;
+      unsigned int period_stops  = 0;
+      bool has_ended             = false;
+      SteadyState steady;
+      std::vector<Period> periods; ///< the last
+      std::vector<double> last_turns;
+      double square           = 0.; ///< of the table's acceleration, of the periods that ended
+      double largest_energy   = 0.;
+      double largest_residual = 0.;
+    };
+
+    void visit(Archive &archive, Course &course)
+    {
+      auto &[rows, ended, stops, has_ended, steady, periods, turns, square, energy, residual] = course;
+      archive(rows, ended, stops, has_ended, steady, periods, turns, square, energy, residual);
+    }
+
+    /// Adds to the last ones, of which so many are kept.
+    template <class Item>
+    void add_last(const Item &item, const std::size_t kept, std::vector<Item> &items)
+    {
+      items.push_back(item);
+      if (items.size() > kept)
+        items.erase(items.begin());
+    }
+
+    class Follower
+    {
+    public:
+      Follower(const Scene &given, IsolatedTable &table, IsolationFindings &of_run, const RecordTable &recorder,
+               const TableKeeper *const table_keeper)
+          : scene(given)
+          , settings(scene.isolation)
+          , found(of_run)
+          , record(recorder)
+          , keeper(table_keeper)
+          , motion(table)
+          , is_harmonic(settings.base == BaseMotionType::harmonic)
+          , between_rows(output_step(settings))
+      {
+      }
+
+      void follow()
+      {
+        if (keeper == nullptr || !keeper->progress.take_up(progress()))
+        {
+          note();
+          write(false);
+        }
+        while (motion.state().time < settings.duration && !course.has_ended)
+        {
+          const double row = static_cast<double>(course.rows) * between_rows;
+          const double end = period_end();
+          go_on(std::min({ settings.duration, record ? row : settings.duration, end }));
+          if (motion.state().time >= row)
+            ++course.rows;
+          if (motion.state().time == end)
+            end_period();
+          keep();
+        }
+        if (keeper != nullptr)
+          keeper->progress.end_steps(progress());
+      }
+
+      void conclude()
+      {
+        note();
+        const auto &state = motion.state();
+        found.time        = state.time;
+        found.rests       = motion.rests();
+        found.base_work   = state.base_work;
+        found.dissipated  = state.dissipated;
+        if (motion.rests())
+          found.residual_offset = state.z;
+        else if (course.last_turns.size() == 2)
+          found.residual_offset = 0.5 * (course.last_turns[0] + course.last_turns[1]);
+        course.square += state.square;
+        found.rms_acceleration = state.time > 0. ? std::sqrt(course.square / state.time) : 0.;
+        found.energy_residual  = course.largest_energy > 0. ? course.largest_residual / course.largest_energy : 0.;
+        if (is_harmonic)
+          take_ratios_of_periods();
+        else if (motion.largest_base_acceleration() > 0.)
+        {
+          found.peak = motion.largest_acceleration() / motion.largest_base_acceleration();
+          found.rms  = std::sqrt(state.square / state.base_square);
+        }
+      }
+
+      void check_energy() const
+      {
+        const double most = scene.analysis.maximum_residual;
+        if (most > 0. && !(found.energy_residual <= most))
+          throw AnalysisError("The energy ledger leaves " + rounded_text(found.energy_residual) +
+                              " of the largest energy open, more than Analysis/Maximum energy residual = " + rounded_text(most) +
+                              ". Try a smaller Isolation/Tolerance");
+      }
+
+    private:
+      const Scene &scene;
+      const IsolationSettings &settings;
+      IsolationFindings &found;
+      const RecordTable &record;
+      const TableKeeper *const keeper;
+      IsolatedTable &motion;
+      const bool is_harmonic;
+      const double between_rows;
+      Course course;
+
+      double period_end() const
+      {
+        return is_harmonic ? (course.periods_ended + 1) / settings.base_frequency : std::numeric_limits<double>::infinity();
+      }
+
+      ProgressVisit progress()
+      {
+        return [this](Archive &archive)
+        {
+          archive(found, course);
+          keeper->visit_table(archive);
+        };
+      }
+
+      /// To be called where all that has happened is recorded. Ends the run where it is interrupted.
+      void keep()
+      {
+        if (keeper != nullptr)
+          keeper->progress.accept_step(progress());
+        else
+          end_if_interrupted();
+      }
+
+      void write(const bool is_before) const
+      {
+        if (record)
+          record(motion, is_before);
+      }
+
+      void note()
+      {
+        const auto &state          = motion.state();
+        const double largest       = std::max({ std::abs(state.base_work), state.dissipated, motion.energy() });
+        course.largest_energy      = std::max(course.largest_energy, largest);
+        course.largest_residual    = std::max(course.largest_residual, std::abs(motion.energy_residual()));
+        found.largest_displacement = std::max(found.largest_displacement, motion.largest_displacement());
+        found.largest_acceleration = std::max(found.largest_acceleration, motion.largest_acceleration());
+      }
+
+      void go_on(const double until)
+      {
+        do
+        {
+          note_event(motion.advance(until));
+          if (motion.state().time < until)
+            keep();
+        } while (motion.state().time < until);
+        note();
+        write(false);
+      }
+
+      void note_event(const TableEvent event)
+      {
+        if (event == TableEvent::none)
+          return;
+        const bool turns = event == TableEvent::turn || event == TableEvent::stop;
+        if (turns)
+        {
+          ++found.turns;
+          add_last(motion.state().z, 2, course.last_turns);
+          write(true);
+        }
+        if (event == TableEvent::stop)
+        {
+          ++found.stops;
+          ++course.period_stops;
+        }
+        note();
+        write(false);
+      }
+
+      void end_period()
+      {
+        const auto &state = motion.state();
+        add_last(Period{ motion.largest_acceleration(), motion.largest_displacement(), state.square, state.cosine, state.sine,
+                         course.period_stops },
+                 8, course.periods);
+        course.square += state.square;
+        course.steady.add(state.z, state.rate / (2. * M_PI * settings.base_frequency), motion.largest_displacement());
+        ++course.periods_ended;
+        course.period_stops = 0;
+        motion.reset_period();
+        const auto repeats = course.steady.periods(settings.periodic_tolerance);
+        if (repeats && !found.is_steady)
+          found.steady_from = state.time;
+        found.is_steady  = repeats.has_value();
+        found.periods    = repeats.value_or(1);
+        course.has_ended = repeats && settings.end == IsolationEnd::steady_state;
+      }
+
+      void take_ratios_of_periods()
+      {
+        found.periods = std::min<unsigned int>(found.periods, static_cast<unsigned int>(course.periods.size()));
+        if (found.periods == 0)
+          return;
+        Period sum{};
+        for (auto period = course.periods.end() - found.periods; period != course.periods.end(); ++period)
+        {
+          sum.peak         = std::max(sum.peak, period->peak);
+          sum.displacement = std::max(sum.displacement, period->displacement);
+          sum.square += period->square;
+          sum.cosine += period->cosine;
+          sum.sine += period->sine;
+          sum.stops += period->stops;
+        }
+        const double w = 2. * M_PI * settings.base_frequency, base = settings.base_amplitude * w * w;
+        const double time        = found.periods / settings.base_frequency;
+        found.relative_amplitude = sum.displacement;
+        found.peak               = sum.peak / base;
+        found.fundamental        = 2. / time * std::hypot(sum.cosine, sum.sine) / base;
+        found.rms                = std::sqrt(2. * sum.square / time) / base;
+        found.stops_a_period     = static_cast<double>(sum.stops) / found.periods;
+      }
+    };
+  } // namespace
+
+  double output_step(const IsolationSettings &settings)
+  {
+    if (settings.output_step)
+      return *settings.output_step;
+    const double natural = 2. * M_PI * std::sqrt(settings.mass / settings.stiffness);
+    return std::min(0.01 * natural, 0.1 * base_motion(settings).shortest_period);
+  }
+
+  void run_isolation(const Scene &scene, IsolatedTable &table, IsolationFindings &findings, const RecordTable &record,
+                     const TableKeeper *const keeper)
+  {
+    Follower follower(scene, table, findings, record, keeper);
+    try
+    {
+      follower.follow();
+    }
+    catch (const AnalysisError &)
+    {
+      follower.conclude();
+      throw;
+    }
+    follower.conclude();
+    follower.check_energy();
+  }
+
+  void run_isolation(const Scene &scene, IsolationFindings &findings, const RecordTable &record)
+  {
+    const auto &settings = scene.isolation;
+    TableMotion table(isolation_system(scene), settings.initial_displacement, settings.initial_velocity, settings.tolerance);
+    run_isolation(scene, table, findings, record);
+  }
+} // namespace sprag

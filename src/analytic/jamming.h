@@ -1,0 +1,44 @@
+#pragma once
+
+#include "scene/drive.h"
+
+#include <optional>
+#include <string>
+
+namespace sprag
+{
+  struct Scene;
+
+  /// How far a drive stays from jamming. Moving back a rigid lever locks where s <= mu e; a flexible one where its equilibrium
+  /// is no longer unique. The margin is P without friction over P, (s + sgn(v) mu e)/s: 1 without friction, towards 0 where
+  /// friction locks, more than 1 moving forward.
+  struct JammingMargin
+  {
+    double x    = 0.; ///< of the drive, where the margin is least [mm]
+    double v    = 0.; ///< there [mm/s], of a zero the sign counts
+    double s    = 0.; ///< there [mm]
+    double mu   = 0.;
+    double mu_e = 0.; ///< [mm]
+
+    /// s / e: mu at which a rigid lever locks there; infinite for e = 0.
+    double critical_mu = 0.;
+
+    double margin() const
+    {
+      return 1. + direction_of(v) * mu_e / s;
+    }
+
+    std::optional<double> flexible;             ///< margin of the lever as a beam, there; none: not asked for, or no equilibrium
+    std::optional<double> flexible_critical_mu; ///< at which it jams there; none: above three times the rigid lever's, or 5
+  };
+
+  /// Finds the least margin on the way of the drive with mu at its speed there; where a slide is held, of all x of the drive and
+  /// both directions at its peak speed. The lever's flexure is not asked for.
+  JammingMargin rigid_jamming_margin(const Scene &scene);
+
+  /// Finds the same margin; `flexible`: whether the lever's flexure is counted, by a beam.
+  JammingMargin jamming_margin(const Scene &scene, bool flexible);
+
+  /// Tells the margin in a line.
+  std::string jamming_text(const JammingMargin &margin);
+} // namespace sprag

@@ -1,0 +1,121 @@
+#include "analytic/measures.h"
+
+#include "base/unknown.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <regex>
+
+namespace sprag
+{
+  namespace
+  {
+    /// A quantity that stands in one or several entries of a summary.
+    struct Compared
+    {
+      std::string name;
+      std::string pattern; ///< of the entries' names
+    };
+
+    const std::vector<Compared> &compared_entries(const AnalysisType type)
+    {
+      static const std::map<AnalysisType, std::vector<Compared>> all = {
+        { AnalysisType::quasi_static, { { "loop_area", "loop_area" }, { "largest_pressure", "largest_pressure" } } },
+        { AnalysisType::transient,
+          { { "peak_P", "peak_P_(forward|backward)" },
+            { "peak_Q", "peak_Q_(forward|backward)" },
+            { "frequency", "reversal_[0-9]+_frequency" },
+            { "largest_pressure", "largest_pressure" } } },
+        { AnalysisType::modal, { { "frequency", "frequency_[0-9]+" } } },
+        { AnalysisType::stability, { { "growth_rate", "growth_rate" }, { "frequency", "frequency" } } },
+        { AnalysisType::sprag_slip,
+          { { "growth_rate", "measured_growth_rate" },
+            { "frequency", "measured_frequency" },
+            { "cycle_amplitude", "cycle_amplitude_P" },
+            { "cycle_frequency", "cycle_frequency" } } },
+        { AnalysisType::isolation,
+          { { "transmissibility", "transmissibility_(peak|fundamental|rms)" },
+            { "displacement", "largest_displacement" },
+            { "dissipated_energy", "dissipated_energy" } } },
+        { AnalysisType::contact_law, { { "stiffness", "stiffness" }, { "exponent", "exponent" } } },
+        { AnalysisType::calibration,
+          { { "stiffness", "stiffness" },
+            { "moment_of_inertia", "moment_of_inertia" },
+            { "bending_stiffness", "bending_stiffness" },
+            { "contact_stiffness", "contact_stiffness" } } },
+      };
+      static const std::vector<Compared> none;
+      const auto found = all.find(type);
+      return found == all.end() ? none : found->second;
+    }
+
+    std::optional<double> number_of(const std::vector<Entry> &summary, const std::string &name)
+    {
+      for (const auto &entry : summary)
+        if (const double *number = std::get_if<double>(&entry.value); number != nullptr && entry.name == name)
+          return std::isfinite(*number) ? std::make_optional(*number) : std::nullopt;
+      return {};
+    }
+
+    /// The entries of a quantity that have a number to compare with.
+    std::vector<std::string> entries_of(const Compared &compared, const std::vector<Entry> &summary)
+    {
+      std::vector<std::string> names;
+      const std::regex pattern(compared.pattern);
+      for (const auto &entry : summary)
+        if (std::regex_match(entry.name, pattern))
+          if (const auto number = number_of(summary, entry.name); number && *number != 0.)
+            names.push_back(entry.name);
+      return names;
+    }
+
+    /// The largest of a quantity's entries.
+    double error_of(const std::vector<std::string> &entries, const std::vector<Entry> &summary,
+                    const std::vector<Entry> &reference)
+    {
+      double largest = 0.;
+      for (const auto &name : entries)
+      {
+        const auto number = number_of(summary, name);
+        if (!number)
+          return unknown;
+        const double expected = *number_of(reference, name);
+        largest               = std::max(largest, std::abs((*number - expected) / expected));
+      }
+      return largest;
+    }
+  } // namespace
+
+  std::vector<Measure> measures_of(const AnalysisType type, const Comparable &reference)
+  {
+    std::vector<Measure> measures;
+    if (!reference.curve.empty())
+    {
+      const std::string meaning =
+          ": largest difference on both strokes over the reference's peak of the stroke, the first 0.5 mm "
+          "after a reversal apart";
+      measures = { { "P", "P" + meaning }, { "Q", "Q" + meaning } };
+    }
+    for (const auto &compared : compared_entries(type))
+      if (const auto entries = entries_of(compared, reference.summary); !entries.empty())
+        measures.push_back({ compared.name, (entries.size() > 1 ? "worst of " : "") + entries.front() +
+                                                (entries.size() > 1 ? " ... " + entries.back() : "") });
+    return measures;
+  }
+
+  std::vector<double> errors_of(const AnalysisType type, const Comparable &run, const Comparable &reference)
+  {
+    std::vector<double> errors;
+    if (!reference.curve.empty())
+    {
+      const auto [P, Q] = stroke_errors(run.curve, reference.curve);
+      errors            = { P, Q };
+    }
+    for (const auto &compared : compared_entries(type))
+      if (const auto entries = entries_of(compared, reference.summary); !entries.empty())
+        errors.push_back(error_of(entries, run.summary, reference.summary));
+    return errors;
+  }
+} // namespace sprag

@@ -1,0 +1,362 @@
+#include "analytic/oscillation.h"
+
+#include "analytic/ringing.h"
+#include "base/text.h"
+#include "results/row_statistics.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sprag
+{
+  namespace
+  {
+    constexpr double window_length     = 0.1;     ///< [s]
+    constexpr double noise             = 1e-3;    ///< relative to the largest force
+    constexpr double vibration_rms     = 0.08;    ///< over the largest P without inertia
+    constexpr double vibration_open    = 0.01;    ///< of the time
+    constexpr double decayed_rms       = 0.012;   ///< over the largest P without inertia
+    constexpr double passing_share     = 0.04;    ///< of the frequency
+    constexpr double lasting_share     = 0.1;     ///< of the rms, left at the end
+    constexpr double envelope_end      = 0.05;    ///< of its peak
+    constexpr double coarsest_sampling = 1e-5;    ///< [s]
+    constexpr double most_samples      = 1 << 17; ///< of a resampled signal
+
+    struct Sample
+    {
+      double time       = 0.;
+      double x          = 0.;
+      double value      = 0.; ///< of the force
+      double reference  = 0.; ///< its quasi-static value
+      double difference = 0.;
+    };
+
+    using Samples = std::vector<Sample>;
+
+    /// The rows from `begin` to `end` with numbers in both columns; of two at one instant, before and after a jump, the second.
+    Samples samples_of(const std::vector<Row> &rows, const Column column, const Column reference, const double begin,
+                       const double end)
+    {
+      Samples result;
+      for (const auto &row : rows)
+      {
+        const double time       = row[Column::time];
+        const double difference = row[column] - row[reference];
+        if (time < begin || time > end || !std::isfinite(difference))
+          continue;
+        if (!result.empty() && time <= result.back().time)
+          result.pop_back();
+        result.push_back({ time, row[Column::x], row[column], row[reference], difference });
+      }
+      return result;
+    }
+
+    Samples later_than(const Samples &samples, const double time)
+    {
+      const auto first = std::find_if(samples.begin(), samples.end(), [time](const Sample &s) { return s.time >= time; });
+      return { first, samples.end() };
+    }
+
+    Samples up_to(const Samples &samples, const double time)
+    {
+      return { samples.begin(), std::find_if(samples.begin(), samples.end(), [time](const Sample &s) { return s.time > time; }) };
+    }
+
+    double largest_reference(const Samples &samples)
+    {
+      return largest(samples, [](const Sample &sample) { return sample.reference; });
+    }
+
+    double noise_in(const Samples &samples)
+    {
+      return noise * std::max(largest_reference(samples), largest(samples, [](const Sample &sample) { return sample.value; }));
+    }
+
+    /// Mean over time of what `mean_between` tells of two successive samples.
+    template <typename Mean>
+    double mean(const Samples &samples, const Mean &mean_between)
+    {
+      double integral = 0., length = 0.;
+      for (std::size_t i = 1; i < samples.size(); ++i)
+      {
+        const double duration = samples[i].time - samples[i - 1].time;
+        integral += duration * mean_between(samples[i - 1], samples[i]);
+        length += duration;
+      }
+      return length > 0. ? integral / length : unknown;
+    }
+
+    double rms(const Samples &samples)
+    {
+      return std::sqrt(
+          mean(samples, [](const Sample &a, const Sample &b)
+               { return (a.difference * a.difference + a.difference * b.difference + b.difference * b.difference) / 3.; }));
+    }
+
+    double open_share(const Samples &samples)
+    {
+      const auto is_open = [](const Sample &sample) { return sample.value == 0. ? 0.5 : 0.; };
+      return mean(samples, [&](const Sample &a, const Sample &b) { return is_open(a) + is_open(b); });
+    }
+
+    /// The first sample whose difference has another sign than the one before, those later than `latest` left out.
+    double first_crossing(const Samples &samples, const double latest)
+    {
+      for (std::size_t i = 1; i < samples.size() && samples[i].time < latest; ++i)
+        if (samples[i].difference * samples[i - 1].difference <= 0.)
+          return samples[i].time;
+      return latest;
+    }
+
+    /// `samples` from the turning point on.
+    double overshoot(const Samples &samples, const double window_begin)
+    {
+      const double scale = largest_reference(later_than(samples, window_begin));
+      double excess      = 0.;
+      for (const auto &sample : later_than(samples, first_crossing(samples, window_begin)))
+        excess = std::max(excess, std::copysign(1., sample.reference) * sample.difference);
+      return scale > 0. ? excess / scale : unknown;
+    }
+
+    /// Slope at samples[i] of the parabola through it and its neighbours.
+    double slope_at(const Samples &samples, const std::size_t i)
+    {
+      const auto secant = [&](const std::size_t j)
+      { return (samples[j + 1].difference - samples[j].difference) / (samples[j + 1].time - samples[j].time); };
+      if (i == 0)
+        return secant(0);
+      if (i + 1 == samples.size())
+        return secant(i - 1);
+      const double before = samples[i].time - samples[i - 1].time;
+      const double after  = samples[i + 1].time - samples[i].time;
+      return (secant(i - 1) * after + secant(i) * before) / (before + after);
+    }
+
+    /// The cubic through samples i and i + 1 with the slopes there.
+    double interpolated(const Samples &samples, const std::size_t i, const double time)
+    {
+      const double h = samples[i + 1].time - samples[i].time;
+      const double t = (time - samples[i].time) / h;
+      const double u = 1. - t;
+      return u * u * (1. + 2. * t) * samples[i].difference + t * t * (1. + 2. * u) * samples[i + 1].difference +
+             h * t * u * (u * slope_at(samples, i) - t * slope_at(samples, i + 1));
+    }
+
+    double median_step(const Samples &samples)
+    {
+      std::vector<double> steps;
+      for (std::size_t i = 1; i < samples.size(); ++i)
+        steps.push_back(samples[i].time - samples[i - 1].time);
+      const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+      std::nth_element(steps.begin(), middle, steps.end());
+      return *middle;
+    }
+
+    Signal resampled(const Samples &samples)
+    {
+      const double length  = samples.back().time - samples.front().time;
+      const double step    = std::min(coarsest_sampling, median_step(samples));
+      const double n_steps = std::clamp(std::ceil(length / step), 1., most_samples - 1.);
+      Signal signal{ length / n_steps, {} };
+      std::size_t before = 0;
+      for (unsigned int i = 0; i <= n_steps; ++i)
+      {
+        const double time = std::min(samples.front().time + i * signal.step, samples.back().time);
+        while (before + 2 < samples.size() && samples[before + 1].time < time)
+          ++before;
+        signal.values.push_back(interpolated(samples, before, time));
+      }
+      return signal;
+    }
+
+    Ringing ringing_of(const Samples &window)
+    {
+      return window.size() < 2 ? Ringing{} : ringing(resampled(window), noise_in(window));
+    }
+
+    double extent(const Samples &from_reversal, const double x)
+    {
+      const double peak   = largest(from_reversal, [](const Sample &sample) { return sample.difference; });
+      const double little = std::max(envelope_end * peak, noise_in(from_reversal));
+      const auto last     = std::find_if(from_reversal.rbegin(), from_reversal.rend(),
+                                         [little](const Sample &sample) { return std::abs(sample.difference) > little; });
+      return last == from_reversal.rend() ? 0. : std::abs(last->x - x);
+    }
+
+    /// `least`: P that never counts [N].
+    Verdict verdict_of(const Oscillation &oscillation, const double least)
+    {
+      if (std::isnan(oscillation.rms))
+        return Verdict::unknown;
+      if (oscillation.rms > vibration_rms * oscillation.scale && oscillation.open_share > vibration_open)
+        return Verdict::vibrates;
+      if (std::isfinite(oscillation.passing_frequency))
+        return Verdict::passing;
+      const bool little = oscillation.rms_end <= std::max(decayed_rms * oscillation.scale, least);
+      if (little && oscillation.open_share == 0.)
+        return Verdict::decays;
+      return !little && oscillation.growth_rate > 0. ? Verdict::grows : Verdict::rings;
+    }
+
+    /// Mean speed of the centre of pressure along the lever between two times, which is not that of sliding; NaN without contact.
+    double speed_along(const std::vector<Row> &rows, const double begin, const double end)
+    {
+      const auto counts = [=](const Row &row)
+      { return row[Column::time] >= begin && row[Column::time] <= end && std::isfinite(row[Column::s]); };
+      const auto first = std::find_if(rows.begin(), rows.end(), counts);
+      const auto last  = std::find_if(rows.rbegin(), rows.rend(), counts);
+      if (first == rows.end())
+        return unknown;
+      return std::abs(((*last)[Column::s] - (*first)[Column::s]) / ((*last)[Column::time] - (*first)[Column::time]));
+    }
+
+    double passing_frequency(const Oscillation &oscillation, const double speed, const double face_size)
+    {
+      if (!(oscillation.rms_end > lasting_share * oscillation.rms))
+        return unknown;
+      for (const double elements : { 1., 2. })
+        if (const double passing = elements * speed / face_size;
+            std::abs(oscillation.frequency - passing) < passing_share * passing)
+          return passing;
+      return unknown;
+    }
+
+    /// P that never counts [N].
+    double negligible(const std::vector<Row> &rows)
+    {
+      const auto finite_P = [](const Row &row)
+      { return std::isfinite(row[Column::P_quasi_static]) ? row[Column::P_quasi_static] : 0.; };
+      return noise * largest(rows, finite_P);
+    }
+
+    void add_normal_force(Oscillation &oscillation, const Samples &after_turn, const std::vector<Row> &rows,
+                          const double face_size)
+    {
+      const Samples after_reversal = later_than(after_turn, oscillation.window_begin);
+      const Samples window         = up_to(after_reversal, oscillation.window_end);
+      if (window.size() < 2)
+        return;
+      const Ringing found     = ringing_of(window);
+      oscillation.frequency   = found.frequency;
+      oscillation.growth_rate = found.growth_rate;
+      oscillation.overshoot_P = overshoot(up_to(after_turn, oscillation.window_end), oscillation.window_begin);
+      oscillation.open_share  = open_share(window);
+      oscillation.rms         = rms(window);
+      const double last_tenth = oscillation.window_end - 0.1 * (oscillation.window_end - oscillation.window_begin);
+      oscillation.rms_end     = rms(later_than(window, last_tenth));
+      oscillation.extent      = extent(after_reversal, oscillation.x);
+      oscillation.scale       = largest_reference(window);
+      if (face_size > 0.)
+        oscillation.passing_frequency =
+            passing_frequency(oscillation, speed_along(rows, oscillation.window_begin, oscillation.window_end), face_size);
+      oscillation.verdict = verdict_of(oscillation, negligible(rows));
+    }
+
+    void add_force_along_x(const Samples &after_turn, const double begin, const double end, double &excess, double &frequency,
+                           double &distance)
+    {
+      const Samples window = later_than(up_to(after_turn, end), begin);
+      if (window.size() < 2)
+        return;
+      excess    = overshoot(up_to(after_turn, end), begin);
+      frequency = ringing_of(window).frequency;
+      distance  = rms(window);
+    }
+
+    Oscillation oscillation_at(const std::vector<Row> &rows, const DrivePoint &turn, const double reversal_duration,
+                               const double next_reversal, const double face_size)
+    {
+      Oscillation result;
+      result.time         = turn.time;
+      result.x            = turn.x;
+      result.window_begin = turn.time + reversal_duration / 2.;
+      const double end    = std::min(next_reversal, rows.empty() ? turn.time : rows.back()[Column::time]);
+      result.window_end   = std::max(std::min(result.window_begin + window_length, end), result.window_begin);
+      add_normal_force(result, samples_of(rows, Column::P, Column::P_quasi_static, turn.time, end), rows, face_size);
+      add_force_along_x(samples_of(rows, Column::Q, Column::Q_quasi_static, turn.time, end), result.window_begin,
+                        result.window_end, result.overshoot_Q, result.frequency_Q, result.rms_Q);
+      add_force_along_x(samples_of(rows, Column::Q_support, Column::Q_quasi_static, turn.time, end), result.window_begin,
+                        result.window_end, result.overshoot_Q_support, result.frequency_Q_support, result.rms_Q_support);
+      return result;
+    }
+  } // namespace
+
+  std::string verdict_name(const Verdict verdict)
+  {
+    return std::vector<std::string>{ "unknown", "vibrates", "elements pass", "grows", "decays", "rings" }.at(
+        static_cast<std::size_t>(verdict));
+  }
+
+  Warnings element_passing_warnings(const std::vector<Oscillation> &oscillations, const double face_size)
+  {
+    const auto found = std::find_if(oscillations.begin(), oscillations.end(),
+                                    [](const Oscillation &each) { return std::isfinite(each.passing_frequency); });
+    if (found == oscillations.end())
+      return {};
+    return { { "element_passing",
+               "After the reversal at x = " + mm(found->x) + " P rings at " + rounded_text(found->frequency) +
+                   " Hz, and elements of Mesh/Face size = " + mm(face_size) + ", or halves of them, pass at " +
+                   rounded_text(found->passing_frequency) + " Hz.",
+               "That frequency, its growth rate and what is left of P at the end belong to the mesh, not to the lever.",
+               "Use Mesh/Degree = 2, a smaller Mesh/Face size or Contact/Penalty = auto." } };
+  }
+
+  std::vector<Oscillation> oscillations(const std::vector<Row> &rows, const Drive &drive, const double face_size)
+  {
+    const auto &turns     = drive.reversals();
+    const double duration = drive.reversal_duration();
+    std::vector<Oscillation> result;
+    for (std::size_t i = 0; i < turns.size(); ++i)
+    {
+      const double next = i + 1 < turns.size() ? turns[i + 1] - duration / 2. : drive.duration();
+      result.push_back(oscillation_at(rows, drive.at(turns[i], Drive::Side::after), duration, next, face_size));
+    }
+    return result;
+  }
+
+  std::vector<Entry> oscillation_entries(const std::vector<Oscillation> &oscillations)
+  {
+    std::vector<Entry> entries;
+    for (std::size_t i = 0; i < oscillations.size(); ++i)
+    {
+      const auto &found     = oscillations[i];
+      const std::string of  = "reversal_" + std::to_string(i + 1) + '_';
+      const auto add_number = [&](const std::string &name, const double value, const std::string &unit,
+                                  const std::string &meaning) {
+        entries.push_back({ of + name, value, unit, meaning });
+      };
+      const std::string window =
+          " in the window, which begins at the end of the reversal and lasts 0.1 s or to the next reversal";
+      const std::string excess =
+          " over Q_quasi_static in its direction up to the end of the window, relative to its largest size there";
+
+      entries.push_back({ of + "verdict", verdict_name(found.verdict), "",
+                          "vibrates (rms over 8 % of the largest P_quasi_static in the window, contact open for over 1 % of the "
+                          "time), elements pass (what lasts is the mesh's), decays (rms_end up to 1.2 % of that P, or 0.1 % of "
+                          "the run's, contact never open), grows (growth_rate > 0, rms_end over that), rings (none of these) or "
+                          "unknown (no rows in the window)" });
+      add_number("time", found.time, "s", "time of the turning point");
+      add_number("x", found.x, "mm", "position of the turning point");
+      add_number("frequency", found.frequency, "Hz", "dominant in P" + window + "; NaN without oscillation");
+      add_number("frequency_Q", found.frequency_Q, "Hz", "dominant in Q of the contact in the same window");
+      add_number("frequency_Q_support", found.frequency_Q_support, "Hz",
+                 "dominant in the force on the support in the same window");
+      add_number("growth_rate", found.growth_rate, "1/s", "growth of the envelope of P - P_quasi_static; negative: decays");
+      add_number("open_share", found.open_share, "1", "share of time with the contact open" + window);
+      add_number("overshoot_P", found.overshoot_P, "1",
+                 "largest excess of P over P_quasi_static up to the end of the window, relative to its largest size there");
+      add_number("overshoot_Q", found.overshoot_Q, "1", "largest excess of Q of the contact" + excess);
+      add_number("overshoot_Q_support", found.overshoot_Q_support, "1", "largest excess of the force on the support" + excess);
+      add_number("rms", found.rms, "N", "root mean square of P - P_quasi_static" + window);
+      add_number("rms_end", found.rms_end, "N", "the same over the last tenth of the window");
+      add_number("P_scale", found.scale, "N", "largest P_quasi_static in the window, to which the verdict refers");
+      add_number("passing_frequency", found.passing_frequency, "Hz",
+                 "at which elements of the mesh pass under the contact, where that is what rings; else NaN");
+      add_number("rms_Q", found.rms_Q, "N", "root mean square of Q - Q_quasi_static" + window);
+      add_number("rms_Q_support", found.rms_Q_support, "N", "root mean square of Q_support - Q_quasi_static" + window);
+      add_number("extent", found.extent, "mm",
+                 "travel from the turning point until P - P_quasi_static stays below 5 % of its peak after the reversal");
+    }
+    return entries;
+  }
+} // namespace sprag

@@ -1,0 +1,242 @@
+#include "analytic/ringing.h"
+
+#include "base/least_squares.h"
+
+#include <boost/numeric/ublas/lu.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <numeric>
+#include <optional>
+
+namespace sprag
+{
+  namespace
+  {
+    using Complex = std::complex<double>;
+
+    constexpr double fewest_periods  = 2.;  ///< in a signal, for a frequency
+    constexpr std::size_t padding    = 4;   ///< points of the spectrum per sample, at least
+    constexpr double weakest_peak    = 0.1; ///< of a sinusoid, relative to the whole spectrum; side lobes stay below 0.03
+    constexpr unsigned int unknowns  = 6;   ///< of the fit
+    constexpr unsigned int max_steps = 50;  ///< of the fit
+
+    Signal without_trend(Signal signal)
+    {
+      std::vector<double> index(signal.values.size());
+      std::iota(index.begin(), index.end(), 0.);
+      const Line trend = fitted_line(index, signal.values);
+      for (std::size_t i = 0; i < index.size(); ++i)
+        signal.values[i] -= trend.at(index[i]);
+      return signal;
+    }
+
+    /// What lies between the first and the last value beyond the noise.
+    Signal loud_part(const Signal &signal, const double noise)
+    {
+      const Signal level = without_trend(signal);
+      const auto is_loud = [noise](const double value) { return std::abs(value) > noise; };
+      const auto first   = std::find_if(level.values.begin(), level.values.end(), is_loud);
+      const auto last    = std::find_if(level.values.rbegin(), level.values.rend(), is_loud).base();
+      if (first >= last)
+        return { signal.step, {} };
+      const auto begin = signal.values.begin();
+      return { signal.step, { begin + (first - level.values.begin()), begin + (last - level.values.begin()) } };
+    }
+
+    /// In place; the number of values is a power of 2.
+    void fourier_transform(std::vector<Complex> &values)
+    {
+      const std::size_t n = values.size();
+      for (std::size_t i = 1, reversed = 0; i < n; ++i)
+      {
+        std::size_t bit = n / 2;
+        for (; reversed & bit; bit /= 2)
+          reversed ^= bit;
+        reversed ^= bit;
+        if (i < reversed)
+          std::swap(values[i], values[reversed]);
+      }
+      for (std::size_t length = 2; length <= n; length *= 2)
+        for (std::size_t i = 0; i < length / 2; ++i)
+        {
+          const Complex turn = std::polar(1., -2. * M_PI * static_cast<double>(i) / static_cast<double>(length));
+          for (std::size_t start = i; start < n; start += length)
+          {
+            const Complex odd          = turn * values[start + length / 2];
+            values[start + length / 2] = values[start] - odd;
+            values[start] += odd;
+          }
+        }
+    }
+
+    /// Magnitudes at multiples of 1 / (2 (size - 1) step), after a Hann window.
+    std::vector<double> spectrum(const Signal &signal)
+    {
+      const std::size_t n = signal.values.size();
+      std::size_t padded  = 1;
+      while (padded < padding * n)
+        padded *= 2;
+      std::vector<Complex> values(padded);
+      for (std::size_t i = 0; i < n; ++i)
+        values[i] = signal.values[i] * std::pow(std::sin(M_PI * (static_cast<double>(i) + 0.5) / static_cast<double>(n)), 2);
+      fourier_transform(values);
+      std::vector<double> magnitudes;
+      for (std::size_t i = 0; i <= padded / 2; ++i)
+        magnitudes.push_back(std::abs(values[i]));
+      return magnitudes;
+    }
+
+    /// Where the parabola through the logarithms of a peak and its neighbours is highest.
+    double interpolated_peak(const std::vector<double> &magnitudes, const std::size_t peak)
+    {
+      const double before = std::log(magnitudes[peak - 1]);
+      const double at     = std::log(magnitudes[peak]);
+      const double after  = std::log(magnitudes[peak + 1]);
+      const double offset = 0.5 * (before - after) / (before - 2. * at + after);
+      return static_cast<double>(peak) + (std::isfinite(offset) ? offset : 0.);
+    }
+
+    std::optional<double> spectral_peak(const Signal &signal)
+    {
+      const auto magnitudes   = spectrum(without_trend(signal));
+      const double resolution = 0.5 / (static_cast<double>(magnitudes.size() - 1) * signal.step);
+      const double lowest     = fewest_periods / (static_cast<double>(signal.values.size()) * signal.step);
+      std::size_t peak        = 0;
+      for (auto i = static_cast<std::size_t>(std::ceil(lowest / resolution)); i + 1 < magnitudes.size(); ++i)
+        if (magnitudes[i] >= magnitudes[i - 1] && magnitudes[i] > magnitudes[i + 1])
+          if (peak == 0 || magnitudes[i] > magnitudes[peak])
+            peak = i;
+      if (peak == 0 || magnitudes[peak] < weakest_peak * *std::max_element(magnitudes.begin(), magnitudes.end()))
+        return std::nullopt;
+      return interpolated_peak(magnitudes, peak) * resolution;
+    }
+
+    double growth_of_envelope(const Signal &signal, const double frequency, const double noise)
+    {
+      const double samples = 1. / (frequency * signal.step);
+      const auto n_periods = static_cast<std::size_t>(static_cast<double>(signal.values.size()) / samples);
+      std::vector<double> times, logarithms;
+      for (std::size_t i = 0; i < n_periods; ++i)
+      {
+        const auto begin         = signal.values.begin() + std::lround(static_cast<double>(i) * samples);
+        const auto end           = signal.values.begin() + std::lround(static_cast<double>(i + 1) * samples);
+        const auto [least, most] = std::minmax_element(begin, end);
+        if (const double half_range = (*most - *least) / 2.; half_range > noise)
+        {
+          times.push_back(static_cast<double>(i) / frequency);
+          logarithms.push_back(std::log(half_range));
+        }
+      }
+      return times.size() < 2 ? std::numeric_limits<double>::quiet_NaN() : fitted_line(times, logarithms).slope;
+    }
+
+    using Vector = std::array<double, unknowns>;
+
+    /// exp(growth t) (a cos(omega t) + b sin(omega t)) + c + d t, t from 0 to 1 over the signal. The unknowns are a, b, c, d,
+    /// omega and growth in this order.
+    struct Fit
+    {
+      const Signal &signal;
+      Vector parameters;
+
+      /// One step of Gauss-Newton; its change of omega, nothing if it cannot be done.
+      std::optional<double> improve()
+      {
+        namespace dense              = boost::numeric::ublas;
+        dense::matrix<double> matrix = dense::zero_matrix<double>(unknowns, unknowns);
+        dense::vector<double> change = dense::zero_vector<double>(unknowns);
+        dense::permutation_matrix<std::size_t> order(unknowns);
+        Complex wave       = 1.;
+        const Complex turn = std::exp(Complex(parameters[5], parameters[4]) * time(1));
+        for (std::size_t i = 0; i < signal.values.size(); ++i, wave *= turn)
+        {
+          const double t        = time(i);
+          const Vector gradient = gradient_at(t, wave);
+          const double rest     = signal.values[i] - value_at(gradient, t);
+          for (unsigned int row = 0; row < unknowns; ++row)
+          {
+            change[row] += gradient[row] * rest;
+            for (unsigned int column = 0; column < unknowns; ++column)
+              matrix(row, column) += gradient[row] * gradient[column];
+          }
+        }
+        // As long as there is no amplitude, omega and growth mean nothing: the linear unknowns first.
+        if (parameters[0] == 0. && parameters[1] == 0.)
+          matrix(4, 4) = matrix(5, 5) = 1.;
+        if (dense::lu_factorize(matrix, order) != 0)
+          return std::nullopt;
+        dense::lu_substitute(matrix, order, change);
+        for (unsigned int i = 0; i < unknowns; ++i)
+          parameters[i] += change[i];
+        return change[4];
+      }
+
+      Signal without_drift() const
+      {
+        Signal result = signal;
+        for (std::size_t i = 0; i < result.values.size(); ++i)
+          result.values[i] -= parameters[2] + parameters[3] * time(i);
+        return result;
+      }
+
+      double time(const std::size_t i) const
+      {
+        return static_cast<double>(i) / static_cast<double>(signal.values.size());
+      }
+
+      /// `wave`: exp((growth + i omega) t).
+      Vector gradient_at(const double t, const Complex &wave) const
+      {
+        const double cosine = wave.real(), sine = wave.imag();
+        const double value = parameters[0] * cosine + parameters[1] * sine;
+        return { { cosine, sine, 1., t, t * (parameters[1] * cosine - parameters[0] * sine), t * value } };
+      }
+
+      double value_at(const Vector &gradient, const double t) const
+      {
+        return parameters[0] * gradient[0] + parameters[1] * gradient[1] + parameters[2] + parameters[3] * t;
+      }
+    };
+
+    struct Refined
+    {
+      double frequency;
+      Signal wave; ///< the signal without its drift
+    };
+
+    /// By the fit; from the spectrum where the fit does not stay within the spectrum's resolution of it.
+    Refined refined(const Signal &signal, const double frequency, const double growth)
+    {
+      const double length = static_cast<double>(signal.values.size()) * signal.step;
+      const double start  = 2. * M_PI * frequency * length;
+      Fit fit{ signal, { { 0., 0., 0., 0., start, growth * length } } };
+      for (unsigned int i = 0; i < max_steps; ++i)
+      {
+        const auto change = fit.improve();
+        if (!change || !(std::abs(fit.parameters[4] - start) < 2. * M_PI))
+          return { frequency, without_trend(signal) };
+        if (i > 0 && std::abs(*change) < 1e-9 * start)
+          break;
+      }
+      return { fit.parameters[4] / (2. * M_PI * length), fit.without_drift() };
+    }
+  } // namespace
+
+  Ringing ringing(const Signal &signal, const double noise)
+  {
+    if (signal.values.size() < 2)
+      return {};
+    const Signal part = loud_part(signal, noise);
+    if (part.values.size() < 8)
+      return {};
+    const auto coarse = spectral_peak(part);
+    if (!coarse)
+      return {};
+    const double growth          = growth_of_envelope(without_trend(part), *coarse, noise);
+    const auto [frequency, wave] = refined(part, *coarse, std::isfinite(growth) ? growth : 0.);
+    return { frequency, growth_of_envelope(wave, frequency, noise) };
+  }
+} // namespace sprag

@@ -1,0 +1,57 @@
+#include "analytic/step_clock.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sprag
+{
+  StepClock::StepClock(const Drive &drive, const double step, const unsigned int doublings)
+      : ends(drive.kinks())
+      , first(step)
+      , largest(std::ldexp(step, static_cast<int>(doublings)))
+      , wanted(step)
+  {
+    ends.push_back(drive.duration());
+    begin_segment();
+  }
+
+  void StepClock::begin_segment()
+  {
+    passed = 0;
+    count  = std::max(1ul, static_cast<unsigned long>(std::ceil((ends[segment] - begin) / wanted - 1e-6)));
+    // A count that can be halved often leaves room to grow; it shortens the step by an eighth at most.
+    for (double step = wanted; step < 0.99 * largest && count >= 8; step *= 2.)
+      if (const unsigned long unit = 2ul * static_cast<unsigned long>(std::lround(step / wanted)); count >= 8 * unit)
+        count = (count + unit - 1) / unit * unit;
+  }
+
+  double StepClock::end_of_step() const
+  {
+    return passed + 1 == count ? ends[segment] : begin + static_cast<double>(passed + 1) * duration();
+  }
+
+  bool StepClock::grow()
+  {
+    if (wanted >= 0.99 * largest || count % 2 != 0 || passed % 2 != 0 || count - passed < 2)
+      return false;
+    count /= 2;
+    passed /= 2;
+    wanted *= 2.;
+    return true;
+  }
+
+  void StepClock::advance()
+  {
+    if (++passed < count)
+      return;
+    begin = ends[segment++];
+    if (!finished())
+      begin_segment();
+  }
+
+  void visit(Archive &archive, StepClock &clock)
+  {
+    auto &[ends, first, largest, wanted, segment, begin, count, passed] = clock;
+    archive(ends, first, largest, wanted, segment, begin, count, passed);
+  }
+} // namespace sprag

@@ -1,0 +1,6 @@
+// Stands before deal.II's header of this name and leaves out the number types of ADOL-C and Sacado, which sprag does not use.
+// They are a quarter of what a file with deal.II compiles. No class of deal.II has other members for it: they appear in overloads
+// alone.
+#undef DEAL_II_WITH_ADOLC
+#undef DEAL_II_TRILINOS_WITH_SACADO
+#include_next <deal.II/base/numbers.h>

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace sprag
+{
+  /// Friction coefficient mu and its derivative with respect to the sliding speed [s/mm].
+  struct FrictionValue
+  {
+    double coefficient;
+    double derivative;
+  };
+
+  /// mu independent of speed.
+  struct CoulombFriction
+  {
+    double coefficient = 0.73; ///< >= 0
+  };
+
+  /// Abrasion-resistant cork on aluminium, Yamaguchi & Yoshida eqs. 13-15, speed in mm/s:
+  ///   mu = -9.235e-6 v^2 + 4.422e-3 v + 0.3491  (0 <= v < 200)
+  ///   mu = -7.086e-7 v^2 + 1.058e-3 v + 0.6809  (200 <= v < 750)
+  ///   mu = 1.076                                (750 <= v)
+  struct CorkOnAluminium
+  {
+  };
+
+  /// Falls from rest with the speed v of slip, and grows with it again where viscous:
+  ///   mu = kinetic + (at_rest - kinetic) exp(-(v / speed)^exponent) + viscous v
+  struct StribeckFriction
+  {
+    double at_rest  = 0.9; ///< >= 0
+    double kinetic  = 0.6; ///< >= 0
+    double speed    = 30.; ///< over which mu falls [mm/s]; > 0
+    double exponent = 1.;  ///< 1: steepest at rest, 2: level there; >= 1
+    double viscous  = 0.;  ///< [s/mm]; >= 0
+  };
+
+  /// mu over speed from a file, joined by a monotone cubic (PCHIP) and constant beyond its ends.
+  class TabulatedFriction
+  {
+  public:
+    /// `speeds` [mm/s] start at >= 0 and increase; 0 <= `coefficients` <= 10; at least 4 rows. Throws InputError otherwise, and
+    /// where it looks as if both were exchanged: no speed beyond 2 mm/s, but a coefficient.
+    TabulatedFriction(std::vector<double> speeds, std::vector<double> coefficients);
+
+    FrictionValue value(double speed) const;
+
+    /// See next_friction_knot(): the rows, and where the cubics between them turn the other way.
+    const std::vector<double> &knots() const;
+
+  private:
+    class Interpolant;
+    std::shared_ptr<const Interpolant> interpolant;
+  };
+
+  /// Which speed mu depends on: the true material sliding speed, or the drive's (the paper's choice).
+  enum class FrictionSpeed
+  {
+    sliding,
+    drive
+  };
+
+  struct FrictionLaw
+  {
+    std::variant<CoulombFriction, CorkOnAluminium, StribeckFriction, TabulatedFriction> law = CorkOnAluminium{};
+    FrictionSpeed speed                                                                     = FrictionSpeed::sliding;
+    double regularisation_speed = 0.; ///< [mm/s]; 0: stick is resolved
+    double factor               = 1.; ///< times mu of the law, >= 0
+  };
+} // namespace sprag

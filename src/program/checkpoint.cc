@@ -1,0 +1,200 @@
+#include "program/checkpoint.h"
+
+#include "base/child_process.h"
+#include "base/errors.h"
+#include "base/fingerprint.h"
+#include "base/interrupt.h"
+#include "program/run_files.h"
+#include "results/earlier_result.h"
+#include "scene/scene_key.h"
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <fcntl.h>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+#include <unistd.h>
+
+namespace sprag
+{
+  namespace
+  {
+    constexpr double largest_share = 0.01; ///< of a run's time that checkpoints take
+
+    double seconds_between()
+    {
+      const char *const given = std::getenv(checkpoint_variable);
+      return given != nullptr ? std::atof(given) : default_checkpoint_seconds;
+    }
+
+    struct Content
+    {
+      std::string format = "sprag checkpoint";
+      std::string key;
+      std::size_t rows = 0; ///< size of their journal [bytes]
+      std::string progress;
+    };
+
+    void visit(Archive &archive, Content &content)
+    {
+      auto &[format, key, rows, progress] = content;
+      archive(format, key, rows, progress);
+    }
+
+    /// Replaces the file in one instant, or not at all.
+    void replace(const std::string &path, const std::string &next_path, const std::string &bytes)
+    {
+      const int file     = ::open(next_path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+      const bool written = file >= 0 && write_all(file, bytes) && ::fsync(file) == 0;
+      ::close(file);
+      if (!written || ::rename(next_path.c_str(), path.c_str()) != 0)
+        throw AnalysisError(path + " cannot be written: " + std::strerror(errno));
+    }
+  } // namespace
+
+  Checkpoint::Checkpoint(const Scene &scene, const RunOptions &options)
+      : is_kept(options.in_memory == nullptr)
+      , quiet(options.quiet)
+      , folder(options.folder)
+      , key_of_scene(is_kept ? scene_key(scene) : "")
+      , interval(seconds_between())
+      , journal(folder + '/' + row_journal_name)
+      , next(Clock::now() + std::chrono::duration_cast<Clock::duration>(interval))
+  {
+    if (is_kept)
+      find();
+  }
+
+  /// What progress means depends on the program to the last instruction.
+  std::string Checkpoint::key() const
+  {
+    static const std::string program = content_fingerprint("/proc/self/exe");
+    Fingerprint sum;
+    sum.add(key_of_scene);
+    sum.add(program);
+    return sum.text();
+  }
+
+  void Checkpoint::find()
+  {
+    const std::string path = folder + '/' + checkpoint_name;
+    std::ifstream input(path, std::ios::binary);
+    if (input)
+    {
+      const auto drop = [&](const std::string &reason)
+      {
+        std::cerr << path << ": " << reason << ": the run begins anew" << std::endl;
+        remove();
+      };
+      const auto bytes = unsealed({ std::istreambuf_iterator<char>(input), {} });
+      if (!bytes)
+        return drop("damaged");
+      Content content;
+      Archive archive(*bytes);
+      archive(content);
+      if (content.key != key())
+        return drop("of another scene, of input files that held something else, or of another build of sprag");
+      auto rows = journal.take_up(content.rows);
+      if (!rows)
+        return drop("its rows are damaged");
+      progress_found = std::move(content.progress);
+      rows_found     = std::move(*rows);
+      goes_on        = true;
+    }
+    else
+      remove(); // what a run left that was killed before its first one
+    if (const auto earlier = earlier_result(folder + "/result.h5");
+        !goes_on && !quiet && earlier && earlier->status != "completed")
+      std::cout << "Begins anew:  the result in the folder is unfinished and has no checkpoint\n" << std::flush;
+  }
+
+  void Checkpoint::visit_all(const ProgressVisit &progress, Archive &archive) const
+  {
+    progress(archive);
+    for (const auto &part : parts)
+      part(archive);
+  }
+
+  bool Checkpoint::take_up(const ProgressVisit &progress)
+  {
+    if (!resumes())
+      return false;
+    Archive archive(std::move(progress_found));
+    visit_all(progress, archive);
+    return true;
+  }
+
+  void Checkpoint::accept_step(const ProgressVisit &progress)
+  {
+    if (is_kept && (interrupted() || Clock::now() >= next))
+      try_to([&] { write(progress); });
+    end_if_interrupted();
+  }
+
+  void Checkpoint::end_steps(const ProgressVisit &progress)
+  {
+    const bool is_long = journal.size() > 0;
+    if (is_kept && is_long)
+      try_to([&] { write(progress); });
+  }
+
+  void Checkpoint::write_records()
+  {
+    try_to(
+        [&]
+        {
+          if (records)
+            records(journal);
+          journal.write();
+        });
+  }
+
+  void Checkpoint::try_to(const std::function<void()> &write)
+  {
+    try
+    {
+      write();
+    }
+    catch (const AnalysisError &error)
+    {
+      next = Clock::now() + std::chrono::duration_cast<Clock::duration>(interval);
+      if (!std::exchange(has_failed, true))
+        std::cerr << error.what() << "; the run goes on without" << std::endl;
+    }
+  }
+
+  void Checkpoint::write(const ProgressVisit &progress)
+  {
+    const auto begin = Clock::now();
+    if (records)
+      records(journal);
+    journal.write();
+    Archive archive;
+    visit_all(progress, archive);
+    Content content;
+    content.key      = key();
+    content.rows     = journal.size();
+    content.progress = archive.bytes();
+    Archive whole;
+    whole(content);
+    replace(folder + '/' + checkpoint_name, folder + '/' + next_checkpoint_name, sealed(whole.bytes()));
+    const auto end = Clock::now();
+    next           = end + std::chrono::duration_cast<Clock::duration>(interval);
+    if (interval.count() > 0.)
+      next = std::max(next, end + std::chrono::duration_cast<Clock::duration>((end - begin) / largest_share));
+  }
+
+  void Checkpoint::finish(const std::string &status) const
+  {
+    if (status != interruption && !is_wanted)
+      remove();
+  }
+
+  void Checkpoint::remove() const
+  {
+    if (is_kept)
+      remove_checkpoint(folder);
+  }
+} // namespace sprag

@@ -1,0 +1,110 @@
+#pragma once
+
+#include "base/errors.h"
+#include "base/progress_keeper.h"
+#include "program/row_journal.h"
+#include "program/run_options.h"
+
+#include <chrono>
+#include <vector>
+
+namespace sprag
+{
+  struct Scene;
+
+  /// Seconds between two checkpoints, in place of default_checkpoint_seconds; 0: each step.
+  inline constexpr const char *checkpoint_variable   = "SPRAG_CHECKPOINT_SECONDS";
+  inline constexpr double default_checkpoint_seconds = 30.;
+
+  /// The checkpoint of a run in its folder: its progress, written at most every half minute and when the run is interrupted, and
+  /// its rows. A run of the same scene goes on from it, also after a kill at any moment. It belongs to all parameters, the
+  /// content of the files that they name and the build of the program; of others it is dropped, and so is one that is not as it
+  /// was written, which the standard error tells. A checkpoint that cannot be written is told there, too, and no reason to end.
+  /// Runs in memory have none.
+  class Checkpoint : public ProgressKeeper
+  {
+  public:
+    /// Reads what an interrupted run has left.
+    Checkpoint(const Scene &scene, const RunOptions &options);
+
+    /// Returns whether the run goes on from an interrupted one.
+    bool resumes() const
+    {
+      return goes_on;
+    }
+
+    /// Hands over what the interrupted run has recorded.
+    Archive recorded()
+    {
+      return Archive(std::move(rows_found));
+    }
+
+    /// Sets what adds to the journal of rows all that the run has recorded since its last call.
+    void set_records(std::function<void(RowJournal &)> add_records)
+    {
+      records = std::move(add_records);
+    }
+
+    /// Writes what was recorded, where a run cannot keep that much until the next checkpoint.
+    void write_records();
+
+    /// Adds something to the progress, to be visited behind that of the analysis. To be called before the analysis begins.
+    void add_part(ProgressVisit part)
+    {
+      parts.push_back(std::move(part));
+    }
+
+    bool take_up(const ProgressVisit &progress) override;
+    void accept_step(const ProgressVisit &progress) override;
+    void end_steps(const ProgressVisit &progress) override;
+
+    /// Hands a step on. Where that fails, as on a full disk, the run is worth going on with once there is space.
+    template <class Work>
+    void hand_on(const Work &work)
+    {
+      try
+      {
+        work();
+      }
+      catch (const AnalysisError &)
+      {
+        is_wanted = true;
+        throw;
+      }
+    }
+
+    /// Removes it from the folder when the run has ended, completed or failed, but not where it was interrupted or could not hand
+    /// a step on.
+    void finish(const std::string &status) const;
+
+    /// Returns whether there is a checkpoint at all.
+    bool keeps() const
+    {
+      return is_kept;
+    }
+
+  private:
+    using Clock = std::chrono::steady_clock;
+
+    const bool is_kept;
+    const bool quiet;
+    const std::string folder;
+    const std::string key_of_scene;
+    const std::chrono::duration<double> interval;
+    RowJournal journal;
+    std::function<void(RowJournal &)> records;
+    std::vector<ProgressVisit> parts;
+    bool goes_on = false;
+    std::string progress_found, rows_found;
+    Clock::time_point next;
+    bool has_failed = false;
+    bool is_wanted  = false; ///< whatever becomes of the run
+
+    std::string key() const;
+    void find();
+    void remove() const;
+    void visit_all(const ProgressVisit &progress, Archive &archive) const;
+    void try_to(const std::function<void()> &write);
+    void write(const ProgressVisit &progress);
+  };
+} // namespace sprag

@@ -1,0 +1,73 @@
+#include "program/outcome.h"
+
+#include "program/run_options.h"
+#include "results/earlier_result.h"
+#include "scene/read.h"
+#include "scene/scene.h"
+
+#include <iostream>
+
+namespace sprag
+{
+  std::timespec time_of_files()
+  {
+    std::timespec result = {};
+    clock_gettime(CLOCK_REALTIME_COARSE, &result);
+    return result;
+  }
+
+  int tell(const InputError &error)
+  {
+    std::cerr << error.what() << '\n';
+    return bad_input;
+  }
+
+  int tell(const std::string &failure)
+  {
+    std::cerr << "sprag: " << failure << '\n';
+    return analysis_failed;
+  }
+
+  bool finish(const Arguments &arguments, const Scene &scene, const std::string &status, const std::timespec &since)
+  {
+    return is_run(arguments) &&
+           finish_abandoned(folder_of(arguments, scene) + "/result.h5", parameters_text(scene), status, since);
+  }
+
+  void tell_validity(const Arguments &arguments, const Scene &scene, const Warnings &warnings)
+  {
+    if (!arguments.quiet)
+      std::cout << text_of(warnings) << arguments.file << ": valid, " << count_text(warnings) << '\n';
+    check_warnings(scene, warnings);
+  }
+
+  int exit_status_of(const Arguments &arguments, std::optional<Scene> scene, const std::timespec &since, const Rank &rank,
+                     const std::function<void(const Scene &)> &work)
+  {
+    try
+    {
+      if (!scene)
+        scene = scene_of(arguments);
+      work(*scene);
+      return success;
+    }
+    catch (const InputError &error)
+    {
+      return rank.is_first ? tell(error) : bad_input;
+    }
+    catch (const AnalysisError &error)
+    {
+      if (rank.is_first && scene)
+        finish(arguments, *scene, error.what(), since);
+      return rank.is_first ? tell(error.what()) : analysis_failed;
+    }
+    catch (const std::exception &error)
+    {
+      if (!rank.is_alone)
+        throw;
+      if (scene)
+        finish(arguments, *scene, error.what(), since);
+      return tell(error.what());
+    }
+  }
+} // namespace sprag

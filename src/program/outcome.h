@@ -1,0 +1,43 @@
+#pragma once
+
+#include "base/errors.h"
+#include "program/arguments.h"
+#include "results/warning.h"
+
+#include <ctime>
+#include <functional>
+
+namespace sprag
+{
+  struct Scene;
+
+  // How the program tells what came of it, by messages on the standard error, its exit status and what it leaves in the folder.
+
+  /// Returns the time by the clock of file systems.
+  std::timespec time_of_files();
+
+  /// Prints what is wrong with the input and returns the exit status.
+  int tell(const InputError &error);
+
+  /// Prints what failed and returns the exit status.
+  int tell(const std::string &failure);
+
+  /// Gives what a run since then has left unfinished its end; returns whether there was anything.
+  bool finish(const Arguments &arguments, const Scene &scene, const std::string &status, const std::timespec &since);
+
+  /// Prints that the file is valid and its warnings, unless quiet. Throws AnalysisError where they count as errors.
+  void tell_validity(const Arguments &arguments, const Scene &scene, const Warnings &warnings);
+
+  /// The place of a process among those that run a scene together.
+  struct Rank
+  {
+    bool is_first = true;
+    bool is_alone = true;
+  };
+
+  /// Does `work` with the scene and returns the exit status; what is thrown is told, and what it leaves unfinished gets its end.
+  /// A scene that is not given is read from the arguments. Errors of input and analysis come on all ranks alike and are told by
+  /// the first; any other may be one rank's own: it passes through where the rank is not alone.
+  int exit_status_of(const Arguments &arguments, std::optional<Scene> scene, const std::timespec &since, const Rank &rank,
+                     const std::function<void(const Scene &)> &work);
+} // namespace sprag

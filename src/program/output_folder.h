@@ -1,0 +1,23 @@
+#pragma once
+
+#include "program/run_options.h"
+
+#include <string>
+
+namespace sprag
+{
+  struct Scene;
+
+  /// Claims the folder for a run with these parameters. Throws InputError where the folder cannot serve, another run has it, or
+  /// it holds the result of a run with other parameters, completed or not, unless that is to be overwritten; then what an
+  /// interrupted run would go on from is removed. It makes nothing. From then on, or once prepare_folder() has made it, the
+  /// folder is this process's until that ends, by a lock on the folder itself, which leaves nothing behind; file systems without
+  /// locks are taken as they are.
+  void claim_folder(const std::string &folder, const std::string &parameters, bool overwrite);
+
+  /// Throws InputError if the folder could not be made or written to; makes nothing.
+  void require_writable(const std::string &folder);
+
+  /// Makes the run's folder if needed and begins its log; throws InputError if nothing can be written there.
+  void prepare_folder(const Scene &scene, const RunOptions &options);
+} // namespace sprag

@@ -1,0 +1,80 @@
+#pragma once
+
+#include "base/progress.h"
+#include "program/checkpoint.h"
+#include "program/result_writer.h"
+#include "report/accuracy_report.h"
+#include "report/report.h"
+#include "scene/drive.h"
+
+namespace sprag
+{
+  struct Scene;
+
+  /// Takes the rows of a run as they come: completes them, writes them, shows the progress and sums up at the end.
+  class Recorder
+  {
+  public:
+    /// Makes the folder and result file. Throws InputError if they cannot be written. With a checkpoint what is recorded goes
+    /// there, too, and a run that goes on from it begins with what it holds.
+    Recorder(const Scene &scene, const RunOptions &options, PhaseTimer &timer, const FacePoints &points,
+             Checkpoint *checkpoint = nullptr);
+
+    void record(const Row &row);
+
+    void record(const FaceState &face);
+
+    /// Sets the peaks of stress for the summary, see StressPeaks; without a call they are NaN, as of a model without a mesh.
+    void set_stress(std::vector<Entry> peaks)
+    {
+      stress = std::move(peaks);
+    }
+
+    /// Returns the rows so far.
+    const std::vector<Row> &recorded() const
+    {
+      return rows;
+    }
+
+    /// Returns the number of steps that were recorded by an interrupted run.
+    std::size_t steps_taken_over() const
+    {
+      return taken_over;
+    }
+
+    /// Sets the errors that the run tells of its results; without a call it tells none.
+    void set_accuracy(std::vector<ErrorEstimate> estimates)
+    {
+      accuracy = std::move(estimates);
+    }
+
+    /// Writes summary, meta and warnings, to which it adds those that follow from the rows, and prints the table at the end of a
+    /// run. Status and meta: see ResultWriter. Finishes the checkpoint. Returns the summary.
+    std::vector<Entry> finish(const std::string &status, std::vector<Entry> meta, Warnings &warnings);
+
+  private:
+    const Scene &scene;
+    const bool quiet;
+    const bool verbose;
+    ResultWriter writer;
+    Progress progress;
+    std::vector<Row> rows;
+    std::vector<Entry> stress;
+    std::vector<ErrorEstimate> accuracy;
+    double travel = 0.;
+
+    Checkpoint *const checkpoint; ///< null without
+    std::size_t taken_over = 0;
+    std::size_t rows_kept  = 0;                                     ///< in the checkpoint's journal
+    std::vector<std::pair<std::size_t, std::string>> faces_to_keep; ///< as bytes, with the number of rows before them
+    std::size_t faces_kept         = 0;                             ///< of these
+    std::size_t face_bytes_to_keep = 0;
+
+    void add(Row row);
+    void take_over();
+    void add_records(RowJournal &journal);
+  };
+
+  /// Returns the length of the drive's path [mm].
+  double path_length(const Drive &drive);
+} // namespace sprag

@@ -1,0 +1,32 @@
+#pragma once
+
+#include "analytic/jamming.h"
+#include "program/run_options.h"
+
+#include <functional>
+
+namespace sprag
+{
+  struct Scene;
+
+  /// What carries out an analysis.
+  using Run = std::function<void(const Scene &, const RunOptions &, Warnings &)>;
+
+  /// Carries out an analysis from its first line to the last: tells the margin to jamming, which `margin` finds for one lever,
+  /// before anything is computed and the warnings at the end.
+  void run_from_margin_to_warnings(const Scene &scene, const RunOptions &options,
+                                   const std::function<JammingMargin(const Scene &)> &margin, const Run &analysis);
+
+  /// Carries out the analysis of a scene that follows_formulas() and has no leaf spring. It throws what run() throws.
+  void run_by_formulas(const Scene &scene, const RunOptions &options);
+
+  /// Does what formulas do: see follows_formulas().
+  void run_formulas(const Scene &scene, const RunOptions &options, Warnings &warnings);
+
+  /// Sweeps the representative slope C_Q.
+  void run_slope(const Scene &scene, const RunOptions &options, Warnings &warnings);
+
+  /// Follows the table of an isolation system. Throws AnalysisError too where its damper ends or locks and where the energy
+  /// ledger leaves more open than Analysis/Maximum energy residual.
+  void run_isolation_scene(const Scene &scene, const RunOptions &options, Warnings &warnings);
+} // namespace sprag

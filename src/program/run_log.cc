@@ -1,0 +1,157 @@
+#include "program/run_log.h"
+
+#include "program/run_files.h"
+#include "scene/scene.h"
+
+#include <chrono>
+#include <ctime>
+#include <filesystem>
+#include <fstream>
+#include <iomanip>
+#include <iostream>
+#include <sstream>
+#include <streambuf>
+
+namespace sprag
+{
+  namespace
+  {
+    std::string date()
+    {
+      const std::time_t now = std::time(nullptr);
+      std::tm local         = {};
+      ::localtime_r(&now, &local);
+      std::ostringstream text;
+      text << std::put_time(&local, "%Y-%m-%d %H:%M:%S %z");
+      return text.str();
+    }
+
+    /// Between quotes where a shell would split it.
+    std::string as_typed(const std::string &argument)
+    {
+      return argument.find_first_of(" '|;&*()") == std::string::npos ? argument : '"' + argument + '"';
+    }
+
+    std::string command(const int argc, const char *const *argv)
+    {
+      std::string text = "Command:";
+      for (int i = 0; i < argc; ++i)
+        text += ' ' + as_typed(argv[i]);
+      return text + '\n';
+    }
+
+    std::string given_parameters(const Scene &scene)
+    {
+      std::string text;
+      if (scene.parameters)
+        for (const auto &[name, value] : *scene.parameters)
+          if (scene.given.count(name) > 0)
+            text += "  " + name + " = " + value + '\n';
+      return "Scene:   " + scene.name + ", with\n" + text + '\n';
+    }
+
+    std::string log_in(const std::string &folder)
+    {
+      return folder + "/run.log";
+    }
+  } // namespace
+
+  struct RunLog::Record
+  {
+    std::string text; ///< before the file is open
+    std::string line; ///< that is not at its end
+    std::ofstream file;
+
+    void take(const char c)
+    {
+      if (c == '\r')
+        line.clear();
+      else
+        line += c;
+      if (c == '\n')
+        put();
+    }
+
+    void put()
+    {
+      if (file.is_open())
+        file << line << std::flush;
+      else
+        text += line;
+      line.clear();
+    }
+  };
+
+  class RunLog::Tee : public std::streambuf
+  {
+  public:
+    Tee(std::ostream &of_stream, std::shared_ptr<Record> into)
+        : stream(of_stream)
+        , shown(stream.rdbuf(this))
+        , record(std::move(into))
+    {
+    }
+
+    ~Tee() override
+    {
+      stream.rdbuf(shown);
+    }
+
+  protected:
+    int_type overflow(const int_type c) override
+    {
+      if (traits_type::eq_int_type(c, traits_type::eof()))
+        return shown->pubsync() == 0 ? traits_type::not_eof(c) : c;
+      record->take(traits_type::to_char_type(c));
+      return shown->sputc(traits_type::to_char_type(c));
+    }
+
+    std::streamsize xsputn(const char *const text, const std::streamsize size) override
+    {
+      for (std::streamsize i = 0; i < size; ++i)
+        record->take(text[i]);
+      return shown->sputn(text, size);
+    }
+
+    int sync() override
+    {
+      return shown->pubsync();
+    }
+
+  private:
+    std::ostream &stream;
+    std::streambuf *const shown;
+    const std::shared_ptr<Record> record;
+  };
+
+  RunLog::RunLog(const int argc, const char *const *argv)
+      : record(std::make_shared<Record>())
+      , out(std::make_unique<Tee>(std::cout, record))
+      , error(std::make_unique<Tee>(std::cerr, record))
+  {
+    record->text = "sprag " SPRAG_VERSION ", " + date() + '\n' + command(argc, argv);
+  }
+
+  RunLog::~RunLog() = default;
+
+  void RunLog::open(const std::string &folder, const Scene &scene)
+  {
+    if (record->file.is_open())
+      return;
+    std::error_code ignored;
+    bool goes_on = false;
+    for (const char *const name : { checkpoint_name, row_journal_name, map_journal_name, study_journal_name })
+      goes_on = goes_on || std::filesystem::exists(folder + '/' + name, ignored);
+    record->file.open(log_in(folder), goes_on ? std::ios::app : std::ios::trunc);
+    const auto head = record->text.find('\n', record->text.find('\n') + 1) + 1;
+    record->file << (goes_on ? "\n" : "") << record->text.substr(0, head) << given_parameters(scene) << record->text.substr(head)
+                 << std::flush;
+  }
+
+  void add_to_log(const std::string &folder, const std::string &line)
+  {
+    std::error_code ignored;
+    if (std::filesystem::is_regular_file(log_in(folder), ignored))
+      std::ofstream(log_in(folder), std::ios::app) << line << '\n';
+  }
+} // namespace sprag

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "results/warning.h"
+
+#include <string>
+
+namespace sprag
+{
+  struct Scene;
+
+  struct InMemory;
+  class RunLog;
+
+  struct RunOptions
+  {
+    std::string folder; ///< for results; made if it does not exist
+    bool quiet             = false;
+    bool is_first          = true;    ///< of several processes that run the scene together: it prints
+    InMemory *in_memory    = nullptr; ///< for a run that writes no files, in place of a folder; else null
+    unsigned int processes = 1;       ///< that run the scene together
+    bool verbose           = false;   ///< prints all of a summary
+    RunLog *log            = nullptr; ///< begins in the folder once that is made; null: none
+    std::string chosen     = {};      ///< settings that follow from the scene's Accuracy, "Section/Name = VALUE; ..."
+  };
+
+  /// Throws AnalysisError where there are warnings and Analysis/Warnings = error; the message quotes the first of them.
+  void check_warnings(const Scene &scene, const Warnings &warnings);
+} // namespace sprag

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "results/result_file.h"
+#include "results/warning.h"
+
+#include <vector>
+
+namespace sprag
+{
+  struct Scene;
+
+  /// Adds the largest pressure on the friction face over a run of finite elements with x, direction and place, for a pair that of
+  /// the lever where it is larger. Adds nothing for models without a face.
+  void add_largest_pressure(const std::vector<Row> &rows, std::vector<Entry> &entries);
+
+  /// Returns the relative error of the largest pressure to expect where the contact is `elements` > 0 face sizes wide: at most
+  /// 5/elements^3 (displacements of degree 1) or 0.8/elements^3 (degree 2), measured by tests/benchmarks/pressure.py, and 1.
+  double expected_pressure_error(double elements, unsigned int degree);
+
+  /// Warns where the built-in mesh is too coarse, by more than 5 % expected, for the largest pressure of a run or for the
+  /// pressures over more than a quarter of the way that the cylinder makes in contact.
+  Warnings coarse_contact_warnings(const Scene &scene, const std::vector<Row> &rows);
+} // namespace sprag

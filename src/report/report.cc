@@ -1,0 +1,258 @@
+#include "report/report.h"
+
+#include "base/errors.h"
+#include "base/least_squares.h"
+#include "base/text.h"
+#include "report/peak_report.h"
+#include "results/row_statistics.h"
+#include "scene/mirrored_pair.h"
+#include "scene/pair_closed_form.h"
+#include "scene/scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <iomanip>
+#include <limits>
+#include <ostream>
+#include <stdexcept>
+
+namespace sprag
+{
+  namespace
+  {
+    constexpr double settling = 2.; ///< travel after a reversal in which stick hides the closed form [mm]
+
+    using Rows = std::vector<std::reference_wrapper<const Row>>;
+
+    int direction_of(const Row &row)
+    {
+      return sprag::direction_of(row[Column::v]);
+    }
+
+    /// A pair that presses on a cylinder off its middle begins in stick, and so does what goes back at once from where the
+    /// cylinder was slid forward.
+    bool begins_in_stick(const Row &first)
+    {
+      return first[Column::P] > 0. && first[Column::friction_resultant] * direction_of(first) <= 0.;
+    }
+
+    /// Of a table that stands still: what friction is then depends on the motion before.
+    bool rests(const std::vector<Row> &rows, const std::size_t i)
+    {
+      return i > 0 && rows[i][Column::x] == rows[i - 1][Column::x] && rows[i][Column::time] > rows[i - 1][Column::time];
+    }
+
+    /// Rows of one direction of motion, without those within `apart` of the last reversal [mm]; the row of a turning point
+    /// belongs to the stroke that ends there.
+    Rows stroke(const std::vector<Row> &rows, const int direction, const double apart)
+    {
+      Rows result;
+      double turned_at = begins_in_stick(rows.front()) ? rows.front()[Column::x] : std::numeric_limits<double>::quiet_NaN();
+      for (std::size_t i = 0; i < rows.size(); ++i)
+      {
+        if (i > 0 && direction_of(rows[i]) != direction_of(rows[i - 1]))
+          turned_at = rows[i - 1][Column::x];
+        if (direction_of(rows[i]) == direction && !rests(rows, i) && !(std::abs(rows[i][Column::x] - turned_at) < apart))
+          result.emplace_back(rows[i]);
+      }
+      return result;
+    }
+
+    /// Peak among the rows whose friction has turned with the motion.
+    double turned_peak(const Rows &rows, const Column column)
+    {
+      return signed_peak(rows, [&](const Row &row)
+                         { return row[Column::friction_resultant] * direction_of(row) >= 0. ? row[column] : 0.; });
+    }
+
+    double deviation(const Rows &rows, const Column column, const Column reference)
+    {
+      const double peak = largest(rows, reference);
+      const double off  = largest(rows, [&](const Row &row) { return row[column] - row[reference]; });
+      return peak > 0. ? off / peak : std::numeric_limits<double>::quiet_NaN();
+    }
+
+    constexpr double largest_change_of_mu = 0.05; ///< over which C_Q has a meaning, over the largest mu
+
+    /// C of the least-squares fit Q = C x + D x^2 over 0 < x <= 10 mm; NaN with fewer than three rows there, or where mu changes
+    /// on the way.
+    double slope_at_zero(const Rows &rows)
+    {
+      std::vector<double> x, Q;
+      double least_mu = std::numeric_limits<double>::infinity(), largest_mu = 0.;
+      for (const Row &row : rows)
+        if (row[Column::x] > 0. && row[Column::x] <= 10.)
+        {
+          least_mu   = std::min(least_mu, row[Column::mu]);
+          largest_mu = std::max(largest_mu, row[Column::mu]);
+          x.push_back(row[Column::x]);
+          Q.push_back(row[Column::Q]);
+        }
+      const bool changes = largest_mu - least_mu > largest_change_of_mu * largest_mu;
+      return x.size() < 3 || changes ? std::numeric_limits<double>::quiet_NaN() : slope_at_origin(x, Q);
+    }
+
+    /// Without inertia; a model without a support has none in it.
+    double stored_energy(const Row &row)
+    {
+      const double support = row[Column::support_energy];
+      return row[Column::spring_energy] + row[Column::elastic_energy] + (std::isnan(support) ? 0. : support);
+    }
+
+    /// Without a slope at x = 0 where a pair is opened there.
+    bool begins_closed(const Scene &scene)
+    {
+      return number_of_levers(scene) == 1 || scene.pair.cylinder_offset == 0.;
+    }
+
+    void add_stroke(const Scene &scene, const Rows &rows, const Rows &settled, const std::string &way,
+                    std::vector<Entry> &entries)
+    {
+      const std::string on = " on the " + way + " stroke";
+      entries.push_back({ "peak_P_" + way, turned_peak(rows, Column::P), "N", "largest normal force" + on });
+      entries.push_back({ "peak_Q_" + way, turned_peak(rows, Column::Q), "N", "largest quasi-friction force" + on });
+      if (begins_closed(scene))
+        entries.push_back({ "slope_" + way, slope_at_zero(settled), "N/mm",
+                            "C_Q, slope of Q at x = 0 fitted over 10 mm" + on + "; NaN where mu changes there" });
+      const std::string apart = on + ", relative to the stroke's peak, the first 2 mm after a reversal apart";
+      entries.push_back({ "deviation_P_" + way, deviation(settled, Column::P, Column::P_closed_form), "1",
+                          "largest deviation of P from the closed form" + apart });
+      entries.push_back({ "deviation_Q_" + way, deviation(settled, Column::Q, Column::Q_closed_form), "1",
+                          "largest deviation of Q from the closed form" + apart });
+      entries.push_back({ "deviation_theta_" + way, deviation(settled, Column::theta, Column::theta_closed_form), "1",
+                          "largest deviation of theta from the closed form" + apart });
+    }
+  } // namespace
+
+  void add_closed_form(const Scene &scene, Row &row)
+  {
+    const double moved = row[Column::support_displacement];
+    const double x     = row[Column::x] - (std::isnan(moved) ? 0. : moved);
+    const double v     = row[Column::v];
+    const auto state   = number_of_levers(scene) == 2 ? pair_closed_form(scene, x, v)[0].state : closed_form(scene, x, v);
+    row[Column::theta_closed_form] = state.contact.theta;
+    if (state.P < 0. || !std::isfinite(state.P))
+      return;
+    row[Column::P_closed_form] = state.P;
+    row[Column::Q_closed_form] = state.Q;
+  }
+
+  namespace
+  {
+    /// Of an axis that its shaft lets yield.
+    void add_slopes(const Scene &scene, const std::vector<Row> &rows, std::vector<Entry> &entries)
+    {
+      if (scene.analysis.dimension != 3 || !scene.cylinder.has_free_axis())
+        return;
+      const auto by_P         = [](const Row &a, const Row &b) { return a[Column::P] < b[Column::P]; };
+      const auto &across      = std::max_element(rows.begin(), rows.end(), by_P)->across;
+      const auto tilt         = columns_across().size();
+      const auto skew         = tilt + 1;
+      const std::string where = ", where P is largest";
+      entries.push_back({ "tilt", across[tilt], "1", "slope of the cylinder's axis towards the lever" + where });
+      entries.push_back({ "skew", across[skew], "1", "slope of the cylinder's axis along x" + where });
+    }
+  } // namespace
+
+  std::vector<Entry> summary_of(const Scene &scene, const std::vector<Row> &rows)
+  {
+    std::vector<Entry> entries;
+    if (rows.empty())
+      return entries;
+    for (const auto &[direction, way] : { std::pair<int, std::string>{ 1, "forward" }, { -1, "backward" } })
+      if (const auto all = stroke(rows, direction, 0.); !all.empty())
+      {
+        add_stroke(scene, all, stroke(rows, direction, settling), way, entries);
+        if (!begins_closed(scene))
+          continue;
+        const double mu = sliding_friction(scene, 0., direction * scene.drive.peak_speed()).coefficient;
+        entries.push_back({ "representative_slope_" + way,
+                            representative_slope(scene.geometry, scene.spring.stiffness, mu, direction), "N/mm",
+                            "C_Q of the closed form at x = 0 with mu at the drive's peak speed" });
+      }
+
+    const Row &last         = rows.back();
+    const double work       = last[Column::drive_work];
+    const double dissipated = last[Column::friction_work];
+    const double stored     = stored_energy(last) - stored_energy(rows.front());
+    entries.push_back({ "loop_area", work, "N mm", "integral of Q over x; the loop area after whole cycles" });
+    entries.push_back({ "friction_work", dissipated, "N mm", "work dissipated by friction" });
+    entries.push_back(
+        { "energy_residual", work - dissipated - stored, "N mm", "drive work less friction work and change of stored energy" });
+    add_largest_pressure(rows, entries);
+    add_slopes(scene, rows, entries);
+    const double penetration = largest(rows, Column::penetration);
+    entries.push_back({ "penetration", penetration, "mm", "largest numerical overlap of cylinder and friction face" });
+    if (scene.layer.thickness > 0.)
+      entries.push_back({ "penetration_share", penetration / scene.layer.thickness, "1",
+                          "largest overlap over the thickness of the friction layer" });
+    entries.push_back({ "cone_violation", largest(rows, Column::cone_violation), "1",
+                        "largest excess of friction over the cone, relative to mu times the peak pressure" });
+    entries.push_back(
+        { "elastic_slip", largest(rows, Column::elastic_slip), "mm", "largest elastic slip of the tangential penalty" });
+    entries.push_back({ "steps", static_cast<double>(rows.size()) - 1., "1", "accepted steps" });
+    entries.push_back({ "iterations", sum(rows, Column::iterations), "1", "Newton iterations" });
+    entries.push_back({ "augmentations", sum(rows, Column::augmentations), "1", "augmentations of the contact multipliers" });
+    entries.push_back({ "augmentations_worst", largest(rows, Column::augmentations), "1", "augmentations of the worst step" });
+    return entries;
+  }
+
+  void add_pair(const std::vector<Row> &rows, std::vector<Entry> &entries)
+  {
+    if (rows.empty() || rows.front().second_lever().empty())
+      return;
+    entries.push_back({ "peak_lateral_force", signed_peak(rows, [](const Row &row) { return row.lateral_force(); }), "N",
+                        "largest y-force of both levers on the cylinder" });
+    entries.push_back({ "peak_swing", signed_peak(rows, [](const Row &row) { return row.swing(); }), "rad",
+                        "largest turn of both levers the same way" });
+    entries.push_back({ "peak_difference_P",
+                        signed_peak(rows, [](const Row &row) { return row[Column::P] - row.of_second_lever(Column::P); }), "N",
+                        "largest difference of both levers' normal forces" });
+  }
+
+  double value_of(const std::vector<Entry> &entries, const std::string &name)
+  {
+    const auto entry = std::find_if(entries.begin(), entries.end(), [&](const Entry &e) { return e.name == name; });
+    if (entry == entries.end())
+      throw std::out_of_range("no entry '" + name + "'");
+    return std::get<double>(entry->value);
+  }
+
+  double largest_deviation(const std::vector<Entry> &summary)
+  {
+    double result = 0.;
+    for (const auto &entry : summary)
+      if (entry.name.rfind("deviation_", 0) == 0)
+      {
+        const double deviation = std::get<double>(entry.value);
+        if (std::isnan(deviation))
+          return deviation;
+        result = std::max(result, deviation);
+      }
+    return result;
+  }
+
+  void print_summary(std::ostream &stream, const std::vector<Entry> &summary)
+  {
+    for (const auto &entry : summary)
+    {
+      stream << "  " << std::left << std::setw(26) << entry.name << ' ' << std::right;
+      if (const double *number = std::get_if<double>(&entry.value))
+        stream << std::setw(13) << std::setprecision(6) << *number << ' ' << (entry.unit == "1" ? "" : entry.unit);
+      else
+        stream << std::get<std::string>(entry.value);
+      stream << '\n';
+    }
+  }
+
+  void check_deviation(const Scene &scene, const std::vector<Entry> &summary)
+  {
+    const double limit = scene.analysis.maximum_deviation;
+    const double found = largest_deviation(summary);
+    if (limit > 0. && !(found <= limit))
+      throw AnalysisError("the deviation from the closed form, " + rounded_text(found) +
+                          ", is larger than Analysis/Maximum deviation = " + rounded_text(limit) +
+                          ". Try a finer Mesh/Face size or a stiffer lever, or admit more.");
+  }
+} // namespace sprag

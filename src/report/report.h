@@ -1,0 +1,35 @@
+#pragma once
+
+#include "results/result_file.h"
+
+#include <iosfwd>
+#include <vector>
+
+namespace sprag
+{
+  struct Scene;
+
+  /// Fills the closed form's columns at the row's x and v, where the scene has a closed form there; of a full pair those of
+  /// the first lever.
+  void add_closed_form(const Scene &scene, Row &row);
+
+  /// Sums up a run without inertia: peaks of P and Q each way, slopes C_Q of the rows near x = 0, loop area and friction
+  /// work, largest deviations from the closed form relative to the stroke's peak (the first 2 mm after a reversal apart),
+  /// penetration and cone violation, cost in iterations.
+  std::vector<Entry> summary_of(const Scene &scene, const std::vector<Row> &rows);
+
+  /// Adds what the levers of a full pair do differently, and their force across the path; nothing for a single lever.
+  void add_pair(const std::vector<Row> &rows, std::vector<Entry> &entries);
+
+  /// Returns the value of the entry of this name; throws std::out_of_range if there is none.
+  double value_of(const std::vector<Entry> &entries, const std::string &name);
+
+  /// Returns the largest deviation of P, Q and theta on both strokes in a summary [-]; NaN if one of them is unknown.
+  double largest_deviation(const std::vector<Entry> &summary);
+
+  /// Prints the entries as a table for people.
+  void print_summary(std::ostream &stream, const std::vector<Entry> &summary);
+
+  /// Throws AnalysisError where a run that ended is too far from the closed form, by more than Analysis/Maximum deviation.
+  void check_deviation(const Scene &scene, const std::vector<Entry> &summary);
+} // namespace sprag

@@ -1,0 +1,232 @@
+#include "report/warnings.h"
+
+#include "base/text.h"
+#include "scene/closed_form.h"
+#include "scene/scene.h"
+#include "scene/sections.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sprag
+{
+  namespace
+  {
+    // An error of 1 % in mu, which no measurement of it undercuts, is one of 10 % in P.
+    constexpr double largest_amplification = 10.;
+
+    // Of two quantities of the device that differ from model A one may be a variation of it.
+    constexpr unsigned int differences_of_another_device = 2;
+
+    // Poisson's ratio from which a wide layer between bonded faces is twice as stiff in plane strain, (1-nu)/((1+nu)(1-2nu)) E,
+    // as in plane stress, E/(1-nu^2): nu^2 + 2 nu - 1 = 0.
+    const double largest_ratio_of_plane_stress = std::sqrt(2.) - 1.;
+
+    // Of hardened spring steels, whose proof stress is 1000 to 1600 MPa, less what many cycles cost: 0.4 % is 824 MPa.
+    constexpr double largest_leaf_strain = 4e-3;
+
+    // With that many times the cylinder's sagitta between two points of the face P is 1 % off, with a tenth of that 10 %.
+    constexpr double least_opening     = 20.;
+    constexpr double points_of_element = 10.;
+
+    bool follows_drive(const Scene &scene)
+    {
+      return scene.analysis.type == AnalysisType::quasi_static || scene.analysis.type == AnalysisType::transient;
+    }
+
+    bool has_mesh(const Scene &scene)
+    {
+      return is_meshed(scene.analysis.model) || scene.analysis.type == AnalysisType::contact_law ||
+             scene.analysis.type == AnalysisType::calibration;
+    }
+
+    /// P over P at small mu' changes by this times the relative change of mu: mu e / (s - mu e), greatest moving back where s is
+    /// least.
+    struct Amplification
+    {
+      double x, s, mu, value;
+    };
+
+    Amplification largest_of_drive(const Scene &scene)
+    {
+      constexpr unsigned int samples = 64;
+      const double from = scene.drive.minimum(), to = scene.drive.maximum();
+      Amplification largest{};
+      for (unsigned int i = 0; i <= samples; ++i)
+      {
+        const double x    = from + (to - from) * i / samples;
+        const double s    = kinematics(scene.geometry, x).s;
+        const double mu   = sliding_friction(scene, x, -scene.drive.peak_speed()).coefficient;
+        const double mu_e = mu * scene.geometry.interface_offset;
+        if (s > mu_e && mu_e / (s - mu_e) > largest.value)
+          largest = { x, s, mu, mu_e / (s - mu_e) };
+      }
+      return largest;
+    }
+
+    void add_sensitivity(const Scene &scene, Warnings &warnings)
+    {
+      if (!follows_drive(scene))
+        return;
+      const auto found = largest_of_drive(scene);
+      if (found.value <= largest_amplification)
+        return;
+      warnings.push_back(
+          { "near_locking",
+            "Moving back at x = " + mm(found.x) + " the friction coefficient " + rounded_text(found.mu) +
+                " is close to s/e = " + rounded_text(found.s / scene.geometry.interface_offset) +
+                ", at which a rigid lever locks: dP/dmu mu/P = mu e/(s - mu e) = " + rounded_text(found.value) + ", more than " +
+                rounded_text(largest_amplification) + ".",
+            "P and Q near there are off by " + rounded_text(found.value) +
+                " % for each per cent of error in the friction coefficient, and by as much for the same error of s through "
+                "flexure or compression.",
+            "Shorten Drive/Stroke or lower Friction/Factor, or take P and Q there for no more than an order of magnitude." });
+    }
+
+    /// At the surface in the clamp, a beam: M = a EI/L (1 + b c/L) turn with the clamp c behind the pivot.
+    double leaf_strain(const LeafSpring &leaf, const double turn)
+    {
+      const double ratio  = leaf.clamp_distance / leaf.length;
+      const double moment = leaf.end == LeafEnd::clamped ? 4. + 6. * ratio : leaf.end == LeafEnd::pinned ? 3. + 3. * ratio : 1.;
+      return 0.5 * leaf.thickness / leaf.length * moment * turn;
+    }
+
+    void add_leaf(const Scene &scene, Warnings &warnings)
+    {
+      const auto type = scene.analysis.type;
+      if (scene.spring.type != SpringType::leaf || type == AnalysisType::slope || type == AnalysisType::calibration)
+        return;
+      const double x      = scene.drive.maximum();
+      const auto &leaf    = scene.spring.leaf;
+      const double turn   = std::abs(kinematics(scene.geometry, x).theta - kinematics(scene.geometry, 0.).theta);
+      const double strain = leaf_strain(leaf, turn);
+      if (strain <= largest_leaf_strain)
+        return;
+      warnings.push_back(
+          { "leaf_beyond_yield",
+            "Turned by " + rounded_text(turn) + " rad at x = " + mm(x) + " a leaf of " + mm(leaf.thickness) + " thickness and " +
+                mm(leaf.length) + " length is strained by " + rounded_text(100. * strain) + " % in its clamp (" +
+                rounded_text(strain * leaf.young_modulus) + " MPa); more than " + rounded_text(100. * largest_leaf_strain) +
+                " % few spring steels bear for long.",
+            "The leaf is modelled as elastic: a real one yields or breaks, its moment stays behind, and so do P, Q and work.",
+            "Use a thinner or longer leaf; Analysis/Type = calibration finds the thickness for a stiffness." });
+    }
+
+    void add_plane_stress(const Scene &scene, Warnings &warnings)
+    {
+      const auto &layer = scene.layer;
+      const double nu   = layer.poisson_ratio;
+      if (!has_mesh(scene) || layer.thickness == 0. || scene.analysis.plane != PlaneState::stress ||
+          scene.analysis.dimension == 3 || nu <= largest_ratio_of_plane_stress)
+        return;
+      const double ratio = (1. - nu) * (1. - nu) / (1. - 2. * nu);
+      warnings.push_back(
+          { "plane_stress_of_layer",
+            "Friction layer/Poisson's ratio = " + rounded_text(nu) + " with Analysis/Plane = stress; above " +
+                rounded_text(largest_ratio_of_plane_stress) +
+                " a layer held between two faces, much wider than thick, is more than twice as stiff as plane stress says.",
+            "The layer of " + mm(layer.thickness) + " thickness and " + mm(scene.lever.width) +
+                " width is too soft, by up to a factor of " + rounded_text(ratio) +
+                ": compression and contact width come out too large, the largest pressure too small; P, Q and theta hardly "
+                "change.",
+            "Set Analysis/Plane = strain." });
+    }
+
+    /// Points that lie beside the cylinder do not feel it.
+    void add_opening(const Scene &scene, Warnings &warnings)
+    {
+      if (!follows_drive(scene) || !is_meshed(scene.analysis.model) || !scene.mesh.file.empty() ||
+          scene.pair.cylinder_offset != 0.)
+        return;
+      const double x       = scene.drive.maximum();
+      const auto contact   = kinematics(scene.geometry, x);
+      const double opening = contact.s * std::abs(contact.theta - kinematics(scene.geometry, 0.).theta);
+      const double spacing = scene.mesh.face_size / points_of_element;
+      const double sagitta = spacing * spacing / (8. * scene.geometry.cylinder_radius);
+      if (opening >= least_opening * sagitta)
+        return;
+      warnings.push_back(
+          { "contact_between_points",
+            "The cylinder opens the lever by no more than " + mm(opening) + " (at x = " + mm(x) +
+                "), but between the points at which the friction face feels it, every " + mm(spacing) + ", its circle rises by " +
+                mm(sagitta) + "; at least " + rounded_text(least_opening) + " times that are needed.",
+            "The cylinder sinks in between points: P, Q, theta and work too small, by 1 % to all of them, with places "
+            "without contact.",
+            "A smaller Mesh/Face size, a smaller Geometry/Interface offset or a longer Drive/Stroke; "
+            "Analysis/Model = closed form for a lever that hardly opens." });
+    }
+
+    /// Whether the parameters of this section and name count in the scene.
+    struct Dependent
+    {
+      std::string name;
+      bool counts;
+    };
+
+    std::vector<Dependent> dependents(const Scene &scene)
+    {
+      const auto &analysis  = scene.analysis;
+      const bool statics    = analysis.type == AnalysisType::quasi_static || analysis.type == AnalysisType::slope;
+      const bool deformable = analysis.type != AnalysisType::slope && (has_mesh(scene) || analysis.model == ModelType::beam);
+      const bool has_law =
+          !statics && is_reduced(analysis.model) && scene.contact.type == ContactType::compliant && !has_mesh(scene);
+      const bool has_inertia = !statics && analysis.type != AnalysisType::contact_law &&
+                               analysis.type != AnalysisType::calibration && analysis.model != ModelType::closed_form &&
+                               scene.lever.inertia == InertiaSource::scaled;
+      return {
+        { "Geometry/Cylinder radius", true }, { "Geometry/Interface offset", true },
+        { "Geometry/Pivot distance", true },  { "Rotational spring/Stiffness", scene.spring.type == SpringType::torsional },
+        { "Lever/Length", deformable },       { "Lever/Depth", deformable },
+        { "Lever/Width", deformable },        { "Lever/Moment of inertia", has_inertia },
+        { "Contact/Stiffness", has_law }
+      };
+    }
+
+    bool is_varied(const Scene &scene, const std::string &parameter)
+    {
+      return scene.analysis.type == AnalysisType::map &&
+             (scene.map.first.name == parameter || scene.map.second.name == parameter);
+    }
+
+    void add_defaults(const Scene &scene, Warnings &warnings)
+    {
+      const Geometry a;
+      const auto &own = scene.geometry;
+      const bool own_spring =
+          scene.spring.type == SpringType::torsional && scene.spring.stiffness != RotationalSpring().stiffness;
+      const unsigned int differs = (own.cylinder_radius != a.cylinder_radius) + (own.interface_offset != a.interface_offset) +
+                                   (own.pivot_distance != a.pivot_distance) + own_spring;
+      if (differs < differences_of_another_device)
+        return;
+      SceneSettings defaults;
+      const auto parameters = scene_parameters(defaults);
+      std::string list;
+      for (const auto &[name, counts] : dependents(scene))
+        if (counts && scene.given.count(name) == 0 && !is_varied(scene, name))
+          list += (list.empty() ? "" : ", ") + name + " = " + find_parameter(parameters, name)->default_value;
+      if (list.empty())
+        return;
+      warnings.push_back({ "defaults_of_model_a",
+                           "The geometry or spring is of another device than model A, but the scene does not give " + list +
+                               ": these are model A's.",
+                           "The device modelled is a mixture of two: forces follow geometry and spring, flexure the lever's "
+                           "dimensions, frequencies and stability the moment of inertia and the contact stiffness as well.",
+                           "Give these parameters, even where the value is the same; Analysis/Type = contact law fits the "
+                           "contact stiffness." });
+    }
+  } // namespace
+
+  Warnings scene_warnings(const Scene &scene)
+  {
+    Warnings warnings;
+    // Each run of a study has its own, and a lever that is to be found has none yet.
+    if (scene.analysis.type == AnalysisType::study || scene.analysis.type == AnalysisType::design)
+      return warnings;
+    add_defaults(scene, warnings);
+    add_sensitivity(scene, warnings);
+    add_leaf(scene, warnings);
+    add_plane_stress(scene, warnings);
+    add_opening(scene, warnings);
+    return warnings;
+  }
+} // namespace sprag

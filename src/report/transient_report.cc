@@ -1,0 +1,162 @@
+#include "report/transient_report.h"
+
+#include "analytic/oscillation.h"
+#include "base/append.h"
+#include "base/errors.h"
+#include "base/text.h"
+#include "report/peak_report.h"
+#include "results/row_statistics.h"
+#include "scene/contact_reference.h"
+#include "scene/scene.h"
+
+#include <boost/algorithm/string/join.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sprag
+{
+  namespace
+  {
+    /// Value of largest size while moving one way.
+    double peak(const std::vector<Row> &rows, const Column column, const int direction)
+    {
+      return signed_peak(rows, [&](const Row &row) { return direction_of(row[Column::v]) == direction ? row[column] : 0.; });
+    }
+
+    double residual_share(const std::vector<Row> &rows)
+    {
+      double work = 0.;
+      for (const auto column : { Column::drive_work, Column::friction_work, Column::spring_energy, Column::kinetic_energy })
+        work = std::max(work, largest(rows, column));
+      return work > 0. ? largest(rows, Column::energy_residual) / work : 0.;
+    }
+
+    void add_peaks(const std::vector<Row> &rows, std::vector<Entry> &entries)
+    {
+      for (const auto &[direction, way] : { std::pair<int, std::string>{ 1, "forward" }, { -1, "backward" } })
+      {
+        const std::string on = " while moving " + way;
+        entries.push_back({ "peak_P_" + way, peak(rows, Column::P, direction), "N", "largest normal force" + on });
+        entries.push_back({ "peak_Q_" + way, peak(rows, Column::Q, direction), "N", "largest x-force of the contact" + on });
+        entries.push_back(
+            { "peak_Q_support_" + way, peak(rows, Column::Q_support, direction), "N", "largest x-force of the support" + on });
+      }
+    }
+
+    void add_energies(const std::vector<Row> &rows, std::vector<Entry> &entries)
+    {
+      const Row &last = rows.back();
+      entries.push_back({ "loop_area", last[Column::drive_work], "N mm", "work of the drive; the loop area after whole cycles" });
+      entries.push_back({ "friction_work", last[Column::friction_work], "N mm", "work dissipated by friction" });
+      entries.push_back({ "damping_work", last[Column::damping_work], "N mm", "work dissipated by damping" });
+      entries.push_back(
+          { "algorithmic_work", last[Column::algorithmic_work], "N mm", "work dissipated by the time integration" });
+      entries.push_back({ "energy_residual", largest(rows, Column::energy_residual), "N mm", "largest residual of the ledger" });
+      entries.push_back({ "energy_residual_share", residual_share(rows), "1", "largest residual over the largest work" });
+    }
+
+    std::string contact_text(const Scene &scene)
+    {
+      if (is_meshed(scene.analysis.model))
+        return "contact along the friction face by penalty";
+      if (scene.analysis.model == ModelType::closed_form || scene.contact.type == ContactType::ideal)
+        return "ideal contact, which cannot open";
+      return "contact P = " + rounded_text(scene.contact.stiffness) +
+             " N/mm^n delta^n, n = " + rounded_text(scene.contact.exponent) + ", which can open";
+    }
+
+    std::string lever_text(const Scene &scene)
+    {
+      switch (scene.analysis.model)
+      {
+      case ModelType::closed_form:
+        return "rigid lever without mass";
+      case ModelType::rigid:
+        return "rigid lever with J = " + rounded_text(moment_of_inertia(scene)) + " t mm2";
+      case ModelType::beam:
+        return "lever of Euler-Bernoulli beam elements with J = " + rounded_text(moment_of_inertia(scene)) + " t mm2";
+      case ModelType::condensed:
+        return "meshed lever condensed to " + std::to_string(scene.condensed.modes) + " modes and the static shapes of its face";
+      case ModelType::finite_element:
+        return "meshed lever";
+      }
+      return {};
+    }
+
+    /// Element length along the friction face of the built-in lever [mm]; 0: none, or unknown.
+    double size_of_elements(const Scene &scene)
+    {
+      return is_meshed(scene.analysis.model) && scene.mesh.file.empty() ? scene.mesh.face_size : 0.;
+    }
+  } // namespace
+
+  Warnings transient_warnings(const Scene &scene, const std::vector<Row> &rows)
+  {
+    const double size = size_of_elements(scene);
+    if (rows.empty() || size == 0.)
+      return {};
+    return element_passing_warnings(oscillations(rows, scene.drive, size), size);
+  }
+
+  std::vector<Entry> transient_summary(const Scene &scene, const std::vector<Row> &rows)
+  {
+    std::vector<Entry> entries;
+    if (rows.empty())
+      return entries;
+    add_peaks(rows, entries);
+    add_energies(rows, entries);
+    add_largest_pressure(rows, entries);
+    entries.push_back({ "penetration", largest(rows, Column::penetration), "mm", "largest numerical overlap" });
+    entries.push_back(
+        { "cone_violation", largest(rows, Column::cone_violation), "1", "largest excess of friction over the cone" });
+    entries.push_back(
+        { "creep", rows.back()[Column::creep], "mm", "slip below Friction/Regularisation speed; 0: stick resolved" });
+    entries.push_back({ "steps", static_cast<double>(rows.size()) - 1., "1", "accepted steps" });
+    entries.push_back({ "rejected_steps", sum(rows, Column::rejected_steps), "1", "attempts discarded" });
+    entries.push_back({ "iterations", sum(rows, Column::iterations), "1", "Newton iterations" });
+    append(entries, oscillation_entries(oscillations(rows, scene.drive, size_of_elements(scene))));
+    return entries;
+  }
+
+  std::vector<std::string> modelled(const Scene &scene)
+  {
+    const bool massless = scene.analysis.model == ModelType::closed_form;
+    const bool ideal    = massless || scene.contact.type == ContactType::ideal;
+    const bool elastic  = !massless && scene.analysis.model != ModelType::rigid;
+    const bool meshed   = elastic && scene.analysis.model != ModelType::beam;
+    std::vector<std::string> with;
+    std::vector<std::string> without;
+    const auto part = [&](const bool present, const std::string &name) { (present ? with : without).push_back(name); };
+
+    with = { lever_text(scene), "rotational spring", contact_text(scene) };
+    part(elastic, "bending");
+    part(meshed && scene.layer.thickness > 0., "friction layer");
+    part(elastic && (scene.lever.modal_damping > 0. || scene.lever.mass_damping > 0. || scene.lever.stiffness_damping > 0.),
+         "structural damping");
+    part(!ideal && scene.contact.damping > 0., "contact damping");
+    part(scene.support.type == SupportType::sprung, "sprung support");
+    part(scene.pair.type == PairType::full, "second lever");
+    part(scene.lever.tip_mass > 0. && !massless, "tip mass");
+    part(!ideal && scene.friction.regularisation_speed == 0., "stick");
+
+    std::vector<std::string> lines = { "Modelled:     " + boost::algorithm::join(with, ", ") };
+    if (!without.empty())
+      lines.push_back("Not modelled: " + boost::algorithm::join(without, ", "));
+    lines.push_back(scene.time.tolerance > 0. && !ideal ? "Time:         adaptive steps, first " + rounded_text(scene.time.step) +
+                                                              " s, tolerance " + rounded_text(scene.time.tolerance)
+                                                        : "Time:         steps of " + rounded_text(scene.time.step) + " s");
+    return lines;
+  }
+
+  void check_ledger(const Scene &scene, const LedgerReport &ledger)
+  {
+    const double limit = scene.analysis.maximum_residual;
+    if (limit == 0. || ledger.share() <= limit)
+      return;
+    throw AnalysisError("the energy ledger leaves open " + rounded_text(ledger.share()) +
+                        " of the largest work, more than Analysis/Maximum energy residual = " + rounded_text(limit) +
+                        "; it opened most at t = " + rounded_text(ledger.time) + " s, where " + ledger.term +
+                        " changed most. Try a shorter Time/Step or a smaller Time/Tolerance.");
+  }
+} // namespace sprag

@@ -1,0 +1,29 @@
+#pragma once
+
+#include "results/columns.h"
+#include "results/warning.h"
+#include "scene/drive.h"
+#include "scene/lever.h"
+
+#include <optional>
+#include <vector>
+
+namespace sprag
+{
+  struct Scene;
+
+  /// Returns the warnings that follow from the scene alone, before anything is computed. The scene is a prepared() one.
+  Warnings scene_warnings(const Scene &scene);
+
+  /// Returns the warnings that follow from the rows of a run, completed by add_closed_form(). Where a model has no friction face,
+  /// layer_pressure() of the largest P stands for the largest pressure. Only the first lever of a full pair is looked at.
+  Warnings row_warnings(const Scene &scene, const std::vector<Row> &rows);
+
+  /// Returns the warnings for a steady slide under P [N] with this compression of the layer [mm].
+  Warnings slide_warnings(const Scene &scene, const DrivePoint &drive, double P, double indentation);
+
+  /// Returns Friction layer/Strength, or where it is auto and nu <= 0.2 the share 0.04 of Young's modulus at which the cells of
+  /// cork buckle: 0.8 MPa of 20 MPa across the rings (Gibson, Easterling and Ashby, Proc. R. Soc. A 377 (1981) 99; Gibson and
+  /// Ashby, Cellular Solids, table of cork). There is none without a layer and for other layers.
+  std::optional<double> layer_strength(const FrictionLayer &layer);
+} // namespace sprag

@@ -1,0 +1,99 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace sprag
+{
+  enum class AnalysisType
+  {
+    quasi_static,
+    slope,
+    transient,
+    contact_law,    ///< indentation by finite elements, from which the contact law of the reduced models is fitted
+    modal,          ///< undamped modes of the lever at one x, out of contact or in it
+    stability,      ///< eigenvalues of the steady slide, what feeds them, and where it loses stability or jams
+    map,            ///< the same over a grid of two parameters
+    sprag_slip,     ///< the steady slide perturbed, in time, against its eigenvalue; limit cycles
+    calibration,    ///< leaf thickness and added mass for a given k and J; constants of the reduced models for a mesh
+    isolation,      ///< a table on a spring and a damper over a base that moves
+    identification, ///< friction, spring and geometry from a measured stroke
+    design,         ///< the lever that meets demands, and the best of them by an aim
+    study           ///< any of these but map and design, run after run at other values of the parameters
+  };
+
+  enum class ModelType
+  {
+    closed_form,
+    rigid,     ///< rotation of a rigid lever
+    beam,      ///< Hermite beam elements
+    condensed, ///< vibration modes and static face shapes of the finite elements
+    finite_element
+  };
+
+  inline bool is_meshed(const ModelType model)
+  {
+    return model == ModelType::condensed || model == ModelType::finite_element;
+  }
+
+  /// Returns whether the model has a few coordinates and no mesh, so that it is judged in no time.
+  inline bool is_reduced(const ModelType model)
+  {
+    return model == ModelType::rigid || model == ModelType::beam;
+  }
+
+  enum class PlaneState
+  {
+    stress,
+    strain
+  };
+
+  enum class Solution
+  {
+    automatic, ///< factorise once where the material is linear
+    general    ///< assemble and factorise in every Newton iteration
+  };
+
+  /// What a run does with the warnings that it has.
+  enum class WarningTreatment
+  {
+    report, ///< print and store them
+    error   ///< and fail
+  };
+
+  struct AnalysisSettings
+  {
+    AnalysisType type         = AnalysisType::quasi_static;
+    ModelType model           = ModelType::finite_element;
+    unsigned int dimension    = 2;
+    PlaneState plane          = PlaneState::stress;
+    Solution solution         = Solution::automatic;
+    double step               = 1.;   ///< largest change of x in a step [mm], > 0
+    double minimum_step       = 1e-6; ///< smallest change of x tried before the analysis gives up [mm], > 0
+    double maximum_deviation  = 0.;   ///< largest admissible deviation from the closed form [-]; 0: any
+    double maximum_residual   = 1e-3; ///< largest admissible energy residual over the largest work done [-]; 0: any
+    WarningTreatment warnings = WarningTreatment::report;
+  };
+
+  /// How accurate results are to be. Settings that a file leaves open follow from it.
+  struct AccuracySettings
+  {
+    double target          = 0.;         ///< relative error wanted [-]; 0: nothing follows from it
+    std::string quantity   = "auto";     ///< names of quantities of /accuracy, separated by commas
+    double budget          = 0.;         ///< CPU time that a run may take [s]; 0: any
+    bool is_model_open     = false;      ///< Analysis/Model = auto
+    bool is_dimension_open = false;      ///< Analysis/Dimension = auto
+    std::vector<std::string> quantities; ///< those meant
+
+    bool is_asked_for() const
+    {
+      return target > 0. || budget > 0.;
+    }
+
+    /// Whether something of the scene is to be chosen before it is run.
+    bool leaves_open() const
+    {
+      return is_dimension_open || is_asked_for();
+    }
+  };
+} // namespace sprag

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <string>
+
+namespace sprag
+{
+  /// Time integration by the generalised-alpha method.
+  struct TimeSettings
+  {
+    double step      = 5e-5; ///< first step, or every step [s], > 0
+    double tolerance = 5e-3; ///< of the adaptive step: error of P aimed at, over its largest quasi-static value; 0: fixed step
+    double spectral_radius = 0.8; ///< at infinite frequency, 0 ... 1
+  };
+
+  /// Basis of the condensed model.
+  struct CondensedSettings
+  {
+    unsigned int modes = 20; ///< vibration modes of the free lever, > 0
+    std::string cache;       ///< folder of stored bases; empty: the user's cache folder
+  };
+
+  struct MeshSettings
+  {
+    double face_size        = 0.5; ///< element length along the friction face [mm], > 0
+    double faces_in_contact = 0.;  ///< least number of faces across the contact, see face_grading(), >= 0
+    unsigned int degree     = 2;   ///< 1 or 2
+    std::string file;              ///< user's .geo or .msh; empty: the built-in lever
+
+    // In three dimensions.
+    unsigned int elements_across = 10;  ///< over the width, > 0
+    double growth_across         = 1.2; ///< of an element over the one beside it, from the edges to the middle, >= 1
+  };
+
+  enum class FieldOutput
+  {
+    none,
+    turning_points, ///< at every reversal and at the end
+    interval        ///< at every `field_interval` of travel too
+  };
+
+  struct OutputSettings
+  {
+    FieldOutput fields    = FieldOutput::turning_points;
+    double field_interval = 5.; ///< [mm], > 0
+  };
+} // namespace sprag

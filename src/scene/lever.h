@@ -1,0 +1,74 @@
+#pragma once
+
+#include "scene/apparatus.h"
+
+#include <optional>
+
+namespace sprag
+{
+  /// Figure 1 of the paper; the lever lies on the far side of the cylinder seen from the x-axis.
+  struct Geometry
+  {
+    double cylinder_radius  = 56.;   ///< R [mm], > 0
+    double interface_offset = 45.6;  ///< e [mm], 0 <= e < R: pivot to friction interface
+    double pivot_distance   = 185.5; ///< l [mm], > R: origin to pivot along x
+    double pivot_height     = 0.;    ///< h [mm], pivot above the x-axis
+  };
+
+  enum class MaterialModel
+  {
+    linear,
+    neo_hookean,
+    st_venant_kirchhoff ///< of leaf springs
+  };
+
+  enum class InertiaSource
+  {
+    scaled,  ///< densities scaled so that the moment of inertia is met
+    as_built ///< densities as they are; the moment of inertia follows
+  };
+
+  struct Lever
+  {
+    LeverOutline outline     = LeverOutline::bar;
+    double length            = 210.;
+    double depth             = 20.; ///< metal only [mm]
+    double width             = 40.;
+    double young_modulus     = 70000.;
+    double poisson_ratio     = 0.33;
+    double density           = 2.7e-9;                ///< [t/mm^3]
+    MaterialModel material   = MaterialModel::linear; ///< of lever and friction layer
+    double moment_of_inertia = 6.45;                  ///< J about the pivot, arm and tip mass included [t mm^2]
+    InertiaSource inertia    = InertiaSource::scaled;
+    double hub_inertia       = 0.;             ///< of what turns with the rigid hub, about the pivot [t mm^2], >= 0
+    double tip_mass          = 0.;             ///< at the neutral axis [t]
+    std::optional<double> neutral_axis_offset; ///< e_a [mm], from the pivot; none: e + layer + depth/2
+    double modal_damping     = 0.01;           ///< of critical, on each bending mode of the free lever
+    double mass_damping      = 0.;             ///< Rayleigh: C = this M + ... [1/s]
+    double stiffness_damping = 0.;             ///< Rayleigh: ... + this K, the rotational spring left out [s]
+  };
+
+  struct FrictionLayer
+  {
+    double thickness     = 1.; ///< [mm], >= 0; 0: no layer
+    double young_modulus = 20.;
+    double poisson_ratio = 0.;
+    double density       = 2e-10;   ///< [t/mm^3], scaled together with the lever's
+    std::optional<double> strength; ///< pressure at which its cells give way [MPa]; none: 0.04 times its Young's modulus
+  };
+
+  enum class SupportType
+  {
+    rigid,
+    sprung ///< the pivot frame moves along x
+  };
+
+  /// Pivot frame between lever and force sensor. Mass, stiffness and damping count only when sprung.
+  struct Support
+  {
+    SupportType type = SupportType::rigid;
+    double mass      = 2e-3;  ///< m_f [t], > 0
+    double stiffness = 5000.; ///< k_f [N/mm], > 0
+    double damping   = 0.02;  ///< of critical of frame and lever on k_f
+  };
+} // namespace sprag

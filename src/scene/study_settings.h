@@ -1,0 +1,66 @@
+#pragma once
+
+#include "scene/analysis_settings.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace sprag
+{
+  enum class SlopeSweep
+  {
+    coefficient, ///< C_Q over mu at the scene's geometry (Fig. 10)
+    inclination  ///< C_Q over th0 for a list of e/R at the scene's mu (Fig. 11)
+  };
+
+  struct SlopeSettings
+  {
+    SlopeSweep sweep                  = SlopeSweep::coefficient;
+    unsigned int number_of_points     = 121;
+    double maximum_coefficient        = 1.2;
+    double maximum_inclination        = 1.0471975511965976; ///< [rad]
+    std::vector<double> offset_ratios = { 0., 0.2, 0.4, 0.6, 0.8 };
+  };
+
+  /// A parameter by its --set name and the values that it takes, as texts.
+  struct VariedParameter
+  {
+    std::string name;
+    std::vector<std::string> values;
+  };
+
+  /// How a study combines the values of several parameters.
+  enum class Combination
+  {
+    grid, ///< each value of one with each of the others
+    list  ///< the first values of all, then the second ones, ...
+  };
+
+  /// Runs of one analysis of the scene at other values of its parameters.
+  struct StudySettings
+  {
+    AnalysisType type   = AnalysisType::quasi_static; ///< of each run
+    std::string vary    = "Friction/Factor = 0.5 ... 1.5 : 5";
+    Combination combine = Combination::grid;
+    std::string reference; ///< settings of the run that the others are compared with; empty: none
+
+    // What the texts say, see variation_of().
+    std::vector<VariedParameter> varied;
+    std::vector<VariedParameter> reference_values; ///< one value each
+  };
+
+  enum class AddedMass
+  {
+    hub, ///< Lever/Hub inertia
+    tip  ///< Lever/Tip mass
+  };
+
+  /// What the meshed parts are made to have.
+  struct CalibrationSettings
+  {
+    std::optional<double> stiffness;         ///< k [N mm/rad] by the leaf spring's thickness; none: the leaf as it is
+    std::optional<double> moment_of_inertia; ///< J [t mm^2] by added mass; none: as it is
+    AddedMass mass = AddedMass::hub;
+  };
+} // namespace sprag
