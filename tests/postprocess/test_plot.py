@@ -198,7 +198,7 @@ class PlotTest(PictureTest):
             with make_transient(self.folder / f"a{rows}", rows=rows, libver="latest") as file:
                 file.swmr_mode = True
                 pictures = ["forces-over-time.png", "forces-over-x.png", "energy.png", *names]
-                self.expect_pictures(self.plot(self.folder / f"a{rows}"), pictures)
+                self.expect_pictures(self.plot(self.folder / f"a{rows}", own_process=True), pictures)
 
     def test_transient_run_just_begun_or_without_quasi_static_values(self):
         file = make_transient(self.folder / "a", rows=4500)
@@ -245,7 +245,7 @@ class PlotTest(PictureTest):
         file.swmr_mode = True
         self.addCleanup(file.close)
         names = ["forces-over-time.png", "forces-over-x.png", "contact.png"]
-        self.expect_pictures(self.plot(self.folder / "a"), names)
+        self.expect_pictures(self.plot(self.folder / "a", own_process=True), names)
 
     def test_run_without_steps(self):
         file = new_file(self.folder / "a")

@@ -1,5 +1,8 @@
 """Every scene of params/ is accepted, runs on a coarse mesh and writes its columns. Run with /usr/bin/python3; environment:
-SPRAG, the program, and SPRAG_SOURCE, the sources."""
+SPRAG, the program, and SPRAG_SOURCE, the sources.
+
+    scenes.py            # runs all but twins: scenes that differ from another in numbers alone
+    scenes.py --twins    # runs these"""
 
 import re
 import sys
@@ -13,6 +16,14 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 from runs import SOURCE, RunTest, sprag  # noqa: E402
 
 SCENES = sorted((SOURCE / "params").glob("*.prm"))
+# Those of model B whose like is there for model A, and maps over other parameters.
+TWINS = {
+    path
+    for path in SCENES
+    if path.with_stem(path.stem.removesuffix("-b") + "-a") in SCENES and path.stem.endswith("-b")
+    or path.stem.startswith("map-") and path.stem != "map-position-depth-a"
+}
+ONLY_TWINS = "--twins" in sys.argv
 
 # Long ones are cut down: what they are there for is kept.
 COARSE = {"Mesh/Face size": "4", "Analysis/Step": "5"}
@@ -306,7 +317,7 @@ class ScenesTest(RunTest):
         self.assertEqual(len(list(output.glob("mode-*.xdmf"))), len(file["modes/frequency"]) if modes else 0)
 
     def test_all_run(self):
-        for scene in SCENES:
+        for scene in sorted(TWINS if ONLY_TWINS else set(SCENES) - TWINS):
             with self.subTest(scene=scene.stem):
                 output = self.output / scene.stem
                 changes = MAP if scene.stem.startswith("map-") else CHANGES.get(scene.stem, {})
@@ -332,4 +343,4 @@ class ScenesTest(RunTest):
 
 
 if __name__ == "__main__":
-    unittest.main()
+    unittest.main(argv=[sys.argv[0], *(["ScenesTest.test_all_run"] if ONLY_TWINS else sys.argv[1:])])

@@ -4,6 +4,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import checked
 from folders import FolderTest
 from layout import problems
 
@@ -12,8 +13,10 @@ FOLDER = SOURCE / "postprocess"
 sys.path.insert(0, str(FOLDER))
 
 
-def draw(script, *arguments):
-    """Its stderr tells what is wrong with the layout, too."""
+def draw(script, *arguments, own_process=False):
+    """Its stderr tells what is wrong with the layout, too. A test that has the drawn file open needs a process of its own."""
+    if not own_process:
+        return checked.run_in_copy(FOLDER / script, arguments)
     command = ["/usr/bin/python3", Path(__file__).parent / "checked.py", FOLDER / script, *arguments]
     return subprocess.run(command, capture_output=True, text=True, check=False)
 
@@ -25,8 +28,8 @@ class PictureTest(FolderTest):
         super().setUp()
         self.pictures = self.folder / "pictures"
 
-    def plot(self, *arguments):
-        return draw("plot.py", "--output", self.pictures, *arguments)
+    def plot(self, *arguments, **options):
+        return draw("plot.py", "--output", self.pictures, *arguments, **options)
 
     def expect_picture(self, done, name):
         """In the folder of the result a."""
