@@ -59,7 +59,7 @@ namespace sprag
 
   void visit(Archive &archive, EnergyLedger &ledger);
 
-  /// What a run in time tells of its steps.
+  /// Counts the steps of a run in time and holds its energy ledger.
   struct TransientReport
   {
     unsigned int steps    = 0;

@@ -7,7 +7,7 @@
 
 namespace sprag
 {
-  /// How often adaptive steps may double Time/Step.
+  /// Limits the doublings of Time/Step by adaptive steps.
   constexpr unsigned int largest_doublings = 4;
 
   /// Divides the time between the kinks of a drive into equal steps, which can be halved and doubled: few different durations, so
