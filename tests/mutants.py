@@ -30,15 +30,8 @@ LIST = ROOT / "tests" / "mutants.toml"
 FIELDS = {"file", "text", "becomes", "wrong", "tests"}
 FOLDERS = ("base", "laws", "scene", "results", "model", "fe", "levers", "analysis", "run", "verification")
 OUTSIDE = ("robustness", "postprocess")  # their tests start the program
+REDUCED = ("-LE", "thorough")  # those that ./test runs
 UNNAMED = r"^(structure|presets)\."  # these see that a text has changed, or build other trees
-ENVIRONMENT = {
-    **os.environ,
-    "OMP_NUM_THREADS": "1",
-    "OPENBLAS_NUM_THREADS": "1",
-    "OMPI_ALLOW_RUN_AS_ROOT": "1",
-    "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
-    "HWLOC_HIDE_ERRORS": "2",
-}
 
 
 def mutants_listed():
@@ -137,7 +130,6 @@ class Tree:
         with subprocess.Popen(
             list(map(str, command)),
             cwd=self.source,
-            env=ENVIRONMENT,
             stdin=subprocess.DEVNULL,
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
@@ -168,12 +160,12 @@ class Tree:
         return status == 0
 
     def names(self):
-        _, output = self.run(["ctest", "--test-dir", self.build, "-N"], "build")
+        _, output = self.run(["ctest", "--test-dir", self.build, "-N", *REDUCED], "build")
         return re.findall(r"^ *Test +#\d+: (\S+)", output, re.MULTILINE)
 
     def test(self, selection, log, limit=None):
         """Returns what failed of the tests selected, by name."""
-        command = ["ctest", "--test-dir", self.build, "--output-on-failure", "--no-tests=error", *selection]
+        command = ["ctest", "--test-dir", self.build, "--output-on-failure", "--no-tests=error", *REDUCED, *selection]
         status, output = self.run(command, log, limit)
         for name, seconds in re.findall(r"Test +#\d+: (\S+) \.+ *Passed +([\d.]+) sec", output):
             self.seconds[name] = float(seconds)

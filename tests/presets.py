@@ -22,6 +22,9 @@ import tempfile
 import time
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parent / "support"))
+import environment  # noqa: E402
+
 SOURCE = Path(os.environ.get("SPRAG_SOURCE", Path(__file__).resolve().parents[1]))
 PRESETS = ("debug", "sanitize")
 LONGEST_RUN = 900  # s, beside other work
@@ -135,30 +138,16 @@ def build(preset):
     print(f"{preset}: built in {time.monotonic() - began:.0f} s", flush=True)
 
 
-def environment(folder):
-    return {
-        "OMP_NUM_THREADS": "1",
-        "OPENBLAS_NUM_THREADS": "1",
-        "OMPI_ALLOW_RUN_AS_ROOT": "1",
-        "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
-        "OMPI_MCA_pml": "ob1",
-        **os.environ,
-        "XDG_CACHE_HOME": folder,
-        "ASAN_OPTIONS": "fast_unwind_on_malloc=0",
-        "LSAN_OPTIONS": f"suppressions={SOURCE}/tests/sanitizer.supp:print_suppressions=0",
-        "UBSAN_OPTIONS": "print_stacktrace=1:halt_on_error=1",
-    }
-
-
 def run(preset, scene, changes, folder):
     """What is wrong with the run; empty if nothing is."""
     command = [SOURCE / f"build-{preset}" / "sprag", SOURCE / "params" / f"{scene}.prm"]
     command += ["--output", f"{folder}/output", "--overwrite", "--quiet", "--jobs", "2"]
     for change in (*COARSE, *changes):
         command += ["--set", change]
+    settings = {**environment.of_build(SOURCE / f"build-{preset}"), "XDG_CACHE_HOME": folder}
     try:
         done = subprocess.run(
-            list(map(str, command)), env=environment(folder), capture_output=True, text=True, errors="replace", check=False, timeout=LONGEST_RUN
+            list(map(str, command)), env=settings, capture_output=True, text=True, errors="replace", check=False, timeout=LONGEST_RUN
         )
     except subprocess.TimeoutExpired:
         return f"longer than {LONGEST_RUN} s"

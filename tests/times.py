@@ -5,8 +5,8 @@
     tests/times.py --label quick             # those with this label
     tests/times.py --mutants mutants.json    # beside each test the mistakes that it alone sees
 
-A suite of GoogleTest is one test, with the CPU time of its dearest case in brackets (wall time of the case, as GoogleTest tells it).
-`tests/mutants.py --write mutants.json` writes which test sees which mistake."""
+A suite of GoogleTest is one test; below it stand its cases of more than a second of wall time (--least SECONDS).
+`tests/mutants.py --write mutants.json` writes which cases see which mistake."""
 
 import argparse
 import json
@@ -20,17 +20,8 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
-ENVIRONMENT = {
-    "OMP_NUM_THREADS": "1",
-    "OPENBLAS_NUM_THREADS": "1",
-    "OMPI_ALLOW_RUN_AS_ROOT": "1",
-    "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
-    "OMPI_MCA_pml": "ob1",
-    "SPRAG_SOURCE": str(ROOT),
-    "SPRAG_BUILD_TYPE": "Release",
-}
-
-
+sys.path.insert(0, str(ROOT / "tests" / "support"))
+import environment  # noqa: E402
 def listed(build):
     """Name, command, labels and working directory of every test."""
     shown = subprocess.run(["ctest", "--show-only=json-v1"], cwd=build, capture_output=True, text=True, check=True)
@@ -40,34 +31,31 @@ def listed(build):
             yield test["name"], test["command"], properties.get("LABELS", []), properties.get("WORKING_DIRECTORY", str(build))
 
 
-def dearest_case(report):
-    """The case of a suite that takes longest, with its wall time [s]; empty where nothing was reported."""
+def cases_of(report, suite):
+    """Cases of a suite with their wall time [s]."""
     if not report.exists():
-        return ""
-    cases = xml.etree.ElementTree.parse(report).getroot().iter("testcase")
-    times = sorted(((float(case.get("time", 0)), case.get("name")) for case in cases), reverse=True)
-    return f"{times[0][1]} {times[0][0]:.1f}" if times else ""
+        return []
+    return [(float(case.get("time", 0)), f"{suite}.{case.get('name')}") for case in xml.etree.ElementTree.parse(report).getroot().iter("testcase") if case.get("status") == "run"]
 
 
 def timed(test, build):
-    """Runs a test; its CPU time with that of its children [s], its exit status and its dearest case."""
+    """Runs a test; its CPU time with that of its children [s], its exit status and its cases."""
     name, command, _, folder = test
     with tempfile.TemporaryDirectory(prefix="sprag-times-") as temporary:
         report = Path(temporary) / "report.xml"
-        environment = {**os.environ, **ENVIRONMENT, "SPRAG": str(build / "sprag"), "GTEST_OUTPUT": f"xml:{report}"}
-        process = subprocess.Popen(command, cwd=folder, env=environment, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        settings = {**environment.of_build(build), "GTEST_OUTPUT": f"xml:{report}"}
+        process = subprocess.Popen(command, cwd=folder, env=settings, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         _, status, usage = os.wait4(process.pid, 0)
         process.returncode = os.waitstatus_to_exitcode(status)
-        return name, usage.ru_utime + usage.ru_stime, process.returncode, dearest_case(report)
+        return name, usage.ru_utime + usage.ru_stime, process.returncode, cases_of(report, suite_of(name))
 
 
 def seen_alone(path):
-    """Mistakes by the one suite that sees them."""
+    """Mistakes by the one case that sees them."""
     result = {}
     for mistake, cases in json.loads(Path(path).read_text(encoding="utf-8")).items():
-        suites = {case.partition(".")[0] for case in cases}
-        if len(suites) == 1:
-            result.setdefault(suites.pop(), []).append(mistake)
+        if len(cases) == 1:
+            result.setdefault(cases[0], []).append(mistake)
     return result
 
 
@@ -82,7 +70,8 @@ def main(arguments):
     parser.add_argument("-R", "--regex", default="")
     parser.add_argument("--label", default="")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
-    parser.add_argument("--mutants")
+    parser.add_argument("--least", type=float, default=1)
+    parser.add_argument("--mutants", metavar="FILE")
     options = parser.parse_args(arguments)
     alone = seen_alone(options.mutants) if options.mutants else {}
     build = options.build.resolve()
@@ -90,9 +79,12 @@ def main(arguments):
     with ThreadPoolExecutor(options.jobs) as pool:
         times = list(pool.map(lambda test: timed(test, build), chosen))
     labels = {test[0]: ", ".join(test[2]) for test in chosen}
-    for name, seconds, status, case in sorted(times, key=lambda time: -time[1]):
+    for name, seconds, status, cases in sorted(times, key=lambda time: -time[1]):
         failed = f"  FAILED ({status})" if status else ""
-        print(f"{seconds:8.1f} s  {labels[name]:9} {name}  [{case}]{failed}  {', '.join(alone.get(suite_of(name), []))}".rstrip())
+        print(f"{seconds:8.1f} s  {labels[name]:9} {name}{failed}  {', '.join(alone.get(name, []))}".rstrip())
+        for wall, case in sorted(cases, reverse=True):
+            if wall >= options.least or case in alone:
+                print(f"{wall:18.1f} s  {case}  {', '.join(alone.get(case, []))}".rstrip())
     print(f"{sum(time[1] for time in times):8.1f} s  all {len(times)}")
     return 1 if any(status for _, _, status, _ in times) else 0
 

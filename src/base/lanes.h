@@ -3,9 +3,10 @@
 #include <cmath>
 #include <cstdint>
 
-/// A function that computes with Lanes is compiled for several generations of processors, of which the loader takes the best.
-#if defined(__x86_64__) && defined(__gnu_linux__) && !defined(__SANITIZE_ADDRESS__)
-#  define SPRAG_FOR_ANY_PROCESSOR __attribute__((target_clones("avx512f", "avx2", "default")))
+/// A function that computes with Lanes is compiled for several generations of processors, of which the loader takes the best. Its
+/// loops are unrolled. Clang 14 can do neither.
+#if defined(__x86_64__) && defined(__gnu_linux__) && !defined(__SANITIZE_ADDRESS__) && !defined(__clang__)
+#  define SPRAG_FOR_ANY_PROCESSOR __attribute__((target_clones("avx512f", "avx2", "default"), optimize("unroll-loops")))
 #else
 #  define SPRAG_FOR_ANY_PROCESSOR
 #endif

@@ -95,7 +95,7 @@ TEST(Calibration, WithoutTargetsThePartsStayAsTheyAre)
 }
 
 /// Round trip: k, J and the section of the bar come back from its mesh, and the beam made of them does what the mesh does.
-TEST(Calibration, TheBeamOfAMeshDoesWhatTheMeshDoes)
+TEST(Calibration, TheBeamOfAMeshDoesWhatTheMeshDoesSlow)
 {
   for (const std::string model : { "a", "b" })
   {

@@ -252,12 +252,13 @@ namespace
     return value(before) != value(changed);
   }
 
-  /// Changes each parameter, notes the ones that the scene admits and compares what is shared then.
+  /// Changes each parameter, notes the ones that the scene admits and compares what is shared under one of its values.
   void change_each(const Scene &scene, const TemporaryFolder &folder, const bool compare, std::set<std::string> &admitted)
   {
     const auto key      = scene_key(scene);
     const auto body     = body_key(scene);
     unsigned int shared = 0;
+    std::set<std::string> compared;
     for (const auto &parameter : declared())
       for (const Scene &changed : changed_scenes(scene, parameter, folder))
       {
@@ -271,7 +272,7 @@ namespace
           EXPECT_EQ(body_key(in_memory(changed, scene)) == body, body_key(changed) == body) << what;
         }
         shared += shares ? 1 : 0;
-        if (compare && shares)
+        if (compare && shares && compared.insert(name).second)
           expect_shared_is_fresh(scene, changed, what);
       }
     EXPECT_TRUE(shared > 50 || !is_meshed(scene.analysis.model)) << shared;
@@ -285,7 +286,7 @@ TEST(EveryParameter, OfABarIsSharedWhereItDoesNotCount)
   change_each(bar(folder), folder, true, admitted);
 }
 
-TEST(EveryParameterThorough, OfAFrameAndOfAPairIsSharedWhereItDoesNotCount)
+TEST(EveryParameterSlow, OfAFrameAndOfAPairIsSharedWhereItDoesNotCount)
 {
   const TemporaryFolder folder;
   std::set<std::string> admitted;

@@ -88,7 +88,7 @@ namespace
   }
 } // namespace
 
-TEST(PairOfLevers, CorrectionIsNewtons)
+TEST(PairOfLevers, CorrectionIsNewtonsSlow)
 {
   for (const auto joint : { SpringJoint::held, SpringJoint::free })
     for (const auto solution : { Solution::automatic, Solution::general })

@@ -4,7 +4,6 @@ help refuses them."""
 import os
 import re
 import shutil
-import signal
 import subprocess
 import sys
 import unittest
@@ -21,7 +20,6 @@ SETTINGS = {**MESH, "Cylinder/Tilt": "1e-4", "Drive/Stroke": "15"}
 PARTS = {"Friction plate/Type": "on sensors", "Friction plate/Sensors": "105, 195", "Rotational spring/Type": "leaf"}
 HELD = {**MESH, "Analysis/Model": "condensed", "Condensed/Modes": "8", "Output/Fields": "none"}
 ALONE = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_rmaps_base_oversubscribe": "1"}
-OFTEN = {**ALONE, "SPRAG_CHECKPOINT_SECONDS": "0.02"}
 NUMBERS_IN_INDEX = re.compile('(?<=Time Value=")[^"]+|(?<=Format="XML">)[^<]+')
 
 
@@ -61,14 +59,8 @@ def fields_of(folder):
     return found
 
 
-def ranks_of(mpirun):
-    """Identifiers of the processes of one that has begun."""
-    words = [path.read_text().split() for path in Path(f"/proc/{mpirun.pid}/task").glob("*/children")]
-    return sorted(int(word) for word in sum(words, []))
-
-
 @unittest.skipUnless(shutil.which("mpirun"), "needs mpirun")
-class Ranks(RunTest):
+class RanksTest(RunTest):
     def expect_alike(self, fields, alone):
         """But for round-off in single precision, and the sign that a mode happens to have."""
         self.assertEqual(list(fields), list(alone))
@@ -83,6 +75,8 @@ class Ranks(RunTest):
                 size = max(size, 10.5)  # its largest displacement [mm], whatever the phase of a frame
             self.assertLessEqual(apart.max(initial=0), 2e-6 * size, name)
 
+
+class Ranks(RanksTest):
     def test_do_not_change_what_is_found(self):
         tables, fields = {}, {}
         for ranks in (1, 2):
@@ -101,34 +95,6 @@ class Ranks(RunTest):
             apart = np.nanmax(np.abs(alone - tables[2][name])) / np.nanmax(np.abs(alone))
             self.assertLess(apart, 1e-5 if name.startswith("centre_across") else 1e-8, name)
         self.expect_alike(fields[2], fields[1])
-
-    def test_do_not_change_fields_of_modes(self):
-        changes = {**HELD, "Analysis/Type": "modal", "Stability/Modes": "2", "Output/Fields": "turning points"}
-        alone, shared = ({}, {})
-        for ranks, fields in ((1, alone), (2, shared)):
-            folder = self.folder / str(ranks)
-            done = run(ranks, folder, changes)
-            self.assertEqual(done.returncode, 0, done.stderr)
-            fields.update(fields_of(folder))
-        self.assertGreater(np.abs(alone["mode-02.h5 frame-0023/mode-02/displacement"]).max(), 1)
-        self.expect_alike(shared, alone)
-
-    def test_go_on_after_one_was_killed(self):
-        whole = self.folder / "whole"
-        self.assertEqual(run(2, whole, SETTINGS).returncode, 0)
-        words = ["mpirun", "-n", "2", *command(self.output, SETTINGS)]
-        process = subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=OFTEN)
-        self.addCleanup(process.communicate)
-        checkpoint, frame = self.output / "run.checkpoint", self.output / "fields-0001.h5"
-        is_behind = lambda: checkpoint.exists() and frame.exists() and checkpoint.stat().st_mtime_ns > frame.stat().st_mtime_ns  # noqa: E731
-        self.wait_until(process, lambda: is_behind() or None)
-        os.kill(ranks_of(process)[1], signal.SIGKILL)
-        process.communicate(timeout=TIMEOUT)
-        self.assertNotEqual(process.returncode, 0)
-        done = run(2, self.output, SETTINGS)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertRegex(done.stdout, "Goes on: .* of an interrupted run")
-        self.expect_alike(fields_of(self.output), fields_of(whole))
 
     def test_without_the_folder_end_with_a_message(self):
         """As on machines that do not share their disks."""

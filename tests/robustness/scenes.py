@@ -40,13 +40,13 @@ CHANGES = {
     "study-offset-a": {"Study/Vary": "Isolation/Damper = lever, constant friction; Isolation/Initial displacement = 20, 50"},
     **{name: {"Design/Judges": "beam"} for name in ("design-a", "design-b")},
     "design-machine": {"Design/Demands": "friction ratio = 0.5 +- 0.005; largest pressure <= 0.8", "Design/Judges": "none"},
-    "design-front-machine": {"Design/Front points": "3", "Design/Evaluations": "300"},
+    "design-front-machine": {"Design/Front points": "3", "Design/Evaluations": "100"},
     **{name: {"Mesh/Elements across": "2", "Condensed/Modes": "6"} for name in ("solid-modal-a", "solid-stability-a")},
-    **{name: {"Mesh/Elements across": "2"} for name in ("solid-shaft-a", "solid-tilted-a", "solid-pair-a")},
-    "solid-rib-a": {"Mesh/Degree": "1"},
-    "solid-plate-a": {"Mesh/Elements across": "4"},
-    "solid-frame-a": {"Mesh/Elements across": "2"},
-    "solid-neo-hookean-a": {"Mesh/Face size": "4", "Mesh/Elements across": "2", "Drive/Stroke": "10"},
+    **{name: {"Mesh/Elements across": "2"} for name in ("solid-a", "solid-shaft-a", "solid-tilted-a", "solid-pair-a")},
+    "solid-rib-a": {"Mesh/Face size": "8", "Mesh/Degree": "1"},
+    "solid-plate-a": {"Mesh/Face size": "8", "Mesh/Elements across": "2"},
+    "solid-frame-a": {"Mesh/Face size": "8", "Mesh/Elements across": "2"},
+    "solid-neo-hookean-a": {"Mesh/Face size": "8", "Mesh/Elements across": "2", "Drive/Stroke": "10"},
     "solid-reversal-a": SOLID_REVERSAL,
     "solid-plate-reversal-a": {**SOLID_REVERSAL, "Mesh/Face size": "8"},
     "solid-isolation-a": {"Mesh/Elements across": "2", "Condensed/Modes": "6", "Isolation/Duration": "0.2"},
@@ -108,8 +108,8 @@ class ScenesTest(RunTest):
     def test_there_are_scenes(self):
         self.assertLessEqual({"model-a", "model-b"}, {path.stem for path in SCENES})
 
-    def test_all_are_valid(self):
-        for scene in SCENES:
+    def test_those_that_are_not_run_are_valid(self):
+        for scene in TWINS:
             with self.subTest(scene=scene.stem):
                 done = sprag(scene, "--validate")
                 self.assertEqual((done.returncode, done.stderr), (0, ""))
@@ -253,7 +253,7 @@ class ScenesTest(RunTest):
                 expected |= {"tilt", "skew"}
             is_linear = parameter(text, "Lever", "Material") == "linear"
             if parameter(text, "Analysis", "Type") == "quasi-static" and is_linear:
-                self.assertLess(file["meta/compliance_error"][()], 1e-3)
+                self.assertLess(file["meta/compliance_error"][()], 5e-3)
         self.assertEqual(set(table), expected)
         if has_plate:
             self.assertTrue(np.isfinite(table["sensor_sum"][:]).all())

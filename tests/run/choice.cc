@@ -92,7 +92,7 @@ namespace
   }
 } // namespace
 
-TEST(Choice, ThreeDimensionsAreTakenWhereThePlaneIsOffByMoreThanIsAskedFor)
+TEST(Choice, ThreeDimensionsAreTakenWhereThePlaneIsOffByMoreThanIsAskedForSlow)
 {
   EXPECT_EQ(chosen(dimension_for({}), "Analysis/Dimension"), "2");
   EXPECT_EQ(chosen(dimension_for({ "Cylinder/Length=20" }), "Analysis/Dimension"), "2"); // P and Q alone

@@ -65,7 +65,7 @@ TEST(VibrationAccuracy, ToldErrorsHoldTheChangeToAFinerMesh)
   }
 }
 
-TEST(VibrationAccuracy, InThreeDimensionsToldErrorsHoldTheChangeToAFinerMesh)
+TEST(VibrationAccuracy, InThreeDimensionsToldErrorsHoldTheChangeToAFinerMeshSlow)
 {
   const Scene scene = slide_in_space(4., 2);
   DynamicsMaker maker(false), of_fine(false);

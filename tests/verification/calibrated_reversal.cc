@@ -49,7 +49,7 @@ namespace
 
 /// The leaf spring's own vibrations included, which ring with the lever. What is asked for is 3 %; statics and frequencies agree
 /// to 0.5 %, and the peak follows the first swing after the reversal.
-TEST(CalibratedReversal, TheBeamsPeakIsThatOfTheMesh)
+TEST(CalibratedReversal, TheBeamsPeakIsThatOfTheMeshSlow)
 {
   for (const std::string model : { "a", "b" })
   {

@@ -153,7 +153,7 @@ TEST(CattaneoMindlin, SlipEntersFromTheEdgesAsTheTangentialLoadGrows)
   expect_slip_from_the_edges(loaded(growing, coefficient), plane_modulus(elastic));
 }
 
-TEST(CattaneoMindlin, SlipEntersFromTheEdgesOfTwoEqualCylinders)
+TEST(CattaneoMindlin, SlipEntersFromTheEdgesOfTwoEqualCylindersSlow)
 {
   // Under half of P in all; from 2.5 on in smaller steps, which Newton's method asks for.
   const std::vector<double> positions{ 1.1, 1.25, 1.5, 2., 2.5, 2.75, 3., 3.25, 3.4 };

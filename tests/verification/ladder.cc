@@ -1,5 +1,6 @@
 #include "scene/scene.h"
 #include "verification/meshed_in_time.h"
+#include "verification/run_scene.h"
 
 #include <gtest/gtest.h>
 
@@ -27,12 +28,6 @@ namespace
   Scene around_the_reversal(const Scene &scene, const double x)
   {
     return with_drive(scene, Drive(DriveProfile::triangle, x, 65., 112., 1., 5e-3));
-  }
-
-  Scene with_face_size(Scene scene, const double size)
-  {
-    scene.mesh.face_size = size;
-    return scene;
   }
 
   Oscillation oscillation(const Scene &scene)

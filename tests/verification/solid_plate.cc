@@ -69,7 +69,7 @@ TEST(SolidPlate, WithoutContractionOnPadsOfTheWholeWidthItIsThePlanes)
 }
 
 // Sensors at the corners let the plate bend between them, which P feels; how two places share it follows from balance alone.
-TEST(SolidPlate, ATrueCylinderGivesThePlanesShares)
+TEST(SolidPlate, ATrueCylinderGivesThePlanesSharesSlow)
 {
   const Scene scene = on_sensors(0.);
   const SolidRun solid(scene);
@@ -87,7 +87,7 @@ TEST(SolidPlate, ATrueCylinderGivesThePlanesShares)
       EXPECT_NEAR(solid.rows[k].across[i], whole.rows[k].across[i], 1e-5) << k;
 }
 
-TEST(SolidPlate, AMirroredTiltSwapsLeftAndRight)
+TEST(SolidPlate, AMirroredTiltSwapsLeftAndRightSlow)
 {
   const Scene scene = on_sensors(0.3);
   const SolidRun one(tilted(scene, 2e-4)), other(tilted(scene, -2e-4));
