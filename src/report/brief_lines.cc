@@ -6,6 +6,7 @@
 #include "scene/sections.h"
 
 #include <cmath>
+#include <map>
 #include <ostream>
 
 namespace sprag
@@ -80,12 +81,13 @@ namespace sprag
 
   void print_brief_errors(std::ostream &stream, const std::vector<ErrorEstimate> &errors)
   {
-    std::string told, untold;
+    std::string told;
+    std::map<std::string, std::string> untold; // quantities by the reason why nothing is told of them
     const ErrorEstimate *worst = nullptr;
     for (const auto &error : errors)
     {
       if (error.parts.empty())
-        untold += (untold.empty() ? "" : ", ") + error.quantity;
+        untold[error.unknown] += (untold[error.unknown].empty() ? "" : ", ") + error.quantity;
       else
         told += (told.empty() ? "" : ", ") + error.quantity + ' ' + percent(total_error(error));
       if (!error.parts.empty() && (worst == nullptr || total_error(error) > total_error(*worst)))
@@ -93,8 +95,8 @@ namespace sprag
     }
     if (!told.empty())
       brief_line(stream, "errors, estimated", told);
-    if (!untold.empty())
-      brief_line(stream, "not estimated", untold + " (the reason is in /accuracy)");
+    for (const auto &[reason, quantities] : untold)
+      brief_line(stream, "not estimated", quantities + ": " + reason);
     if (worst != nullptr)
       brief_line(stream, "to improve the worst", largest_part(*worst).remedy);
   }

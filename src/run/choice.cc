@@ -1,5 +1,6 @@
 #include "run/choice.h"
 
+#include "levers/prepared_scene.h"
 #include "report/percent.h"
 #include "run/expected_cost.h"
 #include "scene/read.h"
@@ -37,7 +38,7 @@ namespace sprag
     std::vector<std::string> overrides;
     for (const auto &setting : settings)
       overrides.push_back(setting.parameter + '=' + setting.value);
-    return variant(scene, overrides);
+    return with_chosen(scene, overrides);
   }
 
   bool is_paid(const Scene &scene, const Choice &choice)
@@ -85,8 +86,7 @@ namespace sprag
     std::vector<ChosenSetting> dimension;
     if (scene.accuracy.is_dimension_open)
       dimension = { choose_dimension(scene) };
-    Scene chosen        = with_settings(scene, dimension);
-    chosen.given        = scene.given; // which tells what is open
+    const Scene chosen  = with_settings(scene, dimension);
     const bool in_space = chosen.analysis.dimension == 3;
     Choice choice;
     if (scene.accuracy.is_asked_for())
@@ -108,6 +108,16 @@ namespace sprag
       stream << " asked for, " << percent(choice.error) << " expected. " << choice.limit << '\n';
     }
   } // namespace
+
+  Resolved resolved(const Scene &given)
+  {
+    Resolved result{ prepared(given), std::nullopt };
+    if (given.analysis.type == AnalysisType::study || !given.accuracy.leaves_open())
+      return result;
+    result.choice = choose_settings(result.scene);
+    result.scene  = prepared(with_settings(result.scene, result.choice->settings));
+    return result;
+  }
 
   void print_choice(std::ostream &stream, const Scene &scene, const Choice &choice)
   {

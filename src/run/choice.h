@@ -4,6 +4,7 @@
 #include "scene/scene.h"
 
 #include <iosfwd>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -43,6 +44,17 @@ namespace sprag
   /// probes: models of the scene on coarser meshes, in three dimensions too those of the plane; of the elements across these do
   /// not tell. Throws AnalysisError where probes have no equilibrium.
   Choice choose_settings(const Scene &scene);
+
+  /// A scene that can be run, and what was chosen on the way.
+  struct Resolved
+  {
+    Scene scene;
+    std::optional<Choice> choice; ///< none where the scene leaves nothing open
+  };
+
+  /// Computes what a scene as it was read needs for a run: its leaf spring, and what it leaves open. The runs of a study are
+  /// resolved one by one. Throws InputError where a scene is refused, AnalysisError as choose_settings() does.
+  Resolved resolved(const Scene &given);
 
   /// Chooses for a run without inertia to meet a relative error `target` > 0.
   class StaticChoice

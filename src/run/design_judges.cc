@@ -244,7 +244,7 @@ namespace sprag
     const Scene scene = scene_of(judgement.lever, { "Analysis/Type=transient", "Analysis/Model=" + judge_name(judgement.judge) });
     require_memory(scene);
     Warnings warnings;
-    carry_out(scene, { {}, true, true, &in_memory }, warnings);
+    carry_out(scene, options_of(in_memory), warnings);
     const auto &summary = in_memory.found.summary;
     const auto slides   = judgement.found;
     take_larger(judgement.found[Q::largest_force], summary, { "peak_Q_forward", "peak_Q_backward" });

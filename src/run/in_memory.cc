@@ -8,6 +8,14 @@ namespace sprag
              std::make_shared<StaticMeshes>() };
   }
 
+  RunOptions options_of(InMemory &in_memory)
+  {
+    RunOptions options;
+    options.quiet     = true;
+    options.in_memory = &in_memory;
+    return options;
+  }
+
   bool estimates_errors(const RunOptions &options)
   {
     return options.in_memory == nullptr;

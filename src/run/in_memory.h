@@ -12,6 +12,9 @@ namespace sprag
   /// Returns what the runs of one process share, with nothing in it yet.
   InMemory run_in_memory();
 
+  /// Returns the options of a run in memory, which prints nothing.
+  RunOptions options_of(InMemory &in_memory);
+
   /// Returns whether a run estimates the errors of its results by others, which cost more than the run: not in memory, where runs
   /// stand beside finer ones.
   bool estimates_errors(const RunOptions &options);

@@ -69,13 +69,9 @@ namespace sprag
 
   void print_expectations(const Scene &given, const unsigned int processes, const std::string &folder)
   {
-    Scene scene = prepared(given);
-    if (scene.accuracy.leaves_open())
-    {
-      const auto choice = choose_settings(scene);
-      print_choice(std::cout, scene, choice);
-      scene = with_settings(scene, choice.settings);
-    }
+    const auto [scene, choice] = resolved(given);
+    if (choice)
+      print_choice(std::cout, given, *choice);
     print_cost(std::cout, expected_cost(scene));
     print_processes(std::cout, scene, processes);
     if (const auto files = factor_files(scene, processes, folder))
@@ -84,32 +80,27 @@ namespace sprag
 
   void run(const Scene &given, const RunOptions &options)
   {
-    const Scene scene = prepared(given);
-    if (!options.quiet && !scene.mesh.file.empty())
+    if (!options.quiet && !given.mesh.file.empty())
     {
       require_writable(options.folder);
-      try_mesh(scene);
+      try_mesh(prepared(given));
     }
-    if (!scene.accuracy.leaves_open())
+    if (given.accuracy.leaves_open())
+      require_writable(options.folder);
+    const auto [scene, choice] = resolved(given);
+    RunOptions telling         = options;
+    if (choice)
     {
+      telling.chosen = text_of(choice->settings);
       if (!options.quiet && options.is_first)
-        print_processes(std::cout, scene, options.processes);
-      return run_from_margin_to_warnings(scene, options, margin_of, carry_out);
+      {
+        print_choice(std::cout, given, *choice);
+        print_cost(std::cout, expected_cost(scene));
+      }
+      require_memory(scene, options.processes, options.in_memory == nullptr ? options.folder : "");
     }
-    require_writable(options.folder);
-    const auto choice  = choose_settings(scene);
-    Scene chosen       = prepared(with_settings(scene, choice.settings));
-    RunOptions telling = options;
-    telling.chosen     = text_of(choice.settings);
-    if (!options.quiet)
-    {
-      print_choice(std::cout, scene, choice);
-      print_cost(std::cout, expected_cost(chosen));
-      print_processes(std::cout, chosen, options.processes);
-    }
-    require_memory(chosen, options.processes, options.in_memory == nullptr ? options.folder : "");
-    // The file tells the parameters that were given, by which the folder is known again, and in /meta what followed from them.
-    chosen.parameters = scene.parameters;
-    run_from_margin_to_warnings(chosen, telling, margin_of, carry_out);
+    if (!options.quiet && options.is_first)
+      print_processes(std::cout, scene, options.processes);
+    run_from_margin_to_warnings(scene, telling, margin_of, carry_out);
   }
 } // namespace sprag

@@ -7,6 +7,7 @@
 #include "run/study_report.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <ostream>
 #include <utility>
@@ -146,8 +147,11 @@ namespace sprag
             found.push_back({ *number, entry->unit, row->run });
       if (found.empty())
         return;
+      // Peaks of a force that acts backward are negative: the largest is that of the largest magnitude.
+      const bool is_peak = name.rfind("peak_", 0) == 0;
+      const auto size    = [is_peak](const Found &one) { return is_peak ? std::abs(one.value) : one.value; };
       const auto [least, most] =
-          std::minmax_element(found.begin(), found.end(), [](const Found &a, const Found &b) { return a.value < b.value; });
+          std::minmax_element(found.begin(), found.end(), [&size](const Found &a, const Found &b) { return size(a) < size(b); });
       brief_line(stream, name,
                  four_digits(least->value) + " to " + with_unit(most->value, most->unit) + ", most for " +
                      settings_with_units(printer.study, printer.points[most->run]));

@@ -4,10 +4,10 @@
 #include "base/errors.h"
 #include "base/peak_memory.h"
 #include "base/progress.h"
-#include "levers/prepared_scene.h"
 #include "program/memory.h"
 #include "report/warnings.h"
 #include "run/analyses.h"
+#include "run/choice.h"
 #include "scene/analysis_use.h"
 #include "scene/scene.h"
 #include "scene/scene_key.h"
@@ -94,10 +94,10 @@ namespace sprag
     Warnings warnings;
     try
     {
-      const Scene scene = prepared(scene_of(index));
+      const Scene scene = resolved(scene_of(index)).scene;
       require_memory(scene);
       warnings = scene_warnings(scene);
-      carry_out(scene, { {}, true, true, &in_memory }, warnings);
+      carry_out(scene, options_of(in_memory), warnings);
       check_warnings(scene, warnings);
       record.found = std::move(in_memory.found);
       if (!has_reference)
@@ -132,9 +132,10 @@ namespace sprag
       try
       {
         const Scene scene = scene_of(run);
-        // Runs without a mesh share nothing.
-        auto &group = by_mesh[needs_mesh(scene) ? body_key(scene) : std::to_string(run)];
-        group.size  = expected_size(scene).displacements;
+        // Runs without a mesh share nothing, and of others it is not known before the mesh is chosen.
+        const bool shares = needs_mesh(scene) && !scene.accuracy.leaves_open();
+        auto &group       = by_mesh[shares ? body_key(scene) : std::to_string(run)];
+        group.size        = expected_size(scene).displacements;
         group.runs.push_back(run);
       }
       catch (const InputError &)

@@ -44,19 +44,36 @@ namespace sprag
 
     const char *const time_tolerance = "Time/Tolerance";
 
-    ParameterValues values_of(const Scene &scene)
+    /// What was given and chosen, without the defaults.
+    ParameterValues set_values(const Scene &scene)
     {
-      return scene.parameters ? *scene.parameters : ParameterValues();
+      ParameterValues result;
+      for (const auto &name : scene.given)
+        result[name] = scene.parameters->at(name);
+      for (const auto &[name, before] : scene.chosen)
+        result[name] = scene.parameters->at(name);
+      return result;
+    }
+
+    std::vector<std::string> names_in(const std::vector<std::string> &overrides)
+    {
+      std::vector<std::string> names;
+      for (const auto &text : overrides)
+        names.push_back(trim(text.substr(0, text.find('='))));
+      return names;
     }
 
     /// Reports the mistakes met on the way to a scene against the parameters they come from.
     class SceneReader
     {
     public:
-      explicit SceneReader(const std::function<Settings(const std::vector<Parameter> &)> &read)
+      SceneReader(const std::function<Settings(const std::vector<Parameter> &)> &read, const std::string &folder,
+                  const std::map<std::string, std::string> &chosen = {})
           : parameters(scene_parameters(input))
           , settings(read(parameters))
       {
+        input.scene.folder = folder;
+        input.scene.chosen = chosen;
       }
 
       Scene scene()
@@ -99,7 +116,8 @@ namespace sprag
           if (const auto given = settings.given.find(full_name(parameter)); given != settings.given.end())
           {
             parameter.store(given->second.value);
-            input.scene.given.insert(given->first);
+            if (input.scene.chosen.count(given->first) == 0)
+              input.scene.given.insert(given->first);
           }
         input.scene.slope.maximum_inclination = input.maximum_inclination * M_PI / 180.;
         resolve("Drive/Table", input.drive.table);
@@ -114,6 +132,13 @@ namespace sprag
         make_discretisation(input);
       }
 
+      /// The analysis of the scene, or that of the runs of a study.
+      AnalysisType type_of_runs() const
+      {
+        const auto type = input.scene.analysis.type;
+        return type == AnalysisType::study ? input.scene.study.type : type;
+      }
+
       /// Until it is chosen, the model is the dearest that a choice may end at. Under a table levers are those of the closed form
       /// unless another model is given, and so is the lever of a measured stroke; the printed parameters then give it.
       void make_model()
@@ -121,40 +146,42 @@ namespace sprag
         Scene &scene                     = input.scene;
         scene.accuracy.is_dimension_open = !input.dimension;
         scene.analysis.dimension         = input.dimension.value_or(2);
-        const auto type =
-            scene.analysis.type == AnalysisType::study ? scene.study.type : scene.analysis.type; // of the runs themselves
-        const bool is_closed = type == AnalysisType::isolation || type == AnalysisType::identification;
+        const auto type                  = type_of_runs();
+        const bool is_closed             = type == AnalysisType::isolation || type == AnalysisType::identification;
         if (is_closed && settings.given.count("Analysis/Model") == 0)
         {
           scene.analysis.model                   = ModelType::closed_form;
           settings.given["Analysis/Model"].value = "closed form";
           return;
         }
-        const bool is_static         = scene.analysis.type == AnalysisType::quasi_static;
+        const bool is_static         = type == AnalysisType::quasi_static;
         scene.accuracy.is_model_open = !input.model;
         scene.analysis.model         = input.model.value_or(is_static ? ModelType::finite_element : ModelType::condensed);
       }
 
       void read_dimension()
       {
-        const auto type = input.scene.analysis.type;
+        const auto type = type_of_runs();
         if (!input.dimension && type != AnalysisType::quasi_static && type != AnalysisType::stability &&
             type != AnalysisType::transient)
           report("Analysis/Dimension", "auto is for Analysis/Type = quasi-static, stability and transient");
       }
 
+      /// What depends on the model and on whether an accuracy is asked for is up to each run of a study.
       void read_accuracy()
       {
         AccuracySettings &accuracy = input.scene.accuracy;
-        const auto possible        = quantities_of(input.scene.analysis.type);
-        if (accuracy.is_model_open && !accuracy.is_asked_for())
+        const auto possible        = quantities_of(type_of_runs());
+        const bool is_study        = input.scene.analysis.type == AnalysisType::study;
+        if (accuracy.is_model_open && !accuracy.is_asked_for() && !is_study)
           report("Analysis/Model", "auto needs Accuracy/Target or Accuracy/Budget");
-        if (accuracy.is_asked_for() && follows_formulas(input.scene))
+        const bool is_model_chosen = input.scene.chosen.count("Analysis/Model") > 0;
+        if (accuracy.is_asked_for() && follows_formulas(input.scene) && !is_study && !is_model_chosen)
           report("Analysis/Model", "must be auto or a model that solves for the contact where an accuracy is asked for");
         if (accuracy.is_asked_for() && possible.empty())
           report(accuracy.target > 0. ? "Accuracy/Target" : "Accuracy/Budget",
                  "counts only along the drive and for held slides, where errors are told");
-        accuracy.quantities = quantities_meant(accuracy.quantity, input.scene.analysis.type);
+        accuracy.quantities = quantities_meant(accuracy.quantity, type_of_runs());
         for (const auto &name : accuracy.quantities)
           if (accuracy.is_asked_for() && std::find(possible.begin(), possible.end(), name) == possible.end())
             report("Accuracy/Quantity", "'" + name + "' is none of " + boost::algorithm::join(possible, ", "));
@@ -233,12 +260,11 @@ namespace sprag
       {
         if (doubtful("Analysis/Type") || input.scene.analysis.type != AnalysisType::study)
           return;
-        StudySettings &study     = input.scene.study;
-        const std::string folder = std::filesystem::absolute(settings.file).parent_path().string();
-        const auto varied        = variation_of(study.vary, parameters, folder);
-        const auto reference     = settings_of(study.reference, parameters, folder);
-        study.varied             = varied.parameters;
-        study.reference_values   = reference.parameters;
+        StudySettings &study   = input.scene.study;
+        const auto varied      = variation_of(study.vary, parameters, input.scene.folder);
+        const auto reference   = settings_of(study.reference, parameters, input.scene.folder);
+        study.varied           = varied.parameters;
+        study.reference_values = reference.parameters;
         for (const auto &mistake : varied.mistakes.empty() ? combination_mistakes(study) : varied.mistakes)
           report("Study/Vary", mistake);
         for (const auto &mistake : joined(reference.mistakes, reference_mistakes(study)))
@@ -351,8 +377,7 @@ namespace sprag
       {
         if (path.empty())
           return;
-        const auto folder                  = std::filesystem::absolute(settings.file).parent_path();
-        path                               = (folder / path).lexically_normal().string();
+        path                               = (std::filesystem::path(input.scene.folder) / path).lexically_normal().string();
         settings.given.at(parameter).value = path;
       }
 
@@ -367,24 +392,47 @@ namespace sprag
         return settings.doubtful.count(parameter) > 0;
       }
     };
+
+    Scene changed(const Scene &scene, const std::vector<std::string> &overrides, const std::map<std::string, std::string> &chosen)
+    {
+      const auto read = [&](const auto &declared)
+      { return override_settings(scene.name + ".prm", set_values(scene), overrides, declared); };
+      return SceneReader(read, scene.folder, chosen).scene();
+    }
   } // namespace
 
   Scene read_scene(const std::string &file, const std::vector<std::string> &overrides)
   {
-    return SceneReader([&](const auto &declared) { return read_settings(file, overrides, declared); }).scene();
+    return SceneReader([&](const auto &declared) { return read_settings(file, overrides, declared); },
+                       std::filesystem::absolute(file).parent_path().string())
+        .scene();
   }
 
   Scene variant(const Scene &scene, const std::vector<std::string> &overrides)
   {
-    return SceneReader([&](const auto &declared)
-                       { return override_settings(scene.name + ".prm", values_of(scene), overrides, declared); })
-        .scene();
+    auto chosen = scene.chosen;
+    for (const auto &name : names_in(overrides))
+      chosen.erase(name);
+    return changed(scene, overrides, chosen);
+  }
+
+  Scene with_chosen(const Scene &scene, const std::vector<std::string> &overrides)
+  {
+    auto chosen = scene.chosen;
+    for (const auto &name : names_in(overrides))
+      chosen.emplace(name, scene.parameters->at(name));
+    return changed(scene, overrides, chosen);
   }
 
   std::string parameters_text(const Scene &scene)
   {
     SceneSettings defaults;
-    return scene.parameters ? parameters_text(scene_parameters(defaults), *scene.parameters) : std::string();
+    if (!scene.parameters)
+      return {};
+    auto values = *scene.parameters;
+    for (const auto &[name, before] : scene.chosen)
+      values[name] = before;
+    return parameters_text(scene_parameters(defaults), values);
   }
 
   std::string override_text(const std::string &parameter, const double value)

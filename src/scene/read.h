@@ -12,13 +12,18 @@ namespace sprag
   /// default is at fault and "--set" for an override.
   Scene read_scene(const std::string &file, const std::vector<std::string> &overrides = {});
 
-  /// Returns the scene with some parameters changed, each "Section/Name=value". Throws InputError as read_scene() does.
+  /// Returns the scene with some parameters changed, each "Section/Name=value", as if it had been read with these overrides: what
+  /// was left at its default follows from them. Throws InputError as read_scene() does.
   Scene variant(const Scene &scene, const std::vector<std::string> &overrides);
+
+  /// Returns the scene with parameters that the program has chosen, each "Section/Name=value". They do not count as given.
+  Scene with_chosen(const Scene &scene, const std::vector<std::string> &overrides);
 
   /// Returns the text "Section/Name=value" for a number.
   std::string override_text(const std::string &parameter, double value);
 
-  /// Writes every parameter as it was read with its documentation, in .prm form; empty for a scene that was not read.
+  /// Writes every parameter as it was read, before any was chosen, with its documentation, in .prm form; empty for a scene that
+  /// was not read.
   std::string parameters_text(const Scene &scene);
 
   /// Writes every parameter with its default and documentation, in .prm form.

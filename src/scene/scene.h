@@ -52,11 +52,15 @@ namespace sprag
     DesignSettings design;
     IdentificationSettings identification;
     AccuracySettings accuracy;
-    std::string name; ///< file name without folder and ending
+    std::string name;   ///< file name without folder and ending
+    std::string folder; ///< of the file, to which paths are relative
 
     /// Every parameter as it was read, by "Section/Name", files with absolute paths; null for a scene that was not read.
     std::shared_ptr<const std::map<std::string, std::string>> parameters;
 
     std::set<std::string> given; ///< "Section/Name" of the parameters that were given rather than left at their defaults
+
+    /// Parameters that the program has chosen so that an accuracy is met, with what stood in their place.
+    std::map<std::string, std::string> chosen;
   };
 } // namespace sprag

@@ -1,4 +1,6 @@
 #include "analysis/stability/stability.h"
+#include "analysis/study/study_points.h"
+#include "base/append.h"
 #include "base/errors.h"
 #include "base/text.h"
 #include "levers/dynamics.h"
@@ -11,6 +13,7 @@
 #include "scene/sections.h"
 #include "support/temporary_folder.h"
 
+#include <functional>
 #include <gtest/gtest.h>
 #include <optional>
 #include <set>
@@ -90,6 +93,25 @@ namespace
       catch (const InputError &)
       {
       }
+    return result;
+  }
+
+  /// Everything that a scene was read from but what makes it a study's, with what was given among it; else why it was refused.
+  std::vector<std::string> read_or_refused(const std::function<Scene()> &read)
+  {
+    std::vector<std::string> result;
+    try
+    {
+      const Scene scene = read();
+      for (const auto &[name, value] : *scene.parameters)
+        if (name.rfind("Study/", 0) != 0)
+          result.push_back(name + (scene.given.count(name) > 0 ? " given as " : " is ") + value);
+      result.push_back(scene.accuracy.is_model_open ? "open model" : "fixed model");
+    }
+    catch (const InputError &)
+    {
+      result.push_back("refused");
+    }
     return result;
   }
 
@@ -252,8 +274,19 @@ namespace
     return value(before) != value(changed);
   }
 
+  bool all(const Parameter &)
+  {
+    return true;
+  }
+
+  bool none(const Parameter &)
+  {
+    return false;
+  }
+
   /// Changes each parameter, notes the ones that the scene admits and compares what is shared under one of its values.
-  void change_each(const Scene &scene, const TemporaryFolder &folder, const bool compare, std::set<std::string> &admitted)
+  void change_each(const Scene &scene, const TemporaryFolder &folder, const std::function<bool(const Parameter &)> &compare,
+                   std::set<std::string> &admitted)
   {
     const auto key      = scene_key(scene);
     const auto body     = body_key(scene);
@@ -272,26 +305,34 @@ namespace
           EXPECT_EQ(body_key(in_memory(changed, scene)) == body, body_key(changed) == body) << what;
         }
         shared += shares ? 1 : 0;
-        if (compare && shares && compared.insert(name).second)
+        if (shares && compare(parameter) && compared.insert(name).second)
           expect_shared_is_fresh(scene, changed, what);
       }
     EXPECT_TRUE(shared > 50 || !is_meshed(scene.analysis.model)) << shared;
   }
 } // namespace
 
-TEST(EveryParameter, OfABarIsSharedWhereItDoesNotCount)
+TEST(EveryParameter, OfALeverIsSharedWhereItDoesNotCount)
 {
   const TemporaryFolder folder;
   std::set<std::string> admitted;
-  change_each(bar(folder), folder, true, admitted);
+  change_each(
+      bar(folder), folder, [](const Parameter &parameter) { return parameter.section == "Lever"; }, admitted);
+}
+
+TEST(EveryParameterSlow, OfABarIsSharedWhereItDoesNotCount)
+{
+  const TemporaryFolder folder;
+  std::set<std::string> admitted;
+  change_each(bar(folder), folder, all, admitted);
 }
 
 TEST(EveryParameterSlow, OfAFrameAndOfAPairIsSharedWhereItDoesNotCount)
 {
   const TemporaryFolder folder;
   std::set<std::string> admitted;
-  change_each(frame_with_plate(folder), folder, true, admitted);
-  change_each(pair_on_leaves(folder), folder, true, admitted);
+  change_each(frame_with_plate(folder), folder, all, admitted);
+  change_each(pair_on_leaves(folder), folder, all, admitted);
 }
 
 TEST(EveryParameter, BelongsToTheKeysOfSomeScene)
@@ -302,12 +343,46 @@ TEST(EveryParameter, BelongsToTheKeysOfSomeScene)
   const Changes in_time = { "Analysis/Type=transient", "Analysis/Model=rigid", "Friction/Law=Stribeck" };
   for (const Scene &scene :
        { bar(folder), frame_with_plate(folder), pair_on_leaves(folder), scene_of(folder, statics), scene_of(folder, in_time) })
-    change_each(scene, folder, false, admitted);
+    change_each(scene, folder, none, admitted);
   std::set<std::string> missing;
   for (const auto &parameter : declared())
     if (parameter.rule.kind != Rule::Kind::file && admitted.count(full_name(parameter)) == 0)
       missing.insert(full_name(parameter));
   EXPECT_EQ(missing, std::set<std::string>());
+}
+
+TEST(EveryParameter, OfAStudysRowIsThatOfTheRunAlone)
+{
+  const TemporaryFolder folder;
+  const auto file = folder.write("scene.prm", "");
+  for (const Changes &changes : { Changes{ "Analysis/Type=quasi-static", "Analysis/Model=finite element" },
+                                  Changes{ "Analysis/Type=transient", "Analysis/Model=beam" },
+                                  Changes{ "Analysis/Type=stability", "Analysis/Model=auto", "Accuracy/Target=0.01" } })
+  {
+    const Scene base      = read_scene(file, changes);
+    const auto type       = base.parameters->at("Analysis/Type");
+    unsigned int accepted = 0;
+    for (const auto &parameter : declared())
+      for (const auto &value : others(parameter, value_in(base, full_name(parameter)), folder))
+        try
+        {
+          const auto name   = full_name(parameter);
+          const Scene study = read_scene(
+              file, joined(changes, { "Analysis/Type=study", "Study/Type=" + type, "Study/Vary=" + name + " = " + value }));
+          const auto row   = read_or_refused([&] { return scene_at(study, { 0 }); });
+          const auto alone = read_or_refused(
+              [&] {
+                return read_scene(file, joined(changes, { name + "=" + value, "Output/Fields=none" }));
+              });
+          EXPECT_EQ(row, alone) << name << " = " << value;
+          ++accepted;
+        }
+        catch (const InputError &)
+        {
+          break; // it cannot be varied
+        }
+    EXPECT_GT(accepted, 150u) << type;
+  }
 }
 
 TEST(EveryParameter, SparedOnesAreDeclared)

@@ -20,19 +20,10 @@ namespace sprag
       return false;
     }
 
-    bool sets(const std::vector<std::string> &settings, const std::string &name)
-    {
-      return std::any_of(settings.begin(), settings.end(),
-                         [&](const std::string &setting) { return setting.rfind(name + "=", 0) == 0; });
-    }
-
     /// As if the study's scene had been read with these overrides, without fields.
     Scene scene_of_run(const Scene &study, const std::vector<std::string> &settings)
     {
       auto overrides = joined({ "Analysis/Type=" + study.parameters->at("Study/Type") }, settings);
-      // A scene that gives the step and not the tolerance has fixed steps.
-      if (sets(settings, "Time/Step") && !sets(settings, "Time/Tolerance") && study.given.count("Time/Tolerance") == 0)
-        overrides.push_back("Time/Tolerance=0");
       overrides.push_back("Output/Fields=none");
       return variant(study, overrides);
     }

@@ -1,0 +1,67 @@
+"""Runs that ask for an accuracy: what the program chooses it runs, and a row of a study is the run by itself. Run with /usr/bin/python3;
+environment: SPRAG, the program, and SPRAG_SOURCE, the sources."""
+
+import sys
+import unittest
+from pathlib import Path
+
+import h5py
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from runs import SOURCE, RunTest, sprag  # noqa: E402
+
+# Scene, what is asked of it, and a part of what is chosen.
+ASKED = (
+    ("accuracy-a", ("Accuracy/Target=0.5",), "Analysis/Model = closed form"),
+    ("model-b", ("Accuracy/Target=0.05", "Analysis/Model=auto"), "Analysis/Model"),
+    ("accuracy-a", ("Accuracy/Target=0.01", "Accuracy/Quantity=P"), "Analysis/Model"),
+    ("accuracy-a", ("Accuracy/Target=0", "Accuracy/Budget=0.3"), "Analysis/Model"),
+)
+
+
+def settings(changes):
+    return [word for change in changes for word in ("--set", change)]
+
+
+class Accuracy(RunTest):
+    def read(self, name):
+        return h5py.File(self.folder / name / "result.h5", "r")
+
+    def test_what_is_chosen_runs(self):
+        for number, (scene, changes, chosen) in enumerate(ASKED):
+            with self.subTest(scene=scene, changes=changes):
+                output = self.folder / str(number)
+                path = SOURCE / "params" / f"{scene}.prm"
+                self.assertEqual(sprag(path, *settings(changes), "--validate").returncode, 0)
+                done = sprag(path, *settings(changes), "--output", output)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                with self.read(str(number)) as file:
+                    self.assertIn(chosen, file["meta/chosen_settings"].asstr()[()])
+                given = (output / "run.log").read_text().partition("with\n")[2].partition("\n\n")[0]
+                self.assertLess(len(given.splitlines()), 30, given)
+
+    def expect_rows_alone(self, scene, changes, name, values, count):
+        study = ("Analysis/Type=study", f"Study/Vary={name} = {', '.join(values)}")
+        path = SOURCE / "params" / f"{scene}.prm"
+        done = sprag(path, *settings((*changes, *study)), "--output", self.output)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with self.read("output") as file:
+            steps = list(file["table/steps"][:])
+        alone = []
+        for value in values:
+            self.assertEqual(sprag(path, *settings((*changes, f"{name}={value}")), "--output", self.folder / value, "--quiet").returncode, 0)
+            with self.read(value) as file:
+                alone.append(count(file))
+        self.assertEqual(steps, alone)
+        self.assertNotEqual(steps[0], steps[1])
+
+    def test_rows_of_a_study_are_runs_by_themselves(self):
+        self.expect_rows_alone("model-a", (), "Accuracy/Target", ("0.1", "0.005"), lambda file: file["summary/steps"][()])
+
+    def test_rows_of_a_study_keep_their_defaults(self):
+        changes = ("Analysis/Model=beam", "Study/Type=transient", "Drive/Start=60")
+        self.expect_rows_alone("reversal-a", changes, "Time/Tolerance", ("auto", "2e-2"), lambda file: file["summary/steps"][()])
+
+
+if __name__ == "__main__":
+    unittest.main()
