@@ -1,7 +1,7 @@
 """Every scene of params/ is accepted, runs on a coarse mesh and writes its columns. Run with /usr/bin/python3; environment:
 SPRAG, the program, and SPRAG_SOURCE, the sources.
 
-    scenes.py            # runs all but twins: scenes that differ from another in numbers alone
+    scenes.py            # runs all but twins: scenes with the analysis and the parts of another
     scenes.py --twins    # runs these"""
 
 import re
@@ -16,12 +16,16 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 from runs import SOURCE, RunTest, sprag  # noqa: E402
 
 SCENES = sorted((SOURCE / "params").glob("*.prm"))
-# Those of model B whose like is there for model A, and maps over other parameters.
+# Those of model B whose like is there for model A, maps over other parameters, and parts and studies that another scene has as well.
+ALIKE = {
+    "design-front-machine", "neo-hookean-a", "solid-plate-reversal-a", "solid-rib-a", "solid-stability-a", "study-growth-a", "study-pressure-a",
+}  # fmt: skip
 TWINS = {
     path
     for path in SCENES
     if path.with_stem(path.stem.removesuffix("-b") + "-a") in SCENES and path.stem.endswith("-b")
     or path.stem.startswith("map-") and path.stem != "map-position-depth-a"
+    or path.stem in ALIKE
 }
 ONLY_TWINS = "--twins" in sys.argv
 
