@@ -10,7 +10,7 @@ namespace sprag
   class DynamicsMaker;
   class StaticMeshes;
 
-  /// What one process has for its runs that write no files: the meshes that they share, and what the last of them found.
+  /// Holds what the runs of one process share that write no files: their meshes, and the results of the last run.
   /// run_in_memory() makes one.
   struct InMemory
   {

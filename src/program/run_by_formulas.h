@@ -9,7 +9,7 @@ namespace sprag
 {
   struct Scene;
 
-  /// What carries out an analysis.
+  /// A function that carries out an analysis.
   using Run = std::function<void(const Scene &, const RunOptions &, Warnings &)>;
 
   /// Carries out an analysis from its first line to the last: tells the margin to jamming, which `margin` finds for one lever,

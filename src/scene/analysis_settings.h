@@ -54,7 +54,7 @@ namespace sprag
     general    ///< assemble and factorise in every Newton iteration
   };
 
-  /// What a run does with the warnings that it has.
+  /// Says whether warnings end a run with an error.
   enum class WarningTreatment
   {
     report, ///< print and store them
@@ -75,7 +75,7 @@ namespace sprag
     WarningTreatment warnings = WarningTreatment::report;
   };
 
-  /// How accurate results are to be. Settings that a file leaves open follow from it.
+  /// Asks for an accuracy or a cost, from which the settings follow that a file leaves open.
   struct AccuracySettings
   {
     double target          = 0.;         ///< relative error wanted [-]; 0: nothing follows from it
@@ -90,7 +90,7 @@ namespace sprag
       return target > 0. || budget > 0.;
     }
 
-    /// Whether something of the scene is to be chosen before it is run.
+    /// Returns whether the program must choose something of the scene before it runs it.
     bool leaves_open() const
     {
       return is_dimension_open || is_asked_for();

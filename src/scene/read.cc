@@ -44,7 +44,7 @@ namespace sprag
 
     const char *const time_tolerance = "Time/Tolerance";
 
-    /// What was given and chosen, without the defaults.
+    /// Returns the parameters that were given or chosen, without those left at their defaults.
     ParameterValues set_values(const Scene &scene)
     {
       ParameterValues result;
