@@ -8,7 +8,7 @@ import h5py
 import numpy as np
 
 from bad_input import COARSE, ProgramTest, section
-from runs import SOURCE, sprag
+from runs import SOURCE, RunTest, sprag
 
 
 class BadSlide(ProgramTest):
@@ -168,6 +168,24 @@ class JammedSlide(ProgramTest):
         found = self.summary()
         self.assertEqual(found["slide"], "jammed")
         self.assertIn("no slide in contact", found["status"])
+
+
+class SlenderLever(RunTest):
+    """On a leaf spring, whose elements are much stiffer than the lever."""
+
+    def frequencies(self, model, depth):
+        changes = ("Analysis/Type=modal", f"Analysis/Model={model}", "Stability/Contact=open", "Mesh/Face size=2", f"Lever/Depth={depth}")
+        settings = [word for change in changes for word in ("--set", change)]
+        done = sprag(SOURCE / "params" / "leaf-a.prm", *settings, "--output", self.output, "--overwrite", "--quiet")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        with h5py.File(self.output / "result.h5", "r") as file:
+            return file["modes/frequency"][:3]
+
+    def test_is_condensed(self):
+        for depth in (5, 6):
+            with self.subTest(depth=depth):
+                beam = self.frequencies("beam", depth)
+                np.testing.assert_allclose(self.frequencies("condensed", depth), beam, rtol=0.01)
 
 
 if __name__ == "__main__":
