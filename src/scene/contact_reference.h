@@ -10,7 +10,7 @@ namespace sprag
     double P;          ///< [N]
     double smallest_P; ///< of the closed form over the drive [N]
     double s;          ///< pivot to contact there [mm]
-    double stiffness;  ///< dP/d(delta) of the scene's contact law at that P [N/mm]
+    double stiffness;  ///< dP/d(delta) at that P, of the contact law or, of a meshed lever, of its face [N/mm]
     double relaxation; ///< damping over stiffness: 2 zeta / omega, omega = s sqrt(stiffness / J), zeta = Contact/Damping [s]
     double tangential; ///< in stick: Contact/Tangential stiffness, or the layer's shear beside its compression [N/mm]
   };

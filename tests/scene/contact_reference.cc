@@ -1,0 +1,47 @@
+#include "scene/contact_reference.h"
+
+#include "scene/contact_width.h"
+#include "scene/scene.h"
+#include "scenes.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
+
+using namespace sprag;
+
+namespace
+{
+  Scene meshed_model_a()
+  {
+    Scene scene          = model_a();
+    scene.analysis.model = ModelType::condensed;
+    return scene;
+  }
+} // namespace
+
+// Finite elements of model A are pressed in by P = 9117 delta^1.444 (N, mm): the analysis of its contact law.
+TEST(ContactReference, StiffnessOfAMeshedLeverIsThatOfItsFace)
+{
+  Scene scene          = meshed_model_a();
+  const auto reference = contact_reference(scene);
+  const double fitted  = 1.444 * std::pow(9117., 1. / 1.444) * std::pow(reference.P, 1. - 1. / 1.444);
+  EXPECT_NEAR(reference.stiffness, fitted, 0.05 * fitted);
+  scene.contact.stiffness *= 10.; // of reduced models alone
+  EXPECT_DOUBLE_EQ(contact_reference(scene).stiffness, reference.stiffness);
+  EXPECT_DOUBLE_EQ(contact_reference(scene).relaxation, reference.relaxation);
+  scene.analysis.model = ModelType::rigid;
+  EXPECT_NEAR(contact_reference(scene).stiffness, scene.contact.stiffness, 1e-9 * scene.contact.stiffness);
+}
+
+// Johnson, Contact Mechanics, eq. 5.57: delta = 2 P/(pi b E) (log(2 h/a)) of half width a, which grows with the root of P.
+TEST(ContactReference, OfAContactThatIsNarrowAgainstItsLayerIsThatOfAHalfPlane)
+{
+  Scene scene               = meshed_model_a();
+  scene.layer.thickness     = 20.;
+  scene.layer.young_modulus = 2000.;
+  scene.layer.poisson_ratio = 0.;
+  const auto reference      = contact_reference(scene);
+  const double half_width   = 0.5 * estimated_contact_width(scene, reference.P);
+  const double per_force    = 2. / (M_PI * scene.lever.width * 2000.) * (std::log(2. * 20. / half_width) - 0.5);
+  EXPECT_NEAR(reference.stiffness * per_force, 1., 0.05);
+}
