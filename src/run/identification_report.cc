@@ -29,6 +29,9 @@ namespace sprag
       return formatted("%.2g", found.high - found.value);
     }
 
+    /// Independent values over all, below which residuals follow each other more than those of sensors do.
+    constexpr double least_independent = 0.3;
+
     std::string remedy_of_indistinct()
     {
       return "Measure both directions, over more of the stroke, P beside Q, or at other speeds; or leave one of them out of "
@@ -142,9 +145,21 @@ namespace sprag
     return { group };
   }
 
-  Warnings identification_warnings(const Identification &found)
+  Warnings identification_warnings(const Scene &scene, const Identification &found)
   {
     Warnings warnings;
+    std::vector<std::string> not_followed;
+    const auto &channels = scene.identification.measured.channels;
+    for (std::size_t i = 0; i < channels.size(); ++i)
+      if (const auto &noise = found.noise[i]; noise.effective_rows() < least_independent * noise.rows)
+        not_followed.push_back(formatted("%.0f", noise.rows) + " values of " + word_of(channels[i]) + " are worth " +
+                               formatted("%.0f", noise.effective_rows()) + " independent ones");
+    if (!not_followed.empty())
+      warnings.push_back({ "model_does_not_follow", boost::algorithm::join(not_followed, ", ") + ".",
+                           "Residuals follow each other, as they do where the lever of the scene is another than the measured "
+                           "one. The intervals count noise alone and then miss the true values by many times their width.",
+                           "Look at the residuals over x. Check what is taken as known: Geometry/Cylinder radius and the other "
+                           "lengths, sign and scale of each force; seek offsets or lag in Identification/Unknowns." });
     const auto &indistinct = found.knowledge.indistinct;
     if (!indistinct.empty())
       warnings.push_back({ "indistinct_unknowns", boost::algorithm::join(indistinct, " "),

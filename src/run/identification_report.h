@@ -22,7 +22,7 @@ namespace sprag
   std::vector<Group> identification_groups(const Identification &found);
 
   /// Returns the warnings that follow from what was found.
-  Warnings identification_warnings(const Identification &found);
+  Warnings identification_warnings(const Scene &scene, const Identification &found);
 
   void print_identification(std::ostream &stream, const Scene &scene, const Identification &found);
 } // namespace sprag

@@ -81,7 +81,7 @@ namespace sprag
             return void(writer.finish(status, {}, warnings));
           for (const auto &row : identification_rows(measured, fit, found))
             writer.append(row);
-          for (const auto &warning : identification_warnings(found))
+          for (const auto &warning : identification_warnings(scene, found))
             warnings.push_back(warning);
           if (options.in_memory == nullptr)
             no_scene = write_scene(scene, options, unknowns, found);

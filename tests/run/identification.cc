@@ -87,6 +87,14 @@ TEST_F(RunIdentification, WarnsOfWhatTheDataCannotTell)
   EXPECT_NE(warnings.front().found.find("do not tell mu_at_500."), std::string::npos) << warnings.front().found;
 }
 
+TEST_F(RunIdentification, WarnsWhereTheModelDoesNotFollow)
+{
+  const auto warnings = run(identification({ "Identification/Unknowns=mu, k, e", "Geometry/Cylinder radius=58.5" }), output);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings.front().name, "model_does_not_follow");
+  EXPECT_NE(warnings.front().found.find("values of P are worth"), std::string::npos) << warnings.front().found;
+}
+
 TEST_F(RunIdentification, KeepsWhyNothingWasFound)
 {
   EXPECT_THROW(run(identification({ "Identification/Unknowns=mu", "Identification/Reversal window=64.9" }), output),
