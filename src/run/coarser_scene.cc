@@ -42,9 +42,11 @@ namespace sprag
                                     : "Try a Mesh/Face size 0.7 times as large." };
   }
 
-  ErrorPart penalty_part(const double change)
+  ErrorPart penalty_part(const Scene &scene, const double change)
   {
+    const bool has_inertia = scene.analysis.type != AnalysisType::quasi_static;
     return { "penalty", share_of_finer(softer, 1.) * change,
-             "Try twice the Contact/Penalty or Contact/Enforcement = augmented Lagrangian." };
+             has_inertia ? "Try twice the Contact/Penalty."
+                         : "Try twice the Contact/Penalty or Contact/Enforcement = augmented Lagrangian." };
   }
 } // namespace sprag

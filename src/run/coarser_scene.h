@@ -34,6 +34,6 @@ namespace sprag
   /// Returns the part of the mesh, from the change on with_coarser_mesh() and the order of convergence.
   ErrorPart mesh_part(const Scene &scene, double change, double order);
 
-  /// Returns the part of the penalty, from the change with the softer one.
-  ErrorPart penalty_part(double change);
+  /// Returns the part of the penalty, from the change with the softer one. Only runs without inertia can do without a penalty.
+  ErrorPart penalty_part(const Scene &scene, double change);
 } // namespace sprag

@@ -27,7 +27,7 @@ namespace sprag
       const double order = quantity == "largest_pressure" ? order_of_pressure(scene) : order_of_forces(scene);
       ErrorEstimate result{ quantity, relative_to, { mesh_part(scene, change(probes.coarse), order) }, {} };
       if (!probes.soft.empty())
-        result.parts.push_back(penalty_part(change(probes.soft)));
+        result.parts.push_back(penalty_part(scene, change(probes.soft)));
       if (!probes.soft.empty() && augments(scene))
         result.parts.back().remedy = "Try twice the Contact/Tangential penalty, or leave it at auto.";
       return result;
@@ -87,7 +87,7 @@ namespace sprag
       layer.name  = "mesh_of_layer";
       ErrorEstimate result{ "largest_stress", "that of the lever or of the layer", { lever, layer }, {} };
       if (!probes.soft.empty())
-        result.parts.push_back(penalty_part(relative_change("largest_pressure", probes.run, probes.soft)));
+        result.parts.push_back(penalty_part(scene, relative_change("largest_pressure", probes.run, probes.soft)));
       return result;
     }
 

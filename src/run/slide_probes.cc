@@ -4,14 +4,31 @@
 #include "scene/held_slide.h"
 #include "scene/scene.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace sprag
 {
+  namespace
+  {
+    /// By how much of a face the slide is moved to see how far its place between the nodes changes it.
+    constexpr double shares_of_face[] = { 0.25, 0.5, 0.75 };
+  } // namespace
+
   SlideProbes probe_slide(const Scene &scene, const ContactPenalties &penalties, DynamicsMaker &maker)
   {
     SlideProbes result;
-    result.soft  = judge(with_penalties(scene, penalties, 1. / softer), maker);
+    result.soft = judge(with_penalties(scene, penalties, 1. / softer), maker);
+    {
+      const Scene held    = held_scene(scene);
+      const auto dynamics = maker.make(held);
+      for (const double share : shares_of_face)
+      {
+        DrivePoint drive = held_drive(scene);
+        drive.x -= share * scene.mesh.face_size;
+        result.elsewhere.push_back(judge(dynamics.model(), drive, held.stability.modes));
+      }
+    }
     Scene coarse = with_coarser_mesh(with_penalties(scene, penalties, 1.));
     if (scene.analysis.model == ModelType::condensed && scene.condensed.modes > 1)
     {
@@ -30,8 +47,13 @@ namespace sprag
     const auto difference = [&](const SlideStability &a, const SlideStability &b)
     { return std::abs((value(a) - value(b)) / value(found)); };
     const auto &on_mesh          = probes.fewer_modes ? *probes.fewer_modes : found;
-    std::vector<ErrorPart> parts = { mesh_part(scene, difference(probes.coarse, on_mesh), order_of_forces(scene)),
-                                     penalty_part(difference(probes.soft, found)) };
+    ErrorPart mesh               = mesh_part(scene, difference(probes.coarse, on_mesh), order_of_forces(scene));
+    std::vector<double> by_place = { value(found) };
+    for (const auto &slide : probes.elsewhere)
+      by_place.push_back(value(slide));
+    const auto [least, most]     = std::minmax_element(by_place.begin(), by_place.end());
+    mesh.value                   = std::max(mesh.value, (*most - *least) / std::abs(value(found)));
+    std::vector<ErrorPart> parts = { mesh, penalty_part(scene, difference(probes.soft, found)) };
     if (probes.fewer_modes)
       parts.push_back({ "modes", difference(*probes.fewer_modes, found), "Try twice the Condensed/Modes." });
     return parts;

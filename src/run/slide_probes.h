@@ -11,11 +11,12 @@ namespace sprag
 {
   struct Scene;
 
-  /// The slide of a scene by models that are less accurate, each in one respect.
+  /// The slide of a scene by models that are less accurate, each in one respect, and at other places between the nodes.
   struct SlideProbes
   {
     SlideStability soft;                       ///< with a third of the penalty
     std::optional<SlideStability> fewer_modes; ///< of a condensed lever with several, half of them
+    std::vector<SlideStability> elsewhere;     ///< a quarter, half and three quarters of a face before its place, same mesh
     SlideStability coarse;                     ///< on a mesh of twice the Mesh/Face size, with as many modes as `fewer_modes`
   };
 
@@ -23,7 +24,8 @@ namespace sprag
   SlideProbes probe_slide(const Scene &scene, const ContactPenalties &penalties, DynamicsMaker &maker);
 
   /// Returns the parts of the error of a value of the slide, relative to it, from what the probes change by Richardson; what
-  /// fewer modes change counts whole.
+  /// fewer modes change counts whole. That of the mesh is at least the range of values at places between two nodes: where few
+  /// faces are in contact, two meshes may agree by chance.
   std::vector<ErrorPart> parts_of_slide(const Scene &scene, const SlideStability &found, const SlideProbes &probes,
                                         const std::function<double(const SlideStability &)> &value);
 } // namespace sprag

@@ -10,11 +10,10 @@ namespace sprag
   /// Estimates the errors of a finished run in time, of P, overshoot and frequency of the ringing behind the first reversal.
   ///
   /// The slide behind that reversal is held, and the vibration nearest to the frequency of P judged as vibration_accuracy() does:
-  /// that gives the parts of mesh, penalty and modes. The part of the step is what the generalised-alpha method slows it at the
-  /// steps in which the run rings. A vibration that is too slow lags behind, the more the longer it rings, see
-  /// change_by_frequency(). The overshoot is wrong as the stiffness is, with the square of the frequency, and a peak may
-  /// lie between two rows. Of reduced levers
-  /// the step alone is told: what they leave out, only finite elements tell.
+  /// that gives the parts of mesh, penalty and modes. The part of the step is what the generalised-alpha method slows it, see
+  /// slowing_of(). A vibration that is too slow lags behind, the more the longer it rings, see change_by_frequency(). The
+  /// overshoot is wrong as the stiffness is, with the square of the frequency, and a peak may lie between two rows. Of reduced
+  /// levers the step alone is told: what they leave out, only finite elements tell.
   ///
   /// Without estimates in words: drives without a reversal, contacts that open, slides that grow on their own.
   std::vector<ErrorEstimate> transient_accuracy(const Scene &scene, const MeshedDynamics &dynamics, const std::vector<Row> &rows,

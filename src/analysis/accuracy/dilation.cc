@@ -41,4 +41,33 @@ namespace sprag
     }
     return result;
   }
+
+  Slowing slowing_of(const std::vector<Row> &rows, const double begin, const double end, const double period,
+                     const std::function<double(double)> &by_step)
+  {
+    Slowing result;
+    double delay = 0., weights = 0.;
+    bool has_turned = false; // until then friction changes its direction, and nothing rings
+    for (std::size_t i = 1; i < rows.size(); ++i)
+    {
+      const double time = rows[i][Column::time], dt = time - rows[i - 1][Column::time];
+      const double now = ringing_of(rows[i]), before = ringing_of(rows[i - 1]);
+      if (!(time > begin) || time > end || !(dt > 0.) || !std::isfinite(now) || !std::isfinite(before))
+        continue;
+      const double slowing = by_step(rows[i][Column::time_step]);
+      delay += slowing * dt;
+      result.P = std::max(result.P, std::abs(now - before) / dt * delay);
+      if (time < begin + period)
+        result.first_step = std::max(result.first_step, rows[i][Column::time_step]);
+      has_turned = has_turned || now * before <= 0.;
+      if (has_turned)
+      {
+        result.frequency += slowing * now * now * dt;
+        weights += now * now * dt;
+      }
+    }
+    if (weights > 0.)
+      result.frequency /= weights;
+    return result;
+  }
 } // namespace sprag

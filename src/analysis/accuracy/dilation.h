@@ -2,6 +2,7 @@
 
 #include "results/columns.h"
 
+#include <functional>
 #include <vector>
 
 namespace sprag
@@ -14,4 +15,17 @@ namespace sprag
   /// that runs slower by a small share d lags d (t - time) behind, so that P is off by that times the rate of
   /// P - P_quasi_static. Without rows 0.
   double change_by_frequency(const std::vector<Row> &ringing, double time);
+
+  /// What time steps of finite length make of a vibration.
+  struct Slowing
+  {
+    double frequency  = 0.; ///< relative, as the fit of a sinusoid to P - P_quasi_static meets it: weighted by its square
+    double P          = 0.; ///< largest change of P by the delay that has added up until then [N]
+    double first_step = 0.; ///< largest step in the first period, where the overshoot is [s]
+  };
+
+  /// Looks at the rows between two times [s] in which P rings with a period [s]. `by_step` returns the relative slowing of that
+  /// vibration in steps of a length [s].
+  Slowing slowing_of(const std::vector<Row> &rows, double begin, double end, double period,
+                     const std::function<double(double)> &by_step);
 } // namespace sprag
