@@ -55,6 +55,7 @@ TEST(Accuracy, ContactIsEnforcedByMultipliersWhereThatIsCheap)
   const auto enforcement = [](const std::vector<std::string> &overrides)
   { return read_scene(scene_file("model-a"), overrides).contact.enforcement; };
   EXPECT_EQ(enforcement({}), Enforcement::augmented_lagrangian);
+  EXPECT_EQ(enforcement({ "Analysis/Dimension=3" }), Enforcement::augmented_lagrangian);
   EXPECT_EQ(enforcement({ "Contact/Penalty=500" }), Enforcement::penalty);
   EXPECT_EQ(enforcement({ "Mesh/Degree=1" }), Enforcement::penalty);
   EXPECT_EQ(enforcement({ "Analysis/Type=transient", "Analysis/Model=condensed" }), Enforcement::penalty);
