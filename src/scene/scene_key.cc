@@ -3,6 +3,7 @@
 #include "base/fingerprint.h"
 #include "base/text.h"
 #include "scene/across.h"
+#include "scene/contact_width.h"
 #include "scene/scene.h"
 #include "scene/sections.h"
 
@@ -77,6 +78,10 @@ namespace sprag
     key += "drive";
     add_number(scene.drive.minimum(), key);
     add_number(scene.drive.maximum(), key);
+    key += "\nfaces";
+    if (const auto grading = face_grading(scene))
+      for (const double number : { grading->begin, grading->end, grading->longest, grading->shortest })
+        add_number(number, key);
     key += '\n';
     if (scene.analysis.dimension == 3)
       key += is_symmetric_across(scene) ? "half\n" : "whole\n";

@@ -14,8 +14,8 @@ namespace sprag
   std::string scene_key(const Scene &scene);
 
   /// Returns all that the mesh of a scene's lever, its matrices and bases are made from: every parameter, as it was read and as
-  /// it is in the scene now, but those of spared_sections() and spared_parameters(); the ends of the drive; what is known of a
-  /// leaf spring.
+  /// it is in the scene now, but those of spared_sections() and spared_parameters(); the ends of the drive; how the faces
+  /// are graded, which follows from P and so from friction and speed; what is known of a leaf spring.
   std::string body_key(const Scene &scene);
 
   // Mesh, matrices and bases depend on no parameter of these sections, and on none of these "Section/Name".

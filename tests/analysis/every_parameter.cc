@@ -385,6 +385,23 @@ TEST(EveryParameter, OfAStudysRowIsThatOfTheRunAlone)
   }
 }
 
+// The grading follows P of the closed form.
+TEST(EveryParameter, FrictionAndSpeedCountWhereFacesAreGradedByForces)
+{
+  const TemporaryFolder folder;
+  const auto with = [&](std::vector<std::string> changes)
+  {
+    changes.push_back("Friction/Law=cork on aluminium");
+    return read_scene(folder.write("graded.prm", ""), changes);
+  };
+  const auto graded = body_key(with({}));
+  for (const char *const change : { "Friction/Factor=0.1", "Drive/Speed=5" })
+  {
+    EXPECT_NE(body_key(with({ change })), graded) << change;
+    EXPECT_EQ(body_key(with({ change, "Mesh/Faces in contact=0" })), body_key(with({ "Mesh/Faces in contact=0" }))) << change;
+  }
+}
+
 TEST(EveryParameter, SparedOnesAreDeclared)
 {
   std::set<std::string> names, sections;
