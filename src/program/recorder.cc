@@ -143,6 +143,7 @@ namespace sprag
     add_pair(rows, summary);
     append(summary, stress);
     append(warnings, row_warnings(scene, rows));
+    append(warnings, target_warnings(scene.accuracy, accuracy));
     if (in_time)
       append(warnings, transient_warnings(scene, rows));
     if (checkpoint != nullptr)

@@ -1,7 +1,9 @@
 #include "report/accuracy_report.h"
 
 #include "report/percent.h"
+#include "scene/analysis_settings.h"
 
+#include <algorithm>
 #include <cmath>
 #include <iomanip>
 #include <ostream>
@@ -58,5 +60,23 @@ namespace sprag
         stream << std::setw(9) << percent(total_error(estimate)) << " of " << estimate.relative_to << ": "
                << text_of(estimate.parts) << ". " << largest_part(estimate).remedy << left_out_text(estimate) << '\n';
     }
+  }
+
+  Warnings target_warnings(const AccuracySettings &asked, const std::vector<ErrorEstimate> &estimates)
+  {
+    std::string missed, remedy;
+    for (const auto &estimate : estimates)
+    {
+      const bool is_asked =
+          std::find(asked.quantities.begin(), asked.quantities.end(), estimate.quantity) != asked.quantities.end();
+      if (!(asked.target > 0.) || !is_asked || estimate.parts.empty() || !(total_error(estimate) > asked.target))
+        continue;
+      missed += (missed.empty() ? "" : ", ") + estimate.quantity + ' ' + percent(total_error(estimate));
+      remedy = remedy.empty() ? largest_part(estimate).remedy : remedy;
+    }
+    if (missed.empty())
+      return {};
+    return { { "target_missed", "The run tells errors of " + missed + ", where " + percent(asked.target) + " was asked for.",
+               "These quantities are less accurate than asked for.", remedy } };
   }
 } // namespace sprag

@@ -2,15 +2,21 @@
 
 #include "analytic/error_estimate.h"
 #include "results/result_file.h"
+#include "results/warning.h"
 
 #include <iosfwd>
 
 namespace sprag
 {
+  struct AccuracySettings;
+
   /// Returns the entries of /accuracy: of each quantity its estimated relative error, NaN where none holds, with the attributes
   /// largest_part and remedy, or why there is none; and of each of its parts one called <quantity>_<part>.
   std::vector<Entry> accuracy_entries(const std::vector<ErrorEstimate> &estimates);
 
   /// Prints a line a quantity: its error, its parts and what halves the largest.
   void print_accuracy(std::ostream &stream, const std::vector<ErrorEstimate> &estimates);
+
+  /// Warns where the error that a run tells of a quantity is larger than the target that the scene gives.
+  Warnings target_warnings(const AccuracySettings &asked, const std::vector<ErrorEstimate> &estimates);
 } // namespace sprag

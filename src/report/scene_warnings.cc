@@ -214,6 +214,17 @@ namespace sprag
                            "Give these parameters, even where the value is the same; Analysis/Type = contact law fits the "
                            "contact stiffness." });
     }
+    void add_locking(const Scene &scene, Warnings &warnings)
+    {
+      const bool moves = scene.analysis.type == AnalysisType::quasi_static || scene.analysis.type == AnalysisType::transient;
+      const auto found = moves && scene.analysis.model != ModelType::closed_form ? locking(scene) : std::nullopt;
+      if (found)
+        warnings.push_back({ "locks",
+                             "Moving back at x = " + mm(found->x) + " a rigid lever locks: s = " + mm(found->s) + " <= mu e = " +
+                                 mm(found->mu * scene.geometry.interface_offset) + " with mu = " + rounded_text(found->mu) + ".",
+                             "The run ends where the lever jams, unless it bends enough to slide on.",
+                             "Take a smaller friction coefficient, Geometry/Interface offset or Drive/Stroke." });
+    }
   } // namespace
 
   Warnings scene_warnings(const Scene &scene)
@@ -227,6 +238,7 @@ namespace sprag
     add_leaf(scene, warnings);
     add_plane_stress(scene, warnings);
     add_opening(scene, warnings);
+    add_locking(scene, warnings);
     return warnings;
   }
 } // namespace sprag

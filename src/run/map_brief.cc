@@ -29,6 +29,8 @@ namespace sprag
   void print_brief_of_map(std::ostream &stream, const MapSettings &map, const Rows &boundary, const std::vector<Entry> &summary)
   {
     const Known known(summary);
+    if (known.text("status") != "completed")
+      brief_line(stream, "unfinished", "shares and boundaries below are of the cells judged so far");
     brief_line(stream, "cells",
                four_digits(known.number("grid_points")) + " in the grid, " + four_digits(known.number("cells_judged")) +
                    " judged, the others between cells of one verdict");

@@ -1,4 +1,5 @@
 #include "report/warnings.h"
+#include "report/accuracy_report.h"
 #include "scene/closed_form.h"
 #include "scene/contact_width.h"
 #include "scene/scene.h"
@@ -267,6 +268,34 @@ TEST(SceneWarnings, NearLocking)
   Scene held         = near_locking(0.01);
   held.analysis.type = AnalysisType::slope;
   EXPECT_EQ(names(scene_warnings(held)), Names{});
+}
+
+TEST(SceneWarnings, LockingOfModelsThatCanBend)
+{
+  const auto locks = [](const Warnings &warnings)
+  { return std::any_of(warnings.begin(), warnings.end(), [](const Warning &each) { return each.name == "locks"; }); };
+  // s = 120.05 mm at x = 65 mm, e = 45.6 mm: mu = 2.6327.
+  EXPECT_FALSE(locks(scene_warnings(with_coulomb(model_a(), 2.63))));
+  EXPECT_TRUE(locks(scene_warnings(with_coulomb(model_a(), 2.64))));
+}
+
+TEST(TargetWarnings, WhereATargetIsMissed)
+{
+  AccuracySettings asked;
+  asked.target                               = 0.01;
+  asked.quantities                           = { "P", "overshoot", "decay" };
+  const std::vector<ErrorEstimate> estimates = { { "P", "its peak", { { "mesh", 0.009, "" } }, {} },
+                                                 { "frequency", "it", { { "mesh", 0.1, "" } }, {} },
+                                                 { "decay", "", {}, "No estimate." } };
+  EXPECT_TRUE(target_warnings(asked, estimates).empty());
+  auto missed = estimates;
+  missed.push_back({ "overshoot", "it", { { "mesh", 0.008, "Finer." }, { "step", 0.007, "" } }, {} });
+  const auto warnings = target_warnings(asked, missed);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings[0].name, "target_missed");
+  EXPECT_EQ(warnings[0].remedy, "Finer.");
+  asked.target = 0.;
+  EXPECT_TRUE(target_warnings(asked, missed).empty());
 }
 
 TEST(SceneWarnings, NearLockingTellsTheSensitivityOfTheClosedForm)
