@@ -45,6 +45,27 @@ namespace sprag
       return result;
     }
 
+    /// Over which Contact/Damping the verdict stays what it is. That damping is seldom measured, and more of it can make a slide
+    /// grow as well as die out.
+    DampingRange damping_range(const Scene &scene, DynamicsMaker &maker)
+    {
+      constexpr double largest      = 0.2;
+      constexpr double accuracy     = 1e-3; ///< of an end, over the range
+      constexpr unsigned int points = 5;
+      const double own              = scene.contact.damping;
+      const ParameterRange range{ "Contact/Damping", 0., std::max(largest, own), points };
+      DampingRange result{ range.from, range.to, range.to, 0. };
+      for (const auto &change : critical_values(scene, range, accuracy, maker).changes)
+        if (change.value > own)
+          result.high = std::min(result.high, change.value);
+        else
+          result.low = std::max(result.low, change.value);
+      Scene undamped             = scene;
+      undamped.contact.damping   = 0.;
+      result.growth_rate_at_none = judge(undamped, maker).growth_rate();
+      return result;
+    }
+
     std::vector<Entry> meshed_entries(const Dynamics &dynamics)
     {
       if (!dynamics.lever && !dynamics.solid)
@@ -157,6 +178,7 @@ namespace sprag
         const auto accuracy =
             estimates_errors(options) ? accuracy_of(held, found, dynamics.meshed, maker) : std::vector<ErrorEstimate>();
         result.accuracy = accuracy_entries(accuracy);
+        append(warnings, target_warnings(scene.accuracy, accuracy));
         if (options.verbose)
         {
           print_summary(std::cout, result.summary);
@@ -169,6 +191,13 @@ namespace sprag
           print_slide(std::cout, found);
           print_brief_errors(std::cout, accuracy);
         }
+      }
+      if (found.slide && scene.stability.damping)
+      {
+        const auto range = timed(maker, [&] { return damping_range(scene, maker); });
+        append(result.summary, damping_entries(range));
+        if (!options.quiet)
+          print_damping(std::cout, range);
       }
       if (scene.stability.roles)
       {

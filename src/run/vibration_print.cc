@@ -156,6 +156,13 @@ namespace sprag
     print_growing(stream, found.modes);
   }
 
+  void print_damping(std::ostream &stream, const DampingRange &range)
+  {
+    brief_line(stream, "verdict holds",
+               "for Contact/Damping " + four_digits(range.low) + " to " + four_digits(range.high) + " of 0 to " +
+                   four_digits(range.looked_up_to) + "; without, growth " + with_unit(range.growth_rate_at_none, "1/s"));
+  }
+
   void print_roles(std::ostream &stream, const SlideStability &present, const std::vector<Role> &roles)
   {
     const bool pair = is_pair(present.modes);

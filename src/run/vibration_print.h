@@ -2,6 +2,7 @@
 
 #include "analysis/stability/critical.h"
 #include "analysis/stability/roles.h"
+#include "run/vibration_report.h"
 
 #include <iosfwd>
 #include <vector>
@@ -17,6 +18,9 @@ namespace sprag
   /// Prints the verdict on a steady slide, the slide, and the modes that grow most or decay least, with what feeds and damps each
   /// of them most.
   void print_slide(std::ostream &stream, const SlideStability &found);
+
+  /// Prints over which damping of the contact the verdict holds.
+  void print_damping(std::ostream &stream, const DampingRange &range);
 
   /// Prints the verdicts on the slide as it is and without one effect or another.
   void print_roles(std::ostream &stream, const SlideStability &present, const std::vector<Role> &roles);

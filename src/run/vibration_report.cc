@@ -165,6 +165,16 @@ namespace sprag
     return group;
   }
 
+  std::vector<Entry> damping_entries(const DampingRange &range)
+  {
+    return { { "contact_damping_limit_low", range.low, "1",
+               "least Contact/Damping for which the verdict holds; 0: it holds without" },
+             { "contact_damping_limit_high", range.high, "1",
+               "largest Contact/Damping for which it holds, or the largest that was looked at" },
+             { "growth_rate_without_contact_damping", range.growth_rate_at_none, "1/s",
+               "of the mode that grows most with Contact/Damping = 0" } };
+  }
+
   std::vector<Entry> slide_entries(const SlideStability &found)
   {
     std::vector<Entry> result = { { "verdict", kind_name(found.kind), "",

@@ -31,6 +31,16 @@ namespace sprag
 
   // Entries of /summary.
   std::vector<Entry> slide_entries(const SlideStability &found);
+
+  /// The range of Contact/Damping about that of the scene over which the kind of a slide stays the same.
+  struct DampingRange
+  {
+    double low, high;           ///< shares of critical
+    double looked_up_to;        ///< share of critical
+    double growth_rate_at_none; ///< without damping of the contact [1/s]
+  };
+
+  std::vector<Entry> damping_entries(const DampingRange &range);
   std::vector<Entry> role_entries(const std::vector<Role> &roles);
   std::vector<Entry> critical_entries(const std::vector<CriticalSearch> &searches);
 } // namespace sprag
