@@ -20,6 +20,37 @@ namespace sprag
       unsigned int stops;
     };
 
+    /// What adds up from the beginning of a run over a random base to the end of one of its sections.
+    struct Section
+    {
+      double square, base_square;
+    };
+
+    constexpr unsigned int sections_of_random = 12;
+    constexpr double quantile_of_sections     = 2.20; ///< 97.5 % of Student's t with 11 degrees of freedom
+
+    /// Half of the interval of 95 % about the ratio of root mean squares, by the jackknife: the ratio is taken again and again
+    /// without one of the sections.
+    double half_interval(const std::vector<Section> &ends)
+    {
+      const auto n = static_cast<double>(ends.size());
+      std::vector<double> without;
+      Section before{ 0., 0. };
+      for (const auto &end : ends)
+      {
+        const double square      = ends.back().square - (end.square - before.square);
+        const double base_square = ends.back().base_square - (end.base_square - before.base_square);
+        without.push_back(std::sqrt(square / base_square));
+        before = end;
+      }
+      double mean = 0., squares = 0.;
+      for (const double ratio : without)
+        mean += ratio / n;
+      for (const double ratio : without)
+        squares += (ratio - mean) * (ratio - mean);
+      return quantile_of_sections * std::sqrt((n - 1.) / n * squares);
+    }
+
     /// What a run goes on from, beside its findings and the table.
     struct Course
     {
@@ -28,7 +59,8 @@ namespace sprag
       unsigned int period_stops  = 0;
       bool has_ended             = false;
       SteadyState steady;
-      std::vector<Period> periods; ///< the last
+      std::vector<Period> periods;   ///< the last
+      std::vector<Section> sections; ///< that ended
       std::vector<double> last_turns;
       double square           = 0.; ///< of the table's acceleration, of the periods that ended
       double largest_energy   = 0.;
@@ -37,8 +69,8 @@ namespace sprag
 
     void visit(Archive &archive, Course &course)
     {
-      auto &[rows, ended, stops, has_ended, steady, periods, turns, square, energy, residual] = course;
-      archive(rows, ended, stops, has_ended, steady, periods, turns, square, energy, residual);
+      auto &[rows, ended, stops, has_ended, steady, periods, sections, turns, square, energy, residual] = course;
+      archive(rows, ended, stops, has_ended, steady, periods, sections, turns, square, energy, residual);
     }
 
     /// Adds to the last ones, of which so many are kept.
@@ -76,12 +108,14 @@ namespace sprag
         while (motion.state().time < settings.duration && !course.has_ended)
         {
           const double row = static_cast<double>(course.rows) * between_rows;
-          const double end = period_end();
-          go_on(std::min({ settings.duration, record ? row : settings.duration, end }));
+          const double end = period_end(), section = section_end();
+          go_on(std::min({ settings.duration, record ? row : settings.duration, end, section }));
           if (motion.state().time >= row)
             ++course.rows;
           if (motion.state().time == end)
             end_period();
+          if (motion.state().time == section)
+            course.sections.push_back({ motion.state().square, motion.state().base_square });
           keep();
         }
         if (keeper != nullptr)
@@ -109,6 +143,12 @@ namespace sprag
         {
           found.peak = motion.largest_acceleration() / motion.largest_base_acceleration();
           found.rms  = std::sqrt(state.square / state.base_square);
+          if (course.sections.size() == sections_of_random)
+          {
+            const double half = half_interval(course.sections);
+            found.rms_low     = std::max(0., found.rms - half);
+            found.rms_high    = found.rms + half;
+          }
         }
       }
 
@@ -135,6 +175,13 @@ namespace sprag
       double period_end() const
       {
         return is_harmonic ? (course.periods_ended + 1) / settings.base_frequency : std::numeric_limits<double>::infinity();
+      }
+
+      double section_end() const
+      {
+        return settings.base == BaseMotionType::random
+                   ? std::min(1., static_cast<double>(course.sections.size() + 1) / sections_of_random) * settings.duration
+                   : std::numeric_limits<double>::infinity();
       }
 
       ProgressVisit progress()

@@ -28,6 +28,8 @@ namespace sprag
     double peak        = unknown;
     double fundamental = unknown;
     double rms         = unknown;
+    double rms_low     = unknown; ///< of a random base: what another record of its spectrum gives lies between, with 95 %
+    double rms_high    = unknown;
 
     bool is_steady        = false;
     unsigned int periods  = 0; ///< of the base, over which the ratios are taken

@@ -48,6 +48,9 @@ namespace sprag
         { "transmissibility_fundamental", found.fundamental, "1",
           "first harmonic of the table's acceleration over that of a harmonic base" },
         { "transmissibility_rms", found.rms, "1", "root mean squares likewise" },
+        { "transmissibility_rms_low", found.rms_low, "1",
+          "of a random base: lower end of the interval of 95 %, from the scatter over twelve sections of the record" },
+        { "transmissibility_rms_high", found.rms_high, "1", "its upper end" },
         { "relative_amplitude", found.relative_amplitude, "mm", "largest |z| in the last periods of a harmonic base" },
       };
     }
