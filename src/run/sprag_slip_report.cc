@@ -37,7 +37,7 @@ namespace sprag
       entries.push_back({ "cycle_open_share", window.open_share, "1", "share of time without contact" });
       entries.push_back(
           { "cycle_stick_share", window.stick_share, "1", "share of time with part of the contact not sliding on" });
-      entries.push_back({ "cycle_frequency", window.frequency, "Hz", "of P about its mean" });
+      entries.push_back({ "cycle_frequency", window.frequency, "Hz", "strongest line in the spectrum of P" });
       entries.push_back({ "cycle_agreement", settled.agreement, "1", "difference of the amplitudes of the last two windows" });
     }
 

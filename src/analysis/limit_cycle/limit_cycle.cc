@@ -1,5 +1,7 @@
 #include "analysis/limit_cycle/limit_cycle.h"
 
+#include "analytic/ringing.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -10,15 +12,14 @@ namespace sprag
     constexpr double window_periods = 20.;
     constexpr double same           = 0.01; ///< relative difference of amplitudes that counts as none
 
-    /// Of the signal's upward changes of sign: a cycle that loses contact has one of each kind a period.
-    double upward_frequency(const std::vector<Sample> &signal)
+    /// Returns the frequency of the strongest line in the spectrum of a signal that is sampled every `step` [s]. Where contact is
+    /// lost the signal may cross its mean several times a period.
+    double strongest_frequency(const std::vector<Sample> &signal, const double step)
     {
-      const auto times = crossings(signal);
-      std::vector<double> upward;
-      const bool starts_below = signal.front().value < 0.;
-      for (std::size_t i = starts_below ? 0 : 1; i < times.size(); i += 2)
-        upward.push_back(times[i]);
-      return 2. * fit_frequency(upward);
+      Signal values{ step, {} };
+      for (const auto &sample : signal)
+        values.values.push_back(sample.value);
+      return ringing(values, 0.).frequency;
     }
 
     double amplitude(const std::vector<Sample> &signal)
@@ -46,12 +47,8 @@ namespace sprag
       }
       for (const auto &sample : P)
         mean += sample.value / n;
-      auto about_mean = P;
-      for (auto &sample : about_mean)
-        sample.value -= mean;
-      return {
-        begin, P.back().time, amplitude(P), amplitude(indentation), mean, open / n, stuck / n, upward_frequency(about_mean)
-      };
+      const double frequency = strongest_frequency(P, run.time_step());
+      return { begin, P.back().time, amplitude(P), amplitude(indentation), mean, open / n, stuck / n, frequency };
     }
 
     bool agree(const double a, const double b)

@@ -14,7 +14,7 @@ namespace sprag
     double mean_P                = 0.; ///< [N]
     double open_share            = 0.; ///< of the time, without contact
     double stick_share           = 0.; ///< of the time, with a point in contact that does not slide on with the cylinder
-    double frequency             = 0.; ///< of P about its mean [Hz]; NaN with less than a period
+    double frequency             = 0.; ///< strongest line of P's spectrum [Hz]; NaN without one
   };
 
   enum class Settling
