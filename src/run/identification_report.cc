@@ -31,6 +31,16 @@ namespace sprag
 
     /// Independent values over all, below which residuals follow each other more than those of sensors do.
     constexpr double least_independent = 0.3;
+    constexpr double least_deviation   = 1e-3; ///< of residuals over the largest force, below which they are round-off
+
+    /// Whether residuals follow each other as they do where the model is another than what was measured.
+    bool is_not_followed(const ForceChannel &channel, const ChannelNoise &noise)
+    {
+      double largest = 0.;
+      for (const double value : channel.values)
+        largest = std::isnan(value) ? largest : std::max(largest, std::abs(value));
+      return noise.effective_rows() < least_independent * noise.rows && noise.deviation > least_deviation * largest;
+    }
 
     std::string remedy_of_indistinct()
     {
@@ -151,7 +161,7 @@ namespace sprag
     std::vector<std::string> not_followed;
     const auto &channels = scene.identification.measured.channels;
     for (std::size_t i = 0; i < channels.size(); ++i)
-      if (const auto &noise = found.noise[i]; noise.effective_rows() < least_independent * noise.rows)
+      if (const auto &noise = found.noise[i]; is_not_followed(channels[i], noise))
         not_followed.push_back(formatted("%.0f", noise.rows) + " values of " + word_of(channels[i]) + " are worth " +
                                formatted("%.0f", noise.effective_rows()) + " independent ones");
     if (!not_followed.empty())
