@@ -1,14 +1,40 @@
 #include "program/outcome.h"
 
+#include "base/escaped.h"
 #include "program/run_options.h"
 #include "results/earlier_result.h"
 #include "scene/read.h"
 #include "scene/scene.h"
 
 #include <iostream>
+#include <sstream>
 
 namespace sprag
 {
+  namespace
+  {
+    constexpr std::size_t most_lines = 40, longest_line = 400;
+
+    /// Cuts the middle out of a long line.
+    std::string shortened(const std::string &line)
+    {
+      constexpr std::size_t half = longest_line / 2;
+      return line.size() <= longest_line ? line : line.substr(0, half) + " [...] " + line.substr(line.size() - half);
+    }
+
+    /// What a file holds must neither flood the terminal nor speak to it.
+    std::string shown(const std::string &message)
+    {
+      std::istringstream lines(message);
+      std::string text;
+      std::size_t count = 0;
+      for (std::string line; std::getline(lines, line);)
+        if (++count <= most_lines)
+          text += (text.empty() ? "" : "\n") + printable(shortened(line));
+      return count > most_lines ? text + "\nand " + std::to_string(count - most_lines) + " more" : text;
+    }
+  } // namespace
+
   std::timespec time_of_files()
   {
     std::timespec result = {};
@@ -18,13 +44,13 @@ namespace sprag
 
   int tell(const InputError &error)
   {
-    std::cerr << error.what() << '\n';
+    std::cerr << shown(error.what()) << '\n';
     return bad_input;
   }
 
   int tell(const std::string &failure)
   {
-    std::cerr << "sprag: " << failure << '\n';
+    std::cerr << "sprag: " << shown(failure) << '\n';
     return analysis_failed;
   }
 
