@@ -156,6 +156,27 @@ class Ranks(RanksTest):
         self.assertEqual(done.stderr.count("process 1 of mpirun runs another program"), 1, done.stderr)
         self.assertFalse(self.output.exists())
 
+    def ranks_apart(self, *places):
+        """A study by two ranks, each with a working directory and an --output of its own."""
+        changes = {"Analysis/Type": "study", "Study/Type": "stability", "Analysis/Model": "beam", "Stability/Roles": "off"}
+        changes["Study/Vary"] = "Friction/Factor = 0.5 ... 1.5 : 200"
+        words = []
+        for place, output in places:
+            (self.folder / place).mkdir(exist_ok=True)
+            words += [":", "-n", "1", "-wdir", str(self.folder / place), *command(output, changes)]
+        return finished(["mpirun", *words[1:]])
+
+    def test_of_another_output_are_refused(self):
+        done = self.ranks_apart(("here", "one"), ("here", "two"))
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertEqual(done.stderr.count("or to another --output"), 1, done.stderr)
+        self.assertEqual(list((self.folder / "here").iterdir()), [])
+
+    def test_one_that_fails_alone_ends_all(self):
+        done = self.ranks_apart(("here", "output"), ("there", "output"))
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertEqual(done.stderr.count("output/study.journal cannot be written"), 1, done.stderr)
+
     def test_that_cannot_help_are_refused(self):
         for changes, reason in (({}, "run in several processes"), ({**MESH, "Mesh/Face size": "8"}, "displacements are too few for 2")):
             done = run(2, self.output, changes)
