@@ -132,7 +132,8 @@ namespace sprag
       hdf5::silence();
       catch_interrupts();
       RunLog log(argc, argv);
-      return exit_status_of(arguments, scene, since, {}, [&](const Scene &given) { do_without_models(arguments, given, log); });
+      return outcome_of(arguments, scene, since, {}, [&](const Scene &given) { do_without_models(arguments, given, log); })
+          .status;
     }
   } // namespace
 } // namespace sprag

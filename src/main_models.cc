@@ -133,7 +133,7 @@ namespace sprag
     }
 
     /// Others would wait for ever for a rank that has failed alone.
-    void wait_for_others(const std::string &failure, const int status, const Rank &rank)
+    void wait_for_others(const Outcome &outcome, const Rank &rank)
     {
       if (rank.is_alone)
         return;
@@ -143,11 +143,11 @@ namespace sprag
       MPI_Ibarrier(MPI_COMM_WORLD, &together);
       for (int done = 0; MPI_Test(&together, &done, MPI_STATUS_IGNORE) == MPI_SUCCESS && done == 0;)
       {
-        if (!failure.empty() && Clock::now() > end)
+        if (outcome.status != success && Clock::now() > end)
         {
           if (!rank.is_first)
-            tell(failure);
-          MPI_Abort(MPI_COMM_WORLD, status);
+            tell(outcome.failure);
+          MPI_Abort(MPI_COMM_WORLD, outcome.status);
         }
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
       }
@@ -156,29 +156,22 @@ namespace sprag
     int exit_status(const Arguments &arguments, const std::optional<Scene> &scene, const std::timespec &since, const Rank &rank,
                     RunLog &log)
     {
-      std::string failure = "the scene cannot be read";
-      const auto work     = [&](const Scene &given)
+      const auto work = [&](const Scene &given)
       {
         try
         {
           execute(arguments, given, rank, log);
-          failure.clear();
         }
         catch (const dealii::ExceptionBase &error)
         {
           throw std::runtime_error(message_of(error));
         }
-        catch (const std::exception &error)
-        {
-          failure = error.what();
-          throw;
-        }
       };
       try
       {
-        const int status = exit_status_of(arguments, scene, since, rank, work);
-        wait_for_others(failure, status, rank);
-        return status;
+        const auto outcome = outcome_of(arguments, scene, since, rank, work);
+        wait_for_others(outcome, rank);
+        return outcome.status;
       }
       catch (const std::exception &error)
       {

@@ -67,7 +67,7 @@ namespace sprag
     check_warnings(scene, warnings);
   }
 
-  int exit_status_of(const Arguments &arguments, std::optional<Scene> scene, const std::timespec &since, const Rank &rank,
+  Outcome outcome_of(const Arguments &arguments, std::optional<Scene> scene, const std::timespec &since, const Rank &rank,
                      const std::function<void(const Scene &)> &work)
   {
     try
@@ -75,17 +75,17 @@ namespace sprag
       if (!scene)
         scene = scene_of(arguments);
       work(*scene);
-      return success;
+      return {};
     }
     catch (const InputError &error)
     {
-      return rank.is_first ? tell(error) : bad_input;
+      return { rank.is_first ? tell(error) : bad_input, error.what() };
     }
     catch (const AnalysisError &error)
     {
       if (rank.is_first && scene)
         finish(arguments, *scene, error.what(), since);
-      return rank.is_first ? tell(error.what()) : analysis_failed;
+      return { rank.is_first ? tell(error.what()) : analysis_failed, error.what() };
     }
     catch (const std::exception &error)
     {
@@ -93,7 +93,7 @@ namespace sprag
         throw;
       if (scene)
         finish(arguments, *scene, error.what(), since);
-      return tell(error.what());
+      return { tell(error.what()), error.what() };
     }
   }
 } // namespace sprag

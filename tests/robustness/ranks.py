@@ -33,6 +33,10 @@ def run(ranks, folder, changes):
     return finished([*mpi, *command(folder, changes)])
 
 
+def mpirun_of_one(words, scene):
+    return ["mpirun", "-n", "1", words[0], scene, *words[2:]]
+
+
 def finished(words, **options):
     return subprocess.run(words, capture_output=True, text=True, check=False, timeout=TIMEOUT, env=ALONE, **options)
 
@@ -176,6 +180,12 @@ class Ranks(RanksTest):
         done = self.ranks_apart(("here", "output"), ("there", "output"))
         self.assertEqual(done.returncode, 1, done.stderr)
         self.assertEqual(done.stderr.count("output/study.journal cannot be written"), 1, done.stderr)
+        words = command(self.output, SETTINGS)
+        for own, other in ((0, 1), (1, 0)):
+            scenes = [words[1], str(self.folder / "missing.prm")]
+            done = finished([*mpirun_of_one(words, scenes[own]), ":", *mpirun_of_one(words, scenes[other])[1:]])
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertEqual(done.stderr.count("missing.prm: cannot be read"), 1, done.stderr)
 
     def test_that_cannot_help_are_refused(self):
         for changes, reason in (({}, "run in several processes"), ({**MESH, "Mesh/Face size": "8"}, "displacements are too few for 2")):
