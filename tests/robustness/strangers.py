@@ -148,6 +148,8 @@ class Results(StrangerTest):
                 file["measurement"], file["parameters"] = [1.0, 2.0], "mine"
 
         for make in (measured, lambda: self.result.write_text("a measurement\n")):
+            shutil.rmtree(self.output)
+            self.output.mkdir()
             make()
             before = self.result.read_bytes()
             self.refused(self.run_scene(), "result.h5", "no result of sprag's", "--overwrite")
