@@ -3,8 +3,8 @@
 #include "base/errors.h"
 #include "program/run_files.h"
 #include "program/run_log.h"
+#include "results/earlier_fields.h"
 #include "results/earlier_result.h"
-#include "results/field_files.h"
 #include "scene/read.h"
 
 #include <algorithm>

@@ -10,7 +10,6 @@
 #include <iterator>
 #include <limits>
 #include <optional>
-#include <regex>
 
 namespace sprag
 {
@@ -249,21 +248,5 @@ namespace sprag
               "Format=\"XML\">" +
               number(fact.value) + "</DataItem></Attribute>\n";
     return text + "      </Grid>\n";
-  }
-
-  bool is_field_file(const std::string &name)
-  {
-    static const std::regex given(R"((fields|face|leaf|mode-\d+)(-\d+\.h5|-mesh\.h5|\.h5|\.xdmf))");
-    return std::regex_match(name, given);
-  }
-
-  void remove_field_files(const std::string &folder)
-  {
-    std::vector<std::filesystem::path> found;
-    for (const auto &entry : std::filesystem::directory_iterator(folder))
-      if (is_field_file(entry.path().filename().string()))
-        found.push_back(entry.path());
-    for (const auto &path : found)
-      std::filesystem::remove(path);
   }
 } // namespace sprag

@@ -100,6 +100,11 @@ class Meshes(StrangerTest):
         self.assertEqual(self.validate("own.geo").returncode, 2)
         self.assertEqual(self.validate("own.geo", "--trust-scripts").returncode, 0)
 
+    def test_what_a_script_tries_is_told(self):
+        for text, says in (("Exit;", "gmsh ends on it"), (CALL, "--trust-scripts"), ('Merge "/etc/hostname";', "--trust-scripts")):
+            self.write("own.geo", text)
+            self.refused(self.validate("own.geo"), "own.geo", says)
+
     def test_a_mesh_is_no_script(self):
         self.write("own.msh", CALL + STRIP)
         self.refused(self.validate("own.msh"), "own.msh", "must begin with $MeshFormat")

@@ -412,8 +412,9 @@ namespace sprag
         return std::string(packed.begin(), packed.end());
       };
       const auto found = in_child_process(in_process, is_mesh ? mesh_patience + 1e-6 * static_cast<double>(bytes) : 0.);
-      if (!found.failure.empty())
-        throw InputError(file + ": gmsh " + found.failure + " on it: the file is damaged, or meshing it needs too much memory");
+      if (!found.failure.empty() || found.text.empty())
+        throw InputError(file + ": gmsh " + (found.failure.empty() ? "ends" : found.failure) +
+                         " on it: the file is damaged, or meshing it needs too much memory");
       auto answer = Utilities::unpack<Answer>(std::vector<char>(found.text.begin(), found.text.end()), false);
       if (!answer.mistakes.empty())
         throw InputError(answer.mistakes);
