@@ -19,6 +19,11 @@ class Parameter(NamedTuple):
             return None
 
 
+def value_of_text(text):
+    """The value that a line gives: without comment and blanks around it, with \\xHH as the byte it stands for."""
+    return re.sub(r"\\x([0-9a-fA-F]{2})", lambda escape: chr(int(escape[1], 16)), text.split("#")[0].strip())
+
+
 def parse(listing):
     """{"Section/Name": Parameter}. The unit stands in brackets at the end of the comment above."""
     found, section, comment = {}, [], ""
@@ -30,8 +35,7 @@ def parse(listing):
         elif line.startswith("set "):
             name, _, value = line[len("set ") :].partition("=")
             unit = re.findall(r"\[([^\[\]]+)\](?=[:;])", comment)
-            text = value.split("#")[0].strip()
-            found["/".join((*section, name.strip()))] = Parameter(text, unit[-1] if unit and unit[-1] != "-" else "1")
+            found["/".join((*section, name.strip()))] = Parameter(value_of_text(value), unit[-1] if unit and unit[-1] != "-" else "1")
         comment = f"{comment} {line[1:].strip()}".strip() if line.startswith("#") else ""
     return found
 

@@ -27,6 +27,10 @@ from transient import energy, has_reversal, is_transient, reversal
 from vibration import vibration_pictures
 
 
+# What a later run in the same folder may have no picture of.
+OF_ONE_RUN = ("forces-over-time", "forces-over-x", "contact", "reversal", "energy", "sensors", "pair", "fields")
+
+
 def draw(results):
     """{picture name: figure} for one or several results."""
     if len(results) == 1 and is_map(results[0]):
@@ -91,6 +95,13 @@ def save_all(pictures, folder, endings=("png",), dpi=300):
         plt.close(figure)
 
 
+def remove_earlier(pictures, folder, endings):
+    """Pictures of the run before, which would pass for this one's."""
+    for name in set(OF_ONE_RUN) - set(pictures):
+        for ending in endings:
+            (folder / f"{name}.{ending}").unlink(missing_ok=True)
+
+
 def read_arguments(arguments):
     parser = parser_of(__doc__)
     add_folders(parser)
@@ -107,7 +118,11 @@ def read_arguments(arguments):
 def main(arguments=None):
     options = read_arguments(arguments)
     use_print_style()
-    save_all(draw([read_result(folder) for folder in options.folders]), options.output, options.format or ("png",))
+    endings = options.format or ("png",)
+    pictures = draw([read_result(folder) for folder in options.folders])
+    save_all(pictures, options.output, endings)
+    if options.folders == [options.output]:
+        remove_earlier(pictures, options.output, endings)
 
 
 if __name__ == "__main__":

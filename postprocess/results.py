@@ -6,10 +6,12 @@ from pathlib import Path
 import re
 import sys
 import time
+import traceback
 from typing import Optional
 
 import h5py
 import numpy as np
+from parameters import value_of_text
 
 
 KNOWN = ("table", "face", "summary", "meta")
@@ -20,14 +22,23 @@ class NotAResult(Exception):
 
 
 def script(main):
-    """The exit code of what a script does: 0, or 2 with one line on stderr where a result or file cannot be read or written."""
+    """The exit code of what a script does: 0, or 2 with one line on stderr where a result or file cannot be read or written. What a
+    damaged result lacks shows anywhere, by any exception: the line tells where."""
+
+    name = Path(main.__code__.co_filename).name
 
     @wraps(main)
     def with_exit_code(arguments=None):
         try:
             main(arguments)
         except (NotAResult, OSError) as error:
-            print(f"{Path(main.__code__.co_filename).name}: {error}", file=sys.stderr)
+            print(f"{name}: {error}", file=sys.stderr)
+            return 2
+        except Exception as error:
+            place = traceback.extract_tb(error.__traceback__)[-1]
+            what = f"{type(error).__name__}: {error}".splitlines()[0]
+            where = f"{Path(place.filename).name}, line {place.lineno}"
+            print(f"{name}: a result is damaged or of another version of sprag: {what} ({where})", file=sys.stderr)
             return 2
         return 0
 
@@ -86,7 +97,7 @@ class Result:
         )
         if not found:
             raise KeyError(f"{section}/{name}")
-        return found.group(1).strip()
+        return value_of_text(found.group(1))
 
 
 def open_result(path, attempts=5):

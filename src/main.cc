@@ -16,7 +16,6 @@
 
 #include <csignal>
 #include <cstring>
-#include <filesystem>
 #include <iostream>
 
 // The program that one calls. It reads, checks and looks after runs and does itself what formulas answer; for models, which take
@@ -56,6 +55,25 @@ namespace sprag
       return is_run(arguments) && works_in_parallel(scene.analysis.type) && works_on_all_cores(processes);
     }
 
+    /// Cells of a map or runs of a study.
+    std::size_t pieces_of(const Scene &scene)
+    {
+      if (scene.analysis.type == AnalysisType::map)
+        return std::size_t(scene.map.first.points) * scene.map.second.points;
+      std::size_t runs = 1;
+      for (const auto &parameter : scene.study.varied)
+        runs = scene.study.combine == Combination::grid ? runs * parameter.values.size() : parameter.values.size();
+      return runs;
+    }
+
+    /// More than there are pieces would only wait.
+    unsigned int processes_for(const Arguments &arguments, const Scene &scene)
+    {
+      const unsigned int wanted = arguments.jobs > 0 ? arguments.jobs : available_cores();
+      return works_in_parallel(scene.analysis.type) && pieces_of(scene) < wanted ? static_cast<unsigned int>(pieces_of(scene))
+                                                                                 : wanted;
+    }
+
     bool needs_models(const Arguments &arguments, const Scene &scene)
     {
       if (arguments.print_parameters)
@@ -67,10 +85,8 @@ namespace sprag
     }
 
     /// The arguments and the file are read again there.
-    [[noreturn]] void become_models(const Arguments &arguments, char **argv)
+    [[noreturn]] void become_models(char **argv)
     {
-      if (!std::filesystem::is_regular_file(arguments.file))
-        throw InputError(arguments.file + ": must be a file and no pipe, as it is read twice");
       become_neighbour("sprag-models", argv);
     }
 
@@ -105,18 +121,19 @@ namespace sprag
         return success;
       }
       const Scene scene            = scene_of(arguments);
-      const unsigned int processes = arguments.jobs > 0 ? arguments.jobs : available_cores();
+      const unsigned int processes = processes_for(arguments, scene);
       const bool on_all_cores      = is_for_all_cores(arguments, scene, processes);
       if (const auto end = on_all_cores ? look_after(SIGTERM, grace_of_processes) : look_after(SIGKILL, grace))
         return conclude(*end, arguments, scene, since);
       if (on_all_cores)
         become_mpirun(argv, processes);
       if (needs_models(arguments, scene))
-        become_models(arguments, argv);
+        become_models(argv);
       hdf5::silence();
       catch_interrupts();
       RunLog log(argc, argv);
-      return exit_status_of(arguments, scene, since, {}, [&](const Scene &given) { do_without_models(arguments, given, log); });
+      return outcome_of(arguments, scene, since, {}, [&](const Scene &given) { do_without_models(arguments, given, log); })
+          .status;
     }
   } // namespace
 } // namespace sprag

@@ -5,6 +5,7 @@
 #include "base/hdf5_handle.h"
 #include "base/interrupt.h"
 #include "fe/fields/help_first_rank.h"
+#include "fe/mesh/geometry_script.h"
 #include "fe/solid/first_rank.h"
 #include "program/memory.h"
 #include "program/outcome.h"
@@ -19,8 +20,12 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/multithread_info.h>
 
+#include <chrono>
 #include <cstdlib>
 #include <stdexcept>
+#include <string>
+#include <sys/resource.h>
+#include <thread>
 
 // What sprag becomes where models are needed, with the libraries that they need, and what mpirun starts. It does formulas as
 // well.
@@ -32,16 +37,18 @@ namespace sprag
     namespace MPI = dealii::Utilities::MPI;
 
     /// Processes of another program or scene than the first's would wait for what never comes, or give other results.
-    void require_alike_processes(const Scene &scene)
+    void require_alike_processes(const Scene &scene, const std::string &folder)
     {
       Fingerprint of_all;
-      of_all.add(content_fingerprint("/proc/self/exe"));
+      of_all.add(program_fingerprint());
       of_all.add(parameters_text(scene));
+      of_all.add(folder);
       const auto fingerprints = MPI::all_gather(MPI_COMM_WORLD, of_all.text());
       for (std::size_t rank = 1; rank < fingerprints.size(); ++rank)
         if (fingerprints[rank] != fingerprints[0])
-          throw InputError("process " + std::to_string(rank) +
-                           " of mpirun runs another program or scene than process 0: start the same on all machines");
+          throw InputError(
+              "process " + std::to_string(rank) +
+              " of mpirun runs another program or scene than process 0, or to another --output: start the same on all machines");
     }
 
     unsigned int processes_of(const Rank &rank)
@@ -63,10 +70,10 @@ namespace sprag
           print_expectations(scene, processes_of(rank), folder);
         return tell_validity(arguments, scene, warnings);
       }
-      if (!rank.is_alone)
-        require_alike_processes(scene);
       const std::string folder = folder_of(arguments, scene);
-      const auto claim         = [&]
+      if (!rank.is_alone)
+        require_alike_processes(scene, folder);
+      const auto claim = [&]
       {
         claim_folder(folder, parameters_text(scene), arguments.overwrite);
         require_memory(scene, processes_of(rank), folder);
@@ -94,12 +101,30 @@ namespace sprag
              works_in_parallel(scene.analysis.type);
     }
 
-    /// Settings for one process, kept where they are given: no daemon beside the program, no network and no devices looked for.
+    /// Settings for one process, kept where they are given: no daemon beside the program, no folder for
+    /// its sessions, no network and no devices looked for.
     void set_up_mpi_for_one()
     {
-      for (const auto &[name, value] : { std::pair{ "OMPI_MCA_ess_singleton_isolated", "1" }, std::pair{ "OMPI_MCA_pml", "ob1" },
-                                         std::pair{ "OMPI_MCA_btl", "self" }, std::pair{ "HWLOC_SYNTHETIC", "core:1 pu:1" } })
+      for (const auto &[name, value] :
+           { std::pair{ "OMPI_MCA_ess_singleton_isolated", "1" }, std::pair{ "OMPI_MCA_pml", "ob1" },
+             std::pair{ "OMPI_MCA_btl", "self" }, std::pair{ "OMPI_MCA_orte_create_session_dirs", "0" },
+             std::pair{ "HWLOC_SYNTHETIC", "core:1 pu:1" } })
         ::setenv(name, value, 0);
+    }
+
+    /// gmsh and factorisations overflow a smaller stack [bytes].
+    constexpr rlim_t least_stack = 1024 * 1024;
+
+    void require_stack()
+    {
+      rlimit limit = {};
+      if (::getrlimit(RLIMIT_STACK, &limit) != 0 || limit.rlim_cur >= least_stack)
+        return;
+      const auto given = limit.rlim_cur;
+      limit.rlim_cur   = least_stack;
+      if (limit.rlim_max < least_stack || ::setrlimit(RLIMIT_STACK, &limit) != 0)
+        throw InputError("the stack may have " + std::to_string(given / 1024) + " kB by ulimit -s: must be at least " +
+                         std::to_string(least_stack / 1024) + " kB");
     }
 
     Rank rank_in_mpi()
@@ -107,23 +132,46 @@ namespace sprag
       return { MPI::this_mpi_process(MPI_COMM_WORLD) == 0, MPI::n_mpi_processes(MPI_COMM_WORLD) == 1 };
     }
 
+    /// Others would wait for ever for a rank that has failed alone.
+    void wait_for_others(const Outcome &outcome, const Rank &rank)
+    {
+      if (rank.is_alone)
+        return;
+      using Clock          = std::chrono::steady_clock;
+      const auto end       = Clock::now() + std::chrono::duration<double>(grace_of_processes);
+      MPI_Request together = MPI_REQUEST_NULL;
+      MPI_Ibarrier(MPI_COMM_WORLD, &together);
+      for (int done = 0; MPI_Test(&together, &done, MPI_STATUS_IGNORE) == MPI_SUCCESS && done == 0;)
+      {
+        if (outcome.status != success && Clock::now() > end)
+        {
+          if (!rank.is_first)
+            tell(outcome.failure);
+          MPI_Abort(MPI_COMM_WORLD, outcome.status);
+        }
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+      }
+    }
+
     int exit_status(const Arguments &arguments, const std::optional<Scene> &scene, const std::timespec &since, const Rank &rank,
                     RunLog &log)
     {
+      const auto work = [&](const Scene &given)
+      {
+        try
+        {
+          execute(arguments, given, rank, log);
+        }
+        catch (const dealii::ExceptionBase &error)
+        {
+          throw std::runtime_error(message_of(error));
+        }
+      };
       try
       {
-        return exit_status_of(arguments, scene, since, rank,
-                              [&](const Scene &given)
-                              {
-                                try
-                                {
-                                  execute(arguments, given, rank, log);
-                                }
-                                catch (const dealii::ExceptionBase &error)
-                                {
-                                  throw std::runtime_error(message_of(error));
-                                }
-                              });
+        const auto outcome = outcome_of(arguments, scene, since, rank, work);
+        wait_for_others(outcome, rank);
+        return outcome.status;
       }
       catch (const std::exception &error)
       {
@@ -141,18 +189,23 @@ int main(int argc, char **argv)
   Arguments arguments;
   if (const auto status = read_arguments(argc, argv, arguments))
     return *status;
+  if (arguments.trust_scripts)
+    trust_scripts();
   const std::timespec since = time_of_files();
   std::optional<Scene> scene;
-  if (!under_mpi())
-    try
+  try
+  {
+    require_stack();
+    if (!under_mpi())
     {
       scene = scene_of(arguments);
       set_up_mpi_for_one();
     }
-    catch (const InputError &error)
-    {
-      return tell(error);
-    }
+  }
+  catch (const InputError &error)
+  {
+    return tell(error);
+  }
   RunLog log(argc, argv);
   int no_arguments = 1;
   std::optional<dealii::Utilities::MPI::MPI_InitFinalize> mpi;

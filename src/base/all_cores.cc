@@ -28,8 +28,22 @@ namespace sprag
       return false;
     }
 
+    /// mpirun ends where it cannot keep its sessions there, but takes /tmp where nothing is named.
+    void forget_unwritable_folder(const char *const variable)
+    {
+      const char *const folder = std::getenv(variable);
+      if (folder == nullptr)
+        return;
+      std::string trial = std::string(folder) + "/sprag-XXXXXX";
+      if (::mkdtemp(trial.data()) == nullptr)
+        ::unsetenv(variable);
+      else
+        ::rmdir(trial.c_str());
+    }
+
     void set_environment()
     {
+      forget_unwritable_folder("TMPDIR");
       // Kept where they are set already.
       for (const char *name : { "OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS" })
         ::setenv(name, "1", 0);

@@ -1,10 +1,11 @@
 #include "base/fingerprint.h"
 
+#include "base/errors.h"
+#include "base/file_content.h"
 #include "base/text.h"
 
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <optional>
 #include <set>
 #include <sstream>
@@ -17,13 +18,14 @@ namespace sprag
 
     std::optional<std::string> content_of(const fs::path &file)
     {
-      std::error_code ignored;
-      std::ifstream input(file, std::ios::binary);
-      if (!fs::is_regular_file(file, ignored) || !input)
+      try
+      {
+        return content_of_file(file, largest_mesh);
+      }
+      catch (const InputError &)
+      {
         return {};
-      std::ostringstream content;
-      content << input.rdbuf();
-      return content.str();
+      }
     }
 
     void add_file(const fs::path &file, Fingerprint &key, std::set<fs::path> &seen)
@@ -82,5 +84,11 @@ namespace sprag
     std::set<fs::path> seen;
     add_file(file, key, seen);
     return key.text();
+  }
+
+  const std::string &program_fingerprint()
+  {
+    static const std::string program = content_fingerprint("/proc/self/exe");
+    return program;
   }
 } // namespace sprag

@@ -1,13 +1,14 @@
 #include "base/named_columns.h"
 
 #include "base/errors.h"
+#include "base/file_content.h"
 #include "base/hdf5_handle.h"
 #include "base/text.h"
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <limits>
+#include <sstream>
 
 namespace sprag
 {
@@ -63,9 +64,7 @@ namespace sprag
 
       std::vector<NamedColumn> read(Names &found)
       {
-        std::ifstream input(file);
-        if (!input || std::filesystem::is_directory(file))
-          throw InputError(file + ": cannot be read");
+        std::istringstream input(content_of_file(file, largest_table));
         std::string line;
         for (number = 1; std::getline(input, line); ++number)
         {
@@ -162,8 +161,8 @@ namespace sprag
 
     std::vector<NamedColumn> read_hdf5(const std::string &path, const Names &wanted, Names &found)
     {
-      if (!std::ifstream(path) || std::filesystem::is_directory(path))
-        throw InputError(path + ": cannot be read");
+      if (const auto reason = reason_unreadable(path, largest_table); !reason.empty())
+        throw InputError(path + ": " + reason);
       hdf5::silence();
       const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
       H5Pset_file_locking(access.id(), false, true); // disks that are read-only or without locks are as good as others

@@ -1,9 +1,10 @@
 #include "base/neighbour.h"
 
+#include "base/errors.h"
+
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <stdexcept>
 #include <unistd.h>
 
 namespace sprag
@@ -12,6 +13,6 @@ namespace sprag
   {
     const auto program = std::filesystem::read_symlink("/proc/self/exe").replace_filename(name);
     ::execv(program.c_str(), arguments);
-    throw std::runtime_error(program.string() + " cannot be run: " + std::strerror(errno));
+    throw InputError(program.string() + " cannot be run: " + std::strerror(errno) + ": it must lie beside sprag");
   }
 } // namespace sprag

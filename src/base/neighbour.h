@@ -4,7 +4,7 @@
 
 namespace sprag
 {
-  /// Becomes the program of this name in the folder of the running one, with the same arguments. Throws std::runtime_error where
-  /// that fails.
+  /// Becomes the program of this name in the folder of the running one, with the same arguments. Throws InputError where that
+  /// fails.
   [[noreturn]] void become_neighbour(const std::string &name, char **arguments);
 } // namespace sprag

@@ -1,13 +1,15 @@
 #include "base/parameters.h"
 
+#include "base/errors.h"
+#include "base/escaped.h"
+#include "base/file_content.h"
 #include "base/text.h"
 
 #include <boost/algorithm/string/predicate.hpp>
 
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
 #include <optional>
+#include <sstream>
 #include <stdexcept>
 
 namespace sprag
@@ -69,19 +71,27 @@ namespace sprag
       void unusable(const std::string &rule)
       {
         settings.mistakes.push_back(settings.file + ": " + rule);
+        doubt_all();
+      }
+
+      void doubt_all()
+      {
         for (const auto &parameter : declared)
           settings.doubtful.insert(full_name(parameter));
       }
 
       void read_file()
       {
-        std::error_code ignored;
-        std::ifstream input(settings.file);
-        if (std::filesystem::is_directory(settings.file, ignored))
-          return unusable("is a folder: must be a parameter file");
-        if (!input)
-          return unusable("cannot be read");
-        read_all(input);
+        try
+        {
+          std::istringstream input(content_of_file(settings.file, largest_scene));
+          read_all(input);
+        }
+        catch (const InputError &error)
+        {
+          settings.mistakes.push_back(error.what());
+          doubt_all();
+        }
       }
 
       void read_all(std::istream &input)
@@ -140,7 +150,7 @@ namespace sprag
         if (equals == std::string::npos)
           return mistake(place, "set " + text, "must have the form set Name = value");
         const std::string name  = single_spaced(text.substr(0, equals));
-        const std::string value = trim(text.substr(equals + 1));
+        const std::string value = unescaped(trim(text.substr(equals + 1)));
         if (!section)
           unknown_name(place, name, value);
         else if (section_known)

@@ -1,5 +1,7 @@
 #include "base/parameters.h"
 
+#include "base/escaped.h"
+
 #include <algorithm>
 #include <iomanip>
 #include <sstream>
@@ -52,10 +54,11 @@ namespace sprag
         for (const auto &line : lines_of(documentation(parameter)))
           text << "  # " << line << '\n';
         text << "  set " << std::setw(name) << parameter.name << " = ";
-        if (entry.value == parameter.default_value)
+        const std::string by_default = escaped(parameter.default_value);
+        if (entry.value == by_default)
           text << entry.value << '\n';
         else
-          text << std::setw(value) << entry.value << " # default: " << parameter.default_value << '\n';
+          text << std::setw(value) << entry.value << " # default: " << by_default << '\n';
       }
       text << "end\n\n\n";
     }
@@ -70,7 +73,8 @@ namespace sprag
       const auto value = given.find(full_name(parameter));
       if (entries.count(parameter.section) == 0)
         sections.push_back(parameter.section);
-      entries[parameter.section].push_back({ parameter, value == given.end() ? parameter.default_value : value->second });
+      const auto &text = value == given.end() ? parameter.default_value : value->second;
+      entries[parameter.section].push_back({ parameter, escaped(text) });
     }
     std::ostringstream text;
     text << "# Listing of Parameters\n# ---------------------\n";

@@ -1,6 +1,7 @@
 #include "base/table_file.h"
 
 #include "base/errors.h"
+#include "base/file_content.h"
 #include "base/hdf5_handle.h"
 #include "base/text.h"
 
@@ -8,9 +9,9 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <optional>
 #include <regex>
+#include <sstream>
 
 namespace sprag
 {
@@ -93,8 +94,8 @@ namespace sprag
 
     TwoColumns read_hdf5(const std::string &path, const ColumnNames &names)
     {
-      if (!std::ifstream(path) || std::filesystem::is_directory(path))
-        throw InputError(path + ": cannot be read");
+      if (const auto reason = reason_unreadable(path, largest_table); !reason.empty())
+        throw InputError(path + ": " + reason);
       hdf5::silence();
       const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
       // Disks that are read-only or without locks are as good as others.
@@ -126,10 +127,7 @@ namespace sprag
 
   TwoColumns read_two_columns(const std::string &file)
   {
-    std::ifstream input(file);
-    if (!input || std::filesystem::is_directory(file))
-      throw InputError(file + ": cannot be read");
-
+    std::istringstream input(content_of_file(file, largest_table));
     TwoColumns table;
     std::vector<std::string> mistakes;
     bool header_possible = true;

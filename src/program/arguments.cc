@@ -10,6 +10,8 @@ namespace sprag
 {
   namespace
   {
+    constexpr unsigned int most_processes = 4096;
+
     void declare(CLI::App &app, Arguments &arguments)
     {
       app.add_option("FILE.prm", arguments.file, "The scene: a parameter file; see params/README.md");
@@ -21,8 +23,10 @@ namespace sprag
       app.add_flag("--print-parameters", arguments.print_parameters, "Print every parameter with its meaning and stop");
       auto *const quiet = app.add_flag("--quiet", arguments.quiet, "Print errors only");
       app.add_flag("--verbose", arguments.verbose, "Print every result that is in /summary")->excludes(quiet);
+      app.add_flag("--trust-scripts", arguments.trust_scripts,
+                   "Let a .geo in Mesh/File do all that you may, not only read its own folder; see meshes/README.md");
       app.add_option("--jobs", arguments.jobs, "Processes that work on a map or study; default: one a core")
-          ->check(CLI::PositiveNumber);
+          ->check(CLI::Range(1u, most_processes));
       app.set_version_flag("--version", std::string("sprag " SPRAG_VERSION));
       app.footer(
           "Exit status: 0 success, 1 the analysis failed or was interrupted (finished steps are kept), 2 bad input (nothing "

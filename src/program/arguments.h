@@ -27,7 +27,8 @@ namespace sprag
     bool quiet            = false;
     bool verbose          = false; ///< prints all results
     bool overwrite        = false;
-    unsigned int jobs     = 0; ///< 0: as many as cores
+    bool trust_scripts    = false; ///< runs scripts of meshes with all rights of the user
+    unsigned int jobs     = 0;     ///< 0: as many as cores
   };
 
   /// Reads the command line. Returns the exit status where nothing else is to be done: help and version, which are printed, and

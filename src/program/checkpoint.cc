@@ -70,10 +70,9 @@ namespace sprag
   /// What progress means depends on the program to the last instruction.
   std::string Checkpoint::key() const
   {
-    static const std::string program = content_fingerprint("/proc/self/exe");
     Fingerprint sum;
     sum.add(key_of_scene);
-    sum.add(program);
+    sum.add(program_fingerprint());
     return sum.text();
   }
 

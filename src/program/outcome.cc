@@ -1,14 +1,40 @@
 #include "program/outcome.h"
 
+#include "base/escaped.h"
 #include "program/run_options.h"
 #include "results/earlier_result.h"
 #include "scene/read.h"
 #include "scene/scene.h"
 
 #include <iostream>
+#include <sstream>
 
 namespace sprag
 {
+  namespace
+  {
+    constexpr std::size_t most_lines = 40, longest_line = 400;
+
+    /// Cuts the middle out of a long line.
+    std::string shortened(const std::string &line)
+    {
+      constexpr std::size_t half = longest_line / 2;
+      return line.size() <= longest_line ? line : line.substr(0, half) + " [...] " + line.substr(line.size() - half);
+    }
+
+    /// What a file holds must neither flood the terminal nor speak to it.
+    std::string shown(const std::string &message)
+    {
+      std::istringstream lines(message);
+      std::string text;
+      std::size_t count = 0;
+      for (std::string line; std::getline(lines, line);)
+        if (++count <= most_lines)
+          text += (text.empty() ? "" : "\n") + printable(shortened(line));
+      return count > most_lines ? text + "\nand " + std::to_string(count - most_lines) + " more" : text;
+    }
+  } // namespace
+
   std::timespec time_of_files()
   {
     std::timespec result = {};
@@ -18,13 +44,13 @@ namespace sprag
 
   int tell(const InputError &error)
   {
-    std::cerr << error.what() << '\n';
+    std::cerr << shown(error.what()) << '\n';
     return bad_input;
   }
 
   int tell(const std::string &failure)
   {
-    std::cerr << "sprag: " << failure << '\n';
+    std::cerr << "sprag: " << shown(failure) << '\n';
     return analysis_failed;
   }
 
@@ -41,7 +67,7 @@ namespace sprag
     check_warnings(scene, warnings);
   }
 
-  int exit_status_of(const Arguments &arguments, std::optional<Scene> scene, const std::timespec &since, const Rank &rank,
+  Outcome outcome_of(const Arguments &arguments, std::optional<Scene> scene, const std::timespec &since, const Rank &rank,
                      const std::function<void(const Scene &)> &work)
   {
     try
@@ -49,17 +75,17 @@ namespace sprag
       if (!scene)
         scene = scene_of(arguments);
       work(*scene);
-      return success;
+      return {};
     }
     catch (const InputError &error)
     {
-      return rank.is_first ? tell(error) : bad_input;
+      return { rank.is_first ? tell(error) : bad_input, error.what() };
     }
     catch (const AnalysisError &error)
     {
       if (rank.is_first && scene)
         finish(arguments, *scene, error.what(), since);
-      return rank.is_first ? tell(error.what()) : analysis_failed;
+      return { rank.is_first ? tell(error.what()) : analysis_failed, error.what() };
     }
     catch (const std::exception &error)
     {
@@ -67,7 +93,7 @@ namespace sprag
         throw;
       if (scene)
         finish(arguments, *scene, error.what(), since);
-      return tell(error.what());
+      return { tell(error.what()), error.what() };
     }
   }
 } // namespace sprag

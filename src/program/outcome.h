@@ -6,6 +6,7 @@
 
 #include <ctime>
 #include <functional>
+#include <string>
 
 namespace sprag
 {
@@ -35,9 +36,16 @@ namespace sprag
     bool is_alone = true;
   };
 
-  /// Does `work` with the scene and returns the exit status; what is thrown is told, and what it leaves unfinished gets its end.
+  /// The exit status, and what was thrown.
+  struct Outcome
+  {
+    int status          = success;
+    std::string failure = {};
+  };
+
+  /// Does `work` with the scene and returns its outcome; what is thrown is told, and what it leaves unfinished gets its end.
   /// A scene that is not given is read from the arguments. Errors of input and analysis come on all ranks alike and are told by
   /// the first; any other may be one rank's own: it passes through where the rank is not alone.
-  int exit_status_of(const Arguments &arguments, std::optional<Scene> scene, const std::timespec &since, const Rank &rank,
+  Outcome outcome_of(const Arguments &arguments, std::optional<Scene> scene, const std::timespec &since, const Rank &rank,
                      const std::function<void(const Scene &)> &work);
 } // namespace sprag

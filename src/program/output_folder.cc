@@ -3,18 +3,24 @@
 #include "base/errors.h"
 #include "program/run_files.h"
 #include "program/run_log.h"
+#include "results/earlier_fields.h"
 #include "results/earlier_result.h"
+#include "scene/read.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <fcntl.h>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <set>
 #include <sstream>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <thread>
 #include <unistd.h>
+#include <utility>
 
 namespace sprag
 {
@@ -50,14 +56,15 @@ namespace sprag
       return {};
     }
 
-    void lock(const std::string &folder)
+    /// Returns whether this process has not had the folder before.
+    bool lock(const std::string &folder)
     {
       static int held  = -1; // until the process ends
       const int opened = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
       if (opened < 0 || same_folder(held, opened))
       {
         ::close(opened);
-        return;
+        return false;
       }
       const auto end = std::chrono::steady_clock::now() + lock_patience;
       while (::flock(opened, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
@@ -73,21 +80,61 @@ namespace sprag
       }
       ::close(held);
       held = opened;
+      return true;
     }
 
+    bool is_written(const std::string &name)
+    {
+      const std::set<std::string> names = { "result.h5",     log_name,         map_journal_name,    study_journal_name,
+                                            checkpoint_name, row_journal_name, next_checkpoint_name };
+      return names.count(name) > 0 || is_field_file(name);
+    }
+
+    /// Through a link another file would be written.
     void refuse_what_is_no_file(const std::string &folder)
     {
       std::error_code ignored;
-      for (const char *name :
-           { "result.h5", map_journal_name, study_journal_name, checkpoint_name, row_journal_name, "fields.xdmf" })
+      for (fs::directory_iterator entry(folder, ignored), end; entry != end; entry.increment(ignored))
       {
-        const auto kind = fs::status(fs::path(folder) / name, ignored).type();
-        if (kind == fs::file_type::directory)
-          throw InputError("--output = " + folder + ": " + name + " is a folder there");
-        if (kind != fs::file_type::regular && kind != fs::file_type::not_found && kind != fs::file_type::none)
-          throw InputError("--output = " + folder + ": " + name + " is no regular file there");
+        const std::string name = entry->path().filename().string();
+        const auto kind        = entry->symlink_status(ignored).type();
+        if (kind == fs::file_type::regular || !is_written(name))
+          continue;
+        const bool is_folder = kind == fs::file_type::directory;
+        const bool is_link   = kind == fs::file_type::symlink;
+        throw InputError("--output = " + folder + ": " + name + " is " +
+                         (is_folder ? "a folder"
+                          : is_link ? "a link"
+                                    : "no regular file") +
+                         " there");
       }
     }
+
+    /// A file that a run was killed on before it wrote anything holds zeros alone.
+    bool holds_anything(const std::string &path)
+    {
+      std::ifstream input(path, std::ios::binary);
+      const std::istreambuf_iterator<char> begin(input), end;
+      return std::find_if(begin, end, [](const char c) { return c != '\0'; }) != end;
+    }
+
+    /// A file that cannot be read may be anybody's, but where a killed run can be gone on from.
+    void refuse_other_result(const std::string &folder, const std::string &parameters)
+    {
+      const std::string path = folder + "/result.h5";
+      const auto earlier     = earlier_result(path);
+      const bool is_lost     = !earlier && holds_anything(path) && !has_progress(folder);
+      if (!is_lost && (!earlier || earlier->parameters == parameters))
+        return;
+      const std::string kind = is_lost                          ? "damaged, or no result of sprag's"
+                               : earlier->status == "completed" ? "the completed result of a run with other parameters"
+                                                                : "the unfinished result of a run with other parameters";
+      throw InputError("--output = " + folder + ": result.h5 there is " + kind +
+                       ". Choose another folder, or replace it by --overwrite");
+    }
+
+    /// The folder that was not there when this process claimed it.
+    std::string missing;
   } // namespace
 
   void require_writable(const std::string &folder)
@@ -116,7 +163,12 @@ namespace sprag
     fs::create_directories(folder, error);
     if (error)
       throw InputError("--output = " + folder + ": the folder cannot be made: " + error.message());
-    lock(folder);
+    if (lock(folder) && folder == missing)
+      refuse_other_result(folder, parameters_text(scene)); // of a run that began at the same time
+    static std::string begun;
+    const bool is_begun = std::exchange(begun, folder) == folder;
+    if (options.is_first && !is_begun && !has_progress(folder))
+      remove_field_files(folder);
     if (options.log != nullptr)
       options.log->open(folder, scene);
   }
@@ -126,15 +178,14 @@ namespace sprag
     require_writable(folder);
     std::error_code ignored;
     if (!fs::is_directory(folder, ignored))
+    {
+      missing = folder;
       return;
+    }
     lock(folder);
     if (overwrite)
-      return remove_checkpoint(folder);
-    const auto earlier = earlier_result(folder + "/result.h5");
-    if (!earlier || earlier->parameters == parameters)
-      return;
-    const std::string kind = earlier->status == "completed" ? "completed" : "unfinished";
-    throw InputError("--output = " + folder + ": result.h5 there is the " + kind + " result of a run with other parameters. " +
-                     "Choose another folder, or replace it by --overwrite");
+      remove_checkpoint(folder);
+    else
+      refuse_other_result(folder, parameters);
   }
 } // namespace sprag

@@ -52,7 +52,7 @@ namespace sprag
 
     std::string log_in(const std::string &folder)
     {
-      return folder + "/run.log";
+      return folder + '/' + log_name;
     }
   } // namespace
 
@@ -138,10 +138,7 @@ namespace sprag
   {
     if (record->file.is_open())
       return;
-    std::error_code ignored;
-    bool goes_on = false;
-    for (const char *const name : { checkpoint_name, row_journal_name, map_journal_name, study_journal_name })
-      goes_on = goes_on || std::filesystem::exists(folder + '/' + name, ignored);
+    const bool goes_on = has_progress(folder);
     record->file.open(log_in(folder), goes_on ? std::ios::app : std::ios::trunc);
     const auto head = record->text.find('\n', record->text.find('\n') + 1) + 1;
     record->file << (goes_on ? "\n" : "") << record->text.substr(0, head) << given_parameters(scene) << record->text.substr(head)

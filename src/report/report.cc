@@ -250,6 +250,10 @@ namespace sprag
   {
     const double limit = scene.analysis.maximum_deviation;
     const double found = largest_deviation(summary);
+    if (limit > 0. && std::isnan(found))
+      throw AnalysisError("Analysis/Maximum deviation = " + rounded_text(limit) +
+                          ": the deviation from the closed form cannot be told: each stroke needs steps more than " +
+                          mm(settling) + " beyond its reversal. Try a longer Drive/Stroke or a shorter Analysis/Step.");
     if (limit > 0. && !(found <= limit))
       throw AnalysisError("the deviation from the closed form, " + rounded_text(found) +
                           ", is larger than Analysis/Maximum deviation = " + rounded_text(limit) +

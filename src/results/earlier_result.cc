@@ -52,7 +52,9 @@ namespace sprag
       return {};
     const auto read = [&]
     {
-      const hdf5::Handle file  = hdf5::open_to_read(path);
+      const hdf5::Handle file = hdf5::open_to_read(path);
+      if (hdf5::text_attribute(file, "format") != result_format)
+        return std::string();
       const std::string status = hdf5::has(file, "summary") ? hdf5::read_text(file, "summary/status") : "";
       return status + '\0' + hdf5::read_text(file, "parameters");
     };

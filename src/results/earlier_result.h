@@ -6,6 +6,9 @@
 
 namespace sprag
 {
+  /// The attribute `format` of our result files.
+  inline constexpr char result_format[] = "sprag result";
+
   /// What a result file tells about its run.
   struct EarlierResult
   {
@@ -13,7 +16,8 @@ namespace sprag
     std::string status;     ///< how the run ended; empty where it did not
   };
 
-  /// Reads the result file at `path`; returns none where there is no such file or it is damaged.
+  /// Reads the result file at `path`; returns none where there is no such file, or one that is
+  /// damaged or another program's.
   std::optional<EarlierResult> earlier_result(const std::string &path);
 
   /// Gives the result file that a run left unfinished a /summary with the status, so that it is no longer marked as being

@@ -10,7 +10,6 @@
 #include <iterator>
 #include <limits>
 #include <optional>
-#include <regex>
 
 namespace sprag
 {
@@ -249,16 +248,5 @@ namespace sprag
               "Format=\"XML\">" +
               number(fact.value) + "</DataItem></Attribute>\n";
     return text + "      </Grid>\n";
-  }
-
-  void remove_field_files(const std::string &folder)
-  {
-    const std::regex earlier(R"((fields|face|leaf|mode-\d+)(-\d+\.h5|-mesh\.h5|\.h5|\.xdmf))");
-    std::vector<std::filesystem::path> found;
-    for (const auto &entry : std::filesystem::directory_iterator(folder))
-      if (std::regex_match(entry.path().filename().string(), earlier))
-        found.push_back(entry.path());
-    for (const auto &path : found)
-      std::filesystem::remove(path);
   }
 } // namespace sprag

@@ -86,7 +86,4 @@ namespace sprag
     std::vector<Index> indices;
     unsigned int n_frames = 0;
   };
-
-  /// Removes what FieldFiles of any run left in a folder, leaf springs' of earlier versions included.
-  void remove_field_files(const std::string &folder);
 } // namespace sprag

@@ -2,6 +2,7 @@
 
 #include "base/errors.h"
 #include "results/disk_reserve.h"
+#include "results/earlier_result.h"
 #include "results/entries.h"
 #include "results/hdf5.h"
 
@@ -260,7 +261,7 @@ namespace sprag
     hdf5::Handle file = create(path);
     DiskReserve reserve(path);
     reserve.cover(overhead + parameters.size());
-    hdf5::write_attribute(file, "format", std::string("sprag result"));
+    hdf5::write_attribute(file, "format", std::string(result_format));
     hdf5::write_attribute(file, "format_version", 1.);
     describe(hdf5::write_dataset(file, "parameters", parameters), "", "every parameter as used, in .prm form");
     Table table(file, columns);

@@ -48,7 +48,7 @@ namespace sprag
   } // namespace
 
   FieldRecorder::FieldRecorder(const Scene &of_scene, BodyFields of_body, Displacements of_source,
-                               const std::optional<std::string> &folder, PhaseTimer &of_run, const bool goes_on)
+                               const std::optional<std::string> &folder, PhaseTimer &of_run)
       : scene(of_scene)
       , timer(of_run)
       , fields(std::move(of_body))
@@ -58,7 +58,7 @@ namespace sprag
       , last_x(scene.drive.at(0.).x)
   {
     if (folder)
-      frames.emplace(scene, fields, *folder, goes_on);
+      frames.emplace(scene, fields, *folder);
   }
 
   bool FieldRecorder::record(const Row &row, const FaceState &face, const std::function<FieldSource()> &source)

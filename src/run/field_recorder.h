@@ -40,7 +40,7 @@ namespace sprag
     /// The scene must outlive the object. Without a folder it finds peaks alone. A run that goes on has its first frames in the
     /// folder already.
     FieldRecorder(const Scene &scene, BodyFields fields, Displacements displacements, const std::optional<std::string> &folder,
-                  PhaseTimer &timer, bool goes_on = false);
+                  PhaseTimer &timer);
 
     /// Looks at an accepted step and returns whether it was written as a frame. `source` makes what its fields follow from.
     bool record(const Row &row, const FaceState &face, const std::function<FieldSource()> &source);

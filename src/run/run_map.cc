@@ -190,7 +190,7 @@ namespace sprag
     void announce(const Journal &journal, MapProgress &progress)
     {
       if (journal.dropped())
-        progress.say("map.journal is of another scene or version: begun anew");
+        progress.say("map.journal is of another scene or build: begun anew");
       if (const auto damaged = journal.damaged_lines(); damaged > 0)
         std::cerr << "map.journal: damaged lines dropped, their cells are judged again: " << damaged << std::endl;
       if (!journal.lines().empty())

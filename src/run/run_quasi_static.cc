@@ -53,7 +53,7 @@ namespace sprag
         return levers.body_displacements({ {}, source.coordinates, {}, source.forces });
       };
       FieldRecorder fields(scene, BodyFields(levers.elastic_body()), displacements,
-                           has_frames ? std::optional(options.folder) : std::nullopt, timer, checkpoint.resumes());
+                           has_frames ? std::optional(options.folder) : std::nullopt, timer);
       checkpoint.add_part([&](Archive &archive) { fields.visit_progress(archive); });
 
       const auto write = [&](const State &state, const Row &row)

@@ -107,10 +107,9 @@ namespace sprag
       };
       std::optional<FieldRecorder> fields;
       timed(timer, "fields",
-            [&]
-            {
+            [&] {
               fields.emplace(scene, BodyFields(body), displacements, has_frames ? std::optional(options.folder) : std::nullopt,
-                             timer, checkpoint.resumes());
+                             timer);
             });
       checkpoint.add_part([&](Archive &archive) { fields->visit_progress(archive); });
       const auto write = [&](const State &state, const Row &row)

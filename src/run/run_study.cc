@@ -28,7 +28,7 @@ namespace sprag
       if (style == ProgressStyle::quiet)
         return;
       if (journal.dropped())
-        std::cerr << "study.journal is of another scene or version: begun anew" << std::endl;
+        std::cerr << "study.journal is of another scene or build: begun anew" << std::endl;
       if (!journal.lines().empty())
         std::cerr << "study.journal: " << journal.lines().size() << " runs taken over" << std::endl;
       std::cerr << "study: " << runs << " runs" << std::endl;

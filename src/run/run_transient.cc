@@ -119,7 +119,7 @@ namespace sprag
     if (is_meshed && scene.output.fields != FieldOutput::none)
     {
       fields.emplace(scene, shown_body(scene, dynamics), recovery(dynamics.meshed, number_of_levers(scene)), options.folder,
-                     timer, checkpoint.resumes());
+                     timer);
       checkpoint.add_part([&](Archive &archive) { fields->visit_progress(archive); });
     }
     else if (is_meshed)

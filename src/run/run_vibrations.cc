@@ -104,7 +104,6 @@ namespace sprag
       if (!is_meshed || scene.output.fields == FieldOutput::none)
         return;
       prepare_folder(scene, options);
-      remove_field_files(options.folder);
       const auto fields   = shown_body(scene, dynamics);
       unsigned int number = 0;
       for (const auto &mode : modes)

@@ -1,6 +1,7 @@
 #include "scene/check_parts.h"
 
 #include "base/append.h"
+#include "base/file_content.h"
 #include "base/text.h"
 #include "scene/analysis_use.h"
 #include "scene/closed_form.h"
@@ -11,7 +12,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 
 namespace sprag
 {
@@ -93,13 +93,10 @@ namespace sprag
       rules.need(settings.face_size < lever.length, "Mesh/Face size", { "Lever/Length" }, "must be less than the lever's length");
       if (settings.file.empty())
         return;
-      const auto ending = std::filesystem::path(settings.file).extension();
-      std::error_code ignored;
-      if (ending != ".geo" && ending != ".msh")
-        rules.need(false, "Mesh/File", {}, "must end in .geo or .msh");
-      else
-        rules.need(std::filesystem::is_regular_file(settings.file, ignored) && std::ifstream(settings.file), "Mesh/File", {},
-                   "cannot be read");
+      const auto ending   = std::filesystem::path(settings.file).extension();
+      const bool is_known = ending == ".geo" || ending == ".msh";
+      const auto mistake  = is_known ? reason_unreadable(settings.file, largest_mesh) : "must end in .geo or .msh";
+      rules.need(mistake.empty(), "Mesh/File", {}, mistake);
     }
 
     /// What a type of analysis takes of the scene. The model counts only where the cylinder follows the drive.

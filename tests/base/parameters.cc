@@ -175,7 +175,7 @@ TEST(Parameters, FilesThatCannotBeReadAreReported)
 {
   EXPECT_EQ(read_settings("/nowhere/scene.prm", {}, declared()).mistakes, (Messages{ "/nowhere/scene.prm: cannot be read" }));
   const auto folder = testing::TempDir();
-  EXPECT_EQ(read_settings(folder, {}, declared()).mistakes, (Messages{ folder + ": is a folder: must be a parameter file" }));
+  EXPECT_EQ(read_settings(folder, {}, declared()).mistakes, (Messages{ folder + ": is a folder: must be a file" }));
   const auto binary = written(std::string("ELF\0\1\n", 6), "program");
   EXPECT_EQ(read_settings(binary, {}, declared()).mistakes, (Messages{ binary + ": is not a text: must be a parameter file" }));
 }
@@ -229,6 +229,18 @@ TEST(Parameters, PrintedTextReadsBackHereAndInDealII)
   EXPECT_NO_THROW(handler.parse_input_from_string(text));
   handler.enter_subsection("Geometry");
   EXPECT_EQ(handler.get("Cylinder radius"), "21.1");
+}
+
+TEST(Parameters, AnyTextReadsBackAsItWas)
+{
+  for (const std::string text :
+       { "run#3/own.geo", "#", "a # b", "line\nfeed", "back\\", " blank ", "\\x41", "\t\x1b[31m", "\xc2\x9b", "\xc3\xa4" })
+  {
+    const auto printed = parameters_text(declared(), { { "Drive/Table", text } });
+    EXPECT_EQ(read(printed).given.at("Drive/Table").value, text) << printed;
+    EXPECT_EQ(printed.find('\x1b'), std::string::npos);
+  }
+  EXPECT_EQ(read("subsection Drive\n  set Table = C:\\x.csv # \\x41\nend\n").given.at("Drive/Table").value, "C:\\x.csv");
 }
 
 TEST(Text, NearestNameToleratesHalfOfItsLetters)

@@ -264,6 +264,25 @@ class PlotTest(PictureTest):
         h5py.File(self.folder / "result.h5", "w").close()
         self.expect_refusal(self.plot(self.folder), "not a result of sprag")
 
+    def test_damaged_results(self):
+        for name in ("table/P", "table/x", "parameters", "face/xi", "meta"):
+            with self.subTest(name):
+                folder = self.folder / name.replace("/", "-")
+                make_run(folder)
+                with h5py.File(folder / "result.h5", "a") as file:
+                    del file[name]
+                    if name == "table/x":
+                        file[name] = "a text"
+                self.expect_refusal(self.plot(folder), "damaged or of another version")
+
+    def test_pictures_of_an_earlier_run_go(self):
+        make_run(self.folder / "a")
+        for name in ("fields.png", "mine.png"):
+            (self.folder / "a" / name).write_text("older")
+        self.assertEqual(self.plot("--output", self.folder / "a", self.folder / "a").returncode, 0)
+        self.assertFalse((self.folder / "a" / "fields.png").exists())
+        self.assertTrue((self.folder / "a" / "mine.png").exists())
+
     def test_parameters_as_used(self):
         make_run(self.folder / "a")
         result = results.read_result(self.folder / "a")

@@ -1,5 +1,7 @@
 #include "results/field_files.h"
 
+#include "results/earlier_fields.h"
+
 #include "mpi_environment.h"
 #include "support/temporary_folder.h"
 

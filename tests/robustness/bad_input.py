@@ -48,6 +48,7 @@ class ProgramTest(RunTest):
     def refused(self, scene, *options, says, mistakes=None, older=False):
         """Exit 2, every text of `says` on stderr, no folder made; with `older` nothing written into a folder of results."""
         if older:
+            options = (*options, "--overwrite")
             self.output.mkdir()
             (self.output / "result.h5").write_bytes(b"an older result")
             (self.output / "fields-0000.h5").write_bytes(b"an older field")

@@ -217,15 +217,27 @@ class Refused(EndsTest):
         self.assertEqual(self.run_to_end(*CLOSED_FORM).returncode, 0)
         path = self.output / "result.h5"
         whole = path.read_bytes()
-        for size in (0, 100, len(whole) // 2):
+        for size in (100, len(whole) // 2):
             path.write_bytes(whole[:size])
-            self.assertEqual(self.run_to_end(*CLOSED_FORM, "--set", f"Drive/Stroke={10 + size % 7}").returncode, 0)
+            self.refused(self.run_to_end(*CLOSED_FORM), "result.h5", "damaged", "--overwrite")
+            self.assertEqual(path.read_bytes(), whole[:size])
+        self.assertEqual(self.run_to_end(*CLOSED_FORM, "--overwrite").returncode, 0)
+        for zeros in (0, 1000):  # of a run that was killed before it wrote
+            path.write_bytes(bytes(zeros))
+            self.assertEqual(self.run_to_end(*CLOSED_FORM).returncode, 0)
+
+    def test_two_at_once_in_a_new_folder(self):
+        for _ in range(4):
+            runs = [self.start(*self.command(*CLOSED_FORM, "--set", f"Drive/Stroke={stroke}")) for stroke in (10, 20)]
+            ends = [(run.wait(TIMEOUT), stroke) for run, stroke in zip(runs, (10, 20))]
+            self.assertEqual(sorted(code for code, _ in ends), [0, 2])
+            with h5py.File(self.output / "result.h5", "r") as file:
+                self.assertEqual(file["table/x"][:].max(), dict(ends)[0])
             shutil.rmtree(self.output)
-            self.output.mkdir()
 
     def test_mesh_that_is_a_pipe(self):
         os.mkfifo(self.folder / "pipe.msh")
-        self.refused(self.run_to_end("--set", f"Mesh/File={self.folder}/pipe.msh"), "pipe.msh", "cannot be read")
+        self.refused(self.run_to_end("--set", f"Mesh/File={self.folder}/pipe.msh"), "pipe.msh", "no pipe or device")
 
 
 if __name__ == "__main__":

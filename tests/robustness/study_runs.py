@@ -1,6 +1,7 @@
 """Studies from outside: rows as the runs by themselves, failing runs, killed and started again, any number of processes, refusals.
 Run with /usr/bin/python3; environment: SPRAG, the program, and SPRAG_SOURCE, the sources."""
 
+import os
 import shutil
 import signal
 import sys
@@ -11,7 +12,8 @@ import h5py
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
-from runs import SOURCE, TIMEOUT, RunTest, sprag  # noqa: E402
+from runs import SOURCE, SPRAG, TIMEOUT, RunTest, sprag  # noqa: E402
+from system_calls import CAN_FILTER, without_locks  # noqa: E402
 
 STATIC = SOURCE / "params" / "model-a.prm"
 IN_TIME = SOURCE / "params" / "reversal-a.prm"
@@ -121,6 +123,53 @@ class StudyTest(RunTest):
         with h5py.File(self.output / "result.h5", "r") as file:
             self.assertGreater(file["meta/runs_taken_over"][()], 90)
         self.expect_same_numbers(whole, table)
+
+    def other_build(self):
+        """The program with a byte behind its end."""
+        (self.folder / "other").mkdir()
+        for name in ("sprag", "sprag-models"):
+            copy = Path(shutil.copy(Path(SPRAG).resolve().with_name(name), self.folder / "other"))
+            copy.write_bytes(copy.read_bytes() + b"another")
+        return self.folder / "other" / "sprag"
+
+    def test_another_build_begins_anew(self):
+        other = self.other_build()
+        process = self.start(IN_TIME, "--output", self.output, *settings(MANY), "--jobs", 1)
+        journal = self.output / "study.journal"
+        self.wait_until(process, lambda: journal.exists() and len(journal.read_bytes().splitlines()) > 20 or None)
+        process.kill()
+        process.wait(TIMEOUT)
+        done = sprag(IN_TIME, "--output", self.output, *settings(MANY), program=other)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("study.journal is of another scene or build: begun anew", done.stderr)
+
+    def test_bases_are_of_a_build_and_bounded(self):
+        cache = self.folder / "cache"
+        cache.mkdir()
+        oldest = cache / f"basis-{0:016x}.h5"
+        with open(oldest, "wb") as file:
+            file.truncate(2 << 30)
+        os.utime(oldest, (1, 1))
+        changes = {**COARSE, "Analysis/Type": "modal", "Analysis/Model": "condensed", "Condensed/Modes": "4", "Condensed/Cache": str(cache)}
+        for number, program in enumerate((SPRAG, SPRAG, self.other_build()), 1):
+            done = sprag(STATIC, "--output", self.folder / str(number), *settings(changes), program=program)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertFalse(oldest.exists())
+            self.assertEqual(len(list(cache.iterdir())), 1 + (number == 3))
+
+    @unittest.skipUnless(CAN_FILTER, "knows the system calls of x86_64")
+    def test_a_disk_without_locks(self):
+        few = {**MANY, "Study/Vary": "Friction/Factor = 0.9, 1"}
+        done = sprag(IN_TIME, "--output", self.output, *settings(few), "--jobs", 1, preexec_fn=without_locks())
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_no_more_processes_than_runs(self):
+        few = {**MANY, "Study/Vary": "Friction/Factor = 0.9, 1"}
+        nowhere = {**os.environ, "TMPDIR": "/proc"}  # which mpirun cannot use
+        done = sprag(IN_TIME, "--output", self.output, *settings(few), "--jobs", 64, env=nowhere)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with h5py.File(self.output / "result.h5", "r") as file:
+            self.assertEqual(file["meta/ranks"][()], 2)
 
     def test_interrupted(self):
         process = self.start(IN_TIME, "--output", self.output, *settings(MANY), "--jobs", 2, "--quiet")

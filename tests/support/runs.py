@@ -14,8 +14,8 @@ SPRAG = os.environ.get("SPRAG", str(SOURCE / "build" / "sprag"))
 TIMEOUT = 300  # seconds: a run that hangs is a failed test
 
 
-def sprag(*arguments, **options):
-    command = [SPRAG, *map(str, arguments)]
+def sprag(*arguments, program=SPRAG, **options):
+    command = [str(program), *map(str, arguments)]
     return subprocess.run(
         command, capture_output=True, text=True, check=False, timeout=TIMEOUT, stdin=subprocess.DEVNULL, **options
     )

@@ -26,6 +26,7 @@ namespace sprag
     std::string header_of(const std::string &what, const std::string &scene)
     {
       Fingerprint key;
+      key.add(program_fingerprint());
       key.add(scene);
       return "sprag " SPRAG_VERSION " " + what + ", scene " + key.text() + '\n';
     }
@@ -114,7 +115,8 @@ namespace sprag
 
   void Journal::lock()
   {
-    for (unsigned int attempt = 0; ::flock(file, LOCK_EX | LOCK_NB) != 0; ++attempt)
+    // Disks without locks are as good as others.
+    for (unsigned int attempt = 0; ::flock(file, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK; ++attempt)
     {
       if (attempt == lock_attempts)
         throw InputError(path + " is in use by another run. Choose another --output, or end that run.");

@@ -26,12 +26,12 @@ namespace sprag
   };
 
   /// A file of finished pieces of a long analysis, so that one that was killed goes on where it was: a line a piece, with a
-  /// checksum over the line, the scene and the version of the program. While rank 0 has it open, no other run can have it.
+  /// checksum over the line, the scene and the build of the program. While rank 0 has it open, no other run can have it.
   class Journal
   {
   public:
     /// Opens the journal and reads the lines in it, or begins one. `what` is what it is of, "map"; `scene` says all that the
-    /// pieces depend on: lines of another scene, or of another version of the program, are dropped, and so is any line that is
+    /// pieces depend on: lines of another scene, or of another build of the program, are dropped, and so is any line that is
     /// not as it was written. Throws InputError if the file cannot be written or another run keeps it open for more than 5 s.
     Journal(const std::string &path, const std::string &what, const std::string &scene);
     ~Journal();

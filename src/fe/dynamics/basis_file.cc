@@ -10,6 +10,8 @@
 #include <cstring>
 #include <fcntl.h>
 #include <filesystem>
+#include <functional>
+#include <regex>
 #include <sys/file.h>
 #include <unistd.h>
 
@@ -39,6 +41,30 @@ namespace sprag
     std::string temporary_path(const std::string &folder, const std::string &key)
     {
       return path_of(folder, key) + "." + std::to_string(::getpid());
+    }
+
+    bool is_basis(const std::string &name)
+    {
+      static const std::regex given(R"(basis-[0-9a-f]{16}\.h5)");
+      return std::regex_match(name, given);
+    }
+
+    /// Removes those that were used longest ago, until what stays has no more than `most` bytes.
+    void prune(const std::string &folder, const std::uintmax_t most)
+    {
+      std::multimap<std::filesystem::file_time_type, std::filesystem::directory_entry, std::greater<>> latest_first;
+      std::error_code error;
+      for (std::filesystem::directory_iterator entry(folder, error), end; entry != end; entry.increment(error))
+        if (is_basis(entry->path().filename().string()) && entry->is_regular_file(error))
+          latest_first.emplace(entry->last_write_time(error), *entry);
+      std::uintmax_t sum = 0;
+      for (const auto &[time, entry] : latest_first)
+      {
+        const auto size = entry.file_size(error);
+        sum += error ? 0 : size;
+        if (sum > most)
+          std::filesystem::remove(entry.path(), error);
+      }
     }
 
     bool is_temporary(const std::string &name)
@@ -167,7 +193,8 @@ namespace sprag
     std::error_code ignored;
     if (folder.empty() || !std::filesystem::is_regular_file(path, ignored))
       return {};
-    const auto bytes  = std::filesystem::file_size(path, ignored);
+    const auto bytes = std::filesystem::file_size(path, ignored);
+    std::filesystem::last_write_time(path, std::filesystem::file_time_type::clock::now(), ignored); // keeps it from being pruned
     const auto answer = in_child_process(
         [&]
         {
@@ -192,7 +219,8 @@ namespace sprag
     }
   }
 
-  std::string store_arrays(const std::string &folder, const std::string &key, const StoredArrays &arrays)
+  std::string store_arrays(const std::string &folder, const std::string &key, const StoredArrays &arrays,
+                           const std::uintmax_t most_bytes)
   {
     if (folder.empty())
       return "there is no cache folder";
@@ -208,6 +236,7 @@ namespace sprag
       hdf5::write_dataset(file, "checksum", checksum(key, arrays));
       file.close();
       std::filesystem::rename(temporary, path_of(folder, key));
+      prune(folder, most_bytes);
     }
     catch (const std::exception &failure)
     {

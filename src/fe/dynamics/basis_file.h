@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
@@ -20,7 +21,8 @@ namespace sprag
   /// older than 10 s. What cannot be removed stays.
   void remove_abandoned(const std::string &folder);
 
-  /// Stores in one piece or not at all, beside any number of processes that do the same. Returns what prevented it, empty if
-  /// nothing.
-  std::string store_arrays(const std::string &folder, const std::string &key, const StoredArrays &arrays);
+  /// Stores in one piece or not at all, beside any number of processes that do the same, and removes the bases of the folder that
+  /// were used longest ago until what stays has no more than `most_bytes`. Returns what prevented storing, empty if nothing.
+  std::string store_arrays(const std::string &folder, const std::string &key, const StoredArrays &arrays,
+                           std::uintmax_t most_bytes = std::uintmax_t(1) << 30);
 } // namespace sprag

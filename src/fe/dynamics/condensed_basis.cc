@@ -45,7 +45,7 @@ namespace sprag
     {
       Fingerprint key;
       key.add(format_version);
-      key.add(SPRAG_VERSION);
+      key.add(program_fingerprint());
       key.add(settings.origin);
       const auto &properties = body.body_properties();
       key.add(properties.degree);

@@ -48,15 +48,13 @@ namespace sprag
     }
   };
 
-  FieldFrames::FieldFrames(const Scene &of_scene, const BodyFields &of_body, const std::string &folder, const bool goes_on)
+  FieldFrames::FieldFrames(const Scene &of_scene, const BodyFields &of_body, const std::string &folder)
       : scene(of_scene)
       , fields(of_body)
       , rest(rest_pose(scene))
       , leaf(scene.spring.type == SpringType::leaf ? std::make_unique<LeafShapes>(scene) : nullptr)
       , blocks(device_blocks(scene, fields, fields_of(leaf)))
   {
-    if (!goes_on)
-      remove_field_files(folder);
     auto mesh = device_mesh(scene, rest, blocks, fields, fields_of(leaf));
     mesh.name = "fields";
     files     = std::make_unique<FieldFiles>(folder, "fields", std::vector<FieldMesh>{ std::move(mesh), face_mesh() },

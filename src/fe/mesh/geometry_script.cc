@@ -1,13 +1,16 @@
 #include "fe/mesh/geometry_script.h"
 
 #include "base/child_process.h"
+#include "base/confinement.h"
 #include "base/errors.h"
+#include "base/file_content.h"
 #include "base/text.h"
 
 #include <deal.II/base/utilities.h>
 #include <deal.II/grid/grid_in.h>
 
 #include <boost/algorithm/string/join.hpp>
+#include <boost/algorithm/string/replace.hpp>
 #include <boost/serialization/map.hpp>
 #include <boost/serialization/string.hpp>
 #include <boost/serialization/vector.hpp>
@@ -16,11 +19,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <csignal>
-#include <cstdio>
+#include <cstdlib>
+#include <fcntl.h>
 #include <filesystem>
-#include <fstream>
+#include <optional>
 #include <sstream>
+#include <string_view>
 #include <unistd.h>
 
 namespace sprag
@@ -156,25 +160,130 @@ namespace sprag
                          ": the lever is modelled in its plane, x along it and y away from the cylinder; z must be 0");
     }
 
-    /// What gmsh writes; the end of the process waits until its file is gone.
-    std::string written_mesh()
+    /// The elements of physical groups and their nodes in gmsh's format 2.2, in the order in which gmsh::write() has them: this
+    /// process may open no file to write.
+    std::string mesh_text(const int dim)
     {
-      sigset_t all, before;
-      sigfillset(&all);
-      ::sigprocmask(SIG_BLOCK, &all, &before);
-      const auto folder      = std::filesystem::temp_directory_path();
-      const std::string path = (folder / ("sprag-" + std::to_string(::getpid()) + ".msh")).string();
-      gmsh::write(path);
-      std::ifstream stream(path);
-      const std::string mesh{ std::istreambuf_iterator<char>(stream), {} };
-      std::remove(path.c_str());
-      ::sigprocmask(SIG_SETMASK, &before, nullptr);
-      return mesh;
+      std::set<std::size_t> used;
+      std::string elements, nodes;
+      std::size_t n_elements = 0;
+      for (int of_entities = 1; of_entities <= dim; ++of_entities)
+      {
+        gmsh::vectorpair entities;
+        gmsh::model::getEntities(entities, of_entities);
+        for (const auto &[entity_dim, entity] : entities)
+        {
+          std::vector<int> groups, types;
+          std::vector<std::vector<std::size_t>> tags, corners;
+          gmsh::model::getPhysicalGroupsForEntity(entity_dim, entity, groups);
+          if (groups.empty())
+            continue;
+          gmsh::model::mesh::getElements(types, tags, corners, entity_dim, entity);
+          for (std::size_t i = 0; i < types.size(); ++i)
+            for (std::size_t j = 0; j < tags[i].size(); ++j)
+            {
+              const std::size_t n = corners[i].size() / tags[i].size();
+              std::string line;
+              for (std::size_t k = j * n; k < (j + 1) * n; ++k)
+              {
+                used.insert(corners[i][k]);
+                line += ' ' + std::to_string(corners[i][k]);
+              }
+              for (const int group : groups)
+                elements += formatted("%zu %d 2 %d %d", ++n_elements, types[i], std::abs(group), entity) + line + '\n';
+            }
+        }
+      }
+      std::vector<std::size_t> tags;
+      std::vector<double> positions, parametric;
+      gmsh::model::mesh::getNodes(tags, positions, parametric);
+      for (std::size_t i = 0; i < tags.size(); ++i)
+        if (used.count(tags[i]) > 0)
+        {
+          nodes += std::to_string(tags[i]);
+          for (std::size_t d = 0; d < 3; ++d)
+            nodes += formatted(" %.16g", positions[3 * i + d]);
+          nodes += '\n';
+        }
+      return "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n" + std::to_string(used.size()) + '\n' + nodes +
+             "$EndNodes\n$Elements\n" + std::to_string(n_elements) + '\n' + elements + "$EndElements\n";
     }
+
+    bool scripts_are_trusted = false;
+
+    bool is_script(const std::string &file)
+    {
+      return std::filesystem::path(file).extension() == ".geo";
+    }
+
+    /// The folder of a file, which a script may include others from.
+    std::string folder_of(const std::string &file)
+    {
+      return std::filesystem::absolute(file).parent_path().lexically_normal().string();
+    }
+
+    bool is_own(const std::string &file)
+    {
+      return folder_of(file) == folder_of(mesh_script("lever.geo"));
+    }
+
+    /// A stranger's file has no rights but to be read.
+    void take_rights(const std::string &file)
+    {
+      if (is_script(file) && scripts_are_trusted)
+        return;
+      std::vector<std::string> readable = { file };
+      if (is_script(file))
+        readable.insert(readable.end(), { folder_of(file), folder_of(mesh_script("lever.geo")) });
+      if (!confine(readable) && is_script(file) && !is_own(file))
+        throw InputError(file + ": is a script, which could start any program here, as this system cannot keep it from that: "
+                                "give a .msh, or --trust-scripts if you know what it does");
+    }
+
+    std::string hint(const std::string &file, const std::string &error)
+    {
+      const bool is_meant  = error.find("pen file") != std::string::npos || error.find("system call") != std::string::npos;
+      const bool by_rights = is_meant && is_script(file) && !scripts_are_trusted;
+      return by_rights ? "; a script may read its own folder, and write and start nothing, unless you give --trust-scripts" : "";
+    }
+
+    /// A mesh is opened by its content, whatever gmsh makes of names or finds beside it.
+    class OpenMesh
+    {
+    public:
+      explicit OpenMesh(const std::string &path)
+          : file(::open(path.c_str(), O_RDONLY | O_CLOEXEC))
+      {
+        constexpr std::string_view beginning = "$MeshFormat";
+        char found[beginning.size()];
+        if (::pread(file, found, sizeof found, 0) != sizeof found || std::string_view(found, sizeof found) != beginning)
+        {
+          ::close(file);
+          throw InputError(path + ": is no mesh of gmsh's: must begin with " + std::string(beginning));
+        }
+      }
+      OpenMesh &operator=(OpenMesh &&) = delete;
+      ~OpenMesh()
+      {
+        ::close(file);
+      }
+
+      std::string name() const
+      {
+        return "/proc/self/fd/" + std::to_string(file);
+      }
+
+    private:
+      const int file;
+    };
 
     /// Opens a file and does something with the model.
     Answer run_gmsh(const std::string &file, const MeshConstants &constants, const std::function<Answer()> &work)
     {
+      std::optional<OpenMesh> mesh;
+      if (!is_script(file))
+        mesh.emplace(file);
+      take_rights(file);
       std::vector<std::string> arguments = { "sprag" };
       for (const auto &[name, value] : constants)
         arguments.insert(arguments.end(), { "-setnumber", name, formatted("%.17g", value) });
@@ -183,10 +292,9 @@ namespace sprag
         argv.push_back(argument.data());
       gmsh::initialize(static_cast<int>(argv.size()), argv.data(), false); // and never finalised: the process ends first
       gmsh::option::setNumber("General.Terminal", 0);
-      gmsh::option::setNumber("Mesh.MshFileVersion", 2.2);
       try
       {
-        gmsh::open(file);
+        gmsh::open(mesh ? mesh->name() : file);
         return work();
       }
       catch (const InputError &)
@@ -197,7 +305,9 @@ namespace sprag
       {
         std::string error;
         gmsh::logger::getLastError(error);
-        throw InputError(file + ": gmsh cannot mesh it: " + error);
+        if (mesh)
+          boost::algorithm::replace_all(error, mesh->name(), file);
+        throw InputError(file + ": gmsh cannot mesh it: " + error + hint(file, error));
       }
     }
 
@@ -218,7 +328,7 @@ namespace sprag
       }
       else
         refuse_other_solids(file);
-      answer.mesh = written_mesh();
+      answer.mesh = mesh_text(dim);
       return answer;
     }
 
@@ -281,10 +391,9 @@ namespace sprag
     /// Of a process of its own that opens the file and does something with the model.
     Answer answer_of_gmsh(const std::string &file, const MeshConstants &constants, const std::function<Answer()> &work)
     {
-      std::error_code ignored;
-      if (!std::filesystem::is_regular_file(file, ignored) || !std::ifstream(file))
-        throw InputError(file + ": the mesh file cannot be read");
-      const bool is_mesh    = std::filesystem::path(file).extension() == ".msh"; // and no script, which may take its time
+      if (const auto reason = reason_unreadable(file, largest_mesh); !reason.empty())
+        throw InputError(file + ": " + reason);
+      const bool is_mesh    = !is_script(file); // a script may take its time
       const auto bytes      = std::filesystem::file_size(file);
       const auto in_process = [&]
       {
@@ -303,14 +412,20 @@ namespace sprag
         return std::string(packed.begin(), packed.end());
       };
       const auto found = in_child_process(in_process, is_mesh ? mesh_patience + 1e-6 * static_cast<double>(bytes) : 0.);
-      if (!found.failure.empty())
-        throw InputError(file + ": gmsh " + found.failure + " on it: the file is damaged, or meshing it needs too much memory");
+      if (!found.failure.empty() || found.text.empty())
+        throw InputError(file + ": gmsh " + (found.failure.empty() ? "ends" : found.failure) +
+                         " on it: the file is damaged, or meshing it needs too much memory");
       auto answer = Utilities::unpack<Answer>(std::vector<char>(found.text.begin(), found.text.end()), false);
       if (!answer.mistakes.empty())
         throw InputError(answer.mistakes);
       return answer;
     }
   } // namespace
+
+  void trust_scripts()
+  {
+    scripts_are_trusted = true;
+  }
 
   std::string quoted_list(const std::set<std::string> &names)
   {

@@ -33,6 +33,10 @@ namespace sprag
   /// Returns the path of one of our scripts in `meshes`, "lever.geo".
   std::string mesh_script(const std::string &name);
 
+  /// Lets scripts that are meshed from now on do all that the user may. Otherwise they can read their own folder and ours and
+  /// neither write a file nor start a program.
+  void trust_scripts();
+
   /// Meshes a gmsh .geo with constants for its DefineConstant, or reads a .msh, of 4-node quadrilaterals or 8-node hexahedra
   /// [mm]; materials and boundaries get the ids of their groups, other boundaries 0. Throws InputError naming the file and all
   /// that is wrong with it.

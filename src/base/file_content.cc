@@ -1,0 +1,109 @@
+#include "base/file_content.h"
+
+#include "base/errors.h"
+
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace sprag
+{
+  namespace
+  {
+    constexpr char byte_order_mark[] = "\xef\xbb\xbf";
+
+    /// A file that is open for reading while this lives. What it throws does not name the file.
+    class OpenFile
+    {
+    public:
+      OpenFile(const std::string &path, const std::size_t largest_size)
+          : largest(largest_size)
+          , file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) // or a pipe would wait for its writer
+      {
+        try
+        {
+          check();
+        }
+        catch (...)
+        {
+          ::close(file);
+          throw;
+        }
+      }
+      OpenFile &operator=(OpenFile &&) = delete;
+      ~OpenFile()
+      {
+        ::close(file);
+      }
+
+      std::string content() const
+      {
+        std::string text;
+        for (;;)
+        {
+          char bytes[65536];
+          const auto count = ::read(file, bytes, sizeof bytes);
+          if (count < 0 && errno != EINTR)
+            throw InputError(std::string("cannot be read: ") + std::strerror(errno));
+          if (count == 0)
+            return text;
+          text.append(bytes, count > 0 ? static_cast<std::size_t>(count) : 0);
+          check_size(text.size());
+        }
+      }
+
+    private:
+      const std::size_t largest;
+      const int file;
+
+      void check() const
+      {
+        struct stat status = {};
+        if (file < 0 || ::fstat(file, &status) != 0)
+          throw InputError(errno == ENOENT ? "cannot be read" : std::string("cannot be read: ") + std::strerror(errno));
+        if (S_ISDIR(status.st_mode))
+          throw InputError("is a folder: must be a file");
+        if (!S_ISREG(status.st_mode))
+          throw InputError("must be a file and no pipe or device");
+        check_size(static_cast<std::size_t>(status.st_size));
+      }
+
+      void check_size(const std::size_t size) const
+      {
+        const auto megabytes = [](const std::size_t bytes) { return std::to_string(bytes >> 20) + " MB"; };
+        if (size > largest)
+          throw InputError("has " + megabytes(size) + ": must have at most " + megabytes(largest));
+      }
+    };
+  } // namespace
+
+  std::string reason_unreadable(const std::string &file, const std::size_t largest)
+  {
+    try
+    {
+      OpenFile(file, largest);
+      return {};
+    }
+    catch (const InputError &error)
+    {
+      return error.what();
+    }
+  }
+
+  std::string content_of_file(const std::string &file, const std::size_t largest)
+  {
+    try
+    {
+      std::string text = OpenFile(file, largest).content();
+      if (text.rfind(byte_order_mark, 0) == 0)
+        text.erase(0, std::strlen(byte_order_mark));
+      return text;
+    }
+    catch (const InputError &error)
+    {
+      throw InputError(file + ": " + error.what());
+    }
+  }
+} // namespace sprag

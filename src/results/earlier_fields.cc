@@ -1,0 +1,24 @@
+#include "results/earlier_fields.h"
+
+#include <filesystem>
+#include <regex>
+#include <vector>
+
+namespace sprag
+{
+  bool is_field_file(const std::string &name)
+  {
+    static const std::regex given(R"((fields|face|leaf|mode-\d+)(-\d+\.h5|-mesh\.h5|\.h5|\.xdmf))");
+    return std::regex_match(name, given);
+  }
+
+  void remove_field_files(const std::string &folder)
+  {
+    std::vector<std::filesystem::path> found;
+    for (const auto &entry : std::filesystem::directory_iterator(folder))
+      if (is_field_file(entry.path().filename().string()))
+        found.push_back(entry.path());
+    for (const auto &path : found)
+      std::filesystem::remove(path);
+  }
+} // namespace sprag

@@ -1,0 +1,218 @@
+"""Files of strangers: what a mesh cannot do to whoever opens it, results and links in the folder that are not ours, inputs without an
+end. Run with /usr/bin/python3; environment: SPRAG, the program, and SPRAG_SOURCE, the sources."""
+
+import os
+import shutil
+import sys
+import unittest
+from pathlib import Path
+
+import h5py
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from runs import SOURCE, RunTest, sprag  # noqa: E402
+from system_calls import CAN_FILTER, without_confinement  # noqa: E402
+
+STRIP = """
+Point(1) = {0, 45.6, 0};
+line[] = Extrude {210, 0, 0} { Point{1}; Layers{52}; };
+area[] = Extrude {0, 20, 0} { Curve{line[1]}; Layers{4}; Recombine; };
+Physical Surface("lever") = {area[1]};
+Physical Curve("hub") = {Abs(area[3])};
+Physical Curve("friction face") = {line[1]};
+"""
+CALL = "SystemCall \"touch 'MARK'\";\n"
+# What is written, around the mesh, with MARK for a file outside.
+ACTS = {
+    "starts a program": CALL + STRIP,
+    "prints into a file": 'Printf("x") > "MARK";\n' + STRIP,
+    "saves": STRIP + 'Mesh 2;\nSave "MARK.msh";\n',
+    "adds to a file": 'Printf("x") >> "MARK";\n' + STRIP,
+}
+CLOSED_FORM = "subsection Analysis\n  set Model = closed form\nend\n"
+
+
+def strip_mesh():
+    """What gmsh makes of a strip of 52 x 4 quadrilaterals."""
+    nodes = [(x, y) for y in range(5) for x in range(53)]
+    lines = [f"{number} {210 * x / 52:g} {45.6 + 5 * y:g} 0" for number, (x, y) in enumerate(nodes, 1)]
+    cells = [f"3 2 1 1 {at + 1} {at + 2} {at + 55} {at + 54}" for y in range(4) for at in range(53 * y, 53 * y + 52)]
+    face = [f"1 2 2 1 {x + 1} {x + 2}" for x in range(52)]
+    hub = [f"1 2 3 2 {53 * y + 1} {53 * y + 54}" for y in range(4)]
+    names = '$PhysicalNames\n3\n2 1 "lever"\n1 2 "friction face"\n1 3 "hub"\n$EndPhysicalNames\n'
+    numbered = [f"{number} {text}" for number, text in enumerate(cells + face + hub, 1)]
+    beginning = f"$MeshFormat\n2.2 0 8\n$EndMeshFormat\n{names}$Nodes\n{len(lines)}"
+    return "\n".join([beginning, *lines, f"$EndNodes\n$Elements\n{len(numbered)}", *numbered, "$EndElements\n"])
+
+
+class StrangerTest(RunTest):
+    def scene(self, text=CLOSED_FORM):
+        path = self.folder / "scene.prm"
+        path.write_text(text)
+        return path
+
+    def run_scene(self, *options, **settings):
+        return sprag(self.folder / "scene.prm", *options, "--output", self.output, **settings)
+
+    def refused(self, done, *texts):
+        self.assertEqual((done.returncode, done.stdout), (2, ""), done.stderr)
+        self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+        for text in texts:
+            self.assertIn(text, done.stderr)
+
+
+class Meshes(StrangerTest):
+    def setUp(self):
+        super().setUp()
+        self.mark = self.folder / "mark"
+        self.place = self.folder / "place"
+        self.place.mkdir()
+
+    def validate(self, name, *options, **settings):
+        (self.place / "scene.prm").write_text(f"subsection Mesh\n  set File = {name}\nend\n")
+        return sprag(self.place / "scene.prm", "--validate", "--quiet", *options, **settings)
+
+    def write(self, name, text):
+        (self.place / name).write_text(text.replace("MARK", str(self.mark)))
+
+    def marks(self):
+        return list(self.folder.glob("mark*"))
+
+    def test_scripts_start_and_write_nothing(self):
+        for what, text in ACTS.items():
+            with self.subTest(what):
+                self.write("own.geo", text)
+                self.validate("own.geo")
+                self.assertEqual(self.marks(), [])
+
+    def test_scripts_change_no_file_of_their_folder(self):
+        self.write("own.geo", STRIP + 'Printf("x") > "other.txt"; SystemCall "rm other.geo";\n')
+        self.write("other.geo", "")
+        self.validate("own.geo")
+        self.assertEqual(sorted(path.name for path in self.place.iterdir()), ["other.geo", "own.geo", "scene.prm"])
+
+    def test_scripts_read_their_folder_and_ours_alone(self):
+        self.write("part.geo", STRIP)
+        self.write("own.geo", 'Include "part.geo";\n')
+        self.assertEqual(self.validate("own.geo").returncode, 0)
+        (self.folder / "part.geo").write_text(STRIP)
+        self.write("own.geo", 'Include "../part.geo";\n')
+        self.assertEqual(self.validate("own.geo").returncode, 2)
+        self.assertEqual(self.validate("own.geo", "--trust-scripts").returncode, 0)
+
+    def test_what_a_script_tries_is_told(self):
+        for text, says in (("Exit;", "gmsh ends on it"), (CALL, "--trust-scripts"), ('Merge "/etc/hostname";', "--trust-scripts")):
+            self.write("own.geo", text)
+            self.refused(self.validate("own.geo"), "own.geo", says)
+
+    def test_a_mesh_is_no_script(self):
+        self.write("own.msh", CALL + STRIP)
+        self.refused(self.validate("own.msh"), "own.msh", "must begin with $MeshFormat")
+        self.assertEqual(self.marks(), [])
+
+    def test_nothing_beside_a_mesh_counts(self):
+        self.write("own.msh", strip_mesh())
+        self.write("own.msh.opt", CALL)
+        done = self.validate("own.msh")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertEqual(self.marks(), [])
+
+    def test_trusted_scripts_do_as_they_say(self):
+        self.write("own.geo", ACTS["prints into a file"])
+        self.assertEqual(self.validate("own.geo", "--trust-scripts").returncode, 0)
+        self.assertEqual(self.marks(), [self.mark])
+
+    @unittest.skipUnless(CAN_FILTER, "knows the system calls of x86_64")
+    def test_scripts_are_refused_where_they_cannot_be_confined(self):
+        self.write("own.geo", STRIP)
+        self.refused(self.validate("own.geo", preexec_fn=without_confinement()), "own.geo", "is a script", "--trust-scripts")
+        self.assertEqual(self.validate("own.geo", "--trust-scripts", preexec_fn=without_confinement()).returncode, 0)
+        self.write("own.msh", strip_mesh())
+        self.assertEqual(self.validate("own.msh", preexec_fn=without_confinement()).returncode, 0)
+        done = sprag(SOURCE / "params" / "model-a.prm", "--validate", "--quiet", preexec_fn=without_confinement())
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_no_temporary_file_is_made(self):
+        for folder in ("/proc", "", "/nowhere"):
+            with self.subTest(TMPDIR=folder):
+                self.write("own.geo", STRIP)
+                done = self.validate("own.geo", env={**os.environ, "TMPDIR": folder})
+                self.assertEqual((done.returncode, done.stderr), (0, ""))
+
+
+class Results(StrangerTest):
+    def setUp(self):
+        super().setUp()
+        self.scene()
+        self.output.mkdir()
+        self.result = self.output / "result.h5"
+
+    def test_of_other_programs_stay(self):
+        def measured():
+            with h5py.File(self.result, "w") as file:
+                file["measurement"], file["parameters"] = [1.0, 2.0], "mine"
+
+        for make in (measured, lambda: self.result.write_text("a measurement\n")):
+            shutil.rmtree(self.output)
+            self.output.mkdir()
+            make()
+            before = self.result.read_bytes()
+            self.refused(self.run_scene(), "result.h5", "no result of sprag's", "--overwrite")
+            self.assertEqual([path.name for path in self.output.iterdir()], ["result.h5"])
+            self.assertEqual(self.result.read_bytes(), before)
+            self.assertEqual(self.run_scene("--overwrite").returncode, 0)
+
+    def test_links_are_not_followed(self):
+        victim = self.folder / "victim"
+        victim.write_text("mine")
+        for name in ("run.log", "result.h5", "run.checkpoint.new", "map.journal", "fields.xdmf", "fields-mesh.h5"):
+            with self.subTest(name):
+                (self.output / name).symlink_to(victim)
+                self.refused(self.run_scene(), f"{name} is a link there")
+                self.assertEqual(victim.read_text(), "mine")
+                (self.output / name).unlink()
+
+    def test_earlier_fields_go_with_their_result(self):
+        coarse = [word for change in ("Mesh/Face size=4", "Analysis/Step=5", "Drive/Stroke=20") for word in ("--set", change)]
+        for changes in (("Analysis/Model=closed form",), ("Analysis/Model=finite element", "Output/Fields=none"), ("Analysis/Type=slope",)):
+            with self.subTest(changes):
+                shutil.rmtree(self.output)
+                self.assertEqual(self.run_scene(*coarse, "--set", "Analysis/Model=finite element").returncode, 0)
+                self.assertTrue((self.output / "fields.xdmf").exists())
+                words = [word for change in changes for word in ("--set", change)]
+                self.assertEqual(self.run_scene(*coarse, *words, "--overwrite").returncode, 0)
+                self.assertEqual([path.name for path in self.output.glob("f*")], [])
+
+
+class Inputs(StrangerTest):
+    def test_without_an_end(self):
+        os.mkfifo(self.folder / "scene.prm")
+        self.refused(self.run_scene(), "scene.prm", "no pipe or device")
+        (self.folder / "scene.prm").unlink()
+        self.scene()
+        os.mkfifo(self.folder / "pipe.csv")
+        with open(self.folder / "huge.csv", "wb") as file:
+            file.truncate(1 << 40)
+        for table in ("pipe.csv", "/dev/zero", "huge.csv"):
+            text = "1048576 MB: must have at most" if table == "huge.csv" else "no pipe or device"
+            done = self.run_scene("--set", "Friction/Law=table", "--set", f"Friction/Table={table}")
+            self.refused(done, table, text)
+
+    def test_that_cannot_be_read_to_the_end(self):
+        self.refused(sprag("/proc/self/mem", "--validate"), "/proc/self/mem: cannot be read: Input/output error")
+
+    def test_byte_order_mark(self):
+        (self.folder / "scene.prm").write_bytes(b"\xef\xbb\xbf" + CLOSED_FORM.replace("\n", "\r\n").encode())
+        self.assertEqual(self.run_scene("--validate").returncode, 0)
+
+    def test_messages_are_short_and_plain(self):
+        self.scene("subsection Geometry\n  set Cylinder radius = \x1b]0;title\x07\x1b[31m\nend\n")
+        self.refused(self.run_scene(), "\\x1b]0;title\\x07")
+        self.scene("subsection Geometry\n" + "  set Cylinder radius = 1\n" * 9999 + "end\n")
+        done = self.run_scene()
+        self.assertLess(len(done.stderr), 20000)
+        self.assertIn("more", done.stderr.splitlines()[-1])
+
+
+if __name__ == "__main__":
+    unittest.main()
