@@ -28,6 +28,7 @@ namespace sprag
     {
       const Parameter &parameter;
       std::string value;
+      std::string written; ///< with a unit; empty where it had none
     };
 
     template <class Length>
@@ -52,25 +53,31 @@ namespace sprag
         for (const auto &line : lines_of(documentation(parameter)))
           text << "  # " << line << '\n';
         text << "  set " << std::setw(name) << parameter.name << " = ";
-        if (entry.value == parameter.default_value)
+        const std::string written = entry.written.empty() ? "" : "given as " + entry.written;
+        const std::string usual   = entry.value == parameter.default_value ? "" : "default: " + parameter.default_value;
+        if (written.empty() && usual.empty())
           text << entry.value << '\n';
         else
-          text << std::setw(value) << entry.value << " # default: " << parameter.default_value << '\n';
+          text << std::setw(value) << entry.value << " # " << written << (written.empty() || usual.empty() ? "" : "; ") << usual
+               << '\n';
       }
       text << "end\n\n\n";
     }
   } // namespace
 
-  std::string parameters_text(const std::vector<Parameter> &declared, const ParameterValues &given)
+  std::string parameters_text(const std::vector<Parameter> &declared, const ParameterValues &given,
+                              const ParameterValues &written)
   {
     std::vector<std::string> sections;
     std::map<std::string, std::vector<Entry>> entries;
     for (const auto &parameter : declared)
     {
       const auto value = given.find(full_name(parameter));
+      const auto text  = written.find(full_name(parameter));
       if (entries.count(parameter.section) == 0)
         sections.push_back(parameter.section);
-      entries[parameter.section].push_back({ parameter, value == given.end() ? parameter.default_value : value->second });
+      entries[parameter.section].push_back({ parameter, value == given.end() ? parameter.default_value : value->second,
+                                             text == written.end() ? "" : text->second });
     }
     std::ostringstream text;
     text << "# Listing of Parameters\n# ---------------------\n";

@@ -75,6 +75,11 @@ namespace sprag
     return rounded_text(length) + " mm";
   }
 
+  std::string without_byte_order_mark(const std::string &text)
+  {
+    return text.compare(0, 3, "\xEF\xBB\xBF") == 0 ? text.substr(3) : text;
+  }
+
   std::optional<LeadingNumber> leading_number(const std::string &text)
   {
     const std::string all = trim(text);

@@ -37,6 +37,9 @@ namespace sprag
   /// Returns "row 1: " for index 0, the beginning of a message about a row of a table.
   std::string row_label(std::size_t index);
 
+  /// Returns the beginning of a text in UTF-8 without the byte-order mark that editors of Windows and Excel put there.
+  std::string without_byte_order_mark(const std::string &text);
+
   /// A number at the beginning of a text and what stands behind it.
   struct LeadingNumber
   {

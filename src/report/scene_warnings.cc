@@ -1,6 +1,7 @@
 #include "report/warnings.h"
 
 #include "base/text.h"
+#include "results/columns.h"
 #include "scene/closed_form.h"
 #include "scene/scene.h"
 #include "scene/sections.h"
@@ -214,6 +215,30 @@ namespace sprag
                            "Give these parameters, even where the value is the same; Analysis/Type = contact law fits the "
                            "contact stiffness." });
     }
+    bool is_written_by_sprag(const std::string &column)
+    {
+      const auto &all = all_columns();
+      return std::any_of(all.begin(), all.end(), [&](const ColumnInfo &info) { return info.name == column; });
+    }
+
+    /// Those that a run writes cannot be misspelt.
+    void add_unused_columns(const Scene &scene, Warnings &warnings)
+    {
+      std::string found;
+      for (const auto &[parameter, columns] : scene.unused_columns)
+      {
+        std::string names;
+        for (const auto &name : columns)
+          if (!name.empty() && !is_written_by_sprag(name))
+            names += (names.empty() ? "" : ", ") + name;
+        if (!names.empty())
+          found += (found.empty() ? "" : " ") + std::string("Of ") + parameter + " these columns are not used: " + names + '.';
+      }
+      if (!found.empty())
+        warnings.push_back(
+            { "unused_columns", found, "What they hold is in no result.",
+              "Nothing, if none of them was meant; a column that is meant needs its name, see params/README.md." });
+    }
   } // namespace
 
   Warnings scene_warnings(const Scene &scene)
@@ -227,6 +252,7 @@ namespace sprag
     add_leaf(scene, warnings);
     add_plane_stress(scene, warnings);
     add_opening(scene, warnings);
+    add_unused_columns(scene, warnings);
     return warnings;
   }
 } // namespace sprag

@@ -32,16 +32,6 @@ namespace sprag
       return rounded_text(value * (1. - 5e-6));
     }
 
-    /// How the header of a table may call a column.
-    std::vector<std::string> words_for(const std::string &column)
-    {
-      const std::map<std::string, std::vector<std::string>> words = { { "time", { "time", "t" } },
-                                                                      { "x", { "x", "position", "displacement" } },
-                                                                      { "speed", { "speed", "velocity", "v" } },
-                                                                      { "mu", { "mu", "coefficient", "friction" } } };
-      return words.at(column);
-    }
-
     const char *const time_tolerance = "Time/Tolerance";
 
     /// Returns the parameters that were given or chosen, without those left at their defaults.
@@ -118,6 +108,8 @@ namespace sprag
             parameter.store(given->second.value);
             if (input.scene.chosen.count(given->first) == 0)
               input.scene.given.insert(given->first);
+            if (!given->second.written.empty())
+              input.scene.written.emplace(given->first, given->second.written);
           }
         input.scene.slope.maximum_inclination = input.maximum_inclination * M_PI / 180.;
         resolve("Drive/Table", input.drive.table);
@@ -199,8 +191,9 @@ namespace sprag
       {
         const DriveSettings &drive = input.drive;
         if (drive.profile == DriveProfile::table)
-          return use_table("Drive/Table", drive.table, { "time", "x" },
-                           [this](const auto &table) { input.scene.drive = Drive(table.first, table.second); });
+          return use_table("Drive/Table", drive.table, { { "time", "t" }, "s" }, { { "x", "position", "displacement" }, "mm" },
+                           [this](const auto &times, const auto &positions)
+                           { input.scene.drive = Drive(times, positions); });
         if (drive.stroke > drive.start)
           input.scene.drive = Drive(drive.profile, drive.start, drive.stroke, drive.speed, drive.cycles, reversal_duration());
         else if (!doubtful("Drive/Stroke") && !doubtful("Drive/Start"))
@@ -221,8 +214,9 @@ namespace sprag
         else if (friction.law == FrictionChoice::stribeck)
           law.law = friction.stribeck;
         else
-          use_table("Friction/Table", friction.table, { "speed", "mu" },
-                    [&law](const auto &table) { law.law = TabulatedFriction(table.first, table.second); });
+          use_table("Friction/Table", friction.table, { { "speed", "velocity", "v" }, "mm/s" },
+                    { { "mu", "coefficient", "friction" }, "" },
+                    [&law](const auto &speeds, const auto &coefficients) { law.law = TabulatedFriction(speeds, coefficients); });
       }
 
       void check()
@@ -352,18 +346,22 @@ namespace sprag
         return 0.;
       }
 
-      void use_table(const std::string &parameter, const std::string &file, const ColumnNames &names,
-                     const std::function<void(const TwoColumns &)> &use)
+      struct WantedColumn
+      {
+        ColumnNames names;
+        std::string unit; ///< that its values are wanted in
+      };
+
+      void use_table(const std::string &parameter, const std::string &file, const WantedColumn &first, const WantedColumn &second,
+                     const std::function<void(const std::vector<double> &, const std::vector<double> &)> &use)
       {
         if (file.empty())
           return report(parameter, "must name a file");
         try
         {
-          const auto table = read_table(file, names);
-          if (exchanged_columns(table.header, words_for(names.first), words_for(names.second)))
-            return report(parameter, "the header '" + table.header + "' has the columns exchanged: " + names.first +
-                                         " must be the first, " + names.second + " the second");
-          use(table);
+          const auto table = read_two_columns(file, first.names, second.names);
+          use(values_in(first.unit, table.columns[0]), values_in(second.unit, table.columns[1]));
+          input.scene.unused_columns[parameter] = table.unused;
         }
         catch (const InputError &error)
         {
@@ -397,7 +395,11 @@ namespace sprag
     {
       const auto read = [&](const auto &declared)
       { return override_settings(scene.name + ".prm", set_values(scene), overrides, declared); };
-      return SceneReader(read, scene.folder, chosen).scene();
+      Scene result = SceneReader(read, scene.folder, chosen).scene();
+      for (const auto &[name, text] : scene.written)
+        if (result.parameters->at(name) == scene.parameters->at(name))
+          result.written.emplace(name, text);
+      return result;
     }
   } // namespace
 
@@ -432,7 +434,7 @@ namespace sprag
     auto values = *scene.parameters;
     for (const auto &[name, before] : scene.chosen)
       values[name] = before;
-    return parameters_text(scene_parameters(defaults), values);
+    return parameters_text(scene_parameters(defaults), values, scene.written);
   }
 
   std::string override_text(const std::string &parameter, const double value)

@@ -1,5 +1,6 @@
 #include "scene/variation.h"
 
+#include "base/errors.h"
 #include "base/text.h"
 
 #include <boost/algorithm/string/join.hpp>
@@ -173,12 +174,17 @@ namespace sprag
 
       bool take_value(const std::string &value, const Parameter &parameter, VariedParameter &varied)
       {
-        const auto broken = violation(parameter.rule, value);
-        if (broken)
-          mistake(varied.name + " = " + value + " " + *broken);
-        else
-          varied.values.push_back(parameter.rule.kind == Rule::Kind::file && !value.empty() ? path_of(value) : value);
-        return !broken;
+        try
+        {
+          const auto kept = kept_value(parameter.rule, value);
+          varied.values.push_back(parameter.rule.kind == Rule::Kind::file && !value.empty() ? path_of(value) : kept);
+          return true;
+        }
+        catch (const InputError &broken)
+        {
+          mistake(varied.name + " = " + value + " " + broken.what());
+          return false;
+        }
       }
 
       std::string path_of(const std::string &file) const

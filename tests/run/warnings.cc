@@ -309,6 +309,16 @@ TEST(SceneWarnings, PlaneStressOfALayer)
   EXPECT_EQ(names(scene_warnings(other)), Names{});
 }
 
+TEST(SceneWarnings, ColumnsThatNobodyWrites)
+{
+  Scene scene          = model_a();
+  scene.unused_columns = { { "Drive/Table", { "P", "theta", "" } } };
+  EXPECT_EQ(names(scene_warnings(scene)), Names{});
+  scene.unused_columns = { { "Drive/Table", { "P", "Tmie", "xx" } } };
+  EXPECT_EQ(names(scene_warnings(scene)), Names{ "unused_columns" });
+  EXPECT_EQ(scene_warnings(scene)[0].found, "Of Drive/Table these columns are not used: Tmie, xx.");
+}
+
 TEST(SceneWarnings, ACylinderThatHardlyOpensTheLever)
 {
   Scene scene     = model_a();

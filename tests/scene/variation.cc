@@ -85,7 +85,9 @@ TEST(Variation, OfAReference)
   ASSERT_EQ(scene.study.reference_values.size(), 2u);
   EXPECT_EQ(scene.study.reference_values[1].values, (Messages{ "105, 135" }));
   expect_wrong("Study/Reference=Mesh/Face size = 1, 2",
-               { "Mesh/Face size = 1, 2 must be auto or a number > 0 and nothing else: leave out ', 2', mm is meant" });
+               { "Mesh/Face size = 1, 2 must be auto or a number > 0 and nothing else" });
+  const auto metres = scene_of({ "Analysis/Type=study", "Study/Vary=Lever/Depth = 1 cm, 20" });
+  EXPECT_EQ(metres.study.varied[0].values, (Messages{ "10", "20" }));
   EXPECT_EQ(mistakes_of({ "Analysis/Type=study", "Study/Type=slope", "Study/Reference=Lever/Depth = 1" }).size(), 1u);
 }
 
