@@ -26,12 +26,15 @@ namespace sprag
           throw InputError(row_label(i) + name + " " + number_text(samples.at[i]) + ": must be more than in the row before");
     }
 
-    /// The row of the largest x ends the way out and begins that back.
+    /// The row of the largest x ends the way out and begins that back; of two such rows, between which Q jumps, each does one.
     DamperLoop loop_of(const std::vector<double> &x, const std::vector<double> &forces)
     {
-      const auto turn  = std::max_element(x.begin(), x.end()) - x.begin();
-      const auto until = [&](const std::vector<double> &all) { return std::vector<double>(all.begin(), all.begin() + turn + 1); };
-      const auto after = [&](const std::vector<double> &all) { return std::vector<double>(all.rbegin(), all.rend() - turn); };
+      const auto largest = std::max_element(x.begin(), x.end()) - x.begin();
+      const auto begin =
+          largest + 1 < static_cast<std::ptrdiff_t>(x.size()) && x[largest + 1] == x[largest] ? largest + 1 : largest;
+      const auto until = [&](const std::vector<double> &all)
+      { return std::vector<double>(all.begin(), all.begin() + largest + 1); };
+      const auto after = [&](const std::vector<double> &all) { return std::vector<double>(all.rbegin(), all.rend() - begin); };
       DamperLoop loop{ { until(x), until(forces) }, { after(x), after(forces) } };
       for (const auto &[way, samples] :
            { std::make_pair("on the way out: ", loop.out), std::make_pair("on the way back: ", loop.back) })

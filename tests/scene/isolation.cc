@@ -328,4 +328,6 @@ TEST(IsolationInput, TablesThatCannotBeAreRefused)
   says(said_of(loop, "Isolation/Loop table", "0,0\n1,1\n2,2\n3,3\n2,4\n1,3\n0,1\n"), "dissipates nothing");
   says(said_of(loop, "Isolation/Loop table", "0,0\n1,1\n2,2\n3,3\n2,-2\n1,-1\n0.5,0\n"), "must be 0 at the end");
   EXPECT_EQ(said_of(loop, "Isolation/Loop table", "0,0\n1,1\n2,2\n3,3\n2,-2\n1,-1\n0,0\n"), "");
+  EXPECT_EQ(said_of(loop, "Isolation/Loop table", "0,0\n1,1\n2,2\n3,3\n3,-3\n2,-2\n1,-1\n0,0\n"), "");
+  says(said_of(loop, "Isolation/Loop table", "0,0\n1,1\n2,2\n3,3\n3,0\n3,-3\n2,-2\n1,-1\n0,0\n"), "does not change steadily");
 }
