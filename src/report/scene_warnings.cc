@@ -1,5 +1,6 @@
 #include "report/warnings.h"
 
+#include "base/append.h"
 #include "base/text.h"
 #include "results/columns.h"
 #include "scene/closed_form.h"
@@ -252,6 +253,7 @@ namespace sprag
     add_leaf(scene, warnings);
     add_plane_stress(scene, warnings);
     add_opening(scene, warnings);
+    append(warnings, implausible_values(scene));
     add_unused_columns(scene, warnings);
     return warnings;
   }

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <gtest/gtest.h>
 
 using namespace sprag;
@@ -307,6 +308,42 @@ TEST(SceneWarnings, PlaneStressOfALayer)
   other                = scene;
   other.analysis.model = ModelType::closed_form;
   EXPECT_EQ(names(scene_warnings(other)), Names{});
+}
+
+// Each number is that of model A in another unit.
+TEST(SceneWarnings, ValuesOfAnotherUnitNameIt)
+{
+  const auto remedy = [](const std::string &parameter, const std::function<void(Scene &)> &change)
+  {
+    Scene scene = model_a();
+    change(scene);
+    EXPECT_EQ(names(scene_warnings(scene)), Names{}) << "not given";
+    scene.given.insert(parameter);
+    const auto warnings = scene_warnings(scene);
+    EXPECT_EQ(names(warnings), Names{ "implausible_values" }) << parameter;
+    return warnings.empty() ? "" : warnings[0].remedy;
+  };
+  const auto expect_meant =
+      [&](const std::string &parameter, const std::string &meant, const std::function<void(Scene &)> &change)
+  { EXPECT_EQ(remedy(parameter, change).rfind(parameter + " may be meant as " + meant + ". ", 0), 0u) << parameter; };
+  expect_meant("Lever/Density", "2700 kg/m3, which is 2.7e-09 t/mm3", [](Scene &scene) { scene.lever.density = 2700.; });
+  expect_meant("Lever/Density", "2.7 g/cm3, which is 2.7e-09 t/mm3", [](Scene &scene) { scene.lever.density = 2.7; });
+  expect_meant("Leaf spring/Young's modulus", "2.06e+11 Pa, which is 206000 MPa",
+               [](Scene &scene) { scene.spring.leaf.young_modulus = 2.06e11; });
+  expect_meant("Lever/Young's modulus", "70 GPa, which is 70000 MPa", [](Scene &scene) { scene.lever.young_modulus = 70.; });
+  expect_meant("Lever/Depth", "0.02 m, which is 20 mm", [](Scene &scene) { scene.lever.depth = 0.02; });
+  expect_meant("Lever/Moment of inertia", "0.00645 kg m2, which is 6.45 t mm2",
+               [](Scene &scene) { scene.lever.moment_of_inertia = 6.45e-3; });
+  expect_meant("Rotational spring/Stiffness", "74 N m/rad, which is 74000 N mm/rad",
+               [](Scene &scene) { scene.spring.stiffness = 74.; });
+  EXPECT_EQ(remedy("Lever/Density", [](Scene &scene) { scene.lever.density = 1e9; }).rfind("Give", 0), 0u);
+
+  // A lever that does not bend.
+  Scene stiff               = model_a();
+  stiff.lever.young_modulus = 7e7;
+  stiff.layer.young_modulus = 2e4;
+  stiff.given               = { "Lever/Young's modulus", "Friction layer/Young's modulus" };
+  EXPECT_EQ(names(scene_warnings(stiff)), Names{});
 }
 
 TEST(SceneWarnings, ColumnsThatNobodyWrites)
