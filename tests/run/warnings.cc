@@ -356,6 +356,17 @@ TEST(SceneWarnings, ColumnsThatNobodyWrites)
   EXPECT_EQ(scene_warnings(scene)[0].found, "Of Drive/Table these columns are not used: Tmie, xx.");
 }
 
+TEST(RowWarnings, SpeedsBeyondATableOfFriction)
+{
+  Scene scene        = model_a();
+  scene.friction.law = TabulatedFriction({ 0., 40., 80., 120. }, { 1., 0.6, 0.5, 0.45 });
+  EXPECT_EQ(names_with(Column::v_rel, -120., scene), Names{});
+  EXPECT_EQ(names_with(Column::v_rel, -121., scene), Names{ "speed_beyond_table" });
+  scene.friction.speed = FrictionSpeed::drive;
+  EXPECT_EQ(names_with(Column::v_rel, -121., scene), Names{});
+  EXPECT_EQ(names_with(Column::v, -121., scene), Names{ "speed_beyond_table" });
+}
+
 TEST(SceneWarnings, ACylinderThatHardlyOpensTheLever)
 {
   Scene scene     = model_a();
