@@ -2,6 +2,7 @@
 
 #include "base/append.h"
 #include "base/errors.h"
+#include "base/local_regression.h"
 #include "base/table_file.h"
 #include "base/text.h"
 #include "scene/accuracy.h"
@@ -192,12 +193,26 @@ namespace sprag
         const DriveSettings &drive = input.drive;
         if (drive.profile == DriveProfile::table)
           return use_table("Drive/Table", drive.table, { { "time", "t" }, "s" }, { { "x", "position", "displacement" }, "mm" },
-                           [this](const auto &times, const auto &positions)
-                           { input.scene.drive = Drive(times, positions); });
+                           [&](const auto &times, const auto &positions)
+                           { input.scene.drive = Drive(times, smoothed(times, positions)); });
         if (drive.stroke > drive.start)
           input.scene.drive = Drive(drive.profile, drive.start, drive.stroke, drive.speed, drive.cycles, reversal_duration());
         else if (!doubtful("Drive/Stroke") && !doubtful("Drive/Start"))
           report("Drive/Stroke", "must be more than Start = " + mm(drive.start));
+      }
+
+      /// A fit below the lowest row would be a drive that goes farther back than was measured.
+      std::vector<double> smoothed(const std::vector<double> &times, const std::vector<double> &positions) const
+      {
+        const double width = input.drive.smoothing;
+        const bool grows   = std::is_sorted(times.begin(), times.end());
+        if (width == 0. || !grows || positions.empty())
+          return positions;
+        auto result         = locally_fitted(times, positions, width);
+        const double lowest = *std::min_element(positions.begin(), positions.end());
+        for (double &x : result)
+          x = std::max(x, lowest);
+        return result;
       }
 
       void make_friction()

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <functional>
 #include <gtest/gtest.h>
+#include <random>
 
 using namespace sprag;
 
@@ -354,6 +355,45 @@ TEST(SceneWarnings, ColumnsThatNobodyWrites)
   scene.unused_columns = { { "Drive/Table", { "P", "Tmie", "xx" } } };
   EXPECT_EQ(names(scene_warnings(scene)), Names{ "unused_columns" });
   EXPECT_EQ(scene_warnings(scene)[0].found, "Of Drive/Table these columns are not used: Tmie, xx.");
+}
+
+namespace
+{
+  /// A stroke there and back in 0.8 s, 500 rows a second, with something on each position.
+  Scene measured_stroke(const std::function<double(double x, unsigned int row)> &position)
+  {
+    std::vector<double> times, positions;
+    for (unsigned int i = 0; i <= 400; ++i)
+    {
+      times.push_back(0.002 * i);
+      positions.push_back(std::max(0., position(20. * (1. - std::cos(2. * M_PI * i / 400.)), i)));
+    }
+    Scene scene         = model_a();
+    scene.analysis.type = AnalysisType::transient;
+    scene.drive         = Drive(times, positions);
+    return scene;
+  }
+} // namespace
+
+TEST(SceneWarnings, PositionsThatShake)
+{
+  const auto of = [](const auto &position) { return names(scene_warnings(measured_stroke(position))); };
+  std::minstd_rand random(1);
+  std::normal_distribution<double> noise;
+  EXPECT_EQ(of([](const double x, unsigned int) { return x; }), Names{});
+  EXPECT_EQ(of([](const double x, const unsigned int i) { return x + 0.5 * std::sin(0.6 * i); }), Names{}); // 48 Hz
+  EXPECT_EQ(of([](const double, const unsigned int i) { return std::abs(std::remainder(i, 40.)); }), Names{});
+  EXPECT_EQ(of([](const double, const unsigned int i) { return i / 10 % 2 == 0 ? i % 10 : 10. - i % 10; }), Names{});
+  for (const double step : { 0.1, 0.02 })
+    EXPECT_EQ(of([=](const double x, unsigned int) { return step * std::round(x / step); }), Names{ "shaking_drive" }) << step;
+  for (const double deviation : { 0.02, 0.005 })
+    EXPECT_EQ(of([&](const double x, unsigned int) { return x + deviation * noise(random); }), Names{ "shaking_drive" })
+        << deviation;
+
+  // Constant friction without inertia knows no speed.
+  Scene slow         = with_coulomb(measured_stroke([](const double x, unsigned int) { return std::round(x); }), 0.5);
+  slow.analysis.type = AnalysisType::quasi_static;
+  EXPECT_EQ(names(scene_warnings(slow)), Names{});
 }
 
 TEST(RowWarnings, SpeedsBeyondATableOfFriction)
