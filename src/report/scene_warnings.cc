@@ -296,13 +296,16 @@ namespace sprag
                            "Give Drive/Smoothing, some 30 times the rows' distance in time, if the real motion is smooth." });
     }
 
+    /// Those that a run writes, be it of a pair or in three dimensions, cannot be misspelt.
     bool is_written_by_sprag(const std::string &column)
     {
-      const auto &all = all_columns();
-      return std::any_of(all.begin(), all.end(), [&](const ColumnInfo &info) { return info.name == column; });
+      MirroredPair pair;
+      pair.type      = PairType::full;
+      const auto all = table_columns({}, pair, 3);
+      return column.rfind("sensor_", 0) == 0 ||
+             std::any_of(all.begin(), all.end(), [&](const ColumnInfo &info) { return info.name == column; });
     }
 
-    /// Those that a run writes cannot be misspelt.
     void add_unused_columns(const Scene &scene, Warnings &warnings)
     {
       std::string found;

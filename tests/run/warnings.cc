@@ -350,7 +350,7 @@ TEST(SceneWarnings, ValuesOfAnotherUnitNameIt)
 TEST(SceneWarnings, ColumnsThatNobodyWrites)
 {
   Scene scene          = model_a();
-  scene.unused_columns = { { "Drive/Table", { "P", "theta", "" } } };
+  scene.unused_columns = { { "Drive/Table", { "P", "theta_2", "lateral_force", "sensor_1", "" } } };
   EXPECT_EQ(names(scene_warnings(scene)), Names{});
   scene.unused_columns = { { "Drive/Table", { "P", "Tmie", "xx" } } };
   EXPECT_EQ(names(scene_warnings(scene)), Names{ "unused_columns" });
