@@ -187,13 +187,17 @@ namespace sprag
 
         if (const auto before = settings.given.find(name); before != settings.given.end() && !again_allowed)
           mistake(place, name + " = " + value, "must be set once only, it is at " + before->second.place + " already");
-        else if (const auto broken = violation(found->rule, value))
-        {
-          mistake(place, name + " = " + value, *broken);
-          settings.doubtful.insert(name);
-        }
         else
-          settings.given[name] = { place, value };
+          try
+          {
+            const auto kept      = kept_value(found->rule, value);
+            settings.given[name] = { place, kept, kept == value ? "" : value };
+          }
+          catch (const InputError &broken)
+          {
+            mistake(place, name + " = " + value, broken.what());
+            settings.doubtful.insert(name);
+          }
       }
 
       /// `name` with its section, or alone where it stands outside any.
@@ -281,6 +285,7 @@ namespace sprag
       throw std::logic_error(name + " is not declared");
     const auto given      = settings.given.find(name);
     const Setting setting = given == settings.given.end() ? Setting{ settings.file, parameter->default_value } : given->second;
-    settings.mistakes.push_back(setting.place + ": " + name + " = " + setting.value + ": " + rule);
+    const auto &value     = setting.written.empty() ? setting.value : setting.written;
+    settings.mistakes.push_back(setting.place + ": " + name + " = " + value + ": " + rule);
   }
 } // namespace sprag

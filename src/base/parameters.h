@@ -39,7 +39,8 @@ namespace sprag
   struct Setting
   {
     std::string place;
-    std::string value;
+    std::string value;        ///< numbers in the parameter's own unit, without it
+    std::string written = {}; ///< where it was given with a unit: as it was written
   };
 
   /// Everything that a parameter file and the overrides give, mistakes included.
@@ -66,7 +67,8 @@ namespace sprag
   /// Adds the mistake that the parameter with this full name breaks `rule`, with its place and the value in use.
   void add_mistake(Settings &settings, const std::vector<Parameter> &declared, const std::string &name, const std::string &rule);
 
-  /// Writes every parameter with its documentation as a comment, in .prm form: the given values, defaults elsewhere. The text can
-  /// be read back.
-  std::string parameters_text(const std::vector<Parameter> &declared, const ParameterValues &given);
+  /// Writes every parameter with its documentation as a comment, in .prm form: the given values, defaults elsewhere. What was
+  /// written with a unit is a comment behind its value. The text can be read back.
+  std::string parameters_text(const std::vector<Parameter> &declared, const ParameterValues &given,
+                              const ParameterValues &written = {});
 } // namespace sprag

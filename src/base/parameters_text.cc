@@ -30,6 +30,7 @@ namespace sprag
     {
       const Parameter &parameter;
       std::string value;
+      std::string written; ///< with a unit; empty where it had none
     };
 
     template <class Length>
@@ -55,26 +56,31 @@ namespace sprag
           text << "  # " << line << '\n';
         text << "  set " << std::setw(name) << parameter.name << " = ";
         const std::string by_default = escaped(parameter.default_value);
-        if (entry.value == by_default)
+        const std::string written    = entry.written.empty() ? "" : "given as " + escaped(entry.written);
+        const std::string usual      = entry.value == by_default ? "" : "default: " + by_default;
+        if (written.empty() && usual.empty())
           text << entry.value << '\n';
         else
-          text << std::setw(value) << entry.value << " # default: " << by_default << '\n';
+          text << std::setw(value) << entry.value << " # " << written << (written.empty() || usual.empty() ? "" : "; ") << usual
+               << '\n';
       }
       text << "end\n\n\n";
     }
   } // namespace
 
-  std::string parameters_text(const std::vector<Parameter> &declared, const ParameterValues &given)
+  std::string parameters_text(const std::vector<Parameter> &declared, const ParameterValues &given,
+                              const ParameterValues &written)
   {
     std::vector<std::string> sections;
     std::map<std::string, std::vector<Entry>> entries;
     for (const auto &parameter : declared)
     {
       const auto value = given.find(full_name(parameter));
+      const auto text  = written.find(full_name(parameter));
       if (entries.count(parameter.section) == 0)
         sections.push_back(parameter.section);
-      const auto &text = value == given.end() ? parameter.default_value : value->second;
-      entries[parameter.section].push_back({ parameter, escaped(text) });
+      entries[parameter.section].push_back({ parameter, escaped(value == given.end() ? parameter.default_value : value->second),
+                                             text == written.end() ? "" : text->second });
     }
     std::ostringstream text;
     text << "# Listing of Parameters\n# ---------------------\n";

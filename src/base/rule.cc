@@ -1,10 +1,14 @@
 #include "base/rule.h"
 
+#include "base/errors.h"
 #include "base/text.h"
+#include "base/units.h"
 
 #include <boost/algorithm/string/join.hpp>
+#include <boost/algorithm/string/predicate.hpp>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 namespace sprag
@@ -29,18 +33,47 @@ namespace sprag
       return text;
     }
 
+    std::string in_brackets(const std::string &unit)
+    {
+      return unit.empty() ? "" : " [" + unit + "]";
+    }
+
     std::optional<std::string> number_violation(const Rule &rule, const std::string &value)
     {
       const auto number = leading_number(value);
       if (const auto meant = with_decimal_point(value); meant && rule.kind != Rule::Kind::integer)
         return "must be " + description(rule) + " with a decimal point: did you mean '" + *meant + "'?";
       if (number && !number->rest.empty())
-        return "must be " + description(rule) + " and nothing else: leave out '" + number->rest + "', " +
-               (rule.unit.empty() ? "it has no unit" : rule.unit + " is meant");
+        return "must be " + description(rule) + " and nothing else";
       const bool whole = rule.kind != Rule::Kind::integer || (number && number->value == std::floor(number->value));
       if (!number || !whole || !contains(rule.interval, number->value))
-        return "must be " + description(rule) + (rule.unit.empty() ? "" : " [" + rule.unit + "]");
+        return "must be " + description(rule) + in_brackets(rule.unit);
       return std::nullopt;
+    }
+
+    bool begins_as_unit(const std::string &text)
+    {
+      const unsigned char first = text.empty() ? '\0' : text.front();
+      return std::isalpha(first) != 0 || first == '%' || first == '(' || first > 127 || boost::starts_with(text, "1/");
+    }
+
+    /// The number in the rule's unit; other texts as they are.
+    std::string without_unit(const Rule &rule, const std::string &value)
+    {
+      const auto number = leading_number(value);
+      if (!number || !begins_as_unit(number->rest) || with_decimal_point(value))
+        return value;
+      if (number->rest == rule.unit)
+        return number_text(number->value);
+      try
+      {
+        const double converted = number->value * unit_factor(number->rest, rule.unit);
+        return number_text(leading_number(formatted("%.15g", converted))->value);
+      }
+      catch (const InputError &error)
+      {
+        throw InputError("must be " + description(rule) + in_brackets(rule.unit) + ": " + error.what());
+      }
     }
 
     std::optional<std::string> list_violation(const Rule &rule, const std::string &value)
@@ -120,6 +153,23 @@ namespace sprag
       break;
     }
     return std::nullopt;
+  }
+
+  std::string kept_value(const Rule &rule, const std::string &value)
+  {
+    const bool is_number =
+        rule.kind == Rule::Kind::number || rule.kind == Rule::Kind::integer || rule.kind == Rule::Kind::number_or_auto;
+    std::string kept = is_number ? without_unit(rule, value) : value;
+    if (rule.kind == Rule::Kind::numbers)
+    {
+      std::vector<std::string> given = split(value, ','), parts;
+      for (const auto &part : given)
+        parts.push_back(without_unit(rule, part));
+      kept = parts == given ? value : boost::algorithm::join(parts, ", ");
+    }
+    if (const auto broken = violation(rule, kept))
+      throw InputError(*broken);
+    return kept;
   }
 
   std::vector<double> list_of_numbers(const std::string &value)

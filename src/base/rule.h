@@ -45,9 +45,12 @@ namespace sprag
   /// Tells the rule in words, without the unit: "a number > 0", "one of a | b".
   std::string description(const Rule &rule);
 
-  /// Returns none where `value` keeps the rule. Otherwise it says what the value must be, and, of a number with something behind
-  /// it, that the number must stand alone and which unit is meant.
+  /// Returns none where `value` keeps the rule. Otherwise it says what the value must be. Numbers stand without unit.
   std::optional<std::string> violation(const Rule &rule, const std::string &value);
+
+  /// Returns a value that keeps the rule, its numbers in the rule's unit and without it, as "210000" for "210 GPa"; rounded to 15
+  /// digits where they were in another. Throws InputError with what the value must be.
+  std::string kept_value(const Rule &rule, const std::string &value);
 
   /// Reads the numbers of a comma-separated list that keeps its rule.
   std::vector<double> list_of_numbers(const std::string &value);

@@ -4,61 +4,264 @@
 #include "base/file_content.h"
 #include "base/hdf5_handle.h"
 #include "base/text.h"
+#include "base/units.h"
 
-#include <boost/algorithm/string/case_conv.hpp>
+#include <boost/algorithm/string.hpp>
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
+#include <functional>
+#include <limits>
+#include <numeric>
 #include <optional>
-#include <regex>
 #include <sstream>
 
 namespace sprag
 {
   namespace
   {
-    std::optional<std::pair<double, double>> two_numbers(const std::string &line)
+    using hdf5::Handle;
+    using Names = std::vector<std::string>;
+
+    /// Far beyond any measurement, and short enough for memory.
+    constexpr std::size_t most_rows = 10000000;
+
+    constexpr std::size_t most_mistakes = 20;
+    constexpr double missing            = std::numeric_limits<double>::quiet_NaN();
+
+    /// Indices of the columns asked for; none for one that the file lacks.
+    using Chosen = std::vector<std::optional<std::size_t>>;
+    using Choose = std::function<Chosen(const std::vector<NamedColumn> &header)>;
+
+    std::string lower(const std::string &text)
     {
-      const auto first = leading_number(line);
-      if (!first)
-        return std::nullopt;
-      const bool separator = !first->rest.empty() && (first->rest[0] == ',' || first->rest[0] == ';');
-      const auto second    = leading_number(first->rest.substr(separator ? 1 : 0));
-      if (!second || !second->rest.empty())
-        return std::nullopt;
-      return std::make_pair(first->value, second->value);
+      return boost::algorithm::to_lower_copy(text);
     }
 
-    /// The line with points for commas, where that makes two numbers of it.
-    std::optional<std::string> with_decimal_points(std::string line)
+    std::string without_quotes(const std::string &cell)
+    {
+      const bool quoted = cell.size() > 1 && cell.front() == '"' && cell.back() == '"';
+      return quoted ? trim(cell.substr(1, cell.size() - 2)) : cell;
+    }
+
+    /// Splits at white space outside of brackets, which belong to the word before them.
+    Names words_of(const std::string &line)
+    {
+      Names words;
+      int depth   = 0;
+      bool inside = false;
+      for (const char c : line)
+      {
+        const bool is_space = depth == 0 && (c == ' ' || c == '\t');
+        const bool opens    = c == '[' || c == '(';
+        if (!is_space && !inside && !(opens && !words.empty()))
+          words.emplace_back();
+        if (!is_space)
+          words.back() += opens && !inside ? std::string{ ' ', c } : std::string{ c };
+        depth += opens ? 1 : c == ']' || c == ')' ? -1 : 0;
+        inside = !is_space;
+      }
+      return words;
+    }
+
+    Names cells_of(const std::string &line)
+    {
+      const auto separator = line.find(';') != std::string::npos ? ';' : line.find('\t') != std::string::npos ? '\t' : ',';
+      Names cells;
+      if (line.find(separator) == std::string::npos)
+        cells = words_of(line);
+      else
+        boost::algorithm::split(cells, line, [separator](const char c) { return c == separator; });
+      for (auto &cell : cells)
+      {
+        boost::algorithm::trim(cell, std::locale::classic());
+        // Spaces as well as tabs may go with commas.
+        if (separator == '\t')
+          boost::algorithm::trim_if(cell, boost::algorithm::is_any_of(", "));
+        cell = without_quotes(cell);
+      }
+      return cells;
+    }
+
+    bool is_missing(const std::string &cell)
+    {
+      return cell.empty() || lower(cell) == "nan";
+    }
+
+    bool is_like_number(const std::string &cell)
+    {
+      return lower(cell) == "nan" || leading_number(cell) || lower(cell) == "inf" || lower(cell) == "-inf";
+    }
+
+    std::optional<double> number_in(const std::string &cell)
+    {
+      const auto number = leading_number(cell);
+      return number && number->rest.empty() ? std::make_optional(number->value) : std::nullopt;
+    }
+
+    bool are_numbers(const Names &cells)
+    {
+      return std::all_of(cells.begin(), cells.end(), [](const auto &cell) { return number_in(cell).has_value(); });
+    }
+
+    /// "Q [N]", "Q (N)" or "Q/N"
+    NamedColumn column_of(const std::string &cell)
+    {
+      const auto name = [&](const std::size_t end)
+      { return boost::algorithm::trim_right_copy_if(cell.substr(0, end), boost::algorithm::is_any_of("/ ")); };
+      for (const auto &[opening, closing] : { std::pair('[', ']'), std::pair('(', ')') })
+      {
+        const auto close = cell.rfind(closing);
+        const auto open  = cell.find(opening);
+        if (close != std::string::npos && open < close)
+          return { name(open), trim(cell.substr(open + 1, close - open - 1)), {} };
+      }
+      const auto slash = cell.find('/');
+      return { name(slash), slash == std::string::npos ? "" : trim(cell.substr(slash + 1)), {} };
+    }
+
+    std::string with_points(std::string line)
     {
       std::replace(line.begin(), line.end(), ',', '.');
-      return two_numbers(line) ? std::make_optional(line) : std::nullopt;
+      return line;
     }
 
-    /// Separated by commas or semicolons, or else by white space.
-    std::vector<std::string> cells_of(const std::string &header)
+    /// Reads a text line by line.
+    class TextReader
     {
-      const bool separated = header.find_first_of(",;") != std::string::npos;
-      const std::regex separator(separated ? "[,;]" : "\\s+");
-      return { std::sregex_token_iterator(header.begin(), header.end(), separator, -1), {} };
-    }
+    public:
+      /// Where the columns must be `named`, a cell may be empty.
+      TextReader(const std::string &path, const Choose &choice, const bool must_be_named)
+          : file(path)
+          , choose(choice)
+          , named(must_be_named)
+      {
+      }
 
-    bool has_word(const std::string &cell, const std::vector<std::string> &words)
-    {
-      const std::regex word("[A-Za-z]+");
-      return std::any_of(std::sregex_iterator(cell.begin(), cell.end(), word), {},
-                         [&](const auto &match)
-                         {
-                           const auto lower = boost::algorithm::to_lower_copy(match.str());
-                           return std::find(words.begin(), words.end(), lower) != words.end();
-                         });
-    }
+      std::pair<std::vector<NamedColumn>, Chosen> read()
+      {
+        std::istringstream input(content_of_file(file, largest_table));
+        std::string line, comment;
+        for (number = 1; std::getline(input, line); ++number)
+        {
+          if (line.find('\0') != std::string::npos)
+            throw InputError(file + ": is not a text in UTF-8");
+          const auto hash = line.find('#');
+          const auto row  = trim(line.substr(0, hash));
+          if (row.empty() && hash != std::string::npos && columns.empty())
+            comment = trim(line.substr(hash + 1));
+          if (row.empty())
+            continue;
+          const auto cells = cells_of(row);
+          if (!columns.empty() || !read_header(cells, row, comment))
+            read_row(cells, row);
+        }
+        if (mistakes.empty() && !has_rows)
+          mistakes.push_back(file + (named && columns.empty() ? ": holds no columns" : ": holds no numbers"));
+        if (!mistakes.empty())
+          throw InputError(mistakes);
+        return { std::move(columns), chosen };
+      }
 
-    using hdf5::Handle;
+    private:
+      const std::string file;
+      const Choose &choose;
+      const bool named;
+      unsigned int number = 0;
+      bool has_rows       = false;
+      bool decimal_commas = false;
+      std::vector<NamedColumn> columns;
+      std::vector<char> is_read; ///< of each column
+      Chosen chosen;
+      Names mistakes;
 
-    /// Far beyond any drive, and short enough for memory.
-    constexpr hsize_t most_rows = 10000000;
+      void mistake(const std::string &rule)
+      {
+        if (mistakes.size() < most_mistakes)
+          mistakes.push_back(file + ":" + std::to_string(number) + ": " + rule);
+      }
+
+      /// Returns whether the first line is a header. Before one that is none, a comment of as many cells with a unit in square
+      /// brackets is it, as numpy.savetxt() writes; without any there are two columns.
+      bool read_header(const Names &cells, const std::string &line, const std::string &comment)
+      {
+        const bool is_header  = std::none_of(cells.begin(), cells.end(), is_like_number);
+        const auto of_comment = cells_of(comment);
+        const bool commented  = !is_header && of_comment.size() == cells.size() && comment.find('[') != std::string::npos;
+        if (!is_header && !commented && named)
+          throw InputError(file + ":" + std::to_string(number) + ": " + line +
+                           ": must be the names of the columns with their units, as in 'time [s], Q [N]'");
+        if (is_header || commented)
+          for (const auto &cell : commented ? of_comment : cells)
+            columns.push_back(column_of(cell));
+        else
+          columns.resize(2);
+        try
+        {
+          chosen = choose(columns);
+        }
+        catch (const InputError &error)
+        {
+          for (const auto &message : error.messages)
+            mistakes.push_back(file + ": the header '" + (commented ? comment : line) + "' " + message);
+          throw InputError(mistakes);
+        }
+        is_read.resize(columns.size(), 0);
+        for (const auto &index : chosen)
+          if (index)
+            is_read[*index] = 1;
+        return is_header;
+      }
+
+      void read_row(const Names &cells, const std::string &line)
+      {
+        has_rows = true;
+        if (cells.size() != columns.size())
+          return tell_width(cells, line);
+        for (std::size_t i = 0; i < cells.size(); ++i)
+        {
+          if (is_read[i] == 0)
+            continue;
+          const auto value = number_in(cells[i]);
+          if (!value && !(named && is_missing(cells[i])))
+            return tell_cell(cells[i], line);
+          columns[i].values.push_back(value.value_or(missing));
+          if (columns[i].values.size() > most_rows)
+            throw InputError(file + ": must have at most " + std::to_string(most_rows) + " rows");
+        }
+      }
+
+      std::string rule_of_a_row(const std::string &line) const
+      {
+        return line + ": must be " + (columns.size() == 2 ? "two" : std::to_string(columns.size())) + " numbers";
+      }
+
+      void tell_width(const Names &cells, const std::string &line)
+      {
+        const auto pointed = with_points(line);
+        if (const auto meant = cells_of(pointed); pointed != line && meant.size() == columns.size() && are_numbers(meant))
+          tell_decimal_comma(line);
+        else
+          mistake(named ? "has " + std::to_string(cells.size()) + " cells, the header " + std::to_string(columns.size())
+                        : rule_of_a_row(line));
+      }
+
+      void tell_cell(const std::string &cell, const std::string &line)
+      {
+        if (with_decimal_point(cell))
+          tell_decimal_comma(line);
+        else
+          mistake(named ? cell + ": must be a number" : rule_of_a_row(line));
+      }
+
+      void tell_decimal_comma(const std::string &line)
+      {
+        if (!decimal_commas)
+          mistake(line + ": numbers need a decimal point: " + with_points(line));
+        decimal_commas = true;
+      }
+    };
 
     bool holds_numbers(const Handle &dataset)
     {
@@ -67,32 +270,42 @@ namespace sprag
       return kind == H5T_FLOAT || kind == H5T_INTEGER;
     }
 
-    std::vector<double> read_column(const Handle &file, const std::string &path, const std::string &name, std::string &unit)
+    /// Vectors of MATLAB have two dimensions, one of which is 1. None where more are above that.
+    std::optional<std::size_t> length_of(const Handle &dataset)
     {
-      const Handle dataset(H5Dopen2(file.id(), name.c_str(), H5P_DEFAULT), H5Dclose);
-      if (dataset.id() < 0)
-      {
-        // What has this very name is no dataset.
-        const auto similar = nearest(name, hdf5::names_in(file));
-        throw InputError(path + ": has no dataset '" + name + "' at its root" + (similar != name ? did_you_mean(similar) : ""));
-      }
-      const std::string what = path + ": dataset '" + name + "': ";
       const Handle space(H5Dget_space(dataset.id()), H5Sclose);
-      hsize_t rows = 0;
-      if (H5Sget_simple_extent_ndims(space.id()) != 1 || H5Sget_simple_extent_dims(space.id(), &rows, nullptr) < 0)
-        throw InputError(what + "must have one dimension");
-      if (!holds_numbers(dataset))
-        throw InputError(what + "must hold numbers");
-      if (rows > most_rows)
-        throw InputError(what + "has " + std::to_string(rows) + " numbers: must have at most " + std::to_string(most_rows));
-      std::vector<double> values(rows);
-      if (rows > 0 && H5Dread(dataset.id(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
-        throw InputError(what + "cannot be read");
-      unit = hdf5::text_attribute(dataset, "unit");
-      return values;
+      const int dimensions = H5Sget_simple_extent_ndims(space.id());
+      if (dimensions < 1)
+        return std::nullopt;
+      std::vector<hsize_t> extents(dimensions);
+      H5Sget_simple_extent_dims(space.id(), extents.data(), nullptr);
+      if (std::count_if(extents.begin(), extents.end(), [](const hsize_t extent) { return extent > 1; }) > 1)
+        return std::nullopt;
+      return std::accumulate(extents.begin(), extents.end(), std::size_t{ 1 }, std::multiplies<>());
     }
 
-    TwoColumns read_hdf5(const std::string &path, const ColumnNames &names)
+    void read_dataset(const Handle &group, const std::string &path, NamedColumn &column)
+    {
+      const std::string what = path + ": dataset '" + column.name + "': ";
+      const Handle dataset(H5Dopen2(group.id(), column.name.c_str(), H5P_DEFAULT), H5Dclose);
+      if (dataset.id() < 0)
+        throw InputError(what + "is none");
+      const auto rows = length_of(dataset);
+      if (!rows)
+        throw InputError(what + "must have one dimension, or one above 1");
+      if (!holds_numbers(dataset))
+        throw InputError(what + "must hold numbers");
+      if (*rows > most_rows)
+        throw InputError(what + "has " + std::to_string(*rows) + " numbers: must have at most " + std::to_string(most_rows));
+      column.values.resize(*rows);
+      if (*rows > 0 && H5Dread(dataset.id(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, column.values.data()) < 0)
+        throw InputError(what + "cannot be read");
+      column.unit = hdf5::text_attribute(dataset, "unit");
+      if (column.unit.empty())
+        column.unit = hdf5::text_attribute(dataset, "units");
+    }
+
+    std::pair<std::vector<NamedColumn>, Chosen> read_hdf5(const std::string &path, const Choose &choose)
     {
       if (const auto reason = reason_unreadable(path, largest_table); !reason.empty())
         throw InputError(path + ": " + reason);
@@ -103,76 +316,176 @@ namespace sprag
       const Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.id()), H5Fclose);
       if (file.id() < 0)
         throw InputError(path + ": cannot be read as HDF5");
-
-      TwoColumns table;
-      std::vector<std::string> mistakes;
-      const auto read = [&](std::vector<double> &column, const std::string &name, std::string &unit)
+      const auto at_root = hdf5::names_in(file);
+      const bool grouped = std::find(at_root.begin(), at_root.end(), "table") != at_root.end();
+      const Handle table(H5Gopen2(file.id(), grouped ? "table" : "/", H5P_DEFAULT), H5Gclose);
+      std::vector<NamedColumn> columns;
+      for (const auto &name : hdf5::names_in(table))
+        columns.push_back({ name, "", {} });
+      Names mistakes;
+      Chosen chosen;
+      try
       {
+        chosen = choose(columns);
+      }
+      catch (const InputError &error)
+      {
+        for (const auto &message : error.messages)
+          mistakes.push_back(path + ": " + message);
+      }
+      const NamedColumn *first = nullptr;
+      for (const auto &index : chosen)
         try
         {
-          column = read_column(file, path, name, unit);
+          if (!index)
+            continue;
+          NamedColumn &column = columns[*index];
+          read_dataset(table, path, column);
+          if (first != nullptr && column.values.size() != first->values.size())
+            throw InputError(path + ": dataset '" + column.name + "': must be as long as '" + first->name + "'");
+          first = &column;
         }
         catch (const InputError &error)
         {
           mistakes.push_back(error.what());
         }
-      };
-      read(table.first, names.first, table.first_unit);
-      read(table.second, names.second, table.second_unit);
       if (!mistakes.empty())
         throw InputError(mistakes);
+      return { std::move(columns), chosen };
+    }
+
+    /// The columns whose names satisfy `is_named`.
+    template <class Condition>
+    std::vector<std::size_t> columns_where(const std::vector<NamedColumn> &header, const Condition &is_named)
+    {
+      std::vector<std::size_t> result;
+      for (std::size_t i = 0; i < header.size(); ++i)
+        if (is_named(header[i].name))
+          result.push_back(i);
+      return result;
+    }
+
+    /// Takes the first of the names that there is; of several that differ in capitals alone none can be meant.
+    std::optional<std::size_t> column_called(const std::vector<NamedColumn> &header, const ColumnNames &names)
+    {
+      for (const auto &name : names)
+      {
+        const auto found = columns_where(header, [&](const auto &own) { return lower(own) == lower(name); });
+        if (found.size() > 1)
+          throw InputError("has two columns '" + header[found[0]].name + "'");
+        if (!found.empty())
+          return found.front();
+      }
+      return std::nullopt;
+    }
+
+    bool has_word(const std::string &name, const ColumnNames &words)
+    {
+      Names own;
+      boost::algorithm::split(own, lower(name), [](const unsigned char c) { return std::isalnum(c) == 0; });
+      return std::any_of(words.begin(), words.end(),
+                         [&](const auto &word) { return std::find(own.begin(), own.end(), lower(word)) != own.end(); });
+    }
+
+    /// A column with other words beside its name, as in "sliding speed", which is not that of `other`.
+    std::optional<std::size_t> column_with_word(const std::vector<NamedColumn> &header, const ColumnNames &words,
+                                                const ColumnNames &other)
+    {
+      const auto found = columns_where(header, [&](const auto &name) { return has_word(name, words) && !has_word(name, other); });
+      if (found.size() > 1)
+        throw InputError("'" + header[found[0]].name + "' and '" + header[found[1]].name + "' may both be the column " +
+                         words.front());
+      return found.empty() ? std::nullopt : std::make_optional(found.front());
+    }
+
+    Chosen choose_two(const std::vector<NamedColumn> &header, const ColumnNames &first, const ColumnNames &second,
+                      const bool is_ordered)
+    {
+      Chosen found;
+      for (const auto &[names, other] : { std::tie(first, second), std::tie(second, first) })
+      {
+        found.push_back(column_called(header, names));
+        if (!found.back())
+          found.back() = column_with_word(header, names, other);
+      }
+      if (is_ordered && header.size() == 2)
+        for (std::size_t i = 0; i < 2; ++i)
+          if (!found[i] && found[1 - i] != i)
+            found[i] = i;
+      Names mistakes, names;
+      for (const auto &column : header)
+        names.push_back(column.name);
+      for (std::size_t i = 0; i < 2; ++i)
+        if (!found[i])
+        {
+          const auto &own = (i == 0 ? first : second).front();
+          mistakes.push_back("has no column '" + own + "': it has " + boost::algorithm::join(names, ", "));
+        }
+      if (!mistakes.empty())
+        throw InputError(mistakes);
+      return found;
+    }
+
+    bool is_hdf5(const std::string &file)
+    {
+      const auto ending = std::filesystem::path(file).extension();
+      return ending == ".h5" || ending == ".hdf5";
+    }
+
+    NamedColumns read_table(const std::string &file, const Choose &choose, const bool named)
+    {
+      auto [columns, chosen] = is_hdf5(file) ? read_hdf5(file, choose) : TextReader(file, choose, named).read();
+      NamedColumns table;
+      for (std::size_t i = 0; i < columns.size(); ++i)
+      {
+        table.names.push_back(columns[i].name);
+        if (std::find(chosen.begin(), chosen.end(), i) == chosen.end())
+          table.unused.push_back(columns[i].name);
+      }
+      for (const auto &index : chosen)
+        table.columns.push_back(index ? std::move(columns[*index]) : NamedColumn{});
       return table;
     }
   } // namespace
 
-  TwoColumns read_two_columns(const std::string &file)
+  NamedColumns read_columns(const std::string &file, const std::vector<ColumnNames> &wanted)
   {
-    std::istringstream input(content_of_file(file, largest_table));
-    TwoColumns table;
-    std::vector<std::string> mistakes;
-    bool header_possible = true;
-    bool decimal_commas  = false;
-    std::string line;
-    for (unsigned int number = 1; std::getline(input, line); ++number)
+    const auto choose = [&](const std::vector<NamedColumn> &header)
     {
-      line = trim(line.substr(0, line.find('#')));
-      if (line.empty())
-        continue;
-      if (const auto row = two_numbers(line))
-      {
-        table.first.push_back(row->first);
-        table.second.push_back(row->second);
-      }
-      else if (const auto pointed = with_decimal_points(line))
-      {
-        if (!decimal_commas)
-          mistakes.push_back(file + ":" + std::to_string(number) + ": " + line + ": numbers need a decimal point: " + *pointed);
-        decimal_commas = true;
-      }
-      else if (!header_possible || leading_number(line))
-        mistakes.push_back(file + ":" + std::to_string(number) + ": " + line + ": must be two numbers");
-      else
-        table.header = line;
-      header_possible = false;
+      Chosen result;
+      for (const auto &names : wanted)
+        result.push_back(column_called(header, names));
+      return result;
+    };
+    return read_table(file, choose, true);
+  }
+
+  NamedColumns read_two_columns(const std::string &file, const ColumnNames &first, const ColumnNames &second)
+  {
+    const bool is_ordered = !is_hdf5(file);
+    return read_table(
+        file, [&](const auto &header) { return choose_two(header, first, second, is_ordered); }, false);
+  }
+
+  double factor_to(const std::string &unit, const NamedColumn &column)
+  {
+    try
+    {
+      return column.unit.empty() ? 1. : unit_factor(column.unit, unit);
     }
-    if (mistakes.empty() && table.first.empty())
-      mistakes.push_back(file + ": holds no numbers");
-    if (!mistakes.empty())
-      throw InputError(mistakes);
-    return table;
+    catch (const InputError &error)
+    {
+      throw InputError("column '" + column.name + "': must be " + (unit.empty() ? "without unit" : "in " + unit) + ": " +
+                       error.what());
+    }
   }
 
-  bool exchanged_columns(const std::string &header, const std::vector<std::string> &first, const std::vector<std::string> &second)
+  std::vector<double> values_in(const std::string &unit, const NamedColumn &column)
   {
-    const auto cells        = cells_of(header);
-    const auto is_alone_for = [](const std::string &cell, const auto &meant, const auto &other)
-    { return has_word(cell, meant) && !has_word(cell, other); };
-    return cells.size() == 2 && is_alone_for(cells[0], second, first) && is_alone_for(cells[1], first, second);
-  }
-
-  TwoColumns read_table(const std::string &file, const ColumnNames &names)
-  {
-    const auto ending = std::filesystem::path(file).extension();
-    return ending == ".h5" || ending == ".hdf5" ? read_hdf5(file, names) : read_two_columns(file);
+    auto result         = column.values;
+    const double factor = factor_to(unit, column);
+    for (double &value : result)
+      value *= factor;
+    return result;
   }
 } // namespace sprag

@@ -5,32 +5,40 @@
 
 namespace sprag
 {
-  struct TwoColumns
+  struct NamedColumn
   {
-    std::string header; ///< of a text: the line before the first row, empty where there is none
-    std::vector<double> first;
-    std::vector<double> second;
-    std::string first_unit; ///< of a dataset: its attribute "unit", empty where it has none
-    std::string second_unit;
+    std::string name;
+    std::string unit; ///< as it was written; empty: none
+    std::vector<double> values;
   };
 
-  /// Reads two columns of numbers separated by a comma, a semicolon or white space. A header before the first row of numbers,
-  /// empty lines and everything behind a # are passed over. Throws InputError with one message a faulty line, each naming file
-  /// and line, but one alone for decimal commas; an unreadable file or one without numbers is an error too.
-  TwoColumns read_two_columns(const std::string &file);
+  /// What a column may be called; capitals do not count. Messages name the first one.
+  using ColumnNames = std::vector<std::string>;
 
-  /// Returns whether a header names the columns in the other order: the first by a word for the second alone, and the other way
-  /// round. The words are in lower case.
-  bool exchanged_columns(const std::string &header, const std::vector<std::string> &first,
-                         const std::vector<std::string> &second);
-
-  struct ColumnNames
+  struct NamedColumns
   {
-    std::string first;
-    std::string second;
+    std::vector<NamedColumn> columns; ///< those asked for, in their order; one that the file lacks has neither name nor values
+    std::vector<std::string> names;   ///< of all columns of the file
+    std::vector<std::string> unused;  ///< names of the others
   };
 
-  /// Reads two columns of numbers: from the datasets of these names, one-dimensional and at the root, where the file's name ends
-  /// in .h5 or .hdf5, otherwise from a text, see read_two_columns(). Throws InputError naming the file. HDF5 prints nothing.
-  TwoColumns read_table(const std::string &file, const ColumnNames &names);
+  // Tables are texts, or HDF5 where the file's name ends in .h5 or .hdf5. Cells of a text are separated by semicolons, tabs,
+  // commas or other white space; a byte-order mark, empty lines and everything behind a # are passed over. A first line without
+  // any number is a header: names with units in brackets, as in "time [s], Q [N]". Of HDF5 columns are datasets at the root, or
+  // in a group `table` where there is one, with at most one dimension above 1 and the unit in the attribute `unit` or `units`.
+  // All functions throw InputError with one message a faulty line or column, naming the file; decimal commas are told once. HDF5
+  // prints nothing.
+
+  /// Reads the columns of these names. A text must have a header; an empty cell is NaN.
+  NamedColumns read_columns(const std::string &file, const std::vector<ColumnNames> &wanted);
+
+  /// Reads two columns of finite numbers. The names in a header may hold other words beside those asked for; without header, and
+  /// under one of two columns that names neither, the first column is the first.
+  NamedColumns read_two_columns(const std::string &file, const ColumnNames &first, const ColumnNames &second);
+
+  /// Returns the values in a unit; those of a column without unit are in it already. Throws InputError naming the column.
+  std::vector<double> values_in(const std::string &unit, const NamedColumn &column);
+
+  /// Returns the factor to this unit from that of the column, 1 where it has none. Throws InputError naming the column.
+  double factor_to(const std::string &unit, const NamedColumn &column);
 } // namespace sprag

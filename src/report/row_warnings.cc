@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <variant>
 
 namespace sprag
 {
@@ -241,6 +242,25 @@ namespace sprag
                            "The works loop_area and friction_work are off by some ten times that share; P and Q are not.",
                            "Set Analysis/Step to a quarter of that length; if the gap remains, refine Mesh/Face size." });
     }
+
+    /// Beyond its last row a table is constant.
+    void add_speed_of_friction(const Scene &scene, const std::vector<Row> &rows, Warnings &warnings)
+    {
+      const auto *table = std::get_if<TabulatedFriction>(&scene.friction.law);
+      if (table == nullptr)
+        return;
+      const Column column = scene.friction.speed == FrictionSpeed::drive ? Column::v : Column::v_rel;
+      const Row *fastest  = row_of_largest(rows, [=](const Row &row) { return std::abs(row[column]); });
+      const double last   = table->knots().back();
+      // Speeds of a drive that is a table too have round-off.
+      if (fastest == nullptr || std::abs((*fastest)[column]) <= (1. + 1e-6) * last)
+        return;
+      warnings.push_back({ "speed_beyond_table",
+                           "The speed that friction depends on is " + rounded_text(std::abs((*fastest)[column])) + " mm/s " +
+                               place(*fastest) + "; Friction/Table ends at " + rounded_text(last) + " mm/s.",
+                           "There mu is that of the table's last row: P, Q and work follow from a guess.",
+                           "A table that goes on to this speed, if only by a row with the same mu." });
+    }
   } // namespace
 
   std::optional<double> layer_strength(const FrictionLayer &layer)
@@ -273,6 +293,7 @@ namespace sprag
     add_strain(scene, rows, warnings);
     add_pressure(scene, rows, *peak, warnings);
     add_energy(scene, rows, warnings);
+    add_speed_of_friction(scene, rows, warnings);
     return warnings;
   }
 

@@ -1,12 +1,15 @@
 #include "report/warnings.h"
 
+#include "base/append.h"
 #include "base/text.h"
+#include "results/columns.h"
 #include "scene/closed_form.h"
 #include "scene/scene.h"
 #include "scene/sections.h"
 
 #include <algorithm>
 #include <cmath>
+#include <variant>
 
 namespace sprag
 {
@@ -28,6 +31,14 @@ namespace sprag
     // With that many times the cylinder's sagitta between two points of the face P is 1 % off, with a tenth of that 10 %.
     constexpr double least_opening     = 20.;
     constexpr double points_of_element = 10.;
+
+    // Changes of speed, over the largest speed and over the range of x, and how many must turn, in number and of all such
+    // changes. White noise turns 73 % of them, steps of a resolution half or more, ten rows a period of a real vibration a fifth.
+    constexpr double least_shaking        = 0.005;
+    constexpr double most_of_range        = 0.05;
+    constexpr unsigned int fewest_turns   = 20;
+    constexpr double least_share_of_turns = 0.3;
+    constexpr unsigned int n_looks        = 2000;
 
     bool follows_drive(const Scene &scene)
     {
@@ -225,6 +236,105 @@ namespace sprag
                              "The run ends where the lever jams, unless it bends enough to slide on.",
                              "Take a smaller friction coefficient, Geometry/Interface offset or Drive/Stroke." });
     }
+
+    struct Shaking
+    {
+      unsigned int turns = 0;  ///< of the speed's change from one interval to the next
+      double share       = 0.; ///< of these among all such changes
+      double largest     = 0.; ///< change of speed [mm/s]
+
+      bool is_told() const
+      {
+        return turns >= fewest_turns && share >= least_share_of_turns;
+      }
+    };
+
+    /// Looks at mean speeds between the given times.
+    Shaking shaking_between(const std::vector<double> &times, const Drive &drive)
+    {
+      const double range = drive.maximum() - drive.minimum();
+      Shaking found;
+      unsigned int changes = 0;
+      double speed = 0., before = 0.;
+      for (std::size_t i = 1; i < times.size(); ++i)
+      {
+        const double time   = times[i] - times[i - 1];
+        const double next   = (drive.at(times[i]).x - drive.at(times[i - 1]).x) / time;
+        const double change = i > 1 ? next - speed : 0.;
+        speed               = next;
+        // A drive that turns goes far in between, unlike one that trembles.
+        const bool counts =
+            std::abs(change) > least_shaking * drive.peak_speed() && std::abs(change) * time < most_of_range * range;
+        changes += counts;
+        if (counts && change * before < 0.)
+        {
+          ++found.turns;
+          found.largest = std::max(found.largest, std::abs(change));
+        }
+        before = counts ? change : 0.;
+      }
+      found.share = changes > 0 ? static_cast<double>(found.turns) / changes : 0.;
+      return found;
+    }
+
+    /// A table of up to 2000 rows has all of them as kinks, a longer one is looked at as often.
+    Shaking shaking_of(const Drive &drive)
+    {
+      std::vector<double> rows = drive.kinks(), even;
+      rows.insert(rows.begin(), 0.);
+      rows.push_back(drive.duration());
+      for (unsigned int i = 0; i <= n_looks; ++i)
+        even.push_back(drive.duration() * i / n_looks);
+      const auto of_rows = shaking_between(rows, drive);
+      return of_rows.is_told() ? of_rows : shaking_between(even, drive);
+    }
+
+    /// Without inertia speeds count by the friction coefficient alone.
+    void add_shaking(const Scene &scene, Warnings &warnings)
+    {
+      const bool by_speed =
+          scene.analysis.type == AnalysisType::transient || !std::holds_alternative<CoulombFriction>(scene.friction.law);
+      if (!follows_drive(scene) || scene.drive.profile() != DriveProfile::table || !by_speed)
+        return;
+      const auto found = shaking_of(scene.drive);
+      if (!found.is_told())
+        return;
+      warnings.push_back({ "shaking_drive",
+                           "The speed of Drive/Table goes up and down again from row to row, " + std::to_string(found.turns) +
+                               " times, by up to " + rounded_text(found.largest) + " mm/s; its largest is " +
+                               rounded_text(scene.drive.peak_speed()) +
+                               " mm/s. So do positions of coarse resolution or with noise.",
+                           "The cylinder is shaken like that: in time P and Q ring with it, and friction follows its speeds.",
+                           "Give Drive/Smoothing, some 30 times the rows' distance in time, if the real motion is smooth." });
+    }
+
+    /// Those that a run writes, be it of a pair or in three dimensions, cannot be misspelt.
+    bool is_written_by_sprag(const std::string &column)
+    {
+      MirroredPair pair;
+      pair.type      = PairType::full;
+      const auto all = table_columns({}, pair, 3);
+      return column.rfind("sensor_", 0) == 0 ||
+             std::any_of(all.begin(), all.end(), [&](const ColumnInfo &info) { return info.name == column; });
+    }
+
+    void add_unused_columns(const Scene &scene, Warnings &warnings)
+    {
+      std::string found;
+      for (const auto &[parameter, columns] : scene.unused_columns)
+      {
+        std::string names;
+        for (const auto &name : columns)
+          if (!name.empty() && !is_written_by_sprag(name))
+            names += (names.empty() ? "" : ", ") + name;
+        if (!names.empty())
+          found += (found.empty() ? "" : " ") + std::string("Of ") + parameter + " these columns are not used: " + names + '.';
+      }
+      if (!found.empty())
+        warnings.push_back(
+            { "unused_columns", found, "What they hold is in no result.",
+              "Nothing, if none of them was meant; a column that is meant needs its name, see params/README.md." });
+    }
   } // namespace
 
   Warnings scene_warnings(const Scene &scene)
@@ -239,6 +349,9 @@ namespace sprag
     add_plane_stress(scene, warnings);
     add_opening(scene, warnings);
     add_locking(scene, warnings);
+    add_shaking(scene, warnings);
+    append(warnings, implausible_values(scene));
+    add_unused_columns(scene, warnings);
     return warnings;
   }
 } // namespace sprag

@@ -11,10 +11,10 @@ namespace sprag
     // A design may ask for what an isolated table does.
     const auto type = scene.analysis.type;
     if (type == AnalysisType::isolation || type == AnalysisType::design)
-      read_isolation_tables(scene.isolation, report);
+      read_isolation_tables(scene.isolation, scene.unused_columns, report);
     if (type == AnalysisType::design)
       read_design(scene.design, declared, report);
     if (type == AnalysisType::identification)
-      read_identification(scene.identification, report);
+      read_identification(scene.identification, scene.unused_columns, report);
   }
 } // namespace sprag

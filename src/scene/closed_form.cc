@@ -42,16 +42,19 @@ namespace sprag
       return friction_coefficient(friction, std::abs(friction.speed == FrictionSpeed::drive ? v : v_rel));
     }
 
+    constexpr unsigned int depth_of_smooth_drives = 12;
+    constexpr unsigned int depth_of_tables        = 4;
+
     /// Integral over time of a power without a jump in v. Over the unit interval, because the library compares its error there
     /// with the tolerance times the interval's length. Late in a long drive the rounding of the time limits what can be asked
-    /// for.
-    double integral(const std::function<double(double)> &power, const double begin, const double end)
+    /// for. The interval is halved at most `depth` times.
+    double integral(const std::function<double(double)> &power, const double begin, const double end, const unsigned int depth)
     {
       const double duration  = end - begin;
       const double rounding  = std::numeric_limits<double>::epsilon() * end / duration;
       const double tolerance = std::max(1e-12, 8. * rounding);
       return duration * boost::math::quadrature::gauss_kronrod<double, 31>::integrate(
-                            [&](const double part) { return power(begin + part * duration); }, 0., 1., 12, tolerance);
+                            [&](const double part) { return power(begin + part * duration); }, 0., 1., depth, tolerance);
     }
 
     /// s - mu e while moving back at v < 0, positive where the lever slides [mm].
@@ -176,19 +179,22 @@ namespace sprag
       return state.F * state.v_rel;
     };
 
+    // The acceleration jumps at the rows of a table. A short one has them as kinks; in a long one they lie so close that
+    // works are within 1e-7 with fewer points than rows, whose number a step would cost otherwise.
+    const bool is_table      = drive.profile() == DriveProfile::table;
+    const unsigned int depth = is_table ? depth_of_tables : depth_of_smooth_drives;
     Work work;
     const auto add = [&](const double from, const double to)
     {
-      work.drive += integral(drive_power, from, to);
-      work.friction += integral(friction_power, from, to);
+      work.drive += integral(drive_power, from, to, depth);
+      work.friction += integral(friction_power, from, to, depth);
     };
-    double from           = begin;
-    const auto &reversals = drive.reversals();
-    for (auto reversal = std::upper_bound(reversals.begin(), reversals.end(), begin);
-         reversal != reversals.end() && *reversal < end; ++reversal)
+    double from       = begin;
+    const auto &kinks = is_table ? drive.kinks() : drive.reversals();
+    for (auto kink = std::upper_bound(kinks.begin(), kinks.end(), begin); kink != kinks.end() && *kink < end; ++kink)
     {
-      add(from, *reversal);
-      from = *reversal;
+      add(from, *kink);
+      from = *kink;
     }
     add(from, end);
     return work;

@@ -1,14 +1,13 @@
 #include "scene/identification_text.h"
 
 #include "base/errors.h"
-#include "base/named_columns.h"
+#include "base/table_file.h"
 #include "base/text.h"
 
 #include <boost/algorithm/string/join.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 namespace sprag
 {
@@ -74,41 +73,20 @@ namespace sprag
         report("Identification/Friction speeds", "must be at least 4 speeds that increase");
     }
 
-    /// Factor to mm, s and N.
-    double factor_of(const NamedColumn &column, const Choices<double> &units)
-    {
-      const auto words = words_of(units);
-      if (column.unit.empty())
-        throw InputError("column '" + column.name + "' has no unit: write it in brackets, as in '" + column.name + " [" +
-                         words.front() + "]', or as the dataset's attribute 'unit'");
-      if (!contains(words, column.unit))
-        throw InputError("column '" + column.name + "': unit '" + column.unit + "' must be one of " +
-                         boost::algorithm::join(words, ", "));
-      return value_for(units, column.unit);
-    }
-
     /// Puts the columns that are known into the stroke.
     class StrokeReader
     {
     public:
       explicit StrokeReader(const std::string &file)
+          : table(read_columns(file, known_columns()))
       {
-        Names wanted = { "time", "t", "x", "P", "Q", "sensor_sum" };
-        for (unsigned int i = 1; i <= most_sensors; ++i)
-          wanted.push_back("sensor_" + std::to_string(i));
-        for (auto &column : read_named_columns(file, wanted, found))
-          if (!columns.emplace(column.name, column).second)
-            throw InputError("has two columns '" + column.name + "'");
       }
 
-      MeasuredStroke stroke(const std::vector<MeasuredForce> &wanted, const bool all)
+      MeasuredStroke stroke(const std::vector<MeasuredForce> &wanted, const bool all) const
       {
         MeasuredStroke result;
-        const Choices<double> seconds = { { "s", 1. }, { "ms", 1e-3 } };
-        result.time                   = values("time", seconds);
-        if (result.time.empty())
-          result.time = values("t", seconds);
-        result.x = values("x", { { "mm", 1. }, { "cm", 10. }, { "m", 1000. } });
+        result.time = values(time, "s");
+        result.x    = values(position, "mm");
         for (const auto &[word, force] : force_words())
         {
           if (!all && !contains(wanted, force))
@@ -116,43 +94,65 @@ namespace sprag
           if (auto forces = values_of(force); !forces.empty())
             result.channels.push_back({ force, std::move(forces) });
           else if (!all)
-            throw InputError("has no column for " + word + ": it has " + boost::algorithm::join(found, ", "));
+            throw InputError("has no column for " + word + ": it has " + names());
         }
         if (result.channels.empty())
-          throw InputError("has no column P, Q, sensor_sum or sensor_1: it has " + boost::algorithm::join(found, ", "));
+          throw InputError("has no column P, Q, sensor_sum or sensor_1: it has " + names());
         if (result.rows() == 0)
-          throw InputError("has no column time or x: it has " + boost::algorithm::join(found, ", "));
+          throw InputError("has no column time or x: it has " + names());
         return result;
       }
 
-    private:
-      static constexpr unsigned int most_sensors = 16;
-      Names found;
-      std::map<std::string, NamedColumn> columns;
-
-      std::vector<double> values(const std::string &name, const Choices<double> &units) const
+      const Names &unused() const
       {
-        const auto column = columns.find(name);
-        if (column == columns.end())
-          return {};
-        const double factor = factor_of(column->second, units);
-        auto result         = column->second.values;
-        for (double &value : result)
-          value *= factor;
+        return table.unused;
+      }
+
+    private:
+      // Places of the columns in the table.
+      enum Place : std::size_t
+      {
+        time,
+        position,
+        normal,
+        drive,
+        sensor_sum,
+        first_sensor
+      };
+      static constexpr unsigned int most_sensors = 16;
+      const NamedColumns table;
+
+      static std::vector<ColumnNames> known_columns()
+      {
+        std::vector<ColumnNames> result = { { "time", "t" }, { "x" }, { "P" }, { "Q" }, { "sensor_sum" } };
+        for (unsigned int i = 1; i <= most_sensors; ++i)
+          result.push_back({ "sensor_" + std::to_string(i) });
         return result;
+      }
+
+      std::string names() const
+      {
+        return boost::algorithm::join(table.names, ", ");
+      }
+
+      /// Empty where there is no such column.
+      std::vector<double> values(const std::size_t place, const std::string &unit) const
+      {
+        const NamedColumn &column = table.columns[place];
+        if (!column.values.empty() && column.unit.empty())
+          throw InputError("column '" + column.name + "' has no unit: write it in brackets, as in '" + column.name + " [" + unit +
+                           "]', or as the dataset's attribute 'unit'");
+        return values_in(unit, column);
       }
 
       std::vector<double> values_of(const MeasuredForce force) const
       {
-        const Choices<double> newtons = { { "N", 1. }, { "mN", 1e-3 }, { "kN", 1000. } };
-        if (force == MeasuredForce::normal)
-          return values("P", newtons);
-        if (force == MeasuredForce::drive)
-          return values("Q", newtons);
-        auto sum = values("sensor_sum", newtons);
-        for (unsigned int i = 1; sum.empty() || i > 1; ++i)
+        if (force != MeasuredForce::sensors)
+          return values(force == MeasuredForce::normal ? normal : drive, "N");
+        auto sum = values(sensor_sum, "N");
+        for (std::size_t i = 0; i < most_sensors && (sum.empty() || i > 0); ++i)
         {
-          const auto one = values("sensor_" + std::to_string(i), newtons);
+          const auto one = values(first_sensor + i, "N");
           if (one.empty())
             break;
           sum.resize(one.size(), 0.);
@@ -206,7 +206,7 @@ namespace sprag
     return all;
   }
 
-  void read_identification(IdentificationSettings &settings, const ReportMistake &report)
+  void read_identification(IdentificationSettings &settings, UnusedColumns &unused, const ReportMistake &report)
   {
     read_unknowns(settings, report);
     const bool all = settings.forces == "auto";
@@ -219,9 +219,11 @@ namespace sprag
       return;
     try
     {
-      auto stroke = StrokeReader(settings.table).stroke(forces, all);
+      const StrokeReader reader(settings.table);
+      auto stroke = reader.stroke(forces, all);
       need_usable(stroke);
-      settings.measured = std::move(stroke);
+      settings.measured       = std::move(stroke);
+      unused[table_parameter] = reader.unused();
     }
     catch (const InputError &error)
     {

@@ -11,5 +11,5 @@ namespace sprag
   const Choices<MeasuredForce> &force_words();
 
   /// Reads the texts of the settings and the table, whose path is absolute or empty, and reports what is wrong with them.
-  void read_identification(IdentificationSettings &settings, const ReportMistake &report);
+  void read_identification(IdentificationSettings &settings, UnusedColumns &unused, const ReportMistake &report);
 } // namespace sprag

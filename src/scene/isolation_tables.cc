@@ -5,9 +5,8 @@
 #include "base/text.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
-#include <optional>
-#include <regex>
 
 namespace sprag
 {
@@ -27,14 +26,16 @@ namespace sprag
           throw InputError(row_label(i) + name + " " + number_text(samples.at[i]) + ": must be more than in the row before");
     }
 
-    /// The row of the largest x ends the way out and begins that back.
-    DamperLoop loop_of(const TwoColumns &table)
+    /// The row of the largest x ends the way out and begins that back; of two such rows, between which Q jumps, each does one.
+    DamperLoop loop_of(const std::vector<double> &x, const std::vector<double> &forces)
     {
-      const auto &x    = table.first;
-      const auto turn  = std::max_element(x.begin(), x.end()) - x.begin();
-      const auto until = [&](const std::vector<double> &all) { return std::vector<double>(all.begin(), all.begin() + turn + 1); };
-      const auto after = [&](const std::vector<double> &all) { return std::vector<double>(all.rbegin(), all.rend() - turn); };
-      DamperLoop loop{ { until(x), until(table.second) }, { after(x), after(table.second) } };
+      const auto largest = std::max_element(x.begin(), x.end()) - x.begin();
+      const auto begin =
+          largest + 1 < static_cast<std::ptrdiff_t>(x.size()) && x[largest + 1] == x[largest] ? largest + 1 : largest;
+      const auto until = [&](const std::vector<double> &all)
+      { return std::vector<double>(all.begin(), all.begin() + largest + 1); };
+      const auto after = [&](const std::vector<double> &all) { return std::vector<double>(all.rbegin(), all.rend() - begin); };
+      DamperLoop loop{ { until(x), until(forces) }, { after(x), after(forces) } };
       for (const auto &[way, samples] :
            { std::make_pair("on the way out: ", loop.out), std::make_pair("on the way back: ", loop.back) })
       {
@@ -71,47 +72,24 @@ namespace sprag
       return all.at(unit);
     }
 
-    std::optional<AccelerationUnit> known_unit(const std::string &word)
+    /// Factor to mm/s^2, of a spectrum to its square per Hz. What the file says must not contradict the scene.
+    double factor_of(const AccelerationUnit given, const NamedColumn &column, const bool is_spectrum)
     {
-      static const std::map<std::string, AccelerationUnit> words = {
-        { "mm/s2", AccelerationUnit::mm_s2 },  { "mm/s^2", AccelerationUnit::mm_s2 }, { "cm/s2", AccelerationUnit::cm_s2 },
-        { "cm/s^2", AccelerationUnit::cm_s2 }, { "gal", AccelerationUnit::cm_s2 },    { "m/s2", AccelerationUnit::m_s2 },
-        { "m/s^2", AccelerationUnit::m_s2 },   { "g", AccelerationUnit::g }
-      };
-      const auto found = words.find(word);
-      return found != words.end() ? std::make_optional(found->second) : std::nullopt;
-    }
-
-    /// What stands in brackets behind the second column's name, as in "acceleration [m/s2]".
-    std::string unit_in(const std::string &header)
-    {
-      std::smatch found;
-      static const std::regex second("[,;].*\\[\\s*([^\\]]*?)\\s*\\]\\s*$|\\]\\s+\\S*\\s*\\[\\s*([^\\]]*?)\\s*\\]\\s*$");
-      if (!std::regex_search(header, found, second))
-        return {};
-      return found[1].matched ? found[1].str() : found[2].str();
-    }
-
-    /// A dataset's own unit counts first; the scene's must not contradict it. Of a spectrum, whose unit is squared per Hz,
-    /// nothing is read.
-    AccelerationUnit unit_of(const AccelerationUnit given, const TwoColumns &table, const bool is_spectrum)
-    {
-      const bool is_given = given != AccelerationUnit::from_file;
-      if (!is_spectrum && !table.first_unit.empty() && table.first_unit != "s")
-        throw InputError("dataset 'time': its unit is " + table.first_unit + ", must be s");
-      const auto of_dataset = is_spectrum ? std::nullopt : known_unit(table.second_unit);
-      if (of_dataset && is_given && *of_dataset != given)
-        throw InputError("dataset 'acceleration': its unit is " + table.second_unit + ", which Isolation/Base unit contradicts");
-      if (of_dataset)
-        return *of_dataset;
-      if (is_given)
-        return given;
-      if (const auto of_header = is_spectrum ? std::nullopt : known_unit(unit_in(table.header)))
-        return *of_header;
-      throw InputError("the unit of the acceleration is not known: give Isolation/Base unit = mm/s2, cm/s2, m/s2 or g" +
-                       std::string(is_spectrum ? ""
-                                               : ", or a header as 'time [s], acceleration [m/s2]', or in HDF5 the dataset's "
-                                                 "attribute unit"));
+      const bool is_given       = given != AccelerationUnit::from_file;
+      const double acceleration = is_given ? in_mm_s2(given) : 1.;
+      const double of_scene     = is_spectrum ? acceleration * acceleration : acceleration;
+      if (column.unit.empty() && !is_given)
+        throw InputError(
+            "the unit of the acceleration is not known: give Isolation/Base unit = mm/s2, cm/s2, m/s2 or g, or a "
+            "header as " +
+            std::string(is_spectrum ? "'frequency [Hz], density [(m/s2)^2/Hz]'" : "'time [s], acceleration [m/s2]'") +
+            ", or in HDF5 the dataset's attribute unit");
+      if (column.unit.empty())
+        return of_scene;
+      const double of_file = factor_to(is_spectrum ? "(mm/s2)^2/Hz" : "mm/s2", column);
+      if (is_given && std::abs(of_file / of_scene - 1.) > 1e-9)
+        throw InputError("column '" + column.name + "': its unit is " + column.unit + ", which Isolation/Base unit contradicts");
+      return of_file;
     }
 
     void need_spectrum(const Samples &spectrum)
@@ -128,36 +106,39 @@ namespace sprag
         throw InputError("must have a density above 0");
     }
 
-    void read_base(IsolationSettings &settings)
+    void read_base(IsolationSettings &settings, UnusedColumns &unused)
     {
       const bool is_spectrum = settings.base == BaseMotionType::random;
-      const auto table       = read_table(settings.base_file,
-                                    is_spectrum ? ColumnNames{ "frequency", "density" } : ColumnNames{ "time", "acceleration" });
-      const double factor    = in_mm_s2(unit_of(settings.unit, table, is_spectrum));
-      settings.base_table    = { table.first, table.second };
+      const auto table    = is_spectrum ? read_two_columns(settings.base_file, { "frequency", "freq", "f" }, { "density", "psd" })
+                                        : read_two_columns(settings.base_file, { "time", "t" }, { "acceleration", "acc", "a" });
+      const double factor = factor_of(settings.unit, table.columns[1], is_spectrum);
+      settings.base_table = { values_in(is_spectrum ? "Hz" : "s", table.columns[0]), table.columns[1].values };
       need_increasing(settings.base_table, is_spectrum ? "frequency" : "time");
       if (is_spectrum)
         need_spectrum(settings.base_table);
       else if (settings.base_table.at.front() != 0.)
         throw InputError("row 1: time " + number_text(settings.base_table.at.front()) + " s: must be 0");
       for (double &value : settings.base_table.values)
-        value *= is_spectrum ? factor * factor : factor;
+        value *= factor;
+      unused[base_parameter] = table.unused;
     }
 
-    void read_loop(IsolationSettings &settings)
+    void read_loop(IsolationSettings &settings, UnusedColumns &unused)
     {
-      settings.loop = loop_of(read_table(settings.loop_file, { "x", "Q" }));
+      const auto table       = read_two_columns(settings.loop_file, { "x", "displacement", "position" }, { "Q", "force" });
+      settings.loop          = loop_of(values_in("mm", table.columns[0]), values_in("N", table.columns[1]));
+      unused[loop_parameter] = table.unused;
       need_dissipation(settings.loop);
     }
 
     void read_file(IsolationSettings &settings, const std::string &parameter, const std::string &file,
-                   void (*read)(IsolationSettings &), const ReportMistake &report)
+                   void (*read)(IsolationSettings &, UnusedColumns &), UnusedColumns &unused, const ReportMistake &report)
     {
       if (file.empty())
         return report(parameter, "must name a file");
       try
       {
-        read(settings);
+        read(settings, unused);
       }
       catch (const InputError &error)
       {
@@ -167,12 +148,12 @@ namespace sprag
     }
   } // namespace
 
-  void read_isolation_tables(IsolationSettings &settings, const ReportMistake &report)
+  void read_isolation_tables(IsolationSettings &settings, UnusedColumns &unused, const ReportMistake &report)
   {
     if (settings.damper == DamperType::loop)
-      read_file(settings, loop_parameter, settings.loop_file, read_loop, report);
+      read_file(settings, loop_parameter, settings.loop_file, read_loop, unused, report);
     if (settings.base == BaseMotionType::record ||
         (settings.base == BaseMotionType::random && settings.spectrum == BaseSpectrum::table))
-      read_file(settings, base_parameter, settings.base_file, read_base, report);
+      read_file(settings, base_parameter, settings.base_file, read_base, unused, report);
   }
 } // namespace sprag

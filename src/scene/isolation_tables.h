@@ -3,13 +3,18 @@
 #include "scene/isolation.h"
 
 #include <functional>
+#include <map>
 #include <string>
+#include <vector>
 
 namespace sprag
 {
   /// Takes the full name of a parameter and the rule that it breaks.
   using ReportMistake = std::function<void(const std::string &parameter, const std::string &rule)>;
 
+  /// By the parameter that names a table, the columns of it that were not used.
+  using UnusedColumns = std::map<std::string, std::vector<std::string>>;
+
   /// Reads the files that the settings use, whose paths are absolute or empty, and reports what is wrong with them.
-  void read_isolation_tables(IsolationSettings &settings, const ReportMistake &report);
+  void read_isolation_tables(IsolationSettings &settings, UnusedColumns &unused, const ReportMistake &report);
 } // namespace sprag

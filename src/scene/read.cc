@@ -2,6 +2,7 @@
 
 #include "base/append.h"
 #include "base/errors.h"
+#include "base/local_regression.h"
 #include "base/table_file.h"
 #include "base/text.h"
 #include "scene/accuracy.h"
@@ -30,16 +31,6 @@ namespace sprag
     std::string rounded_down_text(const double value)
     {
       return rounded_text(value * (1. - 5e-6));
-    }
-
-    /// How the header of a table may call a column.
-    std::vector<std::string> words_for(const std::string &column)
-    {
-      const std::map<std::string, std::vector<std::string>> words = { { "time", { "time", "t" } },
-                                                                      { "x", { "x", "position", "displacement" } },
-                                                                      { "speed", { "speed", "velocity", "v" } },
-                                                                      { "mu", { "mu", "coefficient", "friction" } } };
-      return words.at(column);
     }
 
     const char *const time_tolerance = "Time/Tolerance";
@@ -118,6 +109,8 @@ namespace sprag
             parameter.store(given->second.value);
             if (input.scene.chosen.count(given->first) == 0)
               input.scene.given.insert(given->first);
+            if (!given->second.written.empty())
+              input.scene.written.emplace(given->first, given->second.written);
           }
         input.scene.slope.maximum_inclination = input.maximum_inclination * M_PI / 180.;
         resolve("Drive/Table", input.drive.table);
@@ -200,12 +193,27 @@ namespace sprag
       {
         const DriveSettings &drive = input.drive;
         if (drive.profile == DriveProfile::table)
-          return use_table("Drive/Table", drive.table, { "time", "x" },
-                           [this](const auto &table) { input.scene.drive = Drive(table.first, table.second); });
+          return use_table("Drive/Table", drive.table, { { "time", "t" }, "s" }, { { "x", "position", "displacement" }, "mm" },
+                           [&](const auto &times, const auto &positions)
+                           { input.scene.drive = Drive(times, smoothed(times, positions)); });
         if (drive.stroke > drive.start)
           input.scene.drive = Drive(drive.profile, drive.start, drive.stroke, drive.speed, drive.cycles, reversal_duration());
         else if (!doubtful("Drive/Stroke") && !doubtful("Drive/Start"))
           report("Drive/Stroke", "must be more than Start = " + mm(drive.start));
+      }
+
+      /// A fit below the lowest row would be a drive that goes farther back than was measured.
+      std::vector<double> smoothed(const std::vector<double> &times, const std::vector<double> &positions) const
+      {
+        const double width = input.drive.smoothing;
+        const bool grows   = std::is_sorted(times.begin(), times.end());
+        if (width == 0. || !grows || positions.empty())
+          return positions;
+        auto result         = locally_fitted(times, positions, width);
+        const double lowest = *std::min_element(positions.begin(), positions.end());
+        for (double &x : result)
+          x = std::max(x, lowest);
+        return result;
       }
 
       void make_friction()
@@ -222,8 +230,9 @@ namespace sprag
         else if (friction.law == FrictionChoice::stribeck)
           law.law = friction.stribeck;
         else
-          use_table("Friction/Table", friction.table, { "speed", "mu" },
-                    [&law](const auto &table) { law.law = TabulatedFriction(table.first, table.second); });
+          use_table("Friction/Table", friction.table, { { "speed", "velocity", "v" }, "mm/s" },
+                    { { "mu", "coefficient", "friction" }, "" },
+                    [&law](const auto &speeds, const auto &coefficients) { law.law = TabulatedFriction(speeds, coefficients); });
       }
 
       void check()
@@ -353,18 +362,22 @@ namespace sprag
         return 0.;
       }
 
-      void use_table(const std::string &parameter, const std::string &file, const ColumnNames &names,
-                     const std::function<void(const TwoColumns &)> &use)
+      struct WantedColumn
+      {
+        ColumnNames names;
+        std::string unit; ///< that its values are wanted in
+      };
+
+      void use_table(const std::string &parameter, const std::string &file, const WantedColumn &first, const WantedColumn &second,
+                     const std::function<void(const std::vector<double> &, const std::vector<double> &)> &use)
       {
         if (file.empty())
           return report(parameter, "must name a file");
         try
         {
-          const auto table = read_table(file, names);
-          if (exchanged_columns(table.header, words_for(names.first), words_for(names.second)))
-            return report(parameter, "the header '" + table.header + "' has the columns exchanged: " + names.first +
-                                         " must be the first, " + names.second + " the second");
-          use(table);
+          const auto table = read_two_columns(file, first.names, second.names);
+          use(values_in(first.unit, table.columns[0]), values_in(second.unit, table.columns[1]));
+          input.scene.unused_columns[parameter] = table.unused;
         }
         catch (const InputError &error)
         {
@@ -398,7 +411,11 @@ namespace sprag
     {
       const auto read = [&](const auto &declared)
       { return override_settings(scene.name + ".prm", set_values(scene), overrides, declared); };
-      return SceneReader(read, scene.folder, chosen).scene();
+      Scene result = SceneReader(read, scene.folder, chosen).scene();
+      for (const auto &[name, text] : scene.written)
+        if (result.parameters->at(name) == scene.parameters->at(name))
+          result.written.emplace(name, text);
+      return result;
     }
   } // namespace
 
@@ -433,7 +450,7 @@ namespace sprag
     auto values = *scene.parameters;
     for (const auto &[name, before] : scene.chosen)
       values[name] = before;
-    return parameters_text(scene_parameters(defaults), values);
+    return parameters_text(scene_parameters(defaults), values, scene.written);
   }
 
   std::string override_text(const std::string &parameter, const double value)

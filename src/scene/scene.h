@@ -17,6 +17,7 @@
 #include <memory>
 #include <set>
 #include <string>
+#include <vector>
 
 namespace sprag
 {
@@ -55,8 +56,15 @@ namespace sprag
     std::string name;   ///< file name without folder and ending
     std::string folder; ///< of the file, to which paths are relative
 
-    /// Every parameter as it was read, by "Section/Name", files with absolute paths; null for a scene that was not read.
+    /// Every parameter as it was read, by "Section/Name", numbers without unit, files with absolute paths; null for a scene that
+    /// was not read.
     std::shared_ptr<const std::map<std::string, std::string>> parameters;
+
+    /// As they were written, the values of parameters that were given with a unit.
+    std::map<std::string, std::string> written;
+
+    /// By the parameter that names a table, the columns of it that were not used.
+    std::map<std::string, std::vector<std::string>> unused_columns;
 
     std::set<std::string> given; ///< "Section/Name" of the parameters that were given rather than left at their defaults
 

@@ -83,9 +83,12 @@ namespace sprag
                      "How often from Start to Stroke and back; 0.5 is there only");
       section.number("Reversal duration", settings.reversal, at_least(0.), "s",
                      "T, transient triangle only: from Speed to the opposite Speed, and from rest to Speed where Start = 0");
-      section.only_with("Profile", "table")
-          .text("Table", settings.table, "File with the columns time [s] and x [mm], relative to the folder of this one",
-                Rule::Kind::file);
+      auto table = section.only_with("Profile", "table");
+      table.text("Table", settings.table, "File with the columns time [s] and x [mm], relative to the folder of this one",
+                 Rule::Kind::file);
+      table.number("Smoothing", settings.smoothing, at_least(0.), "s",
+                   "Each x of Table becomes that of the parabola that fits the rows within half of this time best, with tricube "
+                   "weights (LOESS); waves of this period keep 91 %, of half of it 29 %; 0: the rows as they are");
     }
 
     void friction(Section section, FrictionSettings &settings)

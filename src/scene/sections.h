@@ -19,6 +19,7 @@ namespace sprag
     double cycles        = 1.;
     double reversal      = 5e-3;
     std::string table;
+    double smoothing = 0.;
   };
 
   enum class FrictionChoice

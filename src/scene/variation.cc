@@ -1,5 +1,6 @@
 #include "scene/variation.h"
 
+#include "base/errors.h"
 #include "base/text.h"
 
 #include <boost/algorithm/string/join.hpp>
@@ -45,15 +46,22 @@ namespace sprag
       return number && number->rest.empty() ? std::make_optional(number->value) : std::nullopt;
     }
 
-    /// The values of FIRST ... LAST : NUMBER [log]; none where the text is another.
-    std::vector<std::string> values_of_range(const std::string &text)
+    /// A number alone or with a unit, in that of the rule; none where the text is another.
+    std::optional<double> number_in_unit(const Rule &rule, const std::string &text)
+    {
+      const auto number = leading_number(text);
+      return number && !number->rest.empty() ? number_alone(kept_value(rule, text)) : number_alone(text);
+    }
+
+    /// The values of FIRST ... LAST : NUMBER [log]; none where the text is another. Throws InputError where a unit does not fit.
+    std::vector<std::string> values_of_range(const Rule &rule, const std::string &text)
     {
       const auto middle = text.find(dots);
       const auto colon  = text.find(':', middle);
       if (colon == std::string::npos)
         return {};
-      const auto first = number_alone(trim(text.substr(0, middle)));
-      const auto last  = number_alone(trim(text.substr(middle + dots.size(), colon - middle - dots.size())));
+      const auto first = number_in_unit(rule, trim(text.substr(0, middle)));
+      const auto last  = number_in_unit(rule, trim(text.substr(middle + dots.size(), colon - middle - dots.size())));
       const auto count = leading_number(trim(text.substr(colon + 1)));
       if (!first || !last || !count || (!count->rest.empty() && count->rest != "log"))
         return {};
@@ -161,7 +169,15 @@ namespace sprag
 
       void take_range(const std::string &item, const Parameter &parameter, VariedParameter &varied)
       {
-        const auto values = values_of_range(item);
+        std::vector<std::string> values;
+        try
+        {
+          values = values_of_range(parameter.rule, item);
+        }
+        catch (const InputError &broken)
+        {
+          return mistake(varied.name + " = " + item + " " + broken.what());
+        }
         if (values.empty())
           mistake(varied.name + " = " + item +
                   " must have the form FIRST ... LAST : NUMBER, with an integer >= 2, or FIRST ... LAST : NUMBER log between "
@@ -173,12 +189,17 @@ namespace sprag
 
       bool take_value(const std::string &value, const Parameter &parameter, VariedParameter &varied)
       {
-        const auto broken = violation(parameter.rule, value);
-        if (broken)
-          mistake(varied.name + " = " + value + " " + *broken);
-        else
-          varied.values.push_back(parameter.rule.kind == Rule::Kind::file && !value.empty() ? path_of(value) : value);
-        return !broken;
+        try
+        {
+          const auto kept = kept_value(parameter.rule, value);
+          varied.values.push_back(parameter.rule.kind == Rule::Kind::file && !value.empty() ? path_of(value) : kept);
+          return true;
+        }
+        catch (const InputError &broken)
+        {
+          mistake(varied.name + " = " + value + " " + broken.what());
+          return false;
+        }
       }
 
       std::string path_of(const std::string &file) const

@@ -3,6 +3,7 @@
 #include "base/errors.h"
 #include "base/table_file.h"
 #include "base/text.h"
+#include "base/units.h"
 #include "scene/scene.h"
 #include "support/written.h"
 
@@ -54,6 +55,12 @@ namespace
       values[name] = setting.value;
     return values;
   }
+
+  /// The columns speed and mu of a text.
+  std::vector<NamedColumn> friction_columns(const std::string &text)
+  {
+    return read_two_columns(written(text, "mu.csv"), { "speed", "v" }, { "mu", "coefficient" }).columns;
+  }
 } // namespace
 
 TEST(Parameters, GivenValuesAreReadWithTheirPlaces)
@@ -103,14 +110,63 @@ TEST(Parameters, UnknownSectionsAreReportedOnceAndStillRead)
                        "scene.prm:4: subsection Completely other: no such subsection" }));
 }
 
-TEST(Parameters, NumbersMustStandAlone)
+// Values follow from the definitions of the units: 1 in = 25.4 mm, 1 N = 1 kg m/s2.
+TEST(Parameters, NumbersMayHaveUnitsThatAreConverted)
 {
-  EXPECT_EQ(mistakes("subsection Geometry\n set Cylinder radius = 56 mm\nend\n"),
-            (Messages{ "scene.prm:2: Geometry/Cylinder radius = 56 mm: must be a number > 0 and nothing else: "
-                       "leave out 'mm', mm is meant" }));
-  EXPECT_EQ(mistakes("subsection Friction\n set Coefficient = 73%\nend\n"),
-            (Messages{ "scene.prm:2: Friction/Coefficient = 73%: must be a number >= 0 and nothing else: "
-                       "leave out '%', it has no unit" }));
+  const auto settings = read("subsection Geometry\n set Cylinder radius = 5.6 cm\n set Pivot height = -1 in\nend\n"
+                             "subsection Friction\n set Coefficient = 73%\nend\n"
+                             "subsection Mesh\n set Penalty = 2 GPa/m\n set Ratios = 5 %, 0.1\nend\n");
+  EXPECT_TRUE(settings.mistakes.empty()) << settings.mistakes[0];
+  const auto values = values_of(settings.given);
+  EXPECT_EQ(values.at("Geometry/Cylinder radius"), "56");
+  EXPECT_EQ(values.at("Geometry/Pivot height"), "-25.4");
+  EXPECT_EQ(values.at("Friction/Coefficient"), "0.73");
+  EXPECT_EQ(values.at("Mesh/Penalty"), "2");
+  EXPECT_EQ(values.at("Mesh/Ratios"), "0.05, 0.1");
+  EXPECT_EQ(settings.given.at("Geometry/Cylinder radius").written, "5.6 cm");
+
+  const auto text = parameters_text(declared(), values, { { "Geometry/Cylinder radius", "5.6 cm" } });
+  EXPECT_NE(text.find("set Cylinder radius = 56    # given as 5.6 cm\n"), std::string::npos) << text;
+  EXPECT_EQ(values_of(read(text).given).at("Geometry/Cylinder radius"), "56");
+}
+
+TEST(Parameters, UnitsOfAnotherDimensionAreRefused)
+{
+  const auto radius = [](const std::string &value)
+  { return mistakes("subsection Geometry\n set Cylinder radius = " + value + "\nend\n").at(0); };
+  const std::string begin = "scene.prm:2: Geometry/Cylinder radius = ";
+  EXPECT_EQ(radius("56 N"), begin + "56 N: must be a number > 0 [mm]: 'N' has the dimension m.kg.s-2, mm has the dimension m");
+  EXPECT_EQ(radius("56 mn"), begin + "56 mn: must be a number > 0 [mm]: there is no unit 'mn'");
+  EXPECT_EQ(radius("56 mm 10"), begin + "56 mm 10: must be a number > 0 [mm]: there is no unit 'mm 10'");
+  EXPECT_EQ(radius("-1 cm"), begin + "-1 cm: must be a number > 0 [mm]");
+  EXPECT_EQ(mistakes("subsection Friction\n set Coefficient = 1 mm\nend\n").at(0),
+            "scene.prm:2: Friction/Coefficient = 1 mm: must be a number >= 0: 'mm' has the dimension m, a bare number has no "
+            "dimension");
+}
+
+// A turn by a radian is no number: 60 rpm are 1 Hz, not 2 pi Hz.
+TEST(Units, ARadianIsADimension)
+{
+  EXPECT_EQ(unit_factor("N m/rad", "N mm/rad"), 1000.);
+  EXPECT_NEAR(unit_factor("N mm/deg", "N mm/rad"), 180. / M_PI, 1e-13);
+  EXPECT_THROW(unit_factor("N m", "N mm/rad"), InputError);
+  EXPECT_THROW(unit_factor("rpm", "Hz"), InputError);
+  EXPECT_THROW(unit_factor("s", "Hz"), InputError);
+  EXPECT_THROW(unit_factor("N/mm", "N/mm^n"), InputError);
+}
+
+TEST(Units, AGramThatDoesNotFitIsGravity)
+{
+  EXPECT_EQ(unit_factor("g", "mm/s2"), 9806.65);
+  EXPECT_EQ(unit_factor("g", "t"), 1e-6);
+  EXPECT_NEAR(unit_factor("g^2/Hz", "(mm/s2)^2/Hz"), 9806.65 * 9806.65, 1e-6);
+}
+
+TEST(Parameters, AByteOrderMarkIsPassedOver)
+{
+  const auto settings = read("\xEF\xBB\xBFsubsection Mesh\n set Degree = 1\nend\n");
+  EXPECT_TRUE(settings.mistakes.empty()) << settings.mistakes[0];
+  EXPECT_EQ(settings.given.at("Mesh/Degree").value, "1");
 }
 
 TEST(Parameters, NumbersMustBeFiniteAndInRange)
@@ -167,8 +223,7 @@ TEST(Parameters, MistakesInOverridesAreReported)
                        "--set: Mesh/Degre = 1: no such parameter; did you mean 'Degree'?",
                        "--set: Mash/Degree = 3: no such section; did you mean 'Mesh'?",
                        "--set: Mesh/Degree = 3: must be an integer >= 1 and <= 2",
-                       "--set: Mesh/Degree = 2 nodes: must be an integer >= 1 and <= 2 and nothing else: "
-                       "leave out 'nodes', it has no unit" }));
+                       "--set: Mesh/Degree = 2 nodes: must be an integer >= 1 and <= 2: there is no unit 'nodes'" }));
 }
 
 TEST(Parameters, FilesThatCannotBeReadAreReported)
@@ -257,10 +312,69 @@ TEST(Text, NumbersReadBackExactly)
 
 TEST(Csv, ColumnsMayBeSeparatedByCommasOrWhiteSpace)
 {
-  const auto table =
-      read_two_columns(written("# measured\nspeed, mu\n0, 0.3\n10 0.5 # a comment\n\n20;0.7\r\n1e2\t0.9\n", "mu.csv"));
-  EXPECT_EQ(table.first, (std::vector<double>{ 0., 10., 20., 100. }));
-  EXPECT_EQ(table.second, (std::vector<double>{ 0.3, 0.5, 0.7, 0.9 }));
+  const auto columns = friction_columns("# measured\nspeed, mu\n0, 0.3\n10 0.5 # a comment\n\n20;0.7\r\n1e2\t0.9\n");
+  EXPECT_EQ(columns[0].values, (std::vector<double>{ 0., 10., 20., 100. }));
+  EXPECT_EQ(columns[1].values, (std::vector<double>{ 0.3, 0.5, 0.7, 0.9 }));
+}
+
+TEST(Csv, ColumnsAreFoundByNameInTheirUnits)
+{
+  const std::vector<std::string> headers = { "MU [-], Speed [m/s]",
+                                             "\xEF\xBB\xBFmu [%], speed [cm/s]",
+                                             "\"Friction coefficient\"; \"sliding speed (mm/s)\"",
+                                             "mu\tv/(km/h)",
+                                             "# mu [1] speed [m/s]",
+                                             "mu speed [m/s]" };
+  const std::vector<double> speeds       = { 1000., 10., 1., 1e6 / 3600., 1000., 1000. };
+  for (std::size_t i = 0; i < headers.size(); ++i)
+  {
+    const auto columns = friction_columns(headers[i] + "\n0.3 0\n0.5 1\n");
+    EXPECT_NEAR(values_in("mm/s", columns[0]).at(1), speeds[i], 1e-10) << headers[i];
+    EXPECT_NEAR(values_in("", columns[1]).at(1), i == 1 ? 0.005 : 0.5, 1e-15) << headers[i];
+  }
+  EXPECT_EQ(friction_columns("a, b\n1, 2\n")[0].name, "a");
+  const auto wide = read_two_columns(written("mu, T [K], speed\n1, warm, 2\n", "mu.csv"), { "speed" }, { "mu" });
+  EXPECT_EQ(wide.columns[0].values, std::vector<double>{ 2. });
+  EXPECT_EQ(wide.unused, std::vector<std::string>{ "T" });
+}
+
+TEST(Csv, ColumnsThatAreNotClearAreRefused)
+{
+  const auto said = [](const std::string &text)
+  {
+    try
+    {
+      const auto columns = friction_columns(text);
+      values_in("mm/s", columns[0]);
+      return std::string();
+    }
+    catch (const InputError &error)
+    {
+      const std::string what = error.what();
+      return what.substr(what.find("mu.csv") == std::string::npos ? 0 : what.find("mu.csv"));
+    }
+  };
+  EXPECT_EQ(said("mu, mu0\n1, 2\n"), "mu.csv: the header 'mu, mu0' has no column 'speed': it has mu, mu0");
+  EXPECT_EQ(said("v1 v2 mu\n1 2 3\n"), "mu.csv: the header 'v1 v2 mu' has no column 'speed': it has v1, v2, mu");
+  EXPECT_EQ(said("speed [mm], mu\n1, 2\n"),
+            "column 'speed': must be in mm/s: 'mm' has the dimension m, mm/s has the dimension m.s-1");
+  EXPECT_EQ(said("1, 2\n" + std::string("\0", 1)), "mu.csv: is not a text in UTF-8");
+}
+
+// What is left of a first row that was taken for a header is a table without its friction at rest.
+TEST(Csv, AFirstRowIsNoHeader)
+{
+  const std::string rest = "\n40, 0.6\n";
+  for (const std::string row : { "O, 1", "nan, 1", "<0, 1",
+                                 "\xC2\xA0"
+                                 "0, 1",
+                                 "0, l", "0, " })
+    EXPECT_THROW(friction_columns(row + rest), InputError) << row;
+  for (const std::string row : { "0, 1",
+                                 "\xEF\xBB\xBF"
+                                 "0, 1",
+                                 "\"0\", \"1\"" })
+    EXPECT_EQ(friction_columns(row + rest)[1].values, (std::vector<double>{ 1., 0.6 })) << row;
 }
 
 TEST(Csv, EveryFaultyLineIsNamed)
@@ -268,7 +382,7 @@ TEST(Csv, EveryFaultyLineIsNamed)
   const auto file = written("v, mu\n0, 0.3\n1\n2, 0.5, 7\nx, y\n3, 0.5\n", "mu.csv");
   try
   {
-    read_two_columns(file);
+    read_two_columns(file, { "v" }, { "mu" });
     FAIL();
   }
   catch (const InputError &error)
@@ -276,7 +390,7 @@ TEST(Csv, EveryFaultyLineIsNamed)
     EXPECT_EQ(error.messages, (Messages{ file + ":3: 1: must be two numbers", file + ":4: 2, 0.5, 7: must be two numbers",
                                          file + ":5: x, y: must be two numbers" }));
   }
-  EXPECT_THROW(read_two_columns("/nowhere/mu.csv"), InputError);
-  EXPECT_THROW(read_two_columns(testing::TempDir()), InputError);
-  EXPECT_THROW(read_two_columns(written("# nothing\n", "empty.csv")), InputError);
+  EXPECT_THROW(read_two_columns("/nowhere/mu.csv", { "v" }, { "mu" }), InputError);
+  EXPECT_THROW(read_two_columns(testing::TempDir(), { "v" }, { "mu" }), InputError);
+  EXPECT_THROW(friction_columns("# nothing\n"), InputError);
 }

@@ -8,7 +8,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <gtest/gtest.h>
+#include <random>
 
 using namespace sprag;
 
@@ -336,6 +338,102 @@ TEST(SceneWarnings, PlaneStressOfALayer)
   other                = scene;
   other.analysis.model = ModelType::closed_form;
   EXPECT_EQ(names(scene_warnings(other)), Names{});
+}
+
+// Each number is that of model A in another unit.
+TEST(SceneWarnings, ValuesOfAnotherUnitNameIt)
+{
+  const auto remedy = [](const std::string &parameter, const std::function<void(Scene &)> &change)
+  {
+    Scene scene = model_a();
+    change(scene);
+    EXPECT_EQ(names(scene_warnings(scene)), Names{}) << "not given";
+    scene.given.insert(parameter);
+    const auto warnings = scene_warnings(scene);
+    EXPECT_EQ(names(warnings), Names{ "implausible_values" }) << parameter;
+    return warnings.empty() ? "" : warnings[0].remedy;
+  };
+  const auto expect_meant =
+      [&](const std::string &parameter, const std::string &meant, const std::function<void(Scene &)> &change)
+  { EXPECT_EQ(remedy(parameter, change).rfind(parameter + " may be meant as " + meant + ". ", 0), 0u) << parameter; };
+  expect_meant("Lever/Density", "2700 kg/m3, which is 2.7e-09 t/mm3", [](Scene &scene) { scene.lever.density = 2700.; });
+  expect_meant("Lever/Density", "2.7 g/cm3, which is 2.7e-09 t/mm3", [](Scene &scene) { scene.lever.density = 2.7; });
+  expect_meant("Leaf spring/Young's modulus", "2.06e+11 Pa, which is 206000 MPa",
+               [](Scene &scene) { scene.spring.leaf.young_modulus = 2.06e11; });
+  expect_meant("Lever/Young's modulus", "70 GPa, which is 70000 MPa", [](Scene &scene) { scene.lever.young_modulus = 70.; });
+  expect_meant("Lever/Depth", "0.02 m, which is 20 mm", [](Scene &scene) { scene.lever.depth = 0.02; });
+  expect_meant("Lever/Moment of inertia", "0.00645 kg m2, which is 6.45 t mm2",
+               [](Scene &scene) { scene.lever.moment_of_inertia = 6.45e-3; });
+  expect_meant("Rotational spring/Stiffness", "74 N m/rad, which is 74000 N mm/rad",
+               [](Scene &scene) { scene.spring.stiffness = 74.; });
+  EXPECT_EQ(remedy("Lever/Density", [](Scene &scene) { scene.lever.density = 1e9; }).rfind("Give", 0), 0u);
+
+  // A lever that does not bend.
+  Scene stiff               = model_a();
+  stiff.lever.young_modulus = 7e7;
+  stiff.layer.young_modulus = 2e4;
+  stiff.given               = { "Lever/Young's modulus", "Friction layer/Young's modulus" };
+  EXPECT_EQ(names(scene_warnings(stiff)), Names{});
+}
+
+TEST(SceneWarnings, ColumnsThatNobodyWrites)
+{
+  Scene scene          = model_a();
+  scene.unused_columns = { { "Drive/Table", { "P", "theta_2", "lateral_force", "sensor_1", "" } } };
+  EXPECT_EQ(names(scene_warnings(scene)), Names{});
+  scene.unused_columns = { { "Drive/Table", { "P", "Tmie", "xx" } } };
+  EXPECT_EQ(names(scene_warnings(scene)), Names{ "unused_columns" });
+  EXPECT_EQ(scene_warnings(scene)[0].found, "Of Drive/Table these columns are not used: Tmie, xx.");
+}
+
+namespace
+{
+  /// A stroke there and back in 0.8 s, 500 rows a second, with something on each position.
+  Scene measured_stroke(const std::function<double(double x, unsigned int row)> &position)
+  {
+    std::vector<double> times, positions;
+    for (unsigned int i = 0; i <= 400; ++i)
+    {
+      times.push_back(0.002 * i);
+      positions.push_back(std::max(0., position(20. * (1. - std::cos(2. * M_PI * i / 400.)), i)));
+    }
+    Scene scene         = model_a();
+    scene.analysis.type = AnalysisType::transient;
+    scene.drive         = Drive(times, positions);
+    return scene;
+  }
+} // namespace
+
+TEST(SceneWarnings, PositionsThatShake)
+{
+  const auto of = [](const auto &position) { return names(scene_warnings(measured_stroke(position))); };
+  std::minstd_rand random(1);
+  std::normal_distribution<double> noise;
+  EXPECT_EQ(of([](const double x, unsigned int) { return x; }), Names{});
+  EXPECT_EQ(of([](const double x, const unsigned int i) { return x + 0.5 * std::sin(0.6 * i); }), Names{}); // 48 Hz
+  EXPECT_EQ(of([](const double, const unsigned int i) { return std::abs(std::remainder(i, 40.)); }), Names{});
+  EXPECT_EQ(of([](const double, const unsigned int i) { return i / 10 % 2 == 0 ? i % 10 : 10. - i % 10; }), Names{});
+  for (const double step : { 0.1, 0.02 })
+    EXPECT_EQ(of([=](const double x, unsigned int) { return step * std::round(x / step); }), Names{ "shaking_drive" }) << step;
+  for (const double deviation : { 0.02, 0.005 })
+    EXPECT_EQ(of([&](const double x, unsigned int) { return x + deviation * noise(random); }), Names{ "shaking_drive" })
+        << deviation;
+
+  // Constant friction without inertia knows no speed.
+  Scene slow         = with_coulomb(measured_stroke([](const double x, unsigned int) { return std::round(x); }), 0.5);
+  slow.analysis.type = AnalysisType::quasi_static;
+  EXPECT_EQ(names(scene_warnings(slow)), Names{});
+}
+
+TEST(RowWarnings, SpeedsBeyondATableOfFriction)
+{
+  Scene scene        = model_a();
+  scene.friction.law = TabulatedFriction({ 0., 40., 80., 120. }, { 1., 0.6, 0.5, 0.45 });
+  EXPECT_EQ(names_with(Column::v_rel, -120., scene), Names{});
+  EXPECT_EQ(names_with(Column::v_rel, -121., scene), Names{ "speed_beyond_table" });
+  scene.friction.speed = FrictionSpeed::drive;
+  EXPECT_EQ(names_with(Column::v_rel, -121., scene), Names{});
+  EXPECT_EQ(names_with(Column::v, -121., scene), Names{ "speed_beyond_table" });
 }
 
 TEST(SceneWarnings, ACylinderThatHardlyOpensTheLever)

@@ -407,3 +407,27 @@ TEST(Drive, LongTableHasKinksWhereItTurnsOrRestsOnly)
   EXPECT_EQ(Drive(times, positions).kinks(), (std::vector<double>{ 1., 1.5 }));
   EXPECT_EQ(Drive(times, positions).reversals(), (std::vector<double>{ 1.5 }));
 }
+
+// A step that evaluates its forces at every row costs more the longer the table is.
+TEST(Drive, WorksOfALongTableCostNoMoreThanThoseOfAShortOne)
+{
+  const Scene scene = with_coulomb(model_a(), 0.5);
+  std::vector<double> times, positions;
+  for (unsigned int i = 0; i <= 20000; ++i)
+  {
+    times.push_back(1e-4 * i);
+    positions.push_back(20. * (1. - std::cos(pi * times.back())));
+  }
+  unsigned int evaluations = 0;
+  const auto state_at      = [&](const DrivePoint &point)
+  {
+    ++evaluations;
+    return closed_form(scene, point.x, point.v);
+  };
+  const Work work   = work_between(Drive(times, positions), state_at, 0.2, 0.3);
+  const auto counts = evaluations;
+  const Work exact  = work_between(Drive(DriveProfile::harmonic, 0., 40., 20. * pi, 1.), state_at, 0.2, 0.3);
+  EXPECT_LT(counts, 2000u);
+  EXPECT_NEAR(work.drive, exact.drive, 1e-6 * exact.drive);
+  EXPECT_NEAR(work.friction, exact.friction, 1e-6 * exact.friction);
+}

@@ -67,7 +67,9 @@ namespace
 
 TEST_F(ReadIdentification, TakesColumnsByNameInTheirUnits)
 {
-  const auto measured = scene("t [ms]; Q [kN]; other; x [cm]\n" + std::string("0;0.001;7;0\n") +
+  const auto measured = scene("\xEF\xBB\xBF"
+                              "T [ms]; Q [kN]; other; X [cm]\n" +
+                              std::string("0;0.001;7;0\n") +
                               [&]
                               {
                                 std::string text;
@@ -107,7 +109,7 @@ TEST_F(ReadIdentification, TellsWhatIsWrongWithTheTable)
 {
   expect_mistake("must name a file", "", { "Identification/Table=" });
   expect_mistake("column 'P' has no unit", "time [s], x [mm], P\n" + std::string("0, 0, 1\n"));
-  expect_mistake("unit 'lbf' must be one of N, mN, kN", "x [mm], P [lbf]\n1, 2\n");
+  expect_mistake("column 'P': must be in N: 'K' has the dimension K", "x [mm], P [K]\n1, 2\n");
   expect_mistake("has no column P, Q, sensor_sum or sensor_1: it has time, x, F", "time [s], x [mm], F [N]\n0, 0, 1\n");
   expect_mistake("has no column time or x", "P [N]\n1\n");
   expect_mistake("has no column for Q", "x [mm], P [N]\n1, 2\n", { "Identification/Forces=Q" });

@@ -230,7 +230,7 @@ TEST(IsolationInput, RecordsNeedAUnit)
       std::string::npos);
   EXPECT_EQ(said_of(of_records, "Isolation/Base table", "time [s], acceleration [m/s2]\n" + rows), "");
   EXPECT_EQ(said_of({ of_records[0], of_records[1], of_records[2], "Isolation/Base unit=g" }, "Isolation/Base table", rows), "");
-  EXPECT_NE(said_of(of_records, "Isolation/Base table", "time [s], acceleration [V]\n" + rows).find("not known"),
+  EXPECT_NE(said_of(of_records, "Isolation/Base table", "time [s], acceleration [V]\n" + rows).find("must be in mm/s2"),
             std::string::npos);
 }
 
@@ -287,12 +287,13 @@ TEST(IsolationInput, ARecordInHdf5HasTheUnitOfItsDataset)
   EXPECT_EQ(read_of_units("s", "m/s^2"), "500");
   EXPECT_EQ(read_of_units("", "mm/s^2"), "0.5");
   EXPECT_EQ(read_of_units("s", "", "cm/s2"), "5");
-  EXPECT_EQ(read_of_units("s", "inch/s2", "m/s2"), "500");
+  EXPECT_EQ(read_of_units("ms", "inch/s2"), "12.7");
+  EXPECT_NE(read_of_units("s", "inch/s2", "m/s2").find("its unit is inch/s2, which Isolation/Base unit contradicts"),
+            std::string::npos);
   EXPECT_EQ(read_of_units("s", "m/s^2", "m/s2"), "500");
   EXPECT_NE(read_of_units("s", "").find("the unit of the acceleration is not known"), std::string::npos);
-  EXPECT_NE(read_of_units("s", "inch/s2").find("not known"), std::string::npos);
   EXPECT_NE(read_of_units("s", "m/s^2", "g").find("its unit is m/s^2, which Isolation/Base unit contradicts"), std::string::npos);
-  EXPECT_NE(read_of_units("ms", "m/s^2").find("its unit is ms, must be s"), std::string::npos);
+  EXPECT_NE(read_of_units("mm", "m/s^2").find("'mm' has the dimension m, s has the dimension s"), std::string::npos);
 }
 
 TEST(IsolationScene, LeversAreThoseOfTheClosedFormUnlessAnotherModelIsGiven)
@@ -327,4 +328,6 @@ TEST(IsolationInput, TablesThatCannotBeAreRefused)
   says(said_of(loop, "Isolation/Loop table", "0,0\n1,1\n2,2\n3,3\n2,4\n1,3\n0,1\n"), "dissipates nothing");
   says(said_of(loop, "Isolation/Loop table", "0,0\n1,1\n2,2\n3,3\n2,-2\n1,-1\n0.5,0\n"), "must be 0 at the end");
   EXPECT_EQ(said_of(loop, "Isolation/Loop table", "0,0\n1,1\n2,2\n3,3\n2,-2\n1,-1\n0,0\n"), "");
+  EXPECT_EQ(said_of(loop, "Isolation/Loop table", "0,0\n1,1\n2,2\n3,3\n3,-3\n2,-2\n1,-1\n0,0\n"), "");
+  says(said_of(loop, "Isolation/Loop table", "0,0\n1,1\n2,2\n3,3\n3,0\n3,-3\n2,-2\n1,-1\n0,0\n"), "does not change steadily");
 }

@@ -7,6 +7,7 @@
 #include "scene/sections.h"
 #include "support/params_folder.h"
 
+#include <array>
 #include <cmath>
 #include <hdf5.h>
 #include <regex>
@@ -16,15 +17,16 @@ using namespace sprag;
 
 namespace
 {
-  std::string written_hdf5(const std::string &name, const std::vector<std::pair<std::string, std::vector<double>>> &columns)
+  std::string written_hdf5(const std::string &name, const std::vector<std::pair<std::string, std::vector<double>>> &columns,
+                           const int n_dimensions = 1)
   {
     const std::string path = (folder() / name).string();
     const hid_t file       = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
     for (const auto &[column, values] : columns)
     {
-      const hsize_t length = values.size();
-      const hid_t space    = H5Screate_simple(1, &length, nullptr);
-      const hid_t dataset  = H5Dcreate2(file, column.c_str(), H5T_NATIVE_FLOAT, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+      const std::array<hsize_t, 2> extents = { { values.size(), 1 } }; // as MATLAB writes vectors
+      const hid_t space                    = H5Screate_simple(n_dimensions, extents.data(), nullptr);
+      const hid_t dataset = H5Dcreate2(file, column.c_str(), H5T_NATIVE_FLOAT, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
       H5Dwrite(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
       H5Dclose(dataset);
       H5Sclose(space);
@@ -226,7 +228,7 @@ TEST(ReadScene, AllMistakesAreFoundAtOnce)
   EXPECT_EQ(
       mistakes("subsection Geometry\n"
                "  set Cylinder radius = -56\n"
-               "  set Pivot distance = 185.5 mm\n"
+               "  set Pivot distance = 185.5 N\n"
                "end\n"
                "subsection Rotational spring\n"
                "  set Stifness = 1\n"
@@ -236,8 +238,8 @@ TEST(ReadScene, AllMistakesAreFoundAtOnce)
                "end\n",
                { "Lever/Material=neo-Hookean" }),
       (Messages{ "scene.prm:2: Geometry/Cylinder radius = -56: must be a number > 0 [mm]",
-                 "scene.prm:3: Geometry/Pivot distance = 185.5 mm: must be a number > 0 and nothing else: "
-                 "leave out 'mm', mm is meant",
+                 "scene.prm:3: Geometry/Pivot distance = 185.5 N: must be a number > 0 [mm]: 'N' has the dimension m.kg.s-2, mm "
+                 "has the dimension m",
                  "scene.prm:6: Rotational spring/Stifness = 1: no such parameter; did you mean 'Stiffness'?",
                  "scene.prm: Drive/Stroke = 65: must be more than Start = 70 mm",
                  "--set: Lever/Material = neo-Hookean: neo-Hookean needs Analysis/Plane = strain or Analysis/Dimension = 3" }));
@@ -311,6 +313,16 @@ TEST(ReadScene, TablesMayBeHDF5)
   EXPECT_EQ(scene.drive.reversals(), std::vector<double>{ 2. });
   EXPECT_EQ(scene.drive.maximum(), 30.);
   EXPECT_EQ(friction_coefficient(scene.friction, 10.).coefficient, 0.5);
+  written_hdf5("matlab.h5", { { "Time", { 0., 1., 2., 3. } }, { "position", { 0., 30., 30., 0. } } }, 2);
+  EXPECT_EQ(scene_of({ "Drive/Profile=table", "Drive/Table=matlab.h5" }).drive.maximum(), 30.);
+}
+
+TEST(ReadScene, UnitsOfTablesCount)
+{
+  written("x [m], t [ms]\n0, 0\n0.03, 1000\n0.03, 2000\n0, 3000\n", "drive.csv");
+  const auto drive = scene_of({ "Drive/Profile=table", "Drive/Table=drive.csv" }).drive;
+  EXPECT_NEAR(drive.maximum(), 30., 1e-12);
+  EXPECT_NEAR(drive.duration(), 3., 1e-12);
 }
 
 TEST(ReadScene, HDF5TablesMustBeTables)
@@ -325,12 +337,12 @@ TEST(ReadScene, HDF5TablesMustBeTables)
   EXPECT_EQ(drive("none.h5"), (Messages{ "--set: Drive/Table = none.h5: none.h5: cannot be read" }));
   written("0, 0\n1, 1\n", "text.h5");
   EXPECT_EQ(drive("text.h5"), (Messages{ "--set: Drive/Table = text.h5: text.h5: cannot be read as HDF5" }));
-  written_hdf5("names.h5", { { "Time", { 0., 1. } }, { "position", { 0., 1. } } });
-  EXPECT_EQ(drive("names.h5"),
-            (Messages{ "--set: Drive/Table = names.h5: names.h5: has no dataset 'time' at its root; did you mean 'Time'?",
-                       "--set: Drive/Table = names.h5: names.h5: has no dataset 'x' at its root" }));
+  written_hdf5("names.h5", { { "Zeit", { 0., 1. } }, { "Weg", { 0., 1. } } });
+  EXPECT_EQ(drive("names.h5"), (Messages{ "--set: Drive/Table = names.h5: names.h5: has no column 'time': it has Weg, Zeit",
+                                          "--set: Drive/Table = names.h5: names.h5: has no column 'x': it has Weg, Zeit" }));
   written_hdf5("uneven.h5", { { "time", { 0., 1., 2., 3. } }, { "x", { 0., 1., 2. } } });
-  EXPECT_EQ(drive("uneven.h5"), (Messages{ "--set: Drive/Table = uneven.h5: both columns must have the same number of rows" }));
+  EXPECT_EQ(drive("uneven.h5"),
+            (Messages{ "--set: Drive/Table = uneven.h5: uneven.h5: dataset 'x': must be as long as 'time'" }));
 }
 
 TEST(ReadScene, ParametersThatWouldNotCountAreRefused)

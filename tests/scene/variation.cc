@@ -85,7 +85,13 @@ TEST(Variation, OfAReference)
   ASSERT_EQ(scene.study.reference_values.size(), 2u);
   EXPECT_EQ(scene.study.reference_values[1].values, (Messages{ "105, 135" }));
   expect_wrong("Study/Reference=Mesh/Face size = 1, 2",
-               { "Mesh/Face size = 1, 2 must be auto or a number > 0 and nothing else: leave out ', 2', mm is meant" });
+               { "Mesh/Face size = 1, 2 must be auto or a number > 0 and nothing else" });
+  const auto metres = scene_of({ "Analysis/Type=study", "Study/Vary=Lever/Depth = 1 cm, 20" });
+  EXPECT_EQ(metres.study.varied[0].values, (Messages{ "10", "20" }));
+  const auto range = scene_of({ "Analysis/Type=study", "Study/Vary=Lever/Depth = 1 cm ... 20 : 3" });
+  EXPECT_EQ(range.study.varied[0].values, (Messages{ "10", "15", "20" }));
+  expect_wrong("Study/Vary=Lever/Depth = 1 N ... 2 : 3", { "Lever/Depth = 1 N ... 2 : 3 must be a number > 0 [mm]: 'N' has the "
+                                                           "dimension m.kg.s-2, mm has the dimension m" });
   EXPECT_EQ(mistakes_of({ "Analysis/Type=study", "Study/Type=slope", "Study/Reference=Lever/Depth = 1" }).size(), 1u);
 }
 
