@@ -5,6 +5,7 @@
 #include "fe/body/body_properties.h"
 #include "fe/mesh/geometry_script.h"
 #include "fe/mesh/lever_groups.h"
+#include "fe/mesh/mesh_look.h"
 #include "scene/lever_shape.h"
 #include "scene/scene.h"
 
@@ -108,10 +109,9 @@ namespace sprag
                            " where all lines cross");
     }
 
-    void check_face(const Scene &scene, const Triangulation<3> &triangulation)
+    void check_face(const Scene &scene, const Triangulation<3> &triangulation, Messages mistakes)
     {
       const auto sides = sides_of_face(triangulation);
-      Messages mistakes;
       if (sides.empty())
         mistakes.push_back("no side of 'lever', 'plate' or 'layer' lies on the surface 'friction face'");
       else
@@ -135,8 +135,9 @@ namespace sprag
 
   void read_solid_file(const Scene &scene, Triangulation<3> &triangulation)
   {
-    read_gmsh(scene.mesh.file, {}, lever_groups(scene, 3), triangulation);
-    check_face(scene, triangulation);
+    const auto groups = lever_groups(scene, 3);
+    read_gmsh(scene.mesh.file, {}, groups, triangulation);
+    check_face(scene, triangulation, mesh_mistakes(groups, triangulation));
   }
 
   void check_solid_file(const Scene &scene)
