@@ -220,6 +220,19 @@ namespace sprag
     return mistakes;
   }
 
+  template <int dim>
+  double longest_face_side(const Triangulation<dim> &triangulation, const double first, const double last)
+  {
+    double longest = 0.;
+    for (const auto &[side, cell] : skin_of(triangulation))
+      if (side->boundary_id() == boundary_id::friction_face)
+        if (const auto [lower, upper] = side->bounding_box().get_boundary_points(); upper[0] > first && lower[0] < last)
+          longest = std::max(longest, upper[0] - lower[0]);
+    return longest;
+  }
+
+  template double longest_face_side(const Triangulation<2> &, double, double);
+  template double longest_face_side(const Triangulation<3> &, double, double);
   template std::vector<std::string> mesh_mistakes(const MeshGroups &, const Triangulation<2> &);
   template std::vector<std::string> mesh_mistakes(const MeshGroups &, const Triangulation<3> &);
 } // namespace sprag

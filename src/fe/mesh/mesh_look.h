@@ -9,4 +9,8 @@ namespace sprag
   /// that nothing holds; elements of the friction face on the cylinder's side of it.
   template <int dim>
   std::vector<std::string> mesh_mistakes(const MeshGroups &groups, const dealii::Triangulation<dim> &triangulation);
+
+  /// Returns the longest side along the friction face between two places along the lever [mm].
+  template <int dim>
+  double longest_face_side(const dealii::Triangulation<dim> &triangulation, double first, double last);
 } // namespace sprag

@@ -5,6 +5,7 @@
 #include "fe/body/body_properties.h"
 #include "fe/mesh/geometry_script.h"
 #include "fe/mesh/lever_groups.h"
+#include "fe/mesh/mesh.h"
 #include "fe/mesh/mesh_look.h"
 #include "scene/lever_shape.h"
 #include "scene/scene.h"
@@ -144,5 +145,19 @@ namespace sprag
   {
     Triangulation<3> triangulation;
     read_solid_file(scene, triangulation);
+  }
+
+  double own_face_size(const Scene &scene)
+  {
+    const auto [first, last] = swept_contact(scene);
+    if (has_solid_file(scene))
+    {
+      Triangulation<3> triangulation;
+      read_solid_file(scene, triangulation);
+      return longest_face_side(triangulation, first, last);
+    }
+    Mesh triangulation;
+    make_mesh(scene, triangulation);
+    return longest_face_side(triangulation, first, last);
   }
 } // namespace sprag
