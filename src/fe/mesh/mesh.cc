@@ -8,6 +8,7 @@
 #include "fe/mesh/lever_groups.h"
 #include "fe/mesh/mesh_look.h"
 #include "fe/mesh/solid_file.h"
+#include "scene/across.h"
 #include "scene/contact_width.h"
 #include "scene/lever_shape.h"
 #include "scene/scene.h"
@@ -137,6 +138,9 @@ namespace sprag
       read_gmsh(scene.mesh.file, {}, groups, triangulation);
       for (const auto &mistake : mesh_mistakes(groups, triangulation))
         mistakes.push_back(scene.mesh.file + ": " + mistake);
+      if (scene.analysis.dimension == 3)
+        if (const auto too_short = cylinder_too_short(scene, planes_across(scene)); !too_short.empty())
+          mistakes.push_back(scene.mesh.file + ": Cylinder/Length = " + rounded_text(scene.cylinder.length) + " " + too_short);
     }
     else if (scene.lever.outline == LeverOutline::bar)
       read_gmsh(mesh_script("lever.geo"), bar_constants(scene), groups, triangulation);

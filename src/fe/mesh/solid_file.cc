@@ -7,6 +7,7 @@
 #include "fe/mesh/lever_groups.h"
 #include "fe/mesh/mesh.h"
 #include "fe/mesh/mesh_look.h"
+#include "scene/across.h"
 #include "scene/lever_shape.h"
 #include "scene/scene.h"
 
@@ -89,6 +90,15 @@ namespace sprag
                            rounded_text(first) + " to " + mm(last));
     }
 
+    void check_cylinder(const Scene &scene, const std::vector<Side> &sides, Messages &mistakes)
+    {
+      std::vector<double> planes;
+      for (const long place : places_along(2, sides))
+        planes.push_back(1e-6 * static_cast<double>(place));
+      if (const auto too_short = cylinder_too_short(scene, planes); !too_short.empty())
+        mistakes.push_back("Cylinder/Length = " + rounded_text(scene.cylinder.length) + " " + too_short);
+    }
+
     /// Whether a side is a rectangle with its sides along x and z.
     bool is_straight(const Side &side)
     {
@@ -121,6 +131,7 @@ namespace sprag
         check_width(scene, sides, mistakes);
         check_sweep(scene, sides, mistakes);
         check_lines(sides, mistakes);
+        check_cylinder(scene, sides, mistakes);
       }
       for (auto &line : mistakes)
         line = scene.mesh.file + ": " + line;
