@@ -67,10 +67,10 @@ namespace sprag
         append(of_face, lever.samples(state));
       }
 
-      /// None of a body at finite strain, which is solved as a whole.
+      /// None of a body at finite strain, which is solved as a whole, nor where nothing touched.
       std::vector<Entry> entries(const SolidLever &lever) const
       {
-        if (!lever.is_linear())
+        if (!lever.is_linear() || of_face.empty())
           return {};
         const auto worst = lever.exactness(of_face);
         return {
