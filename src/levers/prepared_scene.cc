@@ -2,6 +2,8 @@
 
 #include "base/errors.h"
 #include "fe/leaf/leaf_spring.h"
+#include "fe/mesh/solid_file.h"
+#include "scene/analysis_use.h"
 #include "scene/check.h"
 #include "scene/scene.h"
 
@@ -19,5 +21,12 @@ namespace sprag
     if (!mistakes.empty())
       throw InputError(mistakes);
     return result;
+  }
+
+  Scene with_own_face_size(Scene scene)
+  {
+    if (needs_mesh(scene) && !scene.mesh.file.empty())
+      scene.mesh.face_size = own_face_size(scene);
+    return scene;
   }
 } // namespace sprag

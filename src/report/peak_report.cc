@@ -68,9 +68,17 @@ namespace sprag
       return 0.;
     }
 
+    std::string times_the_size(const Scene &scene, const double elements)
+    {
+      return rounded_text(elements) + " times " +
+             (scene.mesh.file.empty() ? "Mesh/Face size" : "the longest side on the friction face, " + mm(scene.mesh.face_size)) +
+             ".";
+    }
+
     std::string remedy(const Scene &scene, const double width)
     {
-      return "Try a Mesh/Face size of at most " + mm(width / enough_elements(scene.mesh.degree)) +
+      const std::string most = " of at most " + mm(width / enough_elements(scene.mesh.degree));
+      return (scene.mesh.file.empty() ? "Try a Mesh/Face size" + most : "Give the friction face of Mesh/File sides" + most) +
              (scene.mesh.degree == 1 ? " or Mesh/Degree = 2." : ".");
     }
 
@@ -100,14 +108,14 @@ namespace sprag
   Warnings coarse_contact_warnings(const Scene &scene, const std::vector<Row> &rows)
   {
     const auto peak = largest(rows, Column::largest_pressure, Column::largest_pressure_xi);
-    if (!peak.row || !scene.mesh.file.empty() || !(peak.width > 0.))
+    if (!peak.row || !(peak.width > 0.))
       return {};
     const double elements = peak.width / scene.mesh.face_size;
     const double enough   = enough_elements(scene.mesh.degree);
     if (elements < enough)
       return { { "coarse_contact",
                  "Where its pressure is largest, at x = " + mm((*peak.row)[Column::x]) + ", the contact is " + mm(peak.width) +
-                     " wide, " + rounded_text(elements) + " times Mesh/Face size.",
+                     " wide, " + times_the_size(scene, elements),
                  "The largest pressure may be wrong by " +
                      rounded_text(std::ceil(100. * expected_pressure_error(elements, scene.mesh.degree))) +
                      " %; P, Q and theta are not.",
@@ -117,7 +125,7 @@ namespace sprag
       return {};
     return { { "coarse_contact",
                "Over more than " + rounded_text(100. * admitted_share) + " % of its way the contact is at most " + mm(narrow) +
-                   " wide, " + rounded_text(narrow / scene.mesh.face_size) + " times Mesh/Face size.",
+                   " wide, " + times_the_size(scene, narrow / scene.mesh.face_size),
                "Where it is as narrow as that the pressure may be wrong by " +
                    rounded_text(std::ceil(100. * expected_pressure_error(narrow / scene.mesh.face_size, scene.mesh.degree))) +
                    " % or more; the largest of the run, P, Q and theta are not.",

@@ -146,8 +146,7 @@ namespace sprag
     /// Points that lie beside the cylinder do not feel it.
     void add_opening(const Scene &scene, Warnings &warnings)
     {
-      if (!follows_drive(scene) || !is_meshed(scene.analysis.model) || !scene.mesh.file.empty() ||
-          scene.pair.cylinder_offset != 0.)
+      if (!follows_drive(scene) || !is_meshed(scene.analysis.model) || scene.pair.cylinder_offset != 0.)
         return;
       const double x       = scene.drive.maximum();
       const auto contact   = kinematics(scene.geometry, x);
@@ -163,7 +162,7 @@ namespace sprag
                 mm(sagitta) + "; at least " + rounded_text(least_opening) + " times that are needed.",
             "The cylinder sinks in between points: P, Q, theta and work too small, by 1 % to all of them, with places "
             "without contact.",
-            "A smaller Mesh/Face size, a smaller Geometry/Interface offset or a longer Drive/Stroke; "
+            "Shorter elements (Mesh/Face size), a smaller Geometry/Interface offset or a longer Drive/Stroke; "
             "Analysis/Model = closed form for a lever that hardly opens." });
     }
 
@@ -199,6 +198,15 @@ namespace sprag
              (scene.map.first.name == parameter || scene.map.second.name == parameter);
     }
 
+    /// Whether the body that densities make up is another than model A's.
+    bool has_other_lever(const Scene &scene)
+    {
+      const Lever a;
+      const auto &own = scene.lever;
+      return !scene.mesh.file.empty() || own.outline != a.outline || own.length != a.length || own.depth != a.depth ||
+             own.width != a.width || own.density != a.density;
+    }
+
     void add_defaults(const Scene &scene, Warnings &warnings)
     {
       const Geometry a;
@@ -207,23 +215,26 @@ namespace sprag
           scene.spring.type == SpringType::torsional && scene.spring.stiffness != RotationalSpring().stiffness;
       const unsigned int differs = (own.cylinder_radius != a.cylinder_radius) + (own.interface_offset != a.interface_offset) +
                                    (own.pivot_distance != a.pivot_distance) + own_spring;
-      if (differs < differences_of_another_device)
-        return;
+      const bool is_other_device = differs >= differences_of_another_device;
+      const auto is_asked_for    = [&](const std::string &name)
+      { return is_other_device || (name == "Lever/Moment of inertia" && has_other_lever(scene)); };
       SceneSettings defaults;
       const auto parameters = scene_parameters(defaults);
       std::string list;
       for (const auto &[name, counts] : dependents(scene))
-        if (counts && scene.given.count(name) == 0 && !is_varied(scene, name))
+        if (counts && is_asked_for(name) && scene.given.count(name) == 0 && !is_varied(scene, name))
           list += (list.empty() ? "" : ", ") + name + " = " + find_parameter(parameters, name)->default_value;
       if (list.empty())
         return;
       warnings.push_back({ "defaults_of_model_a",
-                           "The geometry or spring is of another device than model A, but the scene does not give " + list +
-                               ": these are model A's.",
+                           std::string(is_other_device ? "The geometry or spring" : "The lever") +
+                               " is of another device than model A, but the scene does not give " + list +
+                               ": what it does not give is model A's.",
                            "The device modelled is a mixture of two: forces follow geometry and spring, flexure the lever's "
-                           "dimensions, frequencies and stability the moment of inertia and the contact stiffness as well.",
+                           "dimensions, frequencies and stability the moment of inertia, to which densities are scaled, and the "
+                           "contact stiffness as well.",
                            "Give these parameters, even where the value is the same; Analysis/Type = contact law fits the "
-                           "contact stiffness." });
+                           "contact stiffness, Lever/Inertia = as built takes densities as they are." });
     }
     void add_locking(const Scene &scene, Warnings &warnings)
     {

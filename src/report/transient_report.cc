@@ -84,10 +84,10 @@ namespace sprag
       return {};
     }
 
-    /// Element length along the friction face of the built-in lever [mm]; 0: none, or unknown.
+    /// Element length along the friction face [mm]; 0: none.
     double size_of_elements(const Scene &scene)
     {
-      return is_meshed(scene.analysis.model) && scene.mesh.file.empty() ? scene.mesh.face_size : 0.;
+      return is_meshed(scene.analysis.model) ? scene.mesh.face_size : 0.;
     }
   } // namespace
 

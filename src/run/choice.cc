@@ -111,11 +111,11 @@ namespace sprag
 
   Resolved resolved(const Scene &given)
   {
-    Resolved result{ prepared(given), std::nullopt };
+    Resolved result{ with_own_face_size(prepared(given)), std::nullopt };
     if (given.analysis.type == AnalysisType::study || !given.accuracy.leaves_open())
       return result;
     result.choice = choose_settings(result.scene);
-    result.scene  = prepared(with_settings(result.scene, result.choice->settings));
+    result.scene  = with_own_face_size(prepared(with_settings(result.scene, result.choice->settings)));
     return result;
   }
 

@@ -60,7 +60,7 @@ namespace sprag
 
   Warnings validate(const Scene &given)
   {
-    const Scene scene = prepared(given);
+    const Scene scene = with_own_face_size(prepared(given));
     if (scene.analysis.type == AnalysisType::study)
       require_possible_runs(scene);
     try_mesh(scene);
@@ -80,12 +80,7 @@ namespace sprag
 
   void run(const Scene &given, const RunOptions &options)
   {
-    if (!options.quiet && !given.mesh.file.empty())
-    {
-      require_writable(options.folder);
-      try_mesh(prepared(given));
-    }
-    if (given.accuracy.leaves_open())
+    if (given.accuracy.leaves_open() || !given.mesh.file.empty())
       require_writable(options.folder);
     const auto [scene, choice] = resolved(given);
     RunOptions telling         = options;

@@ -30,7 +30,8 @@ namespace sprag
                { "degrees_of_freedom", static_cast<double>(body.n_dofs()), "1", "displacements, those of the hub included" },
                { "face_points", static_cast<double>(body.friction_face().points.size()), "1",
                  "integration points of the friction face" },
-               { "face_size", scene.mesh.face_size, "mm", "element length along the friction face in use, of the built-in mesh" },
+               { "face_size", scene.mesh.face_size, "mm",
+                 "element length along the friction face in use, the longest of a Mesh/File" },
                { "bond_loads", static_cast<double>(lever.face_compliance().basis_size()), "1",
                  "loads on the bond of the layer by which the answer of the lever behind it is found" },
                { "penalty", normal, "N/mm^3", "normal penalty in use" },
@@ -66,10 +67,10 @@ namespace sprag
         append(of_face, lever.samples(state));
       }
 
-      /// None of a body at finite strain, which is solved as a whole.
+      /// None of a body at finite strain, which is solved as a whole, nor where nothing touched.
       std::vector<Entry> entries(const SolidLever &lever) const
       {
-        if (!lever.is_linear())
+        if (!lever.is_linear() || of_face.empty())
           return {};
         const auto worst = lever.exactness(of_face);
         return {

@@ -1,5 +1,6 @@
 #include "scene/across.h"
 
+#include "base/text.h"
 #include "scene/analysis_use.h"
 #include "scene/scene.h"
 
@@ -44,6 +45,25 @@ namespace sprag
     std::vector<double> half{ 0. };
     std::copy_if(result.begin(), result.end(), std::back_inserter(half), [&](const double zeta) { return zeta > round_off; });
     return half;
+  }
+
+  std::string cylinder_too_short(const Scene &scene, const std::vector<double> &planes)
+  {
+    constexpr double least_elements = 2.; // with one a single line of nodes may carry all, whatever the length
+    const auto &cylinder            = scene.cylinder;
+    const double half               = 0.5 * scene.lever.width;
+    const double begin              = std::max(-half, cylinder.position - 0.5 * cylinder.length);
+    const double end                = std::min(half, cylinder.position + 0.5 * cylinder.length);
+    if (cylinder.length == 0. || (begin == -half && end == half) || begin >= end) // the last is told as a wrong position
+      return {};
+    double widest = 0.;
+    for (std::size_t i = 1; i < planes.size(); ++i)
+      if (planes[i] > begin && planes[i - 1] < end)
+        widest = std::max(widest, planes[i] - planes[i - 1]);
+    if (end - begin >= least_elements * widest * (1. - 1e-9))
+      return {};
+    return "must cover at least " + mm(least_elements * widest) + " of the lever's width, two elements across, which are " +
+           mm(widest) + " wide under it: raise Mesh/Elements across, or lower Growth across";
   }
 
   std::vector<double> with_sides_of(const double web, std::vector<double> planes)

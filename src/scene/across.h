@@ -3,6 +3,7 @@
 #include "scene/apparatus.h"
 
 #include <array>
+#include <string>
 #include <vector>
 
 namespace sprag
@@ -23,6 +24,10 @@ namespace sprag
   /// Returns the planes between the elements across the width of three dimensions, from its middle, growing from both edges to
   /// the middle [mm]; where it is symmetric those of one half.
   std::vector<double> planes_across(const Scene &scene);
+
+  /// Returns the rule, beginning with "must", that a Cylinder/Length breaks which covers less than two of the elements between
+  /// planes across [mm], or an empty text.
+  std::string cylinder_too_short(const Scene &scene, const std::vector<double> &planes);
 
   /// Returns the planes stretched so that they hold both sides of a web in the middle: those nearest to them move there, or
   /// further ones are added. `web`: its width, at most that of the planes [mm].

@@ -45,6 +45,12 @@ namespace sprag
                    "must leave a part of the cylinder over the lever, " + mm(-half) + " to " + mm(half) + " from its middle");
         rules.need(cylinder.edge_radius <= 0.5 * cylinder.length, "Cylinder/Edge radius", { "Cylinder/Length" },
                    "must be at most half of Length = " + mm(cylinder.length));
+        if (scene.mesh.file.empty())
+        {
+          const auto too_short = cylinder_too_short(scene, planes_across(scene));
+          rules.need(too_short.empty(), "Cylinder/Length", { "Mesh/Elements across", "Mesh/Growth across", "Lever/Width" },
+                     too_short);
+        }
       }
       else
         rules.need(cylinder.edge_radius == 0., "Cylinder/Edge radius", { "Cylinder/Length" },

@@ -441,3 +441,60 @@ TEST(Mesh, FileThatIsNoGeometryIsNamed)
   EXPECT_NE(complaint("Point(1) = {0, 0\nno geometry;\n"), "");
   EXPECT_NE(complaint("nothing\n", "bar.msh"), "");
 }
+
+namespace
+{
+  /// A layer of 1 mm and a bar that are drawn by themselves, `gap` apart, with nodes along each; `hub` lists its curves.
+  std::string two_parts(const unsigned int along_layer, const unsigned int along_lever, const double gap, const std::string &hub)
+  {
+    const std::string bottom = std::to_string(46.6 + gap);
+    return "SetFactory(\"OpenCASCADE\");\nRectangle(1) = {0, 45.6, 0, 210, 1};\nRectangle(2) = {0, " + bottom +
+           ", 0, 210, 20};\nTransfinite Curve {1, 3} = " + std::to_string(along_layer) +
+           ";\nTransfinite Curve {5, 7} = " + std::to_string(along_lever) +
+           ";\nTransfinite Curve {2, 4} = 2;\nTransfinite Curve {6, 8} = 3;\nTransfinite Surface {1, 2};\n"
+           "Recombine Surface {1, 2};\nPhysical Surface(\"layer\") = {1};\nPhysical Surface(\"lever\") = {2};\n"
+           "Physical Curve(\"friction face\") = {1};\nPhysical Curve(\"hub\") = {" +
+           hub + "};\n";
+  }
+} // namespace
+
+TEST(Mesh, PartsThatTouchAndShareNoNodesAreRefused)
+{
+  const auto twins = complaint(two_parts(43, 43, 0., "4, 8"));
+  expect_named(twins, "86 nodes lie on a side of an element that they are no corners of");
+  expect_named(twins, "touches");
+  expect_named(complaint(two_parts(43, 22, 0., "4, 8")), "65 nodes lie on a side");
+}
+
+TEST(Mesh, PartsThatNothingHoldsAreNamed)
+{
+  expect_named(complaint(two_parts(43, 43, 0.5, "8")), "the part of 'layer' with an element at (2.5, 46.1) mm floats");
+  expect_named(complaint(two_parts(43, 43, 0.5, "4, 8")), "shares no side of an element with 'lever'");
+}
+
+TEST(Mesh, FrictionFaceWithAGapUnderTheContactIsRefused)
+{
+  const std::string split =
+      "Point(5) = {140, 45.6, 0}; Point(6) = {160, 45.6, 0};\nLine(1) = {1, 5}; Line(5) = {5, 6}; Line(6) = "
+      "{6, 2};\nTransfinite Curve {1, 6} = 20; Transfinite Curve {5} = 5;\n";
+  std::string text = bar("lever", "friction face", "hub");
+  text.replace(text.find("Line(1) = {1, 2};\n"), 18, split);
+  text.replace(text.find("{1, 2, 3, 4};\nPlane"), 12, "{1, 5, 6, 2, 3, 4}");
+  text.replace(text.find("Curve {1, 3} = 43"), 17, "Curve {3} = 43");
+  text.replace(text.find("Surface {1};\nRec"), 11, "Surface {1} = {1, 2, 3, 4}");
+  text.replace(text.find("\"friction face\") = {1}"), 22, "\"friction face\") = {1, 6}");
+  expect_named(complaint(text), "lacks a piece from 140 to 160 mm from the pivot, but the contact sweeps");
+}
+
+TEST(Mesh, BodyOnTheCylindersSideIsRefused)
+{
+  std::string text = bar("lever", "friction face", "hub", 25.6);
+  text.replace(text.find("\"friction face\") = {1}"), 22, "\"friction face\") = {3}");
+  expect_named(complaint(text), "the body lies on the cylinder's side of 'friction face'");
+}
+
+TEST(Mesh, CurveInTwoGroupsIsRefused)
+{
+  expect_named(complaint(bar("lever", "friction face", "hub") + "Physical Curve(\"hub\") += {1};\n"),
+               "the physical groups 'friction face' and 'hub' have elements in common");
+}

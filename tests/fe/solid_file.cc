@@ -167,3 +167,17 @@ TEST(SolidFile, MissingGroupsAreNamedWithTheNearest)
   plate.plate.type = PlateType::on_sensors;
   EXPECT_EQ(mistakes_of(plate).size(), 3u);
 }
+
+// A tenth of a micrometre apart: nearer than nodes are meant to be.
+TEST(SolidFile, PartsThatTouchAndShareNoNodesAreRefused)
+{
+  const auto found = mistakes_of(
+      lever_of({ { "Line(1)", "Point(7) = {0, 46.6001, -20}; Point(8) = {210, 46.6001, -20}; Line(8) = {7, 8};\nLine(1)" },
+                 { "Line(6) = {3, 5}; Line(7) = {4, 6}", "Line(6) = {7, 5}; Line(7) = {8, 6}" },
+                 { "Curve Loop(2) = {2,", "Curve Loop(2) = {8," },
+                 { "Curve {1, 2, 3}", "Curve {1, 2, 3, 8}" } }));
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_NE(found[0].find("24 nodes lie on a side of an element that they are no corners of"), std::string::npos) << found[0];
+  EXPECT_NE(found[1].find("the part of 'layer'"), std::string::npos) << found[1];
+  EXPECT_NE(found[1].find("floats"), std::string::npos) << found[1];
+}

@@ -299,6 +299,15 @@ class FailedRun(ProgramTest):
         self.assertIn("locks", done.stderr)
         self.assertIn(f"x = {last:.6g} mm", status)
 
+    def test_solid_layer_crushed_at_first(self):
+        scene = self.write("")
+        soft = ("Analysis/Dimension=3", "Mesh/Elements across=2", "Mesh/Face size=4", "Drive/Start=40", "Friction layer/Young's modulus=0.005")
+        done = sprag(scene, *(word for option in soft for word in ("--set", option)), "--output", self.output, "--quiet")
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertIn("half of Young's modulus there", done.stderr)
+        with h5py.File(self.output / "result.h5", "r") as file:
+            self.assertIn("half of Young's modulus there", file["summary/status"].asstr()[()])
+
     def test_deviation_too_large(self):
         scene = self.write("")
         options = ("--set", "Analysis/Maximum deviation=1e-9", "--output", self.output)

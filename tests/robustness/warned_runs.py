@@ -25,6 +25,7 @@ PROVOKED = {
     "incompressible in plane stress": ("model-a", (*FORWARD, "Friction layer/Poisson's ratio=0.49"), ["plane_stress_of_layer"]),
     "coarse contact": ("model-a", (*FORWARD, "Mesh/Face size=2"), ["coarse_contact"]),
     "contact narrow at first": ("model-a", (*FORWARD, "Mesh/Face size=0.5"), ["coarse_contact"]),
+    "own mesh": ("model-a", (*FORWARD, "Mesh/File=../meshes/lever.geo"), ["coarse_contact"]),
     "other device": ("model-a", (*FORWARD, *OTHER_DEVICE), ["defaults_of_model_a", "coarse_contact"]),
     "crushed cork": ("model-a", (*FORWARD, "Friction layer/Strength=0.1"), ["pressure_beyond_strength"]),
     "crushed cork under a beam": ("reversal-a", ("Friction layer/Strength=0.1",), ["pressure_beyond_strength"]),

@@ -59,6 +59,19 @@ TEST(PeakReport, WarnsOfAContactOfFewElements)
   EXPECT_EQ(coarse_contact_warnings(scene, rows).size(), 1u);
 }
 
+TEST(PeakReport, WarnsOfAContactOfFewElementsOfAnOwnMesh)
+{
+  Scene scene          = model_a();
+  scene.mesh.face_size = 1.2; // see with_own_face_size()
+  scene.mesh.file      = "own.msh";
+  const auto warnings  = coarse_contact_warnings(scene, rows);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].found.find("2 times the longest side on the friction face, 1.2 mm"), std::string::npos)
+      << warnings[0].found;
+  EXPECT_NE(warnings[0].remedy.find("Give the friction face of Mesh/File sides of at most"), std::string::npos)
+      << warnings[0].remedy;
+}
+
 // Widths about those of model A.
 TEST(PeakReport, WarnsOfAContactThatIsNarrowOverMoreThanAQuarterOfItsWay)
 {

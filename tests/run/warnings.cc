@@ -249,6 +249,27 @@ TEST(SceneWarnings, AVariationOfModelAIsNoOtherDevice)
   EXPECT_EQ(names(scene_warnings(scene)), Names{ "defaults_of_model_a" });
 }
 
+TEST(SceneWarnings, AnotherLeverIsNotScaledToTheInertiaOfModelA)
+{
+  Scene scene          = model_a();
+  scene.analysis.type  = AnalysisType::transient;
+  scene.analysis.model = ModelType::condensed;
+  EXPECT_EQ(names(scene_warnings(scene)), Names{});
+  scene.mesh.file  = "own.msh";
+  const auto found = scene_warnings(scene);
+  ASSERT_EQ(names(found), Names{ "defaults_of_model_a" });
+  EXPECT_NE(found[0].found.find("The lever is of another device"), std::string::npos) << found[0].found;
+  EXPECT_NE(found[0].found.find("give Lever/Moment of inertia = 6.45: "), std::string::npos) << found[0].found;
+  Scene built         = scene;
+  built.lever.inertia = InertiaSource::as_built;
+  EXPECT_EQ(names(scene_warnings(built)), Names{});
+  Scene at_rest         = scene;
+  at_rest.analysis.type = AnalysisType::quasi_static;
+  EXPECT_EQ(names(scene_warnings(at_rest)), Names{});
+  scene.given = { "Lever/Moment of inertia" };
+  EXPECT_EQ(names(scene_warnings(scene)), Names{});
+}
+
 TEST(SceneWarnings, WhatAMapVariesIsGiven)
 {
   Scene scene          = model_b();

@@ -1,5 +1,6 @@
 #include "scene/check.h"
 
+#include "base/append.h"
 #include "scene/messages.h"
 #include "scene/scene.h"
 
@@ -76,6 +77,14 @@ TEST(CheckScene, WhatThisVersionCannotDoIsRefused)
                        "between the levers of a full pair: an axis that yields to both is not looked at yet" }));
   EXPECT_EQ(
       mistakes_of({ "Analysis/Dimension=3", "Cylinder/Length=10", "Cylinder/Position=26", "Cylinder/Edge radius=6" }).size(), 2u);
+  const std::vector<std::string> equal = { "Analysis/Dimension=3", "Mesh/Growth across=1" }; // ten elements of 4 mm
+  EXPECT_EQ(
+      mistakes_of(joined(equal, { "Cylinder/Length=7.9" })),
+      (Messages{ "--set: Cylinder/Length = 7.9: must cover at least 8 mm of the lever's width, two elements across, which are "
+                 "4 mm wide under it: raise Mesh/Elements across, or lower Growth across" }));
+  EXPECT_EQ(mistakes_of(joined(equal, { "Cylinder/Length=14", "Cylinder/Position=-20" })).size(), 1u); // covers 7
+  EXPECT_TRUE(mistakes_of(joined(equal, { "Cylinder/Length=8" })).empty());
+  EXPECT_TRUE(mistakes_of(joined(equal, { "Cylinder/Length=40", "Mesh/Elements across=1" })).empty());
   EXPECT_EQ(mistakes_of({ "Analysis/Minimum step=2" }),
             (Messages{ "--set: Analysis/Minimum step = 2: must not be more than Step = 1 mm" }));
   EXPECT_TRUE(mistakes_of({ "Lever/Material=neo-Hookean", "Analysis/Plane=strain" }).empty());

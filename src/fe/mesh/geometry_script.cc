@@ -52,6 +52,37 @@ namespace sprag
       }
     };
 
+    /// Elements of a dimension by their nodes, to tell those that two groups with a meaning claim.
+    struct Claims
+    {
+      std::map<std::vector<std::size_t>, std::string> group; ///< by sorted nodes
+      std::set<std::pair<std::string, std::string>> shared;
+
+      void add(const int dim, const int tag, const std::string &name)
+      {
+        std::vector<int> entities;
+        gmsh::model::getEntitiesForPhysicalGroup(dim, tag, entities);
+        for (const int entity : entities)
+        {
+          std::vector<int> types;
+          std::vector<std::vector<std::size_t>> elements, nodes;
+          gmsh::model::mesh::getElements(types, elements, nodes, dim, entity);
+          for (std::size_t i = 0; i < types.size(); ++i)
+          {
+            const std::size_t n = nodes[i].size() / std::max<std::size_t>(1, elements[i].size());
+            for (auto corner = nodes[i].begin(); corner != nodes[i].end(); corner += static_cast<std::ptrdiff_t>(n))
+            {
+              std::vector<std::size_t> key(corner, corner + static_cast<std::ptrdiff_t>(n));
+              std::sort(key.begin(), key.end());
+              const auto found = group.insert({ key, name }).first;
+              if (found->second != name)
+                shared.insert(std::minmax(found->second, name));
+            }
+          }
+        }
+      }
+    };
+
     /// Physical tags by meaning. Reports everything that is missing or unknown at once. Of a mesh in three dimensions it takes
     /// groups without a meaning away: those of the surface that was extruded lie inside.
     Answer read_groups(const std::string &file, const MeshGroups &groups, const int dim)
@@ -60,6 +91,7 @@ namespace sprag
       Answer ids;
       std::set<std::string> parts, sides;
       std::vector<std::string> mistakes;
+      Claims of_parts, of_sides;
       gmsh::vectorpair tags;
       gmsh::model::getPhysicalGroups(tags);
       for (const auto &[group_dim, tag] : tags)
@@ -67,9 +99,15 @@ namespace sprag
         std::string name;
         gmsh::model::getPhysicalName(group_dim, tag, name);
         if (group_dim == dim && groups.parts.count(name) != 0)
+        {
           ids.materials[tag] = groups.parts.at(name);
+          of_parts.add(dim, tag, name);
+        }
         else if (group_dim == dim - 1 && groups.sides.count(name) != 0)
+        {
           ids.boundaries[tag] = groups.sides.at(name);
+          of_sides.add(dim - 1, tag, name);
+        }
         else if (group_dim == dim)
           mistakes.push_back(file + ": unknown physical " + part + " '" + name + "': " + part + "s are " + groups.part_names);
         else if (dim == 3)
@@ -79,6 +117,10 @@ namespace sprag
         else if (group_dim == dim - 1)
           sides.insert(name);
       }
+      for (const auto &shared : { of_parts.shared, of_sides.shared })
+        for (const auto &[one, other] : shared)
+          mistakes.push_back(file + ": the physical groups '" + one + "' and '" + other +
+                             "' have elements in common; each belongs to one of them");
       for (const auto &line : groups.missing(parts, sides))
         mistakes.push_back(file + ": " + line);
       if (!mistakes.empty())

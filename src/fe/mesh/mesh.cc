@@ -6,7 +6,9 @@
 #include "fe/body/elastic_body.h"
 #include "fe/mesh/geometry_script.h"
 #include "fe/mesh/lever_groups.h"
+#include "fe/mesh/mesh_look.h"
 #include "fe/mesh/solid_file.h"
+#include "scene/across.h"
 #include "scene/contact_width.h"
 #include "scene/lever_shape.h"
 #include "scene/scene.h"
@@ -72,26 +74,34 @@ namespace sprag
                                                { "wall", frame_wall } });
     }
 
-    std::vector<Point<2>> corners_of_friction_face(const Triangulation<2> &triangulation)
+    /// Ends of the sides on the friction face, from the pivot on.
+    std::vector<std::array<Point<2>, 2>> sides_of_friction_face(const Triangulation<2> &triangulation)
     {
-      std::vector<Point<2>> corners;
+      std::vector<std::array<Point<2>, 2>> sides;
       for (const auto &cell : triangulation.active_cell_iterators())
         for (const auto &face : cell->face_iterators())
           if (face->at_boundary() && face->boundary_id() == boundary_id::friction_face)
-            corners.insert(corners.end(), { face->vertex(0), face->vertex(1) });
-      return corners;
+          {
+            const Point<2> &a = face->vertex(0), &b = face->vertex(1);
+            sides.push_back({ { a[0] < b[0] ? a : b, a[0] < b[0] ? b : a } });
+          }
+      std::sort(sides.begin(), sides.end(), [](const auto &one, const auto &other) { return one[0][0] < other[0][0]; });
+      return sides;
     }
 
     /// The face must lie where the scene's geometry has it, or the cylinder would miss it.
-    void check_position(const Scene &scene, const Triangulation<2> &triangulation)
+    std::vector<std::string> mistakes_of_face(const Scene &scene, const Triangulation<2> &triangulation)
     {
-      const auto corners   = corners_of_friction_face(triangulation);
+      const auto sides     = sides_of_friction_face(triangulation);
       const auto &geometry = scene.geometry;
       const auto &file     = scene.mesh.file;
       const double e       = geometry.interface_offset;
       const double small   = 1e-6 * geometry.cylinder_radius;
-      if (corners.empty())
+      if (sides.empty())
         throw InputError(file + ": no side of 'lever' or 'layer' lies on the curve 'friction face'");
+      std::vector<Point<2>> corners;
+      for (const auto &[begin, end] : sides)
+        corners.insert(corners.end(), { begin, end });
       const auto [lower, upper] = BoundingBox<2>(corners).get_boundary_points();
 
       std::vector<std::string> mistakes;
@@ -102,8 +112,18 @@ namespace sprag
       if (lower[0] > first || upper[0] < last)
         mistakes.push_back(file + ": the curve 'friction face' spans " + rounded_text(lower[0]) + " to " + mm(upper[0]) +
                            " from the pivot, but the contact sweeps " + rounded_text(first) + " to " + mm(last));
-      if (!mistakes.empty())
-        throw InputError(mistakes);
+      double covered = sides.front()[0][0];
+      for (const auto &[begin, end] : sides)
+      {
+        if (begin[0] > covered + small && begin[0] > first && covered < last)
+        {
+          mistakes.push_back(file + ": the curve 'friction face' lacks a piece from " + rounded_text(covered) + " to " +
+                             mm(begin[0]) + " from the pivot, but the contact sweeps " + rounded_text(first) + " to " + mm(last));
+          break;
+        }
+        covered = std::max(covered, end[0]);
+      }
+      return mistakes;
     }
   } // namespace
 
@@ -111,13 +131,24 @@ namespace sprag
   {
     if (has_solid_file(scene))
       return;
+    const auto groups = lever_groups(scene, 2);
+    std::vector<std::string> mistakes;
     if (!scene.mesh.file.empty())
-      read_gmsh(scene.mesh.file, {}, lever_groups(scene, 2), triangulation);
+    {
+      read_gmsh(scene.mesh.file, {}, groups, triangulation);
+      for (const auto &mistake : mesh_mistakes(groups, triangulation))
+        mistakes.push_back(scene.mesh.file + ": " + mistake);
+      if (scene.analysis.dimension == 3)
+        if (const auto too_short = cylinder_too_short(scene, planes_across(scene)); !too_short.empty())
+          mistakes.push_back(scene.mesh.file + ": Cylinder/Length = " + rounded_text(scene.cylinder.length) + " " + too_short);
+    }
     else if (scene.lever.outline == LeverOutline::bar)
-      read_gmsh(mesh_script("lever.geo"), bar_constants(scene), lever_groups(scene, 2), triangulation);
+      read_gmsh(mesh_script("lever.geo"), bar_constants(scene), groups, triangulation);
     else
-      read_gmsh(mesh_script("frame.geo"), frame_constants(scene), lever_groups(scene, 2), triangulation);
-    check_position(scene, triangulation);
+      read_gmsh(mesh_script("frame.geo"), frame_constants(scene), groups, triangulation);
+    append(mistakes, mistakes_of_face(scene, triangulation));
+    if (!mistakes.empty())
+      throw InputError(mistakes);
     if (scene.cylinder.type != CylinderType::rigid)
       add_cylinder(scene, triangulation);
   }

@@ -5,6 +5,9 @@
 #include "fe/body/body_properties.h"
 #include "fe/mesh/geometry_script.h"
 #include "fe/mesh/lever_groups.h"
+#include "fe/mesh/mesh.h"
+#include "fe/mesh/mesh_look.h"
+#include "scene/across.h"
 #include "scene/lever_shape.h"
 #include "scene/scene.h"
 
@@ -87,6 +90,15 @@ namespace sprag
                            rounded_text(first) + " to " + mm(last));
     }
 
+    void check_cylinder(const Scene &scene, const std::vector<Side> &sides, Messages &mistakes)
+    {
+      std::vector<double> planes;
+      for (const long place : places_along(2, sides))
+        planes.push_back(1e-6 * static_cast<double>(place));
+      if (const auto too_short = cylinder_too_short(scene, planes); !too_short.empty())
+        mistakes.push_back("Cylinder/Length = " + rounded_text(scene.cylinder.length) + " " + too_short);
+    }
+
     /// Whether a side is a rectangle with its sides along x and z.
     bool is_straight(const Side &side)
     {
@@ -108,10 +120,9 @@ namespace sprag
                            " where all lines cross");
     }
 
-    void check_face(const Scene &scene, const Triangulation<3> &triangulation)
+    void check_face(const Scene &scene, const Triangulation<3> &triangulation, Messages mistakes)
     {
       const auto sides = sides_of_face(triangulation);
-      Messages mistakes;
       if (sides.empty())
         mistakes.push_back("no side of 'lever', 'plate' or 'layer' lies on the surface 'friction face'");
       else
@@ -120,6 +131,7 @@ namespace sprag
         check_width(scene, sides, mistakes);
         check_sweep(scene, sides, mistakes);
         check_lines(sides, mistakes);
+        check_cylinder(scene, sides, mistakes);
       }
       for (auto &line : mistakes)
         line = scene.mesh.file + ": " + line;
@@ -135,13 +147,28 @@ namespace sprag
 
   void read_solid_file(const Scene &scene, Triangulation<3> &triangulation)
   {
-    read_gmsh(scene.mesh.file, {}, lever_groups(scene, 3), triangulation);
-    check_face(scene, triangulation);
+    const auto groups = lever_groups(scene, 3);
+    read_gmsh(scene.mesh.file, {}, groups, triangulation);
+    check_face(scene, triangulation, mesh_mistakes(groups, triangulation));
   }
 
   void check_solid_file(const Scene &scene)
   {
     Triangulation<3> triangulation;
     read_solid_file(scene, triangulation);
+  }
+
+  double own_face_size(const Scene &scene)
+  {
+    const auto [first, last] = swept_contact(scene);
+    if (has_solid_file(scene))
+    {
+      Triangulation<3> triangulation;
+      read_solid_file(scene, triangulation);
+      return longest_face_side(triangulation, first, last);
+    }
+    Mesh triangulation;
+    make_mesh(scene, triangulation);
+    return longest_face_side(triangulation, first, last);
   }
 } // namespace sprag

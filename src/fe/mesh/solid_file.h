@@ -17,4 +17,8 @@ namespace sprag
 
   /// Throws what read_solid_file() throws.
   void check_solid_file(const Scene &scene);
+
+  /// Returns the longest side along the friction face of a scene's Mesh/File, plane or solid, where the contact sweeps [mm].
+  /// Throws what make_mesh() and read_solid_file() throw.
+  double own_face_size(const Scene &scene);
 } // namespace sprag
