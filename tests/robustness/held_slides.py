@@ -170,6 +170,30 @@ class JammedSlide(ProgramTest):
         self.assertIn("no slide in contact", found["status"])
 
 
+class Damping(RunTest):
+    """A beam of 15 mm moving out at x = 40 mm. A Ritz beam of another program grows by -39.5, 26.6 and 64.8 1/s with Contact/Damping
+    0.02, 0.1 and 0.2."""
+
+    def summary(self, damping):
+        changes = ("Analysis/Model=beam", "Lever/Depth=15", "Stability/Direction=forward", "Stability/Position=40", "Stability/Critical=none")
+        settings = [word for change in (*changes, f"Contact/Damping={damping}") for word in ("--set", change)]
+        done = sprag(SOURCE / "params" / "stability-a.prm", *settings, "--output", self.output, "--overwrite")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertIn("verdict holds", done.stdout)
+        with h5py.File(self.output / "result.h5", "r") as file:
+            return {name: file["summary"][name][()] for name in ("growth_rate", "contact_damping_limit_low", "contact_damping_limit_high")}
+
+    def test_is_told_with_the_verdict(self):
+        found = self.summary(0.02)
+        self.assertAlmostEqual(found["growth_rate"], -39.5, delta=0.5)
+        limit = found["contact_damping_limit_high"]
+        self.assertTrue(0.02 < limit < 0.1, limit)
+        self.assertLess(self.summary(0.99 * limit)["growth_rate"], 0)
+        beyond = self.summary(1.01 * limit)
+        self.assertGreater(beyond["growth_rate"], 0)
+        self.assertAlmostEqual(beyond["contact_damping_limit_low"], limit, delta=0.01 * limit)
+
+
 class SlenderLever(RunTest):
     """On a leaf spring, whose elements are much stiffer than the lever."""
 
