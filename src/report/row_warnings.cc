@@ -4,6 +4,7 @@
 #include "report/peak_report.h"
 #include "results/row_statistics.h"
 #include "scene/closed_form.h"
+#include "scene/contact_reference.h"
 #include "scene/contact_width.h"
 #include "scene/scene.h"
 
@@ -305,5 +306,23 @@ namespace sprag
     row[Column::P]           = P;
     row[Column::indentation] = indentation;
     return row_warnings(scene, { row });
+  }
+
+  Warnings beam_warnings(const Scene &scene, const double frequency, const double growth_rate)
+  {
+    if (scene.analysis.model != ModelType::beam || !(growth_rate > 0.))
+      return {};
+    constexpr double depths = 6.;
+    const Lever &lever      = scene.lever;
+    const double stiffness  = lever.young_modulus * lever.width * std::pow(lever.depth, 3) / 12.; // E I
+    const double wavenumber = 2. * M_PI / (depths * lever.depth);
+    const double highest    = wavenumber * wavenumber * std::sqrt(stiffness / mass_per_length(scene)) / (2. * M_PI);
+    if (!(frequency > highest))
+      return {};
+    return { { "beyond_the_beam",
+               "The mode that grows most vibrates at " + rounded_text(frequency) + " Hz. Up to " + rounded_text(highest) +
+                   " Hz waves are longer than six depths of the lever.",
+               "No lever has that mode, and the verdict does not hold.",
+               "Give Lever/Modal damping, or take Analysis/Model = condensed." } };
   }
 } // namespace sprag

@@ -174,6 +174,8 @@ namespace sprag
         result.summary = slide_entries(found);
         if (found.slide)
           append(warnings, slide_warnings(scene, found.slide->drive, found.slide->forces.P, found.slide->indentation));
+        if (found.slide)
+          append(warnings, beam_warnings(scene, found.frequency(), found.growth_rate()));
         const auto accuracy =
             estimates_errors(options) ? accuracy_of(held, found, dynamics.meshed, maker) : std::vector<ErrorEstimate>();
         result.accuracy = accuracy_entries(accuracy);

@@ -302,6 +302,17 @@ TEST(SceneWarnings, LockingOfModelsThatCanBend)
   EXPECT_TRUE(locks(scene_warnings(with_coulomb(model_a(), 2.64))));
 }
 
+TEST(BeamWarnings, WavesShorterThanSixDepths)
+{
+  Scene scene          = model_a();
+  scene.analysis.model = ModelType::beam;
+  EXPECT_TRUE(beam_warnings(scene, 500., 30.).empty());
+  EXPECT_EQ(beam_warnings(scene, 240e3, 34.).size(), 1u);
+  EXPECT_TRUE(beam_warnings(scene, 240e3, -34.).empty());
+  scene.analysis.model = ModelType::condensed;
+  EXPECT_TRUE(beam_warnings(scene, 240e3, 34.).empty());
+}
+
 TEST(TargetWarnings, WhereATargetIsMissed)
 {
   AccuracySettings asked;
