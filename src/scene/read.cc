@@ -231,7 +231,7 @@ namespace sprag
           law.law = friction.stribeck;
         else
           use_table("Friction/Table", friction.table, { { "speed", "velocity", "v" }, "mm/s" },
-                    { { "mu", "coefficient", "friction" }, "" },
+                    { { "mu", "coefficient", "friction", "\u00B5", "\u03BC" }, "" },
                     [&law](const auto &speeds, const auto &coefficients) { law.law = TabulatedFriction(speeds, coefficients); });
       }
 

@@ -323,6 +323,9 @@ TEST(ReadScene, UnitsOfTablesCount)
   const auto drive = scene_of({ "Drive/Profile=table", "Drive/Table=drive.csv" }).drive;
   EXPECT_NEAR(drive.maximum(), 30., 1e-12);
   EXPECT_NEAR(drive.duration(), 3., 1e-12);
+  written("\u00B5 [-], v [cm/s]\n0.25, 0\n0.5, 1\n0.75, 10\n0.75, 20\n", "mu.csv");
+  const auto friction = scene_of({ "Friction/Law=table", "Friction/Table=mu.csv" }).friction;
+  EXPECT_EQ(friction_coefficient(friction, 10.).coefficient, 0.5);
 }
 
 TEST(ReadScene, HDF5TablesMustBeTables)
