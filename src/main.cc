@@ -17,6 +17,8 @@
 #include <csignal>
 #include <cstring>
 #include <iostream>
+#include <string>
+#include <sys/resource.h>
 
 // The program that one calls. It reads, checks and looks after runs and does itself what formulas answer; for models, which take
 // some 200 shared libraries, it becomes sprag-models. Linking it says what it must not use.
@@ -25,6 +27,21 @@ namespace sprag
 {
   namespace
   {
+    /// Models overflow a smaller stack [bytes].
+    constexpr rlim_t least_stack = 1024 * 1024;
+
+    void require_stack()
+    {
+      rlimit limit = {};
+      if (::getrlimit(RLIMIT_STACK, &limit) != 0 || limit.rlim_cur >= least_stack)
+        return;
+      const auto given = limit.rlim_cur;
+      limit.rlim_cur   = least_stack;
+      if (limit.rlim_max < least_stack || ::setrlimit(RLIMIT_STACK, &limit) != 0)
+        throw InputError("the stack may have " + std::to_string(given / 1024) + " kB by ulimit -s: must be at least " +
+                         std::to_string(least_stack / 1024) + " kB");
+    }
+
     std::string fate_of(const WorkEnd &end)
     {
       const bool by_user = end.asked || end.signal == SIGINT || end.signal == SIGTERM || end.signal == SIGHUP;
@@ -147,6 +164,7 @@ int main(int argc, char **argv)
   const std::timespec since = time_of_files();
   try
   {
+    require_stack();
     if (under_mpi() && !arguments.print_parameters)
       become_neighbour("sprag-models", argv);
     return run_looked_after(arguments, since, argc, argv);

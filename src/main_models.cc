@@ -23,8 +23,6 @@
 #include <chrono>
 #include <cstdlib>
 #include <stdexcept>
-#include <string>
-#include <sys/resource.h>
 #include <thread>
 
 // What sprag becomes where models are needed, with the libraries that they need, and what mpirun starts. It does formulas as
@@ -112,21 +110,6 @@ namespace sprag
         ::setenv(name, value, 0);
     }
 
-    /// gmsh and factorisations overflow a smaller stack [bytes].
-    constexpr rlim_t least_stack = 1024 * 1024;
-
-    void require_stack()
-    {
-      rlimit limit = {};
-      if (::getrlimit(RLIMIT_STACK, &limit) != 0 || limit.rlim_cur >= least_stack)
-        return;
-      const auto given = limit.rlim_cur;
-      limit.rlim_cur   = least_stack;
-      if (limit.rlim_max < least_stack || ::setrlimit(RLIMIT_STACK, &limit) != 0)
-        throw InputError("the stack may have " + std::to_string(given / 1024) + " kB by ulimit -s: must be at least " +
-                         std::to_string(least_stack / 1024) + " kB");
-    }
-
     Rank rank_in_mpi()
     {
       return { MPI::this_mpi_process(MPI_COMM_WORLD) == 0, MPI::n_mpi_processes(MPI_COMM_WORLD) == 1 };
@@ -193,19 +176,16 @@ int main(int argc, char **argv)
     trust_scripts();
   const std::timespec since = time_of_files();
   std::optional<Scene> scene;
-  try
-  {
-    require_stack();
-    if (!under_mpi())
+  if (!under_mpi())
+    try
     {
       scene = scene_of(arguments);
       set_up_mpi_for_one();
     }
-  }
-  catch (const InputError &error)
-  {
-    return tell(error);
-  }
+    catch (const InputError &error)
+    {
+      return tell(error);
+    }
   RunLog log(argc, argv);
   int no_arguments = 1;
   std::optional<dealii::Utilities::MPI::MPI_InitFinalize> mpi;

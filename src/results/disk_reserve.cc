@@ -3,6 +3,7 @@
 #include "base/errors.h"
 
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <fcntl.h>
 #include <sys/resource.h>
@@ -61,6 +62,13 @@ namespace sprag
       return;
     reserve(needed + margin);
     reserved = needed + margin;
+  }
+
+  void DiskReserve::rename(const std::string &new_path)
+  {
+    if (::rename(path.c_str(), new_path.c_str()) != 0)
+      fail(new_path, errno);
+    path = new_path;
   }
 
   void DiskReserve::require_in_place() const

@@ -23,6 +23,9 @@ namespace sprag
     /// that cannot reserve are taken at their word that there is space.
     void cover(std::size_t bytes);
 
+    /// Gives the file another name, in place of a file that has it. Throws AnalysisError where that fails.
+    void rename(const std::string &new_path);
+
     /// Throws AnalysisError if the file is no longer at its path: its folder, or the file itself, was removed or replaced.
     void require_in_place() const;
 

@@ -9,6 +9,9 @@ namespace sprag
   /// The attribute `format` of our result files.
   inline constexpr char result_format[] = "sprag result";
 
+  /// Behind the name of a result file that cannot be read yet.
+  inline constexpr char result_begun_ending[] = ".new";
+
   /// What a result file tells about its run.
   struct EarlierResult
   {

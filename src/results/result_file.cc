@@ -27,7 +27,6 @@ namespace sprag
 
     void clear_the_way(const std::string &path)
     {
-      // Somebody who still reads the old file keeps it.
       std::error_code ignored;
       if (std::filesystem::is_regular_file(path, ignored))
         std::filesystem::remove(path, ignored);
@@ -258,18 +257,23 @@ namespace sprag
                          const std::vector<ColumnInfo> &columns)
       : path(file_path)
   {
-    hdf5::Handle file = create(path);
-    DiskReserve reserve(path);
+    // Until others can read it, it has another name: of a run that is killed nothing is left that nobody can read, and somebody
+    // who still reads the old file keeps it.
+    const std::string begun = path + result_begun_ending;
+    hdf5::Handle file       = create(begun);
+    DiskReserve reserve(begun);
     reserve.cover(overhead + parameters.size());
     hdf5::write_attribute(file, "format", std::string(result_format));
     hdf5::write_attribute(file, "format_version", 1.);
     describe(hdf5::write_dataset(file, "parameters", parameters), "", "every parameter as used, in .prm form");
     Table table(file, columns);
-    writer = std::make_unique<Writer>(Writer{ std::move(reserve), std::move(file), std::move(table) });
+    std::optional<Face> face;
     if (!points.xi.empty())
-      writer->face.emplace(writer->file, points);
+      face.emplace(file, points);
     // From here on others can read along; no object and no attribute can be created any more.
-    hdf5::checked("letting others read", H5Fstart_swmr_write(writer->file.id()));
+    hdf5::checked("letting others read", H5Fstart_swmr_write(file.id()));
+    reserve.rename(path);
+    writer = std::make_unique<Writer>(Writer{ std::move(reserve), std::move(file), std::move(table), std::move(face) });
   }
 
   ResultFile::ResultFile(ResultFile &&) noexcept = default;

@@ -162,6 +162,13 @@ class Refused(EndsTest):
                 self.refused(done, "Mesh/Face size = 0.0005", "GB of memory", "free on this machine")
                 self.assertFalse(self.output.exists())
 
+    def test_too_small_a_stack(self):
+        soft, hard = 1 << 16, resource.getrlimit(resource.RLIMIT_STACK)[1]
+        for most, code in ((soft, 2), (hard, 0)):
+            done = self.run_to_end(*COARSE, preexec_fn=lambda most=most: resource.setrlimit(resource.RLIMIT_STACK, (soft, most)))
+            self.assertEqual((done.returncode, len(done.stderr.splitlines())), (code, code // 2), done.stderr)
+            self.assertEqual("64 kB by ulimit -s: must be at least 1024 kB" in done.stderr, code == 2)
+
     def test_too_many_rows(self):
         for options in (
             (*CLOSED_FORM, "--set", "Drive/Cycles=1e5"),
