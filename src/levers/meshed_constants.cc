@@ -13,7 +13,7 @@ namespace sprag
   {
     LeafSpring leaf = scene.spring.leaf;
     leaf.thickness  = thickness;
-    return leaf_behaviour(leaf, scene.analysis.plane, 0., 0.).law.linear_stiffness();
+    return leaf_behaviour(leaf, leaf.plane, 0., 0.).law.linear_stiffness();
   }
 
   double inertia_as_built(const Scene &scene)

@@ -17,7 +17,7 @@ namespace sprag
   /// 5/elements^3 (displacements of degree 1) or 0.8/elements^3 (degree 2), measured by tests/benchmarks/pressure.py, and 1.
   double expected_pressure_error(double elements, unsigned int degree);
 
-  /// Warns where the built-in mesh is too coarse, by more than 5 % expected, for the largest pressure of a run or for the
+  /// Warns where the mesh is too coarse, by more than 5 % expected, for the largest pressure of a run or for the
   /// pressures over more than a quarter of the way that the cylinder makes in contact.
   Warnings coarse_contact_warnings(const Scene &scene, const std::vector<Row> &rows);
 } // namespace sprag

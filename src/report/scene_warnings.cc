@@ -127,20 +127,20 @@ namespace sprag
     {
       const auto &layer = scene.layer;
       const double nu   = layer.poisson_ratio;
-      if (!has_mesh(scene) || layer.thickness == 0. || scene.analysis.plane != PlaneState::stress ||
-          scene.analysis.dimension == 3 || nu <= largest_ratio_of_plane_stress)
+      if (!has_mesh(scene) || layer.thickness == 0. || layer.plane != PlaneState::stress || scene.analysis.dimension == 3 ||
+          nu <= largest_ratio_of_plane_stress)
         return;
       const double ratio = (1. - nu) * (1. - nu) / (1. - 2. * nu);
       warnings.push_back(
           { "plane_stress_of_layer",
-            "Friction layer/Poisson's ratio = " + rounded_text(nu) + " with Analysis/Plane = stress; above " +
+            "Friction layer/Poisson's ratio = " + rounded_text(nu) + " with Friction layer/Plane = stress; above " +
                 rounded_text(largest_ratio_of_plane_stress) +
                 " a layer held between two faces, much wider than thick, is more than twice as stiff as plane stress says.",
             "The layer of " + mm(layer.thickness) + " thickness and " + mm(scene.lever.width) +
                 " width is too soft, by up to a factor of " + rounded_text(ratio) +
                 ": compression and contact width come out too large, the largest pressure too small; P, Q and theta hardly "
                 "change.",
-            "Set Analysis/Plane = strain." });
+            "Set Friction layer/Plane = strain." });
     }
 
     /// Points that lie beside the cylinder do not feel it.

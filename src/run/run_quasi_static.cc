@@ -35,7 +35,7 @@ namespace sprag
     void print_model(const Scene &scene, const LeverModel &model)
     {
       const auto &body = model.elastic_body();
-      std::cout << "Finite elements: " << body.n_dofs() << " displacements of degree " << scene.mesh.degree << ", plane "
+      std::cout << "Finite elements: " << body.n_dofs() << " displacements of degree " << scene.mesh.degree << ", lever in plane "
                 << (scene.analysis.plane == PlaneState::stress ? "stress" : "strain") << ", "
                 << (scene.lever.material == MaterialModel::linear ? "linear" : "neo-Hookean") << "; "
                 << body.friction_face().points.size() << " contact points; penalty " << model.penalties().normal << " N/mm^3\n"

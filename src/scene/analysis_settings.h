@@ -1,5 +1,7 @@
 #pragma once
 
+#include "scene/plane_state.h"
+
 #include <string>
 #include <vector>
 
@@ -42,12 +44,6 @@ namespace sprag
     return model == ModelType::rigid || model == ModelType::beam;
   }
 
-  enum class PlaneState
-  {
-    stress,
-    strain
-  };
-
   enum class Solution
   {
     automatic, ///< factorise once where the material is linear
@@ -66,7 +62,7 @@ namespace sprag
     AnalysisType type         = AnalysisType::quasi_static;
     ModelType model           = ModelType::finite_element;
     unsigned int dimension    = 2;
-    PlaneState plane          = PlaneState::stress;
+    PlaneState plane          = PlaneState::stress; ///< of the lever
     Solution solution         = Solution::automatic;
     double step               = 1.;   ///< largest change of x in a step [mm], > 0
     double minimum_step       = 1e-6; ///< smallest change of x tried before the analysis gives up [mm], > 0

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "laws/moment_law.h"
+#include "scene/plane_state.h"
 
 #include <array>
 #include <optional>
@@ -43,9 +44,10 @@ namespace sprag
     double density        = 7.85e-9; ///< [t/mm^3]
     LeafEnd end           = LeafEnd::clamped;
     LeafAxial axial       = LeafAxial::free;
-    double clamp_distance = 0.;   ///< from the pivot to the clamp [mm], >= 0
-    double sagitta        = 0.;   ///< of the unloaded spring, an arc bent towards +eta [mm], signed
-    double room           = 150.; ///< from the pivot to the end of the pivot frame [mm]
+    double clamp_distance = 0.;                 ///< from the pivot to the clamp [mm], >= 0
+    double sagitta        = 0.;                 ///< of the unloaded spring, an arc bent towards +eta [mm], signed
+    double room           = 150.;               ///< from the pivot to the end of the pivot frame [mm]
+    PlaneState plane      = PlaneState::stress; ///< as a beam
   };
 
   /// What a lever feels of a leaf spring besides its stiffness. It is found by finite elements, for levers of every fidelity.
@@ -167,7 +169,8 @@ namespace sprag
     double young_modulus = 70000.;
     double poisson_ratio = 0.33;
     double density       = 2.7e-9;
-    double face_size     = 0.25; ///< element length where it touches the lever [mm]
+    double face_size     = 0.25;               ///< element length where it touches the lever [mm]
+    PlaneState plane     = PlaneState::strain; ///< it is wide
 
     // In three dimensions.
     double length   = 0.;                 ///< [mm], >= 0; 0: longer than the lever is wide

@@ -20,6 +20,8 @@ namespace sprag
       section.length("Thickness", settings.thickness, "In the plane");
       section.length("Width", settings.width, "Out of plane");
       add_material(section, settings);
+      add_plane(section, settings,
+                "Plane stress, a beam, or strain, a plate much wider than long, 1/(1 - nu^2) times as stiff; others lie between");
       section.choice("Joint", settings.end,
                      { { "clamped", LeafEnd::clamped }, { "pinned", LeafEnd::pinned }, { "guided", LeafEnd::guided } },
                      "Far end: neither turns nor moves across, turns only, or moves across only (4, 3 and 1 times EI/L)");
@@ -72,6 +74,7 @@ namespace sprag
                      "A rigid circle, or finite elements on a rigid core or shaft");
       section.length("Inner radius", settings.inner_radius, "Of the rigid core of a solid one, of a ring's shaft");
       add_material(section, settings);
+      add_plane(section, settings, "Plane stress or strain of an elastic one, which is wide");
       section.length("Face size", settings.face_size, "Element length where it touches the lever");
       section.number("Length", settings.length, at_least(0.), "mm",
                      "In three dimensions: of the cylinder; 0: longer than the lever is wide");

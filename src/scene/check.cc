@@ -125,6 +125,14 @@ namespace sprag
       rules.need(scene.lever.material != MaterialModel::neo_hookean || !has_stress || use.transient, "Lever/Material",
                  { "Analysis/Plane", "Analysis/Dimension" },
                  "neo-Hookean needs Analysis/Plane = strain or Analysis/Dimension = 3");
+      const auto need_strain = [&](const PlaneState plane, const std::string &parameter)
+      {
+        rules.need(scene.lever.material != MaterialModel::neo_hookean || scene.analysis.dimension == 3 || use.transient ||
+                       plane == PlaneState::strain,
+                   parameter, { "Lever/Material", "Analysis/Dimension" }, "must be strain with Lever/Material = neo-Hookean");
+      };
+      need_strain(scene.layer.plane, "Friction layer/Plane");
+      need_strain(scene.cylinder.plane, "Cylinder/Plane");
     }
 
     void linear_structure(const Scene &scene, const Use &use, Rules &rules)

@@ -58,7 +58,7 @@ namespace sprag
   {
     const double t       = scene.layer.thickness;
     const double nu      = scene.layer.poisson_ratio;
-    const double modulus = scene.analysis.plane == PlaneState::stress
+    const double modulus = scene.layer.plane == PlaneState::stress
                                ? scene.layer.young_modulus / (1. - nu * nu)
                                : scene.layer.young_modulus * (1. - nu) / ((1. + nu) * (1. - 2. * nu));
     if (t == 0.)

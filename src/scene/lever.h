@@ -53,7 +53,8 @@ namespace sprag
     double thickness     = 1.; ///< [mm], >= 0; 0: no layer
     double young_modulus = 20.;
     double poisson_ratio = 0.;
-    double density       = 2e-10;   ///< [t/mm^3], scaled together with the lever's
+    double density       = 2e-10;              ///< [t/mm^3], scaled together with the lever's
+    PlaneState plane     = PlaneState::strain; ///< a thin one on a wide lever
     std::optional<double> strength; ///< pressure at which its cells give way [MPa]; none: 0.04 times its Young's modulus
   };
 

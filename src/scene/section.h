@@ -103,4 +103,11 @@ namespace sprag
     section.number("Poisson's ratio", part.poisson_ratio, between(-1., 0.5), "", "nu" + of);
     section.number("Density", part.density, above(0.), "t/mm3", "rho" + of);
   }
+
+  /// Adds the choice of plane stress or strain of a part.
+  template <class Part>
+  void add_plane(Section &section, Part &part, const std::string &meaning)
+  {
+    section.choice("Plane", part.plane, { { "stress", PlaneState::stress }, { "strain", PlaneState::strain } }, meaning);
+  }
 } // namespace sprag

@@ -45,8 +45,7 @@ namespace sprag
       section.choice("Dimension", input.dimension, { { "auto", std::nullopt }, { "2", 2u }, { "3", 3u } },
                      "Dimension of the finite elements; auto: 3 where a probe in three dimensions differs by more than "
                      "Accuracy/Target, or 1 %, in one of Accuracy/Quantity");
-      section.choice("Plane", settings.plane, { { "stress", PlaneState::stress }, { "strain", PlaneState::strain } },
-                     "Plane stress or plane strain of lever and friction layer");
+      add_plane(section, settings, "Plane stress or plane strain of the lever; layer, cylinder and leaf spring have their own");
       section.choice("Solution", settings.solution, { { "automatic", Solution::automatic }, { "general", Solution::general } },
                      "Factorise once where the material is linear, or in every iteration");
       section.length("Step", settings.step, "Largest change of x in a step");
@@ -154,6 +153,8 @@ namespace sprag
     {
       section.number("Thickness", settings.thickness, at_least(0.), "mm", "Of the cork sheet; 0: none");
       add_material(section, settings, " of the layer");
+      add_plane(section, settings,
+                "Plane stress or strain of the layer: bonded to a lever much wider than it is thick, it cannot contract across");
       section.number_or_auto(
           "Strength", settings.strength, above(0.), "MPa",
           "Pressure from which the layer's cells give way, for a warning; auto: 0.04 E of a cork, none for nu > 0.2");

@@ -3,7 +3,10 @@
 #include "fe/body/elastic_body.h"
 #include "fe/body/material.h"
 #include "fe/fields/body_fields.h"
+#include "fe/statics/lever_properties.h"
 #include "mpi_environment.h"
+#include "scene/scene.h"
+#include "scenes.h"
 #include "support/random_vector.h"
 #include "support/solid.h"
 #include "verification/block.h"
@@ -81,6 +84,27 @@ TEST(CellElasticity, WhatLocksIsPlaneStrainWithRatiosAboveTwoFifths)
   properties.plane = PlaneState::stress;
   EXPECT_FALSE(is_nearly_incompressible(properties, material_id::lever));
   EXPECT_FALSE(is_nearly_incompressible(soft_solid(2, MaterialModel::linear, 0.4), material_id::lever));
+}
+
+TEST(CellElasticity, EachMaterialHasItsOwnPlane)
+{
+  dealii::Triangulation<2> triangulation;
+  make_free_block(triangulation);
+  const auto G = gradient(0.03, 0.04, -0.02, 0.01);
+  for (const auto plane : { PlaneState::strain, PlaneState::stress })
+  {
+    auto properties   = soft_solid(2, MaterialModel::linear, 0.3);
+    properties.plane  = plane == PlaneState::strain ? PlaneState::stress : PlaneState::strain;
+    properties.planes = { { material_id::lever, plane } };
+    const ElasticBody<2> body(triangulation, properties);
+    const auto stress   = linear_elastic<2>(plane_constants({ 20., 0.3 }, plane), G).piola;
+    const double energy = 0.5 * scalar_product(stress, G) * dealii::GridTools::volume(triangulation) * width;
+    EXPECT_NEAR(body.energy(affine(body, G)), energy, 1e-13 * energy);
+  }
+  const auto parts = lever_properties(model_a()).body;
+  EXPECT_EQ(parts.plane_of(material_id::lever), PlaneState::stress);
+  EXPECT_EQ(parts.plane_of(material_id::layer), PlaneState::strain);
+  EXPECT_EQ(parts.plane_of(material_id::cylinder), PlaneState::strain);
 }
 
 // Together with lambda times the square of the dilatation's derivative.

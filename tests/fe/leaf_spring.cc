@@ -6,6 +6,7 @@
 #include "mpi_environment.h"
 #include "scene/closed_form.h"
 #include "scene/scene.h"
+#include "scenes.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -299,6 +300,19 @@ TEST(LeafSpring, AsThinAsFoil)
     EXPECT_NEAR(at_end, expected, 1e-3 * expected);
     EXPECT_NEAR(further_off, at_end, 1e-3 * expected);
   }
+}
+
+TEST(LeafSpring, ThePlaneOfTheLeverLeavesItAlone)
+{
+  Scene scene          = model_a();
+  scene.spring.type    = SpringType::leaf;
+  const double as_beam = with_leaf_spring(scene).spring.stiffness;
+  scene.analysis.plane = PlaneState::strain;
+  EXPECT_EQ(with_leaf_spring(scene).spring.stiffness, as_beam);
+  auto &leaf            = scene.spring.leaf;
+  leaf.plane            = PlaneState::strain;
+  const double as_plate = with_leaf_spring(scene).spring.stiffness;
+  EXPECT_NEAR(as_plate / as_beam * (1. - leaf.poisson_ratio * leaf.poisson_ratio), 1., 2e-3); // the clamps hinder both
 }
 
 TEST(LeafSpring, RefusesWhatItCannotDo)

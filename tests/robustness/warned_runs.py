@@ -22,7 +22,7 @@ PROVOKED = {
     "lever of 1 mm": ("model-a", (*FORWARD, "Lever/Depth=1"), ["coarse_contact", "large_deflection"]),
     "leaf of 5 mm": ("leaf-a", (*FORWARD, "Leaf spring/Thickness=5"), ["large_strain", "pressure_beyond_strength"]),
     "leaf of 8 mm": ("leaf-a", ("Analysis/Model=closed form", "Leaf spring/Thickness=8"), ["leaf_beyond_yield", "pressure_beyond_strength"]),
-    "incompressible in plane stress": ("model-a", (*FORWARD, "Friction layer/Poisson's ratio=0.49"), ["plane_stress_of_layer"]),
+    "incompressible in plane stress": ("model-a", (*FORWARD, "Friction layer/Poisson's ratio=0.49", "Friction layer/Plane=stress"), ["plane_stress_of_layer"]),
     "coarse contact": ("model-a", (*FORWARD, "Mesh/Face size=2"), ["coarse_contact"]),
     "contact narrow at first": ("model-a", (*FORWARD, "Mesh/Face size=0.5"), ["coarse_contact"]),
     "own mesh": ("model-a", (*FORWARD, "Mesh/File=../meshes/lever.geo"), ["coarse_contact"]),

@@ -95,7 +95,7 @@ namespace
 TEST(Choice, ThreeDimensionsAreTakenWhereThePlaneIsOffByMoreThanIsAskedForSlow)
 {
   EXPECT_EQ(chosen(dimension_for({}), "Analysis/Dimension"), "2");
-  EXPECT_EQ(chosen(dimension_for({ "Cylinder/Length=20" }), "Analysis/Dimension"), "2"); // P and Q alone
+  EXPECT_EQ(chosen(dimension_for({ "Cylinder/Length=22" }), "Analysis/Dimension"), "2"); // P and Q alone
   const std::string pressure = "Accuracy/Quantity=largest_pressure";
   EXPECT_EQ(chosen(dimension_for({ pressure }), "Analysis/Dimension"), "3");
   EXPECT_EQ(chosen(dimension_for({ pressure, "Cylinder/Tilt=1e-7", "Accuracy/Target=0.2" }), "Analysis/Dimension"), "2");

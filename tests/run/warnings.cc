@@ -362,10 +362,11 @@ TEST(SceneWarnings, StrainOfALeaf)
 
 TEST(SceneWarnings, PlaneStressOfALayer)
 {
-  Scene scene = model_a();
+  Scene scene       = model_a();
+  scene.layer.plane = PlaneState::stress;
   expect_bound(scene, scene.layer.poisson_ratio, 0.41, 0.42, "plane_stress_of_layer");
-  Scene other          = scene;
-  other.analysis.plane = PlaneState::strain;
+  Scene other       = scene;
+  other.layer.plane = PlaneState::strain;
   EXPECT_EQ(names(scene_warnings(other)), Names{});
   other                = scene;
   other.analysis.model = ModelType::closed_form;

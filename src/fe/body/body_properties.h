@@ -57,8 +57,9 @@ namespace sprag
 
   struct BodyProperties
   {
-    unsigned int degree    = 2;
-    PlaneState plane       = PlaneState::stress;
+    unsigned int degree = 2;
+    PlaneState plane    = PlaneState::stress;
+    std::map<dealii::types::material_id, PlaneState> planes; ///< of materials in another
     MaterialModel material = MaterialModel::linear;
     double width           = 1.;                         ///< out of plane [mm]
     std::map<dealii::types::material_id, double> widths; ///< of materials with another width [mm]
@@ -66,6 +67,12 @@ namespace sprag
     double point_spacing = 0.02;                         ///< aimed at between integration points of the friction face [mm]
     std::map<dealii::types::material_id, ElasticConstants> constants;
     std::vector<ConnectorSettings> connectors; ///< of a friction plate
+
+    PlaneState plane_of(const dealii::types::material_id id) const
+    {
+      const auto found = planes.find(id);
+      return found == planes.end() ? plane : found->second;
+    }
 
     double width_of(const dealii::types::material_id id) const
     {

@@ -21,7 +21,7 @@ namespace sprag
 
   bool is_nearly_incompressible(const BodyProperties &properties, const types::material_id id)
   {
-    return properties.plane == PlaneState::strain && properties.material != MaterialModel::st_venant_kirchhoff &&
+    return properties.plane_of(id) == PlaneState::strain && properties.material != MaterialModel::st_venant_kirchhoff &&
            properties.constants.at(id).poisson_ratio > 0.4;
   }
 
@@ -39,7 +39,7 @@ namespace sprag
   {
     values.reinit(cell);
     const auto material = cell->material_id();
-    constants           = plane_constants(properties.constants.at(material), properties.plane);
+    constants           = plane_constants(properties.constants.at(material), properties.plane_of(material));
     width               = properties.width_of(material);
     const auto &fe      = values.get_fe();
     for (const unsigned int q : values.quadrature_point_indices())

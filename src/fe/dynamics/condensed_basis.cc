@@ -56,6 +56,11 @@ namespace sprag
         key.add(material);
         key.add(width);
       }
+      for (const auto &[material, plane] : properties.planes)
+      {
+        key.add(material);
+        key.add(static_cast<double>(plane));
+      }
       for (const auto &connector : properties.connectors)
       {
         key.add(static_cast<double>(connector.type));

@@ -30,17 +30,19 @@ namespace sprag
     }
 
     /// The normal stress out of the plane [MPa].
-    double out_of_plane(const BodyProperties &properties, const ElasticConstants &constants, const Tensor<2, 2> &F,
+    double out_of_plane(const BodyProperties &properties, const types::material_id material, const Tensor<2, 2> &F,
                         const SymmetricTensor<2, 2> &in_plane, const std::optional<double> &pressure)
     {
-      const Lame lame   = plane_constants(constants, properties.plane);
-      const bool linear = properties.material == MaterialModel::linear;
-      const double J    = linear ? 1. : determinant(F);
+      const auto &constants = properties.constants.at(material);
+      const auto plane      = properties.plane_of(material);
+      const Lame lame       = plane_constants(constants, plane);
+      const bool linear     = properties.material == MaterialModel::linear;
+      const double J        = linear ? 1. : determinant(F);
       if (pressure)
         return *pressure / J;
       if (properties.material == MaterialModel::neo_hookean)
         return lame.lambda * std::log(J) / J;
-      if (properties.plane == PlaneState::stress)
+      if (plane == PlaneState::stress)
         return 0.;
       if (linear)
         return constants.poisson_ratio * trace(in_plane);
@@ -49,10 +51,10 @@ namespace sprag
 
     /// Where the dilatation is projected, so is the pressure [MPa]: at each point by itself it would swing within the element.
     template <int dim>
-    SymmetricTensor<2, 3> stress_at(const BodyProperties &properties, const ElasticConstants &constants,
+    SymmetricTensor<2, 3> stress_at(const BodyProperties &properties, const types::material_id material,
                                     const Tensor<2, dim> &gradient, const std::optional<double> &pressure)
     {
-      const Lame lame   = plane_constants(constants, properties.plane);
+      const Lame lame   = plane_constants(properties.constants.at(material), properties.plane_of(material));
       const bool linear = properties.material == MaterialModel::linear;
       const auto F      = Tensor<2, dim>(unit_symmetric_tensor<dim>()) + gradient;
       const auto at     = pressure ? stress_at_pressure<dim>(properties.material, lame.mu, gradient, *pressure)
@@ -63,7 +65,7 @@ namespace sprag
         for (unsigned int j = i; j < dim; ++j)
           result[i][j] = cauchy[i][j];
       if constexpr (dim == 2)
-        result[2][2] = out_of_plane(properties, constants, F, cauchy, pressure);
+        result[2][2] = out_of_plane(properties, material, F, cauchy, pressure);
       return result;
     }
 
@@ -147,7 +149,7 @@ namespace sprag
         at_points.reinit(cell);
         at_points[vector].get_function_gradients(displacement, gradients_at_points);
         const auto gradients    = product(to_nodes, gradients_at_points);
-        const auto &constants   = properties.constants.at(material);
+        const Lame lame         = plane_constants(properties.constants.at(material), properties.plane_of(material));
         const bool is_projected = is_nearly_incompressible(properties, material);
         if (is_projected)
         {
@@ -159,9 +161,8 @@ namespace sprag
         {
           std::optional<double> pressure;
           if (is_projected)
-            pressure =
-                plane_constants(constants, properties.plane).lambda * elasticity.dilatation()(at_places.quadrature_point(q));
-          sums[nodes[q]] += stress_at<dim>(properties, constants, gradients[q], pressure);
+            pressure = lame.lambda * elasticity.dilatation()(at_places.quadrature_point(q));
+          sums[nodes[q]] += stress_at<dim>(properties, material, gradients[q], pressure);
         }
       }
     }

@@ -18,7 +18,7 @@ namespace sprag
   {
   public:
     explicit LeafShapes(const Scene &scene)
-        : leaf(scene.spring.leaf, scene.analysis.plane)
+        : leaf(scene.spring.leaf, scene.spring.leaf.plane)
         , of_body(leaf.body())
         , rest(leaf.rest())
     {

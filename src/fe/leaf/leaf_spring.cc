@@ -143,7 +143,7 @@ namespace sprag
     const double largest    = std::max(0., kinematics(scene.geometry, scene.drive.maximum()).theta - rest);
     const double room       = std::max(0.02, 0.5 * std::max(-smallest, largest));
     const double joint_mass = 0.5 * scene.pair.joint_mass; // the mirrored lever's leaf carries the other half
-    const auto plane        = scene.analysis.plane;
+    const auto plane        = scene.spring.leaf.plane;
     scene.spring.behaviour  = leaf_behaviour(scene.spring.leaf, plane, smallest - room, largest + room, joint_mass);
     scene.spring.stiffness  = scene.spring.behaviour.law.linear_stiffness();
     if (swings(scene))

@@ -29,6 +29,7 @@ namespace sprag
     {
       auto result  = lever_properties(scene).body;
       result.plane = PlaneState::strain; // its constants are those of the body
+      result.planes.clear();
       result.width = 1.;
       result.widths.clear();
       result.connectors.clear(); // has its own

@@ -35,6 +35,7 @@ namespace sprag
                                { material_id::web, metal },
                                { material_id::plate, { scene.plate.young_modulus, scene.plate.poisson_ratio } },
                                { material_id::layer, { scene.layer.young_modulus, scene.layer.poisson_ratio } } };
+    result.body.planes     = { { material_id::layer, scene.layer.plane }, { material_id::cylinder, scene.cylinder.plane } };
     result.body.widths     = { { material_id::web, scene.frame.web } };
     result.body.connectors = plate_connectors(scene.plate);
 

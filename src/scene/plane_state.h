@@ -1,0 +1,11 @@
+#pragma once
+
+namespace sprag
+{
+  /// What a part of a plane model does out of the plane.
+  enum class PlaneState
+  {
+    stress, ///< it may contract and bears no stress there
+    strain  ///< it may not contract
+  };
+} // namespace sprag
