@@ -259,6 +259,8 @@ namespace sprag
   {
     // Until others can read it, it has another name: of a run that is killed nothing is left that nobody can read, and somebody
     // who still reads the old file keeps it.
+    if (std::filesystem::is_directory(path))
+      throw InputError("cannot write " + path + ": is a folder");
     const std::string begun = path + result_begun_ending;
     hdf5::Handle file       = create(begun);
     DiskReserve reserve(begun);
