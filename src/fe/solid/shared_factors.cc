@@ -3,7 +3,6 @@
 #include "base/errors.h"
 
 #include <cstring>
-#include <dlfcn.h>
 #include <utility>
 
 namespace sprag
@@ -16,15 +15,9 @@ namespace sprag
     constexpr int memory_relaxation = 30; ///< per cent
     constexpr int together          = 64; ///< right-hand sides: more gain little
 
-    /// Its library is loaded by the first large body alone, not whenever the program starts.
     void start(SMUMPS_STRUC_C &mumps)
     {
-      static void *const library = dlopen(SPRAG_MUMPS_SINGLE, RTLD_NOW);
-      static void *const found   = library != nullptr ? dlsym(library, "smumps_c") : nullptr;
-      if (found == nullptr)
-        throw AnalysisError(std::string("the direct solver of single precision cannot be loaded (") + SPRAG_MUMPS_SINGLE +
-                            "). Is libmumps-dev installed?");
-      reinterpret_cast<decltype(&smumps_c)>(found)(&mumps);
+      smumps_c(&mumps);
     }
 
     void start(DMUMPS_STRUC_C &mumps)
