@@ -236,6 +236,22 @@ TEST(EnergyLedger, ClosesWithAnElasticCylinder)
 
 // P and Q of both strokes at mu and at 0.9 mu: what they change by is the closed form's change but for the change of the
 // deviation between the two, itself a few per cent of the deviation's size, 1 to 2 %.
+// What augmentation leaves of the overlap turns the lever by as much over the distance of the contact.
+TEST(PenetrationTolerance, IsHowFarAugmentationLeavesTheLever)
+{
+  Scene scene           = with_face_size(with_augmented_lagrangian(with_coulomb(model_a(), mu)), 2.);
+  scene.drive           = Drive(DriveProfile::triangle, 0., 65., 112., 0.5);
+  scene.analysis.step   = 20.;
+  scene.contact.penalty = 50.;
+  const auto theta_with = [&](const double tolerance)
+  {
+    scene.contact.penetration_tolerance = tolerance;
+    return run_scene(scene).back()[Column::theta];
+  };
+  const double s = kinematics(scene.geometry, 65.).s;
+  EXPECT_LT(std::abs(theta_with(1e-6) - theta_with(1e-9)), 1e-6 / s);
+}
+
 TEST(FrictionCoefficient, MovesTheForcesAsTheClosedFormSays)
 {
   for (const Scene &scene : models())
