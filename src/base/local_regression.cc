@@ -50,7 +50,7 @@ namespace sprag
     for (std::size_t i = 0; i < x.size() && unit > 0.; ++i)
     {
       // A point at the window's edge has no weight.
-      while (*begin <= x[i] - 0.5 * width)
+      while (*begin < x[i] && *begin <= x[i] - 0.5 * width)
         ++begin;
       while (end != x.end() && *end < x[i] + 0.5 * width)
         ++end;

@@ -68,6 +68,8 @@ namespace sprag
       try
       {
         const double converted = number->value * unit_factor(number->rest, rule.unit);
+        if (!std::isfinite(converted))
+          throw InputError("is too large");
         return number_text(leading_number(formatted("%.15g", converted))->value);
       }
       catch (const InputError &error)

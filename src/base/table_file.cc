@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <filesystem>
 #include <functional>
 #include <limits>
@@ -153,7 +154,9 @@ namespace sprag
             comment = trim(line.substr(hash + 1));
           if (row.empty())
             continue;
-          const auto cells = cells_of(row);
+          auto cells = cells_of(row);
+          if (!named && row.find('\t') != std::string::npos) // several of which may align two columns
+            cells.erase(std::remove(cells.begin(), cells.end(), ""), cells.end());
           if (!columns.empty() || !read_header(cells, row, comment))
             read_row(cells, row);
         }
@@ -316,8 +319,9 @@ namespace sprag
       const Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.id()), H5Fclose);
       if (file.id() < 0)
         throw InputError(path + ": cannot be read as HDF5");
-      const auto at_root = hdf5::names_in(file);
-      const bool grouped = std::find(at_root.begin(), at_root.end(), "table") != at_root.end();
+      H5O_info_t info;
+      const bool grouped = H5Lexists(file.id(), "table", H5P_DEFAULT) > 0 &&
+                           H5Oget_info_by_name(file.id(), "table", &info, H5P_DEFAULT) >= 0 && info.type == H5O_TYPE_GROUP;
       const Handle table(H5Gopen2(file.id(), grouped ? "table" : "/", H5P_DEFAULT), H5Gclose);
       std::vector<NamedColumn> columns;
       for (const auto &name : hdf5::names_in(table))
@@ -463,8 +467,17 @@ namespace sprag
   NamedColumns read_two_columns(const std::string &file, const ColumnNames &first, const ColumnNames &second)
   {
     const bool is_ordered = !is_hdf5(file);
-    return read_table(
-        file, [&](const auto &header) { return choose_two(header, first, second, is_ordered); }, false);
+    const auto table      = read_table(
+             file, [&](const auto &header) { return choose_two(header, first, second, is_ordered); }, false);
+    for (const auto &column : table.columns)
+    {
+      if (column.values.empty())
+        throw InputError(file + ": holds no numbers");
+      for (std::size_t i = 0; i < column.values.size(); ++i)
+        if (!std::isfinite(column.values[i]))
+          throw InputError(file + ": " + row_label(i) + column.name + ": must be a finite number");
+    }
+    return table;
   }
 
   double factor_to(const std::string &unit, const NamedColumn &column)

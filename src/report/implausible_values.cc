@@ -1,3 +1,4 @@
+#include "base/errors.h"
 #include "base/text.h"
 #include "base/units.h"
 #include "report/warnings.h"
@@ -100,9 +101,16 @@ namespace sprag
     /// "2700 kg/m3, which is 2.7e-09 t/mm3", of the first unit in which the value is plausible; empty where it is in none.
     std::string meant(const JudgedValue &judged)
     {
-      for (const auto &unit : judged.mistaken)
-        if (const double value = judged.value * unit_factor(unit, judged.unit); judged.is_plausible(value))
-          return rounded_text(judged.value) + ' ' + unit + ", which is " + rounded_text(value) + ' ' + judged.unit;
+      try
+      {
+        for (const auto &unit : judged.mistaken)
+          if (const double value = judged.value * unit_factor(unit, judged.unit); judged.is_plausible(value))
+            return rounded_text(judged.value) + ' ' + unit + ", which is " + rounded_text(value) + ' ' + judged.unit;
+      }
+      catch (const InputError &)
+      {
+        // Without the data base of units there is nothing to propose.
+      }
       return {};
     }
   } // namespace

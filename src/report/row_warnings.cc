@@ -303,6 +303,7 @@ namespace sprag
     Row row;
     row[Column::x]           = drive.x;
     row[Column::v]           = drive.v;
+    row[Column::v_rel]       = sliding_speed(scene.geometry, drive.x, drive.v);
     row[Column::P]           = P;
     row[Column::indentation] = indentation;
     return row_warnings(scene, { row });

@@ -4,7 +4,8 @@
 
 namespace sprag
 {
-  /// Returns whether a file in a folder of results has a name that FieldFiles gives, of leaf springs of earlier versions included.
+  /// Returns whether a file in a folder of results has a name that FieldFiles gives, of leaf springs of earlier versions
+  /// included.
   bool is_field_file(const std::string &name);
 
   /// Removes what FieldFiles of any run left in a folder.

@@ -1,4 +1,5 @@
 #include "base/append.h"
+#include "base/errors.h"
 #include "base/progress.h"
 #include "base/text.h"
 #include "fe/fields/mode_frames.h"
@@ -19,6 +20,7 @@
 #include "scene/scene.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 
 namespace sprag
@@ -45,24 +47,42 @@ namespace sprag
       return result;
     }
 
-    /// Over which Contact/Damping the verdict stays what it is. That damping is seldom measured, and more of it can make a slide
-    /// grow as well as die out.
+    /// Finds over which Contact/Damping the verdict stays what it is: where a search from the scene's own to none and to a large
+    /// one first meets another kind of slide, or a value that cannot be judged. That damping is seldom measured, and more of it
+    /// can make a slide grow as well as die out.
     DampingRange damping_range(const Scene &scene, DynamicsMaker &maker)
     {
       constexpr double largest      = 0.2;
       constexpr double accuracy     = 1e-3; ///< of an end, over the range
-      constexpr unsigned int points = 5;
+      constexpr unsigned int points = 4;
       const double own              = scene.contact.damping;
-      const ParameterRange range{ "Contact/Damping", 0., std::max(largest, own), points };
-      DampingRange result{ range.from, range.to, range.to, 0. };
-      for (const auto &change : critical_values(scene, range, accuracy, maker).changes)
-        if (change.value > own)
-          result.high = std::min(result.high, change.value);
-        else
-          result.low = std::max(result.low, change.value);
-      Scene undamped             = scene;
-      undamped.contact.damping   = 0.;
-      result.growth_rate_at_none = judge(undamped, maker).growth_rate();
+      const double end              = std::max(largest, own);
+      const auto ends_of            = [&](const double from, const double to)
+      {
+        std::vector<double> result;
+        if (!(from < to))
+          return result;
+        const auto search = critical_values(scene, { "Contact/Damping", from, to, points }, accuracy, maker);
+        for (const auto &change : search.changes)
+          result.push_back(change.value);
+        result.insert(result.end(), search.not_judged.begin(), search.not_judged.end());
+        return result;
+      };
+      DampingRange result{ 0., end, end, std::nan("") };
+      for (const double value : ends_of(0., own))
+        result.low = std::max(result.low, value);
+      for (const double value : ends_of(own, end))
+        result.high = std::min(result.high, value);
+      Scene undamped           = scene;
+      undamped.contact.damping = 0.;
+      try
+      {
+        result.growth_rate_at_none = judge(undamped, maker).growth_rate();
+      }
+      catch (const AnalysisError &)
+      {
+        // It stays unknown.
+      }
       return result;
     }
 
@@ -193,7 +213,7 @@ namespace sprag
           print_brief_errors(std::cout, accuracy);
         }
       }
-      if (found.slide && scene.stability.damping)
+      if (found.slide && scene.stability.damping && options.in_memory == nullptr)
       {
         const auto range = timed(maker, [&] { return damping_range(scene, maker); });
         append(result.summary, damping_entries(range));

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace sprag
 {
@@ -24,9 +25,11 @@ namespace sprag
       const auto dynamics = maker.make(held);
       for (const double share : shares_of_face)
       {
-        DrivePoint drive = held_drive(scene);
-        drive.x -= share * scene.mesh.face_size;
-        result.elsewhere.push_back(judge(dynamics.model(), drive, held.stability.modes));
+        DrivePoint drive  = held_drive(scene);
+        const double away = share * scene.mesh.face_size;
+        drive.x += drive.x - away > scene.drive.minimum() ? -away : away;
+        if (auto slide = judge(dynamics.model(), drive, held.stability.modes); slide.slide)
+          result.elsewhere.push_back(std::move(slide));
       }
     }
     Scene coarse = with_coarser_mesh(with_penalties(scene, penalties, 1.));
@@ -46,13 +49,15 @@ namespace sprag
   {
     const auto difference = [&](const SlideStability &a, const SlideStability &b)
     { return std::abs((value(a) - value(b)) / value(found)); };
-    const auto &on_mesh          = probes.fewer_modes ? *probes.fewer_modes : found;
-    ErrorPart mesh               = mesh_part(scene, difference(probes.coarse, on_mesh), order_of_forces(scene));
-    std::vector<double> by_place = { value(found) };
+    const auto &on_mesh = probes.fewer_modes ? *probes.fewer_modes : found;
+    ErrorPart mesh      = mesh_part(scene, difference(probes.coarse, on_mesh), order_of_forces(scene));
+    double least = value(found), most = value(found);
     for (const auto &slide : probes.elsewhere)
-      by_place.push_back(value(slide));
-    const auto [least, most]     = std::minmax_element(by_place.begin(), by_place.end());
-    mesh.value                   = std::max(mesh.value, (*most - *least) / std::abs(value(found)));
+    {
+      least = std::fmin(least, value(slide)); // passes over places without a slide
+      most  = std::fmax(most, value(slide));
+    }
+    mesh.value                   = std::max(mesh.value, (most - least) / std::abs(value(found)));
     std::vector<ErrorPart> parts = { mesh, penalty_part(scene, difference(probes.soft, found)) };
     if (probes.fewer_modes)
       parts.push_back({ "modes", difference(*probes.fewer_modes, found), "Try twice the Condensed/Modes." });

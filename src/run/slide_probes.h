@@ -16,7 +16,7 @@ namespace sprag
   {
     SlideStability soft;                       ///< with a third of the penalty
     std::optional<SlideStability> fewer_modes; ///< of a condensed lever with several, half of them
-    std::vector<SlideStability> elsewhere;     ///< a quarter, half and three quarters of a face before its place, same mesh
+    std::vector<SlideStability> elsewhere;     ///< a quarter, half and three quarters of a face from its place, same mesh
     SlideStability coarse;                     ///< on a mesh of twice the Mesh/Face size, with as many modes as `fewer_modes`
   };
 

@@ -108,7 +108,7 @@ namespace sprag
         of_frequency = parts_of_slide(held, found, probe_slide(held, dynamics.penalties, maker), frequency_of);
       for (const auto &part : of_frequency)
         if (!(part.value < too_far))
-          return unknown_errors("with another " + part.name +
+          return unknown_errors("with another " + part.name + (part.name == "mesh" ? ", or elsewhere between its nodes," : "") +
                                 " the slide behind the first reversal has no vibration of this frequency.");
       const double between_rows = 1. - std::cos(0.5 * omega * slowing.first_step); // of a peak
       const double first_swing  = 2. * by_step(slowing.first_step) + between_rows;

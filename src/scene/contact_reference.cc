@@ -35,15 +35,18 @@ namespace sprag
 
     /// Returns dP/d(delta) of a contact of width w [N/mm]: b E w/(h (1 - nu^2)) of a thin bonded layer of thickness h, and of a
     /// contact that is narrow against it pi b E/(2 (1 - nu^2) log(1 + 2.426 h/w)), which tends to Johnson, Contact Mechanics,
-    /// eq. 5.57. The larger of the two is within some 5 % of indentation by finite elements. A bare lever is its own layer.
+    /// eq. 5.57. The larger of the two is within some 5 % of indentation by finite elements where nu is small, and up to a third
+    /// too small at nu = 0.4. A bare lever is its own layer, and the cylinder counts as rigid.
     double stiffness_of_face(const Scene &scene, const double P)
     {
       const bool has_layer = scene.layer.thickness > 0.;
       const double h       = has_layer ? scene.layer.thickness : scene.lever.depth;
       const double E       = has_layer ? scene.layer.young_modulus : scene.lever.young_modulus;
       const double nu      = has_layer ? scene.layer.poisson_ratio : scene.lever.poisson_ratio;
+      const bool is_short  = scene.analysis.dimension == 3 && scene.cylinder.length > 0.;
+      const double width   = is_short ? std::min(scene.lever.width, scene.cylinder.length) : scene.lever.width;
       const double slender = h / estimated_contact_width(scene, P);
-      return scene.lever.width * E / (1. - nu * nu) / std::min(slender, M_2_PI * std::log1p(2.426 * slender));
+      return width * E / (1. - nu * nu) / std::min(slender, M_2_PI * std::log1p(2.426 * slender));
     }
 
     /// Returns dP/d(delta) of the contact law of reduced models [N/mm].

@@ -16,8 +16,8 @@ namespace sprag
     /// Augmentations are cheap where the lever is factorised once. Chords of degree 1 need soft contact to follow a circle.
     Enforcement automatic_enforcement(const Scene &scene)
     {
-      const bool is_cheap = scene.analysis.type == AnalysisType::quasi_static &&
-                            scene.lever.material == MaterialModel::linear && scene.analysis.solution == Solution::automatic;
+      const bool is_cheap = scene.analysis.type == AnalysisType::quasi_static && scene.lever.material == MaterialModel::linear &&
+                            scene.analysis.solution == Solution::automatic;
       return is_cheap && scene.mesh.degree == 2 && !scene.contact.penalty ? Enforcement::augmented_lagrangian
                                                                           : Enforcement::penalty;
     }

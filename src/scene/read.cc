@@ -175,7 +175,7 @@ namespace sprag
           report(accuracy.target > 0. ? "Accuracy/Target" : "Accuracy/Budget",
                  "counts only along the drive and for held slides, where errors are told");
         accuracy.quantities = quantities_meant(accuracy.quantity, type_of_runs());
-        const bool is_read = accuracy.is_asked_for() || !input.dimension; // which is chosen by them
+        const bool is_read  = accuracy.is_asked_for() || !input.dimension; // which is chosen by them
         for (const auto &name : accuracy.quantities)
           if (is_read && std::find(possible.begin(), possible.end(), name) == possible.end())
             report("Accuracy/Quantity", "'" + name + "' is none of " + boost::algorithm::join(possible, ", "));

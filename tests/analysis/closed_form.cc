@@ -204,8 +204,10 @@ TEST(ClosedFormRows, LoopAreaOfTheRowsEqualsFrictionWork)
       area += 0.5 * (rows[i - 1][Column::Q] + rows[i][Column::Q]) * (rows[i][Column::x] - rows[i - 1][Column::x]);
     const bool smooth = scene.drive.profile() != DriveProfile::triangle;
     EXPECT_NEAR(area, rows.back()[Column::friction_work], smooth ? 3e-2 : 1e-4);
-    EXPECT_NEAR(rows.back()[Column::drive_work], loop_area(scene), 1e-9 * area);
-    EXPECT_NEAR(rows.back()[Column::friction_work], friction_work(scene), 1e-9 * area);
+    // Tables are integrated in few pieces.
+    const double alike = scene.drive.profile() == DriveProfile::table ? 1e-7 : 1e-9;
+    EXPECT_NEAR(rows.back()[Column::drive_work], loop_area(scene), alike * area);
+    EXPECT_NEAR(rows.back()[Column::friction_work], friction_work(scene), alike * area);
   }
 }
 

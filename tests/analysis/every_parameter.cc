@@ -341,8 +341,8 @@ TEST(EveryParameter, BelongsToTheKeysOfSomeScene)
   std::set<std::string> admitted;
   const Changes statics = { "Analysis/Type=quasi-static", "Analysis/Model=finite element", "Analysis/Plane=strain" };
   const Changes in_time = { "Analysis/Type=transient", "Analysis/Model=rigid", "Friction/Law=Stribeck" };
-  for (const Scene &scene :
-       { bar(folder), frame_with_plate(folder), pair_on_leaves(folder), scene_of(folder, statics), scene_of(folder, in_time) })
+  for (const Scene &scene : { bar(folder), frame_with_plate(folder), pair_on_leaves(folder), scene_of(folder, statics),
+                              scene_of(folder, in_time), from_files(folder) })
     change_each(scene, folder, none, admitted);
   std::set<std::string> missing;
   for (const auto &parameter : declared())

@@ -138,6 +138,7 @@ TEST(Parameters, UnitsOfAnotherDimensionAreRefused)
   EXPECT_EQ(radius("56 N"), begin + "56 N: must be a number > 0 [mm]: 'N' has the dimension m.kg.s-2, mm has the dimension m");
   EXPECT_EQ(radius("56 mn"), begin + "56 mn: must be a number > 0 [mm]: there is no unit 'mn'");
   EXPECT_EQ(radius("56 mm 10"), begin + "56 mm 10: must be a number > 0 [mm]: there is no unit 'mm 10'");
+  EXPECT_EQ(radius("1e308 km"), begin + "1e308 km: must be a number > 0 [mm]: is too large");
   EXPECT_EQ(radius("-1 cm"), begin + "-1 cm: must be a number > 0 [mm]");
   EXPECT_EQ(mistakes("subsection Friction\n set Coefficient = 1 mm\nend\n").at(0),
             "scene.prm:2: Friction/Coefficient = 1 mm: must be a number >= 0: 'mm' has the dimension m, a bare number has no "

@@ -105,7 +105,6 @@ TEST(Choice, InThreeDimensionsTheRestIsChosenByThePlane)
 {
   const auto choice = dimension_for({ "Accuracy/Quantity=largest_pressure", "Accuracy/Target=0.05" });
   EXPECT_EQ(chosen(choice, "Analysis/Dimension"), "3");
-  EXPECT_EQ(chosen(choice, "Contact/Enforcement"), "augmented Lagrangian");
   EXPECT_NE(chosen(choice, "Analysis/Step"), "");
 }
 

@@ -106,5 +106,5 @@ TEST(SteadySlides, AreSoughtFromTheirNeighboursToo)
   DynamicsMaker maker(false);
   const auto found = judge(scene, maker);
   EXPECT_EQ(found.kind, SlideKind::stable);
-  EXPECT_NEAR(found.growth_rate(), -39.4, 0.5);
+  EXPECT_NEAR(found.growth_rate(), -40.8, 0.5);
 }

@@ -63,7 +63,7 @@ TEST(SolidIsolation, ATableOnLeversMovesAsInThePlane)
   ASSERT_EQ(solid.z.size(), plane.z.size());
   EXPECT_LT(plane.z.back(), -5.);
   for (std::size_t i = 0; i < plane.z.size(); ++i)
-    EXPECT_NEAR(solid.z[i], plane.z[i], 1e-6 * 30.) << i;
+    EXPECT_NEAR(solid.z[i], plane.z[i], 2e-6 * 30.) << i;
   // Forces of the plane's run differ by up to 1e-6 of their peak between kernels of OpenBLAS, and their work by twice that each
   // way.
   EXPECT_NEAR(solid.found.dissipated, plane.found.dissipated, 4e-6 * plane.found.dissipated);

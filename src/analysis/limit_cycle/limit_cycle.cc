@@ -10,16 +10,17 @@ namespace sprag
   namespace
   {
     constexpr double window_periods = 20.;
+    constexpr double round_off      = 1e-7; ///< of P over its mean, above which it vibrates
     constexpr double same           = 0.01; ///< relative difference of amplitudes that counts as none
 
     /// Returns the frequency of the strongest line in the spectrum of a signal that is sampled every `step` [s]. Where contact is
     /// lost the signal may cross its mean several times a period.
-    double strongest_frequency(const std::vector<Sample> &signal, const double step)
+    double strongest_frequency(const std::vector<Sample> &signal, const double step, const double noise)
     {
       Signal values{ step, {} };
       for (const auto &sample : signal)
         values.values.push_back(sample.value);
-      return ringing(values, 0.).frequency;
+      return ringing(values, noise).frequency;
     }
 
     double amplitude(const std::vector<Sample> &signal)
@@ -47,7 +48,7 @@ namespace sprag
       }
       for (const auto &sample : P)
         mean += sample.value / n;
-      const double frequency = strongest_frequency(P, run.time_step());
+      const double frequency = strongest_frequency(P, run.time_step(), round_off * mean);
       return { begin, P.back().time, amplitude(P), amplitude(indentation), mean, open / n, stuck / n, frequency };
     }
 
@@ -59,7 +60,8 @@ namespace sprag
     bool agree(const CycleWindow &a, const CycleWindow &b)
     {
       return agree(a.amplitude_P, b.amplitude_P) && agree(a.amplitude_indentation, b.amplitude_indentation) &&
-             agree(a.frequency, b.frequency) && std::abs(a.open_share - b.open_share) <= same;
+             !(std::abs(a.frequency - b.frequency) > same * std::max(a.frequency, b.frequency)) &&
+             std::abs(a.open_share - b.open_share) <= same;
     }
 
     /// Mean of amplitudes over some windows.
@@ -71,20 +73,21 @@ namespace sprag
       return sum / static_cast<double>(end - begin);
     }
 
-    /// All windows from `begin` on as one: the largest amplitudes, the means of everything else.
+    /// All windows from `begin` on as one: the largest amplitudes, the frequency of the largest, the means of everything else.
     CycleWindow joined(const std::vector<CycleWindow> &windows, const std::size_t begin)
     {
       CycleWindow sum{ windows[begin].begin, windows.back().end };
       const double share = 1. / static_cast<double>(windows.size() - begin);
       for (std::size_t i = begin; i < windows.size(); ++i)
       {
-        const auto &window        = windows[i];
+        const auto &window = windows[i];
+        if (window.amplitude_P >= sum.amplitude_P)
+          sum.frequency = window.frequency;
         sum.amplitude_P           = std::max(sum.amplitude_P, window.amplitude_P);
         sum.amplitude_indentation = std::max(sum.amplitude_indentation, window.amplitude_indentation);
         sum.mean_P += share * window.mean_P;
         sum.open_share += share * window.open_share;
         sum.stick_share += share * window.stick_share;
-        sum.frequency += share * window.frequency;
       }
       return sum;
     }

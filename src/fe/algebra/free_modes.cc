@@ -152,8 +152,9 @@ namespace sprag
       else
         error = shape_error(solver.eps, stiffness, modes.stiffness.back(), modes.shapes.back());
       if (!(error < (is_dense ? largest_residual : largest_shape_error)))
-        throw AnalysisError("vibration mode " + std::to_string(i + 1) + " was found with a residual of only " +
-                            number_text(error));
+        throw AnalysisError("vibration mode " + std::to_string(i + 1) + " was found with a relative " +
+                            (is_dense ? "residual of " : "error of its shape of ") + rounded_text(error) +
+                            ": stiffnesses of the lever differ too much");
       orient(modes.shapes.back());
     }
     return modes;

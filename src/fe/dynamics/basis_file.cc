@@ -61,9 +61,12 @@ namespace sprag
       for (const auto &[time, entry] : latest_first)
       {
         const auto size = entry.file_size(error);
-        sum += error ? 0 : size;
-        if (sum > most)
+        if (error)
+          continue;
+        if (sum + size > most)
           std::filesystem::remove(entry.path(), error);
+        else
+          sum += size;
       }
     }
 

@@ -28,8 +28,7 @@ namespace sprag
   class FieldFrames
   {
   public:
-    /// Removes the fields of an earlier run from `folder`, unless this one goes on from it, see visit_progress(). Scene and
-    /// fields, which serve both levers of a pair, must outlive them.
+    /// Scene and fields, which serve both levers of a pair, must outlive them.
     FieldFrames(const Scene &scene, const BodyFields &fields, const std::string &folder);
 
     /// Adds a frame, of another time than those before.
