@@ -18,7 +18,7 @@ namespace sprag
         if (const auto value = known.number("transmissibility_" + name))
           text += (text.empty() ? "" : ", ") + label + ' ' + four_digits(value);
       if (const auto low = known.number("transmissibility_rms_low"))
-        text += " (95 %: " + four_digits(low) + " to " + four_digits(known.number("transmissibility_rms_high")) + ")";
+        text += " (" + four_digits(low) + " to " + four_digits(known.number("transmissibility_rms_high")) + " with 95 %)";
       if (!text.empty())
         brief_line(stream, "transmissibility", text);
     }

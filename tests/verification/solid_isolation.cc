@@ -64,8 +64,8 @@ TEST(SolidIsolation, ATableOnLeversMovesAsInThePlane)
   EXPECT_LT(plane.z.back(), -5.);
   for (std::size_t i = 0; i < plane.z.size(); ++i)
     EXPECT_NEAR(solid.z[i], plane.z[i], 2e-6 * 30.) << i;
-  // Forces of the plane's run differ by up to 1e-6 of their peak between kernels of OpenBLAS, and their work by twice that each
-  // way.
-  EXPECT_NEAR(solid.found.dissipated, plane.found.dissipated, 4e-6 * plane.found.dissipated);
+  // Forces of the plane's run differ by up to 1e-6 of their peak between kernels of OpenBLAS, and their work by several
+  // times that.
+  EXPECT_NEAR(solid.found.dissipated, plane.found.dissipated, 1e-5 * plane.found.dissipated);
   EXPECT_LT(solid.found.energy_residual, 1e-7);
 }
