@@ -131,9 +131,17 @@ namespace sprag
       const auto P_without_friction = [&]
       { return slides.solve(drive, 1., ContactFriction::none) == nullptr ? 0. : observed_forces().P; };
       const double P_free     = with_friction ? P_without_friction() : 0.;
-      const double ratio      = with_friction ? slides.speed_ratio(drive, 1e-3 * frame.geometries.front().cylinder_radius) : 1.;
       const auto law          = with_friction ? friction : ContactFriction::none;
-      const PortForces *force = slides.solve(drive, ratio, law);
+      double ratio            = 1.;
+      const PortForces *force = nullptr;
+      const auto seek         = [&]
+      {
+        ratio = with_friction ? slides.speed_ratio(drive, 1e-3 * frame.geometries.front().cylinder_radius) : 1.;
+        force = slides.solve(drive, ratio, law);
+      };
+      seek();
+      if (force == nullptr && with_friction && slides.approach(drive, friction))
+        seek();
       // Where the structure answers otherwise than its compliance, by round-off, that is put right.
       constexpr unsigned int most_corrections = 2;
       dealii::Vector<double> round_off(frame.ports.size());

@@ -61,7 +61,26 @@ namespace sprag
       return nullptr;
     }
 
-    /// The same for one drive after another: to what a step in time leaves out, from a kept tangent where the contact keeps one.
+    /// Walks to a drive from where the cylinder has not moved so far and presses less, in steps that are halved where they fail.
+    /// Returns whether it gets there: from the ideal lever Newton's method may miss an equilibrium near to where the lever locks.
+    bool approach(const DrivePoint &drive, const ContactFriction friction)
+    {
+      const double way = std::min(drive.x, 0.3 * frame.geometries.front().cylinder_radius);
+      last_sliding.reinit(0);
+      last_forces          = {};
+      const auto can_be_at = [&](const double before) { return solve_from_last(moved(drive, -before), 1., friction, nullptr); };
+      double left          = way;
+      const bool is_found  = can_be_at(left) != nullptr;
+      for (double step = way / 8.; is_found && left > 0. && step > way / 2000.;)
+        if (const double next = std::max(0., left - step); can_be_at(next) != nullptr)
+          left = next;
+        else
+          step *= 0.5;
+      return is_found && left == 0.;
+    }
+
+    /// Does as solve() for one drive after another: to what a step in time leaves out, from a kept tangent where the contact
+    /// keeps one.
     const PortForces *follow(const DrivePoint &drive)
     {
       if constexpr (Contact::keeps_tangent)

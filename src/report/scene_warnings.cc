@@ -2,6 +2,7 @@
 
 #include "base/append.h"
 #include "base/text.h"
+#include "laws/friction.h"
 #include "results/columns.h"
 #include "scene/closed_form.h"
 #include "scene/scene.h"
@@ -248,6 +249,29 @@ namespace sprag
                              "Take a smaller friction coefficient, Geometry/Interface offset or Drive/Stroke." });
     }
 
+    /// In time a point in stick has a spring without mass, which sticks and slips by itself where friction falls with speed.
+    void add_falling_friction(const Scene &scene, Warnings &warnings)
+    {
+      const bool in_time = scene.analysis.type == AnalysisType::transient && scene.analysis.model != ModelType::closed_form;
+      if (!in_time || scene.friction.regularisation_speed > 0.)
+        return;
+      constexpr double least_fall    = 0.01; ///< of mu, over its largest value
+      constexpr unsigned int samples = 64;
+      double largest = 0., fall = 0.;
+      for (unsigned int i = 0; i <= samples; ++i)
+      {
+        const double mu = friction_coefficient(scene.friction, scene.drive.peak_speed() * i / samples).coefficient;
+        largest         = std::max(largest, mu);
+        fall            = std::max(fall, largest - mu);
+      }
+      if (fall > least_fall * largest)
+        warnings.push_back({ "falling_friction",
+                             "The friction coefficient falls by " + rounded_text(fall) + " with speed, and stick is resolved.",
+                             "Points stick and slip by themselves within single steps: friction jumps, its mean does not fall "
+                             "with speed, and Q may be off by half.",
+                             "Set Friction/Regularisation speed to 1 % of the drive's speed." });
+    }
+
     struct Shaking
     {
       unsigned int turns = 0;  ///< of the speed's change from one interval to the next
@@ -360,6 +384,7 @@ namespace sprag
     add_plane_stress(scene, warnings);
     add_opening(scene, warnings);
     add_locking(scene, warnings);
+    add_falling_friction(scene, warnings);
     add_shaking(scene, warnings);
     append(warnings, implausible_values(scene));
     add_unused_columns(scene, warnings);
