@@ -27,7 +27,7 @@ from transient import energy, has_reversal, is_transient, reversal
 from vibration import vibration_pictures
 
 
-# What a later run in the same folder may have no picture of.
+# A later run in the same folder may have none of these pictures.
 OF_ONE_RUN = ("forces-over-time", "forces-over-x", "contact", "reversal", "energy", "sensors", "pair", "fields")
 
 

@@ -20,7 +20,7 @@ namespace sprag
       unsigned int stops;
     };
 
-    /// What adds up from the beginning of a run over a random base to the end of one of its sections.
+    /// A section holds the sums from the beginning of a run over a random base to its own end.
     struct Section
     {
       double square, base_square;
@@ -29,7 +29,7 @@ namespace sprag
     constexpr unsigned int sections_of_random = 12;
     constexpr double quantile_of_sections     = 2.20; ///< 97.5 % of Student's t with 11 degrees of freedom
 
-    /// Half of the interval of 95 % about the ratio of root mean squares, by the jackknife: the ratio is taken again and again
+    /// Returns half of the interval of 95 % about the ratio of root mean squares, by the jackknife: the ratio is taken again and again
     /// without one of the sections.
     double half_interval(const std::vector<Section> &ends)
     {

@@ -132,7 +132,7 @@ namespace sprag
     class TextReader
     {
     public:
-      /// Where the columns must be `named`, a cell may be empty.
+      /// A cell may be empty where the columns must be `named`.
       TextReader(const std::string &path, const Choose &choice, const bool must_be_named)
           : file(path)
           , choose(choice)

@@ -12,7 +12,7 @@ namespace sprag
     std::vector<double> values;
   };
 
-  /// What a column may be called; capitals do not count. Messages name the first one.
+  /// A column may be called any of these; capitals do not count. Messages name the first one.
   using ColumnNames = std::vector<std::string>;
 
   struct NamedColumns

@@ -22,7 +22,7 @@ namespace sprag
       return line.size() <= longest_line ? line : line.substr(0, half) + " [...] " + line.substr(line.size() - half);
     }
 
-    /// What a file holds must neither flood the terminal nor speak to it.
+    /// The content of a file must neither flood the terminal nor reach it as control characters.
     std::string shown(const std::string &message)
     {
       std::istringstream lines(message);

@@ -237,6 +237,7 @@ namespace sprag
                            "Give these parameters, even where the value is the same; Analysis/Type = contact law fits the "
                            "contact stiffness, Lever/Inertia = as built takes densities as they are." });
     }
+
     void add_locking(const Scene &scene, Warnings &warnings)
     {
       const bool moves = scene.analysis.type == AnalysisType::quasi_static || scene.analysis.type == AnalysisType::transient;

@@ -193,6 +193,23 @@ class Damping(RunTest):
         self.assertAlmostEqual(beyond["contact_damping_limit_low"], limit, delta=0.01 * limit)
 
 
+class NearLocking(RunTest):
+    """A lever of 20 mm moving back at x = 65 mm slides up to mu = 2.48; Newton's method misses that from the ideal lever at 2.3 and 2.45."""
+
+    def test_is_followed_to_a_slide(self):
+        forces = []
+        for mu in (2.25, 2.3, 2.45):
+            changes = ("Analysis/Model=condensed", "Lever/Depth=20", "Friction/Law=Coulomb", f"Friction/Coefficient={mu}", "Stability/Critical=none")
+            changes += ("Stability/Roles=off", "Stability/Direction=backward", "Stability/Position=65", "Stability/Damping=off")
+            settings = [word for change in changes for word in ("--set", change)]
+            done = sprag(SOURCE / "params" / "stability-a.prm", *settings, "--output", self.output, "--overwrite", "--quiet")
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+            with h5py.File(self.output / "result.h5", "r") as file:
+                forces.append(float(file["summary/P"][()]))
+        # The closed form grows by (s - 2.25 e)/(s - 2.45 e) = 2.1; a lever that bends less.
+        self.assertTrue(forces[0] < forces[1] < forces[2] < 2.1 * forces[0], forces)
+
+
 class SlenderLever(RunTest):
     """On a leaf spring, whose elements are much stiffer than the lever."""
 

@@ -16,7 +16,7 @@ namespace sprag
   /// P - P_quasi_static. Without rows 0.
   double change_by_frequency(const std::vector<Row> &ringing, double time);
 
-  /// What time steps of finite length make of a vibration.
+  /// The errors that time steps of finite length make in a vibration are these.
   struct Slowing
   {
     double frequency  = 0.; ///< relative, as the fit of a sinusoid to P - P_quasi_static meets it: weighted by its square
