@@ -29,8 +29,8 @@ namespace sprag
     constexpr unsigned int sections_of_random = 12;
     constexpr double quantile_of_sections     = 2.20; ///< 97.5 % of Student's t with 11 degrees of freedom
 
-    /// Returns half of the interval of 95 % about the ratio of root mean squares, by the jackknife: the ratio is taken again and again
-    /// without one of the sections.
+    /// Returns half of the interval of 95 % about the ratio of root mean squares, by the jackknife: the ratio is taken again and
+    /// again without one of the sections.
     double half_interval(const std::vector<Section> &ends)
     {
       const auto n = static_cast<double>(ends.size());

@@ -210,6 +210,17 @@ class NearLocking(RunTest):
         self.assertTrue(forces[0] < forces[1] < forces[2] < 2.1 * forces[0], forces)
 
 
+class StiffLever(RunTest):
+    """As verdicts leave out flexure: the lever is far stiffer than the spring at its pivot."""
+
+    def test_is_condensed(self):
+        changes = ("Analysis/Model=condensed", "Lever/Young's modulus=7e8", "Stability/Critical=none", "Stability/Roles=off")
+        settings = [word for change in changes for word in ("--set", change)]
+        done = sprag(SOURCE / "params" / "stability-a.prm", *settings, "--output", self.output, "--overwrite")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertRegex(done.stdout, r"verdict +stable")
+
+
 class SlenderLever(RunTest):
     """On a leaf spring, whose elements are much stiffer than the lever."""
 
