@@ -36,14 +36,14 @@ missing_packages()
   done
 }
 
-# Only to test are those of the last section needed.
-needed_packages() # TARGET of the build
+# Only `thorough` needs those of the last section.
+needed_packages() # sprag, all or thorough
 {
-  if [ "$1" = all ]; then cat "$project/packages.txt"; else sed '/^# Test$/,$d' "$project/packages.txt"; fi |
+  if [ "$1" = thorough ]; then cat "$project/packages.txt"; else sed '/^# Thorough$/,$d' "$project/packages.txt"; fi |
     sed 's/#.*//; s/[[:space:]]*$//; /^$/d'
 }
 
-install_packages() # TARGET of the build
+install_packages() # sprag, all or thorough
 {
   local needed missing
   mapfile -t needed < <(needed_packages "$1")
@@ -88,14 +88,14 @@ build() # TARGET
   run_logged "$log" "Building" cmake --build "$build_dir" --target "$target"
 }
 
-set_up() # TARGET of the build, all for everything
+set_up() # sprag, all with the tests, or thorough: the same with packages for all tests
 {
   mkdir -p "$build_dir" || return
   # Two at once in one folder would build into each other's files.
   local lock status=0
   exec {lock}>"$build_dir/set-up.lock"
   flock "$lock"
-  { install_packages "$1" && build "$1"; } || status=$?
+  { install_packages "$1" && build "${1/thorough/all}"; } || status=$?
   exec {lock}>&-
   return "$status"
 }

@@ -1,6 +1,7 @@
 #include "program/arguments.h"
 
 #include "base/errors.h"
+#include "base/version.h"
 #include "scene/read.h"
 #include "scene/scene.h"
 
@@ -27,7 +28,7 @@ namespace sprag
                    "Let a .geo in Mesh/File do all that you may, not only read its own folder; see meshes/README.md");
       app.add_option("--jobs", arguments.jobs, "Processes that work on a map or study; default: one a core")
           ->check(CLI::Range(1u, most_processes));
-      app.set_version_flag("--version", std::string("sprag " SPRAG_VERSION));
+      app.set_version_flag("--version", "sprag " + version());
       app.footer(
           "Exit status: 0 success, 1 the analysis failed or was interrupted (finished steps are kept), 2 bad input (nothing "
           "is written).");

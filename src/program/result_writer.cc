@@ -3,6 +3,7 @@
 #include "base/append.h"
 #include "base/interrupt.h"
 #include "base/peak_memory.h"
+#include "base/version.h"
 #include "program/in_memory.h"
 #include "results/entries.h"
 #include "scene/read.h"
@@ -20,7 +21,7 @@ namespace sprag
     std::vector<Entry> process_entries(PhaseTimer &timer)
     {
       std::vector<Entry> entries;
-      entries.push_back({ "version", std::string(SPRAG_VERSION), "", "of sprag" });
+      entries.push_back({ "version", version(), "", "of sprag, with the commit that it was built from" });
       entries.push_back({ "deal.II", std::string(SPRAG_DEAL_II_VERSION), "", "version of the library" });
       entries.push_back({ "PETSc",
                           std::to_string(PETSC_VERSION_MAJOR) + "." + std::to_string(PETSC_VERSION_MINOR) + "." +

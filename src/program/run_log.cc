@@ -1,5 +1,6 @@
 #include "program/run_log.h"
 
+#include "base/version.h"
 #include "program/run_files.h"
 #include "scene/scene.h"
 
@@ -129,7 +130,7 @@ namespace sprag
       , out(std::make_unique<Tee>(std::cout, record))
       , error(std::make_unique<Tee>(std::cerr, record))
   {
-    record->text = "sprag " SPRAG_VERSION ", " + date() + '\n' + command(argc, argv);
+    record->text = "sprag " + version() + ", " + date() + '\n' + command(argc, argv);
   }
 
   RunLog::~RunLog() = default;

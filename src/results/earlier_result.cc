@@ -1,6 +1,7 @@
 #include "results/earlier_result.h"
 
 #include "base/child_process.h"
+#include "base/version.h"
 #include "results/entries.h"
 
 #include <filesystem>
@@ -29,7 +30,7 @@ namespace sprag
 
     void write_end(const std::string &path, const std::string &parameters, const std::string &status)
     {
-      const std::vector<Entry> meta = { { "version", std::string(SPRAG_VERSION), "", "of sprag" } };
+      const std::vector<Entry> meta = { { "version", version(), "", "of sprag, with the commit that it was built from" } };
       if (std::filesystem::exists(path))
       {
         hdf5::Handle file = hdf5::open_file(path, true);

@@ -1,5 +1,6 @@
 #include "program/result_writer.h"
 
+#include "base/version.h"
 #include "mpi_environment.h"
 #include "results/hdf5.h"
 #include "scenes.h"
@@ -27,7 +28,7 @@ TEST(ResultWriter, AddsStatusAndWhatEveryRunTells)
   EXPECT_GT(end.meta.size(), 5u);
   const auto file = hdf5::open_file(folder + "/result.h5");
   EXPECT_EQ(hdf5::read_text(file, "summary/status"), "stopped");
-  EXPECT_EQ(hdf5::read_text(file, "meta/version"), SPRAG_VERSION);
+  EXPECT_EQ(hdf5::read_text(file, "meta/version"), version());
 }
 
 TEST(FinishInAnyCase, TellsHowTheStepsEndedAndPassesAFailureOn)

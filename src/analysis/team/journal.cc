@@ -4,6 +4,7 @@
 #include "base/errors.h"
 #include "base/fingerprint.h"
 #include "base/text.h"
+#include "base/version.h"
 
 #include <cerrno>
 #include <chrono>
@@ -28,7 +29,7 @@ namespace sprag
       Fingerprint key;
       key.add(program_fingerprint());
       key.add(scene);
-      return "sprag " SPRAG_VERSION " " + what + ", scene " + key.text() + '\n';
+      return "sprag " + version() + " " + what + ", scene " + key.text() + '\n';
     }
 
     void write(const int file, const std::string &path, const std::string &text)

@@ -279,7 +279,7 @@ namespace sprag
     StressSums result(all_nodes.size());
     add_stress(displacement, nodes_of_elements, ranks, result);
     const bool is_first   = Utilities::MPI::this_mpi_process(ranks) == 0;
-    double *const numbers = result.front().begin_raw();
+    double *const numbers = &result.front().access_raw_entry(0);
     const auto n_numbers  = static_cast<int>(result.size() * StressSums::value_type::n_independent_components);
     MPI_Reduce(is_first ? MPI_IN_PLACE : numbers, numbers, n_numbers, MPI_DOUBLE, MPI_SUM, 0, ranks);
     return result;

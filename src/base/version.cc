@@ -1,0 +1,10 @@
+#include "base/version.h"
+
+namespace sprag
+{
+  std::string version()
+  {
+    const std::string commit = SPRAG_COMMIT;
+    return commit.empty() ? SPRAG_VERSION : SPRAG_VERSION " (" + commit + ")";
+  }
+} // namespace sprag
