@@ -174,7 +174,7 @@ namespace sprag
       const double travel =
           properties.centre(x, theta).xi - properties.centre(begin_x, properties.spring.rest + begin[ports.rotation(i)]).xi;
       PortSelection of_lever;
-      for (const unsigned int port : levers[i].contact.reachable_ports(x, theta, travel))
+      for (const unsigned int port : levers[i].contact.reachable_ports(x, { { theta } }, travel))
         of_lever.push_back(joined_port(ports, i, port));
       result = united(result, of_lever);
     }
