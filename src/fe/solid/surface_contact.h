@@ -64,7 +64,7 @@ namespace sprag
     /// The face must outlive the contact.
     SurfaceContact(const FrictionFace<3> &face, SurfaceContactProperties properties);
 
-    /// Evaluates a step without inertia, with all points near the cylinder.
+    /// Evaluates a step without inertia, with its points: where it is augmented all near the cylinder, else those of complete().
     void evaluate(const PortStep &step, SurfaceEvaluation &found, const StaticTerms &terms);
 
     /// Sets the accepted state in which the following steps begin.
