@@ -9,6 +9,7 @@
 
 #include <deal.II/lac/vector.h>
 
+#include <any>
 #include <string>
 #include <vector>
 
@@ -24,11 +25,22 @@ namespace sprag
     std::vector<PointMemory<2>> surface_contact{}; ///< of the contact points of a surface
   };
 
-  /// Size of the unbalance at a trial state, and what a correction must be small against.
-  struct Unbalance
+  /// A step without inertia from an accepted state.
+  struct Step
   {
-    double norm;    ///< falls to round-off at equilibrium; unit of the model's choice, for the line search alone
-    double overlap; ///< largest p / penalty over the contact points [mm]
+    State trial;                  ///< at its end; at first a guess
+    DrivePoint start;             ///< of the drive
+    PortLoads forces;             ///< where it begins
+    dealii::Vector<double> ports; ///< displacements of the ports where it begins
+    PortSelection near; ///< ports that the contact may reach and those of the forces, of a model that looks at some alone
+  };
+
+  /// The equilibrium of a trial state, as one evaluation found it.
+  struct Evaluation
+  {
+    double residual = 0.; ///< falls to round-off at equilibrium; unit of the model's choice, for the line search alone
+    double overlap  = 0.; ///< largest p / penalty over the contact points [mm]
+    std::any of_model{};  ///< contacts and forces in the model's own terms
   };
 
   /// Quasi-static mechanics of a scene at one fidelity. Analyses know nothing of bodies, meshes and dimensions.
@@ -39,42 +51,42 @@ namespace sprag
 
     virtual State initial_state(const DrivePoint &drive) const = 0;
 
-    /// Begins a step from an accepted state, to which all that follows refers until the next. Returns a first guess of the state
-    /// at its end.
-    virtual State begin_step(const State &accepted, const DrivePoint &end) = 0;
+    /// Returns the step from an accepted state to `end`, with a first guess of the state there.
+    virtual Step begin_step(const State &accepted, const DrivePoint &end) = 0;
 
-    /// Evaluates the equilibrium of `trial` at the end of the step and sets its forces; correction() and friends refer to the
-    /// last call.
-    virtual Unbalance evaluate(State &trial, FrictionMode mode) = 0;
+    /// Evaluates the equilibrium of the step's trial state and sets the forces of that. Where the contact reaches beyond the
+    /// ports that the step looks at, it looks at more from then on.
+    virtual Evaluation evaluate(Step &step, FrictionMode mode) = 0;
 
-    /// Solves the linearised equilibrium. Throws AnalysisError if the factorisation fails.
-    virtual dealii::Vector<double> correction() = 0;
+    /// Solves the linearised equilibrium for the change of the coordinates. Throws AnalysisError if the factorisation fails.
+    virtual dealii::Vector<double> correction(const Evaluation &found) = 0;
 
-    /// Largest movement of a material point that a correction means [mm].
+    /// Returns the largest movement of a material point that a correction means [mm].
     virtual double movement(const dealii::Vector<double> &correction) const = 0;
 
-    /// Size of the scene, against which positions are rounded off [mm].
+    /// Returns the size of the scene, against which positions are rounded off [mm].
     virtual double length_scale() const = 0;
 
-    /// Largest overlap of body and obstacle, or what of it the next augmentation removes [mm].
-    virtual double penetration() const = 0;
+    /// Returns the largest overlap of body and obstacle, or what of it the next augmentation removes [mm].
+    virtual double penetration(const Evaluation &found) const = 0;
 
-    /// Tells why the state of the last evaluation, though balanced, is beyond what the model can tell; empty if it is not.
-    virtual std::string objection(const State &trial) const = 0;
+    /// Returns why an equilibrium is beyond what the model can tell; empty if it is not.
+    virtual std::string objection(const State &state, const Evaluation &found) const = 0;
 
-    /// Multipliers of the next augmentation from the tractions of the last evaluation.
-    virtual void augment(State &trial) const = 0;
+    /// Gives a state the multipliers of the next augmentation.
+    virtual void augment(const Evaluation &found, State &trial) const = 0;
 
-    /// Gives a state the memory of the contact points at the end of the step that the last evaluation belongs to.
-    virtual void remember(State &state) const = 0;
+    /// Gives a state the memory of the contact points at the end of its step.
+    virtual void remember(const Evaluation &found, State &state) const = 0;
 
-    /// Fills the columns of mechanics from the last evaluation.
-    virtual void observe(const State &trial, Row &row) const = 0;
+    /// Fills the columns of mechanics.
+    virtual void observe(const State &state, const Evaluation &found, Row &row) const = 0;
 
-    /// Points of the friction face and their tractions at the last evaluation.
+    /// Returns the points of the friction face.
     virtual FacePoints face_points() const = 0;
 
-    virtual FaceState face_state(const State &trial) const = 0;
+    /// Returns the tractions at these points.
+    virtual FaceState face_state(const State &state, const Evaluation &found) const = 0;
 
     /// Visits what later steps depend on, to the last bit, beside the state that they begin with: what was found on the way and
     /// is kept. A model that takes it from an archive goes on as the one it is of.

@@ -15,52 +15,60 @@ namespace sprag
     unsigned int iterations = 0; ///< linear solves
   };
 
-  /// Newton's method with a line search that halves the correction until the unbalance falls, from the guess in `x`:
-  ///   evaluate(x)    returns the size of the unbalance at x, to which the others refer,
-  ///   correction()   the change of x that removes it in the linearised equations,
-  ///   movement(dx)   the largest movement of a material point that a change means [mm],
-  ///   overlap()      the largest p / penalty over the contact points [mm].
+  /// The result and the evaluation at the x that Newton's method ended with.
+  template <class Evaluation>
+  struct NewtonSolution : NewtonResult
+  {
+    Evaluation found;
+  };
+
+  /// Newton's method with a line search that halves the correction until the residual falls, from the guess in `x`:
+  ///   evaluate(x)       returns `residual`, its size, and `overlap`, the largest p / penalty over the contact points [mm],
+  ///   correction(found) the change of x that removes the residual of an evaluation in the linearised equations,
+  ///   movement(dx)      the largest movement of a material point that a change means [mm].
   /// Converged when a full correction moves no point by more than 1e-7 of the overlap and `round_off` [mm]: as convergence is
-  /// quadratic, what is left is round-off. With a share left_out > 0 also where the unbalance that a full correction leaves would
+  /// quadratic, what is left is round-off. With a share left_out > 0 also where the residual that a full correction leaves would
   /// move no point by more than this share of that, if a unit of it moves what one did at most before; this saves the last
-  /// correction. x is evaluated last.
-  template <class Evaluate, class Correction, class Movement, class Overlap>
-  NewtonResult solve_by_newton(dealii::Vector<double> &x, const double round_off, const Evaluate &evaluate,
-                               const Correction &correction, const Movement &movement, const Overlap &overlap,
-                               const double left_out = 0.)
+  /// correction.
+  template <class Evaluate, class Correction, class Movement>
+  auto solve_by_newton(dealii::Vector<double> &x, const double round_off, const Evaluate &evaluate, const Correction &correction,
+                       const Movement &movement, const double left_out = 0.)
   {
     constexpr unsigned int maximum_iterations = 40;
     constexpr unsigned int maximum_halvings   = 8;
 
-    double unbalance = evaluate(x);
-    double by_unit   = 0.; // of unbalance, the largest movement
-    for (unsigned int iteration = 1; iteration <= maximum_iterations; ++iteration)
+    NewtonSolution<decltype(evaluate(x))> result{ {}, evaluate(x) };
+    auto &found    = result.found;
+    double by_unit = 0.; // of residual, the largest movement
+    while (result.iterations < maximum_iterations)
     {
-      const auto change     = correction();
+      ++result.iterations;
+      const auto change     = correction(found);
       const double moved    = movement(change);
-      const auto negligible = [&] { return relative_tolerance * overlap() + round_off; };
+      const double residual = found.residual;
+      const auto negligible = [&] { return relative_tolerance * found.overlap + round_off; };
       if (moved <= negligible())
       {
         x += change;
-        evaluate(x);
-        return { true, iteration };
+        found            = evaluate(x);
+        result.converged = true;
+        break;
       }
       const dealii::Vector<double> from = x;
       double share                      = 1.;
-      double found                      = unbalance;
       for (unsigned int i = 0; i <= maximum_halvings; ++i, share *= 0.5)
       {
         x = from;
         x.add(share, change);
         found = evaluate(x);
-        if (found < (1. - 1e-3 * share) * unbalance)
+        if (found.residual < (1. - 1e-3 * share) * residual)
           break;
       }
-      by_unit   = std::max(by_unit, moved / unbalance);
-      unbalance = found;
-      if (share == 1. && by_unit * unbalance < left_out * negligible())
-        return { true, iteration };
+      by_unit          = std::max(by_unit, moved / residual);
+      result.converged = share == 1. && by_unit * found.residual < left_out * negligible();
+      if (result.converged)
+        break;
     }
-    return { false, maximum_iterations };
+    return result;
   }
 } // namespace sprag

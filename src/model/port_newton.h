@@ -52,7 +52,7 @@ namespace sprag
   struct PortSolution
   {
     NewtonResult newton;
-    const PortForces *forces; ///< of the last evaluation
+    const PortForces *forces; ///< at the z that was found
   };
 
   /// Solves the equations, see solve_by_newton(), from the guess in `z`. `forces_at(z)` returns the forces, `overlap()` is the
@@ -61,18 +61,23 @@ namespace sprag
   PortSolution solve_ports(const PortEquations &equations, const Forces &forces_at, const Overlap &overlap,
                            dealii::Vector<double> &z, const double left_out = 0.)
   {
-    const PortForces *forces = nullptr;
+    struct Found
+    {
+      double residual;
+      double overlap;
+      const PortForces *forces;
+    };
     dealii::Vector<double> mismatch(equations.free.size());
     const auto movement = [&](const dealii::Vector<double> &change) { return equations.movement(change); };
     const auto evaluate = [&](const dealii::Vector<double> &at)
     {
-      forces = &forces_at(at);
-      equations.set_mismatch(*forces, at, mismatch);
-      return movement(mismatch);
+      const PortForces &forces = forces_at(at);
+      equations.set_mismatch(forces, at, mismatch);
+      return Found{ movement(mismatch), overlap(), &forces };
     };
-    const auto correction = [&]
-    { return port_correction(equations.compliance, forces->ports, forces->tangent, equations.selected, mismatch); };
-    const auto newton = solve_by_newton(z, equations.smallest_movement(), evaluate, correction, movement, overlap, left_out);
-    return { newton, forces };
+    const auto correction = [&](const Found &found)
+    { return port_correction(equations.compliance, found.forces->ports, found.forces->tangent, equations.selected, mismatch); };
+    const auto newton = solve_by_newton(z, equations.smallest_movement(), evaluate, correction, movement, left_out);
+    return { newton, newton.found.forces };
   }
 } // namespace sprag

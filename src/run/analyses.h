@@ -12,11 +12,9 @@ namespace sprag
   /// Does what the Analysis/Type of a prepared scene says.
   void carry_out(const Scene &scene, const RunOptions &options, Warnings &warnings);
 
-  /// Follows the drive without inertia by finite elements.
+  /// Follows the drive without inertia by finite elements, in three dimensions with the help of the other ranks, see
+  /// help_first_rank().
   void run_quasi_static_scene(const Scene &scene, const RunOptions &options, Warnings &warnings);
-
-  /// The same in three dimensions, with the help of the other ranks, see help_first_rank().
-  void run_solid_scene(const Scene &scene, const RunOptions &options, Warnings &warnings);
 
   /// Follows the table of an isolation system with levers of a model in time.
   void run_isolation_by_models(const Scene &scene, const RunOptions &options, Warnings &warnings);

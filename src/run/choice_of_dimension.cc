@@ -5,8 +5,7 @@
 #include "analysis/stability/stability.h"
 #include "base/errors.h"
 #include "fe/mesh/mesh.h"
-#include "fe/solid/solid_lever.h"
-#include "fe/statics/lever_model.h"
+#include "fe/solid/static_lever.h"
 #include "report/percent.h"
 #include "scene/accuracy.h"
 #include "scene/contact_reference.h"
@@ -58,8 +57,8 @@ namespace sprag
       Mesh mesh;
       make_mesh(plane, mesh);
       const SolidBody body(solid, mesh);
-      SolidLever in_space(body, solid);
-      LeverModel in_plane(mesh, plane);
+      StaticLever<3> in_space(body, solid);
+      StaticLever<2> in_plane(mesh, plane);
       const auto rows       = repeated(in_space, places, start, settings);
       const auto plane_rows = repeated(in_plane, places, start, settings);
       auto quantities       = scene.accuracy.quantities;

@@ -6,7 +6,7 @@
 #include "analytic/error_estimate.h"
 #include "base/text.h"
 #include "fe/mesh/mesh.h"
-#include "fe/statics/lever_model.h"
+#include "fe/solid/static_lever.h"
 #include "report/percent.h"
 #include "report/report.h"
 #include "run/coarser_scene.h"
@@ -58,7 +58,7 @@ namespace sprag
     {
       Mesh mesh;
       make_mesh(scene, mesh);
-      LeverModel levers(mesh, scene);
+      StaticLever<2> levers(mesh, scene);
       return repeated(levers, places, scene.drive.at(0.).x, { scene.analysis.step, scene.analysis.minimum_step, scene.contact });
     }
 

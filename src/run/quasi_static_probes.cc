@@ -51,8 +51,8 @@ namespace sprag
     }
   } // namespace
 
-  Probes plane_probes(const Scene &scene, LeverModel &levers, const std::vector<Row> &rows, const QuasiStaticSettings &settings,
-                      const std::vector<StressSample> &stresses)
+  Probes plane_probes(const Scene &scene, StaticLever<2> &levers, const std::vector<Row> &rows,
+                      const QuasiStaticSettings &settings, const std::vector<StressSample> &stresses)
   {
     Probes result;
     const auto times   = times_of(stresses);
@@ -61,10 +61,10 @@ namespace sprag
     Mesh mesh;
     const Scene coarse = with_coarser_mesh(with_penalties(scene, levers.penalties(), 1.));
     make_mesh(coarse, mesh);
-    LeverModel on_coarse(mesh, coarse);
+    StaticLever<2> on_coarse(mesh, coarse);
     StressComparison stress(on_coarse, stresses);
-    result.coarse =
-        repeated(on_coarse, result.run, start, settings, [&](const State &state, const Row &row) { stress.look_at(state, row); });
+    result.coarse = repeated(on_coarse, result.run, start, settings,
+                             [&](const State &state, const Row &row, const Evaluation &) { stress.look_at(state, row); });
     result.stress = stress.changes();
     result.pressure_with_stress =
         result.stress ? relative_change("largest_pressure", rows_at(times, result.run), rows_at(times, result.coarse)) : 0.;
@@ -72,7 +72,7 @@ namespace sprag
     return result;
   }
 
-  Probes solid_probes(const Scene &scene, SolidBody &body, SolidLever &lever, const std::vector<Row> &rows,
+  Probes solid_probes(const Scene &scene, SolidBody &body, StaticLever<3> &lever, const std::vector<Row> &rows,
                       const QuasiStaticSettings &settings)
   {
     Probes result;
@@ -84,7 +84,7 @@ namespace sprag
     const Scene coarse = with_coarser_mesh(with_penalties(scene, lever.penalties(), 1.));
     make_mesh(coarse, mesh);
     const SolidBody coarse_body(coarse, mesh);
-    SolidLever on_coarse(coarse_body, coarse);
+    StaticLever<3> on_coarse(coarse_body, coarse);
     result.coarse = repeated(on_coarse, result.run, start, settings);
     return result;
   }

@@ -1,8 +1,7 @@
 #pragma once
 
 #include "analysis/statics/quasi_static.h"
-#include "fe/solid/solid_lever.h"
-#include "fe/statics/lever_model.h"
+#include "fe/solid/static_lever.h"
 #include "run/stress_comparison.h"
 
 namespace sprag
@@ -21,11 +20,11 @@ namespace sprag
   };
 
   /// `levers` is the run's model; it is left with its own penalties. `stresses` are those of the run.
-  Probes plane_probes(const Scene &scene, LeverModel &levers, const std::vector<Row> &rows, const QuasiStaticSettings &settings,
-                      const std::vector<StressSample> &stresses);
+  Probes plane_probes(const Scene &scene, StaticLever<2> &levers, const std::vector<Row> &rows,
+                      const QuasiStaticSettings &settings, const std::vector<StressSample> &stresses);
 
   /// The same of a lever in three dimensions, without stresses. The first rank makes the coarser one alone, when the body's own
   /// factors are given back.
-  Probes solid_probes(const Scene &scene, SolidBody &body, SolidLever &lever, const std::vector<Row> &rows,
+  Probes solid_probes(const Scene &scene, SolidBody &body, StaticLever<3> &lever, const std::vector<Row> &rows,
                       const QuasiStaticSettings &settings);
 } // namespace sprag

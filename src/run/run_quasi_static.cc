@@ -1,5 +1,8 @@
 #include "analysis/statics/quasi_static.h"
-#include "fe/statics/lever_model.h"
+#include "base/append.h"
+#include "fe/solid/static_lever.h"
+#include "model/state_archive.h"
+#include "program/memory.h"
 #include "program/recorder.h"
 #include "report/report.h"
 #include "run/analyses.h"
@@ -8,64 +11,137 @@
 #include "run/quasi_static_accuracy.h"
 #include "scene/scene.h"
 
+#include <filesystem>
 #include <iostream>
+#include <memory>
 #include <optional>
 
 namespace sprag
 {
   namespace
   {
-    std::vector<Entry> model_entries(const Scene &scene, const LeverModel &model)
+    constexpr unsigned int states_checked = 12; ///< of a run, for what the compliance leaves out
+
+    template <class Lever>
+    constexpr bool in_space = std::is_same_v<Lever, StaticLever<3>>;
+
+    template <class Lever>
+    std::vector<Entry> model_entries(const Scene &scene, const Lever &lever)
     {
-      const auto &body           = model.elastic_body();
+      const auto &body           = lever.body();
       const auto [mass, inertia] = body.mass_and_inertia(scene.lever.density);
-      const auto &[normal, slip] = model.penalties();
-      return { { "cells", static_cast<double>(body.dofs().get_triangulation().n_active_cells()), "1", "cells of the mesh" },
-               { "degrees_of_freedom", static_cast<double>(body.n_dofs()), "1", "displacements, those of the hub included" },
-               { "face_points", static_cast<double>(body.friction_face().points.size()), "1",
-                 "integration points of the friction face" },
-               { "face_size", scene.mesh.face_size, "mm",
-                 "element length along the friction face in use, the longest of a Mesh/File" },
-               { "penalty", normal, "N/mm^3", "normal penalty in use" },
-               { "tangential_penalty", slip, "N/mm^3", "tangential penalty in use" },
-               { "lever_mass", mass, "t", "mass of lever, layer and hub at the lever's density" },
-               { "lever_inertia", inertia, "t mm^2", "their moment of inertia about the pivot" } };
+      const auto &[normal, slip] = lever.penalties();
+      std::vector<Entry> result{
+        { "cells", static_cast<double>(body.dofs().get_triangulation().n_active_cells()), "1", "cells of the mesh" },
+        { "degrees_of_freedom", static_cast<double>(body.n_dofs()), "1", "displacements, those of the hub included" },
+        { "face_points", static_cast<double>(body.friction_face().points.size()), "1",
+          "integration points of the friction face" },
+        { "face_size", scene.mesh.face_size, "mm", "element length along the friction face in use, the longest of a Mesh/File" },
+        { "penalty", normal, "N/mm^3", "normal penalty in use" },
+        { "tangential_penalty", slip, "N/mm^3", "tangential penalty in use" },
+        { "lever_mass", mass, "t", "mass of lever, layer and hub at the lever's density" },
+        { "lever_inertia", inertia, "t mm^2", "their moment of inertia about the pivot" }
+      };
+      if constexpr (in_space<Lever>)
+        result.push_back({ "bond_loads",
+                           static_cast<double>(std::get<SolidStructure>(lever.structure()).face_compliance().basis_size()), "1",
+                           "loads on the bond of the layer by which the answer of the lever behind it is found" });
+      return result;
     }
 
-    void print_model(const Scene &scene, const LeverModel &model)
+    template <class Lever>
+    void print_model(const Scene &scene, const Lever &lever)
     {
-      const auto &body = model.elastic_body();
-      std::cout << "Finite elements: " << body.n_dofs() << " displacements of degree " << scene.mesh.degree << ", lever in plane "
-                << (scene.analysis.plane == PlaneState::stress ? "stress" : "strain") << ", "
+      const char *const plane =
+          scene.analysis.plane == PlaneState::stress ? ", lever in plane stress, " : ", lever in plane strain, ";
+      std::cout << "Finite elements: " << lever.body().n_dofs() << " displacements of degree " << scene.mesh.degree
+                << (in_space<Lever> ? " in three dimensions, " : plane)
                 << (scene.lever.material == MaterialModel::linear ? "linear" : "neo-Hookean") << "; "
-                << body.friction_face().points.size() << " contact points; penalty " << model.penalties().normal << " N/mm^3\n"
+                << lever.body().friction_face().points.size() << " contact points; penalty " << lever.penalties().normal
+                << " N/mm^3\n"
                 << std::flush;
     }
 
-    void drive_levers(const Scene &scene, const RunOptions &options, PhaseTimer &timer, LeverModel &levers, Warnings &warnings)
+    /// Some states of a run, for what the compliance of the face leaves out in them.
+    class Samples
+    {
+    public:
+      explicit Samples(const double path)
+          : interval(path / states_checked)
+      {
+      }
+
+      void look_at(const StaticLever<3> &lever, const State &state)
+      {
+        travel += std::abs(state.drive.x - last_x);
+        last_x = state.drive.x;
+        if (travel < next || state.forces.ports.empty())
+          return;
+        next = travel + interval;
+        append(of_face, std::get<SolidStructure>(lever.structure()).samples(state.coordinates, state.forces));
+      }
+
+      /// None of a body at finite strain, which is solved as a whole, nor where nothing touched.
+      std::vector<Entry> entries(const StaticLever<3> &lever) const
+      {
+        if (!std::get<SolidStructure>(lever.structure()).is_linear() || of_face.empty())
+          return {};
+        const auto worst = std::get<SolidStructure>(lever.structure()).exactness(of_face);
+        return {
+          { "compliance_error", worst.displacement, "1",
+            "largest displacement of the face that its compliance leaves out against the whole body, over the largest one" },
+          { "compliance_work_error", worst.work, "1", "and of the work of the forces on it, over that work" }
+        };
+      }
+
+    private:
+      friend void visit(Archive &archive, Samples &samples)
+      {
+        archive(samples.next, samples.travel, samples.last_x, samples.of_face);
+      }
+
+      const double interval; ///< of travel between states looked at [mm]
+      double next   = 0.;
+      double travel = 0.;
+      double last_x = 0.;
+      std::vector<FaceSample> of_face;
+    };
+
+    /// Runs a lever or a pair. `probes_of`(rows, settings, stresses) makes the probes of its accuracy.
+    template <class Lever, class ProbesOf>
+    void drive_levers(const Scene &scene, const RunOptions &options, PhaseTimer &timer, Lever &levers, const ProbesOf &probes_of,
+                      Warnings &warnings)
     {
       Checkpoint checkpoint(scene, options);
       Recorder recorder(scene, options, timer, levers.face_points(), &checkpoint);
       if (!options.quiet)
         print_model(scene, levers);
-      auto meta                = model_entries(scene, levers);
+      Samples samples(path_length(scene.drive));
+      checkpoint.add_part([&](Archive &archive) { visit(archive, samples); });
       const bool has_frames    = scene.output.fields != FieldOutput::none;
-      const auto displacements = [&levers](const FieldSource &source) {
-        return levers.body_displacements({ {}, source.coordinates, {}, source.forces });
-      };
-      FieldRecorder fields(scene, BodyFields(levers.elastic_body()), displacements,
-                           has_frames ? std::optional(options.folder) : std::nullopt, timer);
-      checkpoint.add_part([&](Archive &archive) { fields.visit_progress(archive); });
+      const auto displacements = [&levers](const FieldSource &source)
+      { return levers.body_displacements(source.coordinates, source.forces); };
+      std::optional<FieldRecorder> fields;
+      timed(timer, "fields",
+            [&]
+            {
+              fields.emplace(scene, BodyFields(levers.body()), displacements,
+                             has_frames ? std::optional(options.folder) : std::nullopt, timer);
+            });
+      checkpoint.add_part([&](Archive &archive) { fields->visit_progress(archive); });
 
-      const auto write = [&](const State &state, const Row &row)
+      const auto write = [&](const State &state, const Row &row, const Evaluation &found)
       {
         const PhaseTimer::Scope scope(timer, "output");
-        const auto face = levers.face_state(state);
+        const auto face = levers.face_state(state, found);
         recorder.record(row);
         recorder.record(face);
-        fields.record(row, face, [&] { return FieldSource{ state.coordinates, state.forces, {} }; });
+        fields->record(row, face, [&] { return FieldSource{ state.coordinates, state.forces, {} }; });
+        if constexpr (in_space<Lever>)
+          samples.look_at(levers, state);
       };
-      const auto hand_on = [&](const State &state, const Row &row) { checkpoint.hand_on([&] { write(state, row); }); };
+      const auto hand_on = [&](const State &state, const Row &row, const Evaluation &found)
+      { checkpoint.hand_on([&] { write(state, row, found); }); };
       const QuasiStaticSettings settings{ scene.analysis.step, scene.analysis.minimum_step, scene.contact };
       double stick = 0.;
       std::vector<Entry> summary;
@@ -77,12 +153,14 @@ namespace sprag
           },
           [&](const std::string &status)
           {
-            recorder.set_stress(fields.finish());
+            auto meta = model_entries(scene, levers);
+            recorder.set_stress(fields->finish());
+            if constexpr (in_space<Lever>)
+              timed(timer, "exactness", [&] { meta = joined(meta, samples.entries(levers)); });
             if (status == "completed" && estimates_errors(options))
             {
               const PhaseTimer::Scope scope(timer, "accuracy");
-              const auto probes = [&]
-              { return plane_probes(scene, levers, recorder.recorded(), settings, fields.stress_samples()); };
+              const auto probes = [&] { return probes_of(recorder.recorded(), settings, fields->stress_samples()); };
               recorder.set_accuracy(quasi_static_accuracy(scene, recorder.recorded(), probes));
             }
             meta.push_back(
@@ -95,19 +173,59 @@ namespace sprag
           });
       check_deviation(scene, summary);
     }
+
+    /// A folder that is there as long as this, with nothing of an earlier run.
+    struct FolderForFactors
+    {
+      explicit FolderForFactors(const std::string &name)
+          : folder(name)
+      {
+        std::filesystem::remove_all(folder);
+        std::filesystem::create_directories(folder);
+      }
+      FolderForFactors(const FolderForFactors &)            = delete;
+      FolderForFactors &operator=(const FolderForFactors &) = delete;
+      ~FolderForFactors()
+      {
+        std::error_code none;
+        std::filesystem::remove_all(folder, none);
+      }
+
+      const std::string folder;
+    };
+
+    std::unique_ptr<FolderForFactors> folder_for_factors(const Scene &scene, const RunOptions &options)
+    {
+      const auto files = factor_files(scene, options.processes, options.folder);
+      if (!files)
+        return nullptr;
+      if (!options.quiet)
+        std::cout << "Memory: " << text_of(*files) << '\n' << std::flush;
+      return std::make_unique<FolderForFactors>(files->folder);
+    }
   } // namespace
 
   void run_quasi_static_scene(const Scene &scene, const RunOptions &options, Warnings &warnings)
   {
-    if (scene.analysis.dimension == 3)
-      return run_solid_scene(scene, options, warnings);
     PhaseTimer timer;
     require_folder(options);
-    const auto meshes         = static_meshes(options);
-    const Mesh *triangulation = nullptr;
-    timed(timer, "mesh", [&] { triangulation = &meshes->mesh_of(scene); });
-    std::optional<LeverModel> levers;
-    timed(timer, "model", [&] { levers.emplace(*triangulation, scene); });
-    drive_levers(scene, options, timer, *levers, warnings);
+    const auto meshes = static_meshes(options);
+    const Mesh *mesh  = nullptr; // in a plane
+    timed(timer, "mesh", [&] { mesh = &meshes->mesh_of(scene); });
+    if (scene.analysis.dimension == 2)
+    {
+      std::optional<StaticLever<2>> levers;
+      timed(timer, "model", [&] { levers.emplace(*mesh, scene); });
+      const auto probes = [&](const auto &...of_run) { return plane_probes(scene, *levers, of_run...); };
+      return drive_levers(scene, options, timer, *levers, probes, warnings);
+    }
+    const auto files = options.in_memory ? nullptr : folder_for_factors(scene, options);
+    std::optional<SolidBody> body;
+    timed(timer, "body", [&] { body.emplace(scene, *mesh, FactorSettings{ {}, files ? files->folder : "" }); });
+    std::optional<StaticLever<3>> levers;
+    timed(timer, "model", [&] { levers.emplace(*body, scene); });
+    const auto probes = [&](const auto &rows, const auto &settings, const auto &)
+    { return solid_probes(scene, *body, *levers, rows, settings); };
+    drive_levers(scene, options, timer, *levers, probes, warnings);
   }
 } // namespace sprag

@@ -13,10 +13,10 @@ namespace sprag
     constexpr double near_edge = 0.85; ///< stress at the contact's edge over the largest, from which a finer mesh finds it there
   }                                    // namespace
 
-  StressComparison::StressComparison(const LeverModel &other, const std::vector<StressSample> &run)
+  StressComparison::StressComparison(const StaticLever<2> &other, const std::vector<StressSample> &run)
       : model(other)
       , samples(run)
-      , fields(model.elastic_body())
+      , fields(model.body())
   {
   }
 
@@ -27,7 +27,7 @@ namespace sprag
     if (of_run == samples.end())
       return;
     StressSample found;
-    for (const auto &displacement : model.body_displacements(state))
+    for (const auto &displacement : model.body_displacements(state.coordinates, state.forces))
       sprag::look_at(fields, fields.at(displacement), row, found);
     pairs.push_back({ *of_run, found });
   }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fe/statics/lever_model.h"
+#include "fe/solid/static_lever.h"
 #include "run/stress_sample.h"
 
 #include <optional>
@@ -21,9 +21,9 @@ namespace sprag
   {
   public:
     /// The model must outlive the object.
-    StressComparison(const LeverModel &other, const std::vector<StressSample> &run);
+    StressComparison(const StaticLever<2> &other, const std::vector<StressSample> &run);
 
-    /// Looks at a state of the other model, which it evaluated last.
+    /// Looks at a state of the other model.
     void look_at(const State &state, const Row &row);
 
     /// Returns the largest changes over the states with at least half the largest stress, over that one: a single place may lie
@@ -37,7 +37,7 @@ namespace sprag
       StressSample other;
     };
 
-    const LeverModel &model;
+    const StaticLever<2> &model;
     const std::vector<StressSample> samples;
     const BodyFields fields;
     std::vector<Pair> pairs;

@@ -16,10 +16,10 @@ namespace
 
   Solution solve(ToyModel &model, const double guess, const double x)
   {
-    State trial          = model.begin_step(model.initial_state({}), { 1., x, 1. });
-    trial.coordinates[0] = guess;
-    const auto result    = solve_equilibrium(model, trial, false);
-    return { result, trial.coordinates[0] };
+    Step step                 = model.begin_step(model.initial_state({}), { 1., x, 1. });
+    step.trial.coordinates[0] = guess;
+    const auto result         = solve_equilibrium(model, step, false);
+    return { result, step.trial.coordinates[0] };
   }
 } // namespace
 
@@ -71,17 +71,21 @@ TEST(Newton, LeavesOutALastCorrection)
   const auto solve_cube = [](const double left_out)
   {
     dealii::Vector<double> q(1);
-    q[0]                  = 3.;
-    const auto evaluate   = [](const dealii::Vector<double> &at) { return std::abs(8. - at[0] * at[0] * at[0]); };
-    const auto correction = [&q]
+    q[0] = 3.;
+    struct Cube
+    {
+      double residual;
+      double overlap;
+    };
+    const auto evaluate   = [](const dealii::Vector<double> &at) { return Cube{ std::abs(8. - at[0] * at[0] * at[0]), 1. }; };
+    const auto correction = [&q](const Cube &)
     {
       dealii::Vector<double> change(1);
       change[0] = (8. - q[0] * q[0] * q[0]) / (3. * q[0] * q[0]);
       return change;
     };
     const auto movement = [](const dealii::Vector<double> &change) { return std::abs(change[0]); };
-    const auto result   = solve_by_newton(
-          q, 1e-14, evaluate, correction, movement, [] { return 1.; }, left_out);
+    const auto result   = solve_by_newton(q, 1e-14, evaluate, correction, movement, left_out);
     EXPECT_TRUE(result.converged);
     EXPECT_NEAR(q[0], 2., left_out == 0. ? 1e-14 : 1e-8);
     return result.iterations;

@@ -153,7 +153,7 @@ namespace
       try
       {
         keeper.steps_left = steps;
-        run([&](const auto &, const Row &row) { rows.push_back(row); }, &keeper);
+        run([&](const auto &, const Row &row, const auto &...) { rows.push_back(row); }, &keeper);
         return { rows, parts };
       }
       catch (const Killed &)
@@ -332,7 +332,7 @@ TEST(Progress, RunWithoutInertiaThatIsKilledGoesOn)
     stiffness      = run_quasi_static(model, drive, settings, sink, keeper);
   };
   std::vector<Row> expected;
-  run([&](const State &, const Row &row) { expected.push_back(row); }, nullptr);
+  run([&](const State &, const Row &row, const Evaluation &) { expected.push_back(row); }, nullptr);
   const double expected_stiffness = stiffness;
   const auto [rows, parts]        = killed_rows(3, run);
   EXPECT_GT(parts, 10u);

@@ -25,7 +25,7 @@ namespace
   std::vector<Row> run(ToyModel &model, const Drive &drive, const QuasiStaticSettings &settings)
   {
     std::vector<Row> rows;
-    run_quasi_static(model, drive, settings, [&](const State &, const Row &row) { rows.push_back(row); });
+    run_quasi_static(model, drive, settings, [&](const State &, const Row &row, const Evaluation &) { rows.push_back(row); });
     return rows;
   }
 
@@ -75,7 +75,8 @@ TEST(QuasiStatic, BalancedStatesThatTheModelObjectsToAreRejected)
   std::vector<Row> rows;
   try
   {
-    run_quasi_static(model, one_way, steps_of(1.), [&](const State &, const Row &row) { rows.push_back(row); });
+    run_quasi_static(model, one_way, steps_of(1.),
+                     [&](const State &, const Row &row, const Evaluation &) { rows.push_back(row); });
     FAIL() << "went on";
   }
   catch (const AnalysisError &error)
@@ -96,7 +97,7 @@ TEST(QuasiStatic, GivesUpNamingThePlaceAndKeepsWhatIsDone)
   try
   {
     run_quasi_static(model, one_way, steps_of(1.),
-                     [&](const State &state, const Row &row)
+                     [&](const State &state, const Row &row, const Evaluation &)
                      {
                        rows.push_back(row);
                        accepted.push_back(state.coordinates[0]);

@@ -38,26 +38,25 @@ namespace sprag
     }
 
     // Trial states must start from the accepted one, untouched by whatever was rejected before.
-    State begin_step(const State &accepted, const DrivePoint &end) override
+    Step begin_step(const State &accepted, const DrivePoint &end) override
     {
-      from           = accepted.drive.x;
-      history_intact = history_intact && accepted.contact[0].traction[0] == from;
-      State trial    = accepted;
-      trial.drive    = end;
-      return trial;
+      history_intact = history_intact && accepted.contact[0].traction[0] == accepted.drive.x;
+      Step step{ accepted, accepted.drive, {}, {}, {} };
+      step.trial.drive = end;
+      return step;
     }
 
-    Unbalance evaluate(State &trial, const FrictionMode /*mode*/) override
+    Evaluation evaluate(Step &step, const FrictionMode /*mode*/) override
     {
-      q              = trial.coordinates[0];
-      x              = trial.drive.x;
-      history_intact = history_intact && trial.contact[0].traction[0] == from;
-      value          = equation(q, x);
-      return { std::abs(value.residual), 1. };
+      history_intact = history_intact && step.trial.contact[0].traction[0] == step.start.x;
+      const Found found{ step.start.x, step.trial.drive.x, step.trial.coordinates[0],
+                         equation(step.trial.coordinates[0], step.trial.drive.x) };
+      return { std::abs(found.value.residual), 1., found };
     }
 
-    dealii::Vector<double> correction() override
+    dealii::Vector<double> correction(const Evaluation &evaluation) override
     {
+      const auto &[from, x, q, value] = found_in(evaluation);
       if (fails(from, x))
         throw AnalysisError("no solution here");
       dealii::Vector<double> result(1);
@@ -65,31 +64,39 @@ namespace sprag
       return result;
     }
 
-    std::string objection(const State &trial) const override
+    std::string objection(const State &state, const Evaluation &) const override
     {
-      return objects(trial.drive.x);
+      return objects(state.drive.x);
     }
 
-    void augment(State & /*trial*/) const override
+    void augment(const Evaluation &, State & /*trial*/) const override
     {
     }
 
-    void remember(State &state) const override
+    void remember(const Evaluation &evaluation, State &state) const override
     {
       state.contact.assign(1, {});
-      state.contact[0].traction[0] = x;
+      state.contact[0].traction[0] = found_in(evaluation).x;
     }
 
-    void observe(const State & /*trial*/, Row &row) const override
+    void observe(const State & /*state*/, const Evaluation &evaluation, Row &row) const override
     {
       row[Column::P]              = 0.;
-      row[Column::F]              = friction(x);
-      row[Column::Q]              = q;
+      row[Column::F]              = friction(found_in(evaluation).x);
+      row[Column::Q]              = found_in(evaluation).q;
       row[Column::friction_power] = 0.;
     }
 
   private:
-    double q = 0., x = 0., from = 0.;
-    Value value{};
+    struct Found
+    {
+      double from, x, q;
+      Value value;
+    };
+
+    static const Found &found_in(const Evaluation &evaluation)
+    {
+      return std::any_cast<const Found &>(evaluation.of_model);
+    }
   };
 } // namespace sprag

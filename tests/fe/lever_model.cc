@@ -1,4 +1,4 @@
-#include "fe/statics/lever_model.h"
+#include "fe/solid/static_lever.h"
 
 #include "fe/meshed.h"
 #include "mpi_environment.h"
@@ -37,7 +37,7 @@ namespace
   }
 
   /// A scene's model with its mesh.
-  class MeshedLever : public Meshed<LeverModel>
+  class MeshedLever : public Meshed<StaticLever<2>>
   {
   public:
     explicit MeshedLever(const Scene &scene)
@@ -52,22 +52,24 @@ namespace
   }
 
   /// Equilibrium of a step from the accepted state, memory not yet committed.
-  State solved(Model &model, const State &accepted, const DrivePoint &drive)
+  Solved solved(Model &model, const State &accepted, const DrivePoint &drive)
   {
-    const State guess = model.begin_step(accepted, drive);
-    State trial       = guess;
-    if (!solve_step(model, trial, drive.v < 0. ? FrictionMode::stick : FrictionMode::cone))
+    Step step         = model.begin_step(accepted, drive);
+    const State guess = step.trial;
+    auto found        = solve_step(model, step, drive.v < 0. ? FrictionMode::stick : FrictionMode::cone);
+    if (!found)
     {
-      trial = guess;
-      EXPECT_TRUE(solve_step(model, trial, drive.v > 0. ? FrictionMode::stick : FrictionMode::cone)) << "x " << drive.x;
+      step.trial = guess;
+      found      = solve_step(model, step, drive.v > 0. ? FrictionMode::stick : FrictionMode::cone);
+      EXPECT_TRUE(found) << "x " << drive.x;
     }
-    return trial;
+    return { step.trial, found.value() };
   }
 
-  Row observed(const Model &model, const State &state)
+  Row observed(const Model &model, const Solved &at)
   {
     Row row;
-    model.observe(state, row);
+    model.observe(at.state, at.found, row);
     return row;
   }
 
@@ -84,10 +86,10 @@ namespace
   }
 
   /// A movement of 1 mm of everything that can move.
-  Vector random_direction(const State &state, const LeverModel &model, const bool sprung)
+  Vector random_direction(const State &state, const StaticLever<2> &model, const bool sprung)
   {
     Vector result               = random_vector(state.coordinates.size(), 1., 1);
-    const auto &body            = model.elastic_body();
+    const auto &body            = model.body();
     const unsigned int rotation = result.size() - (sprung ? 2 : 1);
     if (rotation == body.n_dofs())
       for (unsigned int dof = 0; dof < rotation; ++dof)
@@ -98,7 +100,7 @@ namespace
     return result;
   }
 
-  void expect_return(LeverModel &model, const State &equilibrium, const State &accepted, const bool sprung)
+  void expect_return(StaticLever<2> &model, const State &equilibrium, const State &accepted, const bool sprung)
   {
     expect_quadratic_return(model, equilibrium, accepted, random_direction(equilibrium, model, sprung));
   }
@@ -111,10 +113,10 @@ namespace
     const auto accepted = slid(model);
     const auto sliding  = solved(model, accepted, forward_to(21.));
     ASSERT_GT(observed(model, sliding)[Column::P], 0.);
-    expect_return(model, sliding, accepted, sprung);
+    expect_return(model, sliding.state, accepted, sprung);
     // Of the passage through stick, some hundredths of a millimetre, a beginning, where all points stick; further on some slip.
     for (const double dx : { 1e-4, 5e-3 })
-      expect_return(model, solved(model, accepted, back_by(dx)), accepted, sprung);
+      expect_return(model, solved(model, accepted, back_by(dx)).state, accepted, sprung);
   }
 } // namespace
 
@@ -152,14 +154,15 @@ TEST(LeverModel, ApartTheSpringReturnsTheLeverInOneCorrection)
   {
     const auto scene = coarse_scene(solution);
     MeshedLever meshed(scene);
-    State trial = meshed.model.begin_step(meshed.model.initial_state(forward_to(0.)), forward_to(1e-3));
+    Step step   = meshed.model.begin_step(meshed.model.initial_state(forward_to(0.)), forward_to(1e-3));
+    auto &trial = step.trial;
     trial.coordinates[trial.coordinates.size() - 1] += 0.01;
-    meshed.model.evaluate(trial, FrictionMode::cone);
-    const Row row = observed(meshed.model, trial);
+    const auto found = meshed.model.evaluate(step, FrictionMode::cone);
+    const Row row    = observed(meshed.model, { trial, found });
     EXPECT_EQ(row[Column::P], 0.);
     EXPECT_EQ(row[Column::contact_width], 0.);
     EXPECT_TRUE(std::isnan(row[Column::s]));
-    trial.coordinates += meshed.model.correction();
+    trial.coordinates += meshed.model.correction(found);
     EXPECT_NEAR(trial.coordinates[trial.coordinates.size() - 1], 0., 1e-14);
   }
 }
@@ -170,22 +173,26 @@ TEST(LeverModel, ATriedStepLeavesTheNextStepAsItWas)
   auto &model         = meshed.model;
   const auto accepted = slid(model);
   const auto direct   = solved(model, accepted, forward_to(21.));
-  State first         = direct;
-  model.remember(first);
+  State first         = direct.state;
+  model.remember(direct.found, first);
 
   // A trial far from any equilibrium, given up.
-  State trial = model.begin_step(accepted, back_by(9.));
+  Step step   = model.begin_step(accepted, back_by(9.));
+  auto &trial = step.trial;
   trial.coordinates[trial.coordinates.size() - 1] -= 0.1;
-  model.evaluate(trial, FrictionMode::cone);
-  model.augment(trial);
-  model.correction();
+  const auto far = model.evaluate(step, FrictionMode::cone);
+  model.augment(far, trial);
+  model.correction(far);
 
   const auto again = solved(model, accepted, forward_to(21.));
-  State second     = again;
-  model.remember(second);
-  EXPECT_GT(direct.forces.values.l2_norm(), 0.);
-  EXPECT_TRUE(again.forces.values == direct.forces.values);
-  EXPECT_EQ(again.coordinates[model.rotation()], direct.coordinates[model.rotation()]);
+  State second     = again.state;
+  model.remember(again.found, second);
+  EXPECT_GT(direct.state.forces.values.l2_norm(), 0.);
+  EXPECT_TRUE(again.state.forces.values == direct.state.forces.values);
+  EXPECT_EQ(again.state.coordinates[model.rotation()], direct.state.coordinates[model.rotation()]);
+
+  // What was found before can still be asked.
+  EXPECT_EQ(model.correction(direct.found).linfty_norm(), model.correction(again.found).linfty_norm());
   ASSERT_FALSE(first.contact.empty());
   ASSERT_EQ(second.contact.size(), first.contact.size());
   for (std::size_t q = 0; q < first.contact.size(); ++q)

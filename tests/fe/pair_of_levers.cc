@@ -1,4 +1,4 @@
-#include "fe/statics/lever_model.h"
+#include "fe/solid/static_lever.h"
 
 #include "fe/meshed.h"
 #include "mpi_environment.h"
@@ -24,7 +24,7 @@ namespace
     return scene;
   }
 
-  class MeshedPair : public Meshed<LeverModel>
+  class MeshedPair : public Meshed<StaticLever<2>>
   {
   public:
     explicit MeshedPair(const Scene &scene)
@@ -39,11 +39,12 @@ namespace
   }
 
   /// Newton's method, halving a correction until the unbalance falls.
-  State solved(Model &model, const State &accepted, const DrivePoint &drive, const FrictionMode first)
+  Solved solved(Model &model, const State &accepted, const DrivePoint &drive, const FrictionMode first)
   {
-    State trial = model.begin_step(accepted, drive);
-    EXPECT_TRUE(solve_step(model, trial, first)) << "x " << drive.x;
-    return trial;
+    Step step  = model.begin_step(accepted, drive);
+    auto found = solve_step(model, step, first);
+    EXPECT_TRUE(found) << "x " << drive.x;
+    return { step.trial, found.value() };
   }
 
   /// After sliding forward to 20 mm.
@@ -54,10 +55,10 @@ namespace
   }
 
   /// Both levers swinging and opening with everything on their faces, 1 mm at most.
-  Vector random_direction(const LeverModel &model, const State &state)
+  Vector random_direction(const StaticLever<2> &model, const State &state)
   {
     Vector result    = random_vector(state.coordinates.size(), 1., 1);
-    const auto &body = model.elastic_body();
+    const auto &body = model.body();
     for (const unsigned int lever : { 0, 1 })
     {
       const unsigned int first = lever * (model.rotation(0) + 1);
@@ -73,7 +74,7 @@ namespace
 
   // The share that a tangent wrong in one term of the springs leaves: without the swing's part about 1e-3, the stiffness of the
   // springs over that of the contact.
-  void expect_return(LeverModel &model, const State &equilibrium, const State &accepted)
+  void expect_return(StaticLever<2> &model, const State &equilibrium, const State &accepted)
   {
     expect_quadratic_return(model, equilibrium, accepted, random_direction(model, equilibrium));
   }
@@ -82,9 +83,9 @@ namespace
   {
     MeshedPair meshed(scene);
     const auto accepted = slid(meshed.model);
-    expect_return(meshed.model, solved(meshed.model, accepted, forward_to(21.), FrictionMode::cone), accepted);
+    expect_return(meshed.model, solved(meshed.model, accepted, forward_to(21.), FrictionMode::cone).state, accepted);
     const DrivePoint back{ (20. + 5e-3) / 112., 20. - 5e-3, -112. }; // some points stick, some slip
-    expect_return(meshed.model, solved(meshed.model, accepted, back, FrictionMode::stick), accepted);
+    expect_return(meshed.model, solved(meshed.model, accepted, back, FrictionMode::stick).state, accepted);
   }
 } // namespace
 
@@ -127,13 +128,13 @@ TEST(PairOfLevers, ApartTheSpringsCloseThemAndLeaveTheirSwing)
     scene.analysis.solution = solution;
     MeshedPair meshed(scene);
     auto &model         = meshed.model;
-    State trial         = model.begin_step(model.initial_state(forward_to(0.)), forward_to(1e-3));
+    Step step           = model.begin_step(model.initial_state(forward_to(0.)), forward_to(1e-3));
+    auto &trial         = step.trial;
     double &first_turn  = trial.coordinates[model.rotation(0)];
     double &second_turn = trial.coordinates[model.rotation(1)];
     first_turn          = 0.02;
     second_turn         = 0.01;
-    model.evaluate(trial, FrictionMode::cone);
-    trial.coordinates += model.correction();
+    trial.coordinates += model.correction(model.evaluate(step, FrictionMode::cone));
     EXPECT_NEAR(first_turn, 0.005, 1e-14);
     EXPECT_NEAR(second_turn, -0.005, 1e-14);
   }

@@ -302,7 +302,7 @@ TEST(SurfaceContact, ALongStepReachesWhereItBeginsAndEnds)
   const auto reached = [&](const double travel)
   {
     Bed bed(Cylinder(), 12.5, 2);
-    const auto &ports = bed.surface().reachable_ports(Bed::x - 0.5 * travel, theta, travel);
+    const auto &ports = bed.surface().reachable_ports(Bed::x - 0.5 * travel, { { theta } }, travel);
     return [nodes = bed.friction_face().nodes, ports](const double xi)
     {
       return std::any_of(nodes.begin(), nodes.end(),

@@ -30,19 +30,18 @@ namespace
     Told result;
     Mesh mesh;
     make_mesh(scene, mesh);
-    LeverModel model(mesh, scene);
+    StaticLever<2> model(mesh, scene);
     const QuasiStaticSettings settings{ scene.analysis.step, scene.analysis.minimum_step, scene.contact };
     PhaseTimer timer;
-    const auto displacements = [&](const FieldSource &source) {
-      return model.body_displacements({ {}, source.coordinates, {}, source.forces });
-    };
-    FieldRecorder fields(scene, BodyFields(model.elastic_body()), displacements, std::nullopt, timer);
+    const auto displacements = [&](const FieldSource &source)
+    { return model.body_displacements(source.coordinates, source.forces); };
+    FieldRecorder fields(scene, BodyFields(model.body()), displacements, std::nullopt, timer);
     run_quasi_static(
         model, scene.drive, settings,
-        [&](const State &state, const Row &row)
+        [&](const State &state, const Row &row, const Evaluation &found)
         {
           result.rows.push_back(row);
-          fields.record(row, model.face_state(state), [&] { return FieldSource{ state.coordinates, state.forces, {} }; });
+          fields.record(row, model.face_state(state, found), [&] { return FieldSource{ state.coordinates, state.forces, {} }; });
         });
     for (const auto &entry : fields.finish())
       if (const auto *const value = std::get_if<double>(&entry.value))
@@ -59,10 +58,11 @@ namespace
     Mesh plane;
     make_mesh(scene, plane);
     SolidBody body(scene, plane);
-    SolidLever lever(body, scene);
+    StaticLever<3> lever(body, scene);
     result.penalty = lever.penalties().normal;
     const QuasiStaticSettings settings{ scene.analysis.step, scene.analysis.minimum_step, scene.contact };
-    run_quasi_static(lever, scene.drive, settings, [&](const State &, const Row &row) { result.rows.push_back(row); });
+    run_quasi_static(lever, scene.drive, settings,
+                     [&](const State &, const Row &row, const Evaluation &) { result.rows.push_back(row); });
     const auto probes = [&] { return solid_probes(scene, body, lever, result.rows, settings); };
     for (auto &estimate : quasi_static_accuracy(scene, result.rows, probes))
       result.errors.emplace(estimate.quantity, std::move(estimate));
@@ -131,11 +131,11 @@ TEST(QuasiStaticAccuracy, AFinerMeshTellsLessAndTheModelKeepsItsPenalties)
   Scene scene = coarse_scene(0.5);
   Mesh mesh;
   make_mesh(scene, mesh);
-  LeverModel model(mesh, scene);
+  StaticLever<2> model(mesh, scene);
   const auto penalties = model.penalties();
   const QuasiStaticSettings settings{ scene.analysis.step, scene.analysis.minimum_step, scene.contact };
   std::vector<Row> rows;
-  run_quasi_static(model, scene.drive, settings, [&](const State &, const Row &row) { rows.push_back(row); });
+  run_quasi_static(model, scene.drive, settings, [&](const State &, const Row &row, const Evaluation &) { rows.push_back(row); });
   const auto coarse = quasi_static_accuracy(scene, rows, [&] { return plane_probes(scene, model, rows, settings, {}); });
   EXPECT_EQ(model.penalties().normal, penalties.normal);
   const auto fine = told(with_face_size(scene, 0.25));

@@ -2,34 +2,41 @@
 
 #include "model/model.h"
 
+#include <optional>
+
 namespace sprag
 {
-  /// Newton's method from `trial` in the model's step, halving a correction until the unbalance falls, to round-off. False if it
-  /// ends elsewhere.
-  inline bool solve_step(Model &model, State &trial, const FrictionMode first)
+  /// Newton's method in a step, halving a correction until the residual falls, to round-off. Nothing if it ends elsewhere.
+  inline std::optional<Evaluation> solve_step(Model &model, Step &step, const FrictionMode first)
   {
-    double norm = model.evaluate(trial, first).norm;
+    auto found = model.evaluate(step, first);
     for (unsigned int i = 0; i < 40; ++i)
     {
-      const auto correction = model.correction();
+      const auto correction = model.correction(found);
       const double movement = model.movement(correction);
+      const double residual = found.residual;
       const bool full       = movement <= 1e-10 || (first == FrictionMode::stick && i == 0);
-      const auto from       = trial.coordinates;
-      double next           = norm;
+      const auto from       = step.trial.coordinates;
       for (double share = 1.; share > 0.01; share *= 0.5)
       {
-        trial.coordinates = from;
-        trial.coordinates.add(share, correction);
-        next = model.evaluate(trial, FrictionMode::cone).norm;
-        if (full || next < norm)
+        step.trial.coordinates = from;
+        step.trial.coordinates.add(share, correction);
+        found = model.evaluate(step, FrictionMode::cone);
+        if (full || found.residual < residual)
           break;
       }
-      norm = next;
       if (movement <= 1e-12)
-        return true;
+        return found;
     }
-    return false;
+    return {};
   }
+
+  /// A state in equilibrium, its memory that of where its step began.
+  struct Solved
+  {
+    State state;
+    Evaluation found;
+  };
 
   /// The accepted state after sliding forward to 20 mm at 112 mm/s; `solved`(model, accepted, drive) is the equilibrium of a
   /// step.
@@ -39,8 +46,9 @@ namespace sprag
     State accepted = model.initial_state({ 0., 0., 112. });
     for (const double x : { 5., 10., 15., 20. })
     {
-      accepted = solved(model, accepted, DrivePoint{ x / 112., x, 112. });
-      model.remember(accepted);
+      auto [state, found] = solved(model, accepted, DrivePoint{ x / 112., x, 112. });
+      model.remember(found, state);
+      accepted = std::move(state);
     }
     return accepted;
   }

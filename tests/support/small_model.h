@@ -18,12 +18,12 @@ namespace sprag
       return 1.;
     }
 
-    double penetration() const override
+    double penetration(const Evaluation &) const override
     {
       return 0.;
     }
 
-    std::string objection(const State & /*trial*/) const override
+    std::string objection(const State &, const Evaluation &) const override
     {
       return {};
     }
@@ -33,7 +33,7 @@ namespace sprag
       return {};
     }
 
-    FaceState face_state(const State & /*trial*/) const override
+    FaceState face_state(const State &, const Evaluation &) const override
     {
       return {};
     }

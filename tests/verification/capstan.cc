@@ -68,10 +68,10 @@ namespace
 
   /// Tensions of both ends over the width from the tractions on the drum: their sum balances it upwards, and their difference its
   /// moment, at the band's middle [N].
-  std::pair<double, double> tensions(const Model &model, const State &state)
+  std::pair<double, double> tensions(const Model &model, const Equilibrium &at)
   {
     const auto points = model.face_points();
-    const auto face   = model.face_state(state);
+    const auto face   = model.face_state(at.state, at.found);
     double sum = 0., moment = 0.;
     for (std::size_t q = 0; q < points.xi.size(); ++q)
     {
@@ -96,14 +96,14 @@ TEST(Capstan, TensionGrowsWithTheAngleOfWrapSlow)
   properties.body.point_spacing = 0.1;
   properties.body.constants     = { { material_id::lever, { 2000., 0. } } };
   properties.contact.penalty    = 100.;
-  LeverModel model(triangulation, properties);
+  StaticLever<2> model(triangulation, properties);
 
-  State state = model.initial_state({ 0., 0., 1. });
+  Equilibrium at{ model.initial_state({ 0., 0., 1. }), {} };
   for (double x = 0.1; x < 1.05; x += 0.1)
-    state = step_to(model, state, x, properties.contact);
+    at = step_to(model, at.state, x, properties.contact);
   for (double x = 1.02; x < 2.01; x += 0.02)
-    state = step_to(model, state, x, properties.contact);
-  const auto [tight, slack] = tensions(model, state);
+    at = step_to(model, at.state, x, properties.contact);
+  const auto [tight, slack] = tensions(model, at);
   const double expected     = std::exp(mu * M_PI * radius / (radius + 0.5 * thickness));
   std::printf("%.4f N over %.4f N: %.5f, thin band %.5f\n", tight, slack, tight / slack, std::exp(mu * M_PI));
   EXPECT_NEAR(tight / slack, expected, 0.005 * expected);

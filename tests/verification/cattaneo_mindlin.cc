@@ -45,23 +45,23 @@ namespace
   std::vector<Outcome> loaded(const dealii::Triangulation<2> &triangulation, const PropertiesOf &properties_with,
                               const std::vector<double> &positions, const double friction)
   {
-    State state;
+    Equilibrium at{};
     {
       const auto properties = properties_with(0.);
-      LeverModel model(triangulation, properties);
-      state = model.initial_state({ 0., 0., 1. });
+      StaticLever<2> model(triangulation, properties);
+      at.state = model.initial_state({ 0., 0., 1. });
       for (const double x : { 0.1, 0.25, 0.5, 0.75, 1. })
-        state = step_to(model, state, x, properties.contact);
+        at = step_to(model, at.state, x, properties.contact);
     }
     const auto properties = properties_with(friction);
-    LeverModel model(triangulation, properties);
+    StaticLever<2> model(triangulation, properties);
     std::vector<Outcome> outcomes;
     for (const double x : positions)
     {
-      state = step_to(model, state, x, properties.contact);
+      at = step_to(model, at.state, x, properties.contact);
       Row row;
-      model.observe(state, row);
-      outcomes.push_back({ row[Column::P], std::abs(row[Column::F]), profile(model, state) });
+      model.observe(at.state, at.found, row);
+      outcomes.push_back({ row[Column::P], std::abs(row[Column::F]), profile(model, at) });
     }
     return outcomes;
   }

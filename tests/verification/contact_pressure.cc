@@ -42,10 +42,10 @@ namespace
     Strokes result;
     result.weights = model.face_points().weight;
     run_quasi_static(model, scene.drive, { scene.analysis.step, scene.analysis.minimum_step, scene.contact },
-                     [&](const State &state, const Row &row)
+                     [&](const State &state, const Row &row, const Evaluation &found)
                      {
                        result.rows.push_back(row);
-                       result.faces.push_back(model.face_state(state));
+                       result.faces.push_back(model.face_state(state, found));
                      });
     return result;
   }
@@ -120,7 +120,7 @@ namespace
   {
     dealii::Triangulation<2> triangulation;
     make_mesh(scene, triangulation);
-    LeverModel model(triangulation, lever_properties(scene));
+    StaticLever<2> model(triangulation, lever_properties(scene));
     const auto found = strokes(scene, model);
     expect_reference(found.rows, references, 0.02);
     expect_smooth(found);
@@ -169,7 +169,7 @@ TEST(ContactPressure, OfASecondLeverIsRecoveredToo)
   scene.analysis.step        = 6.5;
   dealii::Triangulation<2> triangulation;
   make_mesh(scene, triangulation);
-  LeverModel model(triangulation, scene);
+  StaticLever<2> model(triangulation, scene);
   const auto found = strokes(scene, model);
   for (std::size_t i = 2; i < found.rows.size(); ++i)
   {
@@ -190,6 +190,6 @@ TEST(ContactPressure, ShorterFacesResolveNarrowContacts)
   scene.contact.enforcement   = Enforcement::augmented_lagrangian;
   dealii::Triangulation<2> triangulation;
   make_mesh(scene, triangulation);
-  LeverModel model(triangulation, lever_properties(scene));
+  StaticLever<2> model(triangulation, lever_properties(scene));
   expect_reference(strokes(scene, model).rows, narrow, 0.01);
 }

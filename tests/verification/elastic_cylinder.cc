@@ -20,9 +20,10 @@ namespace
   {
     dealii::Triangulation<2> triangulation;
     make_mesh(scene, triangulation);
-    LeverModel model(triangulation, lever_properties(scene));
+    StaticLever<2> model(triangulation, lever_properties(scene));
     run_quasi_static(model, scene.drive, { scene.analysis.step, scene.analysis.minimum_step, scene.contact },
-                     [&](const State &state, const Row &row) { visit(row, model.face_state(state)); });
+                     [&](const State &state, const Row &row, const Evaluation &found)
+                     { visit(row, model.face_state(state, found)); });
   }
 
   /// P and Q at x moving forward (v > 0) or back, linear between rows.

@@ -1,6 +1,6 @@
 #include "analysis/statics/quasi_static.h"
 #include "fe/mesh/mesh.h"
-#include "fe/statics/lever_model.h"
+#include "fe/solid/static_lever.h"
 #include "mpi_environment.h"
 #include "scene/scene.h"
 #include "scenes.h"
@@ -35,7 +35,7 @@ namespace
 
     Scene scene;
     dealii::Triangulation<2> triangulation;
-    std::optional<LeverModel> model;
+    std::optional<StaticLever<2>> model;
   };
 
   /// Forward to 65 mm and back to the beginning at 112 mm/s, with small steps through stick.
@@ -58,23 +58,27 @@ namespace
     State accepted = model.initial_state(drive.front());
     for (const auto &point : drive)
     {
-      State trial       = model.begin_step(accepted, point);
-      const State guess = trial;
-      if (!solve_equilibrium(model, trial, false).converged)
+      Step step         = model.begin_step(accepted, point);
+      const State guess = step.trial;
+      auto solved       = solve_equilibrium(model, step, false);
+      if (!solved.converged)
       {
-        trial = guess;
-        EXPECT_TRUE(solve_equilibrium(model, trial, true).converged) << "x " << point.x;
+        step.trial = guess;
+        solved     = solve_equilibrium(model, step, true);
+        EXPECT_TRUE(solved.converged) << "x " << point.x;
       }
-      for (unsigned int i = 0; augmented && model.penetration() > meshed.scene.contact.penetration_tolerance && i < 20; ++i)
+      const double tolerance = meshed.scene.contact.penetration_tolerance;
+      for (unsigned int i = 0; augmented && model.penetration(solved.found) > tolerance && i < 20; ++i)
       {
-        model.augment(trial);
-        EXPECT_TRUE(solve_equilibrium(model, trial, false).converged) << "x " << point.x;
+        model.augment(solved.found, step.trial);
+        solved = solve_equilibrium(model, step, false);
+        EXPECT_TRUE(solved.converged) << "x " << point.x;
       }
       Row row;
-      model.observe(trial, row);
+      model.observe(step.trial, solved.found, row);
       rows.push_back(row);
-      model.remember(trial);
-      accepted = trial;
+      model.remember(solved.found, step.trial);
+      accepted = step.trial;
     }
     return rows;
   }

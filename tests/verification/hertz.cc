@@ -19,13 +19,13 @@ namespace
   /// Pressed together in a few steps, without friction.
   Outcome pressed(const dealii::Triangulation<2> &triangulation, const LeverProperties &properties)
   {
-    LeverModel model(triangulation, properties);
-    State state = model.initial_state({ 0., 0., 1. });
+    StaticLever<2> model(triangulation, properties);
+    Equilibrium at{ model.initial_state({ 0., 0., 1. }), {} };
     for (const double x : { 0.1, 0.25, 0.5, 0.75, 1. })
-      state = step_to(model, state, x, properties.contact);
+      at = step_to(model, at.state, x, properties.contact);
     Row row;
-    model.observe(state, row);
-    return { profile(model, state), row[Column::P] / properties.body.width, 0.5 * row[Column::contact_width] };
+    model.observe(at.state, at.found, row);
+    return { profile(model, at), row[Column::P] / properties.body.width, 0.5 * row[Column::contact_width] };
   }
 
   /// A block under a circle that is pressed in by `depth`.

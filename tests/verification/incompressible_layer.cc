@@ -36,13 +36,13 @@ namespace
     properties.body.point_spacing = 0.01;
     properties.body.constants     = { { material_id::lever, { modulus, layer.poisson_ratio } } };
     properties.contact.penalty    = layer.penalty;
-    LeverModel model(triangulation, properties);
-    State state = model.initial_state({ 0., 0., 1. });
+    StaticLever<2> model(triangulation, properties);
+    Equilibrium at{ model.initial_state({ 0., 0., 1. }), {} };
     for (const double x : { 0.5, 0.75, 1. })
-      state = step_to(model, state, x, properties.contact);
+      at = step_to(model, at.state, x, properties.contact);
     Row row;
-    model.observe(state, row);
-    Outcome result{ row[Column::P] / properties.body.width, 0.5 * row[Column::contact_width], 0., profile(model, state) };
+    model.observe(at.state, at.found, row);
+    Outcome result{ row[Column::P] / properties.body.width, 0.5 * row[Column::contact_width], 0., profile(model, at) };
     result.pressure = *std::max_element(result.face.pressure.begin(), result.face.pressure.end());
     return result;
   }

@@ -61,10 +61,10 @@ namespace
     dealii::Triangulation<2> triangulation;
     make_mesh(meshed, triangulation);
     dealii::GridTools::scale(factor, triangulation);
-    LeverModel model(triangulation, lever_properties(scene));
+    StaticLever<2> model(triangulation, lever_properties(scene));
     std::vector<Row> rows;
     run_quasi_static(model, scene.drive, { scene.analysis.step, scene.analysis.minimum_step, scene.contact },
-                     [&](const State &, const Row &row) { rows.push_back(row); });
+                     [&](const State &, const Row &row, const Evaluation &) { rows.push_back(row); });
     return rows;
   }
 

@@ -50,12 +50,12 @@ namespace
     properties.contact.enforcement           = enforcement;
     properties.contact.penalty               = penalty;
     properties.contact.penetration_tolerance = 1e-10;
-    LeverModel model(triangulation, properties);
-    State state = model.initial_state({ 0., 0., 1. });
+    StaticLever<2> model(triangulation, properties);
+    Equilibrium at{ model.initial_state({ 0., 0., 1. }), {} };
     for (const double x : { 0.3, 0.6, 1. })
-      state = step_to(model, state, x, properties.contact);
-    Outcome outcome{ profile(model, state), {} };
-    model.observe(state, outcome.row);
+      at = step_to(model, at.state, x, properties.contact);
+    Outcome outcome{ profile(model, at), {} };
+    model.observe(at.state, at.found, outcome.row);
     EXPECT_EQ(outcome.face.pressure.size(), model.face_points().xi.size());
     return outcome;
   }

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "analysis/statics/quasi_static.h"
-#include "fe/statics/lever_model.h"
+#include "fe/solid/static_lever.h"
 #include "scene/scene.h"
 #include "verification/block.h"
 
@@ -66,32 +66,35 @@ namespace sprag
     return result;
   }
 
-  /// Equilibrium from the coordinates in `trial`; if it is not found so, from the stick predictor.
-  inline bool equilibrate(Model &model, State &trial)
+  /// Equilibrium from the coordinates of the trial state; if it is not found so, from the stick predictor.
+  inline NewtonSolution<Evaluation> equilibrate(Model &model, Step &step)
   {
-    const State guess = trial;
-    if (solve_equilibrium(model, trial, false).converged)
-      return true;
-    trial = guess;
-    return solve_equilibrium(model, trial, true).converged;
+    const State guess = step.trial;
+    auto result       = solve_equilibrium(model, step, false);
+    if (result.converged)
+      return result;
+    step.trial = guess;
+    return solve_equilibrium(model, step, true);
   }
 
   /// The accepted state at drive position x (also its time), from `accepted`; augments where `model` has multipliers.
-  inline State step_to(Model &model, const State &accepted, const double x, const ContactSettings &contact)
+  inline Equilibrium step_to(Model &model, const State &accepted, const double x, const ContactSettings &contact)
   {
-    State trial = model.begin_step(accepted, { x, x, 1. });
-    EXPECT_TRUE(equilibrate(model, trial)) << "x " << x;
+    Step step   = model.begin_step(accepted, { x, x, 1. });
+    auto solved = equilibrate(model, step);
+    EXPECT_TRUE(solved.converged) << "x " << x;
     if (contact.enforcement == Enforcement::augmented_lagrangian)
-      for (unsigned int i = 0; model.penetration() > contact.penetration_tolerance; ++i)
+      for (unsigned int i = 0; model.penetration(solved.found) > contact.penetration_tolerance; ++i)
       {
-        model.augment(trial);
-        const bool converged = i < contact.maximum_augmentations && equilibrate(model, trial);
-        EXPECT_TRUE(converged) << "x " << x << ", penetration " << model.penetration();
+        model.augment(solved.found, step.trial);
+        solved               = equilibrate(model, step);
+        const bool converged = i < contact.maximum_augmentations && solved.converged;
+        EXPECT_TRUE(converged) << "x " << x << ", penetration " << model.penetration(solved.found);
         if (!converged)
           break;
       }
-    model.remember(trial);
-    return trial;
+    model.remember(solved.found, step.trial);
+    return { std::move(step.trial), std::move(solved.found) };
   }
 
   /// A profile along the face: position, pressure and traction of the points under pressure.
@@ -100,10 +103,10 @@ namespace sprag
     std::vector<double> xi, pressure, traction;
   };
 
-  inline FaceProfile profile(const Model &model, const State &state)
+  inline FaceProfile profile(const Model &model, const Equilibrium &at)
   {
     const auto points = model.face_points();
-    const auto face   = model.face_state(state);
+    const auto face   = model.face_state(at.state, at.found);
     FaceProfile result;
     for (std::size_t q = 0; q < points.xi.size(); ++q)
       if (face.pressure[q] > 0.)

@@ -50,58 +50,62 @@ namespace sprag
       return state;
     }
 
-    State begin_step(const State &accepted, const DrivePoint &end) override
+    Step begin_step(const State &accepted, const DrivePoint &end) override
     {
-      start_time  = accepted.drive.time;
-      slip_begin  = properties.contact(displacement(accepted)).slip;
-      State trial = accepted;
-      trial.drive = end;
-      return trial;
+      Step step{ accepted, accepted.drive, {}, accepted.coordinates, {} };
+      step.trial.drive = end;
+      return step;
     }
 
-    Unbalance evaluate(State &trial, const FrictionMode mode) override
+    Evaluation evaluate(Step &step, const FrictionMode mode) override
     {
-      const auto u          = displacement(trial);
-      const auto load       = properties.load(u, trial.drive.x);
-      const double duration = trial.drive.time - start_time;
-      point                 = properties.contact(u);
+      const auto u            = displacement(step.trial.coordinates);
+      const auto load         = properties.load(u, step.trial.drive.x);
+      const double duration   = step.trial.drive.time - step.start.time;
+      const double slip_begin = properties.contact(displacement(step.ports)).slip;
+      Found found;
+      found.point = properties.contact(u);
       StepContactLaw law;
-      law.normal     = { properties.penalty, 1. };
-      law.tangential = properties.penalty;
-      law.friction   = properties.friction;
-      law.weights.dt = duration;
-      law.balance    = ForceBalance::end;
-      law.mode       = duration > 0. ? mode : FrictionMode::stick;
-      response       = step_response(sprag::step_to(point, slip_begin), trial.contact[0], law);
-      external       = load.force;
-      unbalance      = load.force + response.force;
-      tangent        = load.derivative + response.tangent;
-      rate           = duration > 0. ? (point.slip - slip_begin) / duration : 0.;
-      return { unbalance.norm(), response.pressure / properties.penalty };
+      law.normal      = { properties.penalty, 1. };
+      law.tangential  = properties.penalty;
+      law.friction    = properties.friction;
+      law.weights.dt  = duration;
+      law.balance     = ForceBalance::end;
+      law.mode        = duration > 0. ? mode : FrictionMode::stick;
+      found.response  = step_response(sprag::step_to(found.point, slip_begin), step.trial.contact[0], law);
+      found.external  = load.force;
+      found.unbalance = load.force + found.response.force;
+      found.tangent   = load.derivative + found.response.tangent;
+      found.rate      = duration > 0. ? (found.point.slip - slip_begin) / duration : 0.;
+      return { found.unbalance.norm(), found.response.pressure / properties.penalty, found };
     }
 
-    dealii::Vector<double> correction() override
+    dealii::Vector<double> correction(const Evaluation &evaluation) override
     {
-      const dealii::Tensor<1, n> change = -1. * (invert(tangent) * unbalance);
+      const auto &found                 = found_in(evaluation);
+      const dealii::Tensor<1, n> change = -1. * (invert(found.tangent) * found.unbalance);
       dealii::Vector<double> result(n);
       for (int i = 0; i < n; ++i)
         result[i] = change[i];
       return result;
     }
 
-    double penetration() const override
+    double penetration(const Evaluation &evaluation) const override
     {
-      return response.pressure > 0. ? std::abs(point.gap) : 0.;
+      const auto &found = found_in(evaluation);
+      return found.response.pressure > 0. ? std::abs(found.point.gap) : 0.;
     }
 
-    void augment(State &trial) const override
+    void augment(const Evaluation &evaluation, State &trial) const override
     {
+      const auto &response               = found_in(evaluation).response;
       trial.contact[0].normal_multiplier = response.pressure;
       trial.contact[0].traction          = response.traction;
     }
 
-    void remember(State &state) const override
+    void remember(const Evaluation &evaluation, State &state) const override
     {
+      const auto &response = found_in(evaluation).response;
       state.contact.assign(1, {});
       state.contact[0].traction = response.traction;
       if (properties.enforcement == Enforcement::augmented_lagrangian)
@@ -109,31 +113,40 @@ namespace sprag
     }
 
     /// P and F are normal force and friction, Q is the load along the first displacement.
-    void observe(const State & /*trial*/, Row &row) const override
+    void observe(const State & /*state*/, const Evaluation &evaluation, Row &row) const override
     {
-      row[Column::P]              = response.pressure;
-      row[Column::F]              = response.traction[0];
-      row[Column::Q]              = external[0];
-      row[Column::penetration]    = penetration();
-      row[Column::friction_power] = response.traction[0] * rate;
+      const auto &found           = found_in(evaluation);
+      row[Column::P]              = found.response.pressure;
+      row[Column::F]              = found.response.traction[0];
+      row[Column::Q]              = found.external[0];
+      row[Column::penetration]    = penetration(evaluation);
+      row[Column::friction_power] = found.response.traction[0] * found.rate;
     }
 
   private:
-    static dealii::Tensor<1, n> displacement(const State &state)
+    struct Found
+    {
+      ContactKinematics<n> point;
+      StepResponse<n> response;
+      dealii::Tensor<1, n> external, unbalance;
+      dealii::Tensor<2, n> tangent;
+      double rate = 0.;
+    };
+
+    static const Found &found_in(const Evaluation &evaluation)
+    {
+      return std::any_cast<const Found &>(evaluation.of_model);
+    }
+
+    static dealii::Tensor<1, n> displacement(const dealii::Vector<double> &coordinates)
     {
       dealii::Tensor<1, n> result;
       for (int i = 0; i < n; ++i)
-        result[i] = state.coordinates[i];
+        result[i] = coordinates[i];
       return result;
     }
 
     const Properties properties;
-    double start_time = 0., slip_begin = 0.; // of the step
-    ContactKinematics<n> point;
-    StepResponse<n> response;
-    dealii::Tensor<1, n> external, unbalance;
-    dealii::Tensor<2, n> tangent;
-    double rate = 0.;
   };
 
   template <int n>
@@ -144,7 +157,7 @@ namespace sprag
     settings.step                = step;
     settings.contact.enforcement = properties.enforcement;
     std::vector<Row> rows;
-    run_quasi_static(block, drive, settings, [&](const State &, const Row &row) { rows.push_back(row); });
+    run_quasi_static(block, drive, settings, [&](const State &, const Row &row, const Evaluation &) { rows.push_back(row); });
     return rows;
   }
 } // namespace sprag

@@ -2,7 +2,7 @@
 
 #include "analysis/statics/quasi_static.h"
 #include "fe/mesh/mesh.h"
-#include "fe/statics/lever_model.h"
+#include "fe/solid/static_lever.h"
 #include "mpi_environment.h"
 #include "report/report.h"
 #include "scene/scene.h"
@@ -20,9 +20,9 @@ namespace sprag
   {
     dealii::Triangulation<2> triangulation;
     make_mesh(scene, triangulation);
-    LeverModel model(triangulation, scene);
+    StaticLever<2> model(triangulation, scene);
     return run_quasi_static(model, scene.drive, { scene.analysis.step, scene.analysis.minimum_step, scene.contact },
-                            [&](const State &, const Row &row)
+                            [&](const State &, const Row &row, const Evaluation &)
                             {
                               rows.push_back(row);
                               add_closed_form(scene, rows.back());

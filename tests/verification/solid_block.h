@@ -217,9 +217,7 @@ namespace sprag
         , elastic(ports.size())
         , placed(ports.size())
     {
-      auto looked_at = near.ports;
       looked_at.push_back(ports.rotation());
-      window.enter(looked_at);
     }
 
     /// Moves the block's held side to a place from where the block touches without force [mm].
@@ -234,11 +232,13 @@ namespace sprag
         for (unsigned int port = 0; port < ports.surface; ++port)
           placed[port] += place[port % 3];
         contact.evaluate({ placed, 0. }, memory, 0., terms, found);
-        return window.unbalance(at, found.forces);
+        auto residual = window.residual(at, found.forces, looked_at);
+        return Pressed{ residual.norm, found.compression, std::move(residual) };
       };
       const auto result = solve_by_newton(
-          elastic, 1e-14, evaluate, [&] { return window.correction(found.forces); },
-          [&](const dealii::Vector<double> &change) { return window.largest(change); }, [&] { return found.compression; });
+          elastic, 1e-14, evaluate,
+          [&](const Pressed &pressed) { return window.correction(pressed.of_ports, found.forces, looked_at); },
+          [&](const dealii::Vector<double> &change) { return change.linfty_norm(); });
       EXPECT_TRUE(result.converged) << place;
       contact.add_points(found);
       for (const unsigned int port : found.forces.ports)
@@ -323,8 +323,16 @@ namespace sprag
                { obstacle.penalty, obstacle.penalty } };
     }
 
+    struct Pressed
+    {
+      double residual;
+      double overlap;
+      Residual of_ports;
+    };
+
     const SolidBlock &block;
     const NearFace &near;
+    PortSelection looked_at = near.ports;
     const PortLayout ports;
     PortWindow window;
     SurfaceContact contact;

@@ -1,6 +1,6 @@
 #include "fe/fields/body_fields.h"
 #include "fe/fields/device_mesh.h"
-#include "fe/solid/solid_lever.h"
+#include "fe/solid/static_lever.h"
 #include "run_scene.h"
 #include "scene/scene.h"
 
@@ -37,7 +37,7 @@ namespace
   {
     State last;
     run_quasi_static(model, scene.drive, { scene.analysis.step, scene.analysis.minimum_step, scene.contact },
-                     [&](const State &state, const Row &) { last = state; });
+                     [&](const State &state, const Row &, const Evaluation &) { last = state; });
     return last;
   }
 
@@ -46,9 +46,10 @@ namespace
     explicit PlaneRun(const Scene &scene)
     {
       make_mesh(scene, mesh);
-      LeverModel model(mesh, scene);
-      displacement = model.body_displacements(last_state(model, scene)).front();
-      found        = nodal(BodyFields(model.elastic_body()), displacement);
+      StaticLever<2> model(mesh, scene);
+      const auto state = last_state(model, scene);
+      displacement     = model.body_displacements(state.coordinates, state.forces).front();
+      found            = nodal(BodyFields(model.body()), displacement);
     }
 
     Mesh mesh;
@@ -62,9 +63,9 @@ namespace
         : body((make_mesh(scene, mesh), scene), mesh)
         , fields(body)
     {
-      SolidLever lever(body, scene);
+      StaticLever<3> lever(body, scene);
       const auto state = last_state(lever, scene);
-      found            = nodal(fields, lever.body_displacements(state).front());
+      found            = nodal(fields, lever.body_displacements(state.coordinates, state.forces).front());
     }
 
     Mesh mesh;

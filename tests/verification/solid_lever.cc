@@ -55,10 +55,10 @@ namespace
     Mesh plane;
     make_mesh(scene, plane);
     const SolidBody body(scene, plane);
-    SolidLever lever(body, scene);
+    StaticLever<3> lever(body, scene);
     unsigned int visited = 0;
     run_quasi_static(lever, scene.drive, { scene.analysis.step, scene.analysis.minimum_step, scene.contact },
-                     [&](const State &state, const Row &row)
+                     [&](const State &state, const Row &row, const Evaluation &)
                      {
                        visited += row[Column::P] > 0.1 ? 1 : 0;
                        if (row[Column::P] > 0.1)
@@ -121,7 +121,7 @@ TEST(SolidLever, MomentsBalanceAboutThePivot)
   const Scene scene = solid_model_a(0.3);
   const double rest = kinematics(scene.geometry, 0.).theta;
   visit_tilted_run(
-      [&](const SolidBody &body, const SolidLever &, const State &state, const Row &row)
+      [&](const SolidBody &body, const StaticLever<3> &, const State &state, const Row &row)
       {
         const double moment = scene.spring.stiffness * (row[Column::theta] - rest);
         EXPECT_NEAR(forces_on(body, state)[1].moment[2], moment, 1e-10 * moment);
@@ -136,10 +136,10 @@ TEST(SolidLever, TheHubCarriesTheForcesOfTheFace)
 {
   const double offset = solid_model_a(0.3).geometry.interface_offset;
   visit_tilted_run(
-      [&](const SolidBody &body, const SolidLever &lever, const State &state, const Row &row)
+      [&](const SolidBody &body, const StaticLever<3> &lever, const State &state, const Row &row)
       {
         const auto of_face = forces_on(body, state)[0];
-        const auto of_hub  = forces_of_hub(body, lever.body_displacements(state).front());
+        const auto of_hub  = forces_of_hub(body, lever.body_displacements(state.coordinates, state.forces).front());
         EXPECT_LT((of_face.force + of_hub.force).norm(), 1e-8 * of_face.force.norm());
         EXPECT_LT((of_face.moment + of_hub.moment).norm(), 1e-8 * of_face.moment.norm());
         const auto where_moved  = forces_on(body, state)[1];

@@ -111,12 +111,12 @@ TEST(SolidPlate, TheSensorsCarryForceAndTwistingMoment)
   Mesh plane;
   make_mesh(scene, plane);
   const SolidBody body(scene, plane);
-  SolidLever lever(body, scene);
+  StaticLever<3> lever(body, scene);
   const double back = scene.geometry.interface_offset + scene.layer.thickness + scene.plate.thickness;
   const double arm  = 0.5 * (scene.lever.width - scene.plate.sensor_width);
   unsigned int seen = 0;
   run_quasi_static(lever, scene.drive, { scene.analysis.step, scene.analysis.minimum_step, scene.contact },
-                   [&](const State &state, const Row &row)
+                   [&](const State &state, const Row &row, const Evaluation &)
                    {
                      if (row[Column::P] < 1.)
                        return;

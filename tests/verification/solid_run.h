@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fe/solid/solid_lever.h"
+#include "fe/solid/static_lever.h"
 #include "scene/scene.h"
 #include "verification/run_scene.h"
 
@@ -35,18 +35,20 @@ namespace sprag
       Mesh plane;
       make_mesh(scene, plane);
       const SolidBody body(scene, plane);
-      SolidLever lever(body, scene);
-      run_quasi_static(lever, scene.drive, { scene.analysis.step, scene.analysis.minimum_step, scene.contact },
-                       [&](const State &state, const Row &row)
-                       {
-                         rows.push_back(row);
-                         if (rows.size() == 10)
-                           exactness = lever.exactness(lever.samples(state));
-                       });
+      StaticLever<3> lever(body, scene);
+      run_quasi_static(
+          lever, scene.drive, { scene.analysis.step, scene.analysis.minimum_step, scene.contact },
+          [&](const State &state, const Row &row, const Evaluation &)
+          {
+            rows.push_back(row);
+            if (rows.size() == 10)
+              exactness = std::get<SolidStructure>(lever.structure())
+                              .exactness(std::get<SolidStructure>(lever.structure()).samples(state.coordinates, state.forces));
+          });
     }
 
     std::vector<Row> rows;
-    SolidLever::Exactness exactness{};
+    SolidStructure::Exactness exactness{};
   };
 
   inline double largest(const std::vector<Row> &rows, const Column column)

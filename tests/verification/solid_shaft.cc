@@ -69,10 +69,10 @@ TEST_P(SolidShaft, CarriesTheMomentOfTheFaceAboutItsMiddle)
   Mesh plane;
   make_mesh(scene, plane);
   const SolidBody body(scene, plane);
-  SolidLever lever(body, scene);
+  StaticLever<3> lever(body, scene);
   std::array<double, 2> off{}, peak{};
   run_quasi_static(lever, scene.drive, { scene.analysis.step, scene.analysis.minimum_step, scene.contact },
-                   [&](const State &state, const Row &row)
+                   [&](const State &state, const Row &row, const Evaluation &)
                    {
                      const auto moments                  = moments_on_axis(scene, body, state, row);
                      const std::array<double, 2> carried = {

@@ -16,10 +16,10 @@ namespace
     auto properties = lever_properties(scene);
     if (!at_the_end)
       properties.geometry.reset();
-    LeverModel model(triangulation, properties);
+    StaticLever<2> model(triangulation, properties);
     double result = 0.;
     run_quasi_static(model, scene.drive, { step, scene.analysis.minimum_step, scene.contact },
-                     [&](const State &, const Row &row) { result = std::max(result, row[Column::Q]); });
+                     [&](const State &, const Row &row, const Evaluation &) { result = std::max(result, row[Column::Q]); });
     return result;
   }
 } // namespace

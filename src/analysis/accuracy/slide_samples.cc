@@ -69,17 +69,15 @@ namespace sprag
       return to;
     }
 
-    State slid_to(Model &model, const State &from, const DrivePoint &to, const QuasiStaticSettings &settings,
-                  const unsigned int halves = 0)
+    Equilibrium slid_to(Model &model, const State &from, const DrivePoint &to, const QuasiStaticSettings &settings,
+                        const unsigned int halves = 0)
     {
       if (auto next = solve_step(model, from, to, settings))
-      {
-        model.remember(*next);
-        return *next;
-      }
+        return std::move(*next);
       if (halves == most_halves)
         throw AnalysisError("no equilibrium at x = " + mm(to.x));
-      return slid_to(model, slid_to(model, from, half_way(from.drive, to), settings, halves + 1), to, settings, halves + 1);
+      const auto middle = slid_to(model, from, half_way(from.drive, to), settings, halves + 1);
+      return slid_to(model, middle.state, to, settings, halves + 1);
     }
   } // namespace
 
@@ -104,7 +102,7 @@ namespace sprag
   }
 
   std::vector<Row> repeated(Model &model, const std::vector<Row> &samples, const double start,
-                            const QuasiStaticSettings &settings, const std::function<void(const State &, const Row &)> &look)
+                            const QuasiStaticSettings &settings, const StepSink &look)
   {
     std::vector<Row> result;
     if (samples.empty())
@@ -114,7 +112,7 @@ namespace sprag
     if (first.v < 0.)
     {
       const double speed = std::abs(first.v);
-      state              = slid_to(model, state, { start / speed, start, speed }, settings);
+      state              = slid_to(model, state, { start / speed, start, speed }, settings).state;
       state.drive        = { 0., start, first.v };
     }
     for (const Row &sample : samples)
@@ -122,10 +120,11 @@ namespace sprag
       const DrivePoint point = point_of(sample);
       // On the way through stick the slip is not that of the drive, and mu depends on its speed.
       if (direction_of(point.v) != direction_of(state.drive.v))
-        state = slid_to(model, state, half_way(state.drive, point), settings);
-      state = slid_to(model, state, point, settings);
-      result.push_back(observed(model, state));
-      look(state, result.back());
+        state = slid_to(model, state, half_way(state.drive, point), settings).state;
+      auto next = slid_to(model, state, point, settings);
+      result.push_back(observed(model, next.state, next.found));
+      look(next.state, result.back(), next.found);
+      state = std::move(next.state);
     }
     return result;
   }

@@ -17,7 +17,7 @@ namespace sprag
   /// where the run's drive began [mm]. Throws AnalysisError where the model cannot follow.
   std::vector<Row> repeated(
       Model &model, const std::vector<Row> &samples, double start, const QuasiStaticSettings &settings,
-      const std::function<void(const State &, const Row &)> &look = [](const State &, const Row &) {});
+      const StepSink &look = [](const State &, const Row &, const Evaluation &) {});
 
   /// Returns time, x and v of places in full sliding over the first two strokes of a drive, for probes before a run.
   std::vector<Row> places_of(const Drive &drive);

@@ -2,7 +2,7 @@
 
 #include "analysis/statics/quasi_static.h"
 #include "base/least_squares.h"
-#include "levers/static_lever.h"
+#include "levers/lever_in_hard_contact.h"
 #include "model/circle.h"
 #include "scene/closed_form.h"
 #include "scene/contact_reference.h"
@@ -98,7 +98,7 @@ namespace sprag
     const double from = std::max(smallest * reference.P, reference.smallest_P);
     const QuasiStaticSettings settings{ scene.drive.maximum() / points_drawn, scene.analysis.minimum_step, scene.contact };
     run_quasi_static(*lever.model, pressed.drive, settings,
-                     [&](const State &, const Row &row)
+                     [&](const State &, const Row &row, const Evaluation &)
                      {
                        if (row[Column::P] >= from)
                          result.points.push_back(indentation(pressed, bending_stiffness, row));

@@ -39,52 +39,56 @@ namespace sprag
     };
 
     /// Newton from the predictor; if it fails, once more from the stick predictor.
-    bool equilibrate(Model &model, State &trial, const bool stick_first, StepCost &cost)
+    std::optional<Evaluation> equilibrate(Model &model, Step &step, const bool stick_first, StepCost &cost)
     {
-      const State guess = trial;
+      const State guess = step.trial;
       for (const bool predict_stick : { stick_first, !stick_first })
       {
-        trial             = guess;
-        const auto result = solve_equilibrium(model, trial, predict_stick);
+        step.trial  = guess;
+        auto result = solve_equilibrium(model, step, predict_stick);
         cost.iterations += result.iterations;
         if (result.converged)
-          return true;
+          return std::move(result.found);
       }
-      return false;
+      return {};
     }
 
-    /// Augments until no point overlaps by more than the tolerance.
-    bool augment(Model &model, State &trial, const ContactSettings &settings, StepCost &cost)
+    /// Augments from an equilibrium until no point overlaps by more than the tolerance.
+    std::optional<Evaluation> augment(Model &model, Step &step, std::optional<Evaluation> found, const ContactSettings &settings,
+                                      StepCost &cost)
     {
-      while (model.penetration() > settings.penetration_tolerance)
+      while (found && model.penetration(*found) > settings.penetration_tolerance)
       {
         // Where the edge of the contact flips between two nodes the overlap stalls; it is small then, and reported.
         if (++cost.augmentations > settings.maximum_augmentations)
-          return model.penetration() <= stalled_overlap * settings.penetration_tolerance;
-        model.augment(trial);
-        if (!equilibrate(model, trial, false, cost))
-          return false;
+          return model.penetration(*found) <= stalled_overlap * settings.penetration_tolerance ? std::move(found) : std::nullopt;
+        model.augment(*found, step.trial);
+        found = equilibrate(model, step, false, cost);
       }
-      return true;
+      return found;
     }
 
-    /// The state at the end of a step, or none where no equilibrium was found.
-    std::optional<State> solve_step(Model &model, const State &accepted, const DrivePoint &drive,
-                                    const QuasiStaticSettings &settings, const bool stick_first, StepCost &cost)
+    /// The equilibrium at the end of a step, or none where none was found.
+    std::optional<Equilibrium> solve_step(Model &model, const State &accepted, const DrivePoint &drive,
+                                          const QuasiStaticSettings &settings, const bool stick_first, StepCost &cost)
     {
-      State trial = model.begin_step(accepted, drive);
+      Step step = model.begin_step(accepted, drive);
+      std::optional<Evaluation> found;
       try
       {
         cost.failure = "Newton's method does not converge";
         cost.remedy  = "Try a smaller friction coefficient or offset; if it is not the mechanics, a smaller Contact/Penalty or a "
                        "finer Mesh/Face size.";
-        if (!equilibrate(model, trial, stick_first, cost))
+        found        = equilibrate(model, step, stick_first, cost);
+        if (!found)
           return {};
         cost.failure =
             "augmentation does not converge to Contact/Penetration tolerance = " + mm(settings.contact.penetration_tolerance) +
             " in " + std::to_string(settings.contact.maximum_augmentations) + " augmentations";
         cost.remedy = "Try a larger Contact/Penalty, Contact/Penetration tolerance or Contact/Maximum augmentations.";
-        if (settings.contact.enforcement == Enforcement::augmented_lagrangian && !augment(model, trial, settings.contact, cost))
+        if (settings.contact.enforcement == Enforcement::augmented_lagrangian)
+          found = augment(model, step, std::move(found), settings.contact, cost);
+        if (!found)
           return {};
       }
       catch (const AnalysisError &error)
@@ -92,11 +96,12 @@ namespace sprag
         cost.failure = error.what(); // an element turned inside out or a singular tangent: a shorter step may avoid it
         return {};
       }
-      cost.failure = model.objection(trial);
+      cost.failure = model.objection(step.trial, *found);
       cost.remedy  = "Try a smaller friction coefficient, Geometry/Interface offset or Drive/Stroke.";
       if (!cost.failure.empty())
         return {};
-      return trial;
+      model.remember(*found, step.trial);
+      return Equilibrium{ std::move(step.trial), std::move(*found) };
     }
 
     /// Trapezoidal rule, but across a reversal the friction power jumps and its value at the end of the step stands for it.
@@ -142,6 +147,7 @@ namespace sprag
     {
       State state;
       Row row;
+      Evaluation found{};
     };
 
     /// A step of at most dx that also resolves how the speed changes, on which mu depends: the slip speed of a step is its mean.
@@ -171,27 +177,24 @@ namespace sprag
         dx *= cut;
         next = solve_step(model, from.state, end_of_step(drive, time, dx), settings, sticking, cost);
       }
-      model.remember(*next);
-      Row row = observed(model, *next);
+      auto &[state, found] = *next;
+      Row row              = observed(model, state, found);
       add_work(from.row, reversed, row);
       row[Column::iterations]    = cost.iterations;
       row[Column::augmentations] = cost.augmentations;
-      return { std::move(*next), row };
+      return { std::move(state), row, std::move(found) };
     }
 
-    /// A lever that the cylinder opens at x = 0 already, off the middle of a pair, is put on it without friction. Whether there
-    /// is one.
-    bool settle(Model &model, State &state, const QuasiStaticSettings &settings)
+    /// The state in which a lever begins at x = 0, and its evaluation where it is one that the cylinder opens there already, off
+    /// the middle of a pair: it is put on that without friction.
+    std::pair<State, std::optional<Evaluation>> settle(Model &model, const DrivePoint &start, const QuasiStaticSettings &settings)
     {
-      if (is_balanced(model, state))
-        return false;
+      State state = model.initial_state(start);
       StepCost cost;
-      auto settled = solve_step(model, state, state.drive, settings, false, cost);
-      if (!settled)
-        return false; // the first step tells why
-      model.remember(*settled);
-      state = std::move(*settled);
-      return true;
+      if (!is_balanced(model, state))
+        if (auto settled = solve_step(model, state, state.drive, settings, false, cost)) // if not, the first step tells why
+          return { std::move(settled->state), std::move(settled->found) };
+      return { std::move(state), std::nullopt };
     }
 
     /// The state in which the drive begins and the first step [mm]: just touching at x = 0, further on as reached by sliding
@@ -199,8 +202,8 @@ namespace sprag
     std::pair<Progression, double> begin(Model &model, const Drive &drive, const QuasiStaticSettings &settings)
     {
       const DrivePoint start = drive.at(0., Drive::Side::after);
-      Progression now{ model.initial_state({ 0., 0., drive.peak_speed() }), {} };
-      const bool pressed = settle(model, now.state, settings);
+      auto [state, pressed]  = settle(model, { 0., 0., drive.peak_speed() }, settings);
+      Progression now{ std::move(state), {} };
       if (start.x > 0.)
       {
         const double speed = std::max(std::abs(start.v), slow * drive.peak_speed());
@@ -210,13 +213,16 @@ namespace sprag
              dx              = std::min(settings.step, growth * dx))
           now = advance(model, approach, settings, now, false, false, dx);
       }
-      else if (!pressed)
+      else if (pressed)
+        now.found = std::move(*pressed);
+      else
       {
-        now.state = model.begin_step(now.state, now.state.drive);
-        model.evaluate(now.state, FrictionMode::stick);
+        Step step = model.begin_step(now.state, now.state.drive);
+        now.found = model.evaluate(step, FrictionMode::stick);
+        now.state = std::move(step.trial);
       }
       now.state.drive = start;
-      now.row         = observed(model, now.state);
+      now.row         = observed(model, now.state, now.found);
       const bool rubs = pressed && start.x == 0.; // friction then builds up within the first step
       return { std::move(now), rubs ? std::max(first_share * settings.step, settings.minimum_step) : settings.step };
     }
@@ -233,24 +239,24 @@ namespace sprag
     void visit(Archive &archive, Course &course)
     {
       auto &[now, dx, passage, reported_stiffness] = course;
-      auto &[state, row]                           = now;
+      auto &[state, row, found]                    = now;
       archive(state, row, dx, passage, reported_stiffness);
     }
 
-    /// The overlap once every point in contact sticks to where it was in the accepted state [mm].
-    double balance_in_stick(Model &model, State &trial)
+    /// Balances a step as if every point in contact sticks to where it was in the accepted state.
+    Evaluation balance_in_stick(Model &model, Step &step)
     {
-      double overlap = model.evaluate(trial, FrictionMode::stick).overlap;
-      for (unsigned int i = 0; i < stick_solutions && overlap > 0.; ++i)
+      auto found = model.evaluate(step, FrictionMode::stick);
+      for (unsigned int i = 0; i < stick_solutions && found.overlap > 0.; ++i)
       {
-        trial.coordinates += model.correction();
-        overlap = model.evaluate(trial, FrictionMode::stick).overlap;
+        step.trial.coordinates += model.correction(found);
+        found = model.evaluate(step, FrictionMode::stick);
       }
-      return overlap;
+      return found;
     }
   } // namespace
 
-  Row observed(const Model &model, const State &state)
+  Row observed(const Model &model, const State &state, const Evaluation &found)
   {
     Row row;
     row[Column::time]          = state.drive.time;
@@ -258,11 +264,12 @@ namespace sprag
     row[Column::v]             = state.drive.v;
     row[Column::friction_work] = 0.;
     row[Column::drive_work]    = 0.;
-    model.observe(state, row);
+    model.observe(state, found, row);
     return row;
   }
 
-  std::optional<State> solve_step(Model &model, const State &accepted, const DrivePoint &end, const QuasiStaticSettings &settings)
+  std::optional<Equilibrium> solve_step(Model &model, const State &accepted, const DrivePoint &end,
+                                        const QuasiStaticSettings &settings)
   {
     StepCost cost;
     return solve_step(model, accepted, end, settings, false, cost);
@@ -270,51 +277,47 @@ namespace sprag
 
   State settled(Model &model, const DrivePoint &start, const QuasiStaticSettings &settings)
   {
-    State state = model.initial_state(start);
-    settle(model, state, settings);
-    return state;
+    return settle(model, start, settings).first;
   }
 
-  NewtonResult solve_equilibrium(Model &model, State &trial, const bool stick_first)
+  NewtonSolution<Evaluation> solve_equilibrium(Model &model, Step &step, const bool stick_first)
   {
     if (stick_first)
     {
-      model.evaluate(trial, FrictionMode::stick);
-      trial.coordinates += model.correction();
+      const auto found = model.evaluate(step, FrictionMode::stick);
+      step.trial.coordinates += model.correction(found);
     }
-    double overlap      = 0.;
-    const auto evaluate = [&](const dealii::Vector<double> & /*coordinates of trial*/)
-    {
-      const auto unbalance = model.evaluate(trial, FrictionMode::cone);
-      overlap              = unbalance.overlap;
-      return unbalance.norm;
-    };
     return solve_by_newton(
-        trial.coordinates, round_off * model.length_scale(), evaluate, [&] { return model.correction(); },
-        [&](const dealii::Vector<double> &change) { return model.movement(change); }, [&] { return overlap; });
+        step.trial.coordinates, round_off * model.length_scale(),
+        [&](const dealii::Vector<double> & /*coordinates of the trial state*/)
+        { return model.evaluate(step, FrictionMode::cone); },
+        [&](const Evaluation &found) { return model.correction(found); },
+        [&](const dealii::Vector<double> &change) { return model.movement(change); });
   }
 
   bool is_balanced(Model &model, const State &state)
   {
-    State trial = model.begin_step(state, state.drive);
-    model.evaluate(trial, FrictionMode::cone);
-    return model.movement(model.correction()) <= round_off * model.length_scale();
+    Step step        = model.begin_step(state, state.drive);
+    const auto found = model.evaluate(step, FrictionMode::cone);
+    return model.movement(model.correction(found)) <= round_off * model.length_scale();
   }
 
   double stick_stiffness(Model &model, const State &accepted)
   {
     // The accepted state itself is not balanced in stick where the multipliers of the augmented Lagrangian are carried over.
-    State trial          = model.begin_step(accepted, accepted.drive);
-    const double overlap = balance_in_stick(model, trial);
-    if (overlap == 0.)
+    Step step         = model.begin_step(accepted, accepted.drive);
+    const auto before = balance_in_stick(model, step);
+    if (before.overlap == 0.)
       return 0.;
-    Row before, after;
-    model.observe(trial, before);
-    const double probe = probe_share * overlap;
-    trial.drive.x += probe;
-    balance_in_stick(model, trial);
-    model.observe(trial, after);
-    return (after.friction_force() - before.friction_force()) / probe;
+    const auto friction = [&](const Evaluation &found)
+    {
+      Row row;
+      model.observe(step.trial, found, row);
+      return row.friction_force();
+    };
+    const double at_first = friction(before), probe = probe_share * before.overlap;
+    step.trial.drive.x += probe;
+    return (friction(balance_in_stick(model, step)) - at_first) / probe;
   }
 
   namespace
@@ -350,7 +353,7 @@ namespace sprag
     };
     const auto hand_on = [&]
     {
-      sink(course.now.state, course.now.row);
+      sink(course.now.state, course.now.row, course.now.found);
       if (keeper != nullptr)
         keeper->accept_step(progress);
     };

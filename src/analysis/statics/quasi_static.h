@@ -11,9 +11,9 @@
 
 namespace sprag
 {
-  /// Solves the equilibrium of `trial` in the model's step, see solve_by_newton(), from the coordinates in `trial`. With
-  /// `stick_first` the first correction assumes stick everywhere, which finds the direction of slip after a reversal.
-  NewtonResult solve_equilibrium(Model &model, State &trial, bool stick_first);
+  /// Solves the equilibrium of a step, see solve_by_newton(), from the coordinates of its trial state. With `stick_first` the
+  /// first correction assumes stick everywhere, which finds the direction of slip after a reversal.
+  NewtonSolution<Evaluation> solve_equilibrium(Model &model, Step &step, bool stick_first);
 
   /// Returns whether a state that no step led to is an equilibrium, up to round-off.
   bool is_balanced(Model &model, const State &state);
@@ -29,19 +29,25 @@ namespace sprag
   /// middle of a pair, put on it without friction.
   State settled(Model &model, const DrivePoint &start, const QuasiStaticSettings &settings);
 
-  /// Returns the state at the end of one step from an accepted one, or none where no equilibrium was found. The model evaluated
-  /// it last.
-  std::optional<State> solve_step(Model &model, const State &accepted, const DrivePoint &end,
-                                  const QuasiStaticSettings &settings);
+  /// A state in equilibrium, with the memory of its contact.
+  struct Equilibrium
+  {
+    State state;
+    Evaluation found;
+  };
 
-  /// Returns the row of a state without inertia that the model evaluated last, its works 0.
-  Row observed(const Model &model, const State &state);
+  /// Returns the equilibrium at the end of one step from an accepted state, or none where none was found.
+  std::optional<Equilibrium> solve_step(Model &model, const State &accepted, const DrivePoint &end,
+                                        const QuasiStaticSettings &settings);
 
-  /// Called with every accepted state, the first included, right after the model evaluated it.
-  using StepSink = std::function<void(const State &state, const Row &row)>;
+  /// Returns the row of a state without inertia, its works 0.
+  Row observed(const Model &model, const State &state, const Evaluation &found);
+
+  /// Called with every accepted state, the first included.
+  using StepSink = std::function<void(const State &state, const Row &row, const Evaluation &found)>;
 
   /// Finds the stiffness dF/dx of the lever in stick, with all points under pressure stuck: of layer, tangential penalty and body
-  /// in series [N/mm]; of a full pair that of both levers. 0 where the contact is open. Evaluates the model.
+  /// in series [N/mm]; of a full pair that of both levers. 0 where the contact is open.
   double stick_stiffness(Model &model, const State &accepted);
 
   /// Moves the model along the drive through equilibria, inertia left out. Steps are cut back where the equilibrium is not found

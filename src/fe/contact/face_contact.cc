@@ -207,7 +207,7 @@ namespace sprag
   const PortSelection &FaceContact::reachable_ports(const double x, const OfLevers &inclinations, const double travel)
   {
     const double of_radius    = properties.radius > 0. ? 0.05 * properties.radius : std::numeric_limits<double>::infinity();
-    const double of_contact   = reach_factor * of_radius + travel;
+    const double of_contact   = reach_factor * of_radius + std::abs(travel);
     const double aside        = 4. * properties.layer_thickness; // where the face is looked at besides
     const double xi           = properties.centre(x, inclinations.front()).xi;
     const auto patches_within = [&](const double distance)

@@ -14,7 +14,7 @@ namespace sprag
 
   void FaceContact::observe(const FaceEvaluation &found, Row &row, unsigned int) const
   {
-    observe_face(body, found, properties.layer_thickness, row);
+    FaceView(body.friction_face(), properties.layer_thickness).observe(found, row);
     row[Column::Q] = drive_force(found);
   }
 
@@ -33,11 +33,11 @@ namespace sprag
 
   FacePoints FaceContact::face_points() const
   {
-    return sprag::face_points(body);
+    return FaceView(body.friction_face(), properties.layer_thickness).points();
   }
 
   FaceState FaceContact::face_state(const FaceEvaluation &found, const DrivePoint &drive) const
   {
-    return sprag::face_state(body, found, drive);
+    return FaceView(body.friction_face(), properties.layer_thickness).state(found, drive);
   }
 } // namespace sprag

@@ -10,13 +10,13 @@ namespace sprag
   namespace
   {
     /// An evaluation and the face that it is of.
-    struct FaceView
+    struct FoundFace
     {
       const FrictionFace<2> &face;
       const FaceEvaluation &found;
     };
 
-    PressureSamples samples_of(const FaceView &contact)
+    PressureSamples samples_of(const FoundFace &contact)
     {
       const auto &face = contact.face;
       PressureSamples samples;
@@ -40,7 +40,7 @@ namespace sprag
     }
 
     /// Displacement along xi and eta of an integration point [mm].
-    dealii::Tensor<1, 2> displacement(const FaceView &contact, const unsigned int point)
+    dealii::Tensor<1, 2> displacement(const FoundFace &contact, const unsigned int point)
     {
       dealii::Tensor<1, 2> result;
       for (const auto &[node, shape] : contact.face.points[point].nodes)
@@ -50,7 +50,7 @@ namespace sprag
     }
 
     /// Displacement along eta at xi, linear between the points [mm].
-    double deflection(const FaceView &contact, const double xi)
+    double deflection(const FoundFace &contact, const double xi)
     {
       const auto &points   = contact.face.points;
       const auto is_before = [](const auto &point, const double value) { return point.position[0] < value; };
@@ -61,7 +61,7 @@ namespace sprag
       return (1. - share) * displacement(contact, index)[1] + share * displacement(contact, index + 1)[1];
     }
 
-    double indentation(const FaceView &contact, const double centre, const double width, const double layer_thickness)
+    double indentation(const FoundFace &contact, const double centre, const double width, const double layer_thickness)
     {
       if (layer_thickness == 0.)
         return 0.;
@@ -109,7 +109,7 @@ namespace sprag
 
     /// Returns the friction that the recovered pressure takes along: in the ratio of each point, then as far towards mu p, either
     /// way, as the resultant of the points asks, the same share of the way everywhere.
-    std::vector<double> recovered_traction(const FaceView &contact, const std::vector<double> &pressure)
+    std::vector<double> recovered_traction(const FoundFace &contact, const std::vector<double> &pressure)
     {
       const auto friction = frictions(contact.found.points);
       const auto area     = [&](const std::size_t i) { return contact.face.points[contact.found.points[i].index].weight; };
@@ -131,7 +131,7 @@ namespace sprag
     }
 
     /// Returns the share of a force on a point, by its index, that nodes take which the hub does not hold.
-    double share_of_free_nodes(const FaceView &contact, const unsigned int point)
+    double share_of_free_nodes(const FoundFace &contact, const unsigned int point)
     {
       double share = 0.;
       for (const auto &node : contact.face.points[point].nodes)
@@ -147,7 +147,7 @@ namespace sprag
       double P = 0., F = 0.;
     };
 
-    Sums sum(const FaceView &contact)
+    Sums sum(const FoundFace &contact)
     {
       Sums sums;
       const double dt = contact.found.duration;
@@ -176,9 +176,9 @@ namespace sprag
     }
   } // namespace
 
-  void observe_face(const ElasticBody<2> &body, const FaceEvaluation &found, const double layer_thickness, Row &row)
+  void FaceView::observe(const FaceEvaluation &found, Row &row) const
   {
-    const FaceView contact{ body.friction_face(), found };
+    const FoundFace contact{ face, found };
     const auto samples            = samples_of(contact);
     const auto recovery           = recover(samples);
     row[Column::contact_width]    = contact_width(samples, recovery);
@@ -186,14 +186,14 @@ namespace sprag
     if (recovery.largest > 0.)
       row[Column::largest_pressure_xi] = recovery.place;
     row[Column::indentation] = 0.;
-    observe_resultants(body, found, row);
+    observe_resultants(found, row);
     if (row[Column::normal_resultant] > 0.)
       row[Column::indentation] = indentation(contact, row[Column::s], row[Column::contact_width], layer_thickness);
   }
 
-  void observe_resultants(const ElasticBody<2> &body, const FaceEvaluation &found, Row &row)
+  void FaceView::observe_resultants(const FaceEvaluation &found, Row &row) const
   {
-    const FaceView contact{ body.friction_face(), found };
+    const FoundFace contact{ face, found };
     const Sums sums                 = sum(contact);
     row[Column::normal_resultant]   = sums.normal;
     row[Column::friction_resultant] = sums.friction;
@@ -214,10 +214,10 @@ namespace sprag
     }
   }
 
-  FacePoints face_points(const ElasticBody<2> &body)
+  FacePoints FaceView::points() const
   {
     FacePoints result;
-    for (const auto &point : body.friction_face().points)
+    for (const auto &point : face.points)
     {
       result.xi.push_back(point.position[0]);
       result.weight.push_back(point.weight);
@@ -225,9 +225,9 @@ namespace sprag
     return result;
   }
 
-  FaceState face_state(const ElasticBody<2> &body, const FaceEvaluation &found, const DrivePoint &drive)
+  FaceState FaceView::state(const FaceEvaluation &found, const DrivePoint &drive) const
   {
-    const FaceView contact{ body.friction_face(), found };
+    const FoundFace contact{ face, found };
     FaceState result;
     result.time         = drive.time;
     result.x            = drive.x;

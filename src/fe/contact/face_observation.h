@@ -7,14 +7,30 @@
 
 namespace sprag
 {
-  /// Fills the columns that follow from tractions and positions on the friction face. `layer_thickness` [mm], 0 without a layer,
-  /// tells what counts as indentation: the deflection of the face at the centre of pressure over that aside of the contact.
-  void observe_face(const ElasticBody<2> &body, const FaceEvaluation &found, double layer_thickness, Row &row);
+  /// A friction face in a plane as results show it.
+  class FaceView
+  {
+  public:
+    /// The face must outlive this. `layer_thickness` [mm], 0 without a layer, tells what counts as indentation: the deflection of
+    /// the face at the centre of pressure over that aside of the contact.
+    FaceView(const FrictionFace<2> &face_, const double layer_thickness_)
+        : face(face_)
+        , layer_thickness(layer_thickness_)
+    {
+    }
 
-  /// Fills those of them that are sums over the points under pressure.
-  void observe_resultants(const ElasticBody<2> &body, const FaceEvaluation &found, Row &row);
+    /// Fills the columns that follow from tractions and positions on the face.
+    void observe(const FaceEvaluation &found, Row &row) const;
 
-  FacePoints face_points(const ElasticBody<2> &body);
+    /// Fills those of them that are sums over the points under pressure.
+    void observe_resultants(const FaceEvaluation &found, Row &row) const;
 
-  FaceState face_state(const ElasticBody<2> &body, const FaceEvaluation &found, const DrivePoint &drive);
+    FacePoints points() const;
+
+    FaceState state(const FaceEvaluation &found, const DrivePoint &drive) const;
+
+  private:
+    const FrictionFace<2> &face;
+    const double layer_thickness;
+  };
 } // namespace sprag

@@ -47,7 +47,7 @@ namespace sprag
 
   const PortSelection &SolidContact::reachable_ports(const double x, const OfLevers &theta)
   {
-    return contact.reachable_ports(x, theta.front(), 0.);
+    return contact.reachable_ports(x, theta);
   }
 
   double SolidContact::gap_change(const SurfaceEvaluation &found, const Vector<double> &change_of_ports, unsigned int) const

@@ -146,6 +146,23 @@ namespace sprag
     return patches.find_near({ centre.xi, centre.eta, 0. }, distance);
   }
 
+  void SurfaceContact::evaluate(const PortStep &step, SurfaceEvaluation &found, const StaticTerms &terms)
+  {
+    if (begin_x != step.from.x || begin_ports.size() != step.begin.position.size() || begin_ports != step.begin.position ||
+        begin_travel != terms.travel || begin_augmented != terms.augmented)
+    {
+      begin_step({ step.begin.position, step.from.x });
+      begin_travel    = terms.travel;
+      begin_augmented = terms.augmented;
+    }
+    found.duration = step.to.time - step.from.time;
+    evaluate({ step.end, step.to.x }, *step.surface_memory, step.to.surface - step.from.surface, terms, found);
+    if (terms.augmented) // multipliers spread over the cells
+      add_points(found);
+    else
+      add_points_in_contact(found);
+  }
+
   void SurfaceContact::evaluate(const SurfacePlace &end, const std::vector<SurfaceMemory> &memory, const double surface_run,
                                 const StaticTerms &terms, SurfaceEvaluation &found)
   {
@@ -253,12 +270,12 @@ namespace sprag
     return result;
   }
 
-  const PortSelection &SurfaceContact::reachable_ports(const double x, const double theta, const double travel)
+  const PortSelection &SurfaceContact::reachable_ports(const double x, const OfLevers &theta, const double travel)
   {
     constexpr double over_radius = 0.05;
     constexpr double infinity    = std::numeric_limits<double>::max();
     const double aside           = reach_factor * over_radius * properties.radius;
-    const double end             = properties.centre(x, theta).xi;
+    const double end             = properties.centre(x, theta.front()).xi;
     const double begin           = end - travel;
     const auto between           = [&](const double a, const double b) {
       return patches.patches_in({ { { a - aside, -infinity, -infinity }, { b + aside, infinity, infinity } } });

@@ -64,6 +64,9 @@ namespace sprag
     /// The face must outlive the contact.
     SurfaceContact(const FrictionFace<3> &face, SurfaceContactProperties properties);
 
+    /// Evaluates a step without inertia, with its points: where it is augmented all near the cylinder, else those of complete().
+    void evaluate(const PortStep &step, SurfaceEvaluation &found, const StaticTerms &terms);
+
     /// Sets the accepted state in which the following steps begin.
     void begin_step(const SurfacePlace &begin);
 
@@ -104,7 +107,7 @@ namespace sprag
 
     /// Returns the ports near the cylinder at the beginning and at the end of a step in which the contact travels along xi [mm];
     /// those that it passes between take no part.
-    const PortSelection &reachable_ports(double x, double theta, double travel);
+    const PortSelection &reachable_ports(double x, const OfLevers &theta, double travel = 0.);
 
     /// Doubles how far these ports reach, from their next call on.
     void widen_reach();
@@ -131,6 +134,7 @@ namespace sprag
     void use_penalties(const ContactPenalties &penalties)
     {
       properties.penalties = penalties;
+      begin_ports.reinit(0); // no step has begun with them
     }
 
     /// Visits how far it reaches.
@@ -198,6 +202,8 @@ namespace sprag
     dealii::Vector<double> begin_ports;
     double begin_x = 0.;
     RigidCylinder::Pose begin_pose{};
+    double begin_travel  = 0.; ///< of the terms without inertia
+    bool begin_augmented = false;
     mutable std::vector<std::vector<Slips>> begin_slips; ///< of the points by patches; of those that were looked at
 
     /// Patches whose forces are summed, and their ports.

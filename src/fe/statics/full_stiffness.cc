@@ -19,22 +19,21 @@ namespace sprag
       , surface(surface_dofs(body))
   {
     body.reinit(of_body);
-    DynamicSparsityPattern pattern(n_coordinates(), n_coordinates());
+    pattern.reinit(n_coordinates(), n_coordinates());
     const MatrixRows rows(of_body);
     for (unsigned int lever = 0; lever < ports.levers; ++lever)
       for (PetscInt i = 0; i < rows.n; ++i)
         for (PetscInt k = rows.begin[i]; k < rows.begin[i + 1]; ++k)
           pattern.add(first_coordinate(lever) + static_cast<unsigned int>(i),
                       first_coordinate(lever) + static_cast<unsigned int>(rows.column[k]));
-    couple_ports(pattern);
-    matrix.reinit(pattern);
+    couple_ports();
     for (unsigned int lever = 0; lever < ports.levers; ++lever)
       find_places(lever);
   }
 
   void FullStiffness::find_places(const unsigned int lever)
   {
-    const MatrixRows rows(of_body), all(matrix);
+    const MatrixRows rows(of_body), all(*free_matrix());
     const auto first = static_cast<PetscInt>(first_coordinate(lever));
     for (PetscInt i = 0; i < rows.n; ++i)
     {
@@ -50,7 +49,7 @@ namespace sprag
 
   /// Hubs and support with everything that the contact touches, and an elastic cylinder's face with all of both faces: the
   /// material of the lever slides along it.
-  void FullStiffness::couple_ports(DynamicSparsityPattern &pattern) const
+  void FullStiffness::couple_ports()
   {
     const auto couple = [&](const unsigned int port, const unsigned int other)
     {
@@ -100,45 +99,69 @@ namespace sprag
     return result;
   }
 
-  double FullStiffness::unbalance(const Vector<double> &coordinates, const PortForces &forces)
+  /// A matrix that no residual holds, all 0.
+  std::shared_ptr<PETScWrappers::SparseMatrix> FullStiffness::free_matrix()
+  {
+    for (const auto &matrix : matrices)
+      if (matrix.use_count() == 1)
+      {
+        *matrix = 0.;
+        return matrix;
+      }
+    matrices.push_back(std::make_shared<PETScWrappers::SparseMatrix>());
+    matrices.back()->reinit(pattern);
+    return matrices.back();
+  }
+
+  Residual FullStiffness::residual(const Vector<double> &coordinates, const PortForces &forces, const PortSelection &)
   {
     if (!is_ordered)
+    {
       first_coordinates = coordinates;
-    matrix = 0.;
-    residual.reinit(n_coordinates());
+      first_forces      = forces;
+    }
+    const auto tangent = free_matrix();
+    auto &matrix       = *tangent;
+    Vector<double> left(n_coordinates());
     for (unsigned int lever = 0; lever < ports.levers; ++lever)
-      add_body(lever, coordinates);
+      add_body(lever, coordinates, matrix, left);
     const auto add_spring = [&](const unsigned int port, const double stiffness)
     {
       const unsigned int i = coordinate(port);
       matrix.add(i, i, stiffness);
-      residual[i] -= stiffness * coordinates[i];
+      left[i] -= stiffness * coordinates[i];
     };
     for (unsigned int lever = 0; lever < ports.levers; ++lever)
       add_spring(ports.rotation(lever), springs.rotation);
     if (ports.sprung)
       add_spring(ports.support(), ports.levers * springs.support);
+    for (unsigned int i = 0; i < forces.ports.size(); ++i)
+    {
+      left[coordinate(forces.ports[i])] += forces.values[i];
+      for (unsigned int j = 0; j < forces.ports.size(); ++j)
+        if (forces.tangent(i, j) != 0.)
+          matrix.add(coordinate(forces.ports[i]), coordinate(forces.ports[j]), -forces.tangent(i, j));
+    }
     matrix.compress(VectorOperation::add);
 
-    for (unsigned int i = 0; i < forces.ports.size(); ++i)
-      residual[coordinate(forces.ports[i])] += forces.values[i];
-    double result = residual.norm_sqr();
+    double squares = left.norm_sqr();
     for (unsigned int lever = 0; lever < ports.levers; ++lever)
     {
-      const double moment = residual[coordinate(ports.rotation(lever))];
-      result += (1. / (springs.arm * springs.arm) - 1.) * moment * moment;
+      const double moment = left[coordinate(ports.rotation(lever))];
+      squares += (1. / (springs.arm * springs.arm) - 1.) * moment * moment;
     }
-    return std::sqrt(result);
+    return { std::move(left), std::sqrt(squares), tangent };
   }
 
-  void FullStiffness::add_body(const unsigned int lever, const Vector<double> &coordinates)
+  void FullStiffness::add_body(const unsigned int lever, const Vector<double> &coordinates, PETScWrappers::SparseMatrix &matrix,
+                               Vector<double> &forces)
   {
     const unsigned int first = first_coordinate(lever);
     Vector<double> internal(body.n_dofs());
     of_body = 0.;
-    body.assemble(body_displacement(lever, coordinates, {}), of_body, internal);
+    body.assemble(body_displacement(lever, coordinates), of_body, internal);
     for (unsigned int dof = 0; dof < body.n_dofs(); ++dof)
-      residual[first + dof] -= internal[dof];
+      forces[first + dof] -= internal[dof];
 
     const MatrixRows from(of_body), to(matrix);
     const std::size_t n = places.size() / ports.levers;
@@ -156,8 +179,7 @@ namespace sprag
       return;
     try
     {
-      unbalance(coordinates, forces);
-      correction(forces);
+      correction(residual(coordinates, forces), forces);
     }
     catch (const AnalysisError &)
     {
@@ -165,37 +187,32 @@ namespace sprag
     }
   }
 
-  Vector<double> FullStiffness::correction(const PortForces &forces)
+  Vector<double> FullStiffness::correction(const Residual &residual, const PortForces &, const PortSelection &)
   {
-    if (!is_ordered)
-      first_forces = forces;
     is_ordered = true;
-    for (unsigned int i = 0; i < forces.ports.size(); ++i)
-      for (unsigned int j = 0; j < forces.ports.size(); ++j)
-        if (forces.tangent(i, j) != 0.)
-          matrix.add(coordinate(forces.ports[i]), coordinate(forces.ports[j]), -forces.tangent(i, j));
-    matrix.compress(VectorOperation::add);
-    factors.factorise(matrix);
+    factors.factorise(*residual.tangent);
     Vector<double> result;
-    factors.solve(residual, result);
+    factors.solve(residual.values, result);
     return result;
   }
 
-  double FullStiffness::largest(const Vector<double> &coordinates) const
-  {
-    return coordinates.linfty_norm();
-  }
-
-  Vector<double> FullStiffness::body_displacement(const unsigned int lever, const Vector<double> &coordinates,
-                                                  const PortLoads &) const
+  Vector<double> FullStiffness::body_displacement(const unsigned int lever, const Vector<double> &coordinates) const
   {
     const auto begin = coordinates.begin() + first_coordinate(lever);
     return Vector<double>(begin, begin + body.n_dofs());
   }
 
-  std::vector<double> FullStiffness::sensor_forces(const unsigned int lever, const Vector<double> &coordinates,
-                                                   const PortLoads &forces) const
+  std::vector<Vector<double>> FullStiffness::body_displacements(const Vector<double> &coordinates, const PortLoads &) const
   {
-    return sprag::sensor_forces(body, body_displacement(lever, coordinates, forces));
+    std::vector<Vector<double>> result;
+    for (unsigned int lever = 0; lever < ports.levers; ++lever)
+      result.push_back(body_displacement(lever, coordinates));
+    return result;
+  }
+
+  void FullStiffness::tell_sensors(const unsigned int lever, const Vector<double> &coordinates, const PortLoads &, Row &row) const
+  {
+    if (!body.connectors().empty())
+      row.sensor_forces = sensor_forces(body, body_displacement(lever, coordinates));
   }
 } // namespace sprag

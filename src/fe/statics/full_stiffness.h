@@ -6,6 +6,7 @@
 #include "fe/statics/port_springs.h"
 #include "model/port_forces.h"
 #include "model/port_layout.h"
+#include "results/columns.h"
 
 namespace sprag
 {
@@ -14,6 +15,8 @@ namespace sprag
   class FullStiffness
   {
   public:
+    static constexpr bool looks_at_some = false; ///< but at all ports
+
     /// The body must outlive this; that of a pair's second lever is alike.
     FullStiffness(const ElasticBody<2> &body, const PortLayout &ports, const PortSprings &springs);
 
@@ -24,31 +27,30 @@ namespace sprag
 
     dealii::Vector<double> port_displacements(const dealii::Vector<double> &coordinates) const;
 
-    /// Norm of the unbalanced forces [N].
-    double unbalance(const dealii::Vector<double> &coordinates, const PortForces &forces);
+    /// Returns the forces on the ports less those of bodies and springs [N], with the tangent.
+    Residual residual(const dealii::Vector<double> &coordinates, const PortForces &forces, const PortSelection &near = {});
 
-    /// Correction at the last unbalance(). Throws AnalysisError if the factorisation fails.
-    dealii::Vector<double> correction(const PortForces &forces);
+    /// Returns the correction. Throws AnalysisError if the factorisation fails.
+    dealii::Vector<double> correction(const Residual &residual, const PortForces &forces, const PortSelection &near = {});
 
-    /// Absolute value of the largest coordinate.
-    double largest(const dealii::Vector<double> &coordinates) const;
+    /// Returns the displacement of the whole body of each lever.
+    std::vector<dealii::Vector<double>> body_displacements(const dealii::Vector<double> &coordinates,
+                                                           const PortLoads &forces) const;
 
-    /// Displacement of the whole body of a lever.
-    dealii::Vector<double> body_displacement(unsigned int lever, const dealii::Vector<double> &coordinates,
-                                             const PortLoads &forces) const;
-
-    /// Forces of the sensors of a lever [N].
-    std::vector<double> sensor_forces(unsigned int lever, const dealii::Vector<double> &coordinates,
-                                      const PortLoads &forces) const;
+    /// Tells a row the forces of the sensors of a lever [N].
+    void tell_sensors(unsigned int lever, const dealii::Vector<double> &coordinates, const PortLoads &forces, Row &row) const;
 
     /// Visits what the factors' ordering was found for, on which their round-off depends.
     void visit_history(Archive &archive);
 
   private:
     unsigned int first_coordinate(unsigned int lever) const;
-    void couple_ports(dealii::DynamicSparsityPattern &pattern) const;
+    void couple_ports();
     void find_places(unsigned int lever);
-    void add_body(unsigned int lever, const dealii::Vector<double> &coordinates);
+    std::shared_ptr<dealii::PETScWrappers::SparseMatrix> free_matrix();
+    dealii::Vector<double> body_displacement(unsigned int lever, const dealii::Vector<double> &coordinates) const;
+    void add_body(unsigned int lever, const dealii::Vector<double> &coordinates, dealii::PETScWrappers::SparseMatrix &matrix,
+                  dealii::Vector<double> &forces);
 
     const ElasticBody<2> &body;
     const PortLayout ports;
@@ -56,11 +58,11 @@ namespace sprag
     const std::vector<unsigned int> surface; ///< degrees of freedom of a lever's ports
     Mumps factors;
     dealii::PETScWrappers::SparseMatrix of_body; ///< stiffness of a lever's body
-    dealii::PETScWrappers::SparseMatrix matrix;
-    std::vector<std::size_t> places; ///< of the entries of each lever's body in the matrix
-    dealii::Vector<double> residual; ///< forces on the ports less those of bodies and springs
+    dealii::DynamicSparsityPattern pattern;
+    std::vector<std::shared_ptr<dealii::PETScWrappers::SparseMatrix>> matrices; ///< with room for a tangent each
+    std::vector<std::size_t> places; ///< of the entries of each lever's body in such a matrix
 
-    // The first matrix that was factorised, which the factors are ordered for.
+    // Where the first tangent was found, which the factors are ordered for.
     bool is_ordered = false;
     dealii::Vector<double> first_coordinates;
     PortForces first_forces;

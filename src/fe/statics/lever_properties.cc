@@ -62,15 +62,22 @@ namespace sprag
     result.solution         = scene.analysis.solution;
     result.layer_thickness  = scene.layer.thickness;
     result.interface_offset = geometry.interface_offset;
+    result.cylinder         = scene.cylinder;
     result.geometry         = geometry;
     return result;
   }
 
-  LeverProperties properties_of_lever(const Scene &scene, const unsigned int lever)
+  std::vector<LeverProperties> properties_of_levers(const Scene &scene)
   {
-    LeverProperties result = lever_properties(scene_of_lever(scene, lever));
-    result.spring.rest     = rest_inclination(scene);
-    result.ideal_theta     = [scene, lever](const double x) { return pair_inclinations(scene, x)[lever]; };
+    if (number_of_levers(scene) == 1)
+      return { lever_properties(scene) };
+    std::vector<LeverProperties> result;
+    for (const unsigned int lever : { 0, 1 })
+    {
+      result.push_back(lever_properties(scene_of_lever(scene, lever)));
+      result.back().spring.rest = rest_inclination(scene);
+      result.back().ideal_theta = [scene, lever](const double x) { return pair_inclinations(scene, x)[lever]; };
+    }
     return result;
   }
 

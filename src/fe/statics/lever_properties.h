@@ -6,6 +6,7 @@
 #include "laws/moment_law.h"
 #include "results/columns.h"
 #include "scene/analysis_settings.h"
+#include "scene/apparatus.h"
 #include "scene/contact_settings.h"
 #include "scene/lever.h"
 
@@ -41,13 +42,15 @@ namespace sprag
     Solution solution       = Solution::automatic;
     double layer_thickness  = 0.;     ///< [mm]
     double interface_offset = 0.;     ///< e [mm]
+    Cylinder cylinder{};              ///< of the damper, of a lever in three dimensions
     std::optional<Geometry> geometry; ///< of the damper, see static_terms(); none: another body on another path
   };
 
+  /// Returns the properties of a single lever, or of the first of a pair as if it were alone.
   LeverProperties lever_properties(const Scene &scene);
 
-  /// Properties of a lever of a full pair, in its own (for the second: mirrored) axes.
-  LeverProperties properties_of_lever(const Scene &scene, unsigned int lever);
+  /// Returns the properties of the scene's lever, or of both of its full pair, each in its own (the second in mirrored) axes.
+  std::vector<LeverProperties> properties_of_levers(const Scene &scene);
 
   /// Returns that the lever locks where it moves back with s <= mu e; empty elsewhere. The row holds s, mu and F.
   std::string locking_objection(const Row &row, double interface_offset, const DrivePoint &drive);

@@ -3,6 +3,7 @@
 #include "fe/body/elastic_body.h"
 
 #include <array>
+#include <memory>
 
 namespace sprag
 {
@@ -14,6 +15,14 @@ namespace sprag
     double arm      = 0.;           ///< length that turns a rotation into a movement [mm], > 0
     std::array<double, 2> slopes{}; ///< compliances of the cylinder's shaft [rad/(N mm)], >= 0; count where its axis is free
     double slope_arm = 0.;          ///< length that turns its slopes into movements [mm], > 0
+  };
+
+  /// By how much coordinates are out of balance.
+  struct Residual
+  {
+    dealii::Vector<double> values;
+    double norm;                                                             ///< as a displacement or a force, hubs by their arm
+    std::shared_ptr<const dealii::PETScWrappers::SparseMatrix> tangent = {}; ///< of structures that are factorised anew
   };
 
   /// Degrees of freedom of the ports of a face: two a node.

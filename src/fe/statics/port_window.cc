@@ -30,15 +30,12 @@ namespace sprag
     return coordinates;
   }
 
-  PortSelection PortWindow::enter(const PortSelection &wanted)
+  /// Moves the window where it lacks some ports. Returns their places.
+  PortSelection PortWindow::look_at(const PortSelection &near)
   {
-    PortSelection entered;
-    std::set_difference(wanted.begin(), wanted.end(), selected.begin(), selected.end(), std::back_inserter(entered));
-    if (!std::includes(window.begin(), window.end(), wanted.begin(), wanted.end()))
-      move_window(wanted);
-    selected = wanted;
-    places   = places_of(wanted);
-    return entered;
+    if (!std::includes(window.begin(), window.end(), near.begin(), near.end()))
+      move_window(near);
+    return places_of(near);
   }
 
   void PortWindow::move_window(const PortSelection &wanted)
@@ -73,7 +70,6 @@ namespace sprag
     }
     if (ports.sprung)
       add_spring(ports.support(), 1. / (ports.levers * springs.support));
-    mismatch.reinit(compliance.size());
   }
 
   void PortWindow::visit_history(Archive &archive)
@@ -84,61 +80,69 @@ namespace sprag
       move_window(wanted);
   }
 
-  PortSelection PortWindow::places_of(const std::vector<unsigned int> &of_ports) const
+  PortSelection PortWindow::places_of(const PortSelection &of_ports) const
   {
     PortSelection result;
+    unsigned int place = 0;
     for (const unsigned int port : of_ports)
-      result.push_back(place_of(port, window));
+    {
+      while (window[place] != port)
+        ++place;
+      result.push_back(place);
+    }
     return result;
   }
 
-  void PortWindow::set_faces(const PortLoads &forces, Vector<double> &coordinates) const
+  void PortWindow::set_faces(const PortLoads &forces, const PortSelection &near, Vector<double> &coordinates)
   {
-    Vector<double> displacements(mismatch.size());
+    const auto places = look_at(near);
+    Vector<double> displacements(compliance.size());
     add_response(compliance, places_of(forces.ports), forces.values, places, displacements);
     for (const unsigned int place : places)
       if (ports.is_surface(window[place]))
         coordinates[window[place]] = displacements[place];
   }
 
-  double PortWindow::unbalance(const Vector<double> &coordinates, const PortForces &forces, const Vector<double> *const of_faces)
+  Residual PortWindow::residual(const Vector<double> &coordinates, const PortForces &forces, const PortSelection &near,
+                                const Vector<double> *const of_faces)
   {
+    const auto places = look_at(near);
+    Vector<double> mismatch(compliance.size());
     for (const unsigned int place : places)
       mismatch[place] = -coordinates[window[place]];
     add_response(compliance, places_of(forces.ports), forces.values, places, mismatch);
+    Residual result{ Vector<double>(n_coordinates()), 0. };
+    double squares = 0.;
     for (const unsigned int place : places)
-      if (const unsigned int port = window[place]; of_faces != nullptr && ports.is_surface(port))
-        mismatch[place] = (*of_faces)[port] - coordinates[port];
-    double result = 0.;
-    for (const unsigned int place : places)
-      result += mismatch[place] * mismatch[place];
+    {
+      const unsigned int port = window[place];
+      const bool is_given     = of_faces != nullptr && ports.is_surface(port);
+      result.values[port]     = is_given ? (*of_faces)[port] - coordinates[port] : mismatch[place];
+      squares += result.values[port] * result.values[port];
+    }
     const auto as_movement = [&](const unsigned int port, const double arm)
     {
-      const double turn = mismatch[place_of(port, window)];
-      result += (arm * arm - 1.) * turn * turn;
+      const double turn = result.values[port];
+      squares += (arm * arm - 1.) * turn * turn;
     };
     for (unsigned int lever = 0; lever < ports.levers; ++lever)
       as_movement(ports.rotation(lever), springs.arm);
     for (unsigned int slope = 0; slope < ports.slopes; ++slope)
       as_movement(ports.slope(slope), springs.slope_arm);
-    return std::sqrt(result);
+    result.norm = std::sqrt(squares);
+    return result;
   }
 
-  Vector<double> PortWindow::correction(const PortForces &forces) const
+  Vector<double> PortWindow::correction(const Residual &residual, const PortForces &forces, const PortSelection &near)
   {
+    const auto places = look_at(near);
+    Vector<double> mismatch(compliance.size());
+    for (const unsigned int place : places)
+      mismatch[place] = residual.values[window[place]];
     const auto in_window = port_correction(compliance, places_of(forces.ports), forces.tangent, places, mismatch);
     Vector<double> result(n_coordinates());
     for (const unsigned int place : places)
       result[window[place]] = in_window[place];
     return result;
   }
-
-  double PortWindow::largest(const Vector<double> &coordinates) const
-  {
-    double result = 0.;
-    for (const unsigned int port : selected)
-      result = std::max(result, std::abs(coordinates[port]));
-    return result;
-  }
-
 } // namespace sprag

@@ -19,12 +19,15 @@ namespace sprag
 
   /// Linear levers on linear springs in statics, seen through their ports, z = G f(z). The compliance G is dense on the faces of
   /// a lever and diagonal on hubs and support, which do not move a body in its own axes, and on the cylinder's slopes. It is
-  /// known in a window of whole tiles. Only ports with forces carry tangents, so that a Newton correction is a dense solve of
-  /// those, and the iterates are those of the full system. Coordinates: displacements of all ports, of which only those that were
-  /// entered last are looked at.
+  /// known in a window of whole tiles, which moves where other ports are looked at. Only ports with forces carry tangents, so
+  /// that a Newton correction is a dense solve of those, and the iterates are those of the full system. Coordinates:
+  /// displacements of all ports. `near` are the ports that are looked at, which increase and hold those of the forces, of hubs
+  /// and of the support.
   class PortWindow
   {
   public:
+    static constexpr bool looks_at_some = true;
+
     /// The faces of a lever in the order of their ports, the same for both of a pair.
     PortWindow(const PortLayout &ports, const PortSprings &springs, std::vector<FaceResponse> faces);
 
@@ -35,40 +38,30 @@ namespace sprag
 
     const dealii::Vector<double> &port_displacements(const dealii::Vector<double> &coordinates) const;
 
-    /// Looks at the given ports from now on, which increase and hold those of hubs and support. Returns those that it did not
-    /// look at before.
-    PortSelection enter(const PortSelection &ports);
+    /// Sets the displacements of those ports of the faces that are looked at to G f.
+    void set_faces(const PortLoads &forces, const PortSelection &near, dealii::Vector<double> &coordinates);
 
-    /// Sets the displacements of those ports of the faces that it looks at to G f. It must look at the ports of the forces.
-    void set_faces(const PortLoads &forces, dealii::Vector<double> &coordinates) const;
+    /// Returns G f - z. `of_faces`: displacements of the faces in place of G f, on all their ports, of a body that is not linear.
+    Residual residual(const dealii::Vector<double> &coordinates, const PortForces &forces, const PortSelection &near,
+                      const dealii::Vector<double> *of_faces = nullptr);
 
-    /// Norm of G f - z, as a displacement [mm]. `of_faces`: displacements of the faces in place of G f, on all their ports, of a
-    /// body that is not linear.
-    double unbalance(const dealii::Vector<double> &coordinates, const PortForces &forces,
-                     const dealii::Vector<double> *of_faces = nullptr);
-
-    /// Correction at the last unbalance(), 0 on ports it does not look at. Throws AnalysisError if the tangent is singular.
-    dealii::Vector<double> correction(const PortForces &forces) const;
-
-    /// Absolute value of the largest coordinate that it looks at.
-    double largest(const dealii::Vector<double> &coordinates) const;
+    /// Returns the correction, 0 on ports that are not looked at. Throws AnalysisError if the tangent is singular.
+    dealii::Vector<double> correction(const Residual &residual, const PortForces &forces, const PortSelection &near);
 
     /// Visits where the window is.
     void visit_history(Archive &archive);
 
   private:
     void move_window(const PortSelection &wanted);
-    PortSelection places_of(const std::vector<unsigned int> &of_ports) const;
+    PortSelection places_of(const PortSelection &of_ports) const;
+    PortSelection look_at(const PortSelection &near);
 
     const PortLayout ports;
     const PortSprings springs;
     const std::vector<FaceResponse> faces;
 
-    PortSelection window;            ///< ports that the compliance is known of, a place for each
-    PortSelection window_for;        ///< ports that it was made for
-    PortCompliance compliance;       ///< of the places
-    dealii::Vector<double> mismatch; ///< G f - z
-    PortSelection selected;          ///< ports it looks at
-    PortSelection places;            ///< of them
+    PortSelection window;      ///< ports that the compliance is known of, a place for each
+    PortSelection window_for;  ///< ports that it was made for
+    PortCompliance compliance; ///< of the places
   };
 } // namespace sprag

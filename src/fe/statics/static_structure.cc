@@ -63,23 +63,27 @@ namespace sprag
     return result;
   }
 
-  Vector<double> StaticStructure::body_displacement(const unsigned int lever, const Vector<double> &,
-                                                    const PortLoads &forces) const
+  std::vector<Vector<double>> StaticStructure::body_displacements(const Vector<double> &, const PortLoads &forces) const
   {
-    const auto on_faces = forces_on_faces(lever, forces);
-    Vector<double> loads(body.n_dofs()), result;
-    for (unsigned int i = 0; i < ports.surface; ++i)
-      loads[surface[i]] = on_faces[i];
-    factors.solve(loads, result);
+    std::vector<Vector<double>> result(ports.levers);
+    for (unsigned int lever = 0; lever < ports.levers; ++lever)
+    {
+      const auto on_faces = forces_on_faces(lever, forces);
+      Vector<double> loads(body.n_dofs());
+      for (unsigned int i = 0; i < ports.surface; ++i)
+        loads[surface[i]] = on_faces[i];
+      factors.solve(loads, result[lever]);
+    }
     return result;
   }
 
-  std::vector<double> StaticStructure::sensor_forces(const unsigned int lever, const Vector<double> &,
-                                                     const PortLoads &forces) const
+  void StaticStructure::tell_sensors(const unsigned int lever, const Vector<double> &, const PortLoads &forces, Row &row) const
   {
-    Vector<double> result(static_cast<unsigned int>(sensor_rows.m()));
-    if (result.size() > 0)
-      sensor_rows.vmult(result, forces_on_faces(lever, forces));
-    return { result.begin(), result.end() };
+    if (body.connectors().empty())
+      return;
+    Vector<double> of_sensors(static_cast<unsigned int>(sensor_rows.m()));
+    if (of_sensors.size() > 0)
+      sensor_rows.vmult(of_sensors, forces_on_faces(lever, forces));
+    row.sensor_forces.assign(of_sensors.begin(), of_sensors.end());
   }
 } // namespace sprag

@@ -4,6 +4,7 @@
 #include "fe/statics/port_window.h"
 #include "fe/statics/surface_compliance.h"
 #include "model/port_layout.h"
+#include "results/columns.h"
 
 #include <array>
 
@@ -19,13 +20,12 @@ namespace sprag
     StaticStructure(const StaticStructure &)            = delete;
     StaticStructure &operator=(const StaticStructure &) = delete;
 
-    /// Displacement of the whole body of a lever under forces on the ports, by one back-substitution.
-    dealii::Vector<double> body_displacement(unsigned int lever, const dealii::Vector<double> &coordinates,
-                                             const PortLoads &forces) const;
+    /// Returns the displacement of the whole body of each lever under forces on the ports, by a back-substitution.
+    std::vector<dealii::Vector<double>> body_displacements(const dealii::Vector<double> &coordinates,
+                                                           const PortLoads &forces) const;
 
-    /// Forces of the sensors of a lever [N].
-    std::vector<double> sensor_forces(unsigned int lever, const dealii::Vector<double> &coordinates,
-                                      const PortLoads &forces) const;
+    /// Tells a row the forces of the sensors of a lever [N].
+    void tell_sensors(unsigned int lever, const dealii::Vector<double> &coordinates, const PortLoads &forces, Row &row) const;
 
     /// Visits what it knows of the compliance.
     void visit_history(Archive &archive);

@@ -10,7 +10,7 @@ namespace sprag
   struct Scene;
 
   /// A meshed lever without inertia and the mesh that it stands on.
-  struct StaticLever
+  struct LeverOnMesh
   {
     std::unique_ptr<Mesh> mesh;
     std::unique_ptr<Model> model;
@@ -18,5 +18,5 @@ namespace sprag
 
   /// Makes the scene's lever with an automatic penalty as stiff as hard contact, to which laws of the reduced models are fitted.
   /// Throws InputError for a mesh that cannot serve.
-  StaticLever make_lever_in_hard_contact(const Scene &scene);
+  LeverOnMesh make_lever_in_hard_contact(const Scene &scene);
 } // namespace sprag

@@ -1,0 +1,256 @@
+#include "fe/solid/solid_structure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace sprag
+{
+  using namespace dealii;
+
+  namespace
+  {
+    std::vector<std::vector<unsigned int>> lines_along(const FrictionFace<3> &face)
+    {
+      std::map<long, std::vector<unsigned int>> by_zeta;
+      for (unsigned int i = 0; i < face.nodes.size(); ++i)
+        by_zeta[std::lround(1e6 * face.nodes[i].position[2])].push_back(i);
+      std::vector<std::vector<unsigned int>> result;
+      for (const auto &line : by_zeta)
+        if (line.second.size() >= 3)
+          result.push_back(line.second);
+      return result;
+    }
+  } // namespace
+
+  SolidStructure::SolidStructure(const SolidBody &body_, const double begin, const double end, const PortLayout &ports_,
+                                 const PortSprings &springs_)
+      : PortWindow(ports_, springs_,
+                   { { ports_.surface, [this](const PortSelection &some) { return compliance.whole_tiles(some); },
+                       [this](const PortSelection &tiles) { return compliance.among(tiles); } } })
+      , body(body_)
+      , ports(ports_)
+      , compliance(body, begin, end)
+      , node_lines(lines_along(body.friction_face()))
+      , sensors(body)
+  {
+    if (body.body_properties().material != MaterialModel::linear)
+      finite.emplace(body);
+  }
+
+  /// Index among the coordinates, at finite strain, of the first displacement of a lever's body.
+  unsigned int SolidStructure::first_of_body(const unsigned int lever) const
+  {
+    return PortWindow::n_coordinates() + lever * body.n_dofs();
+  }
+
+  unsigned int SolidStructure::n_coordinates() const
+  {
+    return finite ? first_of_body(ports.levers) : PortWindow::n_coordinates();
+  }
+
+  Vector<double> SolidStructure::of_body(const Vector<double> &coordinates, const unsigned int lever) const
+  {
+    const auto first = coordinates.begin() + first_of_body(lever);
+    return { first, first + body.n_dofs() };
+  }
+
+  void SolidStructure::set_faces(const PortLoads &forces, const PortSelection &near, Vector<double> &coordinates)
+  {
+    if (!finite)
+      return PortWindow::set_faces(forces, near, coordinates);
+    for (unsigned int i = 0; i < ports.levers; ++i)
+      for (unsigned int port = 0; port < ports.surface; ++port)
+        coordinates[ports.first(i) + port] = coordinates[first_of_body(i) + dof_of_port(body, port)];
+  }
+
+  Residual SolidStructure::residual(const Vector<double> &coordinates, const PortForces &forces, const PortSelection &near)
+  {
+    if (!finite)
+      return PortWindow::residual(coordinates, forces, near);
+    Vector<double> of_faces(ports.size()), of_strains(n_coordinates());
+    for (unsigned int i = 0; i < ports.levers; ++i)
+    {
+      const auto displacement = of_body(coordinates, i);
+      const auto of_strain    = finite->unbalance(displacement, on_face({ forces.ports, forces.values }, i));
+      std::copy(of_strain.begin(), of_strain.end(), of_strains.begin() + first_of_body(i));
+      for (unsigned int port = 0; port < ports.surface; ++port)
+        of_faces[ports.first(i) + port] = displacement[dof_of_port(body, port)] + of_strain[dof_of_port(body, port)];
+    }
+    auto result = PortWindow::residual(coordinates, forces, near, &of_faces);
+    result.norm = std::hypot(result.norm, of_strains.l2_norm());
+    std::copy(result.values.begin(), result.values.end(), of_strains.begin());
+    result.values = std::move(of_strains);
+    return result;
+  }
+
+  Vector<double> SolidStructure::correction(const Residual &residual, const PortForces &forces, const PortSelection &near)
+  {
+    auto result = PortWindow::correction(residual, forces, near);
+    if (!finite)
+      return result;
+    PortLoads change{ forces.ports, Vector<double>(forces.values.size()) };
+    Vector<double> moved(forces.values.size());
+    result.extract_subvector_to(forces.ports.begin(), forces.ports.end(), moved.begin());
+    forces.tangent.vmult(change.values, moved);
+    result.grow_or_shrink(n_coordinates());
+    for (unsigned int i = 0; i < ports.levers; ++i)
+    {
+      const auto of_strain = finite->correction(of_body(residual.values, i), on_face(change, i));
+      std::copy(of_strain.begin(), of_strain.end(), result.begin() + first_of_body(i));
+    }
+    return result;
+  }
+
+  /// With the numbers that its ports have alone.
+  PortLoads SolidStructure::on_face(const PortLoads &acting, const unsigned int lever) const
+  {
+    const auto &all  = acting.ports;
+    const auto begin = std::lower_bound(all.begin(), all.end(), ports.first(lever));
+    const auto end   = std::lower_bound(begin, all.end(), ports.first(lever) + ports.surface);
+    PortLoads result{
+      { begin, end }, Vector<double>(acting.values.begin() + (begin - all.begin()), acting.values.begin() + (end - all.begin()))
+    };
+    for (auto &port : result.ports)
+      port -= ports.first(lever);
+    return result;
+  }
+
+  double SolidStructure::energy(const unsigned int lever, const Vector<double> &coordinates) const
+  {
+    return finite->energy(of_body(coordinates, lever));
+  }
+
+  void SolidStructure::tell_sensors(const unsigned int lever, const Vector<double> &coordinates, const PortLoads &forces,
+                                    Row &row) const
+  {
+    sensors.tell(finite ? sensors.at(of_body(coordinates, lever)) : sensors(on_face(forces, lever)), row);
+  }
+
+  const std::vector<unsigned int> &SolidStructure::line_at(const double zeta) const
+  {
+    const auto &nodes    = body.friction_face().nodes;
+    const auto distance  = [&](const auto &line) { return std::abs(nodes[line.front()].position[2] - zeta); };
+    const auto is_closer = [&](const auto &a, const auto &b) { return distance(a) < distance(b); };
+    return *std::min_element(node_lines.begin(), node_lines.end(), is_closer);
+  }
+
+  /// The displacement along eta between the nodes of a line by those of three of them: their ports and shares.
+  PortLoads SolidStructure::interpolation(const std::vector<unsigned int> &line, const double xi) const
+  {
+    const auto &nodes    = body.friction_face().nodes;
+    const auto xi_of     = [&](const std::size_t i) { return nodes[line[i]].position[0]; };
+    const auto is_before = [&](const unsigned int node, const double value) { return nodes[node].position[0] < value; };
+    const auto after     = std::lower_bound(line.begin(), line.end(), xi, is_before) - line.begin();
+    const auto first     = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(after - 1, 0, line.size() - 3));
+    PortLoads result{ {}, Vector<double>(3) };
+    for (std::size_t i = first; i < first + 3; ++i)
+    {
+      double share = 1.;
+      for (std::size_t j = first; j < first + 3; ++j)
+        if (j != i)
+          share *= (xi - xi_of(j)) / (xi_of(i) - xi_of(j));
+      result.ports.push_back(3 * line[i] + 1);
+      result.values[static_cast<unsigned int>(i - first)] = share;
+    }
+    return result;
+  }
+
+  double SolidStructure::indentation(const unsigned int lever, const double thickness, const Vector<double> &coordinates,
+                                     const PortLoads &forces, const Row &row) const
+  {
+    const auto acting = on_face(forces, lever);
+    if (thickness == 0. || acting.ports.empty() || node_lines.empty())
+      return 0.;
+    const auto displacements = [&](const PortSelection &some)
+    {
+      if (!finite)
+        return compliance.displacements(some, acting);
+      Vector<double> result(static_cast<unsigned int>(some.size()));
+      for (unsigned int i = 0; i < result.size(); ++i)
+        result[i] = coordinates[first_of_body(lever) + dof_of_port(body, some[i])];
+      return result;
+    };
+    const auto &line   = line_at(row.across[4]);
+    const double s     = row[Column::s];
+    const double aside = 0.5 * row[Column::contact_width] + 4. * thickness;
+    const auto at      = [&](const double xi)
+    {
+      const auto shares = interpolation(line, xi);
+      return shares.values * displacements(shares.ports);
+    };
+    return at(s) - 0.5 * (at(s - aside) + at(s + aside));
+  }
+
+  std::vector<Vector<double>> SolidStructure::body_displacements(const Vector<double> &coordinates, const PortLoads &forces) const
+  {
+    std::vector<Vector<double>> result;
+    if (finite)
+    {
+      for (unsigned int i = 0; i < ports.levers; ++i)
+        result.push_back(of_body(coordinates, i));
+      return result;
+    }
+    std::vector<PortLoads> loads;
+    for (unsigned int i = 0; i < ports.levers; ++i)
+      loads.push_back(on_face(forces, i));
+    const auto of_levers = responses(loads);
+    for (auto column = of_levers.begin(); column != of_levers.end(); column += body.n_dofs())
+      result.emplace_back(column, column + body.n_dofs());
+    return result;
+  }
+
+  /// Displacements of all degrees of freedom of the whole body by forces on the face, one after another.
+  std::vector<double> SolidStructure::responses(const std::vector<PortLoads> &on_faces) const
+  {
+    SparseColumns loads;
+    for (const auto &acting : on_faces)
+    {
+      for (unsigned int i = 0; i < acting.ports.size(); ++i)
+        if (const unsigned int dof = dof_of_port(body, acting.ports[i]); !body.is_held(dof))
+          loads.add(dof, acting.values[i]);
+      loads.end_column();
+    }
+    return body.respond(loads);
+  }
+
+  std::vector<FaceSample> SolidStructure::samples(const Vector<double> &coordinates, const PortLoads &forces) const
+  {
+    std::vector<FaceSample> result;
+    for (unsigned int lever = 0; lever < ports.levers; ++lever)
+    {
+      result.push_back({ on_face(forces, lever), {} });
+      auto &[acting, displacements] = result.back();
+      displacements.reinit(static_cast<unsigned int>(acting.ports.size()));
+      for (unsigned int i = 0; i < displacements.size(); ++i)
+        displacements[i] = coordinates[ports.first(lever) + acting.ports[i]];
+    }
+    return result;
+  }
+
+  SolidStructure::Exactness SolidStructure::exactness(const std::vector<FaceSample> &samples) const
+  {
+    std::vector<PortLoads> loads;
+    for (const auto &sample : samples)
+      loads.push_back(sample.first);
+    const auto of_whole = responses(loads);
+
+    Exactness result{};
+    for (std::size_t k = 0; k < samples.size(); ++k)
+    {
+      const auto &[acting, displacements] = samples[k];
+      double difference = 0., largest = 0., missed = 0., work = 0.;
+      for (unsigned int i = 0; i < acting.ports.size(); ++i)
+      {
+        const double exact = of_whole[k * body.n_dofs() + dof_of_port(body, acting.ports[i])];
+        difference         = std::max(difference, std::abs(exact - displacements[i]));
+        largest            = std::max(largest, std::abs(exact));
+        missed += (exact - displacements[i]) * acting.values[i];
+        work += exact * acting.values[i];
+      }
+      result.displacement = std::max(result.displacement, largest > 0. ? difference / largest : 0.);
+      result.work         = std::max(result.work, work > 0. ? std::abs(missed) / work : 0.);
+    }
+    return result;
+  }
+} // namespace sprag

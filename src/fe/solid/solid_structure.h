@@ -1,0 +1,87 @@
+#pragma once
+
+#include "fe/solid/finite_strain.h"
+#include "fe/solid/layered_compliance.h"
+#include "fe/solid/sensor_forces.h"
+#include "fe/statics/port_window.h"
+
+#include <optional>
+
+namespace sprag
+{
+  /// Forces on the ports of the face of a lever, and the displacements of these ports.
+  using FaceSample = std::pair<PortLoads, dealii::Vector<double>>;
+
+  /// One or both levers of a pair in three dimensions in statics, seen through a window of the ports of their faces. At finite
+  /// strain the displacements of all degrees of freedom of the body of each lever follow those of the ports among the
+  /// coordinates. To be made and used by the first rank.
+  class SolidStructure : public PortWindow
+  {
+  public:
+    /// The body must outlive this. `begin` and `end`: where on the face forces may act [mm].
+    SolidStructure(const SolidBody &body, double begin, double end, const PortLayout &ports, const PortSprings &springs);
+    SolidStructure(const SolidStructure &)            = delete;
+    SolidStructure &operator=(const SolidStructure &) = delete;
+
+    unsigned int n_coordinates() const;
+
+    /// See PortWindow; at finite strain sets the ports to where the bodies are.
+    void set_faces(const PortLoads &forces, const PortSelection &near, dealii::Vector<double> &coordinates);
+
+    Residual residual(const dealii::Vector<double> &coordinates, const PortForces &forces, const PortSelection &near);
+    dealii::Vector<double> correction(const Residual &residual, const PortForces &forces, const PortSelection &near);
+
+    /// Returns the displacement of all degrees of freedom of each lever's body in its axes [mm]; of a linear one by a
+    /// back-substitution with the whole.
+    std::vector<dealii::Vector<double>> body_displacements(const dealii::Vector<double> &coordinates,
+                                                           const PortLoads &forces) const;
+
+    /// Returns the elastic energy of a lever at finite strain [mJ].
+    double energy(unsigned int lever, const dealii::Vector<double> &coordinates) const;
+
+    /// Tells a row the forces of the sensors of a lever [N].
+    void tell_sensors(unsigned int lever, const dealii::Vector<double> &coordinates, const PortLoads &forces, Row &row) const;
+
+    /// Returns the deflection of a lever's face where the pressure is largest over that aside of the contact [mm]; 0 without a
+    /// layer. The row holds place and width of the contact.
+    double indentation(unsigned int lever, double layer_thickness, const dealii::Vector<double> &coordinates,
+                       const PortLoads &forces, const Row &row) const;
+
+    bool is_linear() const
+    {
+      return !finite;
+    }
+
+    const LayeredCompliance &face_compliance() const
+    {
+      return compliance;
+    }
+
+    /// Returns a state's forces on the face of each lever and the displacements where they act.
+    std::vector<FaceSample> samples(const dealii::Vector<double> &coordinates, const PortLoads &forces) const;
+
+    /// What the compliance of the face of a linear body leaves out, against a solve with the whole body, the worst of some
+    /// states.
+    struct Exactness
+    {
+      double displacement; ///< largest difference over the largest displacement [-]
+      double work;         ///< of the forces on the differences over that on the displacements [-]
+    };
+    Exactness exactness(const std::vector<FaceSample> &samples) const;
+
+  private:
+    unsigned int first_of_body(unsigned int lever) const;
+    dealii::Vector<double> of_body(const dealii::Vector<double> &coordinates, unsigned int lever) const;
+    PortLoads on_face(const PortLoads &forces, unsigned int lever) const;
+    std::vector<double> responses(const std::vector<PortLoads> &on_faces) const;
+    const std::vector<unsigned int> &line_at(double zeta) const;
+    PortLoads interpolation(const std::vector<unsigned int> &line, double xi) const;
+
+    const SolidBody &body;
+    const PortLayout ports;
+    mutable LayeredCompliance compliance;              ///< of a face; remembers what it found
+    std::vector<std::vector<unsigned int>> node_lines; ///< nodes of the face with the same zeta, along xi; three and more
+    const SensorForces sensors;
+    mutable std::optional<FiniteStrain> finite; ///< of a body that is not linear
+  };
+} // namespace sprag

@@ -1,0 +1,551 @@
+#include "fe/solid/static_lever.h"
+
+#include "base/text.h"
+#include "fe/statics/contact_penalties.h"
+#include "fe/statics/static_terms.h"
+#include "model/joined_memory.h"
+#include "model/joined_ports.h"
+#include "scene/across.h"
+#include "scene/lever_shape.h"
+#include "scene/mirrored_pair.h"
+#include "scene/scene.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sprag
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// Slopes of the cylinder's axis that a scene may have.
+    constexpr double largest_slope = 0.1;
+
+    // What differs between plane and space in making a lever.
+
+    ElasticBody<2> body_of(const Triangulation<2> &triangulation, const LeverProperties &properties)
+    {
+      return ElasticBody<2>(triangulation, properties.body);
+    }
+
+    const SolidBody &body_of(const SolidBody &body, const LeverProperties &)
+    {
+      return body;
+    }
+
+    unsigned int n_surface_ports(const ElasticBody<2> &body)
+    {
+      return static_cast<unsigned int>(surface_dofs(body).size());
+    }
+
+    unsigned int n_surface_ports(const SolidBody &body)
+    {
+      return 3 * static_cast<unsigned int>(body.friction_face().nodes.size());
+    }
+
+    unsigned int n_slopes(const ElasticBody<2> &, const LeverProperties &)
+    {
+      return 0;
+    }
+
+    unsigned int n_slopes(const SolidBody &body, const LeverProperties &properties)
+    {
+      return body.is_half() || !properties.cylinder.has_free_axis() ? 0 : 2;
+    }
+
+    template <class Body>
+    PortLayout ports_of(const Body &body, const std::vector<LeverProperties> &levers)
+    {
+      PortLayout result{ n_surface_ports(body), levers.front().support_stiffness.has_value() };
+      result.levers      = static_cast<unsigned int>(levers.size());
+      result.has_inertia = false;
+      result.slopes      = n_slopes(body, levers.front());
+      return result;
+    }
+
+    FaceContact contact_of(const ElasticBody<2> &body, const LeverProperties &properties, const PortLayout &ports)
+    {
+      return { body,
+               { properties.obstacle, properties.centre, properties.radius, ports, properties.spring.rest,
+                 contact_penalties(body, properties.contact, properties.layer_thickness, properties.penalty_factor,
+                                   properties.longest_face),
+                 properties.friction, properties.layer_thickness } };
+    }
+
+    SurfaceContact contact_of(const SolidBody &body, const LeverProperties &properties, const PortLayout &ports)
+    {
+      return { body.friction_face(),
+               { RigidCylinder(*properties.geometry, properties.cylinder), properties.centre, properties.radius, ports,
+                 properties.spring.rest,
+                 contact_penalties(body.friction_face(), properties.contact, properties.layer_thickness,
+                                   properties.penalty_factor, properties.longest_face) } };
+    }
+
+    FaceView view_of(const ElasticBody<2> &body, const FaceContact &, const LeverProperties &properties)
+    {
+      return { body.friction_face(), properties.layer_thickness };
+    }
+
+    SurfaceView view_of(const SolidBody &body, const SurfaceContact &contact, const LeverProperties &)
+    {
+      return { body.friction_face(), contact, body.is_half() };
+    }
+
+    LeverParts<2>::Structure structure_of(const ElasticBody<2> &body, const LeverProperties &properties, const PortLayout &ports,
+                                          const PortSprings &springs, const std::array<double, 2> &)
+    {
+      using Structure = LeverParts<2>::Structure;
+      if (properties.solution == Solution::automatic && properties.body.material == MaterialModel::linear)
+        return Structure(std::in_place_type<StaticStructure>, body, ports, springs);
+      return Structure(std::in_place_type<FullStiffness>, body, ports, springs);
+    }
+
+    LeverParts<3>::Structure structure_of(const SolidBody &body, const LeverProperties &properties, const PortLayout &ports,
+                                          const PortSprings &springs, const std::array<double, 2> &swept)
+    {
+      const double room = 0.1 * properties.radius;
+      return LeverParts<3>::Structure(std::in_place_type<SolidStructure>, body, swept[0] - room, swept[1] + room, ports, springs);
+    }
+
+    PortSprings springs_of(const LeverProperties &properties)
+    {
+      return { properties.spring.law.linear_stiffness(), properties.support_stiffness.value_or(0.), properties.spring.arm,
+               slope_compliances(properties.cylinder), 0.5 * properties.body.width };
+    }
+
+    // Memories of the contact of a plane and of a surface.
+
+    std::vector<ContactMemory> &memory_of(State &state, const FaceContact &)
+    {
+      return state.contact;
+    }
+
+    std::vector<SurfaceMemory> &memory_of(State &state, const SurfaceContact &)
+    {
+      return state.surface_contact;
+    }
+
+    PortStep with_memory(const PortStep &step, const std::vector<ContactMemory> &memory)
+    {
+      return { step.from, memory, step.to, step.begin, step.end, step.end_rate, step.weights };
+    }
+
+    PortStep with_memory(const PortStep &step, const std::vector<SurfaceMemory> &memory)
+    {
+      return { step.from, step.memory, step.to, step.begin, step.end, step.end_rate, step.weights, &memory };
+    }
+  } // namespace
+
+  template <int dim>
+  StaticLever<dim>::Lever::Lever(const typename Parts::Body &body, const PortLayout &ports, LeverProperties lever)
+      : properties(std::move(lever))
+      , contact(contact_of(body, properties, ports))
+      , view(view_of(body, contact, properties))
+  {
+  }
+
+  template <int dim>
+  StaticLever<dim>::StaticLever(const typename Parts::Source &source, const Scene &scene)
+      : StaticLever(source, properties_of_levers(scene), swings(scene), dim == 3 ? swept_contact(scene) : std::array<double, 2>{})
+  {
+  }
+
+  template <int dim>
+  StaticLever<dim>::StaticLever(const typename Parts::Source &source, LeverProperties properties)
+      : StaticLever(source, std::vector<LeverProperties>{ std::move(properties) }, false, {})
+  {
+  }
+
+  template <int dim>
+  StaticLever<dim>::StaticLever(const typename Parts::Source &source, std::vector<LeverProperties> properties, const bool swings,
+                                const std::array<double, 2> &swept)
+      : own_body(body_of(source, properties.front()))
+      , ports(ports_of(own_body, properties))
+      , springs(springs_of(properties.front()))
+      , own_structure(structure_of(own_body, properties.front(), ports, springs, swept))
+      , multipliers(own_body.friction_face())
+      , excess(ports, properties.front().spring.law, swings, 0.)
+      , joint_is_free(swings)
+  {
+    for (auto &of_lever : properties)
+      levers.emplace_back(own_body, ports.of_one_lever(), std::move(of_lever));
+  }
+
+  template <int dim>
+  State StaticLever<dim>::initial_state(const DrivePoint &drive) const
+  {
+    State state;
+    state.drive = drive;
+    state.coordinates.reinit(std::visit([](const auto &s) { return s.n_coordinates(); }, own_structure));
+    for (unsigned int i = 0; i < ports.levers; ++i)
+      state.coordinates[rotation(i)] = levers[i].properties.ideal_theta(drive.x) - levers[i].properties.spring.rest;
+    return state;
+  }
+
+  template <int dim>
+  Step StaticLever<dim>::begin_step(const State &accepted, const DrivePoint &end)
+  {
+    Step step{ accepted, accepted.drive, accepted.forces, port_displacements(accepted.coordinates), {} };
+    step.trial.drive = end;
+    const double u   = support_displacement(step.ports);
+    for (unsigned int i = 0; i < ports.levers; ++i)
+    {
+      const auto &ideal = levers[i].properties.ideal_theta;
+      step.trial.coordinates[rotation(i)] += ideal(end.x - u) - ideal(accepted.drive.x - u);
+    }
+    if (looks_at_some())
+      look_at(step);
+    return step;
+  }
+
+  template <int dim>
+  bool StaticLever<dim>::looks_at_some() const
+  {
+    return std::visit([](const auto &s) { return s.looks_at_some; }, own_structure);
+  }
+
+  /// Makes contacts and step look at the ports that the contacts may reach. Those of a face that are new begin with what the
+  /// forces there make of them.
+  template <int dim>
+  void StaticLever<dim>::look_at(Step &step)
+  {
+    const auto before = step.near;
+    reached = step.near = reachable(step);
+    std::visit(
+        [&](auto &s)
+        {
+          if constexpr (std::decay_t<decltype(s)>::looks_at_some)
+            s.set_faces(step.forces, step.near, step.ports);
+        },
+        own_structure);
+    for (const unsigned int port : step.near)
+      if (ports.is_surface(port) && !std::binary_search(before.begin(), before.end(), port))
+        step.trial.coordinates[port] = step.ports[port];
+  }
+
+  template <int dim>
+  Vector<double> StaticLever<dim>::port_displacements(const Vector<double> &coordinates) const
+  {
+    return std::visit([&](const auto &s) -> Vector<double> { return s.port_displacements(coordinates); }, own_structure);
+  }
+
+  /// Finds the ports within reach of the contacts in a step that ends near its trial state, and those of the forces it begins
+  /// with.
+  template <int dim>
+  PortSelection StaticLever<dim>::reachable(const Step &step)
+  {
+    const auto end       = port_displacements(step.trial.coordinates);
+    const double begin_x = step.start.x - support_displacement(step.ports);
+    const double x       = step.trial.drive.x - support_displacement(end);
+    PortSelection result = step.forces.ports;
+    for (unsigned int i = 0; i < ports.levers; ++i)
+    {
+      auto &[properties, contact, view] = levers[i];
+      const double rest = properties.spring.rest, theta = rest + end[ports.rotation(i)];
+      const double travel = properties.centre(x, theta).xi - properties.centre(begin_x, rest + step.ports[ports.rotation(i)]).xi;
+      PortSelection of_lever;
+      for (const unsigned int port : contact.reachable_ports(x, { { theta } }, travel))
+        of_lever.push_back(joined_port(ports, i, port));
+      result = united(result, of_lever);
+    }
+    return result;
+  }
+
+  template <int dim>
+  Evaluation StaticLever<dim>::evaluate(Step &step, const FrictionMode mode)
+  {
+    Balance found;
+    if (looks_at_some() && step.near != reached)
+      look_at(step);
+    evaluate_contacts(step, mode, found);
+    excess.add_forces(turns(step.trial), !found.forces.ports.empty(), found.forces);
+    step.trial.forces = { found.forces.ports, found.forces.values };
+    found.near        = step.near;
+    found.residual =
+        std::visit([&](auto &s) { return s.residual(step.trial.coordinates, found.forces, found.near); }, own_structure);
+    double overlap = 0.;
+    for (const auto &lever : found.levers)
+      overlap = std::max(overlap, lever.contact.overlap());
+    return { found.residual.norm, overlap, std::move(found) };
+  }
+
+  template <int dim>
+  void StaticLever<dim>::evaluate_contacts(Step &step, const FrictionMode mode, Balance &found)
+  {
+    static const std::vector<ContactMemory> none;
+    auto &trial    = step.trial;
+    const auto end = port_displacements(trial.coordinates);
+    std::vector<const PortForces *> of_levers;
+    bool within_reach = true;
+    found.levers.resize(ports.levers);
+    for (unsigned int i = 0; i < ports.levers; ++i)
+    {
+      auto &[properties, lever, view] = levers[i];
+      auto &[memory, contact]         = found.levers[i];
+
+      memory          = memory_of_lever(i, n_face_points(), memory_of(trial, lever));
+      auto terms      = static_terms(properties.friction, properties.geometry, step.start, trial.drive, mode);
+      terms.augmented = augments();
+      const Kinematic begin{ ports_of_lever(ports, i, step.ports), {}, {} };
+      const auto own_end = ports_of_lever(ports, i, end);
+      const StepWeights weights{ trial.drive.time - step.start.time, 0., 0., 0., 0. };
+      const Vector<double> no_rates;
+      lever.evaluate(with_memory({ step.start, none, trial.drive, begin, own_end, no_rates, weights }, memory), contact, terms);
+      of_levers.push_back(&contact.forces);
+      within_reach = within_reach && contact.within_reach;
+    }
+    if (within_reach)
+      return join_forces(ports, of_levers, found.forces);
+    for (auto &lever : levers)
+      lever.contact.widen_reach();
+    look_at(step);
+    evaluate_contacts(step, mode, found);
+  }
+
+  template <int dim>
+  const typename StaticLever<dim>::Balance &StaticLever<dim>::balance_of(const Evaluation &evaluation)
+  {
+    return std::any_cast<const Balance &>(evaluation.of_model);
+  }
+
+  template <int dim>
+  Vector<double> StaticLever<dim>::correction(const Evaluation &evaluation)
+  {
+    const auto &[found, forces, near, residual] = balance_of(evaluation);
+    return std::visit([&, &f = forces, &n = near, &r = residual](auto &s) { return s.correction(r, f, n); }, own_structure);
+  }
+
+  template <int dim>
+  unsigned int StaticLever<dim>::rotation(const unsigned int lever) const
+  {
+    return std::visit([&](const auto &s) { return s.coordinate(ports.rotation(lever)); }, own_structure);
+  }
+
+  template <int dim>
+  OfLevers StaticLever<dim>::turns(const State &state) const
+  {
+    OfLevers result{};
+    for (unsigned int i = 0; i < ports.levers; ++i)
+      result[i] = state.coordinates[rotation(i)];
+    return result;
+  }
+
+  /// u along x by the displacements of the ports [mm].
+  template <int dim>
+  double StaticLever<dim>::support_displacement(const Vector<double> &of_ports) const
+  {
+    return ports.sprung ? of_ports[ports.support()] : 0.;
+  }
+
+  template <int dim>
+  double StaticLever<dim>::movement(const Vector<double> &correction) const
+  {
+    Vector<double> in_lengths = correction;
+    for (unsigned int i = 0; i < ports.levers; ++i)
+      in_lengths[rotation(i)] *= springs.arm;
+    for (unsigned int i = 0; i < ports.slopes; ++i)
+      in_lengths[ports.slope(i)] *= springs.slope_arm;
+    return in_lengths.linfty_norm();
+  }
+
+  template <int dim>
+  double StaticLever<dim>::length_scale() const
+  {
+    return springs.arm;
+  }
+
+  template <int dim>
+  bool StaticLever<dim>::augments() const
+  {
+    return levers.front().properties.contact.enforcement == Enforcement::augmented_lagrangian;
+  }
+
+  template <int dim>
+  double StaticLever<dim>::penetration(const Evaluation &evaluation) const
+  {
+    if (!augments())
+      return evaluation.overlap;
+    double result = 0.;
+    for (const auto &[memory, contact] : balance_of(evaluation).levers)
+      result = std::max(result, multipliers.largest_change(contact.points, memory) / penalties().normal);
+    return result;
+  }
+
+  template <int dim>
+  std::string StaticLever<dim>::objection(const State &state, const Evaluation &evaluation) const
+  {
+    for (unsigned int i = 0; i < ports.levers; ++i)
+      if (const auto found = objection(i, state.drive, balance_of(evaluation).levers[i].contact); !found.empty())
+        return (i == 0 ? "" : "of the pair's second lever, ") + found;
+    return {};
+  }
+
+  template <int dim>
+  std::string StaticLever<dim>::objection(const unsigned int lever, const DrivePoint &drive,
+                                          const typename Parts::Evaluation &found) const
+  {
+    const auto &[properties, contact, view] = levers[lever];
+    Row row;
+    view.observe_resultants(found, row);
+    if (const auto locks = locking_objection(row, properties.interface_offset, drive); !locks.empty())
+      return locks;
+    if constexpr (dim == 2)
+      if (const auto beyond = found.objection(); !beyond.empty())
+        return beyond;
+    // A linear material knows no limit of its own.
+    const double pressure = found.overlap() * penalties().normal;
+    if (const auto beyond = pressure_objection(pressure, own_body.friction_face().young_modulus);
+        properties.body.material == MaterialModel::linear && !beyond.empty())
+      return beyond;
+    if constexpr (dim == 3)
+      if (const auto [tilt, skew] = contact.slopes_in(found); std::max(std::abs(tilt), std::abs(skew)) > largest_slope)
+        return "the shaft lets the cylinder's axis turn to the slopes " + rounded_text(tilt) + " (tilt) and " +
+               rounded_text(skew) + " (skew), of which " + rounded_text(largest_slope) +
+               " are the most that is looked at. Try a larger Cylinder/Tilt stiffness or Skew stiffness";
+    return {};
+  }
+
+  /// Joins what `memory`(lever) returns of each lever.
+  template <int dim>
+  typename StaticLever<dim>::Memory StaticLever<dim>::joined(const std::function<Memory(std::size_t)> &memory) const
+  {
+    return ports.levers == 1 ? memory(0) : joined_memory(n_face_points(), memory(0), memory(1));
+  }
+
+  template <int dim>
+  typename StaticLever<dim>::Memory StaticLever<dim>::augmented(const Evaluation &evaluation) const
+  {
+    const auto &found = balance_of(evaluation).levers;
+    return joined([&](const std::size_t lever) { return multipliers.augmented(found[lever].contact.points); });
+  }
+
+  template <int dim>
+  void StaticLever<dim>::augment(const Evaluation &evaluation, State &trial) const
+  {
+    memory_of(trial, levers.front().contact) = augmented(evaluation);
+  }
+
+  template <int dim>
+  void StaticLever<dim>::remember(const Evaluation &evaluation, State &state) const
+  {
+    const auto &found = balance_of(evaluation).levers;
+    memory_of(state, levers.front().contact) =
+        augments() ? augmented(evaluation) : joined([&](const std::size_t lever) { return found[lever].contact.memory(); });
+  }
+
+  template <int dim>
+  void StaticLever<dim>::observe(const State &state, const Evaluation &evaluation, Row &row) const
+  {
+    const auto &found = balance_of(evaluation).levers;
+    observe(0, state, found[0].contact, row);
+    if (ports.levers == 2)
+    {
+      Row second;
+      second[Column::friction_work] = 0.;
+      second[Column::drive_work]    = 0.;
+      observe(1, state, found[1].contact, second);
+      row.add_second_lever(second);
+    }
+    if (joint_is_free)
+      row[Column::spring_energy] = 2. * levers[0].properties.spring.law.energy(0.5 * (turns(state)[0] + turns(state)[1]));
+  }
+
+  template <int dim>
+  void StaticLever<dim>::observe(const unsigned int lever, const State &state, const typename Parts::Evaluation &found,
+                                 Row &row) const
+  {
+    const auto &[properties, contact, view] = levers[lever];
+
+    const double turn          = turns(state)[lever];
+    const double theta         = properties.spring.rest + turn;
+    const double u             = support_displacement(port_displacements(state.coordinates));
+    const double support       = properties.support_stiffness.value_or(0.);
+    row[Column::theta]         = theta;
+    row[Column::spring_energy] = properties.spring.law.energy(turn);
+    view.observe(found, row);
+    row[Column::centre_offset]        = row[Column::s] - properties.centre(state.drive.x - u, theta).xi;
+    row[Column::Q]                    = row[Column::P] * std::sin(theta) + row[Column::F] * std::cos(theta);
+    row[Column::support_displacement] = u;
+    row[Column::Q_support]            = ports.sprung ? support * u : row[Column::Q];
+    row[Column::support_energy]       = 0.5 * support * u * u;
+    const bool is_linear              = properties.body.material == MaterialModel::linear;
+    if constexpr (dim == 2)
+      row[Column::elastic_energy] = is_linear ? row[Column::elastic_energy] + cylinder_energy(lever, state)
+                                              : own_body.energy(body_displacements(state.coordinates, state.forces)[lever]);
+    else
+    {
+      const auto &solid           = std::get<SolidStructure>(own_structure);
+      const double of_lever       = is_linear ? row[Column::elastic_energy] : solid.energy(lever, state.coordinates);
+      row[Column::elastic_energy] = of_lever + cylinder_energy(lever, state);
+      row[Column::indentation]    = solid.indentation(lever, properties.layer_thickness, state.coordinates, state.forces, row);
+    }
+    std::visit([&](const auto &s) { s.tell_sensors(lever, state.coordinates, state.forces, row); }, own_structure);
+  }
+
+  /// Returns the energy of a linear elastic cylinder or of the rigid one's shaft [mJ]: half of the work of the forces on its
+  /// ports.
+  template <int dim>
+  double StaticLever<dim>::cylinder_energy(const unsigned int lever, const State &state) const
+  {
+    const auto displacements = port_displacements(state.coordinates);
+    const auto &on           = state.forces;
+    const unsigned int first = ports.first(lever) + dim * static_cast<unsigned int>(own_body.friction_face().nodes.size());
+    double result            = 0.;
+    for (unsigned int i = 0; i < on.ports.size(); ++i)
+      if (on.ports[i] >= first && on.ports[i] < ports.rotation(lever))
+        result += 0.5 * on.values[i] * displacements[on.ports[i]];
+    return result;
+  }
+
+  template <int dim>
+  unsigned int StaticLever<dim>::n_face_points() const
+  {
+    return static_cast<unsigned int>(own_body.friction_face().points.size());
+  }
+
+  template <int dim>
+  FacePoints StaticLever<dim>::face_points() const
+  {
+    return levers.front().view.points();
+  }
+
+  template <int dim>
+  FaceState StaticLever<dim>::face_state(const State &state, const Evaluation &evaluation) const
+  {
+    const auto of_lever = [&](const std::size_t lever)
+    { return levers[lever].view.state(balance_of(evaluation).levers[lever].contact, state.drive); };
+    return ports.levers == 1 ? of_lever(0) : joined_faces(of_lever(0), of_lever(1));
+  }
+
+  template <int dim>
+  void StaticLever<dim>::visit_history(Archive &archive)
+  {
+    for (auto &lever : levers)
+      lever.contact.visit_history(archive);
+    std::visit([&](auto &s) { s.visit_history(archive); }, own_structure);
+  }
+
+  template <int dim>
+  const ContactPenalties &StaticLever<dim>::penalties() const
+  {
+    return levers.front().contact.penalties();
+  }
+
+  template <int dim>
+  void StaticLever<dim>::use_penalties(const ContactPenalties &penalties)
+  {
+    for (auto &lever : levers)
+      lever.contact.use_penalties(penalties);
+  }
+
+  template <int dim>
+  std::vector<Vector<double>> StaticLever<dim>::body_displacements(const Vector<double> &coordinates,
+                                                                   const PortLoads &forces) const
+  {
+    return std::visit([&](const auto &s) { return s.body_displacements(coordinates, forces); }, own_structure);
+  }
+
+  template class StaticLever<2>;
+  template class StaticLever<3>;
+} // namespace sprag

@@ -1,0 +1,166 @@
+#pragma once
+
+#include "fe/contact/augmentation.h"
+#include "fe/contact/face_observation.h"
+#include "fe/solid/solid_structure.h"
+#include "fe/solid/surface_observation.h"
+#include "fe/statics/full_stiffness.h"
+#include "fe/statics/lever_properties.h"
+#include "fe/statics/static_structure.h"
+#include "model/hub_spring.h"
+#include "model/model.h"
+
+#include <deque>
+#include <functional>
+#include <variant>
+
+namespace sprag
+{
+  struct Scene;
+
+  /// What a lever without inertia is made of: the body, from its mesh or from one that is shared with others, its answer to
+  /// forces, its contact and how results show that.
+  template <int dim>
+  struct LeverParts;
+
+  template <>
+  struct LeverParts<2>
+  {
+    using Source     = dealii::Triangulation<2>;
+    using Body       = ElasticBody<2>;
+    using KeptBody   = const ElasticBody<2>;
+    using Structure  = std::variant<StaticStructure, FullStiffness>;
+    using Contact    = FaceContact;
+    using Evaluation = FaceEvaluation;
+    using View       = FaceView;
+  };
+
+  template <>
+  struct LeverParts<3>
+  {
+    using Source     = SolidBody;
+    using Body       = SolidBody;
+    using KeptBody   = const SolidBody &;
+    using Structure  = std::variant<SolidStructure>;
+    using Contact    = SurfaceContact;
+    using Evaluation = SurfaceEvaluation;
+    using View       = SurfaceView;
+  };
+
+  /// A meshed lever on its hub, rotational spring and support without inertia, or the two of a full mirrored pair, each on its
+  /// side of the cylinder. That is rigid or, in a plane, elastic where the body has a cylinder's face; of an elastic one each
+  /// lever presses on a half of its own, which the shaft holds. Nothing but the joint of their springs and a sprung support
+  /// connects the levers of a pair, which are alike in body, spring, support and enforcement of contact. Everything is in the
+  /// axes of a lever, which turn with its hub, those of the second lever mirrored. In three dimensions to be made and used by the
+  /// first rank.
+  ///
+  /// Contact memory is that of the first lever and then of the second. Points of the face and their tractions are those of the
+  /// first.
+  template <int dim>
+  class StaticLever : public Model
+  {
+  public:
+    using Parts     = LeverParts<dim>;
+    using Structure = typename Parts::Structure;
+
+    /// The scene's lever or pair. `source` must outlive it. Throws InputError for properties that exclude each other.
+    StaticLever(const typename Parts::Source &source, const Scene &scene);
+
+    /// A single lever in a plane.
+    StaticLever(const typename Parts::Source &source, LeverProperties properties);
+
+    State initial_state(const DrivePoint &drive) const override;
+    Step begin_step(const State &accepted, const DrivePoint &end) override;
+    Evaluation evaluate(Step &step, FrictionMode mode) override;
+    dealii::Vector<double> correction(const Evaluation &evaluation) override;
+    double movement(const dealii::Vector<double> &correction) const override;
+    double length_scale() const override;
+    double penetration(const Evaluation &evaluation) const override;
+    std::string objection(const State &state, const Evaluation &evaluation) const override;
+    void augment(const Evaluation &evaluation, State &trial) const override;
+    void remember(const Evaluation &evaluation, State &state) const override;
+    void observe(const State &state, const Evaluation &evaluation, Row &row) const override;
+    FacePoints face_points() const override;
+    FaceState face_state(const State &state, const Evaluation &evaluation) const override;
+    void visit_history(Archive &archive) override;
+
+    const ContactPenalties &penalties() const;
+
+    /// Evaluates with other penalties from now on [N/mm^3], > 0.
+    void use_penalties(const ContactPenalties &penalties);
+
+    const typename Parts::Body &body() const
+    {
+      return own_body;
+    }
+
+    /// Returns how the levers answer to forces.
+    const Structure &structure() const
+    {
+      return own_structure;
+    }
+
+    /// Returns the displacement of all degrees of freedom of each lever in its axes [mm].
+    std::vector<dealii::Vector<double>> body_displacements(const dealii::Vector<double> &coordinates,
+                                                           const PortLoads &forces) const;
+
+    /// Returns the index of a hub's turn from the spring's rest among the coordinates.
+    unsigned int rotation(unsigned int lever = 0) const;
+
+  private:
+    using Memory = std::vector<PointMemory<dim - 1>>;
+
+    struct Lever
+    {
+      Lever(const typename Parts::Body &body, const PortLayout &ports, LeverProperties properties);
+
+      const LeverProperties properties;
+      typename Parts::Contact contact;
+      const typename Parts::View view;
+    };
+
+    /// The contact of a lever in an evaluation.
+    struct Found
+    {
+      Memory memory; ///< and multipliers that it was evaluated with
+      typename Parts::Evaluation contact;
+    };
+
+    /// An evaluation.
+    struct Balance
+    {
+      std::vector<Found> levers;
+      PortForces forces; ///< of the contacts and of the springs beyond their linear part
+      PortSelection near;
+      Residual residual;
+    };
+
+    StaticLever(const typename Parts::Source &source, std::vector<LeverProperties> properties, bool swings,
+                const std::array<double, 2> &swept);
+    static const Balance &balance_of(const Evaluation &evaluation);
+    dealii::Vector<double> port_displacements(const dealii::Vector<double> &coordinates) const;
+    bool looks_at_some() const;
+    void look_at(Step &step);
+    PortSelection reachable(const Step &step);
+    void evaluate_contacts(Step &step, FrictionMode mode, Balance &found);
+    Memory joined(const std::function<Memory(std::size_t)> &memory) const;
+    Memory augmented(const Evaluation &evaluation) const;
+    OfLevers turns(const State &state) const;
+    double support_displacement(const dealii::Vector<double> &ports) const;
+    double cylinder_energy(unsigned int lever, const State &state) const;
+    std::string objection(unsigned int lever, const DrivePoint &drive, const typename Parts::Evaluation &found) const;
+    void observe(unsigned int lever, const State &state, const typename Parts::Evaluation &found, Row &row) const;
+    bool augments() const;
+    unsigned int n_face_points() const;
+
+    typename Parts::KeptBody own_body;
+    const PortLayout ports;
+    std::deque<Lever> levers;
+    const PortSprings springs;
+    Structure own_structure;
+    const FaceMultipliers<dim> multipliers;
+    HubSpringExcess excess;
+    const bool joint_is_free;
+    PortSelection reached; ///< that the contacts look at
+  };
+} // namespace sprag
