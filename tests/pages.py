@@ -18,7 +18,6 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import h5py
-import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parent / "support"))
 from runs import SOURCE, sprag  # noqa: E402
@@ -34,12 +33,11 @@ def text_of(page):
 
 
 def value_of(result, name):
-    """The entry of /summary, or of the group that the name begins with; of a column its largest value."""
+    """The entry of /summary, or of the group that the name begins with; NAME[ROW] is a value of /table."""
     with h5py.File(result) as file:
-        item = file[name if "/" in name else "summary/" + name]
-        if item.shape:
-            return float(np.nanmax(np.abs(item[:])))
-        value = item[()]
+        if row := re.fullmatch(r"(.+)\[(\d+)\]", name):
+            return float(file["table/" + row[1]][int(row[2])])
+        value = file[name if "/" in name else "summary/" + name][()]
     return value.decode() if isinstance(value, bytes) else float(value)
 
 
