@@ -32,9 +32,18 @@ def text_of(page):
     return " ".join((SOURCE / page).read_text(encoding="utf-8").split())
 
 
+def zeros_of(values, places):
+    """Places at which values change their sign, by lines between them."""
+    pairs = zip(values, values[1:], places, places[1:])
+    return [float(x + (y - x) * a / (a - b)) for a, b, x, y in pairs if a * b < 0]
+
+
 def value_of(result, name):
-    """The entry of /summary, or of the group that the name begins with; NAME[ROW] is a value of /table."""
+    """The entry of /summary, or of the group that the name begins with; NAME[ROW] is a value of /table, `zero of A over B` where A
+    changes its sign over the parameter B of a study."""
     with h5py.File(result) as file:
+        if zero := re.fullmatch(r"zero of (\w+) over (\w+)", name):
+            return zeros_of(*(file["table/" + column][:] for column in zero.groups()))
         if row := re.fullmatch(r"(.+)\[(\d+)\]", name):
             return float(file["table/" + row[1]][int(row[2])])
         value = file[name if "/" in name else "summary/" + name][()]
@@ -50,6 +59,8 @@ def last_digit(printed):
 def problem_of(entry, printed, name, results):
     """What is wrong with a printed number, or None. `against` asks by how many per cent two runs differ."""
     value = value_of(results[entry["command"]], name)
+    if isinstance(value, list):
+        value = min(value, key=lambda zero: abs(zero - float(printed)), default=float("nan"))
     if isinstance(value, str):
         return None if value == printed else f"the run says {value}"
     if "against" in entry:
