@@ -60,7 +60,7 @@ def problem_of(entry, printed, name, results):
     """What is wrong with a printed number, or None. `against` asks by how many per cent two runs differ."""
     value = value_of(results[entry["command"]], name)
     if isinstance(value, list):
-        value = min(value, key=lambda zero: abs(zero - float(printed)), default=float("nan"))
+        value = min(value, key=lambda zero: abs(entry.get("times", 1) * zero - float(printed)), default=float("nan"))
     if isinstance(value, str):
         return None if value == printed else f"the run says {value}"
     if "against" in entry:
