@@ -122,7 +122,7 @@ def compare(thorough, page):
 def paragraphs_of(page):
     """Prose: no code, tables, headings, pictures; each item of a list is a paragraph."""
     text = re.sub(r"```.*?```", "\n\n", (SOURCE / page).read_text(encoding="utf-8"), flags=re.S)
-    text = re.sub(r"^(?: {4,}(?![-*] ).*|\t.*|#.*|\|.*|!\[.*|> .*)$", "", text, flags=re.M)
+    text = re.sub(r"^(?: {4,}(?![-*] ).*|\t.*|#.*| *\|.*|!\[.*|> .*)$", "", text, flags=re.M)
     text = re.sub(r"^ *(?:[-*]|\d+\.) +", "\n\n", text, flags=re.M)
     return [" ".join(part.split()) for part in re.split(r"\n\s*\n", text) if part.strip()]
 
@@ -131,7 +131,8 @@ def sentences_of(page):
     for paragraph in paragraphs_of(page):
         plain = re.sub(r"\]\([^)]*\)", "]", paragraph)
         plain = re.sub(r"`[^`]*`|\$[^$]*\$", "NAME", plain)
-        yield from (part for part in re.split(r"(?<=[.?!:])[*)]*\s+(?=[A-Z*\[(`])", plain) if len(part.split()) > 1)
+        plain = re.sub(r"\b(e\.g|Figs?|eqs?|Proc|Inst|Mech|Eng|Res|Commun|J|Vib)\.", r"\1", plain)
+        yield from (part for part in re.split(r"(?<=[.?!])[*)]*\s+|(?<=:)[*]*\s+(?=[A-Z*\[(`])", plain) if len(part.split()) > 1)
 
 
 def print_sentences(page):
