@@ -21,12 +21,12 @@ namespace sprag
       writer.append(row);
     const double mu                  = friction_coefficient(scene.friction, scene.drive.peak_speed()).coefficient;
     const std::vector<Entry> summary = { { "critical_inclination", std::atan(mu), "rad",
-                                           "th0B = atan mu: steeper, the backward stroke no longer damps" } };
+                                           "th0B = atan mu: steeper, Q helps the backward stroke" } };
     const auto end                   = writer.finish("completed", { summary }, warnings);
     if (options.verbose)
       print_summary(std::cout, end.summary);
     else if (!options.quiet)
       brief_line(std::cout, "critical inclination",
-                 Known(end.summary).quantity("critical_inclination") + ": steeper, the backward stroke no longer damps");
+                 Known(end.summary).quantity("critical_inclination") + ": steeper, Q helps the backward stroke");
   }
 } // namespace sprag

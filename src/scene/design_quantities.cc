@@ -11,7 +11,7 @@ namespace sprag
       { Q::damping_slope, "damping slope", "N/mm", "c = (C_Q forward - C_Q backward)/2 of one lever at x = 0" },
       { Q::restoring_slope, "restoring slope", "N/mm", "k_e = (C_Q forward + C_Q backward)/2 of one lever at x = 0" },
       { Q::forward_slope, "forward slope", "N/mm", "C_Q at x = 0, moving forward" },
-      { Q::backward_slope, "backward slope", "N/mm", "C_Q at x = 0, moving back; negative where it damps" },
+      { Q::backward_slope, "backward slope", "N/mm", "C_Q at x = 0, moving back; negative where Q resists" },
       { Q::friction_ratio, "friction ratio", "1", "gamma = n c/K with Isolation/Levers and Isolation/Stiffness" },
       { Q::slope_ratio, "slope ratio", "1", "C_Q forward over -C_Q backward; infinite where that is not positive" },
       { Q::force_ratio, "force ratio", "1", "Q forward over -Q backward at the end of the stroke, likewise" },

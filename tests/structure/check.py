@@ -114,10 +114,26 @@ def check_links(page):
                 report(page, number, f"links to {link}, where there is no such heading")
 
 
+def check_places(page):
+    """Reports source files that a page of theory names and that do not exist, and functions that the last file named lacks."""
+    text = ""
+    for number, line in enumerate(page.read_text(encoding="utf-8").splitlines(), 1):
+        for name, function in re.findall(r"`(?:(src/[\w/.]+)|(\w+)\(\))`", line):
+            if name:
+                beside = [ROOT / name, *(ROOT / name).parent.glob(pathlib.Path(name).stem + ".*")]
+                text = "".join(path.read_text(encoding="utf-8") for path in beside if path.exists())
+                if not (ROOT / name).exists():
+                    report(page, number, f"names {name}, which is not there")
+            elif not re.search(rf"\b{function}\(", text):
+                report(page, number, f"names {function}(), which the file named before it does not have")
+
+
 pages = [*ROOT.glob("*.md"), *(path for path in own_files() if path.suffix == ".md")]
 for page in pages:
     check_links(page)
     check_words(page)
+    if page.name.startswith("theory"):
+        check_places(page)
 
 if n_sources == 0 or not scenes:
     problems.append(f"nothing to check in {ROOT}")

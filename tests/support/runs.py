@@ -14,10 +14,10 @@ SPRAG = os.environ.get("SPRAG", str(SOURCE / "build" / "sprag"))
 TIMEOUT = 300  # seconds: a run that hangs is a failed test
 
 
-def sprag(*arguments, program=SPRAG, **options):
+def sprag(*arguments, program=SPRAG, timeout=TIMEOUT, **options):
     command = [str(program), *map(str, arguments)]
     return subprocess.run(
-        command, capture_output=True, text=True, check=False, timeout=TIMEOUT, stdin=subprocess.DEVNULL, **options
+        command, capture_output=True, text=True, check=False, timeout=timeout, stdin=subprocess.DEVNULL, **options
     )
 
 

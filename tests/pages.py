@@ -1,0 +1,159 @@
+#!/usr/bin/env python3
+"""Compares the numbers that pages print with those of the program; see pages.toml. Environment: SPRAG, the program, and SPRAG_SOURCE,
+the sources.
+
+  tests/pages.py               # the quick runs
+  tests/pages.py --thorough    # all runs
+  tests/pages.py --page time   # those of pages with this in their path
+  tests/pages.py --sentences   # sentences over 30 words by page, without a run
+"""
+
+import argparse
+import re
+import shlex
+import sys
+import tempfile
+import tomllib
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import h5py
+
+sys.path.insert(0, str(Path(__file__).resolve().parent / "support"))
+from runs import SOURCE, sprag  # noqa: E402
+
+LIST = SOURCE / "tests" / "pages.toml"
+LONGEST = 3600  # seconds of a run
+MANY_WORDS = 30
+
+
+def text_of(page):
+    """The page in one line, so that breaks of lines do not matter."""
+    return " ".join((SOURCE / page).read_text(encoding="utf-8").split())
+
+
+def zeros_of(values, places):
+    """Places at which values change their sign, by lines between them."""
+    pairs = zip(values, values[1:], places, places[1:])
+    return [float(x + (y - x) * a / (a - b)) for a, b, x, y in pairs if a * b < 0]
+
+
+def value_of(result, name):
+    """The entry of /summary, or of the group that the name begins with; NAME[ROW] is a value of /table, `zero of A over B` where A
+    changes its sign over the parameter B of a study."""
+    with h5py.File(result) as file:
+        if zero := re.fullmatch(r"zero of (\w+) over (\w+)", name):
+            return zeros_of(*(file["table/" + column][:] for column in zero.groups()))
+        if row := re.fullmatch(r"(.+)\[(\d+)\]", name):
+            return float(file["table/" + row[1]][int(row[2])])
+        value = file[name if "/" in name else "summary/" + name][()]
+    return value.decode() if isinstance(value, bytes) else float(value)
+
+
+def last_digit(printed):
+    """The value of one in the last digit."""
+    mantissa, _, exponent = printed.partition("e")
+    return 10.0 ** (int(exponent or 0) - len(mantissa.partition(".")[2]))
+
+
+def problem_of(entry, printed, name, results):
+    """What is wrong with a printed number, or None. `against` asks by how many per cent two runs differ."""
+    value = value_of(results[entry["command"]], name)
+    if isinstance(value, list):
+        value = min(value, key=lambda zero: abs(entry.get("times", 1) * zero - float(printed)), default=float("nan"))
+    if isinstance(value, str):
+        return None if value == printed else f"the run says {value}"
+    if "against" in entry:
+        value = 100 * abs(value / value_of(results[entry["against"]], name) - 1)
+    value *= entry.get("times", 1)
+    printed = printed.replace(" ", "")
+    within = entry.get("within", last_digit(printed))
+    return None if abs(float(printed) - value) <= within * (1 + 1e-9) else f"the run says {value:.5g}"
+
+
+def problems_of(entry, results):
+    found = list(re.finditer(entry["sentence"], text_of(entry["page"])))
+    if len(found) != 1:
+        yield f"{entry['page']}: {len(found)} places read {entry['sentence']!r}, not one"
+        return
+    values = entry["value"] if isinstance(entry["value"], list) else [entry["value"]]
+    if len(values) != len(found[0].groups()):
+        yield f"{entry['page']}: {entry['sentence']!r} has {len(found[0].groups())} numbers for {len(values)} values"
+        return
+    for printed, name in zip(found[0].groups(), values):
+        try:
+            problem = problem_of(entry, printed, name, results)
+        except KeyError as error:
+            problem = f"the run has no such value: {error}"
+        if problem:
+            yield f"{entry['page']}: '{found[0][0]}', {name}: {printed}; {problem}"
+
+
+def run(command, folder):
+    """The result of a command line, whose first word is a scene of params/."""
+    scene, *options = shlex.split(command)
+    done = sprag(SOURCE / "params" / scene, *options, "--output", folder, "--overwrite", timeout=LONGEST)
+    if done.returncode != 0:
+        raise SystemExit(f"{command}\n{done.stderr}")
+    return folder / "result.h5"
+
+
+def entries_of(thorough, page):
+    """The numbers to compare, each with the command of its run."""
+    for of_run in tomllib.loads(LIST.read_text(encoding="utf-8"))["run"]:
+        if thorough or of_run.get("quick", False):
+            for number in of_run["numbers"]:
+                if page in number["page"]:
+                    yield {"command": of_run["command"], **number}
+
+
+def compare(thorough, page):
+    entries = list(entries_of(thorough, page))
+    commands = sorted({entry[key] for entry in entries for key in ("command", "against") if key in entry})
+    with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor() as pool:
+        files = pool.map(lambda job: run(job[1], Path(folder) / str(job[0])), enumerate(commands))
+        results = dict(zip(commands, files))
+        problems = [problem for entry in entries for problem in problems_of(entry, results)]
+    count = sum(len(entry["value"]) if isinstance(entry["value"], list) else 1 for entry in entries)
+    print("\n".join([*problems, f"{count} numbers of {len(commands)} runs, {len(problems)} stale"]))
+    return not problems and bool(entries)
+
+
+def paragraphs_of(page):
+    """Prose: no code, tables, headings, pictures; each item of a list is a paragraph."""
+    text = re.sub(r"```.*?```", "\n\n", (SOURCE / page).read_text(encoding="utf-8"), flags=re.S)
+    text = re.sub(r"^(?: {4,}(?![-*] ).*|\t.*|#.*| *\|.*|!\[.*|> .*)$", "", text, flags=re.M)
+    text = re.sub(r"^ *(?:[-*]|\d+\.) +", "\n\n", text, flags=re.M)
+    return [" ".join(part.split()) for part in re.split(r"\n\s*\n", text) if part.strip()]
+
+
+def sentences_of(page):
+    for paragraph in paragraphs_of(page):
+        plain = re.sub(r"\]\([^)]*\)", "]", paragraph)
+        plain = re.sub(r"`[^`]*`|\$[^$]*\$", "NAME", plain)
+        plain = re.sub(r"\b(e\.g|Figs?|eqs?|Proc|Inst|Mech|Eng|Res|Commun|J|Vib)\.", r"\1", plain)
+        yield from (part for part in re.split(r"(?<=[.?!])[*)]*\s+|(?<=:)[*]*\s+(?=[A-Z*\[(`])", plain) if len(part.split()) > 1)
+
+
+def print_sentences(page):
+    pages = sorted(path.relative_to(SOURCE) for path in SOURCE.glob("**/*.md") if "build" not in str(path.relative_to(SOURCE)))
+    for path in (path for path in pages if page in str(path)):
+        lengths = [len(sentence.split()) for sentence in sentences_of(path)]
+        long = sum(length > MANY_WORDS for length in lengths)
+        print(f"{str(path):45} {len(lengths):4} sentences, {long:3} over {MANY_WORDS} words, longest {max(lengths, default=0)}")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--thorough", action="store_true")
+    parser.add_argument("--page", default="")
+    parser.add_argument("--sentences", action="store_true")
+    options = parser.parse_args()
+    if options.sentences:
+        print_sentences(options.page)
+        return 0
+    return 0 if compare(options.thorough, options.page) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
