@@ -147,8 +147,9 @@ class StudyTest(RunTest):
         cache = self.folder / "cache"
         cache.mkdir()
         oldest = cache / f"basis-{0:016x}.h5"
-        with open(oldest, "wb") as file:
-            file.truncate(2 << 30)
+        with h5py.File(oldest, "w") as file:
+            file["checksum"] = [0.0]
+        os.truncate(oldest, 2 << 30)
         os.utime(oldest, (1, 1))
         changes = {**COARSE, "Analysis/Type": "modal", "Analysis/Model": "condensed", "Condensed/Modes": "4", "Condensed/Cache": str(cache)}
         for number, program in enumerate((SPRAG, SPRAG, self.other_build()), 1):
