@@ -23,7 +23,7 @@ class NotAResult(Exception):
 
 def script(main):
     """The exit code of what a script does: 0, or 2 with one line on stderr where a result or file cannot be read or written. What a
-    damaged result lacks shows anywhere, by any exception: the line tells where."""
+    damaged result lacks shows anywhere, by any exception: the line tells what was read and where it failed."""
 
     name = Path(main.__code__.co_filename).name
 
@@ -38,7 +38,8 @@ def script(main):
             place = traceback.extract_tb(error.__traceback__)[-1]
             what = f"{type(error).__name__}: {error}".splitlines()[0]
             where = f"{Path(place.filename).name}, line {place.lineno}"
-            print(f"{name}: a result is damaged or of another version of sprag: {what} ({where})", file=sys.stderr)
+            given = ", ".join(word for word in map(str, arguments or sys.argv[1:]) if Path(word).exists())
+            print(f"{name}: {given}: a result is damaged or of another version of sprag: {what} ({where})", file=sys.stderr)
             return 2
         return 0
 

@@ -195,13 +195,15 @@ def has_trade(result):
 
 
 def trade(result):
-    """Error against CPU time with the front on which nobody cheaper is as exact; its runs are labelled."""
+    """Error against the work that ranks runs, or CPU time, with the front on which nobody cheaper is as exact; its runs are labelled."""
     varied = varied_parameters(result)
     sizes = abscissa_of(varied)
     found, (handles, labels), bar = codes(result, [parameter for parameter in varied if parameter is not sizes])
     names = sorted(measures_of(result), key=lambda name: name == "all")
     figure, panels = panels_for(len(names))
-    cost = result.table["cpu_time"]
+    work = result.table.get("work", np.array([np.nan]))
+    is_counted = np.isfinite(work).any()
+    cost = work if is_counted else result.table["cpu_time"]
     for axes, name, letter in zip(panels, names, "abcdef"):
         error = 100 * result.table[f"error_{name}"]
         shown = np.isfinite(error) & (error > 0)
@@ -215,7 +217,7 @@ def trade(result):
         plain_logarithms(axes.yaxis)
         draw_front(axes, cost, error, shown & (result.table[f"pareto_{name}"] == 1), sizes)
         axes.set_title(f"({letter}) {name.replace('_', ' ')}", loc="left", fontsize=8)
-        axes.set_xlabel("CPU time [s]")
+        axes.set_xlabel("work, as CPU time [s]" if is_counted else "CPU time [s]")
         axes.set_ylabel("error [%]")
     if bar is not None:
         figure.colorbar(bar[0], ax=panels, aspect=30, pad=0.01).set_label(bar[1])

@@ -122,7 +122,7 @@ namespace sprag
         return tell_validity(arguments, scene, scene_warnings(scene));
       }
       const std::string folder = folder_of(arguments, scene);
-      claim_folder(folder, parameters_text(scene), arguments.overwrite);
+      claim_folder(folder, scene, arguments.overwrite);
       require_memory(scene);
       RunOptions options{ folder, arguments.quiet };
       options.verbose = arguments.verbose;

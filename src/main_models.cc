@@ -73,7 +73,7 @@ namespace sprag
         require_alike_processes(scene, folder);
       const auto claim = [&]
       {
-        claim_folder(folder, parameters_text(scene), arguments.overwrite);
+        claim_folder(folder, scene, arguments.overwrite);
         require_memory(scene, processes_of(rank), folder);
       };
       if (rank.is_alone)

@@ -183,6 +183,6 @@ namespace sprag
       return false;
     const bool closed   = close_files(readable);
     const bool filtered = filter_calls();
-    return closed || filtered;
+    return closed && filtered;
   }
 } // namespace sprag

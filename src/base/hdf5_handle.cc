@@ -36,7 +36,8 @@ namespace sprag::hdf5
       return {};
     const Handle attribute(H5Aopen(dataset.id(), name.c_str(), H5P_DEFAULT), H5Aclose);
     const Handle type(H5Aget_type(attribute.id()), H5Tclose);
-    if (H5Tget_class(type.id()) != H5T_STRING)
+    const Handle space(H5Aget_space(attribute.id()), H5Sclose);
+    if (H5Tget_class(type.id()) != H5T_STRING || H5Sget_simple_extent_npoints(space.id()) != 1)
       return {};
     if (H5Tis_variable_str(type.id()) > 0)
     {

@@ -95,6 +95,11 @@ namespace sprag
     }
   } // namespace
 
+  bool depends_on_others(const Rule &rule)
+  {
+    return boost::starts_with(rule.unit, "of ") || boost::ends_with(rule.unit, "^n");
+  }
+
   Interval any_number()
   {
     return {};
@@ -161,6 +166,9 @@ namespace sprag
   {
     const bool is_number =
         rule.kind == Rule::Kind::number || rule.kind == Rule::Kind::integer || rule.kind == Rule::Kind::number_or_auto;
+    const auto number = leading_number(value);
+    if (is_number && depends_on_others(rule) && number && begins_as_unit(number->rest) && !with_decimal_point(value))
+      return value;
     std::string kept = is_number ? without_unit(rule, value) : value;
     if (rule.kind == Rule::Kind::numbers)
     {

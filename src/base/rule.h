@@ -42,6 +42,10 @@ namespace sprag
     std::vector<std::string> choices; ///< choice
   };
 
+  /// Returns whether the unit depends on other parameters, as in "N/mm^n" or "of First parameter". A value keeps the unit behind
+  /// it until these are known.
+  bool depends_on_others(const Rule &rule);
+
   /// Tells the rule in words, without the unit: "a number > 0", "one of a | b".
   std::string description(const Rule &rule);
 
@@ -49,7 +53,8 @@ namespace sprag
   std::optional<std::string> violation(const Rule &rule, const std::string &value);
 
   /// Returns a value that keeps the rule, its numbers in the rule's unit and without it, as "210000" for "210 GPa"; rounded to 15
-  /// digits where they were in another. Throws InputError with what the value must be.
+  /// digits where they were in another. A number whose unit depends on others may still break it. Throws InputError with what the
+  /// value must be.
   std::string kept_value(const Rule &rule, const std::string &value);
 
   /// Reads the numbers of a comma-separated list that keeps its rule.

@@ -1,5 +1,8 @@
 #include "base/table_file.h"
 
+#include "base/archive.h"
+#include "base/child_process.h"
+#include "base/confinement.h"
 #include "base/errors.h"
 #include "base/file_content.h"
 #include "base/hdf5_handle.h"
@@ -296,6 +299,9 @@ namespace sprag
       const auto rows = length_of(dataset);
       if (!rows)
         throw InputError(what + "must have one dimension, or one above 1");
+      const Handle storage(H5Dget_create_plist(dataset.id()), H5Pclose);
+      if (H5Pget_layout(storage.id()) == H5D_VIRTUAL || H5Pget_external_count(storage.id()) > 0)
+        throw InputError(what + "must lie in this file, not in another");
       if (!holds_numbers(dataset))
         throw InputError(what + "must hold numbers");
       if (*rows > most_rows)
@@ -308,10 +314,8 @@ namespace sprag
         column.unit = hdf5::text_attribute(dataset, "units");
     }
 
-    std::pair<std::vector<NamedColumn>, Chosen> read_hdf5(const std::string &path, const Choose &choose)
+    std::pair<std::vector<NamedColumn>, Chosen> read_open_hdf5(const std::string &path, const Choose &choose)
     {
-      if (const auto reason = reason_unreadable(path, largest_table); !reason.empty())
-        throw InputError(path + ": " + reason);
       hdf5::silence();
       const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
       // Disks that are read-only or without locks are as good as others.
@@ -355,6 +359,72 @@ namespace sprag
         }
       if (!mistakes.empty())
         throw InputError(mistakes);
+      return { std::move(columns), chosen };
+    }
+
+    /// What the process that reads a file of HDF5 hands back.
+    struct Found
+    {
+      Names names, units; ///< of the columns
+      std::vector<std::vector<double>> values;
+      std::vector<std::size_t> chosen; ///< the number of columns for one that the file lacks
+      Names mistakes;
+    };
+
+    void visit(Archive &archive, Found &found)
+    {
+      archive(found.names, found.units, found.values, found.chosen, found.mistakes);
+    }
+
+    /// A damaged file may keep HDF5 busy for ever [s], or ask for all the memory there is [bytes].
+    constexpr double file_patience  = 20.;
+    constexpr std::size_t file_room = std::size_t(1) << 30;
+
+    /// A stranger's file may crash the library or name other files: it is read in a process without rights.
+    std::pair<std::vector<NamedColumn>, Chosen> read_hdf5(const std::string &path, const Choose &choose)
+    {
+      if (const auto reason = reason_unreadable(path, largest_table); !reason.empty())
+        throw InputError(path + ": " + reason);
+      const auto bytes = std::filesystem::file_size(path);
+      const auto work  = [&]
+      {
+        limit_growth(file_room + 20 * bytes);
+        confine({ path });
+        Found found;
+        try
+        {
+          auto [columns, chosen] = read_open_hdf5(path, choose);
+          for (auto &column : columns)
+          {
+            found.names.push_back(column.name);
+            found.units.push_back(column.unit);
+            found.values.push_back(std::move(column.values));
+          }
+          for (const auto &index : chosen)
+            found.chosen.push_back(index.value_or(columns.size()));
+        }
+        catch (const InputError &error)
+        {
+          found.mistakes = error.messages;
+        }
+        Archive archive;
+        visit(archive, found);
+        return archive.bytes();
+      };
+      const auto answer = in_child_process(work, file_patience + 1e-7 * static_cast<double>(bytes));
+      if (!answer.failure.empty())
+        throw InputError(path + ": HDF5 " + answer.failure + " on it: the file is damaged");
+      Found found;
+      Archive archive(answer.text);
+      visit(archive, found);
+      if (!found.mistakes.empty())
+        throw InputError(found.mistakes);
+      std::vector<NamedColumn> columns;
+      for (std::size_t i = 0; i < found.names.size(); ++i)
+        columns.push_back({ found.names[i], found.units[i], std::move(found.values[i]) });
+      Chosen chosen;
+      for (const auto index : found.chosen)
+        chosen.push_back(index < columns.size() ? std::make_optional(index) : std::nullopt);
       return { std::move(columns), chosen };
     }
 

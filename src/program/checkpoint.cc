@@ -6,12 +6,14 @@
 #include "base/interrupt.h"
 #include "program/run_files.h"
 #include "results/earlier_result.h"
+#include "scene/read.h"
 #include "scene/scene_key.h"
 
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
 #include <fcntl.h>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <iterator>
@@ -32,6 +34,7 @@ namespace sprag
     struct Content
     {
       std::string format = "sprag checkpoint";
+      std::string parameters; ///< fingerprint of their text, which no choice of settings changes
       std::string key;
       std::size_t rows = 0; ///< size of their journal [bytes]
       std::string progress;
@@ -39,8 +42,28 @@ namespace sprag
 
     void visit(Archive &archive, Content &content)
     {
-      auto &[format, key, rows, progress] = content;
-      archive(format, key, rows, progress);
+      auto &[format, parameters, key, rows, progress] = content;
+      archive(format, parameters, key, rows, progress);
+    }
+
+    /// Returns what the checkpoint in a folder holds; none where there is none or it is not as it was written.
+    std::optional<Content> content_in(const std::string &path)
+    {
+      std::ifstream input(path, std::ios::binary);
+      const auto bytes = unsealed({ std::istreambuf_iterator<char>(input), {} });
+      if (!bytes)
+        return {};
+      Content content;
+      Archive archive(*bytes);
+      archive(content);
+      return content;
+    }
+
+    std::string parameters_of(const Scene &scene)
+    {
+      Fingerprint sum;
+      sum.add(parameters_text(scene));
+      return sum.text();
     }
 
     /// Replaces the file in one instant, or not at all.
@@ -54,10 +77,17 @@ namespace sprag
     }
   } // namespace
 
+  bool has_checkpoint(const std::string &folder, const Scene &scene)
+  {
+    const auto content = content_in(folder + '/' + checkpoint_name);
+    return content && content->parameters == parameters_of(scene);
+  }
+
   Checkpoint::Checkpoint(const Scene &scene, const RunOptions &options)
       : is_kept(options.in_memory == nullptr)
       , quiet(options.quiet)
       , folder(options.folder)
+      , parameters(is_kept ? parameters_of(scene) : "")
       , key_of_scene(is_kept ? scene_key(scene) : "")
       , interval(seconds_between())
       , journal(folder + '/' + row_journal_name)
@@ -79,26 +109,22 @@ namespace sprag
   void Checkpoint::find()
   {
     const std::string path = folder + '/' + checkpoint_name;
-    std::ifstream input(path, std::ios::binary);
-    if (input)
+    if (std::filesystem::exists(path))
     {
       const auto drop = [&](const std::string &reason)
       {
         std::cerr << path << ": " << reason << ": the run begins anew" << std::endl;
         remove();
       };
-      const auto bytes = unsealed({ std::istreambuf_iterator<char>(input), {} });
-      if (!bytes)
+      auto content = content_in(path);
+      if (!content)
         return drop("damaged");
-      Content content;
-      Archive archive(*bytes);
-      archive(content);
-      if (content.key != key())
+      if (content->key != key())
         return drop("of another scene, of input files that held something else, or of another build of sprag");
-      auto rows = journal.take_up(content.rows);
+      auto rows = journal.take_up(content->rows);
       if (!rows)
         return drop("its rows are damaged");
-      progress_found = std::move(content.progress);
+      progress_found = std::move(content->progress);
       rows_found     = std::move(*rows);
       goes_on        = true;
     }
@@ -173,9 +199,10 @@ namespace sprag
     Archive archive;
     visit_all(progress, archive);
     Content content;
-    content.key      = key();
-    content.rows     = journal.size();
-    content.progress = archive.bytes();
+    content.parameters = parameters;
+    content.key        = key();
+    content.rows       = journal.size();
+    content.progress   = archive.bytes();
     Archive whole;
     whole(content);
     replace(folder + '/' + checkpoint_name, folder + '/' + next_checkpoint_name, sealed(whole.bytes()));

@@ -16,6 +16,9 @@ namespace sprag
   inline constexpr const char *checkpoint_variable   = "SPRAG_CHECKPOINT_SECONDS";
   inline constexpr double default_checkpoint_seconds = 30.;
 
+  /// Returns whether a folder has the checkpoint of a run with this scene's parameters that is as it was written.
+  bool has_checkpoint(const std::string &folder, const Scene &scene);
+
   /// The checkpoint of a run in its folder: its progress, written at most every half minute and when the run is interrupted, and
   /// its rows. A run of the same scene goes on from it, also after a kill at any moment. It belongs to all parameters, the
   /// content of the files that they name and the build of the program; of others it is dropped, and so is one that is not as it
@@ -89,7 +92,7 @@ namespace sprag
     const bool is_kept;
     const bool quiet;
     const std::string folder;
-    const std::string key_of_scene;
+    const std::string parameters, key_of_scene;
     const std::chrono::duration<double> interval;
     RowJournal journal;
     std::function<void(RowJournal &)> records;

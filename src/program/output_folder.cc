@@ -121,12 +121,12 @@ namespace sprag
     }
 
     /// A file that cannot be read may be anybody's, but where a killed run can be gone on from.
-    void refuse_other_result(const std::string &folder, const std::string &parameters)
+    void refuse_other_result(const std::string &folder, const Scene &scene)
     {
       const std::string path = folder + "/result.h5";
       const auto earlier     = earlier_result(path);
-      const bool is_lost     = !earlier && holds_anything(path) && !has_progress(folder);
-      if (!is_lost && (!earlier || earlier->parameters == parameters))
+      const bool is_lost     = !earlier && holds_anything(path) && !has_progress(folder, scene);
+      if (!is_lost && (!earlier || earlier->parameters == parameters_text(scene)))
         return;
       const std::string kind = is_lost                          ? "damaged, or no result of sprag's"
                                : earlier->status == "completed" ? "the completed result of a run with other parameters"
@@ -166,16 +166,16 @@ namespace sprag
     if (error)
       throw InputError("--output = " + folder + ": the folder cannot be made: " + error.message());
     if (lock(folder) && folder == missing)
-      refuse_other_result(folder, parameters_text(scene)); // of a run that began at the same time
+      refuse_other_result(folder, scene); // of a run that began at the same time
     static std::string begun;
     const bool is_begun = std::exchange(begun, folder) == folder;
-    if (options.is_first && !is_begun && !has_progress(folder))
+    if (options.is_first && !is_begun && !has_progress(folder, scene))
       remove_field_files(folder);
     if (options.log != nullptr)
       options.log->open(folder, scene);
   }
 
-  void claim_folder(const std::string &folder, const std::string &parameters, const bool overwrite)
+  void claim_folder(const std::string &folder, const Scene &scene, const bool overwrite)
   {
     require_writable(folder);
     std::error_code ignored;
@@ -188,6 +188,6 @@ namespace sprag
     if (overwrite)
       remove_checkpoint(folder);
     else
-      refuse_other_result(folder, parameters);
+      refuse_other_result(folder, scene);
   }
 } // namespace sprag

@@ -1,18 +1,41 @@
 #include "program/run_files.h"
 
-#include <algorithm>
-#include <filesystem>
-#include <iterator>
+#include "base/fingerprint.h"
+#include "base/version.h"
+#include "program/checkpoint.h"
+#include "scene/scene.h"
+#include "scene/scene_key.h"
+
+#include <fstream>
 #include <unistd.h>
 
 namespace sprag
 {
-  bool has_progress(const std::string &folder)
+  namespace
   {
-    const char *const names[] = { checkpoint_name, row_journal_name, map_journal_name, study_journal_name };
-    std::error_code ignored;
-    return std::any_of(std::begin(names), std::end(names),
-                       [&](const char *name) { return std::filesystem::exists(folder + '/' + name, ignored); });
+    bool begins_with(const std::string &header, const std::string &path)
+    {
+      std::ifstream input(path);
+      std::string line;
+      return std::getline(input, line) && line + '\n' == header;
+    }
+  } // namespace
+
+  std::string journal_header(const std::string &what, const std::string &scene_key)
+  {
+    Fingerprint key;
+    key.add(program_fingerprint());
+    key.add(scene_key);
+    return "sprag " + version() + " " + what + ", scene " + key.text() + '\n';
+  }
+
+  bool has_progress(const std::string &folder, const Scene &scene)
+  {
+    if (scene.analysis.type == AnalysisType::map)
+      return begins_with(journal_header("map", scene_key(scene)), folder + '/' + map_journal_name);
+    if (scene.analysis.type == AnalysisType::study)
+      return begins_with(journal_header("study", scene_key(scene)), folder + '/' + study_journal_name);
+    return has_checkpoint(folder, scene);
   }
 
   void remove_checkpoint(const std::string &folder)

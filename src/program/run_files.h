@@ -4,6 +4,8 @@
 
 namespace sprag
 {
+  struct Scene;
+
   // Files of a run in its folder beside its results, until it is over.
 
   inline constexpr char log_name[]             = "run.log";
@@ -13,8 +15,13 @@ namespace sprag
   inline constexpr char map_journal_name[]     = "map.journal";
   inline constexpr char study_journal_name[]   = "study.journal";
 
-  /// Returns whether there is something in a folder that a run may go on from.
-  bool has_progress(const std::string &folder);
+  /// Returns the first line of the journal of an analysis, "map", whose pieces depend on the scene with this key and on the build
+  /// of the program.
+  std::string journal_header(const std::string &what, const std::string &scene_key);
+
+  /// Returns whether there is something in a folder that the run of this scene goes on from. A checkpoint counts by the scene's
+  /// parameters, whatever the files hold that they name.
+  bool has_progress(const std::string &folder, const Scene &scene);
 
   /// Removes what a run goes on from.
   void remove_checkpoint(const std::string &folder);

@@ -139,7 +139,7 @@ namespace sprag
   {
     if (record->file.is_open())
       return;
-    const bool goes_on = has_progress(folder);
+    const bool goes_on = has_progress(folder, scene);
     record->file.open(log_in(folder), goes_on ? std::ios::app : std::ios::trunc);
     const auto head = record->text.find('\n', record->text.find('\n') + 1) + 1;
     record->file << (goes_on ? "\n" : "") << record->text.substr(0, head) << given_parameters(scene) << record->text.substr(head)

@@ -1,6 +1,7 @@
 #include "results/earlier_result.h"
 
 #include "base/child_process.h"
+#include "base/confinement.h"
 #include "base/version.h"
 #include "results/entries.h"
 
@@ -53,6 +54,7 @@ namespace sprag
       return {};
     const auto read = [&]
     {
+      confine({ path });
       const hdf5::Handle file = hdf5::open_to_read(path);
       if (hdf5::text_attribute(file, "format") != result_format)
         return std::string();

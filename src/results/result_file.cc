@@ -105,6 +105,37 @@ namespace sprag
       return size;
     }
 
+    /// A copy of a file under the name of one that was begun, gone with this unless it was given another name. Where no copy is
+    /// wanted, or none can be made, it is the file itself.
+    class Copy
+    {
+    public:
+      Copy(const std::string &file_path, const bool is_wanted)
+          : path(file_path)
+          , begun(path + result_begun_ending)
+      {
+        std::error_code error;
+        is_made = is_wanted && std::filesystem::copy_file(path, begun, std::filesystem::copy_options::overwrite_existing, error);
+        if (!is_made)
+          std::filesystem::remove(begun, error);
+      }
+      Copy &operator=(Copy &&) = delete;
+      ~Copy()
+      {
+        std::error_code ignored;
+        std::filesystem::remove(begun, ignored);
+      }
+
+      const std::string &name() const
+      {
+        return is_made ? begun : path;
+      }
+
+    private:
+      const std::string path, begun;
+      bool is_made = false;
+    };
+
     /// /table
     class Table
     {
@@ -335,10 +366,12 @@ namespace sprag
     // Nothing can be created in a file that others may be reading along: close it and open it anew.
     const bool has_space = writer->flush_what_fits();
     writer.reset();
-    DiskReserve reserve(path);
+    // A file that is being changed is damaged if the run is killed: a copy is, where there is space for one.
+    const Copy copy(path, has_space);
+    DiskReserve reserve(copy.name());
     if (has_space)
       reserve.cover(overhead + size_of(groups) + size_of(warnings));
-    hdf5::Handle file = hdf5::open_file(path);
+    hdf5::Handle file = hdf5::open_file(copy.name());
     add_entries(file, "summary", summary);
     add_entries(file, "meta", meta);
     if (!accuracy.empty())
@@ -348,5 +381,6 @@ namespace sprag
     for (const Group &group : has_space ? groups : std::vector<Group>())
       write_group(file, group);
     file.close();
+    reserve.rename(path);
   }
 } // namespace sprag

@@ -13,9 +13,11 @@
 #include "scene/read.h"
 #include "scene/scene.h"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <optional>
 
 namespace sprag
 {
@@ -56,6 +58,10 @@ namespace sprag
     constexpr double condensed_table_faces = 5e-7; ///< a step, times the square of the faces in contact
     constexpr double solid_table_step      = 0.2;  ///< in three dimensions, over one of a lever in time
 
+    // Newton iterations.
+    constexpr double of_static_step  = 9.;
+    constexpr double of_step_in_time = 2.5;
+
     constexpr double judgements_of_cell = 0.4;  ///< both ways, in models that are kept from cell to cell
     constexpr double usual_tolerance    = 5e-3; ///< Time/Tolerance at which meshed levers take twice a beam's steps
     constexpr double steps_of_reversal  = 20.;  ///< without inertia, through stick
@@ -68,21 +74,28 @@ namespace sprag
              (number_of_levers(scene) == 2 && scene.pair.type == PairType::full ? second_lever : 1.);
     }
 
-    double without_inertia(const Scene &scene)
+    /// Steps that a run took; none before it.
+    using StepsTaken = std::optional<double>;
+
+    double static_steps(const Scene &scene, const StepsTaken &taken)
+    {
+      const double turns = 1. + static_cast<double>(scene.drive.reversals().size());
+      return taken.value_or(expected_rows(scene) + steps_of_reversal * turns);
+    }
+
+    double without_inertia(const Scene &scene, const StepsTaken &taken)
     {
       const double N     = expected_size(scene).displacements;
-      const double turns = 1. + static_cast<double>(scene.drive.reversals().size());
-      const double steps = expected_rows(scene) + steps_of_reversal * turns;
+      const double steps = static_steps(scene, taken);
       const bool linear  = scene.lever.material == MaterialModel::linear && scene.analysis.solution == Solution::automatic;
       const double step  = linear ? static_step + static_window * std::pow(N, 1.45) : general_step * N;
       return start + (model + telling_and_peaks) * N + steps * step * parts(scene);
     }
 
-    double in_three_dimensions(const Scene &scene)
+    double in_three_dimensions(const Scene &scene, const StepsTaken &taken)
     {
       const double N     = expected_size(scene).displacements;
-      const double turns = 1. + static_cast<double>(scene.drive.reversals().size());
-      const double steps = expected_rows(scene) + steps_of_reversal * turns;
+      const double steps = static_steps(scene, taken);
       const double step =
           scene.lever.material == MaterialModel::linear ? solid_step * std::pow(N, 1.4) : solid_finite * std::pow(N, 1.1);
       return start + solid_body * std::pow(N, 1.45) + steps * step * parts(scene);
@@ -103,10 +116,10 @@ namespace sprag
       return start + solid_modes * std::pow(N, 1.45) + steps * solid_in_time * std::pow(of_face, 1.55) * parts(scene);
     }
 
-    double in_time(const Scene &scene)
+    double in_time(const Scene &scene, const StepsTaken &known)
     {
       const double N     = expected_size(scene).displacements;
-      const double steps = steps_in_time(scene);
+      const double steps = known ? *known : steps_in_time(scene);
       if (scene.analysis.dimension == 3)
         return solid_with_inertia(scene, steps);
       if (!is_meshed(scene.analysis.model))
@@ -115,7 +128,7 @@ namespace sprag
       const double step =
           scene.analysis.model == ModelType::condensed ? condensed_step + condensed_faces * faces * faces : meshed_step * N;
       // The ripple of elements that pass shortens large steps most.
-      const double taken = steps * (1. + std::min(1., scene.time.tolerance / usual_tolerance));
+      const double taken = steps * (known ? 1. : 1. + std::min(1., scene.time.tolerance / usual_tolerance));
       return start + basis * std::pow(N, 1.5) + fields_in_time * N + taken * step * parts(scene);
     }
 
@@ -206,14 +219,14 @@ namespace sprag
       return sum;
     }
 
-    double seconds_of(const Scene &scene)
+    double seconds_of(const Scene &scene, const StepsTaken &taken = {})
     {
       switch (scene.analysis.type)
       {
       case AnalysisType::quasi_static:
-        return scene.analysis.dimension == 3 ? in_three_dimensions(scene) : without_inertia(scene);
+        return scene.analysis.dimension == 3 ? in_three_dimensions(scene, taken) : without_inertia(scene, taken);
       case AnalysisType::transient:
-        return in_time(scene);
+        return in_time(scene, taken);
       case AnalysisType::isolation:
         return under_table(scene);
       case AnalysisType::modal:
@@ -247,5 +260,19 @@ namespace sprag
     if (std::isnan(cost.cpu_seconds) && cost.unknown.empty())
       cost.unknown = "it depends on what the run finds.";
     return cost;
+  }
+
+  double counted_work(const Scene &scene, const std::vector<Entry> &summary)
+  {
+    const auto found =
+        std::find_if(summary.begin(), summary.end(), [](const Entry &entry) { return entry.name == "iterations"; });
+    const bool is_file = needs_mesh(scene) && !scene.mesh.file.empty();
+    if (follows_formulas(scene) || is_file)
+      return std::numeric_limits<double>::quiet_NaN();
+    const bool in_time = scene.analysis.type == AnalysisType::transient;
+    StepsTaken taken;
+    if (found != summary.end())
+      taken = std::get<double>(found->value) / (in_time ? of_step_in_time : of_static_step);
+    return seconds_of(scene, taken);
   }
 } // namespace sprag

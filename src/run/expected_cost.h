@@ -1,6 +1,9 @@
 #pragma once
 
 #include "program/cost.h"
+#include "results/result_file.h"
+
+#include <vector>
 
 namespace sprag
 {
@@ -11,4 +14,8 @@ namespace sprag
   /// maps and studies, see tests/benchmarks/expected_cost.py. Steps in time are counted by a beam, which rings as finite elements
   /// do.
   ExpectedCost expected_cost(const Scene &scene);
+
+  /// Counts the work of a run with this summary: CPU time where slowness() is 1, by the sizes of its parts and its Newton
+  /// iterations [s]. It is the same each time the scene is run; NaN where nobody has measured such runs.
+  double counted_work(const Scene &scene, const std::vector<Entry> &summary);
 } // namespace sprag

@@ -8,6 +8,7 @@
 #include "run/analyses.h"
 #include "run/briefs.h"
 #include "scene/scene.h"
+#include "scene/scene_key.h"
 
 #include <deal.II/base/mpi.h>
 
@@ -207,7 +208,7 @@ namespace sprag
         [&]
         {
           prepare_folder(scene, options);
-          journal.emplace(options.folder + '/' + map_journal_name, "map", inputs_key(scene));
+          journal.emplace(options.folder + '/' + map_journal_name, "map", scene_key(scene));
           announce(*journal, progress);
         });
     MapTeam team(scene, journal ? &*journal : nullptr,

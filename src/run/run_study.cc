@@ -8,6 +8,7 @@
 #include "run/study_report.h"
 #include "run/study_runs.h"
 #include "scene/scene.h"
+#include "scene/scene_key.h"
 
 #include <deal.II/base/mpi.h>
 
@@ -90,7 +91,6 @@ namespace sprag
   {
     const double begin = monotonic_seconds();
     const auto style   = progress_style(options.quiet || !is_first_rank());
-    const auto files   = files_of(scene.study);
     StudyRuns runs(scene);
     std::optional<Journal> journal;
     on_first_rank(
@@ -98,7 +98,7 @@ namespace sprag
         {
           require_possible_runs(scene);
           prepare_folder(scene, options);
-          journal.emplace(options.folder + '/' + study_journal_name, "study", inputs_key(scene, files));
+          journal.emplace(options.folder + '/' + study_journal_name, "study", scene_key(scene));
           announce(*journal, runs.size(), style);
         });
     std::optional<Progress> progress;
@@ -108,7 +108,7 @@ namespace sprag
         progress.emplace(std::cerr, style, static_cast<double>(wanted));
       progress->update(static_cast<double>(done), {});
     };
-    Team team({ "study", unchanged_inputs(scene, "study", files), report }, journal ? &*journal : nullptr);
+    Team team({ "study", unchanged_inputs(scene, "study"), report }, journal ? &*journal : nullptr);
     StudyRecords records;
     const auto learn = [&](const std::string &line)
     {

@@ -59,6 +59,9 @@ namespace sprag
       add({ "cpu_time", "s", "that the run takes alone, meshes and bases that it shares with others included" },
           [](const StudyRecord &row) { return row.cpu_time; });
       add({ "cpu_time_spent", "s", "that it took here" }, [](const StudyRecord &row) { return row.cpu_spent; });
+      add({ "work", "s",
+            "count of what the run takes alone, by which runs are ranked: CPU time on another machine, NaN: not counted" },
+          [](const StudyRecord &row) { return row.work; });
       add({ "wall_time", "s", "that passed" }, [](const StudyRecord &row) { return row.wall_time; });
       add({ "peak_memory", "MiB", "largest resident memory of its process while it ran" },
           [](const StudyRecord &row) { return row.peak_memory; });

@@ -8,6 +8,7 @@
 #include "report/warnings.h"
 #include "run/analyses.h"
 #include "run/choice.h"
+#include "run/expected_cost.h"
 #include "scene/analysis_use.h"
 #include "scene/scene.h"
 #include "scene/scene_key.h"
@@ -100,6 +101,7 @@ namespace sprag
       carry_out(scene, options_of(in_memory), warnings);
       check_warnings(scene, warnings);
       record.found = std::move(in_memory.found);
+      record.work  = counted_work(scene, record.found.summary);
       if (!has_reference)
         record.found.curve.clear();
     }

@@ -6,6 +6,7 @@
 #include "scene/analysis_use.h"
 #include "scene/closed_form.h"
 #include "scene/contact_reference.h"
+#include "scene/contact_width.h"
 #include "scene/mirrored_pair.h"
 #include "scene/scene.h"
 
@@ -74,6 +75,21 @@ namespace sprag
                                    "Friction/Coefficient", "Friction/Table" }),
                    "must not lock: moving back at x = " + mm(found->x) + ", s = " + mm(found->s) +
                        " <= mu e = " + mm(found->mu * scene.geometry.interface_offset) + " with mu = " + rounded_text(found->mu));
+    }
+
+    /// The contact of a lever that hardly presses yields by less than lengths are rounded.
+    void pressing(const Scene &scene, Rules &rules)
+    {
+      constexpr double rounding = 1e-11; // of the radius, with which points of the face are compared
+      const double x            = scene.drive.maximum();
+      const double P            = closed_form(scene, x, scene.drive.peak_speed()).P;
+      const double width        = estimated_contact_width(scene, std::max(0., P));
+      const double overlap      = width * width / (8. * scene.geometry.cylinder_radius);
+      const bool is_given = scene.spring.type == SpringType::torsional && scene.given.count("Rotational spring/Stiffness") > 0;
+      rules.need(!is_given || !(P > 0.) || overlap > rounding * scene.geometry.cylinder_radius, "Rotational spring/Stiffness",
+                 joined(shape, { "Drive/Start", "Drive/Profile", "Drive/Table" }),
+                 "must press harder: P = " + rounded_text(P) + " N at x = " + mm(x) + " compresses the contact by " +
+                     mm(overlap) + ", less than rounding leaves of lengths; Analysis/Model = closed form needs no compression");
     }
 
     void tip(const Scene &scene, Rules &rules)
@@ -290,12 +306,18 @@ namespace sprag
     /// Each can be computed only where those before it are kept.
     std::vector<Violation> positions(const Scene &scene, const Use &use)
     {
+      constexpr double thinnest_hub = 1e-4; // [mm] of which gmsh keeps the sides apart
       Rules rules;
       geometry(scene.geometry, rules);
+      const double offset = scene.geometry.interface_offset;
+      rules.need(!use.meshed || use.own_mesh || offset == 0. || offset >= thinnest_hub, "Geometry/Interface offset",
+                 { "Mesh/File" }, "must be 0 or at least " + mm(thinnest_hub) + ", or the hub is too thin to be meshed");
       if (rules.broken.empty() && use.positions)
         drive(scene, rules);
       if (rules.broken.empty() && use.positions)
         sliding(scene, rules);
+      if (rules.broken.empty() && use.follows_drive && use.meshed)
+        pressing(scene, rules);
       if (rules.broken.empty() && use.lever && !use.own_mesh)
         tip(scene, rules);
       if (rules.broken.empty() && use.meshed && !use.own_mesh)

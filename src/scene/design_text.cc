@@ -1,5 +1,6 @@
 #include "scene/design_text.h"
 
+#include "base/errors.h"
 #include "base/text.h"
 #include "scene/design_quantities.h"
 
@@ -23,12 +24,6 @@ namespace sprag
     }
 
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
-
-    double number_alone(const std::string &text)
-    {
-      const auto number = leading_number(text);
-      return number && number->rest.empty() ? number->value : none;
-    }
 
     /// Reads all texts; a mistake is reported against the parameter that is being read.
     struct DesignReader
@@ -65,25 +60,47 @@ namespace sprag
         check_judges();
       }
 
+      /// A number, with or without a unit, in that of a quantity; not a number where the text is another. None where the unit
+      /// does not fit, which is told.
+      std::optional<double> number_in(const std::string &unit, const std::string &text, const std::string &what) const
+      {
+        Rule rule;
+        rule.kind = Rule::Kind::number;
+        rule.unit = unit == "1" ? "" : unit;
+        try
+        {
+          return leading_number(text) ? leading_number(kept_value(rule, text))->value : none;
+        }
+        catch (const InputError &error)
+        {
+          mistake("'" + what + "': " + text + ' ' + error.what());
+          return {};
+        }
+      }
+
       void read_free(const std::string &part)
       {
         if (part.empty())
           return;
         const auto equals = part.find('='), dots = part.find("...");
-        const auto from = equals < dots ? number_alone(trim(part.substr(equals + 1, dots - equals - 1))) : none;
-        const auto to   = dots != std::string::npos ? number_alone(trim(part.substr(dots + 3))) : none;
-        if (std::isnan(from) || std::isnan(to))
+        if (dots == std::string::npos || equals > dots)
           return mistake("'" + part + "' must have the form Section/Name = FROM ... TO");
         const auto name            = single_spaced(part.substr(0, equals));
         const Parameter *parameter = free_parameter(name);
         if (parameter == nullptr)
           return;
-        for (const double value : { from, to })
+        const auto from = number_in(parameter->rule.unit, trim(part.substr(equals + 1, dots - equals - 1)), name);
+        const auto to   = number_in(parameter->rule.unit, trim(part.substr(dots + 3)), name);
+        if (!from || !to)
+          return;
+        if (std::isnan(*from) || std::isnan(*to))
+          return mistake("'" + part + "' must have the form Section/Name = FROM ... TO");
+        for (const double value : { *from, *to })
           if (const auto broken = violation(parameter->rule, number_text(value)))
             return mistake(name + " = " + number_text(value) + " " + *broken);
-        if (!(from < to))
+        if (!(*from < *to))
           return mistake(name + " must have bounds of which the second is larger");
-        settings.free_parameters.push_back({ name, from, to, parameter->rule.unit.empty() ? "1" : parameter->rule.unit });
+        settings.free_parameters.push_back({ name, *from, *to, parameter->rule.unit.empty() ? "1" : parameter->rule.unit });
       }
 
       const Parameter *free_parameter(const std::string &name) const
@@ -136,15 +153,20 @@ namespace sprag
         const auto right    = behind == std::string::npos ? std::string() : text.substr(behind);
         const auto within   = right.find("+-");
         const auto term     = term_of(trim(text.substr(0, sign)));
-        const auto target   = number_alone(trim(right.substr(0, within)));
-        const auto margin   = within == std::string::npos ? none : number_alone(trim(right.substr(within + 2)));
         if (!term)
           return;
-        if (std::isnan(target) || (is_equal ? !(margin > 0.) : within != std::string::npos))
+        const auto &free = settings.free_parameters;
+        const auto &unit =
+            term->quantity == DesignQuantity::parameter ? free[term->parameter].unit : info_of(term->quantity).unit;
+        const auto target = number_in(unit, trim(right.substr(0, within)), text);
+        const auto margin = number_in(unit, within == std::string::npos ? "" : trim(right.substr(within + 2)), text);
+        if (!target || !margin)
+          return;
+        if (std::isnan(*target) || (is_equal ? !(*margin > 0.) : within != std::string::npos))
           return mistake("'" + text + "' must have " +
                          (is_equal ? "a value and a tolerance > 0 behind =: VALUE +- TOLERANCE" : "a single number at its end"));
         const auto kind = is_equal ? DemandKind::equal : text[sign] == '<' ? DemandKind::at_most : DemandKind::at_least;
-        settings.demanded.push_back({ *term, kind, target, is_equal ? margin : 0., text });
+        settings.demanded.push_back({ *term, kind, *target, is_equal ? *margin : 0., text });
       }
 
       void read_aim(const std::string &text)

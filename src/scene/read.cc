@@ -11,6 +11,7 @@
 #include "scene/check.h"
 #include "scene/discretisation.h"
 #include "scene/held_slide.h"
+#include "scene/own_units.h"
 #include "scene/scene.h"
 #include "scene/sections.h"
 #include "scene/variation.h"
@@ -69,6 +70,7 @@ namespace sprag
 
       Scene scene()
       {
+        convert_own_units();
         store();
         make_drive();
         make_friction();
@@ -99,6 +101,43 @@ namespace sprag
         for (const auto &[name, setting] : settings.given)
           result[name] = setting.value;
         return result;
+      }
+
+      /// Until all was read, some units are not known.
+      void convert_own_units()
+      {
+        const auto value_of = [&](const std::string &name)
+        {
+          const auto given = settings.given.find(name);
+          return given != settings.given.end() ? given->second.value : find_parameter(parameters, name)->default_value;
+        };
+        for (const auto &parameter : parameters)
+          if (depends_on_others(parameter.rule))
+            convert(parameter,
+                    [&](const std::string &text)
+                    {
+                      const auto number = number_text(in_own_unit(parameters, parameter, text, value_of));
+                      return kept_value(parameter.rule, number);
+                    });
+        convert(*find_parameter(parameters, "Stability/Critical"),
+                [&](const std::string &text) { return ranges_in_own_units(parameters, text, value_of); });
+      }
+
+      void convert(const Parameter &parameter, const std::function<std::string(const std::string &)> &converted)
+      {
+        const auto given = settings.given.find(full_name(parameter));
+        if (given == settings.given.end())
+          return;
+        try
+        {
+          if (const auto value = converted(given->second.value); value != given->second.value)
+            given->second = { given->second.place, value, given->second.value };
+        }
+        catch (const InputError &broken)
+        {
+          report(given->first, broken.what());
+          settings.given.erase(given);
+        }
       }
 
       void store()

@@ -1,5 +1,6 @@
 #include "scene/scene_key.h"
 
+#include "base/append.h"
 #include "base/fingerprint.h"
 #include "base/text.h"
 #include "scene/across.h"
@@ -48,6 +49,18 @@ namespace sprag
       return key;
     }
 
+    /// Lists the files among the values of a study.
+    std::vector<std::string> files_of(const StudySettings &study)
+    {
+      SceneSettings settings;
+      const auto parameters = scene_parameters(settings);
+      std::vector<std::string> files;
+      for (const auto &[name, values] : joined(study.varied, study.reference_values))
+        if (find_parameter(parameters, name)->rule.kind == Rule::Kind::file)
+          append(files, values);
+      return files;
+    }
+
     void add_number(const double number, std::string &key)
     {
       key += ' ' + number_text(number);
@@ -67,7 +80,10 @@ namespace sprag
 
   std::string scene_key(const Scene &scene)
   {
-    return key_without(scene, [](const Parameter &) { return false; });
+    std::string key = key_without(scene, [](const Parameter &) { return false; });
+    for (const auto &file : files_of(scene.study))
+      key += content_fingerprint(file) + '\n';
+    return key;
   }
 
   std::string body_key(const Scene &scene)

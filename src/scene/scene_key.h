@@ -10,7 +10,7 @@ namespace sprag
   // Texts that are equal for scenes which have something in common. They hold every parameter of the program, so that a new one
   // counts as long as nobody has shown that it does not. A file counts by what it holds, not by its name or time.
 
-  /// Returns all that a scene says, for a scene that was read.
+  /// Returns all that a scene says, for a scene that was read; of a study the files that it varies too.
   std::string scene_key(const Scene &scene);
 
   /// Returns all that the mesh of a scene's lever, its matrices and bases are made from: every parameter, as it was read and as

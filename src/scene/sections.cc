@@ -271,7 +271,8 @@ namespace sprag
           "Modal analysis: out of contact, in contact without friction, or stuck to the cylinder");
       section.text("Critical", settings.critical,
                    "Where the slide loses stability or jams along single parameters: list of SECTION/NAME FROM TO, separated by "
-                   "semicolons; auto: friction factor, x, speed and, where it needs no new mesh, depth; none");
+                   "semicolons, as in Lever/Depth 3 mm 20 mm; auto: friction factor, x, speed and, where it needs no new mesh, "
+                   "depth; none");
       section.choice("Roles", settings.roles, { { "on", true }, { "off", false } },
                      "Whether the slide is judged again without flexure, inertia, mu'(v), support and damping, one by one");
     }
@@ -281,8 +282,8 @@ namespace sprag
       const auto axis = [&](const std::string &which, ParameterRange &range)
       {
         section.text(which + " parameter", range.name, "Section/Name, as with --set");
-        section.number(which + " from", range.from, any_number(), "", "Its value at the first point, in its own unit");
-        section.number(which + " to", range.to, any_number(), "", "Its value at the last point");
+        section.number(which + " from", range.from, any_number(), "of " + which + " parameter", "Its value at the first point");
+        section.number(which + " to", range.to, any_number(), "of " + which + " parameter", "Its value at the last point");
         section.integer(which + " points", range.points, { 2., 10000. }, "Points of the grid, ends included");
       };
       axis("First", settings.first);

@@ -192,6 +192,8 @@ namespace sprag
         try
         {
           const auto kept = kept_value(parameter.rule, value);
+          if (const auto broken = violation(parameter.rule, kept))
+            throw InputError(*broken); // a unit that depends on other parameters
           varied.values.push_back(parameter.rule.kind == Rule::Kind::file && !value.empty() ? path_of(value) : kept);
           return true;
         }

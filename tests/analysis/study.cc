@@ -36,12 +36,12 @@ namespace
     return { name, value, "N mm", "a number" };
   }
 
-  StudyRecord completed(const std::size_t run, const double cpu_time, const double loop_area)
+  StudyRecord completed(const std::size_t run, const double work, const double loop_area)
   {
     StudyRecord record;
-    record.run      = run;
-    record.cpu_time = cpu_time;
-    record.found    = { { number("loop_area", loop_area) }, {} };
+    record.run   = run;
+    record.work  = work;
+    record.found = { { number("loop_area", loop_area) }, {} };
     return record;
   }
 
@@ -239,6 +239,7 @@ TEST(StudyRecord, IsGivenBackByItsLine)
   record.reason        = "a\tb\nc \\t d\\";
   record.cpu_time      = 1. / 3.;
   record.cpu_spent     = -0.;
+  record.work          = 1. / 7.;
   record.wall_time     = std::numeric_limits<double>::denorm_min();
   record.peak_memory   = 1e300;
   record.warnings      = { "one", "" };
@@ -252,6 +253,7 @@ TEST(StudyRecord, IsGivenBackByItsLine)
   EXPECT_EQ(again.reason, record.reason);
   EXPECT_EQ(again.cpu_time, record.cpu_time);
   EXPECT_TRUE(std::signbit(again.cpu_spent));
+  EXPECT_EQ(again.work, record.work);
   EXPECT_EQ(again.wall_time, record.wall_time);
   EXPECT_EQ(again.peak_memory, record.peak_memory);
   EXPECT_EQ(again.warnings, record.warnings);

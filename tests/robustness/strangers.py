@@ -2,47 +2,32 @@
 end. Run with /usr/bin/python3; environment: SPRAG, the program, and SPRAG_SOURCE, the sources."""
 
 import os
+import random
 import shutil
+import signal
+import subprocess
 import sys
+import time
 import unittest
 from pathlib import Path
 
 import h5py
+import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
-from runs import SOURCE, RunTest, sprag  # noqa: E402
-from system_calls import CAN_FILTER, without_confinement  # noqa: E402
+from runs import SOURCE, SPRAG, RunTest, sprag  # noqa: E402
+from strip import MESH_22, SCRIPT  # noqa: E402
+from system_calls import CAN_FILTER, without_confinement, without_landlock  # noqa: E402
 
-STRIP = """
-Point(1) = {0, 45.6, 0};
-line[] = Extrude {210, 0, 0} { Point{1}; Layers{52}; };
-area[] = Extrude {0, 20, 0} { Curve{line[1]}; Layers{4}; Recombine; };
-Physical Surface("lever") = {area[1]};
-Physical Curve("hub") = {Abs(area[3])};
-Physical Curve("friction face") = {line[1]};
-"""
 CALL = "SystemCall \"touch 'MARK'\";\n"
 # What is written, around the mesh, with MARK for a file outside.
 ACTS = {
-    "starts a program": CALL + STRIP,
-    "prints into a file": 'Printf("x") > "MARK";\n' + STRIP,
-    "saves": STRIP + 'Mesh 2;\nSave "MARK.msh";\n',
-    "adds to a file": 'Printf("x") >> "MARK";\n' + STRIP,
+    "starts a program": CALL + SCRIPT,
+    "prints into a file": 'Printf("x") > "MARK";\n' + SCRIPT,
+    "saves": SCRIPT + 'Mesh 2;\nSave "MARK.msh";\n',
+    "adds to a file": 'Printf("x") >> "MARK";\n' + SCRIPT,
 }
 CLOSED_FORM = "subsection Analysis\n  set Model = closed form\nend\n"
-
-
-def strip_mesh():
-    """What gmsh makes of a strip of 52 x 4 quadrilaterals."""
-    nodes = [(x, y) for y in range(5) for x in range(53)]
-    lines = [f"{number} {210 * x / 52:g} {45.6 + 5 * y:g} 0" for number, (x, y) in enumerate(nodes, 1)]
-    cells = [f"3 2 1 1 {at + 1} {at + 2} {at + 55} {at + 54}" for y in range(4) for at in range(53 * y, 53 * y + 52)]
-    face = [f"1 2 2 1 {x + 1} {x + 2}" for x in range(52)]
-    hub = [f"1 2 3 2 {53 * y + 1} {53 * y + 54}" for y in range(4)]
-    names = '$PhysicalNames\n3\n2 1 "lever"\n1 2 "friction face"\n1 3 "hub"\n$EndPhysicalNames\n'
-    numbered = [f"{number} {text}" for number, text in enumerate(cells + face + hub, 1)]
-    beginning = f"$MeshFormat\n2.2 0 8\n$EndMeshFormat\n{names}$Nodes\n{len(lines)}"
-    return "\n".join([beginning, *lines, f"$EndNodes\n$Elements\n{len(numbered)}", *numbered, "$EndElements\n"])
 
 
 class StrangerTest(RunTest):
@@ -86,16 +71,16 @@ class Meshes(StrangerTest):
                 self.assertEqual(self.marks(), [])
 
     def test_scripts_change_no_file_of_their_folder(self):
-        self.write("own.geo", STRIP + 'Printf("x") > "other.txt"; SystemCall "rm other.geo";\n')
+        self.write("own.geo", SCRIPT + 'Printf("x") > "other.txt"; SystemCall "rm other.geo";\n')
         self.write("other.geo", "")
         self.validate("own.geo")
         self.assertEqual(sorted(path.name for path in self.place.iterdir()), ["other.geo", "own.geo", "scene.prm"])
 
     def test_scripts_read_their_folder_and_ours_alone(self):
-        self.write("part.geo", STRIP)
+        self.write("part.geo", SCRIPT)
         self.write("own.geo", 'Include "part.geo";\n')
         self.assertEqual(self.validate("own.geo").returncode, 0)
-        (self.folder / "part.geo").write_text(STRIP)
+        (self.folder / "part.geo").write_text(SCRIPT)
         self.write("own.geo", 'Include "../part.geo";\n')
         self.assertEqual(self.validate("own.geo").returncode, 2)
         self.assertEqual(self.validate("own.geo", "--trust-scripts").returncode, 0)
@@ -106,12 +91,12 @@ class Meshes(StrangerTest):
             self.refused(self.validate("own.geo"), "own.geo", says)
 
     def test_a_mesh_is_no_script(self):
-        self.write("own.msh", CALL + STRIP)
+        self.write("own.msh", CALL + SCRIPT)
         self.refused(self.validate("own.msh"), "own.msh", "must begin with $MeshFormat")
         self.assertEqual(self.marks(), [])
 
     def test_nothing_beside_a_mesh_counts(self):
-        self.write("own.msh", strip_mesh())
+        self.write("own.msh", MESH_22)
         self.write("own.msh.opt", CALL)
         done = self.validate("own.msh")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
@@ -124,10 +109,11 @@ class Meshes(StrangerTest):
 
     @unittest.skipUnless(CAN_FILTER, "knows the system calls of x86_64")
     def test_scripts_are_refused_where_they_cannot_be_confined(self):
-        self.write("own.geo", STRIP)
-        self.refused(self.validate("own.geo", preexec_fn=without_confinement()), "own.geo", "is a script", "--trust-scripts")
+        self.write("own.geo", SCRIPT)
+        for lacking in (without_confinement(), without_landlock()):
+            self.refused(self.validate("own.geo", preexec_fn=lacking), "own.geo", "is a script", "--trust-scripts")
         self.assertEqual(self.validate("own.geo", "--trust-scripts", preexec_fn=without_confinement()).returncode, 0)
-        self.write("own.msh", strip_mesh())
+        self.write("own.msh", MESH_22)
         self.assertEqual(self.validate("own.msh", preexec_fn=without_confinement()).returncode, 0)
         done = sprag(SOURCE / "params" / "model-a.prm", "--validate", "--quiet", preexec_fn=without_confinement())
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -135,7 +121,7 @@ class Meshes(StrangerTest):
     def test_no_temporary_file_is_made(self):
         for folder in ("/proc", "", "/nowhere"):
             with self.subTest(TMPDIR=folder):
-                self.write("own.geo", STRIP)
+                self.write("own.geo", SCRIPT)
                 done = self.validate("own.geo", env={**os.environ, "TMPDIR": folder})
                 self.assertEqual((done.returncode, done.stderr), (0, ""))
 
@@ -172,6 +158,42 @@ class Results(StrangerTest):
                 self.assertEqual(victim.read_text(), "mine")
                 (self.output / name).unlink()
 
+    def test_progress_of_another_analysis_is_none(self):
+        self.output.mkdir(exist_ok=True)
+        self.result.write_text("damaged")
+        for name in ("map.journal", "study.journal", "run.checkpoint", "run.journal"):
+            with self.subTest(name):
+                (self.output / name).write_text("sprag 0 map, scene 0123456789abcdef\n")
+                self.refused(self.run_scene(), "result.h5", "--overwrite")
+                (self.output / name).unlink()
+        (self.output / "fields.xdmf").write_text("of an earlier lever")
+        (self.output / "map.journal").write_text("sprag 0 map, scene 0123456789abcdef\n")
+        self.assertEqual(self.run_scene("--overwrite").returncode, 0)
+        self.assertFalse((self.output / "fields.xdmf").exists())
+
+    def test_of_killed_runs_can_be_read(self):
+        chance = random.Random(1)
+        begin = time.monotonic()
+        self.assertEqual(self.run_scene().returncode, 0)
+        duration = time.monotonic() - begin
+        found = 0
+        for _ in range(40):
+            self.result.unlink(missing_ok=True)
+            process = subprocess.Popen(
+                [SPRAG, str(self.folder / "scene.prm"), "--output", str(self.output), "--overwrite", "--quiet"],
+                stderr=subprocess.DEVNULL, start_new_session=True)  # fmt: skip
+            time.sleep(duration * chance.uniform(0.2, 1.0))
+            try:
+                os.killpg(process.pid, signal.SIGKILL)
+            except ProcessLookupError:
+                pass
+            process.wait()
+            if self.result.exists():
+                found += 1
+                with h5py.File(self.result, "r", swmr=True) as file:
+                    self.assertIn("table", file)
+        self.assertGreater(found, 5)
+
     def test_earlier_fields_go_with_their_result(self):
         coarse = [word for change in ("Mesh/Face size=4", "Analysis/Step=5", "Drive/Stroke=20") for word in ("--set", change)]
         for changes in (("Analysis/Model=closed form",), ("Analysis/Model=finite element", "Output/Fields=none"), ("Analysis/Type=slope",)):
@@ -184,7 +206,54 @@ class Results(StrangerTest):
                 self.assertEqual([path.name for path in self.output.glob("f*")], [])
 
 
+class Caches(StrangerTest):
+    def test_hold_files_of_others(self):
+        """In a folder of bases that is somebody else's, only bases are counted and removed."""
+        cache = self.folder / "cache"
+        cache.mkdir()
+        names = ("basis-notes.h5.txt", "basis-0123456789abcdef.h5.bak", "basis-0123456789abcdef.h5", "basis-1.h5.2", "notes.h5")
+        for name in names:
+            (cache / name).write_text("mine")
+        (cache / "basis-fedcba9876543210.h5").symlink_to("notes.h5")
+        for path in cache.iterdir():
+            os.utime(path, (0, 0), follow_symlinks=False)
+        with open(cache / "basis-0123456789abcdef.h5", "ab") as file:
+            file.truncate(2 << 30)  # more than the bases may have
+        before = {path.name: os.lstat(path).st_mtime for path in cache.iterdir()}
+        self.scene("subsection Condensed\n  set Cache = cache\n  set Modes = 4\nend\nsubsection Mesh\n  set Face size = 6\nend\n")
+        done = self.run_scene("--set", "Analysis/Type=modal", "--set", "Analysis/Model=condensed", "--set", "Output/Fields=none")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        after = {path.name: os.lstat(path).st_mtime for path in cache.iterdir()}
+        self.assertEqual({name: after.get(name) for name in before}, before)
+        self.assertEqual(len(after), len(before) + 1)
+
+
 class Inputs(StrangerTest):
+    def test_tables_lead_to_no_other_file(self):
+        times = np.linspace(0, 1, 21)
+        with h5py.File(self.folder / "other.h5", "w") as file:
+            file["x"] = 20 * times
+        (self.folder / "raw").write_bytes((20 * times).tobytes())
+
+        def link(file):
+            file["x"] = h5py.ExternalLink("other.h5", "/x")
+
+        def storage(file):
+            file.create_dataset("x", (21,), "f8", external=[(str(self.folder / "raw"), 0, 168)])
+
+        def virtual(file):
+            layout = h5py.VirtualLayout((21,), "f8")
+            layout[:] = h5py.VirtualSource("other.h5", "x", (21,))
+            file.create_virtual_dataset("x", layout)
+
+        self.scene(CLOSED_FORM + "subsection Drive\n  set Profile = table\n  set Table = own.h5\nend\n")
+        for make in (link, storage, virtual):
+            with self.subTest(make.__name__):
+                with h5py.File(self.folder / "own.h5", "w") as file:
+                    file["time"] = times
+                    make(file)
+                self.refused(self.run_scene(), "own.h5", "dataset 'x'")
+
     def test_without_an_end(self):
         os.mkfifo(self.folder / "scene.prm")
         self.refused(self.run_scene(), "scene.prm", "no pipe or device")

@@ -87,7 +87,7 @@ class StudyTest(RunTest):
         worst = np.max([table[f"error_{name}"] for name in ("P", "Q", "loop_area", "largest_pressure")], axis=0)
         np.testing.assert_array_equal(table["error_all"], worst)
         self.assertTrue((table["error_P"] > 0).all())
-        cheap = np.argsort(table["cpu_time"])
+        cheap = np.argsort(table["work"])
         lasting = np.maximum.accumulate(table["error_loop_area"][::-1])[::-1]  # of those with smaller faces as well
         exact = [next((run for run in cheap if lasting[run] <= limit), np.nan) for limit in (0.1, 1e-2, 1e-3, 1e-4)]
         np.testing.assert_array_equal(chosen, exact)
@@ -147,8 +147,9 @@ class StudyTest(RunTest):
         cache = self.folder / "cache"
         cache.mkdir()
         oldest = cache / f"basis-{0:016x}.h5"
-        with open(oldest, "wb") as file:
-            file.truncate(2 << 30)
+        with h5py.File(oldest, "w") as file:
+            file["checksum"] = [0.0]
+        os.truncate(oldest, 2 << 30)
         os.utime(oldest, (1, 1))
         changes = {**COARSE, "Analysis/Type": "modal", "Analysis/Model": "condensed", "Condensed/Modes": "4", "Condensed/Cache": str(cache)}
         for number, program in enumerate((SPRAG, SPRAG, self.other_build()), 1):

@@ -75,7 +75,8 @@ TEST(ReadDesign, MistakesNameTheNearestWord)
        "'damping slpe' is neither a quantity nor a free parameter; did you mean 'damping slope'?");
   told("Design/Demands=damping slope = 0.1", "'damping slope = 0.1' must have a value and a tolerance > 0 behind =");
   told("Design/Demands=damping slope 0.1", "'damping slope 0.1' must have the form QUANTITY <= VALUE");
-  told("Design/Demands=damping slope >= 0.1 N/mm", "must have a single number at its end");
+  told("Design/Demands=damping slope >= 0.1 +- 0.01", "must have a single number at its end");
+  told("Design/Demands=damping slope >= 0.1 N", "0.1 N must be a number [N/mm]: 'N' has the dimension");
   told("Design/Demands=growth rate <= 0", "must have beam where a growth rate is asked for");
   told("Design/Aim=reduce largest force", "must be minimise QUANTITY or maximise QUANTITY");
   told("Design/Second aim=minimise largest forc", "did you mean 'largest force'?");

@@ -35,6 +35,10 @@ def refuse(*calls):
     return install
 
 
+def without_landlock():
+    return refuse((LANDLOCK_CREATE_RULESET, None, errno.ENOSYS))
+
+
 def without_confinement():
     return refuse((LANDLOCK_CREATE_RULESET, None, errno.ENOSYS), (PRCTL, PR_SET_SECCOMP, errno.EINVAL))
 

@@ -3,7 +3,6 @@
 #include "base/append.h"
 #include "scene/read.h"
 #include "scene/scene.h"
-#include "scene/sections.h"
 
 #include <algorithm>
 
@@ -68,16 +67,5 @@ namespace sprag
     for (const auto &[name, values] : study.study.reference_values)
       settings.push_back(name + "=" + values.front());
     return scene_of_run(study, settings);
-  }
-
-  std::vector<std::string> files_of(const StudySettings &study)
-  {
-    SceneSettings settings;
-    const auto parameters = scene_parameters(settings);
-    std::vector<std::string> files;
-    for (const auto &[name, values] : joined(study.varied, study.reference_values))
-      if (find_parameter(parameters, name)->rule.kind == Rule::Kind::file)
-        append(files, values);
-    return files;
   }
 } // namespace sprag

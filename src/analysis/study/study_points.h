@@ -23,7 +23,4 @@ namespace sprag
 
   /// Returns the scene of the run that the others are compared with. Throws InputError where it is refused.
   Scene scene_of_reference(const Scene &study);
-
-  /// Lists the files among the values of a study.
-  std::vector<std::string> files_of(const StudySettings &study);
 } // namespace sprag

@@ -96,7 +96,7 @@ namespace sprag
   {
     FieldWriter fields;
     fields.numbers({ static_cast<double>(record.run), static_cast<double>(record.outcome), record.cpu_time, record.cpu_spent,
-                     record.wall_time, record.peak_memory, static_cast<double>(record.warnings.size()),
+                     record.work, record.wall_time, record.peak_memory, static_cast<double>(record.warnings.size()),
                      static_cast<double>(record.found.summary.size()) });
     fields.text(record.reason);
     for (const auto &warning : record.warnings)
@@ -119,12 +119,13 @@ namespace sprag
     record.outcome     = static_cast<RunOutcome>(static_cast<int>(numbers.at(1)));
     record.cpu_time    = numbers.at(2);
     record.cpu_spent   = numbers.at(3);
-    record.wall_time   = numbers.at(4);
-    record.peak_memory = numbers.at(5);
+    record.work        = numbers.at(4);
+    record.wall_time   = numbers.at(5);
+    record.peak_memory = numbers.at(6);
     record.reason      = fields.text();
-    for (double i = 0.; i < numbers.at(6); ++i)
-      record.warnings.push_back(fields.text());
     for (double i = 0.; i < numbers.at(7); ++i)
+      record.warnings.push_back(fields.text());
+    for (double i = 0.; i < numbers.at(8); ++i)
       record.found.summary.push_back(entry_of(fields));
     const auto curve = fields.numbers();
     for (std::size_t i = 0; i + 3 < curve.size(); i += 4)

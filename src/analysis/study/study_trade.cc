@@ -71,6 +71,14 @@ namespace sprag
         measured.recommended[i] = cheapest_within(recommended_accuracies[i], costs, lasting);
     }
 
+    /// CPU times differ from one study to the next, so that they rank runs only where the work is not counted.
+    bool is_counted(const StudyRecords &records)
+    {
+      return std::none_of(records.begin(), records.end(),
+                          [](const auto &run)
+                          { return run.second.outcome == RunOutcome::completed && std::isnan(run.second.work); });
+    }
+
     /// The settings of a point but for one parameter.
     std::string others_text(const StudySettings &study, const StudyPoint &point, const std::size_t left_out)
     {
@@ -131,7 +139,7 @@ namespace sprag
         const auto errors    = completed ? errors_of(study.type, record.found, expected) : std::vector<double>();
         for (std::size_t i = 0; i < trade.measured.size(); ++i)
           trade.measured[i].errors.push_back(completed ? errors[i] : unknown);
-        costs.push_back(completed ? record.cpu_time : unknown);
+        costs.push_back(completed ? (is_counted(records) ? record.work : record.cpu_time) : unknown);
         rows.push_back(points[run]);
       }
     for (std::size_t i = 0; i < study.varied.size(); ++i)

@@ -4,7 +4,7 @@
 #include "base/errors.h"
 #include "base/fingerprint.h"
 #include "base/text.h"
-#include "base/version.h"
+#include "program/run_files.h"
 
 #include <cerrno>
 #include <chrono>
@@ -23,14 +23,6 @@ namespace sprag
   {
     constexpr unsigned int lock_attempts = 50;
     constexpr std::chrono::milliseconds lock_pause(100);
-
-    std::string header_of(const std::string &what, const std::string &scene)
-    {
-      Fingerprint key;
-      key.add(program_fingerprint());
-      key.add(scene);
-      return "sprag " + version() + " " + what + ", scene " + key.text() + '\n';
-    }
 
     void write(const int file, const std::string &path, const std::string &text)
     {
@@ -93,7 +85,7 @@ namespace sprag
   Journal::Journal(const std::string &file_path, const std::string &what, const std::string &scene)
       : path(file_path)
       , file(::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666))
-      , header(header_of(what, scene))
+      , header(journal_header(what, scene))
   {
     if (file < 0)
       throw InputError(path + " cannot be written: " + std::strerror(errno));

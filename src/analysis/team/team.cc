@@ -1,7 +1,6 @@
 #include "analysis/team/team.h"
 
 #include "base/errors.h"
-#include "base/fingerprint.h"
 #include "base/interrupt.h"
 #include "scene/scene.h"
 #include "scene/scene_key.h"
@@ -198,19 +197,11 @@ namespace sprag
       task.report(counters.value(Counters::done), wanted);
   }
 
-  std::string inputs_key(const Scene &scene, const std::vector<std::string> &files)
+  std::function<void()> unchanged_inputs(const Scene &scene, const std::string &name)
   {
-    std::string key = scene_key(scene);
-    for (const auto &file : files)
-      key += content_fingerprint(file) + '\n';
-    return key;
-  }
-
-  std::function<void()> unchanged_inputs(const Scene &scene, const std::string &name, const std::vector<std::string> &files)
-  {
-    return [=, key = inputs_key(scene, files)]
+    return [=, key = scene_key(scene)]
     {
-      if (inputs_key(scene, files) != key)
+      if (scene_key(scene) != key)
         throw AnalysisError("an input file has changed during the " + name +
                             "; what was finished before is kept for the file as it was: start the " + name +
                             " again, with that file or the new one");

@@ -53,12 +53,9 @@ namespace sprag
     void wait_for_others(std::size_t wanted, const Counters &counters) const;
   };
 
-  /// Returns a check that the files which the scene's settings name, and other `files`, are as they are now. It throws
-  /// AnalysisError, which says of what analysis, "map", the pieces are.
-  std::function<void()> unchanged_inputs(const Scene &scene, const std::string &name, const std::vector<std::string> &files = {});
-
-  /// Returns all that the pieces of such an analysis depend on, for the journal.
-  std::string inputs_key(const Scene &scene, const std::vector<std::string> &files = {});
+  /// Returns a check that the files which the scene's settings name are as they are now. It throws AnalysisError, which says of
+  /// what analysis, "map", the pieces are.
+  std::function<void()> unchanged_inputs(const Scene &scene, const std::string &name);
 
   /// Returns whether this process has rank 0, which prints and writes.
   bool is_first_rank();

@@ -1,6 +1,7 @@
 #include "fe/dynamics/basis_file.h"
 
 #include "base/child_process.h"
+#include "base/confinement.h"
 #include "base/errors.h"
 #include "base/fingerprint.h"
 #include "results/hdf5.h"
@@ -43,36 +44,24 @@ namespace sprag
       return path_of(folder, key) + "." + std::to_string(::getpid());
     }
 
-    bool is_basis(const std::string &name)
+    /// Returns whether a file in the folder, and no link, has a name like ours.
+    bool is_called(const std::regex &name, const std::filesystem::directory_entry &entry)
     {
-      static const std::regex given(R"(basis-[0-9a-f]{16}\.h5)");
-      return std::regex_match(name, given);
+      std::error_code ignored;
+      return std::regex_match(entry.path().filename().string(), name) &&
+             entry.symlink_status(ignored).type() == std::filesystem::file_type::regular;
     }
 
-    /// Removes those that were used longest ago, until what stays has no more than `most` bytes.
-    void prune(const std::string &folder, const std::uintmax_t most)
+    const std::regex &basis_name()
     {
-      std::multimap<std::filesystem::file_time_type, std::filesystem::directory_entry, std::greater<>> latest_first;
-      std::error_code error;
-      for (std::filesystem::directory_iterator entry(folder, error), end; entry != end; entry.increment(error))
-        if (is_basis(entry->path().filename().string()) && entry->is_regular_file(error))
-          latest_first.emplace(entry->last_write_time(error), *entry);
-      std::uintmax_t sum = 0;
-      for (const auto &[time, entry] : latest_first)
-      {
-        const auto size = entry.file_size(error);
-        if (error)
-          continue;
-        if (sum + size > most)
-          std::filesystem::remove(entry.path(), error);
-        else
-          sum += size;
-      }
+      static const std::regex name(R"(basis-[0-9a-f]{16}\.h5)");
+      return name;
     }
 
-    bool is_temporary(const std::string &name)
+    const std::regex &temporary_name()
     {
-      return name.rfind("basis-", 0) == 0 && name.find(".h5.") != std::string::npos;
+      static const std::regex name(R"(basis-[0-9a-f]{16}\.h5\.[0-9]+)");
+      return name;
     }
 
     /// A file kept locked as long as this lives, for other machines of a shared folder too.
@@ -89,6 +78,11 @@ namespace sprag
       {
         if (file >= 0)
           ::close(file);
+      }
+
+      bool is_open() const
+      {
+        return file >= 0;
       }
 
       bool held() const
@@ -120,6 +114,39 @@ namespace sprag
     /// A damaged file may keep HDF5 busy for ever [s], or ask for all the memory there is [bytes].
     constexpr double file_patience  = 10.;
     constexpr std::size_t file_room = std::size_t(1) << 28;
+
+    /// Returns whether a file was written here, by what it holds.
+    bool holds_basis(const std::string &path)
+    {
+      const auto look = [&]
+      {
+        confine({ path });
+        const hdf5::Handle file = hdf5::open_to_read(path);
+        return std::string(hdf5::has(file, "checksum") ? "is one" : "");
+      };
+      return !in_child_process(look, file_patience).text.empty();
+    }
+
+    /// Removes bases that were used longest ago, until those that stay have no more than `most` bytes.
+    void prune(const std::string &folder, const std::uintmax_t most)
+    {
+      std::multimap<std::filesystem::file_time_type, std::filesystem::directory_entry, std::greater<>> latest_first;
+      std::error_code error;
+      for (std::filesystem::directory_iterator entry(folder, error), end; entry != end; entry.increment(error))
+        if (is_called(basis_name(), *entry))
+          latest_first.emplace(entry->last_write_time(error), *entry);
+      std::uintmax_t sum = 0;
+      for (const auto &[time, entry] : latest_first)
+      {
+        const auto size = entry.file_size(error);
+        if (error)
+          continue;
+        if (sum + size <= most)
+          sum += size;
+        else if (holds_basis(entry.path().string()))
+          std::filesystem::remove(entry.path(), error);
+      }
+    }
 
     /// None if the file is damaged as far as HDF5 or the checksum can tell.
     std::optional<StoredArrays> read_file(const std::string &path, const std::string &key)
@@ -196,16 +223,19 @@ namespace sprag
     std::error_code ignored;
     if (folder.empty() || !std::filesystem::is_regular_file(path, ignored))
       return {};
-    const auto bytes = std::filesystem::file_size(path, ignored);
-    std::filesystem::last_write_time(path, std::filesystem::file_time_type::clock::now(), ignored); // keeps it from being pruned
+    const auto bytes  = std::filesystem::file_size(path, ignored);
     const auto answer = in_child_process(
         [&]
         {
           limit_growth(file_room + 20 * bytes);
+          confine({ path });
           return packed(read_file(path, key));
         },
         file_patience + 1e-7 * static_cast<double>(bytes));
-    return answer.failure.empty() ? unpacked(answer.text) : std::nullopt;
+    const auto found = answer.failure.empty() ? unpacked(answer.text) : std::nullopt;
+    if (found) // what was used is pruned last
+      std::filesystem::last_write_time(path, std::filesystem::file_time_type::clock::now(), ignored);
+    return found;
   }
 
   void remove_abandoned(const std::string &folder)
@@ -217,7 +247,7 @@ namespace sprag
     {
       const auto written = entry->last_write_time(ignored);
       const bool old     = !ignored && std::filesystem::file_time_type::clock::now() - written > young;
-      if (old && is_temporary(entry->path().filename().string()) && Lock(entry->path().string()).held())
+      if (old && is_called(temporary_name(), *entry) && Lock(entry->path().string()).held())
         std::filesystem::remove(entry->path(), ignored);
     }
   }
@@ -230,7 +260,10 @@ namespace sprag
     const std::string temporary = temporary_path(folder, key);
     std::error_code error;
     std::filesystem::create_directories(folder, error);
-    const Lock lock(temporary, O_CREAT);
+    std::filesystem::remove(temporary, error); // what is there is no process's any more, or a link
+    const Lock lock(temporary, O_CREAT | O_EXCL);
+    if (!lock.is_open())
+      return temporary + " cannot be made";
     try
     {
       auto file = hdf5::create_file(temporary);

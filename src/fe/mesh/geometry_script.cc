@@ -1,5 +1,6 @@
 #include "fe/mesh/geometry_script.h"
 
+#include "base/available_memory.h"
 #include "base/child_process.h"
 #include "base/confinement.h"
 #include "base/errors.h"
@@ -36,6 +37,9 @@ namespace sprag
     /// A damaged mesh may keep gmsh busy for ever [s], or ask for all the memory there is [bytes].
     constexpr double mesh_patience  = 20.;
     constexpr std::size_t mesh_room = std::size_t(1) << 30;
+
+    /// Of the memory that is left, so that a stranger's script takes none from other programs.
+    constexpr double share_of_scripts = 0.8;
 
     /// What the process that runs gmsh hands back.
     struct Answer
@@ -278,8 +282,8 @@ namespace sprag
       if (is_script(file))
         readable.insert(readable.end(), { folder_of(file), folder_of(mesh_script("lever.geo")) });
       if (!confine(readable) && is_script(file) && !is_own(file))
-        throw InputError(file + ": is a script, which could start any program here, as this system cannot keep it from that: "
-                                "give a .msh, or --trust-scripts if you know what it does");
+        throw InputError(file + ": is a script, which could start programs or read other files, as this system lacks Landlock or "
+                                "seccomp to keep it from that: give a .msh, or --trust-scripts if you know what it does");
     }
 
     std::string hint(const std::string &file, const std::string &error)
@@ -439,8 +443,11 @@ namespace sprag
       const auto bytes      = std::filesystem::file_size(file);
       const auto in_process = [&]
       {
+        const double available = available_memory().bytes;
         if (is_mesh)
           limit_growth(mesh_room + 200 * bytes);
+        else if (!is_own(file) && std::isfinite(available))
+          limit_growth(static_cast<std::size_t>(share_of_scripts * available));
         Answer answer;
         try
         {
