@@ -1,5 +1,6 @@
 #include "laws/contact.h"
-#include "laws/friction.h"
+
+#include "laws/point_law.h"
 
 #include <algorithm>
 #include <cmath>
@@ -96,40 +97,45 @@ namespace sprag
     return trial > 0. ? NormalTraction{ trial, -penalty } : NormalTraction{ 0., 0. };
   }
 
+  FrictionValue slip_friction(const FrictionLaw &law, const double load, const double resistance, const double pressure)
+  {
+    return friction_coefficient(law, slip_speed({ law, load, pressure, resistance }));
+  }
+
   ConeReturn return_to_cone(const double trial, const double pressure, const FrictionLaw &law, const double penalty,
                             const double dt, const double shift)
   {
-    const double mu_0 = friction_coefficient(law, 0.).coefficient;
-    if (trial <= mu_0 * pressure)
-      return { trial, 1., 0., mu_0, false };
-
-    const double shifted = trial + penalty * shift;
-    if (shifted <= mu_0 * pressure)
-      return { mu_0 * pressure, 0., mu_0, mu_0, true };
-    const double resistance = penalty * dt;
-    const auto mu           = friction_coefficient(law, slip_speed({ law, shifted, pressure, resistance }));
-    if (mu.coefficient * pressure > trial)
-      return { trial, 1., 0., mu.coefficient, false };
-    const double rate  = mu.derivative * pressure / resistance;
-    const double share = rate / (1. + rate);
-    return { mu.coefficient * pressure, share, mu.coefficient / (1. + rate), mu.coefficient, true, penalty * share };
+    using One     = dealii::Tensor<1, 1>;
+    const auto of = friction_traction(One({ trial }), pressure, law, penalty, dt, One({ shift }));
+    return { of.traction[0], of.d_trial[0][0], of.d_pressure[0], of.mu, of.slipping, of.d_shift[0][0] };
   }
 
   template <int slips>
   FrictionTraction<slips> friction_traction(const dealii::Tensor<1, slips> &trial, const double pressure, const FrictionLaw &law,
                                             const double penalty, const double dt, const dealii::Tensor<1, slips> &shift)
   {
-    const Directed<slips> of(trial);
-    const auto &d    = of.direction;
-    const auto along = return_to_cone(of.size, pressure, law, penalty, dt, shift * d);
-    if (!along.slipping)
-      return { trial, dealii::unit_symmetric_tensor<slips>(), {}, along.mu, false, {} };
-    return { along.traction * d,
-             of.derivative(along.traction, along.d_trial, along.d_shift * shift),
-             along.d_pressure * d,
-             along.mu,
-             true,
-             along.d_shift * outer_product(d, d) };
+    using N = Dual<double, 2 * slips + 1>; // of trial, shift and pressure
+    Several<N, slips> trials, shifts;
+    for (int i = 0; i < slips; ++i)
+    {
+      trials[i] = variable<N>(trial[i], i);
+      shifts[i] = variable<N>(shift[i], slips + i);
+    }
+    const auto found = return_to_cone(SlipLaw{ law, penalty }, trials, variable<N>(pressure, 2 * slips), dt, shifts, trials);
+    FrictionTraction<slips> result;
+    result.mu       = found.mu;
+    result.slipping = found.slipping;
+    for (int i = 0; i < slips; ++i)
+    {
+      result.traction[i]   = found.traction[i].v;
+      result.d_pressure[i] = found.traction[i].d[2 * slips];
+      for (int j = 0; j < slips; ++j)
+      {
+        result.d_trial[i][j] = found.traction[i].d[j];
+        result.d_shift[i][j] = found.traction[i].d[slips + j];
+      }
+    }
+    return result;
   }
 
   template FrictionTraction<1> friction_traction(const dealii::Tensor<1, 1> &, double, const FrictionLaw &, double, double,

@@ -1,4 +1,4 @@
-#include "fe/solid/rigid_cylinder.h"
+#include "cylinder_kinematics.h"
 
 #include "model/circle.h"
 #include "scenes.h"
@@ -27,7 +27,7 @@ namespace
 
   SurfaceKinematics at(const RigidCylinder &cylinder, const Coordinates &q)
   {
-    return cylinder.kinematics(cylinder.pose(q[4], q[3], { { q[5], q[6] } }), dealii::Point<3>(q[0], q[1], q[2]));
+    return { cylinder, cylinder.pose(q[4], q[3], { { q[5], q[6] } }), dealii::Point<3>(q[0], q[1], q[2]) };
   }
 
   /// Central differences of what a function tells of the kinematics.
@@ -65,8 +65,17 @@ TEST(RigidCylinder, RowsAndCurvaturesAreDerivatives)
             (differences(cylinder, q, [i, s](const auto &k) { return k.slip_row[s][i]; }) - found.slip_curvature[s][i]).norm(),
             1e-5);
     }
-    const auto [gap, gradient] =
-        cylinder.gap_and_gradient(cylinder.pose(q[4], q[3], { { q[5], q[6] } }), dealii::Point<3>(q[0], q[1], q[2]));
+    const auto pose = cylinder.pose(q[4], q[3], { { q[5], q[6] } });
+    const dealii::Point<3> point(q[0], q[1], q[2]);
+    const auto [gap, gradient] = cylinder.gap_and_gradient(pose, point);
+    const Coordinates moved({ 0.3, -0.2, 0.7, 0.01, 0.4, -0.02, 0.05 });
+    const auto changes = cylinder.changes(pose, point, dealii::Tensor<1, 3>({ moved[0], moved[1], moved[2] }), moved[4], moved[3],
+                                          { { moved[5], moved[6] } });
+    EXPECT_NEAR(changes[0], found.gap_row * moved, 1e-12);
+    for (unsigned int s = 0; s < 2; ++s)
+      EXPECT_NEAR(changes[1 + s], found.slip_row[s] * moved, 1e-12);
+    EXPECT_EQ(cylinder.gap(pose, point), found.gap);
+    EXPECT_NEAR(cylinder.slip(pose, point), found.slip[0], 1e-12);
     EXPECT_NEAR(gap, found.gap, 1e-12);
     for (unsigned int d = 0; d < 3; ++d)
       EXPECT_NEAR(gradient[d], found.gap_row[d], 1e-12);

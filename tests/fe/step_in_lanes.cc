@@ -1,4 +1,5 @@
 #include "bed_of_springs.h"
+#include "cylinder_kinematics.h"
 #include "fe/solid/surface_observation.h"
 #include "mpi_environment.h"
 
@@ -84,9 +85,9 @@ TEST_P(StepInLanesOfAnAxis, AStepInTimeFollowsTheLawsAtEachPoint)
         EXPECT_EQ(state.pressure, 0.);
         continue;
       }
-      const auto placed = rigid.kinematics(at_end, state.position);
-      const auto middle = rigid.kinematics(between, from + share * (state.position - from));
-      const auto slips  = rigid.slips(at_begin, from);
+      const auto placed = SurfaceKinematics(rigid, at_end, state.position);
+      const auto middle = SurfaceKinematics(rigid, between, from + share * (state.position - from));
+      const auto slips  = slips_of(rigid, at_begin, from);
       StepKinematics<7, 2> kinematics;
       kinematics.gap_begin = gap_begin;
       kinematics.gap_end   = placed.gap;
@@ -204,7 +205,7 @@ TEST_P(StepInLanesOfAnAxis, AStepWithoutInertiaFollowsTheLawsAtEachPoint)
           for (const auto &[node, shape] : points[q].nodes)
             for (unsigned int d = 0; d < 3; ++d)
               from[d] += shape * begin[3 * node + d];
-          return rigid.slips(at_begin, from);
+          return slips_of(rigid, at_begin, from);
         };
         const auto remembered = [&](const unsigned int q)
         {
@@ -217,7 +218,7 @@ TEST_P(StepInLanesOfAnAxis, AStepWithoutInertiaFollowsTheLawsAtEachPoint)
         {
           const auto &point = points[state.index];
           const auto was    = remembered(state.index);
-          const auto placed = rigid.kinematics(at_end, state.position);
+          const auto placed = SurfaceKinematics(rigid, at_end, state.position);
           EXPECT_NEAR(state.trial_pressure, was.normal_multiplier - law.normal.stiffness * placed.gap, 1e-9);
           if (state.trial_pressure <= 0.)
           {
@@ -432,5 +433,114 @@ TEST_P(StepInLanesOfAnAxis, ASlideIsThatOfItsParts)
       EXPECT_EQ(point.slipping, other.slipping);
       EXPECT_NEAR(point.mu, other.mu, 1e-15);
     }
+  }
+}
+
+namespace
+{
+  /// Compares every entry of the tangent with differences of the forces that `evaluated(ports)` finds. Where differences over two
+  /// ways do not agree the forces have no derivative: a point comes into contact or begins to slip. `every`: of so many columns
+  /// one, and those of the frame.
+  template <class Evaluated>
+  void expect_every_entry(const Bed &bed, const dealii::Vector<double> &ports, const Evaluated &evaluated,
+                          const unsigned int every)
+  {
+    const auto found  = evaluated(ports).forces;
+    const auto moment = [&](const unsigned int port) { return bed.length_of(port) * (port == bed.ports.rotation() ? 120. : 1.); };
+    unsigned int compared = 0;
+    for (unsigned int j = 0; j < found.ports.size(); ++j)
+    {
+      if (j % every != 0 && found.ports[j] < bed.ports.surface)
+        continue;
+      const auto difference = [&](const double way)
+      {
+        auto before = ports, after = ports;
+        before[found.ports[j]] -= way / moment(found.ports[j]);
+        after[found.ports[j]] += way / moment(found.ports[j]);
+        const auto low = evaluated(before).forces, high = evaluated(after).forces;
+        auto result = high.values;
+        EXPECT_EQ(low.ports, found.ports);
+        EXPECT_EQ(high.ports, found.ports);
+        result -= low.values;
+        result /= 2. * way;
+        return result;
+      };
+      const auto far = difference(4e-6), near = difference(2e-6);
+      for (unsigned int i = 0; i < found.ports.size(); ++i)
+      {
+        const double to_force = moment(found.ports[i]), expected = near[i] / to_force;
+        const double size = std::abs(found.tangent(i, i)) / (to_force * to_force) + 1e-3;
+        if (std::abs(far[i] - near[i]) / to_force > 1e-6 * size || std::abs(expected) < 1e-5 * size)
+          continue;
+        ++compared;
+        EXPECT_NEAR(found.tangent(i, j) / (to_force * moment(found.ports[j])), expected, 1e-4 * std::abs(expected) + 1e-6 * size)
+            << i << ' ' << j;
+      }
+    }
+    EXPECT_GT(compared, 3 * found.ports.size());
+  }
+
+  dealii::Vector<double> waved(const Bed &bed, const double overlap)
+  {
+    auto result = bed.pressed(overlap);
+    for (unsigned int port = 0; port < bed.ports.surface; ++port)
+      result[port] += 1e-3 * std::sin(1.3 * port);
+    for (unsigned int i = 0; i < bed.ports.slopes; ++i)
+      result[bed.ports.slope(i)] = 3e-4 * (1. + i);
+    return result;
+  }
+} // namespace
+
+TEST_P(StepInLanesOfAnAxis, EveryEntryOfTheTangentIsTheDerivativeOfAForce)
+{
+  const double speed = 112.;
+  FrictionLaw regularised{ CoulombFriction{ 0.6 } };
+  regularised.regularisation_speed = 20.;
+  const FrictionLaw falling{ StribeckFriction{ 0.6, 0.2, 100. } };
+  const std::vector<ContactMemory> none;
+  const auto weights = generalised_alpha(0.8, 6e-3);
+  unsigned int every = 1; // of one law all entries
+  for (const auto &friction :
+       { falling, FrictionLaw{ CoulombFriction{ 0.4 } }, FrictionLaw{ CoulombFriction{ 50. } }, FrictionLaw{}, regularised })
+  {
+    Bed bed(short_barrel(GetParam()), 12.5, 4);
+    const auto before = bed.pressed(0.12), begin = bed.pressed(0.1), end = waved(bed, 0.03);
+    const auto in_time = [&](const auto &from, const auto &to, const double x, const std::vector<SurfaceMemory> &memory)
+    {
+      SurfaceEvaluation found;
+      bed.surface().evaluate(
+          PortStep{ { 0., x - 0.7, speed, 0. }, none, { 6e-3, x, speed, 0., 0.3 }, { from, {}, {} }, to, {}, weights, &memory },
+          friction, found);
+      return found;
+    };
+    auto first = in_time(before, begin, Bed::x - 0.7, {});
+    bed.surface().complete(first);
+    const auto memory = first.memory();
+    expect_every_entry(
+        bed, end, [&](const auto &at) { return in_time(begin, at, Bed::x, memory); }, every);
+
+    StaticTerms terms{ friction, 6e-3, FrictionMode::cone, false, 0.31, 1.2 };
+    bed.surface().begin_step({ begin, Bed::x - 0.7 });
+    expect_every_entry(
+        bed, end,
+        [&](const auto &at)
+        {
+          SurfaceEvaluation found;
+          bed.surface().evaluate({ at, Bed::x }, memory, 0.3, terms, found);
+          return found;
+        },
+        every);
+
+    const DrivePoint drive{ 0., Bed::x, speed, 0. };
+    expect_every_entry(
+        bed, end,
+        [&](const auto &at)
+        {
+          SurfaceEvaluation found;
+          bed.surface().slide(SlidingState{ at, drive, -speed }, friction, found);
+          return found;
+        },
+        every);
+    every = 13;
   }
 }

@@ -16,7 +16,7 @@ namespace sprag
   /// changes by its slope times the part of that along the axis.
   void PatchTravel::go_to(const Nodal &displacement, const RigidCylinder::Pose &pose, const RigidCylinder::Shape &cylinder)
   {
-    const auto &axis = pose.axes.axis;
+    const dealii::Tensor<1, 3> axis({ pose.axes.axis.x, pose.axes.axis.y, pose.axes.axis.z });
     if (last)
     {
       double in_plane = 0., sideways = 0., displaced = 0.; // of nodes, the first and the last one squared

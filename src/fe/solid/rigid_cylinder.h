@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fe/solid/cylinder_axes.h"
+#include "fe/solid/cylinder_pose.h"
 #include "scene/apparatus.h"
 #include "scene/lever.h"
 
@@ -11,27 +11,6 @@
 
 namespace sprag
 {
-  /// Geometry of a point of the lever against the cylinder, in the coordinates (displacement along xi, eta and zeta, theta, x,
-  /// tilt, skew) or, of an axis that is fixed, in the first five. zeta counts across the lever's width from its middle. The first
-  /// slip is that round the cylinder, the second along its axis.
-  template <int coordinates>
-  struct SurfaceKinematicsIn
-  {
-    static constexpr int n = coordinates;
-    using Row              = dealii::Tensor<1, n>;
-    using Curvature        = dealii::Tensor<2, n>;
-
-    double gap = 0.; ///< [mm], positive when open
-    Row gap_row;
-    Curvature gap_curvature;
-    std::array<double, 2> slip{}; ///< coordinates on the cylinder's surface [mm]
-    std::array<Row, 2> slip_row;
-    std::array<Curvature, 2> slip_curvature;
-  };
-
-  using SurfaceKinematics      = SurfaceKinematicsIn<7>;
-  using FixedSurfaceKinematics = SurfaceKinematicsIn<5>;
-
   /// The damper's cylinder as a rigid body of finite length: its axis may lie out of true, by slopes towards the lever (tilt) and
   /// along x (skew), it may be a barrel and have rounded ends. Distances are measured across the axis: barrel and rounding are
   /// added to them as a profile over the place s along the axis, which is exact up to the square of their slope.
@@ -42,14 +21,10 @@ namespace sprag
 
     /// The cylinder at its position x from the pivot frame's origin, before a lever inclined by theta, its axis turned beyond the
     /// scene's slopes.
-    struct Pose
+    struct Pose : CylinderPose<double>
     {
-      double x          = 0.;
       double theta      = 0.;
       AxisSlopes turned = {};
-      double cosine     = 1.;
-      double sine       = 0.;
-      CylinderAxes axes;
     };
 
     Pose pose(double x, double theta, const AxisSlopes &turned = {}) const;
@@ -71,7 +46,10 @@ namespace sprag
       double largest_slope(double distance) const;
     };
 
-    Shape shape() const;
+    const Shape &shape() const
+    {
+      return of;
+    }
 
     /// Of the scene.
     const AxisSlopes &slopes() const
@@ -85,12 +63,13 @@ namespace sprag
     /// Returns it and its gradient by the place of the point, in lever axes.
     std::pair<double, dealii::Tensor<1, 3>> gap_and_gradient(const Pose &pose, const dealii::Point<3> &point) const;
 
-    /// Returns the slip coordinates of a point [mm].
-    std::array<double, 2> slips(const Pose &pose, const dealii::Point<3> &point) const;
+    /// Returns the slip coordinate of a point round the cylinder [mm].
+    double slip(const Pose &pose, const dealii::Point<3> &point) const;
 
-    /// Returns all in 5 or 7 coordinates.
-    template <int n = SurfaceKinematics::n>
-    SurfaceKinematicsIn<n> kinematics(const Pose &pose, const dealii::Point<3> &point) const;
+    /// Returns by how much gap and slips, round and along the cylinder, change as a point, the cylinder's position and its slopes
+    /// do [mm].
+    std::array<double, 3> changes(const Pose &pose, const dealii::Point<3> &point, const dealii::Tensor<1, 3> &moved, double x,
+                                  double theta, const AxisSlopes &turned) const;
 
     /// Whether its shaft lets the axis yield.
     bool has_free_axis() const
@@ -104,35 +83,9 @@ namespace sprag
     dealii::Point<3> on_surface(double along, double angle) const;
 
   private:
-    using Vector = dealii::Tensor<1, 3>;
-
-    /// Where a point is seen from the cylinder, in the axes of the world.
-    struct Place
-    {
-      Vector from_centre;
-      double along;  ///< s [mm]
-      Vector across; ///< off the axis
-      double radius; ///< its length
-    };
-
-    /// How far the surface lies back at a place along the axis, and its derivatives.
-    struct Profile
-    {
-      double value = 0., slope = 0., curvature = 0.;
-    };
-
-    std::array<double, 2> slips_of(const Pose &pose, const Place &place) const;
-    Place place_of(const Pose &pose, const dealii::Point<3> &point) const;
-    Profile profile(double along) const;
-    double beyond_ends(double along) const;
-
-    const Geometry geometry;
-    const double half_length; ///< infinite without ends [mm]
-    const double position;
-    const double edge_radius;
-    const double crown; ///< curvature of the barrel [1/mm]
+    const Shape of;
     const AxisSlopes at_rest;
     const bool is_free;
-    const CylinderAxes axes_at_rest;
+    const CylinderAxes<double> axes_at_rest;
   };
 } // namespace sprag

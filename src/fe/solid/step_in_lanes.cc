@@ -1,12 +1,75 @@
-#include "fe/solid/step_in_lanes_parts.h"
+#include "fe/solid/step_in_lanes.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace sprag
 {
-  StepInLanes::StepInLanes(const FrictionFace<3> &face_, const Patches &patches_)
+  struct alignas(Lanes) StepInLanes::Block
+  {
+    Triple<Batch> position; ///< undeformed
+    Lanes weight;           ///< 0 beyond the patch's last point
+    SomeLanes<Patches::max_nodes> shapes;
+    SomeLanes<Patches::max_nodes> slopes; ///< of the shapes along xi [1/mm]
+    unsigned int first;                   ///< point
+    unsigned int n;                       ///< of points
+    double clear_until;                   ///< length of the patch's travel until which no point comes to the cylinder [mm]
+
+    bool is_clear;       ///< as the patch was pressed last: nothing was computed
+    LaneMask takes_part; ///< then
+  };
+
+  struct alignas(Lanes) StepInLanes::Begin
+  {
+    Triple<Batch> place;
+    Lanes gap;
+    Lanes right, upward, along; ///< parts of the place in the cylinder's axes
+    LaneMask known;             ///< whether the point remembers a contact
+    SlipMemory<Batch, 2> memory;
+    Lanes multiplier;                     ///< of the gap [MPa]
+    Lanes shift, elastic_shift, by_slope; ///< see SlipShift; with a slope of 0
+    bool is_placed;                       ///< else the rest is unknown
+    bool touches;                         ///< a point does, or remembers a contact
+  };
+
+  /// Points where the step ends.
+  template <class N>
+  struct alignas(Lanes) StepInLanes::End
+  {
+    Triple<N> place;
+    SeenPoint<N> seen;
+    LaneMask takes_part;
+    N pressure;
+    Several<N, 2> slip; ///< in the step
+    Lanes shift;        ///< of the slip round the cylinder, without its elastic part [mm]
+    PointFriction<N, 2> friction;
+
+    // In the step, where forces are balanced.
+    N mean_pressure;
+    Several<N, 2> mean_traction;
+  };
+
+  namespace
+  {
+    using Nodal                    = FacePatches<3>::Nodal;
+    constexpr unsigned int n_nodes = FacePatches<3>::max_nodes;
+
+    SPRAG_PART Triple<Batch> at_points(const SomeLanes<n_nodes> &shapes, const Triple<Batch> &position, const Nodal &displacement)
+    {
+      Triple<Batch> result = position;
+      for (unsigned int a = 0; a < n_nodes; ++a)
+      {
+        result.x += shapes[a] * displacement[3 * a], result.y += shapes[a] * displacement[3 * a + 1],
+            result.z += shapes[a] * displacement[3 * a + 2];
+      }
+      return result;
+    }
+  } // namespace
+
+  StepInLanes::StepInLanes(const FrictionFace<3> &face_, const Patches &patches_, const RigidCylinder &cylinder_)
       : face(face_)
       , patches(patches_)
+      , cylinder(cylinder_)
       , blocks(patches.patches.size())
   {
   }
@@ -28,21 +91,18 @@ namespace sprag
     blocks[patch].travel = PatchTravel(farthest, most_shapes);
     for (unsigned int first = of_patch.begin; first < of_patch.end; first += n_lanes)
     {
-      auto &block       = blocks[patch].all.emplace_back();
-      block             = Block();
-      block.first       = first;
-      block.n           = std::min(n_lanes, of_patch.end - first);
-      block.clear_until = -1.;
+      auto &block = blocks[patch].all.emplace_back();
+      block       = Block();
+      block.first = first, block.n = std::min(n_lanes, of_patch.end - first), block.clear_until = -1.;
       for (unsigned int i = 0; i < n_lanes; ++i)
       {
         const unsigned int q = first + std::min(i, block.n - 1);
         const auto &point    = patches.points[q];
         const auto &slopes   = face.points[q].slopes;
-        block.position.x[i]  = point.position[0];
-        block.position.y[i]  = point.position[1];
-        block.position.z[i]  = point.position[2];
-        block.weight[i]      = i < block.n ? point.weight : 0.;
-        for (unsigned int a = 0; a < Patches::max_nodes; ++a)
+        const auto &at       = point.position;
+        block.position.x[i] = at[0], block.position.y[i] = at[1], block.position.z[i] = at[2];
+        block.weight[i] = i < block.n ? point.weight : 0.;
+        for (unsigned int a = 0; a < n_nodes; ++a)
           block.shapes[a][i] = point.shapes[a];
         for (unsigned int a = 0; a < slopes.size(); ++a)
           block.slopes[a][i] = slopes[a];
@@ -71,17 +131,11 @@ namespace sprag
 
   void StepInLanes::set(const Constants &constants)
   {
-    of  = constants;
-    law = rising_pieces(of.law.friction);
+    of             = constants;
+    of.slip.pieces = rising_pieces(of.slip.friction);
   }
 
-  bool StepInLanes::is_placed(const unsigned int patch) const
-  {
-    return blocks[patch].first != dealii::numbers::invalid_unsigned_int;
-  }
-
-  SPRAG_FOR_ANY_PROCESSOR void StepInLanes::place(const unsigned int patch, const Patches::Nodal &nodal,
-                                                  const std::vector<SlipShift> &shifts)
+  void StepInLanes::place(const unsigned int patch, const Patches::Nodal &nodal, const std::vector<SlipShift> &shifts)
   {
     auto &of_patch = blocks[patch];
     if (of_patch.all.empty())
@@ -90,19 +144,17 @@ namespace sprag
     of_patch.first = n_placed;
     n_placed += static_cast<unsigned int>(of_patch.all.size());
     if (n_placed > begins.size())
-    {
       begins.resize(n_placed);
-      ends.resize(n_placed);
-    }
-    of_patch.begin = nodal;
-    if (of.slide)
-      return;
-    of_patch.travel.go_to(nodal, of.begin, of.cylinder);
+    of_patch.begin            = nodal;
+    const bool begins_as_ends = of.kind == Kind::slide || of.kind == Kind::touch;
+    if (!begins_as_ends)
+      of_patch.travel.go_to(nodal, of.begin, cylinder.shape());
     for (unsigned int b = 0; b < of_patch.all.size(); ++b)
     {
       auto &begin     = begins[of_patch.first + b];
-      begin.is_placed = begin.touches = false;
-      if (!shifts.empty() || !passes_over(of_patch, b))
+      begin           = Begin();
+      begin.is_placed = begins_as_ends;
+      if (!shifts.empty() || (!begins_as_ends && !passes_over(of_patch, b)))
         place_block(of_patch.all[b], nodal, begin);
       for (unsigned int i = 0; i < of_patch.all[b].n && !shifts.empty(); ++i)
       {
@@ -115,27 +167,26 @@ namespace sprag
     recall(patch);
   }
 
-  /// Without memory and shifts.
-  SPRAG_PART void StepInLanes::place_block(const Block &block, const Patches::Nodal &nodal, Begin &begin) const
+  /// Without memory and shifts. Wherever it is called from it computes with the same round-off.
+  SPRAG_LARGE_KERNEL void StepInLanes::place_block(const Block &block, const Patches::Nodal &nodal, Begin &begin) const
   {
-    begin                      = Begin();
-    begin.place                = at_points(block.shapes, block.position, nodal);
-    const auto place           = places_of(of.cylinder, of.begin, begin.place);
-    const PointsInLanes across = place.radius * place.normal;
-    begin.gap                  = place.gap;
-    begin.right                = dot(across, of.begin.axes.right);
-    begin.upward               = dot(across, of.begin.axes.upward);
-    begin.along                = place.along;
-    begin.is_placed            = true;
-    begin.touches              = any(begin.gap < 0.);
+    begin           = Begin();
+    begin.place     = at_points(block.shapes, block.position, nodal);
+    const auto at   = seen(cylinder.shape(), in_lanes(of.begin), begin.place);
+    begin.gap       = at.gap;
+    begin.right     = dot(at.from_centre, of.begin.axes.right);
+    begin.upward    = dot(at.from_centre, of.begin.axes.upward);
+    begin.along     = at.along;
+    begin.is_placed = true;
+    begin.touches   = any(begin.gap < 0.);
   }
 
   SPRAG_PART bool StepInLanes::passes_over(const Blocks &of_patch, const unsigned int b) const
   {
-    return of_patch.travel.length() < of_patch.all[b].clear_until && (of.slide || !begins[of_patch.first + b].touches);
+    return of_patch.travel.length() < of_patch.all[b].clear_until && !begins[of_patch.first + b].touches;
   }
 
-  SPRAG_PART void StepInLanes::recall(const unsigned int patch)
+  void StepInLanes::recall(const unsigned int patch)
   {
     auto &of_patch           = blocks[patch];
     const unsigned int first = patches.patches[patch].begin;
@@ -147,234 +198,402 @@ namespace sprag
       auto &begin = begins[of_patch.first + b];
       if (!begin.is_placed)
         place_block(of_patch.all[b], of_patch.begin, begin);
-      begin.touches       = true;
-      begin.known[i]      = -1;
-      begin.step[i]       = entry->step;
-      begin.multiplier[i] = entry->normal_multiplier;
+      begin.touches        = true;
+      begin.known[i]       = -1;
+      begin.memory.step[i] = entry->step;
+      begin.multiplier[i]  = entry->normal_multiplier;
       for (unsigned int s = 0; s < 2; ++s)
       {
-        begin.traction[s][i]   = entry->traction[s];
-        begin.slip_speed[s][i] = entry->slip_speed[s];
+        begin.memory.traction[s][i]   = entry->traction[s];
+        begin.memory.slip_speed[s][i] = entry->slip_speed[s];
       }
     }
   }
 
-  /// As end_friction() where stick is resolved: the slip speed at the end is extrapolated from the step's mean and the last
-  /// one's. Returns the lanes that it did not find.
-  SPRAG_PART LaneMask StepInLanes::rub_in_time(const Begin &begin, const End &end, FrictionInLanes &result) const
+  SPRAG_PART Several<Batch, 2> StepInLanes::slip_rates(const Block &block) const
   {
-    const double stiffness = of.law.tangential, dt = of.law.weights.dt;
-    const Lanes &t_0 = begin.traction[0], &t_1 = begin.traction[1];
-    const Lanes &g_0 = end.slip_change[0], &g_1 = end.slip_change[1];
-    const Lanes before     = begin.slip_speed[0] * (t_0 + stiffness * g_0) + begin.slip_speed[1] * (t_1 + stiffness * g_1);
-    const LaneMask goes_on = (begin.step > 0.) & (before >= 0.);
-    const Lanes share      = goes_on ? dt / (dt + begin.step) : Lanes{};
-    const Lanes duration   = dt / (1. + share);
-    const Lanes shift      = -duration * share;
-    const TrialInLanes trial{
-      begin.traction, end.slip_change, { { shift * begin.slip_speed[0], shift * begin.slip_speed[1] } }, duration, end.pressure
-    };
-    const LaneMask unknown = return_to_cone(trial, law, stiffness, result);
-    const Lanes traction   = result.traction[0] * result.traction[0] + result.traction[1] * result.traction[1];
-    const Lanes s_0 = g_0 - (result.traction[0] - t_0) / stiffness, s_1 = g_1 - (result.traction[1] - t_1) / stiffness;
-    const LaneMask &slips = result.slipping;
-    result.slip_speed     = { { slips ? s_0 / dt : Lanes{}, slips ? s_1 / dt : Lanes{} } };
-    result.energy         = 0.5 / stiffness * traction;
-    result.dissipated     = 0.5 * ((t_0 + result.traction[0]) * s_0 + (t_1 + result.traction[1]) * s_1);
-    return unknown;
-  }
-
-  /// Without inertia, as end_response().
-  SPRAG_PART TrialInLanes StepInLanes::trial_at_end(const Begin &begin, const End &end) const
-  {
-    return { begin.traction,
-             end.slip_change,
-             { { end.shift + begin.elastic_shift, Lanes{} } },
-             all_lanes(of.law.weights.dt),
-             end.pressure };
-  }
-
-  SPRAG_PART void StepInLanes::slide_on(const End &end, FrictionInLanes &result) const
-  {
-    result.traction[0]    = of.slide->coefficient * end.pressure;
-    result.mu             = all_lanes(of.slide->mu);
-    result.slipping       = of.slide->rubs ? ~LaneMask{} : LaneMask{};
-    result.slip_speed[0]  = all_lanes(of.slide->speed);
-    result.by_pressure[0] = all_lanes(of.slide->coefficient);
-    result.energy         = 0.5 * of.slide->compliance * result.traction[0] * result.traction[0];
-  }
-
-  /// Sets friction by lanes. Returns the lanes that are to be looked at one by one.
-  SPRAG_PART LaneMask StepInLanes::rub(const Begin &begin, const End &end, FrictionInLanes &result) const
-  {
-    result                 = FrictionInLanes();
-    const double stiffness = of.law.tangential;
-    const bool is_static   = of.law.balance == ForceBalance::end;
-    if (is_static && of.law.mode == FrictionMode::stick)
+    const auto &slide = of.slide;
+    Several<Batch, 2> result{ { all_lanes(slide.speed), Lanes{} } };
+    if (slide.rates == nullptr)
+      return result;
+    const unsigned int patch = patches.patch_of_point(block.first);
+    const auto place         = at_points(block.shapes, block.position, blocks[patch].travel.displacement());
+    const auto rate          = at_points(block.shapes, {}, Patches::nodal(patches.patches[patch], *slide.rates));
+    for (unsigned int i = 0; i < n_lanes; ++i)
     {
-      for (unsigned int s = 0; s < 2; ++s)
+      const auto changes = cylinder.changes(of.end, dealii::Point<3>(place.x[i], place.y[i], place.z[i]),
+                                            dealii::Tensor<1, 3>({ rate.x[i], rate.y[i], rate.z[i] }), slide.x_rate,
+                                            slide.theta_rate, slide.slope_rates);
+      result[0][i] += changes[1];
+      result[1][i] += changes[2];
+    }
+    return result;
+  }
+
+  template <class N>
+  SPRAG_PART void StepInLanes::slide_on(const Block &block, const Part part, End<N> &end) const
+  {
+    auto &friction        = end.friction;
+    friction.slip_speed   = slip_rates(block);
+    const bool rubs       = of.slide.friction == ContactFriction::sliding;
+    const bool is_elastic = of.slip.friction.regularisation_speed == 0.;
+    if (rubs)
+    {
+      const SizeAndDirection<Batch, 2> w(friction.slip_speed);
+      Lanes coefficient{}, slope{};
+      for_each_lane(~LaneMask{},
+                    [&](const unsigned int i)
+                    {
+                      const auto found = sliding_friction(of.slip.friction, w.size[i]);
+                      coefficient[i] = found.coefficient, slope[i] = found.derivative;
+                      friction.mu[i] = friction_coefficient(of.slip.friction, w.size[i]).coefficient;
+                    });
+      const Lanes sign  = w.is_nothing ? all_lanes(std::copysign(1., of.slide.speed)) : all_lanes(1.);
+      friction.slipping = ~LaneMask{};
+      if (part == Part::friction_rate)
       {
-        result.traction[s]        = begin.traction[s] + stiffness * end.slip_change[s];
-        result.by_slip[2 * s + s] = all_lanes(stiffness);
+        // The slips' derivatives by the coordinates are those of their rates by the coordinates' rates.
+        const SizeAndDirection<N, 2> rate(
+            Several<N, 2>{ { end.slip[0] + friction.slip_speed[0], end.slip[1] + friction.slip_speed[1] } });
+        const N size = chained(coefficient, slope, rate.size);
+        for (unsigned int s = 0; s < 2; ++s)
+          friction.traction[s] = value(end.pressure) * (size * rate.direction[s]);
       }
-      return LaneMask{};
+      else
+        for (unsigned int s = 0; s < 2; ++s)
+          friction.traction[s] = Lanes(coefficient * sign * w.direction[s]) * end.pressure;
     }
-    if (law.empty() || (!is_static && of.law.friction.regularisation_speed > 0.))
-      return is_static ? end.takes_part : ~LaneMask{};
-    return is_static ? return_to_cone(trial_at_end(begin, end), law, stiffness, result) : rub_in_time(begin, end, result);
+    else if (of.slide.friction == ContactFriction::stuck)
+      for (unsigned int s = 0; s < 2; ++s)
+        friction.traction[s] = of.slip.stiffness * end.slip[s];
+    for (unsigned int s = 0; s < 2 && is_elastic; ++s)
+      friction.energy += 0.5 / of.slip.stiffness * value(friction.traction[s]) * value(friction.traction[s]);
   }
 
-  /// One lane, by the laws.
-  void StepInLanes::rub_alone(const Begin &begin, const End &end, const unsigned int i, FrictionInLanes &result) const
+  /// Sets pressure and friction of points that are seen at the end of the step.
+  template <bool in_time, class N, class Pose>
+  SPRAG_PART void StepInLanes::respond(const Block &block, const Begin &begin, const Pose &pose, const Patches::Nodal &nodal,
+                                       const Part part, End<N> &end) const
   {
-    if (of.law.balance == ForceBalance::end)
-      return return_to_cone(trial_at_end(begin, end), of.law.friction, of.law.tangential, i, result);
-    const auto of_lane = [i](const TwoLanes &lanes) { return Tensor<1, 2>({ lanes[0][i], lanes[1][i] }); };
-    const FrictionHistory<2> history{ of_lane(begin.traction), of_lane(begin.slip_speed), begin.step[i] };
-    const auto found =
-        end_friction(history, of.law.tangential, of_lane(end.slip_change), end.pressure[i], of.law.friction, of.law.weights.dt);
-    for (unsigned int s = 0; s < 2; ++s)
+    end.shift    = Lanes{};
+    end.friction = {};
+    if (!in_time && of.kind == Kind::slide)
     {
-      result.traction[s][i]    = found.traction[s];
-      result.slip_speed[s][i]  = found.slip_speed[s];
-      result.by_pressure[s][i] = found.d_pressure[s];
-      for (unsigned int r = 0; r < 2; ++r)
-        result.by_slip[2 * s + r][i] = found.d_slip[s][r];
+      const Lanes right  = value(N(dot(end.seen.from_centre, pose.axes.right)));
+      const Lanes upward = value(N(dot(end.seen.from_centre, pose.axes.upward)));
+      end.slip           = { { slip_round(cylinder.shape(), right, upward, end.seen.from_centre, pose.axes),
+                               end.seen.along - value(end.seen.along) } };
     }
-    result.mu[i]         = found.mu;
-    result.slipping[i]   = found.slipping ? -1 : 0;
-    result.energy[i]     = found.energy;
-    result.dissipated[i] = found.dissipated;
-    result.creep[i]      = found.creep;
-  }
-
-  /// Sets the friction of a block whose pressure and slip are known, in all lanes.
-  SPRAG_PART void StepInLanes::find_friction(const Begin &begin, End &end) const
-  {
-    const LaneMask unknown = rub(begin, end, end.friction);
-    if (any(unknown))
-      for (unsigned int i = 0; i < n_lanes; ++i)
-        if (unknown[i])
-          rub_alone(begin, end, i, end.friction);
-  }
-
-  SPRAG_PART void StepInLanes::find_slip(const Begin &begin, const PlacesInLanes &ended, End &end) const
-  {
-    const auto &axes           = of.end.axes;
-    const PointsInLanes across = ended.radius * ended.normal;
-    end.slip_change            = { { of.cylinder.radius *
-                                             angle_between(begin.upward, -begin.right, dot(across, axes.upward), -dot(across, axes.right)) +
-                                         of.surface_run,
-                                     ended.along - begin.along } };
-  }
-
-  /// How far the slip is shifted by the slope of the face.
-  SPRAG_PART void StepInLanes::find_shift(const Block &block, const Begin &begin, const PlacesInLanes &ended,
-                                          const Patches::Nodal &nodal, End &end) const
-  {
-    // Derivative of the deformed place along the undeformed face.
-    const PointsInLanes along_xi{ all_lanes(1.), Lanes{}, Lanes{} };
-    end.direction     = in_lever(at_points(block.slopes, along_xi, nodal), of.end.cosine, of.end.sine);
-    const auto round  = cross(of.end.axes.axis, ended.normal);
-    const Lanes slope = of.cylinder.radius / ended.radius * dot(end.direction, round);
-    end.shift         = begin.shift + begin.by_slope * slope;
-  }
-
-  SPRAG_PART void StepInLanes::press_in_time(const PlacesInLanes &ended, Begin &begin, End &end) const
-  {
-    const double normal = of.law.normal.stiffness, delay = of.law.weights.delay();
-    end.pressure = pressure_of(normal, end.gap);
-    if (of.slide)
+    else
+      end.slip = { { slip_round(cylinder.shape(), begin.right, begin.upward, end.seen.from_centre, pose.axes) + of.surface_run,
+                     end.seen.along - begin.along } };
+    if constexpr (in_time)
     {
-      // Nothing changes: it begins as it ends, so that it takes up no work.
-      end.friction = FrictionInLanes();
-      slide_on(end, end.friction);
-      end.slip_change = end.friction.slip_speed;
-      begin           = Begin();
-      begin.place     = end.place;
-      begin.gap       = end.gap;
-      begin.traction  = end.friction.traction;
-    }
-    end.takes_part = (end.gap < 0.) | (begin.gap < 0.) | begin.known;
-    if (!any(end.takes_part))
+      const double delay = of.weights.delay();
+      end.pressure       = spring_force(of.normal, end.seen.gap);
+      end.friction       = end_friction(of.slip, begin.memory, end.slip, end.pressure, of.weights.dt);
+      end.mean_pressure =
+          mean_spring_force(of.normal, begin.gap, end.seen.gap) + delay * (end.pressure - spring_force(of.normal, begin.gap));
+      for (unsigned int s = 0; s < 2; ++s)
+        end.mean_traction[s] = (0.5 + delay) * end.friction.traction[s] + (0.5 - delay) * begin.memory.traction[s];
       return;
-    if (!of.slide)
-    {
-      find_slip(begin, ended, end);
-      find_friction(begin, end);
     }
-    end.mean_pressure = mean_pressure_of(normal, begin.gap, end.gap) + delay * (end.pressure - pressure_of(normal, begin.gap));
-    for (unsigned int d = 0; d < 2; ++d)
-      end.mean_traction[d] = (0.5 - delay) * begin.traction[d] + (0.5 + delay) * end.friction.traction[d];
-  }
-
-  SPRAG_PART void StepInLanes::press_at_end(const Block &block, const PlacesInLanes &ended, const Patches::Nodal &nodal,
-                                            const Begin &begin, End &end) const
-  {
-    const Lanes trial = begin.multiplier - of.law.normal.stiffness * end.gap;
-    end.takes_part    = trial > 0.;
-    if (!any(end.takes_part))
-      return;
-    end.pressure = end.mean_pressure = end.takes_part ? trial : Lanes{};
-    find_slip(begin, ended, end);
-    find_shift(block, begin, ended, nodal, end);
-    find_friction(begin, end);
+    const N pressure  = begin.multiplier - of.normal.stiffness * end.seen.gap;
+    end.pressure      = select(value(pressure) > 0., pressure, N{});
+    end.mean_pressure = end.pressure;
+    if (of.kind == Kind::slide)
+      slide_on(block, part, end);
+    else
+    {
+      // Derivative of the deformed place along the undeformed face, and of the slip round the cylinder.
+      const auto direction = at_points(block.slopes, { all_lanes(1.), Lanes{}, Lanes{} }, nodal);
+      N slope              = cylinder.shape().radius / end.seen.radius * dot(in_world(pose, direction), end.seen.round);
+      if constexpr (!std::is_same_v<N, Batch>)
+        slope.d[std::size(slope.d) - 1] = all_lanes(1.);
+      const N shift    = begin.by_slope * slope + begin.shift;
+      end.shift        = value(shift);
+      const auto trial = stick_traction(of.slip, begin.memory.traction, end.slip);
+      if (of.sticks)
+        end.friction.traction = trial;
+      else
+        end.friction = return_to_cone(of.slip, trial, end.pressure, all_lanes(of.weights.dt),
+                                      Several<N, 2>{ { shift + begin.elastic_shift, N{} } }, end.slip);
+    }
     end.mean_traction = end.friction.traction;
+    if (part == Part::pressure)
+      end.mean_traction = Several<N, 2>{};
+    else if (part != Part::all)
+      end.mean_pressure = N{};
   }
 
-  SPRAG_FOR_ANY_PROCESSOR bool StepInLanes::press(const unsigned int patch, const Patches::Nodal &to, Forces &forces,
-                                                  double &compression)
+  SPRAG_LARGE_KERNEL void StepInLanes::evaluate(const Block &block, const Begin &begin, const Patches::Nodal &nodal,
+                                                End<Batch> &end) const
   {
-    const bool is_static = of.law.balance == ForceBalance::end;
-    const double c = of.balance.cosine, s = of.balance.sine;
+    const auto pose = in_lanes(of.end);
+    end.place       = at_points(block.shapes, block.position, nodal);
+    end.seen        = seen(cylinder.shape(), pose, end.place);
+    const Lanes gap = end.seen.gap;
+    if (of.kind == Kind::in_time)
+      end.takes_part = (gap < 0.) | (begin.gap < 0.) | begin.known;
+    else
+      end.takes_part = of.kind == Kind::touch ? LaneMask{} : begin.multiplier - of.normal.stiffness * gap > 0.;
+    if (!any(end.takes_part))
+      return;
+    if (of.kind == Kind::in_time)
+      respond<true>(block, begin, pose, nodal, Part::all, end);
+    else
+      respond<false>(block, begin, pose, nodal, Part::all, end);
+  }
+
+  SPRAG_LARGE_KERNEL bool StepInLanes::press(const unsigned int patch, const Patches::Nodal &to, Forces &forces,
+                                             double &compression)
+  {
     constexpr double round_off = 1e-9; // of gaps and travels [mm]
+    const bool in_time         = of.kind == Kind::in_time;
+    const auto balance         = in_lanes(of.balance);
     auto &of_patch             = blocks[patch];
     bool takes_part            = false;
     SomeLanes<n_coordinates> sums{};
-    of_patch.travel.go_to(to, of.end, of.cylinder);
+    of_patch.travel.go_to(to, of.end, cylinder.shape());
+    End<Batch> end;
     for (unsigned int b = 0; b < of_patch.all.size(); ++b)
     {
-      auto &block    = of_patch.all[b];
-      auto &begin    = begins[of_patch.first + b];
-      auto &end      = ends[of_patch.first + b];
-      block.is_clear = passes_over(of_patch, b);
+      auto &block      = of_patch.all[b];
+      auto &begin      = begins[of_patch.first + b];
+      block.is_clear   = passes_over(of_patch, b);
+      block.takes_part = LaneMask{};
       if (block.is_clear)
         continue;
-      if (!of.slide && !begin.is_placed)
+      if (!begin.is_placed)
         place_block(block, of_patch.begin, begin);
-      end.place         = at_points(block.shapes, block.position, to);
-      const auto ended  = places_of(of.cylinder, of.end, end.place);
-      end.gap           = ended.gap;
-      block.clear_until = of_patch.travel.length() - largest(-end.gap) - round_off;
-      if (is_static)
-        press_at_end(block, ended, to, begin, end);
-      else
-        press_in_time(ended, begin, end);
-      if (!any(end.takes_part))
+      evaluate(block, begin, to, end);
+      const Lanes gap   = end.seen.gap;
+      block.clear_until = of_patch.travel.length() - largest(-gap) - round_off;
+      block.takes_part  = end.takes_part;
+      if (!any(block.takes_part))
         continue;
       takes_part       = true;
-      const Lanes most = is_static ? end.pressure / of.law.normal.stiffness : -smaller(end.gap, begin.gap);
+      const Lanes most = in_time ? -smaller(gap, begin.gap) : end.pressure / of.normal.stiffness;
       compression      = std::max(compression, largest(most));
 
-      const auto at       = of.share == 1. ? end.place : begin.place + of.share * (end.place - begin.place);
-      const auto balanced = of.share == 1. ? ended : places_of(of.cylinder, of.balance, at);
-      const auto of_point = force_of(balanced, of.balance.axes.axis, of.cylinder.radius, end.mean_pressure, end.mean_traction);
-      const Lanes weight  = end.takes_part ? block.weight : Lanes{};
-      const auto force    = weight * of_point;
-      const auto along    = in_lever(force, c, s);
-      for (unsigned int a = 0; a < Patches::max_nodes; ++a)
-      {
-        sums[a] += along.x * block.shapes[a];
-        sums[Patches::max_nodes + a] += along.y * block.shapes[a];
-        sums[2 * Patches::max_nodes + a] += along.z * block.shapes[a];
-      }
-      sums[n_displacements] += dot(force, with_theta(at, c, s));
-      sums[n_displacements + 1] -= force.x;
-      for (unsigned int i = 0; i < of.slopes; ++i)
-        sums[n_displacements + 2 + i] += dot(force, times(of.balance.axes.turn[i], balanced.from_centre));
+      const auto at       = in_time ? begin.place + of.share * (end.place - begin.place) : end.place;
+      const auto balanced = in_time ? seen(cylinder.shape(), balance, at) : end.seen;
+      const auto force    = force_of(cylinder.shape(), balanced, balance.axes.axis, end.mean_pressure, end.mean_traction);
+      const Lanes weight  = block.takes_part ? block.weight : Lanes{};
+      const auto along    = generalised(balance, at, balanced.from_centre, weight * force);
+      for (unsigned int d = 0; d < 3; ++d)
+        for (unsigned int a = 0; a < n_nodes; ++a)
+          sums[n_nodes * d + a] += along[d] * block.shapes[a];
+      for (unsigned int k = 0; k < 2 + of.slopes; ++k)
+        sums[n_displacements + k] += along[3 + k];
     }
     for (unsigned int i = 0; takes_part && i < n_coordinates; ++i)
       forces[i] += sum(sums[i]);
     return takes_part;
+  }
+
+  /// Sums over the points of a patch: derivatives of its forces by its coordinates.
+  template <int slopes>
+  struct alignas(Lanes) StepInLanes::TangentSums
+  {
+    static constexpr unsigned int n = n_displacements + 2 + slopes;
+
+    Lanes sums[n][n];
+
+    /// Adds forces on the coordinates of points. Where there is a variable beyond these it is the slip's slope along the face,
+    /// whose derivatives by the face's direction are `by_direction`.
+    template <int variables>
+    SPRAG_PART void add(const Block &block, const Several<Dual<Batch, variables>, 7> &force, const Triple<Batch> &by_direction)
+    {
+      const Lanes weight   = block.takes_part ? block.weight : Lanes{};
+      const Lanes along[3] = { by_direction.x, by_direction.y, by_direction.z };
+      for (unsigned int f = 0; f < 5 + slopes; ++f)
+      {
+        const auto &by = force[f].d;
+        Lanes row[n];
+        for (unsigned int d = 0; d < 3; ++d)
+          for (unsigned int a = 0; a < n_nodes; ++a)
+          {
+            row[n_nodes * d + a] = block.shapes[a] * by[d];
+            if constexpr (variables > 5 + slopes)
+              row[n_nodes * d + a] += block.slopes[a] * (along[d] * by[5 + slopes]);
+          }
+        for (unsigned int k = 0; k < 2 + slopes; ++k)
+          row[n_displacements + k] = by[3 + k];
+        const unsigned int first = f < 3 ? n_nodes * f : n_displacements + f - 3;
+        for (unsigned int a = 0; a < (f < 3 ? n_nodes : 1); ++a)
+        {
+          const Lanes share = f < 3 ? weight * block.shapes[a] : weight;
+          for (unsigned int j = 0; j < n; ++j)
+            sums[first + a][j] += share * row[j];
+        }
+      }
+    }
+  };
+
+  /// Variables are a point's displacement, theta, x and the slopes and, at the end of a step, the slip's slope along the face.
+  template <int slopes, bool in_time>
+  SPRAG_PART void StepInLanes::find_tangents_of(const Patches::Indices &some, const Part part,
+                                                const std::function<void(unsigned int, const Tangent &)> &take) const
+  {
+    constexpr int n          = 5 + slopes + (in_time ? 0 : 1);
+    using N                  = Dual<Batch, n>;
+    const auto pose          = in_lanes(varied_pose<n, slopes>(cylinder, of.end));
+    const auto pose_balanced = in_lanes(varied_pose<n, slopes>(cylinder, of.balance, of.share));
+    for (unsigned int i = 0; i < some.size(); ++i)
+    {
+      const auto &of_patch = blocks[some[i]];
+      const auto &nodal    = of_patch.travel.displacement();
+      TangentSums<slopes> sums{};
+      for (unsigned int b = 0; b < of_patch.all.size(); ++b)
+      {
+        const auto &block = of_patch.all[b];
+        const auto &begin = begins[of_patch.first + b];
+        if (!any(block.takes_part))
+          continue;
+        End<N> end;
+        end.place = varied_place<N>(at_points(block.shapes, block.position, nodal));
+        end.seen  = seen(cylinder.shape(), pose, end.place);
+        respond<in_time>(block, begin, pose, nodal, part, end);
+        Triple<N> at = end.place;
+        if constexpr (in_time)
+        {
+          at       = begin.place + of.share * (end.place - begin.place);
+          end.seen = seen(cylinder.shape(), pose_balanced, at);
+        }
+        const auto force = force_of(cylinder.shape(), end.seen, pose_balanced.axes.axis, end.mean_pressure, end.mean_traction);
+        auto along       = generalised(pose_balanced, at, end.seen.from_centre, force);
+        if (part == Part::friction_rate)
+          for (int k = 0; k < 5 + slopes; ++k)
+            along[k] = -end.slip[0].d[k] * end.mean_traction[0] - end.slip[1].d[k] * end.mean_traction[1];
+        const Triple<Batch> round{ value(end.seen.round.x), value(end.seen.round.y), value(end.seen.round.z) };
+        sums.add(block, along, Lanes(cylinder.shape().radius / value(end.seen.radius)) * in_lever(in_lanes(of.end), round));
+      }
+      Tangent result{};
+      for (unsigned int k = 0; k < sums.n; ++k)
+        for (unsigned int l = 0; l < sums.n; ++l)
+          result[k][l] = sum(sums.sums[k][l]);
+      take(i, result);
+    }
+  }
+
+  SPRAG_LARGE_KERNEL void StepInLanes::find_tangents(const Patches::Indices &some, const Part part,
+                                                     const std::function<void(unsigned int, const Tangent &)> &take) const
+  {
+    const bool in_time = of.kind == Kind::in_time;
+    if (of.slopes == 0)
+      in_time ? find_tangents_of<0, true>(some, part, take) : find_tangents_of<0, false>(some, part, take);
+    else
+      in_time ? find_tangents_of<2, true>(some, part, take) : find_tangents_of<2, false>(some, part, take);
+  }
+
+  void StepInLanes::add_sums(const unsigned int patch, Sums &sums) const
+  {
+    // Second derivatives along the way of the step.
+    using N           = Dual<Dual<Batch, 1>, 1>;
+    using Number      = Dual<Dual<double, 1>, 1>;
+    const auto moving = [](auto number, const auto &rate)
+    {
+      number.v.d[0] = number.d[0].v = rate;
+      return number;
+    };
+    const auto slope = [&](const unsigned int i)
+    { return moving(Number{} + (cylinder.slopes()[i] + of.balance.turned[i]), of.end.turned[i] - of.begin.turned[i]); };
+    const auto pose =
+        in_lanes(cylinder_pose(moving(Number{} + of.balance.x, of.end.x - of.begin.x),
+                               moving(Number{} + of.balance.theta, of.end.theta - of.begin.theta), slope(0), slope(1)));
+    const double delay = of.weights.delay();
+    End<Batch> end;
+    for (unsigned int b = 0; b < blocks[patch].all.size(); ++b)
+    {
+      const auto &block = blocks[patch].all[b];
+      const auto &begin = begins[blocks[patch].first + b];
+      if (!any(block.takes_part))
+        continue;
+      evaluate(block, begin, blocks[patch].travel.displacement(), end);
+      const auto &friction = end.friction;
+      const Lanes weight   = block.takes_part ? block.weight : Lanes{};
+      sums.pressure        = std::max(sums.pressure, largest(block.takes_part ? end.pressure : Lanes{}));
+      sums.stored += sum(weight * (0.5 / of.normal.stiffness * end.pressure * end.pressure + friction.energy));
+      if (of.kind != Kind::in_time)
+        continue;
+      const auto moved = end.place - begin.place;
+      const auto at    = begin.place + of.share * moved;
+      const auto place = seen(cylinder.shape(), pose,
+                              Triple<N>{ moving(N{} + at.x, moved.x), moving(N{} + at.y, moved.y), moving(N{} + at.z, moved.z) });
+      const N right = dot(place.from_centre, pose.axes.right), upward = dot(place.from_centre, pose.axes.upward);
+      const N slip  = slip_round(cylinder.shape(), value(right), value(upward), place.from_centre, pose.axes);
+      const auto &t = friction.traction, &t_begin = begin.memory.traction;
+      const Lanes work = (t[0] - t_begin[0]) * end.slip[0] + (t[1] - t_begin[1]) * end.slip[1] +
+                         end.mean_traction[0] * slip.d[0].d[0] + end.mean_traction[1] * place.along.d[0].d[0] -
+                         (end.pressure - spring_force(of.normal, begin.gap)) * (end.seen.gap - begin.gap) -
+                         end.mean_pressure * place.gap.d[0].d[0];
+      const auto balanced = seen(cylinder.shape(), in_lanes(of.balance), at);
+      const auto force =
+          force_of(cylinder.shape(), balanced, in_lanes(of.balance).axes.axis, end.mean_pressure, end.mean_traction);
+      sums.friction += sum(weight * friction.dissipated);
+      sums.algorithmic += delay * sum(weight * work);
+      sums.drive += sum(weight * (of.surface_run * end.mean_traction[0] + of.advance * force.x));
+      sums.creep = std::max(sums.creep, largest(block.takes_part ? friction.creep : Lanes{}));
+    }
+  }
+
+  void StepInLanes::add_points(const unsigned int patch, const bool all, std::vector<FacePointState<3>> &points) const
+  {
+    const auto pose = in_lanes(of.end);
+    const Begin nowhere{};
+    End<Batch> end{};
+    for (unsigned int b = 0; b < blocks[patch].all.size(); ++b)
+    {
+      const auto &block = blocks[patch].all[b];
+      if (!all && !any(block.takes_part))
+        continue;
+      const auto &begin = block.is_clear ? nowhere : begins[blocks[patch].first + b];
+      evaluate(block, begin, blocks[patch].travel.displacement(), end);
+      const auto force = force_of(cylinder.shape(), end.seen, pose.axes.axis, end.pressure, end.friction.traction);
+      const auto along = generalised(pose, end.place, end.seen.from_centre, force);
+      for (unsigned int i = 0; i < block.n; ++i)
+      {
+        auto &state = points.emplace_back();
+        state.patch = patch;
+        set_point(block, begin, end, i, state);
+        for (unsigned int k = 0; k < 5 && state.pressure > 0.; ++k)
+          state.end_force[k] = along[k][i];
+      }
+    }
+  }
+
+  void StepInLanes::set_point(const Block &block, const Begin &begin, const End<Batch> &end, const unsigned int i,
+                              FacePointState<3> &state) const
+  {
+    state.index          = block.first + i;
+    state.position       = dealii::Point<3>(end.place.x[i], end.place.y[i], end.place.z[i]);
+    state.gap            = end.seen.gap[i];
+    state.trial_pressure = begin.multiplier[i] - of.normal.stiffness * state.gap;
+    if (!block.takes_part[i])
+      return;
+    const auto &friction = end.friction;
+    state.pressure       = end.pressure[i];
+    state.mu             = friction.mu[i];
+    state.slipping       = friction.slipping[i] != 0;
+    dealii::Tensor<1, 2> remembered_traction;
+    for (unsigned int d = 0; d < 2; ++d)
+    {
+      state.traction[d]          = friction.traction[d][i];
+      state.memory.slip_speed[d] = friction.slip_speed[d][i];
+      state.slip_change[d]       = of.kind == Kind::slide ? friction.slip_speed[d][i] : end.slip[d][i];
+      if (of.augmented)
+        remembered_traction[d] = begin.memory.traction[d][i];
+    }
+    state.memory.traction = state.traction;
+    state.memory.point    = state.index;
+    state.elastic_slip    = (state.traction - remembered_traction).norm() / of.slip.stiffness;
+    if (of.kind == Kind::at_end)
+    {
+      state.slip_change[0] += end.shift[i];
+      state.slip_change *= of.speed_ratio;
+    }
+    else if (of.kind == Kind::in_time)
+      state.memory.step = of.weights.dt;
   }
 } // namespace sprag

@@ -1,6 +1,7 @@
-#include "fe/solid/surface_sums.h"
+#include "fe/solid/surface_contact.h"
 
 #include "base/errors.h"
+#include "laws/friction_of_step.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +12,22 @@ namespace sprag
   using dealii::Point;
   using dealii::Tensor;
   using dealii::Vector;
+
+  namespace
+  {
+    const std::vector<SurfaceMemory> no_memory;
+
+    /// Forgets what was found, and keeps the memory for what follows.
+    void clear(SurfaceEvaluation &found)
+    {
+      auto points = std::move(found.points);
+      auto forces = std::move(found.forces);
+      points.clear();
+      found        = SurfaceEvaluation();
+      found.points = std::move(points);
+      found.forces = std::move(forces);
+    }
+  } // namespace
 
   std::vector<SurfaceMemory> SurfaceEvaluation::memory() const
   {
@@ -27,7 +44,7 @@ namespace sprag
       : face(face_)
       , properties(std::move(properties_))
       , patches(face)
-      , in_lanes(face, patches)
+      , in_lanes(face, patches, properties.cylinder)
       , place_of_port(properties.ports.size())
   {
     find_lines();
@@ -102,23 +119,18 @@ namespace sprag
     in_lanes.begin({});
   }
 
-  const std::vector<SurfaceContact::Slips> &SurfaceContact::slips_of_patch_at_begin(const unsigned int patch) const
+  double SurfaceContact::slip_at_begin(const unsigned int point) const
   {
-    auto &known    = begin_slips[patch];
-    const auto &of = patches.patches[patch];
+    const unsigned int patch = patches.patch_of_point(point);
+    const auto &of           = patches.patches[patch];
+    auto &known              = begin_slips[patch];
     if (known.empty())
     {
       const auto nodal = Patches::nodal(of, begin_ports);
       for (unsigned int q = of.begin; q < of.end; ++q)
-        known.push_back(properties.cylinder.slips(begin_pose, Patches::position(patches.points[q], nodal)));
+        known.push_back(properties.cylinder.slip(begin_pose, Patches::position(patches.points[q], nodal)));
     }
-    return known;
-  }
-
-  const std::array<double, 2> &SurfaceContact::slips_at_begin(const unsigned int point) const
-  {
-    const unsigned int patch = patches.patch_of_point(point);
-    return slips_of_patch_at_begin(patch)[point - patches.patches[patch].begin];
+    return known[point - of.begin];
   }
 
   /// The gap is convex: over a patch it lies above its tangent at the first node. The margin covers bending.
@@ -168,17 +180,13 @@ namespace sprag
   {
     if (!in_lanes.begins_with(memory))
       in_lanes.begin(memory);
-    StepInLanes::Constants step = constants();
-    step.law.friction           = terms.friction;
-    step.law.balance            = ForceBalance::end;
-    step.law.mode               = terms.mode;
-    step.law.weights.dt         = terms.duration;
-    step.begin                  = begin_pose;
-    step.balance = step.end = pose_of(end);
-    step.share              = 1.;
-    step.surface_run        = surface_run;
-    step.augmented          = terms.augmented;
-    step.speed_ratio        = terms.speed_ratio;
+    auto step        = constants(Kind::at_end, end, terms.friction);
+    step.begin       = begin_pose;
+    step.sticks      = terms.mode == FrictionMode::stick;
+    step.weights.dt  = terms.duration;
+    step.surface_run = surface_run;
+    step.augmented   = terms.augmented;
+    step.speed_ratio = terms.speed_ratio;
     in_lanes.set(step);
 
     found.displacement = end.ports;
@@ -193,37 +201,16 @@ namespace sprag
     set_forces(Wanted::with_tangent, found.forces);
   }
 
-  /// What is the same in every step.
-  StepInLanes::Constants SurfaceContact::constants() const
+  /// Constants of a step that is balanced where it ends.
+  StepInLanes::Constants SurfaceContact::constants(const Kind kind, const SurfacePlace &end, const FrictionLaw &friction) const
   {
     StepInLanes::Constants result;
-    result.law.normal     = { properties.penalties.normal, 1. };
-    result.law.tangential = properties.penalties.tangential;
-    result.law.weights    = StepWeights();
-    result.cylinder       = properties.cylinder.shape();
-    result.slopes         = properties.ports.slopes;
+    result.kind  = kind;
+    result.begin = result.balance = result.end = pose_of(end);
+    result.normal                              = { properties.penalties.normal, 1. };
+    result.slip                                = { friction, properties.penalties.tangential };
+    result.slopes                              = properties.ports.slopes;
     return result;
-  }
-
-  FacePointState<3> &SurfaceContact::add_point(const unsigned int patch, const unsigned int point, const Patches::Nodal &nodal,
-                                               const RigidCylinder::Pose &pose, SurfaceEvaluation &found) const
-  {
-    auto &state          = found.points.emplace_back();
-    state.index          = point;
-    state.patch          = patch;
-    state.position       = Patches::position(patches.points[point], nodal);
-    state.gap            = properties.cylinder.gap(pose, state.position);
-    state.trial_pressure = -properties.penalties.normal * state.gap;
-    return state;
-  }
-
-  void SurfaceContact::add_patch(const unsigned int patch, const Sums &sums, std::vector<PortForces> &loaded) const
-  {
-    if (!sums.touched)
-      return;
-    const auto coordinates = coordinates_of(patch);
-    loaded.push_back(
-        { ports_of(coordinates), row_on_ports(coordinates, sums.values), matrix_on_ports(coordinates, sums.tangent) });
   }
 
   /// See slip_shift(): the place that had the same distance from the contact when the step began has the same zeta.
@@ -251,7 +238,7 @@ namespace sprag
       const double share   = (xi - xi_of(a)) / (xi_of(b) - xi_of(a));
       const auto between   = [share](const double first, const double second) { return (1. - share) * first + share * second; };
       const double winding = traction_of(point) - between(traction_of(a), traction_of(b));
-      shift.slip           = slips_at_begin(point)[0] - between(slips_at_begin(a)[0], slips_at_begin(b)[0]);
+      shift.slip           = slip_at_begin(point) - between(slip_at_begin(a), slip_at_begin(b));
       shift.elastic        = terms.augmented ? 0. : -winding / properties.penalties.tangential;
       shift.d_slope        = -terms.travel;
     }
@@ -263,7 +250,8 @@ namespace sprag
     PortCoordinates result;
     const auto &of = patches.patches[patch];
     for (unsigned int i = 0; i < 3 * of.n_nodes; ++i)
-      result.push_back({ Sums::place(i / 3, i % 3), 3 * of.nodes[i / 3] + i % 3, 1. });
+      result.push_back({ Patches::max_nodes * (i % 3) + i / 3, 3 * of.nodes[i / 3] + i % 3, 1. });
+    constexpr unsigned int n_displacements = StepInLanes::n_displacements;
     add_frame(properties.ports, n_displacements, n_displacements + 1, result);
     for (unsigned int i = 0; i < properties.ports.slopes; ++i)
       result.push_back({ n_displacements + 2 + i, properties.ports.slope(i), 1. });
@@ -305,5 +293,246 @@ namespace sprag
   void SurfaceContact::widen_reach()
   {
     reach_factor *= 2.;
+  }
+  StepInLanes::Constants SurfaceContact::constants_of(const PortStep &of, const FrictionLaw &friction) const
+  {
+    auto result                     = constants(Kind::in_time, { of.end, of.to.x }, friction_of_step(friction, of.to.v));
+    result.weights                  = of.weights;
+    result.begin                    = begin_pose;
+    result.share                    = of.weights.stiffness();
+    const auto &[begin, end, share] = std::tie(result.begin, result.end, result.share);
+    const auto balanced             = [&](const double a, const double b) { return (1. - share) * a + share * b; };
+    result.balance =
+        properties.cylinder.pose(balanced(begin.x, end.x), balanced(begin.theta, end.theta),
+                                 { { balanced(begin.turned[0], end.turned[0]), balanced(begin.turned[1], end.turned[1]) } });
+    result.surface_run = of.to.surface - of.from.surface;
+    result.advance     = of.to.x - of.from.x;
+    return result;
+  }
+
+  void SurfaceContact::evaluate(const PortStep &of, const FrictionLaw &friction, SurfaceEvaluation &found)
+  {
+    if (of.wanted == Wanted::tangent_of_last)
+      return set_forces(of.wanted, found.forces);
+    const auto &memory  = of.surface_memory != nullptr ? *of.surface_memory : no_memory;
+    const bool is_first = begin_ports.size() != of.begin.position.size();
+    if (is_first || begin_x != of.from.x || begin_ports != of.begin.position || !in_lanes.begins_with(memory))
+    {
+      begin_step({ of.begin.position, of.from.x });
+      in_lanes.begin(memory);
+      looked_at_first = united(near({ begin_ports, begin_x }, begin_pose), patches_of(memory));
+    }
+    const auto step = constants_of(of, friction);
+    in_lanes.set(step);
+
+    found.displacement = of.end;
+    found.x            = of.to.x;
+    found.duration     = of.weights.dt;
+    found.compression  = 0.;
+    looked_at          = clip(united(near({ of.end, of.to.x }, step.end), looked_at_first), found);
+    place_patches(of.begin.position);
+    press_patches(of.end, found);
+    set_forces(of.wanted, found.forces);
+  }
+
+  void SurfaceContact::place_patches(const Vector<double> &begin)
+  {
+    for (const unsigned int patch : looked_at)
+      if (!in_lanes.is_placed(patch))
+        in_lanes.place(patch, Patches::nodal(patches.patches[patch], begin));
+  }
+
+  /// Presses the patches that are looked at, which are placed.
+  void SurfaceContact::press_patches(const Vector<double> &end, SurfaceEvaluation &found)
+  {
+    pressed.clear();
+    Patches::Indices touched;
+    for (const unsigned int patch : looked_at)
+    {
+      auto &forces = pressed.emplace_back();
+      if (in_lanes.press(patch, Patches::nodal(patches.patches[patch], end), forces, found.compression))
+        touched.push_back(patch);
+      else
+        pressed.pop_back();
+    }
+    find_summed(std::move(touched));
+  }
+
+  SurfaceContact::Patches::Indices SurfaceContact::patches_of(const std::vector<SurfaceMemory> &memory) const
+  {
+    Patches::Indices result;
+    for (const auto &entry : memory)
+      if (result.empty() || entry.point >= patches.patches[result.back()].end)
+        result.push_back(patches.patch_of_point(entry.point));
+    return result;
+  }
+
+  /// The ports of some patches and the places of their coordinates among these are found again where the patches change alone.
+  void SurfaceContact::find_summed(Patches::Indices touched)
+  {
+    if (touched == summed.patches)
+      return;
+    summed = { std::move(touched), {}, {} };
+    for (const unsigned int patch : summed.patches)
+    {
+      summed.coordinates.push_back(coordinates_of(patch));
+      const auto ports = ports_of(summed.coordinates.back());
+      summed.ports.insert(summed.ports.end(), ports.begin(), ports.end());
+    }
+    std::sort(summed.ports.begin(), summed.ports.end());
+    summed.ports.erase(std::unique(summed.ports.begin(), summed.ports.end()), summed.ports.end());
+    for (auto &coordinates : summed.coordinates)
+      for (auto &coordinate : coordinates)
+        coordinate.port = place_of(coordinate.port, summed.ports);
+  }
+
+  /// From the patches that were pressed last.
+  void SurfaceContact::set_forces(const Wanted wanted, PortForces &forces) const
+  {
+    forces.has_tangent = wanted != Wanted::forces;
+    forces.tangent.reinit(0, 0);
+    forces.ports = summed.ports;
+    forces.values.reinit(static_cast<unsigned int>(summed.ports.size()));
+    for (unsigned int i = 0; i < summed.patches.size(); ++i)
+      for (const auto &[index, place, sign] : summed.coordinates[i])
+        forces.values[place] += sign * pressed[i][index];
+    if (forces.has_tangent)
+      forces.tangent = tangent(StepInLanes::Part::all);
+  }
+
+  dealii::FullMatrix<double> SurfaceContact::tangent(const StepInLanes::Part part) const
+  {
+    const auto n = static_cast<unsigned int>(summed.ports.size());
+    dealii::FullMatrix<double> result(n, n);
+    in_lanes.find_tangents(summed.patches, part,
+                           [&](const unsigned int i, const StepInLanes::Tangent &of_patch)
+                           {
+                             for (const auto &row : summed.coordinates[i])
+                               for (const auto &column : summed.coordinates[i])
+                                 result(row.port, column.port) += row.sign * column.sign * of_patch[row.index][column.index];
+                           });
+    return result;
+  }
+
+  void SurfaceContact::slide(const SlidingState &sliding, const FrictionLaw &friction, SurfaceEvaluation &found)
+  {
+    if (sliding.wanted != Wanted::tangent_of_last)
+      evaluate_slide(sliding, friction, found);
+    set_forces(sliding.wanted, found.forces);
+    if (sliding.wanted == Wanted::with_tangent)
+      complete(found);
+  }
+
+  PortPerturbation SurfaceContact::linearise(const SlidingState &sliding, const FrictionLaw &friction, SurfaceEvaluation &found)
+  {
+    evaluate_slide(sliding, friction, found);
+    set_forces(Wanted::forces, found.forces);
+    complete(found);
+    add_points(found);
+    PortPerturbation result(found.forces.ports);
+    result.pressure      = tangent(StepInLanes::Part::pressure);
+    result.friction      = tangent(StepInLanes::Part::friction);
+    result.friction_rate = tangent(StepInLanes::Part::friction_rate);
+    return result;
+  }
+
+  void SurfaceContact::evaluate_slide(const SlidingState &sliding, const FrictionLaw &friction, SurfaceEvaluation &found)
+  {
+    const SurfacePlace place{ sliding.ports, sliding.drive.x };
+    clear(found);
+    auto step           = constants(Kind::slide, place, friction_of_step(friction, sliding.drive.v));
+    step.slide.speed    = sliding.speed;
+    step.slide.friction = sliding.friction;
+    if (sliding.rates != nullptr)
+    {
+      step.slide.rates       = sliding.rates;
+      step.slide.theta_rate  = (*sliding.rates)[properties.ports.rotation()];
+      step.slide.x_rate      = properties.ports.sprung ? -(*sliding.rates)[properties.ports.support()] : 0.;
+      step.slide.slope_rates = turned_by(*sliding.rates);
+    }
+    press(step, place, clip(near(place, step.end), found), found);
+    found.duration = 1.; // slips are those of a second
+  }
+
+  void SurfaceContact::touch(const SurfacePlace &place, SurfaceEvaluation &found)
+  {
+    const auto step = constants(Kind::touch, place, {});
+    clear(found);
+    press(step, place, near(place, step.end), found);
+    add_points(found);
+  }
+
+  /// Presses where the step begins.
+  void SurfaceContact::press(const StepInLanes::Constants &step, const SurfacePlace &place, Patches::Indices patches_near,
+                             SurfaceEvaluation &found)
+  {
+    found.displacement = place.ports;
+    found.x            = place.x;
+    looked_at          = std::move(patches_near);
+    begin_ports.reinit(0); // a step in time that follows begins anew
+    in_lanes.set(step);
+    in_lanes.begin({});
+    place_patches(place.ports);
+    press_patches(place.ports, found);
+  }
+
+  std::array<double, 2> SurfaceContact::change_at(const FacePointState<3> &point, const SurfaceEvaluation &found,
+                                                  const Vector<double> &change_of_ports) const
+  {
+    const auto &of     = patches.points[point.index];
+    const auto &at     = properties.ports;
+    const auto nodal   = Patches::nodal(patches.patches[point.patch], change_of_ports);
+    const auto changes = properties.cylinder.changes(
+        pose_of({ found.displacement, found.x }), point.position, Patches::position(of, nodal) - of.position,
+        at.sprung ? -change_of_ports[at.support()] : 0., change_of_ports[at.rotation()], turned_by(change_of_ports));
+    return { { changes[0], changes[1] } };
+  }
+
+  double SurfaceContact::slip_at(const FacePointState<3> &point, const SurfacePlace &place) const
+  {
+    const auto nodal = Patches::nodal(patches.patches[point.patch], place.ports);
+    return properties.cylinder.slip(pose_of(place), Patches::position(patches.points[point.index], nodal));
+  }
+
+  void SurfaceContact::add_points(SurfaceEvaluation &found) const
+  {
+    found.points.clear();
+    for (const unsigned int patch : looked_at)
+      in_lanes.add_points(patch, true, found.points);
+  }
+
+  bool SurfaceContact::share_line(const unsigned int patch, const unsigned int other) const
+  {
+    const auto &a = lines_of_patch[patch], &b = lines_of_patch[other];
+    return std::find_first_of(a.begin(), a.end(), b.begin(), b.end()) != a.end();
+  }
+
+  void SurfaceContact::complete(SurfaceEvaluation &found) const
+  {
+    StepInLanes::Sums sums;
+    std::optional<unsigned int> peak; // patch where the pressure is largest
+    for (const unsigned int patch : looked_at)
+    {
+      const double before = sums.pressure;
+      in_lanes.add_sums(patch, sums);
+      if (sums.pressure > before)
+        peak = patch;
+    }
+    found.points.clear();
+    for (const unsigned int patch : looked_at)
+      in_lanes.add_points(patch, !peak || share_line(patch, *peak), found.points);
+    found.stored            = sums.stored;
+    found.beyond_face       = reaches_end(found);
+    found.works             = StepWork();
+    found.works.drive       = sums.drive;
+    found.works.friction    = sums.friction;
+    found.works.algorithmic = sums.algorithmic;
+    found.works.creep       = sums.creep;
+  }
+
+  bool SurfaceContact::reaches_end(const SurfaceEvaluation &found) const
+  {
+    return std::any_of(found.points.begin(), found.points.end(),
+                       [&](const auto &point) { return point.pressure > 0. && is_at_end[point.patch]; });
   }
 } // namespace sprag

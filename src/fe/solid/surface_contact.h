@@ -145,49 +145,30 @@ namespace sprag
     }
 
   private:
-    using Patches                                 = FacePatches<3>;
-    static constexpr unsigned int n_displacements = 3 * Patches::max_nodes;
-    static constexpr unsigned int n_frame         = SurfaceKinematics::n - 3; ///< theta, x and slopes
-    static constexpr unsigned int n_local         = n_displacements + n_frame;
-
-    struct Sums;
-    struct Sliding;
-
-    using Slips = std::array<double, 2>;
+    using Patches = FacePatches<3>;
+    using Kind    = StepInLanes::Kind;
 
     void find_lines();
     void find_ends();
     bool share_line(unsigned int patch, unsigned int other) const;
-    void add_points_in_contact(SurfaceEvaluation &found) const;
     RigidCylinder::Pose pose_of(const SurfacePlace &place) const;
     AxisSlopes turned_by(const dealii::Vector<double> &ports) const;
-    template <int n>
-    double along(const dealii::Tensor<1, n> &row, const dealii::Tensor<1, 3> &moved, const dealii::Vector<double> &ports) const;
     Patches::Indices near(const SurfacePlace &place, const RigidCylinder::Pose &pose) const;
-    StepInLanes::Constants constants() const;
+    StepInLanes::Constants constants(Kind kind, const SurfacePlace &end, const FrictionLaw &friction) const;
     std::vector<SlipShift> shifts_of(unsigned int patch, const std::vector<SurfaceMemory> &memory,
                                      const StaticTerms &terms) const;
-    template <int n>
-    void slide_in(Sliding &sliding, FacePointState<3> &state, SurfaceEvaluation &found) const;
-    void slide_point(Sliding &sliding, FacePointState<3> &state, SurfaceEvaluation &found) const;
-    void slide(Sliding &sliding, SurfaceEvaluation &found);
-    void slide_in_lanes(const SlidingState &sliding, const FrictionLaw &friction, SurfaceEvaluation &found);
+    void evaluate_slide(const SlidingState &sliding, const FrictionLaw &friction, SurfaceEvaluation &found);
+    void press(const StepInLanes::Constants &step, const SurfacePlace &place, Patches::Indices patches_near,
+               SurfaceEvaluation &found);
     void place_patches(const dealii::Vector<double> &begin);
     void press_patches(const dealii::Vector<double> &end, SurfaceEvaluation &found);
-    template <int n>
-    dealii::Tensor<1, 2> slip_rates(const Sliding &sliding, const Patches::Point &point, const SurfaceKinematicsIn<n> &placed,
-                                    FacePointState<3> &state) const;
-    void add_patch(unsigned int patch, const Sums &sums, std::vector<PortForces> &loaded) const;
     StepInLanes::Constants constants_of(const PortStep &step, const FrictionLaw &friction) const;
     Patches::Indices patches_of(const std::vector<SurfaceMemory> &memory) const;
     void find_summed(Patches::Indices touched);
     void set_forces(Wanted wanted, PortForces &forces) const;
-    void add_tangent(PortForces &forces) const;
+    dealii::FullMatrix<double> tangent(StepInLanes::Part part) const;
     bool reaches_end(const SurfaceEvaluation &found) const;
-    FacePointState<3> &add_point(unsigned int patch, unsigned int point, const Patches::Nodal &nodal,
-                                 const RigidCylinder::Pose &pose, SurfaceEvaluation &found) const;
-    const std::vector<Slips> &slips_of_patch_at_begin(unsigned int patch) const;
-    const std::array<double, 2> &slips_at_begin(unsigned int point) const;
+    double slip_at_begin(unsigned int point) const;
     PortCoordinates coordinates_of(unsigned int patch) const;
     Patches::Indices clip(Patches::Indices near, SurfaceEvaluation &found) const;
 
@@ -204,7 +185,7 @@ namespace sprag
     RigidCylinder::Pose begin_pose{};
     double begin_travel  = 0.; ///< of the terms without inertia
     bool begin_augmented = false;
-    mutable std::vector<std::vector<Slips>> begin_slips; ///< of the points by patches; of those that were looked at
+    mutable std::vector<std::vector<double>> begin_slips; ///< of the points by patches; of those that were looked at
 
     /// Patches whose forces are summed, and their ports.
     struct Summed

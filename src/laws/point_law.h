@@ -1,0 +1,285 @@
+#pragma once
+
+#include "base/dual.h"
+#include "laws/contact.h"
+#include "laws/contact_step.h"
+#include "laws/friction.h"
+
+#include <limits>
+
+/// The laws of a contact point, for any kind of number: double, Lanes, or dual numbers of these, which carry the derivatives.
+/// Where a step begins all is known: values there are plain.
+namespace sprag
+{
+  /// Some numbers. std::array would not let them be added in lanes.
+  template <class N, int n>
+  struct Several
+  {
+    N values[n]{};
+
+    SPRAG_PART N &operator[](const unsigned int i)
+    {
+      return values[i];
+    }
+    SPRAG_PART const N &operator[](const unsigned int i) const
+    {
+      return values[i];
+    }
+  };
+
+  /// Friction as a step applies it.
+  struct SlipLaw
+  {
+    FrictionLaw friction;
+    double stiffness                  = 0.; ///< in stick, > 0
+    std::vector<FrictionPiece> pieces = {}; ///< see rising_pieces()
+  };
+
+  /// Friction of a point at the end of a step, see end_friction().
+  template <class N, int slips>
+  struct PointFriction
+  {
+    Several<N, slips> traction;
+    Plain<N> mu{};
+    Mask<N> slipping{};
+    Several<Plain<N>, slips> slip_speed; ///< mean of the step; 0 in stick [mm/s]
+    Plain<N> energy{};                   ///< of the tangential spring at the end
+    Plain<N> dissipated{};               ///< in the step
+    Plain<N> creep{};                    ///< slip below the regularisation speed [mm]
+  };
+
+  template <class V, int slips>
+  struct SlipMemory
+  {
+    Several<V, slips> traction;
+    Several<V, slips> slip_speed; ///< mean of the last step; 0 after stick [mm/s]
+    V step{};                     ///< its duration [s]
+  };
+
+  /// Returns mu and its derivative at the lowest slip speed w >= 0 [mm/s] where a load above mu(0) p is resistance w + mu(w) p.
+  FrictionValue slip_friction(const FrictionLaw &law, double load, double resistance, double pressure);
+
+  /// Sets mu and dmu/dw at the slip speed w of a load above the cone: load = resistance w + mu(w) p. Of a law of rising pieces it
+  /// is the only root, which Newton's method finds in all lanes from a guess; else see slip_friction().
+  template <class V, class M>
+  SPRAG_PART void find_slip(const SlipLaw &law, const M &slips, const V &load, const V &resistance, const V &p, const V &guess,
+                            V &mu, V &slope)
+  {
+    M unknown = slips;
+    if constexpr (std::is_same_v<V, Batch>)
+      if (!law.pieces.empty())
+      {
+        const double round_off = 4. * std::numeric_limits<double>::epsilon();
+        const Lanes fastest    = slips ? load / resistance : Lanes{};
+        Lanes w                = smaller(larger(Lanes{}, guess), fastest);
+        for (unsigned int i = 0; i < 6 && any(unknown); ++i)
+        {
+          for (const auto &piece : law.pieces)
+          {
+            const LaneMask here = w >= piece.from;
+            mu                  = here ? (piece.quadratic * w + piece.linear) * w + piece.constant : mu;
+            slope               = here ? 2. * piece.quadratic * w + piece.linear : slope;
+          }
+          const Lanes excess = load - resistance * w - mu * p;
+          unknown            = slips & (absolute(excess) > round_off * load);
+          w                  = smaller(larger(Lanes{}, w + (unknown ? excess / (resistance + slope * p) : Lanes{})), fastest);
+        }
+      }
+    for_each_lane(unknown,
+                  [&](const unsigned int i)
+                  {
+                    const auto found = slip_friction(law.friction, lane_of(load, i), lane_of(resistance, i), lane_of(p, i));
+                    set_lane(mu, i, found.coefficient);
+                    set_lane(slope, i, found.derivative);
+                  });
+  }
+
+  template <class A, class B, int n>
+  SPRAG_PART auto dot(const Several<A, n> &a, const Several<B, n> &b)
+  {
+    auto sum = a[0] * b[0];
+    for (int i = 1; i < n; ++i)
+      sum = sum + a[i] * b[i];
+    return sum;
+  }
+
+  /// A vector's size and direction. That of nothing is along the first axis.
+  template <class N, int n>
+  struct SizeAndDirection
+  {
+    Mask<N> is_nothing;
+    N size;
+    Several<N, n> direction;
+
+    SPRAG_PART explicit SizeAndDirection(const Several<N, n> &vector)
+    {
+      const N square = dot(vector, vector);
+      is_nothing     = value(square) == 0.;
+      const N root   = square_root(select(is_nothing, N{} + 1., square));
+      size           = select(is_nothing, N{}, root);
+      for (int i = 0; i < n; ++i)
+        direction[i] = select(is_nothing, N{} + (i == 0 ? 1. : 0.), vector[i] / root);
+    }
+  };
+
+  /// Returns a trial traction to the cone of the pressure p at the end of a step of a duration [s]. In stick |t| <= mu(0) p and
+  /// t is the trial. In slip t keeps its direction, and its size and the slip speed w are solved together,
+  ///   t = mu(w) p,   w = max(0, (t_trial - t) / stiffness + shift) / duration,
+  /// `shift` [mm] being by how much the slip of a step at the speed of its end is longer than the step's own; its part along the
+  /// trial counts. A falling mu(w) may have several solutions: then that of the largest t counts, the first met when the load
+  /// rises. t stays below the trial. Newton's method begins with the step's `slip`.
+  template <class N, class S, int slips>
+  SPRAG_PART PointFriction<N, slips> return_to_cone(const SlipLaw &law, const Several<N, slips> &trial, const N &p,
+                                                    const Plain<N> &duration, const Several<S, slips> &shift,
+                                                    const Several<N, slips> &slip)
+  {
+    using V        = Plain<N>;
+    const double k = law.stiffness;
+    const SizeAndDirection<N, slips> of(trial);
+    const N along      = dot(of.direction, shift);
+    const N load       = of.size + k * along;
+    const double mu_0  = friction_coefficient(law.friction, 0.).coefficient;
+    const auto pressed = value(p) > 0.;
+    const auto beyond  = pressed & (value(of.size) > mu_0 * value(p));
+    const auto at_rest = value(load) <= mu_0 * value(p);
+    const auto slides  = beyond & negated(at_rest);
+    N mu               = N{} + mu_0;
+    if (any(slides))
+    {
+      V guess = value(along);
+      for (int i = 0; i < slips; ++i)
+        guess = guess + value(slip[i]) * value(of.direction[i]);
+      V found{}, slope{};
+      const V resistance = k * duration;
+      find_slip(law, slides, value(load), resistance, value(p), V(guess / duration), found, slope);
+      const V share = select(slides, V(slope / (resistance + slope * value(p))), V{});
+      mu            = select(slides, chained(found, share, N(load - found * p)), mu);
+    }
+    PointFriction<N, slips> result;
+    result.mu       = select(pressed, value(mu), V{});
+    result.slipping = beyond & (at_rest | (value(mu) * value(p) <= value(of.size)));
+    for (int i = 0; i < slips; ++i)
+      result.traction[i] = select(pressed, select(result.slipping, mu * p * of.direction[i], trial[i]), N{});
+    return result;
+  }
+
+  /// The traction of a spring that keeps the slip of a step.
+  template <class N, int slips>
+  SPRAG_PART Several<N, slips> stick_traction(const SlipLaw &law, const Several<Plain<N>, slips> &before,
+                                              const Several<N, slips> &slip)
+  {
+    Several<N, slips> result;
+    for (int i = 0; i < slips; ++i)
+      result[i] = law.stiffness * slip[i] + before[i];
+    return result;
+  }
+
+  /// Slip speeds at the end of a step along a direction, from the means of this step and the last: (1 + share) times this one's
+  /// less share times the last one's.
+  template <class V, int slips>
+  SPRAG_PART V extrapolated_share(const SlipMemory<V, slips> &memory, const V &along_last, const double dt)
+  {
+    return select((memory.step > 0.) & (along_last >= 0.), V(dt / (dt + memory.step)), V{});
+  }
+
+  /// Friction t = mu(|w|) p w / sqrt(w^2 + v_r^2) along the mean slip of a step, w at its end.
+  template <class N, int slips>
+  SPRAG_PART PointFriction<N, slips> regularised(const SlipLaw &law, const SlipMemory<Plain<N>, slips> &memory,
+                                                 const Several<N, slips> &slip, const N &p, const double dt)
+  {
+    using V = Plain<N>;
+    PointFriction<N, slips> result;
+    Several<N, slips> mean;
+    for (int i = 0; i < slips; ++i)
+      mean[i] = 1. / dt * slip[i];
+    const SizeAndDirection<N, slips> of(mean);
+    const N last  = dot(memory.slip_speed, of.direction);
+    const V share = extrapolated_share(memory, value(last), dt);
+    const N w     = (1. + share) * of.size - share * last;
+    V coefficient{}, slope{};
+    result.slipping = value(p) > 0.;
+    for_each_lane(result.slipping,
+                  [&](const unsigned int i)
+                  {
+                    const double speed = lane_of(value(w), i);
+                    const auto found   = sliding_friction(law.friction, speed);
+                    set_lane(coefficient, i, found.coefficient);
+                    set_lane(slope, i, found.derivative);
+                    set_lane(result.mu, i, friction_coefficient(law.friction, std::abs(speed)).coefficient);
+                  });
+    const N along = chained(coefficient, slope, w);
+    for (int i = 0; i < slips; ++i)
+    {
+      const N at_rest      = V(slope * (1. + share)) * mean[i] + (i == 0 ? coefficient : V{});
+      result.traction[i]   = select(result.slipping, p * select(of.is_nothing, at_rest, along * of.direction[i]), N{});
+      result.slip_speed[i] = select(result.slipping, value(mean[i]), V{});
+      result.dissipated    = result.dissipated + 0.5 * (memory.traction[i] + value(result.traction[i])) * value(slip[i]);
+    }
+    const auto creeps = result.slipping & (value(of.size) < law.friction.regularisation_speed);
+    result.creep      = select(creeps, V(dt * value(of.size)), V{});
+    return result;
+  }
+
+  /// Friction at the end of a step of duration dt > 0 [s] in which the contact slips by `slip`: stick with a spring, or slip on
+  /// the cone, where the slip speed at the end is extrapolated along t from this step and the last (second order). With a
+  /// regularisation speed there is no stick.
+  template <class N, int slips>
+  SPRAG_PART PointFriction<N, slips> end_friction(const SlipLaw &law, const SlipMemory<Plain<N>, slips> &memory,
+                                                  const Several<N, slips> &slip, const N &p, const double dt)
+  {
+    using V = Plain<N>;
+    if (law.friction.regularisation_speed > 0.)
+      return regularised(law, memory, slip, p, dt);
+    const double k = law.stiffness;
+    V last{};
+    for (int i = 0; i < slips; ++i)
+      last = last + memory.slip_speed[i] * (k * value(slip[i]) + memory.traction[i]);
+    const V share    = extrapolated_share(memory, last, dt);
+    const V duration = dt / (1. + share);
+    Several<V, slips> shift;
+    for (int i = 0; i < slips; ++i)
+      shift[i] = -duration * share * memory.slip_speed[i];
+    auto result = return_to_cone(law, stick_traction(law, memory.traction, slip), p, duration, shift, slip);
+    for (int i = 0; i < slips; ++i)
+    {
+      const V t = value(result.traction[i]), before = memory.traction[i];
+      const V slipped      = value(slip[i]) - (t - before) / k;
+      result.slip_speed[i] = select(result.slipping, V(slipped / dt), V{});
+      result.energy        = result.energy + 0.5 / k * t * t;
+      result.dissipated    = result.dissipated + 0.5 * (before + t) * slipped;
+    }
+    return result;
+  }
+
+  /// Force of a unilateral spring; in lanes of exponent 1.
+  template <class N>
+  SPRAG_PART N spring_force(const NormalLaw &law, const N &gap)
+  {
+    N force = -law.stiffness * gap;
+    if constexpr (!std::is_same_v<Plain<N>, Batch>)
+      if (law.exponent != 1.)
+        force = law.stiffness * power(N(-gap), law.exponent);
+    return select(value(gap) < 0., force, N{});
+  }
+
+  template <class N>
+  SPRAG_PART N spring_energy(const NormalLaw &law, const N &gap)
+  {
+    return -1. / (law.exponent + 1.) * gap * spring_force(law, gap);
+  }
+
+  /// Mean of the spring's force over the change of its gap: minus the change of its energy over it.
+  template <class N>
+  SPRAG_PART N mean_spring_force(const NormalLaw &law, const Plain<N> &begin, const N &end)
+  {
+    using V        = Plain<N>;
+    const N change = end - begin;
+    // Where the gap hardly changes Simpson's rule is exact to round-off and the quotient is not.
+    const V size     = select(value(change) < 0., V(-value(change)), value(change));
+    const auto small = (size < -1e-3 * begin) | (size < -1e-3 * value(end)) | (size == 0.);
+    const N simpson =
+        1. / 6. * (spring_force(law, begin) + 4. * spring_force(law, N(0.5 * (begin + end))) + spring_force(law, end));
+    const N by_energy = (spring_energy(law, begin) - spring_energy(law, end)) / select(small, N{} + 1., change);
+    return select(small, simpson, by_energy);
+  }
+} // namespace sprag
