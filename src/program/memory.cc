@@ -254,6 +254,19 @@ namespace sprag
     return { 2. * (p * n + 1.) * (p * rows + 1.) + 2. * p * p * cylinder_elements(scene), 2. * (p * n + 1.) };
   }
 
+  namespace
+  {
+    /// The judges by condensed finite elements keep the model of the slides beside that in time.
+    double memory_of_design(Scene scene)
+    {
+      const auto &judges      = scene.design.judged_by;
+      const bool is_condensed = std::count(judges.begin(), judges.end(), DesignJudge::condensed) > 0;
+      scene.analysis.type     = AnalysisType::stability;
+      scene.analysis.model    = is_condensed ? ModelType::condensed : ModelType::beam;
+      return of_libraries(scene) + 2. * bytes_of_matrices(scene);
+    }
+  } // namespace
+
   std::string factor_folder(const std::string &folder)
   {
     return (std::filesystem::path(folder) / ".sprag-factors").string();
@@ -274,6 +287,8 @@ namespace sprag
 
   double expected_memory(const Scene &scene, const unsigned int processes)
   {
+    if (scene.analysis.type == AnalysisType::design)
+      return memory_of_design(scene);
     const double rows = expected_rows(scene) * bytes_of_row;
     if (shares_body(scene))
       return processes * of_libraries(scene) + (processes == 1 ? 1. : shared_over_whole) * bytes_of_matrices(scene) + rows;

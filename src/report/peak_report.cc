@@ -1,10 +1,14 @@
 #include "report/peak_report.h"
 
+#include "base/local_regression.h"
 #include "base/text.h"
+#include "results/row_statistics.h"
 #include "scene/scene.h"
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,6 +24,7 @@ namespace sprag
       double value   = 0.;
       double place   = 0.;
       double width   = 0.; ///< of the contact
+      bool is_second = false;
     };
 
     constexpr double admitted_error     = 0.05;
@@ -29,16 +34,16 @@ namespace sprag
     Peak largest(const std::vector<Row> &rows, const Column column, const Column place)
     {
       Peak result;
-      const auto look_at = [&](const Row &row, const double value, const double at, const double width)
+      const auto look_at = [&](const Row &row, const double value, const double at, const double width, const bool is_second)
       {
         if (value > result.value)
-          result = { &row, value, at, width };
+          result = { &row, value, at, width, is_second };
       };
       for (const Row &row : rows)
       {
-        look_at(row, row[column], row[place], row[Column::contact_width]);
+        look_at(row, row[column], row[place], row[Column::contact_width], false);
         if (!row.second_lever().empty())
-          look_at(row, row.of_second_lever(column), row.of_second_lever(place), row.of_second_lever(Column::contact_width));
+          look_at(row, row.of_second_lever(column), row.of_second_lever(place), row.of_second_lever(Column::contact_width), true);
       }
       return result;
     }
@@ -88,12 +93,88 @@ namespace sprag
     }
   } // namespace
 
-  void add_largest_pressure(const std::vector<Row> &rows, std::vector<Entry> &entries)
+  namespace
+  {
+    constexpr std::size_t reach = 3; ///< of the regression to both sides, in means
+
+    struct Mean
+    {
+      double x = 0., pressure = 0.;
+      unsigned int rows = 0;
+    };
+
+    /// Rows of the stroke of a row, itself included, without those in which the contact has not yet moved by its width since a
+    /// reversal; none where that is one of them.
+    std::vector<std::size_t> settled_stroke(const std::vector<Row> &rows, const std::size_t of)
+    {
+      const auto is_along = [&](const std::size_t i)
+      { return direction_of(rows[i][Column::v]) == direction_of(rows[of][Column::v]); };
+      std::size_t begin = of, end = of + 1;
+      while (begin > 0 && is_along(begin - 1))
+        --begin;
+      while (end < rows.size() && is_along(end))
+        ++end;
+      if (begin > 0)
+      {
+        const double turned_at = rows[begin - 1][Column::x];
+        while (begin < end && std::abs(rows[begin][Column::x] - turned_at) <= rows[begin][Column::contact_width])
+          ++begin;
+      }
+      if (begin > of)
+        return {};
+      std::vector<std::size_t> result(end - begin);
+      std::iota(result.begin(), result.end(), begin);
+      return result;
+    }
+  } // namespace
+
+  SmoothedPressure smoothed_largest_pressure(const std::vector<Row> &rows, const double face_size)
+  {
+    const auto peak = largest(rows, Column::largest_pressure, Column::largest_pressure_xi);
+    if (!peak.row)
+      return {};
+    const auto pressure_of = [&](const std::size_t i)
+    { return peak.is_second ? rows[i].of_second_lever(Column::largest_pressure) : rows[i][Column::largest_pressure]; };
+    const auto near_by = settled_stroke(rows, static_cast<std::size_t>(peak.row - rows.data()));
+    if (near_by.empty())
+      return { peak.value, 0. };
+    double bin = face_size;
+    for (std::size_t i = near_by.front() + 1; i <= near_by.back(); ++i)
+      bin = std::max(bin, std::abs(rows[i][Column::x] - rows[i - 1][Column::x]));
+    std::map<long, Mean> means; // by increasing x
+    for (const std::size_t i : near_by)
+    {
+      auto &mean = means[std::lround(rows[i][Column::x] / bin)];
+      ++mean.rows;
+      mean.x += (rows[i][Column::x] - mean.x) / mean.rows;
+      mean.pressure += (pressure_of(i) - mean.pressure) / mean.rows;
+    }
+    std::vector<double> x, pressure;
+    for (const auto &[number, mean] : means)
+    {
+      x.push_back(mean.x);
+      pressure.push_back(mean.pressure);
+    }
+    if (x.size() < 4 * reach)
+      return { peak.value, 0. };
+    const auto smooth  = locally_fitted(x, pressure, 2. * reach * bin);
+    const auto highest = std::max_element(smooth.begin(), smooth.end());
+    const auto at      = static_cast<std::size_t>(highest - smooth.begin());
+    const auto first   = at < reach ? 0 : at - reach;
+    const auto last    = std::min(at + reach, x.size() - 1);
+    double sum         = 0.;
+    for (std::size_t i = first; i <= last; ++i)
+      sum += std::pow(pressure[i] - smooth[i], 2);
+    return { *highest, std::sqrt(sum / static_cast<double>(last - first + 1)) / *highest };
+  }
+
+  void add_largest_pressure(const std::vector<Row> &rows, std::vector<Entry> &entries, const double face_size)
   {
     const auto peak = largest(rows, Column::largest_pressure, Column::largest_pressure_xi);
     if (!peak.row)
       return;
-    entries.push_back({ "largest_pressure", peak.value, "MPa", "largest pressure on the friction face over the run" });
+    const double value = face_size > 0. ? smoothed_largest_pressure(rows, face_size).value : peak.value;
+    entries.push_back({ "largest_pressure", value, "MPa", "largest pressure on the friction face over the run" });
     entries.push_back({ "largest_pressure_x", (*peak.row)[Column::x], "mm", "position of the cylinder there" });
     entries.push_back({ "largest_pressure_direction", direction(*peak.row), "", "which way the cylinder moved there" });
     entries.push_back(

@@ -10,8 +10,20 @@ namespace sprag
   struct Scene;
 
   /// Adds the largest pressure on the friction face over a run of finite elements with x, direction and place, for a pair that of
-  /// the lever where it is larger. Adds nothing for models without a face.
-  void add_largest_pressure(const std::vector<Row> &rows, std::vector<Entry> &entries);
+  /// the lever where it is larger. Adds nothing for models without a face. With a face size [mm] it is the
+  /// smoothed_largest_pressure(), for runs without inertia, whose pressure does not ring.
+  void add_largest_pressure(const std::vector<Row> &rows, std::vector<Entry> &entries, double face_size = 0.);
+
+  /// The largest pressure of a run without the scatter that passing elements leave between neighbouring rows.
+  struct SmoothedPressure
+  {
+    double value   = 0.; ///< [MPa]
+    double scatter = 0.; ///< root mean square distance of the means near by from the smooth curve, over the value
+  };
+
+  /// Smooths the pressure of the rows near the largest one, means over a face or a row's step by local regression over six of
+  /// these. Where there are too few rows, or the largest one is just behind a reversal, the value is its own, without scatter.
+  SmoothedPressure smoothed_largest_pressure(const std::vector<Row> &rows, double face_size);
 
   /// Returns the relative error of the largest pressure to expect where the contact is `elements` > 0 face sizes wide: at most
   /// 5/elements^3 (displacements of degree 1) or 0.8/elements^3 (degree 2), measured by tests/benchmarks/pressure.py, and 1.

@@ -59,11 +59,20 @@ namespace sprag
       return result;
     }
 
-    /// Peak among the rows whose friction has turned with the motion.
-    double turned_peak(const Rows &rows, const Column column)
+    /// Rows of one direction of motion whose friction has turned with it.
+    Rows turned_rows(const std::vector<Row> &rows, const int direction)
     {
-      return signed_peak(rows, [&](const Row &row)
-                         { return row[Column::friction_resultant] * direction_of(row) >= 0. ? row[column] : 0.; });
+      const auto has_turned = friction_has_turned(rows);
+      Rows result;
+      for (std::size_t i = 0; i < rows.size(); ++i)
+        if (direction_of(rows[i]) == direction && has_turned[i] && !rests(rows, i))
+          result.emplace_back(rows[i]);
+      return result;
+    }
+
+    double peak(const Rows &rows, const Column column)
+    {
+      return signed_peak(rows, [&](const Row &row) { return row[column]; });
     }
 
     double deviation(const Rows &rows, const Column column, const Column reference)
@@ -106,12 +115,12 @@ namespace sprag
       return number_of_levers(scene) == 1 || scene.pair.cylinder_offset == 0.;
     }
 
-    void add_stroke(const Scene &scene, const Rows &rows, const Rows &settled, const std::string &way,
+    void add_stroke(const Scene &scene, const Rows &turned, const Rows &settled, const std::string &way,
                     std::vector<Entry> &entries)
     {
       const std::string on = " on the " + way + " stroke";
-      entries.push_back({ "peak_P_" + way, turned_peak(rows, Column::P), "N", "largest normal force" + on });
-      entries.push_back({ "peak_Q_" + way, turned_peak(rows, Column::Q), "N", "largest quasi-friction force" + on });
+      entries.push_back({ "peak_P_" + way, peak(turned, Column::P), "N", "largest normal force" + on });
+      entries.push_back({ "peak_Q_" + way, peak(turned, Column::Q), "N", "largest quasi-friction force" + on });
       if (begins_closed(scene))
         entries.push_back({ "slope_" + way, slope_at_zero(settled), "N/mm",
                             "C_Q, slope of Q at x = 0 fitted over 10 mm" + on + "; NaN where mu changes there" });
@@ -161,9 +170,9 @@ namespace sprag
     if (rows.empty())
       return entries;
     for (const auto &[direction, way] : { std::pair<int, std::string>{ 1, "forward" }, { -1, "backward" } })
-      if (const auto all = stroke(rows, direction, 0.); !all.empty())
+      if (!stroke(rows, direction, 0.).empty())
       {
-        add_stroke(scene, all, stroke(rows, direction, settling), way, entries);
+        add_stroke(scene, turned_rows(rows, direction), stroke(rows, direction, settling), way, entries);
         if (!begins_closed(scene))
           continue;
         const double mu = sliding_friction(scene, 0., direction * scene.drive.peak_speed()).coefficient;
@@ -180,7 +189,7 @@ namespace sprag
     entries.push_back({ "friction_work", dissipated, "N mm", "work dissipated by friction" });
     entries.push_back(
         { "energy_residual", work - dissipated - stored, "N mm", "drive work less friction work and change of stored energy" });
-    add_largest_pressure(rows, entries);
+    add_largest_pressure(rows, entries, scene.mesh.face_size);
     add_slopes(scene, rows, entries);
     const double penetration = largest(rows, Column::penetration);
     entries.push_back({ "penetration", penetration, "mm", "largest numerical overlap of cylinder and friction face" });

@@ -18,10 +18,33 @@ namespace sprag
 {
   namespace
   {
-    /// Value of largest size while moving one way.
+    /// Vertex of the parabola through a row that is larger than its neighbours in time, and these.
+    double vertex(const Row &before, const Row &row, const Row &after, const Column column)
+    {
+      const double t0 = before[Column::time] - row[Column::time], t1 = after[Column::time] - row[Column::time];
+      const double y0 = before[column] - row[column], y1 = after[column] - row[column];
+      const double bend  = (y1 / t1 - y0 / t0) / (t1 - t0);
+      const double slope = y0 / t0 - bend * t0;
+      return row[column] - 0.25 * slope * slope / bend;
+    }
+
+    /// Value of largest size while moving one way, from where friction has turned with the motion, between rows too.
     double peak(const std::vector<Row> &rows, const Column column, const int direction)
     {
-      return signed_peak(rows, [&](const Row &row) { return direction_of(row[Column::v]) == direction ? row[column] : 0.; });
+      const auto has_turned = friction_has_turned(rows);
+      const auto counts     = [&](const std::size_t i) { return has_turned[i] && direction_of(rows[i][Column::v]) == direction; };
+      double result         = 0.;
+      for (std::size_t i = 0; i < rows.size(); ++i)
+        if (counts(i) && std::abs(rows[i][column]) > std::abs(result))
+        {
+          const bool has_both = i > 0 && i + 1 < rows.size() && counts(i - 1) && counts(i + 1);
+          const auto size     = [&](const std::size_t j) { return std::copysign(1., rows[i][column]) * rows[j][column]; };
+          const bool is_peak  = has_both && size(i) > size(i - 1) && size(i) > size(i + 1) &&
+                               rows[i - 1][Column::time] < rows[i][Column::time] &&
+                               rows[i][Column::time] < rows[i + 1][Column::time];
+          result = is_peak ? vertex(rows[i - 1], rows[i], rows[i + 1], column) : rows[i][column];
+        }
+      return result;
     }
 
     double residual_share(const std::vector<Row> &rows)

@@ -3,6 +3,7 @@
 #include "results/columns.h"
 
 #include <cmath>
+#include <vector>
 
 namespace sprag
 {
@@ -58,4 +59,8 @@ namespace sprag
       }
     return result;
   }
+
+  /// Returns of every row whether friction has turned with the motion: true from the first row of each stroke in which it is 0.9
+  /// of what it is in full sliding. In a stroke that ends before, true from where it acts against the motion.
+  std::vector<bool> friction_has_turned(const std::vector<Row> &rows);
 } // namespace sprag

@@ -1,5 +1,6 @@
 #include "run/choice.h"
 
+#include "base/phase_timer.h"
 #include "levers/prepared_scene.h"
 #include "report/percent.h"
 #include "run/expected_cost.h"
@@ -8,6 +9,7 @@
 
 #include <boost/algorithm/string/join.hpp>
 
+#include <algorithm>
 #include <functional>
 #include <ostream>
 
@@ -41,6 +43,14 @@ namespace sprag
     return with_chosen(scene, overrides);
   }
 
+  Scene with_budget_left(Scene scene, const double since)
+  {
+    constexpr double least = 1e-9; // 0 means without a bound
+    if (scene.accuracy.budget > 0.)
+      scene.accuracy.budget = std::max(least, scene.accuracy.budget - (PhaseTimer::cpu_seconds() - since));
+    return scene;
+  }
+
   bool is_paid(const Scene &scene, const Choice &choice)
   {
     const double budget = scene.accuracy.budget;
@@ -67,22 +77,23 @@ namespace sprag
 
   namespace
   {
-    Choice choose_in_plane(const Scene &scene)
+    Choice choose_in_plane(const Scene &scene, const Announce &announce)
     {
+      const double since = PhaseTimer::cpu_seconds();
       if (scene.analysis.type == AnalysisType::quasi_static)
       {
-        const StaticChoice all(scene);
-        return cheap_enough(scene, [&](const double target) { return all.meeting(target); });
+        const StaticChoice all(scene, announce);
+        return cheap_enough(with_budget_left(scene, since), [&](const double target) { return all.meeting(target); });
       }
       const VibrationChoice all(scene);
-      return cheap_enough(scene, [&](const double target) { return all.meeting(target); });
+      return cheap_enough(with_budget_left(scene, since), [&](const double target) { return all.meeting(target); });
     }
   } // namespace
 
-  Choice choose_settings(const Scene &scene)
+  Choice choose_settings(const Scene &scene, const Announce &announce)
   {
     if (!scene.accuracy.is_dimension_open && scene.analysis.dimension == 2)
-      return choose_in_plane(scene);
+      return choose_in_plane(scene, announce);
     std::vector<ChosenSetting> dimension;
     if (scene.accuracy.is_dimension_open)
       dimension = { choose_dimension(scene) };
@@ -90,7 +101,7 @@ namespace sprag
     const bool in_space = chosen.analysis.dimension == 3;
     Choice choice;
     if (scene.accuracy.is_asked_for())
-      choice = choose_in_plane(in_space ? plane_of(chosen) : chosen);
+      choice = choose_in_plane(in_space ? plane_of(chosen) : chosen, announce);
     choice.settings.insert(choice.settings.begin(), dimension.begin(), dimension.end());
     return choice;
   }
@@ -109,12 +120,12 @@ namespace sprag
     }
   } // namespace
 
-  Resolved resolved(const Scene &given)
+  Resolved resolved(const Scene &given, const Announce &announce)
   {
     Resolved result{ with_own_face_size(prepared(given)), std::nullopt };
     if (given.analysis.type == AnalysisType::study || !given.accuracy.leaves_open())
       return result;
-    result.choice = choose_settings(result.scene);
+    result.choice = choose_settings(result.scene, announce);
     result.scene  = with_own_face_size(prepared(with_settings(result.scene, result.choice->settings)));
     return result;
   }

@@ -3,6 +3,7 @@
 #include "fe/contact/face_contact_point.h"
 #include "scene/scene.h"
 
+#include <functional>
 #include <iosfwd>
 #include <optional>
 #include <string>
@@ -29,6 +30,9 @@ namespace sprag
   /// Returns the scene with these settings.
   Scene with_settings(const Scene &scene, const std::vector<ChosenSetting> &settings);
 
+  /// Returns the scene with the part of Accuracy/Budget that is left of it since the process had used so much CPU time [s].
+  Scene with_budget_left(Scene scene, double since);
+
   /// Returns whether Accuracy/Budget pays what a run with these settings is expected to cost.
   bool is_paid(const Scene &scene, const Choice &choice);
 
@@ -40,10 +44,14 @@ namespace sprag
   /// equilibrium.
   ChosenSetting choose_dimension(const Scene &scene);
 
+  /// Called with a sentence about what a choice does next and what it costs, where that is long.
+  using Announce = std::function<void(const std::string &)>;
+
   /// Chooses what the file leaves open so that Accuracy/Target is met, or of what Accuracy/Budget pays the most accurate. Makes
   /// probes: models of the scene on coarser meshes, in three dimensions too those of the plane; of the elements across these do
   /// not tell. Throws AnalysisError where probes have no equilibrium.
-  Choice choose_settings(const Scene &scene);
+  Choice choose_settings(
+      const Scene &scene, const Announce &announce = [](const std::string &) {});
 
   /// A scene that can be run, and what was chosen on the way.
   struct Resolved
@@ -54,14 +62,16 @@ namespace sprag
 
   /// Computes what a scene as it was read needs for a run: its leaf spring, and what it leaves open. The runs of a study are
   /// resolved one by one. Throws InputError where a scene is refused, AnalysisError as choose_settings() does.
-  Resolved resolved(const Scene &given);
+  Resolved resolved(
+      const Scene &given, const Announce &announce = [](const std::string &) {});
 
   /// Chooses for a run without inertia to meet a relative error `target` > 0.
   class StaticChoice
   {
   public:
-    /// Solves the probes.
-    explicit StaticChoice(const Scene &scene);
+    /// Solves the probes. Throws InputError where memory does not suffice.
+    explicit StaticChoice(
+        const Scene &scene, const Announce &announce = [](const std::string &) {});
 
     Choice meeting(double target) const;
 
@@ -69,6 +79,7 @@ namespace sprag
     Scene scene;
     const bool enforcement_is_open;
     bool is_refined  = false;               ///< after the first probes
+    double width     = 0.;                  ///< of the contact where P is largest [mm]
     double face_size = 0.;                  ///< of the finer probe [mm]
     std::vector<double> errors;             ///< of the finer probe, of each quantity
     std::vector<double> closed_form_errors; ///< of the closed form; infinite of what it does not tell

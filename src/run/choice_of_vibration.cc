@@ -67,10 +67,9 @@ namespace sprag
       const double least = wants("overshoot") ? 2. : 1.; // it goes with the square of the frequency
       if (scene.analysis.type != AnalysisType::transient || scene.drive.reversals().empty() || !wants("P"))
         return least;
-      const auto rows    = beam_run(scene);
-      const double turn  = scene.drive.reversals().front();
-      const auto ringing = ringing_rows(rows, turn, rows.back()[Column::time]);
-      return std::max(least, change_by_frequency(ringing, turn) / largest(rows, Column::P));
+      const auto rows   = beam_run(scene);
+      const double turn = scene.drive.reversals().front();
+      return std::max(least, change_by_frequency(rows, turn, rows.back()[Column::time]) / largest(rows, Column::P));
     }
 
     Scene with_modes(Scene scene, const unsigned int modes)

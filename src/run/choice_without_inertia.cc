@@ -4,12 +4,15 @@
 #include "analysis/accuracy/sample_changes.h"
 #include "analysis/accuracy/slide_samples.h"
 #include "analytic/error_estimate.h"
+#include "base/phase_timer.h"
 #include "base/text.h"
 #include "fe/mesh/mesh.h"
 #include "fe/solid/static_lever.h"
+#include "program/memory.h"
 #include "report/percent.h"
 #include "report/report.h"
 #include "run/coarser_scene.h"
+#include "run/expected_cost.h"
 #include "scene/accuracy.h"
 #include "scene/contact_reference.h"
 #include "scene/contact_width.h"
@@ -30,10 +33,12 @@ namespace sprag
     constexpr double share_of_rows            = 0.3;
     constexpr double share_of_model           = 0.8;
 
-    constexpr double faces_of_probe         = 4.;   ///< across the contact where P is largest
-    constexpr double least_faces            = 3.;   ///< likewise, where pressure or width are wanted
-    constexpr double most_faces_of_probe    = 300.; ///< along the way of the contact
-    constexpr double extrapolated           = 0.8;  ///< face size over a probe's, below which another probe is solved
+    constexpr double faces_of_probe         = 4.;    ///< across the contact where P is largest
+    constexpr double least_faces            = 3.;    ///< likewise, where pressure or width are wanted
+    constexpr double most_faces_of_probe    = 300.;  ///< along the way of the contact
+    constexpr double error_of_reversal      = 0.025; ///< of P and Q behind a reversal, times the square of the faces in contact
+    constexpr double share_of_reversal      = 0.6;
+    constexpr double extrapolated           = 0.8; ///< face size over a probe's, below which another probe is solved
     constexpr unsigned int most_refinements = 2;
     constexpr double finest                 = 16.; ///< Mesh/Face size of the probe over that of a run
 
@@ -50,6 +55,16 @@ namespace sprag
     double share_for(const std::string &quantity)
     {
       return is_of_forces(quantity) ? share_of_mesh : share_of_mesh_in_contact;
+    }
+
+    constexpr double rows_of_probe = 30.; ///< steps of a run that cost as much as the probe and the coarser one
+
+    std::string announcement(Scene fine)
+    {
+      fine.analysis.step = (fine.drive.maximum() - fine.drive.minimum()) / rows_of_probe;
+      const auto cost    = expected_cost(fine);
+      return "Probe:        faces of " + mm(fine.mesh.face_size) + ", about " + formatted("%.2g", cost.cpu_seconds) +
+             " s of CPU time, " + formatted("%.2g", cost.bytes / 1e9) + " GB";
     }
 
     constexpr double largest_on_cylinder = 0.05; ///< Cylinder/Face size over its radius; a probe has twice that
@@ -82,21 +97,26 @@ namespace sprag
     }
   } // namespace
 
-  StaticChoice::StaticChoice(const Scene &given)
+  StaticChoice::StaticChoice(const Scene &given, const Announce &announce)
       : scene(given)
       , enforcement_is_open(scene.contact.enforcement == Enforcement::penalty && is_open(scene, "Contact/Enforcement") &&
                             is_open(scene, "Contact/Penalty"))
   {
+    const double since = PhaseTimer::cpu_seconds();
     if (enforcement_is_open)
       scene.contact.enforcement = Enforcement::augmented_lagrangian;
     const auto [from, to] = swept_contact(scene);
-    const double width    = estimated_contact_width(scene, contact_reference(scene).P);
+    width                 = estimated_contact_width(scene, contact_reference(scene).P);
     solve_probes(std::max(width / faces_of_probe, (to - from) / most_faces_of_probe));
     const double target   = scene.accuracy.target;
-    const auto is_too_far = [&] { return longest_face(target) < extrapolated * face_size && is_paid(scene, meeting(target)); };
+    const auto is_too_far = [&]
+    { return longest_face(target) < extrapolated * face_size && is_paid(with_budget_left(scene, since), meeting(target)); };
     for (unsigned int i = 0; i < most_refinements && target > 0. && is_too_far(); ++i)
     {
-      solve_probes(longest_face(target));
+      const Scene fine = with_face_size(scene, longest_face(target));
+      require_memory(fine);
+      announce(announcement(fine));
+      solve_probes(fine.mesh.face_size);
       is_refined = true;
     }
   }
@@ -136,18 +156,27 @@ namespace sprag
 
   void StaticChoice::add_mesh(const double target, Choice &choice) const
   {
-    const auto &wanted   = scene.accuracy.quantities;
-    const double size    = longest_face(target);
-    bool is_short_enough = true;
+    const auto &wanted      = scene.accuracy.quantities;
+    const bool wants_peaks  = std::count(wanted.begin(), wanted.end(), "P") + std::count(wanted.begin(), wanted.end(), "Q") > 0;
+    const bool has_reversal = wants_peaks && !scene.drive.reversals().empty();
+    const double of_probe   = longest_face(target);
+    const double longest    = std::max(face_size / finest, width * std::sqrt(share_of_reversal * target / error_of_reversal));
+    const bool is_shorter   = has_reversal && longest < of_probe;
+    const double size       = is_shorter ? longest : of_probe;
+    bool is_short_enough    = true;
+    if (has_reversal)
+      choice.error = error_of_reversal * std::pow(size / width, 2);
     for (std::size_t i = 0; i < errors.size(); ++i)
     {
       const double error = errors[i] * std::pow(size / face_size, order_of(scene, wanted[i]));
       choice.error       = std::max(choice.error, error);
       is_short_enough    = is_short_enough && error <= 1.01 * share_for(wanted[i]) * target;
     }
-    choice.settings.push_back({ "Mesh/Face size", rounded_text(size),
-                                "a probe with " + rounded_text(face_size) + " mm is " +
-                                    percent(*std::max_element(errors.begin(), errors.end())) + " off" });
+    choice.settings.push_back(
+        { "Mesh/Face size", rounded_text(size),
+          is_shorter ? "the largest P and Q behind a reversal need " + rounded_text(width / size) + " faces in contact"
+                     : "a probe with " + rounded_text(face_size) + " mm is " +
+                           percent(*std::max_element(errors.begin(), errors.end())) + " off" });
     if (scene.cylinder.type != CylinderType::rigid && is_open(scene, "Cylinder/Face size"))
       choice.settings.push_back(
           { "Cylinder/Face size", rounded_text(with_face_size(scene, size).cylinder.face_size), "as on the lever" });

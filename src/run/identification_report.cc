@@ -42,6 +42,16 @@ namespace sprag
       return noise.effective_rows() < least_independent * noise.rows && noise.deviation > least_deviation * largest;
     }
 
+    std::string remedy_of_another(const Identification &found)
+    {
+      std::vector<std::string> named;
+      for (const auto &more : found.more)
+        named.push_back(more.name + " (by about " + with_unit(more.change, more.unit) + ")");
+      return (named.empty() ? "" : "Check " + boost::algorithm::join(named, " or ") + ", which would explain the residuals. ") +
+             "Look at the residuals over x. Check what is taken as known: Geometry/Cylinder radius and the other "
+             "lengths, sign and scale of each force; seek offsets or lag in Identification/Unknowns.";
+    }
+
     std::string remedy_of_indistinct()
     {
       return "Measure both directions, over more of the stroke, P beside Q, or at other speeds; or leave one of them out of "
@@ -168,8 +178,7 @@ namespace sprag
       warnings.push_back({ "model_does_not_follow", boost::algorithm::join(not_followed, ", ") + ".",
                            "Residuals follow each other, as they do where the lever of the scene is another than the measured "
                            "one. The intervals count noise alone and then miss the true values by many times their width.",
-                           "Look at the residuals over x. Check what is taken as known: Geometry/Cylinder radius and the other "
-                           "lengths, sign and scale of each force; seek offsets or lag in Identification/Unknowns." });
+                           remedy_of_another(found) });
     const auto &indistinct = found.knowledge.indistinct;
     if (!indistinct.empty())
       warnings.push_back({ "indistinct_unknowns", boost::algorithm::join(indistinct, " "),

@@ -21,6 +21,31 @@ namespace sprag
       return scene.contact.enforcement == Enforcement::augmented_lagrangian;
     }
 
+    constexpr double least_faces_of_reversal = 4.;
+
+    /// Width of the contact where its pressure is largest, in faces.
+    double faces_in_contact(const Scene &scene, const std::vector<Row> &samples)
+    {
+      const auto *const row = row_of_largest(samples, [](const Row &sample) { return sample[Column::largest_pressure]; });
+      return row == nullptr ? 0. : (*row)[Column::contact_width] / scene.mesh.face_size;
+    }
+
+    /// Adds what the largest P or Q, which may lie in the passage through stick behind a reversal, are off beyond the parts in
+    /// full sliding.
+    void add_reversal(const Scene &scene, const Probes &probes, ErrorEstimate &estimate)
+    {
+      // A narrower contact does not converge with the order of forces yet.
+      const bool is_narrow = faces_in_contact(scene, probes.run) < least_faces_of_reversal;
+      const double order   = is_narrow ? 1. : order_of_forces(scene);
+      const auto change    = [&](const std::vector<Row> &other)
+      { return other.empty() ? 0. : change_of_peak(estimate.quantity, probes.passage, other); };
+      auto part  = mesh_part(scene, change(probes.coarse_passage), order);
+      part.value = part.value + penalty_part(scene, change(probes.soft_passage)).value - total_error(estimate);
+      part.name  = "reversal";
+      if (part.value > 0.)
+        estimate.parts.push_back(part);
+    }
+
     ErrorEstimate estimate(const Scene &scene, const Probes &probes, const std::string &quantity, const std::string &relative_to)
     {
       const auto change  = [&](const std::vector<Row> &other) { return relative_change(quantity, probes.run, other); };
@@ -30,6 +55,7 @@ namespace sprag
         result.parts.push_back(penalty_part(scene, change(probes.soft)));
       if (!probes.soft.empty() && augments(scene))
         result.parts.back().remedy = "Try twice the Contact/Tangential penalty, or leave it at auto.";
+      add_reversal(scene, probes, result);
       return result;
     }
 
@@ -91,14 +117,14 @@ namespace sprag
       return result;
     }
 
-    constexpr double follows_pressure = 0.05; ///< error of the largest pressure to which a mesh follows it, see peak_report.h
-
-    /// Width of the contact where its pressure is largest, in faces.
-    double faces_in_contact(const Scene &scene, const std::vector<Row> &samples)
+    /// Adds the scatter of the rows, where it is more than what the mesh is told to change.
+    ErrorEstimate with_scatter(ErrorEstimate estimate, const double scatter)
     {
-      const auto *const row = row_of_largest(samples, [](const Row &sample) { return sample[Column::largest_pressure]; });
-      return row == nullptr ? 0. : (*row)[Column::contact_width] / scene.mesh.face_size;
+      estimate.parts.front().value = std::max(estimate.parts.front().value, scatter);
+      return estimate;
     }
+
+    constexpr double follows_pressure = 0.05; ///< error of the largest pressure to which a mesh follows it, see peak_report.h
 
     ErrorEstimate unless_narrow(ErrorEstimate estimate, const double faces, const bool is_followed)
     {
@@ -132,8 +158,12 @@ namespace sprag
       const double faces       = faces_in_contact(scene, probes.run);
       const bool forces_follow = faces > 1.;
       const bool all_follows   = expected_pressure_error(faces, scene.mesh.degree) <= follows_pressure;
+      const double scatter     = smoothed_largest_pressure(rows, scene.mesh.face_size).scatter;
       const auto told          = [&](const std::string &quantity, const std::string &relative_to, const bool is_followed)
-      { return unless_narrow(estimate(scene, probes, quantity, relative_to), faces, is_followed); };
+      {
+        const double least = quantity == "largest_pressure" ? scatter : 0.;
+        return unless_narrow(with_scatter(estimate(scene, probes, quantity, relative_to), least), faces, is_followed);
+      };
       std::vector<ErrorEstimate> result = { told("P", "its peak", forces_follow),
                                             told("Q", "its peak", forces_follow),
                                             unless_narrow(loop_area(scene, probes, rows), faces, forces_follow),

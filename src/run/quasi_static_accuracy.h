@@ -16,7 +16,9 @@ namespace sprag
   /// own error by Richardson: forces converge with the second power of the size, degree 1 with the power 1.6, pressures with the
   /// third, all with the first power of 1/penalty. The loop area's part of the step is that of the trapezoidal rule, from every
   /// other row. Stresses are compared in the states whose fields were found and converge with the power of the size that the
-  /// degree is; those of the layer are told to be no better than the pressure on it is there. The lever's inertia, which such a
+  /// degree is; those of the layer are told to be no better than the pressure on it is there. The largest P and Q behind a
+  /// reversal are compared over the rows of the passage through stick, and the largest pressure is told to be no better than the
+  /// rows scatter. The lever's inertia, which such a
   /// run leaves out, is told apart, by the closed form: J d^2(th)/dt^2 over the spring's moment.
   std::vector<ErrorEstimate> quasi_static_accuracy(const Scene &scene, const std::vector<Row> &rows,
                                                    const std::function<Probes()> &probe);

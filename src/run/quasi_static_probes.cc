@@ -2,6 +2,7 @@
 
 #include "analysis/accuracy/sample_changes.h"
 #include "analysis/accuracy/slide_samples.h"
+#include "base/append.h"
 #include "fe/mesh/mesh.h"
 #include "run/coarser_scene.h"
 #include "scene/scene.h"
@@ -21,6 +22,37 @@ namespace sprag
         if (std::find(times.begin(), times.end(), row[Column::time]) != times.end())
           result.push_back(row);
       return result;
+    }
+
+    std::vector<double> times_of(const std::vector<Row> &rows)
+    {
+      std::vector<double> result;
+      for (const Row &row : rows)
+        result.push_back(row[Column::time]);
+      return result;
+    }
+
+    /// Sets the samples of a run, and returns them with the rows of its passage through stick between.
+    std::vector<Row> choose_rows(const std::vector<Row> &rows, const unsigned int of_stroke, const std::vector<double> &times,
+                                 Probes &probes)
+    {
+      probes.run     = slide_samples(rows, of_stroke, times);
+      probes.passage = passage_rows(rows);
+      auto chosen    = times_of(probes.run);
+      append(chosen, times_of(probes.passage));
+      return rows_at(chosen, rows);
+    }
+
+    void set_coarse(const std::vector<Row> &rows, Probes &probes)
+    {
+      probes.coarse         = rows_at(times_of(probes.run), rows);
+      probes.coarse_passage = rows_at(times_of(probes.passage), rows);
+    }
+
+    void set_soft(const std::vector<Row> &rows, Probes &probes)
+    {
+      probes.soft         = rows_at(times_of(probes.run), rows);
+      probes.soft_passage = rows_at(times_of(probes.passage), rows);
     }
 
     /// Gives a model its own penalties back.
@@ -57,18 +89,20 @@ namespace sprag
     Probes result;
     const auto times   = times_of(stresses);
     const double start = rows.front()[Column::x];
-    result.run         = slide_samples(rows, samples_of_stroke, times);
+    const auto chosen  = choose_rows(rows, samples_of_stroke, times, result);
     Mesh mesh;
     const Scene coarse = with_coarser_mesh(with_penalties(scene, levers.penalties(), 1.));
     make_mesh(coarse, mesh);
     StaticLever<2> on_coarse(mesh, coarse);
     StressComparison stress(on_coarse, stresses);
-    result.coarse = repeated(on_coarse, result.run, start, settings,
-                             [&](const State &state, const Row &row, const Evaluation &) { stress.look_at(state, row); });
+    set_coarse(
+        repeated(on_coarse, chosen, start, settings,
+                 [&](const State &state, const Row &row, const Evaluation &) { stress.look_at(state, row); }),
+        result);
     result.stress = stress.changes();
     result.pressure_with_stress =
         result.stress ? relative_change("largest_pressure", rows_at(times, result.run), rows_at(times, result.coarse)) : 0.;
-    result.soft = with_softer_penalty(scene, levers, result.run, start, settings);
+    set_soft(with_softer_penalty(scene, levers, chosen, start, settings), result);
     return result;
   }
 
@@ -77,15 +111,15 @@ namespace sprag
   {
     Probes result;
     const double start = rows.front()[Column::x];
-    result.run         = slide_samples(rows, samples_in_space);
-    result.soft        = with_softer_penalty(scene, lever, result.run, start, settings);
+    const auto chosen  = choose_rows(rows, samples_in_space, {}, result);
+    set_soft(with_softer_penalty(scene, lever, chosen, start, settings), result);
     body.release_factors(); // before there are others
     Mesh mesh;
     const Scene coarse = with_coarser_mesh(with_penalties(scene, lever.penalties(), 1.));
     make_mesh(coarse, mesh);
     const SolidBody coarse_body(coarse, mesh);
     StaticLever<3> on_coarse(coarse_body, coarse);
-    result.coarse = repeated(on_coarse, result.run, start, settings);
+    set_coarse(repeated(on_coarse, chosen, start, settings), result);
     return result;
   }
 } // namespace sprag

@@ -12,9 +12,12 @@ namespace sprag
   struct Probes
   {
     std::vector<Row> run;
-    std::vector<Row> coarse; ///< on a mesh of twice the Mesh/Face size with the same penalty, in space of twice the width too
-    std::vector<Row> soft;   ///< on the run's mesh with a third of the penalty; empty where the run augments and has the
-                             ///< automatic tangential one
+    std::vector<Row> coarse;  ///< on a mesh of twice the Mesh/Face size with the same penalty, in space of twice the width too
+    std::vector<Row> soft;    ///< on the run's mesh with a third of the penalty; empty where the run augments and has the
+                              ///< automatic tangential one
+    std::vector<Row> passage; ///< passage_rows() of the run
+    std::vector<Row> coarse_passage;       ///< the same rows on the coarser mesh
+    std::vector<Row> soft_passage;         ///< and with the softer penalty
     std::optional<StressChanges> stress{}; ///< on the coarser mesh
     double pressure_with_stress = 0.;      ///< change of the pressure there in the states whose stress is known
   };

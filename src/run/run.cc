@@ -1,5 +1,6 @@
 #include "run/run.h"
 
+#include "base/phase_timer.h"
 #include "fe/mesh/mesh.h"
 #include "fe/mesh/solid_file.h"
 #include "levers/prepared_scene.h"
@@ -67,12 +68,30 @@ namespace sprag
     return scene_warnings(scene);
   }
 
+  namespace
+  {
+    /// That of a run with what choosing its settings has taken since the process had used so much CPU time [s].
+    ExpectedCost cost_with_probes(const Scene &scene, const double since)
+    {
+      const double spent = PhaseTimer::cpu_seconds() - since;
+      auto cost          = expected_cost(scene);
+      cost.cpu_seconds += spent;
+      return cost;
+    }
+
+    void print_line(const std::string &sentence)
+    {
+      std::cout << sentence << '\n' << std::flush;
+    }
+  } // namespace
+
   void print_expectations(const Scene &given, const unsigned int processes, const std::string &folder)
   {
-    const auto [scene, choice] = resolved(given);
+    const double since         = PhaseTimer::cpu_seconds();
+    const auto [scene, choice] = resolved(given, print_line);
     if (choice)
       print_choice(std::cout, given, *choice);
-    print_cost(std::cout, expected_cost(scene));
+    print_cost(std::cout, cost_with_probes(scene, since));
     print_processes(std::cout, scene, processes);
     if (const auto files = factor_files(scene, processes, folder))
       std::cout << "Memory:       " << text_of(*files) << '\n';
@@ -82,19 +101,21 @@ namespace sprag
   {
     if (given.accuracy.leaves_open() || !given.mesh.file.empty())
       require_writable(options.folder);
-    const auto [scene, choice] = resolved(given);
+    const bool is_quiet        = options.quiet || !options.is_first;
+    const double since         = PhaseTimer::cpu_seconds();
+    const auto [scene, choice] = is_quiet ? resolved(given) : resolved(given, print_line);
     RunOptions telling         = options;
     if (choice)
     {
       telling.chosen = text_of(choice->settings);
-      if (!options.quiet && options.is_first)
+      if (!is_quiet)
       {
         print_choice(std::cout, given, *choice);
-        print_cost(std::cout, expected_cost(scene));
+        print_cost(std::cout, cost_with_probes(scene, since));
       }
       require_memory(scene, options.processes, options.in_memory == nullptr ? options.folder : "");
     }
-    if (!options.quiet && options.is_first)
+    if (!is_quiet)
       print_processes(std::cout, scene, options.processes);
     run_from_margin_to_warnings(scene, telling, margin_of, carry_out);
   }

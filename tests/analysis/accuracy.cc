@@ -121,7 +121,5 @@ TEST(ChangeByFrequency, IsTheLagOfADecayingVibration)
     rows.back()[Column::P_quasi_static] = 10.;
     largest_lag                         = std::max(largest_lag, std::abs(vibration(t, share) - vibration(t, 0.)));
   }
-  const auto ringing = ringing_rows(rows, 1., 2.);
-  EXPECT_NEAR(ringing.back()[Column::time], 1. + std::log(10.) / decay, 0.01);
-  EXPECT_NEAR(share * change_by_frequency(ringing, 1.), largest_lag, 0.02 * largest_lag);
+  EXPECT_NEAR(share * change_by_frequency(rows, 1., 2.), largest_lag, 0.02 * largest_lag);
 }

@@ -42,3 +42,24 @@ TEST(RowStatistics, TakeARowOfAnInfiniteValueForNone)
   const auto rows = rows_of({ 1., std::numeric_limits<double>::infinity() });
   EXPECT_EQ(row_of_largest(rows, [](const Row &row) { return row[Column::Q]; }), &rows[0]);
 }
+
+namespace
+{
+  Row sliding(const double v, const double friction)
+  {
+    Row row;
+    row[Column::v]                  = v;
+    row[Column::mu]                 = 0.5;
+    row[Column::normal_resultant]   = 10.;
+    row[Column::friction_resultant] = friction;
+    return row;
+  }
+} // namespace
+
+TEST(FrictionHasTurned, OnceItIsNearlyWhatItIsInFullSliding)
+{
+  // In full sliding friction is 5 N. It turns from forward to backward, where stick may come back later, and forward again.
+  const std::vector<Row> rows = { sliding(1., 5.),  sliding(-1., 5.), sliding(-1., -1.), sliding(-1., -4.6),
+                                  sliding(-1., 0.), sliding(1., -5.), sliding(1., 2.) };
+  EXPECT_EQ(friction_has_turned(rows), std::vector<bool>({ true, false, false, true, true, false, true }));
+}

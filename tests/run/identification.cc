@@ -93,6 +93,10 @@ TEST_F(RunIdentification, WarnsWhereTheModelDoesNotFollow)
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_EQ(warnings.front().name, "model_does_not_follow");
   EXPECT_NE(warnings.front().found.find(" independent ones"), std::string::npos) << warnings.front().found;
+  // The measured cylinder has 56 mm.
+  const std::string named = "Check Geometry/Cylinder radius (by about -";
+  EXPECT_EQ(warnings.front().remedy.rfind(named, 0), 0u) << warnings.front().remedy;
+  EXPECT_NEAR(std::stod(warnings.front().remedy.substr(named.size())), 2.5, 0.5);
 }
 
 TEST_F(RunIdentification, KeepsWhyNothingWasFound)

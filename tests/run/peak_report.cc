@@ -86,3 +86,23 @@ TEST(PeakReport, WarnsOfAContactThatIsNarrowOverMoreThanAQuarterOfItsWay)
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_NE(warnings[0].found.find("1.97"), std::string::npos) << warnings[0].found;
 }
+
+TEST(PeakReport, TakesTheScatterOfPassingElementsOffTheLargestPressure)
+{
+  // A parabola with its summit of 0.5 MPa at x = 40 mm, and elements that raise every third row by 2 %.
+  std::vector<Row> all;
+  for (unsigned int x = 0; x <= 65; ++x)
+    all.push_back(row(x, 112., 0.5 * (1. - std::pow((x - 40.) / 100., 2)) * (x % 3 == 0 ? 1.02 : 1.), 3.));
+  const auto found = smoothed_largest_pressure(all, 0.25);
+  EXPECT_NEAR(found.value, 0.5 * (1. + 0.02 / 3.), 0.002);
+  EXPECT_NEAR(found.scatter, 0.02 * std::sqrt(2. / 9.), 0.004); // of one in three
+  std::vector<Entry> entries;
+  add_largest_pressure(all, entries, 0.25);
+  EXPECT_EQ(value_of(entries, "largest_pressure"), found.value);
+}
+
+TEST(PeakReport, LeavesFewRowsAsTheyAre)
+{
+  EXPECT_EQ(smoothed_largest_pressure(rows, 0.25).value, 0.3);
+  EXPECT_EQ(smoothed_largest_pressure(rows, 0.25).scatter, 0.);
+}

@@ -1,4 +1,5 @@
 #include "report/report.h"
+#include "report/transient_report.h"
 
 #include "scene/closed_form.h"
 #include "scene/scene.h"
@@ -114,4 +115,25 @@ TEST(Report, TurningPointBelongsToTheStrokeThatEndsThere)
   const auto rows    = rows_with_stick(scene, 1.);
   const auto summary = summary_of(scene, rows);
   EXPECT_DOUBLE_EQ(value_of(summary, "peak_P_forward"), closed_form(scene, 65., 0.).P);
+}
+
+// A sine of 5 N by rows 0.3 rad apart, the largest of which is up to 0.06 N short of its peak.
+TEST(Report, PeaksInTimeLieBetweenRows)
+{
+  std::vector<Row> rows;
+  for (unsigned int i = 0; i < 60; ++i)
+  {
+    Row row;
+    row[Column::time] = 1e-3 * i;
+    row[Column::x]    = 0.112 * i;
+    row[Column::v]    = 112.;
+    row[Column::P]    = 20. + 5. * std::sin(0.31 * i + 0.13);
+    row[Column::Q]    = row[Column::P];
+    rows.push_back(row);
+  }
+  const auto largest_row =
+      std::max_element(rows.begin(), rows.end(), [](const Row &a, const Row &b) { return a[Column::P] < b[Column::P]; });
+  const auto summary = transient_summary(model_a(), rows);
+  EXPECT_NEAR(value_of(summary, "peak_P_forward"), 25., 2e-3);
+  EXPECT_GT(value_of(summary, "peak_P_forward"), (*largest_row)[Column::P]);
 }

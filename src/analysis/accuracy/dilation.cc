@@ -15,32 +15,19 @@ namespace sprag
     {
       return row[Column::P] - row[Column::P_quasi_static];
     }
-  } // namespace
-
-  std::vector<Row> ringing_rows(const std::vector<Row> &rows, const double begin, const double end)
-  {
-    std::vector<Row> result;
-    for (const Row &row : rows)
-      if (row[Column::time] > begin && row[Column::time] <= end)
-        result.push_back(row);
-    const double least = rings * largest(result, ringing_of);
-    while (!result.empty() && !(std::abs(ringing_of(result.back())) >= least))
-      result.pop_back();
-    return result;
-  }
-
-  double change_by_frequency(const std::vector<Row> &ringing, const double time)
-  {
-    double result = 0.;
-    for (std::size_t i = 1; i < ringing.size(); ++i)
+    /// The time of the last row between two times that rings.
+    double end_of_ringing(const std::vector<Row> &rows, const double begin, const double end)
     {
-      const double dt     = ringing[i][Column::time] - ringing[i - 1][Column::time];
-      const double change = std::abs(ringing_of(ringing[i]) - ringing_of(ringing[i - 1]));
-      if (dt > 0. && std::isfinite(change))
-        result = std::max(result, change / dt * (ringing[i][Column::time] - time));
+      const auto size = [&](const Row &row)
+      { return row[Column::time] > begin && row[Column::time] <= end ? std::abs(ringing_of(row)) : 0.; };
+      const double least = rings * largest(rows, size);
+      double result      = begin;
+      for (const Row &row : rows)
+        if (size(row) > 0. && size(row) >= least)
+          result = row[Column::time];
+      return result;
     }
-    return result;
-  }
+  } // namespace
 
   Slowing slowing_of(const std::vector<Row> &rows, const double begin, const double end, const double period,
                      const std::function<double(double)> &by_step)
@@ -69,5 +56,10 @@ namespace sprag
     if (weights > 0.)
       result.frequency /= weights;
     return result;
+  }
+
+  double change_by_frequency(const std::vector<Row> &rows, const double begin, const double end)
+  {
+    return slowing_of(rows, begin, end_of_ringing(rows, begin, end), 0., [](double) { return 1.; }).P;
   }
 } // namespace sprag

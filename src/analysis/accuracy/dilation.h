@@ -7,15 +7,6 @@
 
 namespace sprag
 {
-  /// Returns the rows between two times [s] up to the last in which P is off P_quasi_static by at least a tenth of its largest
-  /// distance: those that ring.
-  std::vector<Row> ringing_rows(const std::vector<Row> &rows, double begin, double end);
-
-  /// Returns the largest change of P [N] per relative change of the frequency with which it rings since `time` [s]: a vibration
-  /// that runs slower by a small share d lags d (t - time) behind, so that P is off by that times the rate of
-  /// P - P_quasi_static. Without rows 0.
-  double change_by_frequency(const std::vector<Row> &ringing, double time);
-
   /// The errors that time steps of finite length make in a vibration are these.
   struct Slowing
   {
@@ -28,4 +19,9 @@ namespace sprag
   /// vibration in steps of a length [s].
   Slowing slowing_of(const std::vector<Row> &rows, double begin, double end, double period,
                      const std::function<double(double)> &by_step);
+
+  /// Returns the largest change of P [N] per relative change of the frequency with which it rings between two times [s], up to
+  /// the last row in which P is off P_quasi_static by at least a tenth of its largest distance: a vibration that runs slower by a
+  /// small share d lags d (t - begin) behind. Without rows 0.
+  double change_by_frequency(const std::vector<Row> &rows, double begin, double end);
 } // namespace sprag

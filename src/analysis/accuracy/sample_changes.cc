@@ -40,6 +40,22 @@ namespace sprag
     return result;
   }
 
+  double change_of_peak(const std::string &quantity, const std::vector<Row> &passage, const std::vector<Row> &other)
+  {
+    if (passage.empty() || (quantity != "P" && quantity != "Q"))
+      return 0.;
+    const auto column     = quantity == "P" ? Column::P : Column::Q;
+    const auto has_turned = friction_has_turned(passage);
+    double peak = 0., other_peak = 0.;
+    for (std::size_t i = 1; i < passage.size(); ++i) // the first is of the stroke before
+      if (has_turned[i])
+      {
+        peak       = std::max(peak, std::abs(passage[i][column]));
+        other_peak = std::max(other_peak, std::abs(other[i][column]));
+      }
+    return std::abs(other_peak - peak) / largest(passage, column);
+  }
+
   double relative_change(const std::string &quantity, const std::vector<Row> &samples, const std::vector<Row> &other)
   {
     if (quantity == "loop_area")

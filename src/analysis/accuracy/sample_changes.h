@@ -15,4 +15,8 @@ namespace sprag
   /// that, largest_stress as the pressure which it follows, and loop_area, the work between the samples, by its own change.
   /// Throws std::out_of_range for other names.
   double relative_change(const std::string &quantity, const std::vector<Row> &samples, const std::vector<Row> &other);
+
+  /// Returns by how much the largest P or Q behind a reversal changes between two models' rows of the same passage through stick,
+  /// from where friction has turned, over the largest value of the first model; 0 for other quantities and without rows.
+  double change_of_peak(const std::string &quantity, const std::vector<Row> &passage, const std::vector<Row> &other);
 } // namespace sprag

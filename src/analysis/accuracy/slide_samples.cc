@@ -12,11 +12,12 @@ namespace sprag
 {
   namespace
   {
+    using Index = std::size_t;
+
     constexpr double all_slide         = 0.999; ///< share of mu P from which the whole contact is told to slide
     constexpr double pressed           = 0.02;  ///< of the largest P, from which a row counts
     constexpr unsigned int most_halves = 6;
-
-    using Index = std::size_t;
+    constexpr Index most_of_passage    = 100; ///< rows
 
     bool slides(const Row &row, const double largest_force)
     {
@@ -99,6 +100,31 @@ namespace sprag
     for (const Index i : chosen)
       result.push_back(rows[i]);
     return result;
+  }
+
+  std::vector<Row> passage_rows(const std::vector<Row> &rows)
+  {
+    Index turn = 1;
+    while (turn < rows.size() && direction_of(rows[turn][Column::v]) == direction_of(rows[0][Column::v]))
+      ++turn;
+    if (turn >= rows.size())
+      return {};
+    const auto has_turned = friction_has_turned(rows);
+    const double x        = rows[turn - 1][Column::x];
+    Index largest_P = turn, largest_Q = turn;
+    for (Index i = turn; i < rows.size() && direction_of(rows[i][Column::v]) == direction_of(rows[turn][Column::v]) &&
+                         std::abs(rows[i][Column::x] - x) <= rows[i][Column::contact_width];
+         ++i)
+    {
+      if (!has_turned[largest_P] || rows[i][Column::P] > rows[largest_P][Column::P])
+        largest_P = i;
+      if (!has_turned[largest_Q] || std::abs(rows[i][Column::Q]) > std::abs(rows[largest_Q][Column::Q]))
+        largest_Q = i;
+    }
+    const Index end = std::max(largest_P, largest_Q) + 1;
+    if (!has_turned[end - 1] || end - turn > most_of_passage)
+      return {};
+    return { rows.begin() + static_cast<std::ptrdiff_t>(turn) - 1, rows.begin() + static_cast<std::ptrdiff_t>(end) };
   }
 
   std::vector<Row> repeated(Model &model, const std::vector<Row> &samples, const double start,

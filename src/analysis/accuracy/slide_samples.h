@@ -12,6 +12,11 @@ namespace sprag
   /// [s]. Empty where nothing slides.
   std::vector<Row> slide_samples(const std::vector<Row> &rows, unsigned int number, const std::vector<double> &times = {});
 
+  /// Returns the rows from the first reversal, its own row included, to the largest P and Q behind it, as long as the contact has
+  /// moved by less than its width: those that a stroke's largest values may come from and slide_samples() leave out. Empty
+  /// without a reversal, or where that takes more rows than a probe can pay.
+  std::vector<Row> passage_rows(const std::vector<Row> &rows);
+
   /// Repeats a run's samples in another model, which slides from each to the next in a single step, or in parts of it where no
   /// equilibrium is found: sliding contact remembers little. Returns a row for each, and hands the states to `look`. `start` is
   /// where the run's drive began [mm]. Throws AnalysisError where the model cannot follow.

@@ -1,5 +1,6 @@
 #include "analysis/identification/identification.h"
 
+#include "analysis/identification/one_more_unknown.h"
 #include "analysis/identification/vibration_window.h"
 #include "base/errors.h"
 #include "scene/scene.h"
@@ -174,6 +175,7 @@ namespace sprag
         result.lever = lever();
         const auto slopes =
             jacobian([&](const auto &at) { return fit.residuals(at, result.used, deviations, result.correction); }, scaled);
+        result.more         = more_unknowns(scene, fit, result, deviations, slopes);
         const auto &numbers = unknowns.numbers();
         result.knowledge    = knowledge(slopes, result.used, result.noise, numbers, settings.confidence);
         const auto values   = fit.in_units(scaled);

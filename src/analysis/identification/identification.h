@@ -17,6 +17,15 @@ namespace sprag
     double low, high; ///< ends of the interval
   };
 
+  /// An unknown that was not sought and by which the lever would follow the data.
+  struct OneMoreUnknown
+  {
+    std::string name; ///< "Geometry/Cylinder radius"
+    std::string unit;
+    double change; ///< from the scene's value
+    double share;  ///< of the squares of the residuals beyond noise that it explains
+  };
+
   /// What a measured stroke says.
   struct Identification
   {
@@ -30,6 +39,7 @@ namespace sprag
     bool window_is_full = false; ///< whether one from the data ends where no more may be left out
     unsigned int rounds = 0;     ///< of fits, with new noise, window and correction
     bool converged      = false;
+    std::vector<OneMoreUnknown> more; ///< that would explain the residuals, see more_unknowns()
   };
 
   /// Finds the unknowns of the scene's stroke. Throws AnalysisError where too few values are left.
