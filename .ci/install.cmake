@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 # cmake --install BUILD --prefix PREFIX, and cpack in the build folder for a Debian package. Both programs stand in libexec, where one
 # finds the other; what one calls is linked into bin.
 include(GNUInstallDirs)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 """Prints the libraries in which the dynamic loader finds most symbols when it loads the one named, most first, a path a line.
 
 The loader looks for each symbol in one library after the other, in the order in which the program names them; what they bring comes

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 # shellcheck shell=bash
 # Sourced by ./run and ./test, what both do first: packages, environment, build. All messages go to stderr, so that stdout
 # holds the program's output alone.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 // Elastic cylinder of the friction damper about its centre, in axes parallel to the lever's: y points to the lever. A ring on
 // what is rigid, core or shaft. Units: mm. Structured quadrilaterals, fine where it touches the lever.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 // Lever frame of the friction damper in lever axes: x along the lever from the pivot at the origin, y from the friction interface
 // into the lever. The root (2b) is a block around the pivot, held by a rigid hub of small radius; it carries the arm (2a): two
 // flanges, and between them pockets with a thinner web (or holes) and ribs of full width, tapering to the tip. The friction layer

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 // Leaf spring behind the pivot in lever axes at rest: x along the lever from the pivot at the origin, y from the friction
 // interface into the lever. From its clamp in the hub at x = -clamp_distance to the spring joint, ends on y = 0; straight, or
 // bent as an arc of a circle towards +y. Units: mm. Structured quadrilaterals, shorter towards the ends, where a clamp disturbs

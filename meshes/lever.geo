@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 // Lever of the friction damper in lever axes: x along the lever from the pivot at the origin, y from the friction interface
 // into the lever. A bar of metal faced with a friction layer, carried by a rigid hub that reaches from the pivot to the bar:
 // the arm for the interface offset. With a friction plate the layer lies on that, in front of the bar, which it touches nowhere:

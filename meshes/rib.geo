@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 // A lever in three dimensions whose left and right are not alike: a flange as wide as the friction layer, and behind it a rib beside
 // the middle. In lever axes: x along the lever from the pivot, y from the friction interface into the lever, z across the width
 // from its middle. Clamped to the pivot at x = 0. Units: mm. The section across is extruded along the lever in layers of

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 """The device of a scene as it stands at some x: geometry, mesh at rest, forces."""
 
 import tempfile

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 """What the scripts have in common on the command line: where pictures go, in which format, and how they are written."""
 
 import argparse

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 """A calibrated beam beside the meshed lever it was calibrated by."""
 
 import numpy as np

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-only
 """Draws up to 20 results in one picture, told apart by the parameter that differs between them.
 
 Runs that differ in method alone, as in model or mesh: P over time, at the first reversal, and how far each is from the finest.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 """The contact of a run of finite elements: pressure along the friction face each way, its width, and how deep the cylinder goes."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 """Pictures of designs: the front of two aims with the levers on it, and what judges found over what was expected."""
 
 import numpy as np

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-only
 """Draws the device of a scene to scale, with its dimensions, angles and forces.
 
 From FILE.prm the program makes a coarse mesh and the closed form's forces; from a result folder with fields its own mesh is taken, so

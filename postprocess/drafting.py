@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 """Draws what technical drawings are made of: dimensions, angles, springs, outlines. Everything in the units of the axes."""
 
 import numpy as np

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-only
 """Writes results as CSV, which Excel, MATLAB, pandas and numpy open, and their single numbers as JSON too.
 
 Each table becomes a file: table.csv, and of a study, map or held slide also what its result holds beside, such as map.csv or modes.csv.

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-only
 """Draws one frame of a run's fields: the apparatus with the deformed mesh and its stress, the contact, the pressure there."""
 
 import sys

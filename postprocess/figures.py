@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-only
 """Makes the pictures of postprocess/pictures, Figs. 6 to 11 of the paper among them, by running the scenes of params/."""
 
 import sys

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 """P and Q of one or several runs over time and over x, beside the closed form."""
 
 import numpy as np

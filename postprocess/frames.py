@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 """Reads the frames of displacement and stress that sprag writes beside result.h5, and where the apparatus stood in each."""
 
 from dataclasses import dataclass

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 """A lever identified from a measured stroke: what was measured beside it, what it leaves over, and how its numbers hang together."""
 
 import numpy as np

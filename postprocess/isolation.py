@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 """Pictures of isolation systems: motion over time, loops of the damper, transmissibility of several dampers, spectra of the floor and
 the table beside the criteria of precision machinery."""
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 """Pictures of stability maps: growth rate over two parameters, both directions of motion, with the boundaries found."""
 
 from dataclasses import dataclass

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-only
 """Makes of a run what a test rig would have measured: time, x, P and Q at equal times, with noise.
 
 Identification (params/identification.md) reads the table. One plans a measurement so: how much noise does it bear?

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-only
 """Draws meshes, each part in a colour: of a result folder of sprag (with fields), or of an ASCII .msh file of version 2.2 or 4.1."""
 
 import sys

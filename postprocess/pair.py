@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 """What the two levers of a full mirrored pair do beside each other."""
 
 from functools import partial

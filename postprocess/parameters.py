@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 """Reads the full list of parameters that a result holds and that `sprag FILE.prm --print-parameters` prints."""
 
 import re

@@ -1,4 +1,5 @@
 #!/usr/bin/env pvpython
+# SPDX-License-Identifier: GPL-3.0-only
 """ParaView pictures of results of sprag, made by ParaView's own Python: pvpython paraview_pictures.py DIR... [-o PICTURE_DIR].
 
 A run is shown at its last frame in time of the largest P, a mode in the phase of its largest displacement. Without a screen:

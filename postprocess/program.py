@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 """Runs sprag for scripts that need results of their own."""
 
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 """Reads result.h5 as written by sprag, finished or not."""
 
 from dataclasses import dataclass, field

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 """What the force sensors of a friction plate feel beside the normal force at the contact."""
 
 import re

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 """What tells several results apart, and how a picture shows it: labels at the ends of the curves, a scale of colours or a legend."""
 
 from dataclasses import dataclass

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 """Colours of stress, and how much displacements are magnified, in pictures of fields."""
 
 import numpy as np

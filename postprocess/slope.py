@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 """Pictures of sweeps of the slope (Figs. 10 and 11 of the paper) and of contact laws fitted to an indentation."""
 
 import numpy as np

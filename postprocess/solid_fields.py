@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 """One frame of a run in three dimensions: the deformed lever and its stress, and the contact with the pressure on the face."""
 
 from dataclasses import dataclass

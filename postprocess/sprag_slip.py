@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 """Pictures of a sprag-slip run: growth beside its eigenvalue, the vibration it leads to, and what lives along the stroke."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 """Pictures of studies: what the runs found over the parameters that were varied, and what their accuracy costs."""
 
 from dataclasses import dataclass

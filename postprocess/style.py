@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 """What all pictures share: sizes, colours and lines, symbols, axis labels."""
 
 import re

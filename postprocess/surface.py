@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 """The contact of a run in three dimensions: pressure over the face where P is largest each way, and how it changes over the width."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 """Pictures of a transient run: what its first reversal excites, and where the energy goes."""
 
 import numpy as np

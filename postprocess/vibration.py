@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 """Pictures of a vibration analysis: eigenvalues, mode shapes, what feeds the growth and what each ingredient does."""
 
 import numpy as np

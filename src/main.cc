@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "base/all_cores.h"
 #include "base/guard.h"
 #include "base/hdf5_handle.h"

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-only
 """Tries deliberate mistakes: each mutant of mutants.toml changes one line of the physics, and the tests that it names ought to fail.
 
     tests/mutants.py [NAME ...]           # tries these, or all

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-only
 """Compares the numbers that pages print with those of the program; see pages.toml. Environment: SPRAG, the program, and SPRAG_SOURCE,
 the sources.
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 """Builds sprag with the presets `debug` (assertions of the libraries) and `sanitize` (the same with the sanitizers for addresses,
 leaks and undefined behaviour) and runs short scenes with both: none may abort, fail or be reported on. Run with /usr/bin/python3;
 environment: SPRAG_SOURCE, the sources.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 """Runs tests and prints them by CPU time; run with /usr/bin/python3.
 
     tests/times.py                           # all tests of build/

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 """Writes a source that compiles several tests as one file: first all that they include, then each in a namespace of its own, so that
 their local names may be alike.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "analytic/isolation.h"
 
 #include "analytic/steady_state.h"

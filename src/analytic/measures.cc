@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "analytic/measures.h"
 
 #include "base/unknown.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "analytic/slope.h"
 #include "laws/friction.h"
 #include "scene/scene.h"

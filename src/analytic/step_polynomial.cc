@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "analytic/step_polynomial.h"
 
 #include <boost/math/tools/roots.hpp>

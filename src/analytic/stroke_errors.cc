@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "analytic/stroke_errors.h"
 
 #include "base/unknown.h"

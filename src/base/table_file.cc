@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "base/table_file.h"
 
 #include "base/archive.h"

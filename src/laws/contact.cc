@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "laws/contact.h"
 
 #include "laws/point_law.h"

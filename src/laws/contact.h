@@ -1,9 +1,8 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
 #include "laws/friction_law.h"
 
-#include <deal.II/base/point.h>
-#include <deal.II/base/symmetric_tensor.h>
 #include <deal.II/base/tensor.h>
 
 namespace sprag
@@ -17,33 +16,6 @@ namespace sprag
   };
 
   NormalTraction normal_traction(double gap, double multiplier, double penalty);
-
-  /// A vector as its size and its direction; that of nothing is along the first axis.
-  template <int n>
-  struct Directed
-  {
-    using Vector = dealii::Tensor<1, n>;
-
-    explicit Directed(const Vector &vector)
-        : size(vector.norm())
-        , direction(size > 0. ? vector / size : Vector(dealii::Point<n>::unit_vector(0)))
-    {
-    }
-
-    /// Derivative by the vector of `value` times its direction. `by_size` and `by_direction` are derivatives of the value; at
-    /// size 0 it is taken to grow from 0 alike in all directions.
-    dealii::Tensor<2, n> derivative(const double value, const double by_size, const Vector &by_direction) const
-    {
-      const auto along  = outer_product(direction, direction);
-      const auto across = dealii::unit_symmetric_tensor<n>() - along;
-      if (!(size > 0.))
-        return by_size * (along + across);
-      return by_size * along + (value / size) * across + outer_product(direction, across * by_direction) / size;
-    }
-
-    double size;
-    Vector direction;
-  };
 
   /// Size of the friction traction after the return to the cone.
   struct ConeReturn

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "levers/meshed_constants.h"
 
 #include "fe/dynamics/dynamic_face_lever.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "levers/prepared_scene.h"
 
 #include "base/errors.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "model/lever_frame.h"
 
 #include "scene/mirrored_pair.h"

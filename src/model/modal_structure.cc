@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "model/modal_structure.h"
 
 #include "model/modal_vibration.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "program/checkpoint.h"
 
 #include "base/child_process.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "program/isolation_report.h"
 
 #include "analytic/harmonic_balance.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "program/output_folder.h"
 
 #include "base/errors.h"

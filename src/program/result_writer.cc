@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "program/result_writer.h"
 
 #include "base/append.h"

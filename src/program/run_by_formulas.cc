@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "program/run_by_formulas.h"
 #include "base/errors.h"
 #include "program/output_folder.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "analytic/closed_form.h"
 #include "analytic/ideal_contact.h"
 #include "base/interrupt.h"

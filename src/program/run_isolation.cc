@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "base/append.h"
 #include "program/isolation_report.h"
 #include "program/run_by_formulas.h"

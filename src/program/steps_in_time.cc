@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "program/steps_in_time.h"
 
 #include "base/append.h"

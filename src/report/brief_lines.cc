@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "report/brief_lines.h"
 
 #include "base/text.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "report/peak_report.h"
 
 #include "base/local_regression.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "report/transient_report.h"
 
 #include "analytic/oscillation.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "results/disk_reserve.h"
 
 #include "base/errors.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "results/earlier_result.h"
 
 #include "base/child_process.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "results/field_files.h"
 
 #include "base/errors.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "results/hdf5.h"
 
 #include "base/errors.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "results/shared_writing.h"
 
 #include "base/errors.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "run/design_judges.h"
 
 #include "analysis/stability/stability.h"

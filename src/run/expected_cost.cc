@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "run/expected_cost.h"
 
 #include "analysis/study/study_points.h"

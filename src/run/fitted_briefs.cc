@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "base/phase_timer.h"
 #include "base/text.h"
 #include "report/brief_lines.h"

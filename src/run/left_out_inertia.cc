@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "run/left_out_inertia.h"
 
 #include "results/row_statistics.h"

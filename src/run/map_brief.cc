@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "base/text.h"
 #include "report/brief_lines.h"
 #include "run/briefs.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/statics/contact_law.h"
 #include "program/result_writer.h"
 #include "report/report.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "base/append.h"
 #include "base/errors.h"
 #include "base/interrupt.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/map/map_team.h"
 #include "base/append.h"
 #include "base/progress.h"

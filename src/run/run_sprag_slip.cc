@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "base/progress.h"
 #include "base/text.h"
 #include "laws/friction.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/team/team.h"
 #include "base/progress.h"
 #include "program/result_writer.h"

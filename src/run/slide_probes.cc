@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "run/slide_probes.h"
 
 #include "run/coarser_scene.h"

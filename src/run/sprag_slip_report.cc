@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "run/sprag_slip_report.h"
 
 #include "base/unknown.h"

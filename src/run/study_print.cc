@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "run/study_print.h"
 
 #include "base/phase_timer.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "run/table_recorder.h"
 
 #include "base/text.h"

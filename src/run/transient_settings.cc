@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "run/transient_settings.h"
 
 #include "scene/contact_reference.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "run/vibration_print.h"
 
 #include "base/text.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "run/vibration_report.h"
 
 #include "base/append.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "scene/analysis_texts.h"
 
 #include "scene/design_text.h"

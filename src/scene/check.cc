@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "scene/check_parts.h"
 
 #include "base/append.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "base/text.h"
 #include "scene/check_parts.h"
 #include "scene/design_quantities.h"

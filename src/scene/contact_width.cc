@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "scene/contact_width.h"
 
 #include "scene/closed_form.h"

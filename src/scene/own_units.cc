@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "scene/own_units.h"
 
 #include "base/errors.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "scene/pair_closed_form.h"
 
 #include "scene/mirrored_pair.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "analytic/harmonic_balance.h"
 #include "base/errors.h"
 #include "scene/closed_form.h"

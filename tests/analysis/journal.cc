@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/team/journal.h"
 
 #include "analysis/map/map_team.h"

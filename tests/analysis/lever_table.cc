@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/isolation/lever_table.h"
 #include "base/errors.h"
 #include "base/text.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/statics/quasi_static.h"
 
 #include "analysis/toy_model.h"

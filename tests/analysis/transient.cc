@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/transient/transient.h"
 
 #include "analytic/step_clock.h"

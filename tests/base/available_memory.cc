@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "base/available_memory.h"
 
 #include "support/temporary_folder.h"

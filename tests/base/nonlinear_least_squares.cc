@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "base/nonlinear_least_squares.h"
 
 #include <cmath>

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-only
 """Runs every scene of params/, long ones shortened, with two builds of sprag and prints a line a scene: how far results differ and
 what both cost. Exit status 1 where P, Q or theta differ by more than 1e-9 (--limit) of their peak or a verdict differs. With --speed, only
 what both builds cost, over a fixed list of runs; with --instructions, that in instructions. See README.md.

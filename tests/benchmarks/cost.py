@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-only
 """Prints what model A costs, both strokes: CPU time by phase over face size and degree, and ratios between methods. Run it on a
 machine that does nothing else; see without-inertia.md."""
 

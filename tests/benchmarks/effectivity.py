@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-only
 """Prints what runs tell of their errors (/accuracy) against their true errors, those against a reference on a mesh four times finer
 with the augmented Lagrangian method, of held slides with penalties extrapolated to none. With --draw the devices are drawn at random.
 See told-errors.md."""

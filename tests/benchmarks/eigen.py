@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-only
 """Prints what the eigenvalues of a slide cost: wall and CPU time of making the model and of finding the slide and its vibrations, for
 beam, condensed lever and finite elements of two sizes, and ratios of the CPU times. Run it on a machine that does nothing else;
 see in-time.md."""

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-only
 """Prints what --validate expects of runs, CPU time and memory, against what they take; see expected-cost.md."""
 
 import argparse

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-only
 """Prints how the parts of a run grow with face size, steps, cycles and modes, and the power that theory expects; see parts.md."""
 
 import argparse

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 """Counts the instructions of a command and of the processes that it makes."""
 
 import re

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-only
 """Prints what each fidelity of a run in time costs and how far it is from hard contact, in one table: model A with a lever of
 6 mm, accepted steps per CPU second, no fields; then model A with 20 mm, whose ringing decays and can be compared. See in-time.md."""
 

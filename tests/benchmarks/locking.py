@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-only
 """Prints how well a friction layer that hardly changes its volume is met: model A with Coefficient 0 in plane strain at x = 65 mm,
 against the same layer bonded to a rigid base, whose compliance is exact mode by mode (tests/verification/bonded_layer.py), pressed
 by the same force. See parts.md.

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-only
 """Prints what stability maps cost: seconds and cells of a 60 x 60 map over friction and lever depth, beam and condensed model,
 refined near the boundaries and every cell. Run it on a machine that does nothing else; see in-time.md."""
 

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-only
 """Prints what each part of the apparatus costs: model A without any, and with one at a time, both strokes without inertia and the
 reversal in time (condensed), no fields. CPU seconds are the least of several runs. With --before PROGRAM, a build from before
 there were such parts, also what model A without them cost there. See parts.md."""

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-only
 """Model A in three dimensions, forward stroke, by CalculiX and by sprag on the same bricks: P, Q, theta, largest pressure and CPU
 time side by side. See peers.md. Not part of the tests: whoever runs it installs CalculiX (Debian: calculix-ccx).
 

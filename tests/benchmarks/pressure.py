@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-only
 """Prints how the largest pressure, the profile of the pressure and the width of the contact of model A converge, for penalty and
 augmented Lagrangian, against hard contact on a fine mesh; see pressure.md."""
 

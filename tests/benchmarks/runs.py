@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 """Runs of sprag that the other scripts here measure."""
 
 import os

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-only
 """Prints what runs in three dimensions cost by size, phase and number of processes, and the growth from size to size. See
 solid-cost.md."""
 

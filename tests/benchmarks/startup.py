@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-only
 """Prints what a start costs: CPU seconds of a look at the version, closed forms, a beam and model A, what of them is the loading of shared
 libraries, and ratios to an earlier build. Run it on a machine that does nothing else; see README.md."""
 

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-only
 """Error of P and Q over Analysis/Step where mu depends on speed: steps.py [SCENE] [--set "Section/Name=value"]...
 
 The reference has half the face size, augmented Lagrangian contact and steps of 0.125 mm. Errors are the largest over both strokes, the

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-only
 """Prints the CPU time of a table on condensed levers over a recorded motion of its base, over the time of the motion; with --before
 how far the motion is from that of an earlier build."""
 

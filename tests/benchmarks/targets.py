@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-only
 """Prints whether targets are met or told to be missed, and what it costs to ask for an accuracy: the CPU time of runs with Accuracy/Target, their true and their told errors, and the cheapest
 settings of a grid whose true error is within the target; see expected-cost.md."""
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "fe/mesh/mesh.h"
 
 #include "bar_on_elastic_cylinder.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 // Files that were cut short or in which bits were turned over: what reads them refuses or takes them, and comes back.
 #include "base/errors.h"
 #include "fe/dynamics/basis_file.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "fe/body/effective_bending.h"
 
 #include "fe/bar.h"

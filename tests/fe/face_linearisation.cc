@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "fe/contact/face_contact.h"
 
 #include "bar_on_cylinder.h"

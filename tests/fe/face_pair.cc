@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "fe/contact/face_pair_rows.h"
 
 #include "face_chain.h"

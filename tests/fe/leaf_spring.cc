@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "fe/leaf/leaf_spring.h"
 
 #include "base/errors.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "fe/solid/patch_travel.h"
 
 #include "bed_of_springs.h"

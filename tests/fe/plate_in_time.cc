@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "fe/algebra/compressed_rows.h"
 #include "fe/dynamics/condensed_basis.h"
 #include "fe/dynamics/sparse_structure.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "cylinder_kinematics.h"
 
 #include "model/circle.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "bed_of_springs.h"
 #include "cylinder_kinematics.h"
 #include "fe/solid/surface_observation.h"

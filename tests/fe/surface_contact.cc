@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "bed_of_springs.h"
 #include "mpi_environment.h"
 #include "support/random_vector.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "bar.h"
 #include "base/errors.h"
 #include "fe/algebra/compressed_rows.h"

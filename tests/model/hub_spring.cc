@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "model/hub_spring.h"
 
 #include "model/beam.h"

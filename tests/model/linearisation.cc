@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "model/beam.h"
 #include "model/frame_coupling.h"
 #include "model/point_contact.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "model/mirrored_structure.h"
 
 #include "support/three_modes.h"

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 """Pictures of force sensors and of calibrations; run with /usr/bin/python3."""
 
 import sys

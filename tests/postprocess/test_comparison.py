@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 """What tells results apart, and pictures of many of them; on small files of the shape sprag writes; run with /usr/bin/python3."""
 
 import sys

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 """Distances in drawings of the device are those that are meant. Runs the program; with /usr/bin/python3."""
 
 import os

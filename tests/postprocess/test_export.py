@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 """export.py on small files of the shape sprag writes, read back as others would; run with /usr/bin/python3."""
 
 import csv

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 """fields.py and mesh.py on small frames of the shape FieldFrames writes; run with /usr/bin/python3."""
 
 import sys

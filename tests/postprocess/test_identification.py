@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 """Picture of an identified lever, and tables made as a rig would measure them; run with /usr/bin/python3."""
 
 import subprocess

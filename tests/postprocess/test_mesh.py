@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 """mesh.py on small meshes; run with /usr/bin/python3."""
 
 import sys

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 """The pages of postprocess lead to what there is; test_scenes_slow.py holds the names on them against results. Run with /usr/bin/python3."""
 
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 """Pictures of full mirrored pairs; run with /usr/bin/python3."""
 
 import sys

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 """Fields of short runs reopened in ParaView's own Python: where the parts stand, times and ranges of values.
 
 Run with /usr/bin/python3, which starts pvpython on this file once; environment: SPRAG, the program, and SPRAG_SOURCE, the sources.

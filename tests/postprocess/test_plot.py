@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 """plot.py on small files of the shape sprag writes; run with /usr/bin/python3."""
 
 import sys

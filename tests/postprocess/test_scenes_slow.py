@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 """Scenes of params/ that run in a second or so: the layout of all their pictures, and that the pages name all that their results hold.
 contact_sheet.py looks at the pictures of every scene. Run with /usr/bin/python3."""
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 """Every script is a program with --help, -o and --format; run with /usr/bin/python3."""
 
 import os

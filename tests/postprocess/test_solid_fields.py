@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 """Pictures of fields in three dimensions, on a small box of the shape FieldFrames writes; run with /usr/bin/python3."""
 
 import sys

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "results/field_files.h"
 
 #include "results/earlier_fields.h"

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 """Runs that ask for an accuracy: what the program chooses it runs, and a row of a study is the run by itself. Run with /usr/bin/python3;
 environment: SPRAG, the program, and SPRAG_SOURCE, the sources."""
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 """The program from outside: what it refuses, what a failed or killed run leaves behind, its options. Run with /usr/bin/python3;
 environment: SPRAG, the program, and SPRAG_SOURCE, the sources."""
 

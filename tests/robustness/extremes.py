@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 """Runs at the extremes of the parameters: each meets the accuracy it tells, tells by a warning that it does not, or stops with a
 message that names limit and parameter. A row is a run; its reference comes from elsewhere: formulas, laws of scale, other steps or
 meshes. Exits 1 where one falls short. Environment: SPRAG, the program, and SPRAG_SOURCE, the sources.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 """Held slides from outside: what modal, stability, map and sprag-slip scenes are refused for, and what becomes of a slide that jams.
 Run with /usr/bin/python3; environment: SPRAG, the program, and SPRAG_SOURCE, the sources."""
 

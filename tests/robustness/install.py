@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 """An installed program needs nothing of its sources. Run with /usr/bin/python3; environment: SPRAG, the program in its build
 folder, and SPRAG_SOURCE, the sources."""
 

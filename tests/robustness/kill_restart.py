@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 """Runs that are killed go on from their checkpoint and end as if nothing had happened, to the last bit; results and checkpoints that
 are of something else are refused, or begun anew and told. Run with /usr/bin/python3; environment: SPRAG, the program, and
 SPRAG_SOURCE, the sources.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 """The big libraries, which take 0.2 CPU s to load, are loaded for models alone and not for looks at a scene and formulas. Run with
 /usr/bin/python3; environment: SPRAG, the program, SPRAG_SOURCE, the sources, and SPRAG_BUILD_TYPE: checks of another than Release take
 deal.II's library everywhere."""

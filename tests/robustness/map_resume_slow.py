@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 """Maps from outside: the same numbers whether killed or not and for any number of processes; interrupted, refused, journals of
 others. Run with /usr/bin/python3; environment: SPRAG, the program, and SPRAG_SOURCE, the sources."""
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 """Damaged inputs: meshes, tables, scenes and results with bytes flipped, ends cut off, lines swapped, numbers extreme, wrong types in
 HDF5. Whatever a file holds, the program ends in time and memory with status 0, 1 or 2, and names the file with a reason. Run with
 /usr/bin/python3; environment: SPRAG, the program, and SPRAG_SOURCE, the sources.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 """What a run says: the lines that answer its question, everything with --verbose, and all of it again in run.log. Run with
 /usr/bin/python3; environment: SPRAG, the program, and SPRAG_SOURCE, the sources."""
 

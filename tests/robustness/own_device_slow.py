@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 """The page params/own-device.md, followed as it is written: its files saved, its commands run one after the other, its findings
 found. Run with /usr/bin/python3; environment: SPRAG, the program, and SPRAG_SOURCE, the sources. With SPRAG_LITERALLY=1 commands call
 ./run of the sources, which installs and builds; else the program and the pictures by themselves."""

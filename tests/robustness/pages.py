@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 """What the pages say is there: commands are accepted with their options and settings, parameters and choices exist, scripts know their
 options. Run with /usr/bin/python3; environment: SPRAG, the program, and SPRAG_SOURCE, the sources."""
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 """What analyses of all kinds print: few lines, and every number with its unit. Run with /usr/bin/python3; environment: SPRAG, the
 program, and SPRAG_SOURCE, the sources."""
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 """Runs in three dimensions by several processes of MPI: the same results, tables written once and fields together; what they cannot
 help refuses them."""
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 """Several processes of MPI that write fields of modes, and one of which is killed."""
 
 import os

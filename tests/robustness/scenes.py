@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 """Every scene of params/ is accepted, runs on a coarse mesh and writes its columns. Run with /usr/bin/python3; environment:
 SPRAG, the program, and SPRAG_SOURCE, the sources.
 

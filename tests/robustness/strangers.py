@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 """Files of strangers: what a mesh cannot do to whoever opens it, results and links in the folder that are not ours, inputs without an
 end. Run with /usr/bin/python3; environment: SPRAG, the program, and SPRAG_SOURCE, the sources."""
 

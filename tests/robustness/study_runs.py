@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 """Studies from outside: rows as the runs by themselves, failing runs, killed and started again, any number of processes, refusals.
 Run with /usr/bin/python3; environment: SPRAG, the program, and SPRAG_SOURCE, the sources."""
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 """Each warning is provoked by a command line, printed, stored and counted; the table of warnings in params/README.md is that of the
 program. Run with /usr/bin/python3; environment: SPRAG, the program, and SPRAG_SOURCE, the sources."""
 

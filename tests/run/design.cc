@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/stability/stability.h"
 #include "analytic/isolation.h"
 #include "base/errors.h"

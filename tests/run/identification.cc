@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "base/errors.h"
 #include "levers/prepared_scene.h"
 #include "mpi_environment.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "program/memory.h"
 
 #include "base/errors.h"

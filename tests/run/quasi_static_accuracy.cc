@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "run/quasi_static_accuracy.h"
 
 #include "run/field_recorder.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "report/report.h"
 #include "report/transient_report.h"
 

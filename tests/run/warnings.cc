@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "report/warnings.h"
 #include "report/accuracy_report.h"
 #include "scene/closed_form.h"

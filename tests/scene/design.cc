@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "messages.h"
 #include "scene/design_quantities.h"
 #include "scene/scene.h"

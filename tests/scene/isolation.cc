@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "base/text.h"
 #include "messages.h"
 #include "results/hdf5.h"

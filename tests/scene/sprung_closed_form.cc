@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "scene/sprung_closed_form.h"
 
 #include "scene/scene.h"

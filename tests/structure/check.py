@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 """Holds the shape of the sources: include directions, the bound on the dimension, file lengths, scenes all described, pages
 whose links hold and that are not too long."""
 
@@ -19,6 +20,7 @@ ROOMS = {
 }
 CODE = {".cc", ".h", ".py", ".sh", ".geo", ".cmake", ".txt"}
 MAX_LINES = 600
+LICENCE = "SPDX-License-Identifier: GPL-3.0-only"
 # Of a page as wc counts them. The reference of all parameters is looked into, not read.
 MAX_WORDS = 1500
 REFERENCES = [pathlib.Path("params/README.md")]
@@ -74,6 +76,8 @@ for path in own_files():
         continue  # pictures
     if (path.suffix in CODE or path.name in ("run", "test")) and len(lines) > MAX_LINES:
         report(path, len(lines), f"{len(lines)} lines; the limit is {MAX_LINES}")
+    if path.suffix in {".cc", ".h", ".py", ".sh", ".geo", ".cmake"} and not any(LICENCE in line for line in lines[:2]):
+        report(path, 1, f"one of the first two lines must say {LICENCE}")
     for number, line in enumerate(lines, 1):
         if found := UNFINISHED.search(line):
             report(path, number, f"{found[1]} left")

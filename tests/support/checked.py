@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 """Runs a script that draws and prints on stderr what is wrong with the layout of each figure that it saves: checked.py SCRIPT ARGUMENTS.
 
 `run_in_copy()` does so in a copy of this process, which has loaded matplotlib already. A file that this process has open is open in the

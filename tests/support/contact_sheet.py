@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-only
 """Runs every scene of params/, makes all the pictures that ./run makes, checks their layout and lays them out on one sheet.
 
 Scenes that take minutes are run with coarser grids and meshes, and with fewer values of a study. A result that is there already

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 """The environment in which ctest runs the tests of a build, for scripts that start them or the program by themselves."""
 
 import os

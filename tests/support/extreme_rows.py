@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 """The rows of tests/robustness/extremes.py."""
 
 import math

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 """What a run of the program left, for tests/robustness/extremes.py, and what is compared with it."""
 
 import re

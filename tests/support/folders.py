@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 """A folder of its own for each test."""
 
 import tempfile

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 """What is wrong with the layout of a drawn figure of matplotlib, told in words."""
 
 from itertools import combinations

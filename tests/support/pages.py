@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 """Which names of results the pages of postprocess have."""
 
 import re

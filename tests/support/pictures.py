@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 """What tests of the scripts that draw share; puts those scripts on the path."""
 
 import subprocess

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 """What tests of the program from outside share. Environment: SPRAG, the program, and SPRAG_SOURCE, the sources."""
 
 import os

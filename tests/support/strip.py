@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 """A strip of 52 x 4 quadrilaterals, clamped at its left edge: a lever as small as one can be, as gmsh's script and meshes."""
 
 SCRIPT = """

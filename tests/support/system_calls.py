@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-only
 """Systems that lack something: a filter (seccomp) lets system calls of a program under test fail. Numbers are those of x86_64."""
 
 import ctypes

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-only
 """Rigid parabola sliding on an elastic layer bonded to a rigid base, plane strain: the reference behind the fits in
 tests/deviation.md (nu = 0) and behind tests/verification/incompressible_layer.cc and tests/benchmarks/locking.py (nu up to 0.5).
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "mpi_environment.h"
 #include "verification/pressed_block.h"
 

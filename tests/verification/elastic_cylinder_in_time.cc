@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "scene/scene.h"
 #include "verification/meshed_in_time.h"
 

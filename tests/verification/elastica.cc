@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "fe/body/finite_statics.h"
 #include "fe/leaf/leaf_mesh.h"
 #include "mpi_environment.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/statics/quasi_static.h"
 #include "fe/mesh/mesh.h"
 #include "fe/solid/static_lever.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "analytic/energy_ledger.h"
 #include "verification/point_at_port.h"
 

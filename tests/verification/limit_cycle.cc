@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/limit_cycle/continuation.h"
 #include "scene/scene.h"
 #include "verification/held_slides.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "fe/algebra/mumps.h"
 #include "fe/body/elastic_body.h"
 #include "mpi_environment.h"

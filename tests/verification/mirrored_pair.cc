@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "analytic/closed_form.h"
 #include "results/row_statistics.h"
 #include "scene/pair_closed_form.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "fe/leaf/leaf_spring.h"
 #include "results/row_statistics.h"
 #include "scene/mirrored_pair.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "scene/closed_form.h"
 #include "scene/scene.h"
 #include "support/scene_parts.h"

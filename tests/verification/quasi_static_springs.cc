@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "fe/dynamics/dynamic_face_lever.h"
 #include "scene/closed_form.h"
 #include "scene/contact_reference.h"

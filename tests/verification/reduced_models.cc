@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/transient/growing_modes.h"
 #include "analytic/oscillation.h"
 #include "scene/closed_form.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "analytic/closed_form.h"
 #include "report/transient_report.h"
 #include "run/vibration_report.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "laws/friction.h"
 #include "scene/scene.h"
 #include "verification/rigid_block.h"

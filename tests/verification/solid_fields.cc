@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "fe/fields/body_fields.h"
 #include "fe/fields/device_mesh.h"
 #include "fe/solid/static_lever.h"

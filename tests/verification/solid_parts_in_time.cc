@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "base/errors.h"
 #include "fe/dynamics/lever_constants.h"
 #include "fe/leaf/leaf_spring.h"

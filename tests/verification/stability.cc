@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/stability/stability.h"
 
 #include "analysis/statics/contact_law.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "scene/read.h"
 #include "scene/scene.h"
 #include "support/params_folder.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/accuracy/dilation.h"
 
 #include "results/row_statistics.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/accuracy/row_spacing.h"
 
 #include "analysis/accuracy/sample_changes.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/design/design_search.h"
 
 #include "scene/scene.h"

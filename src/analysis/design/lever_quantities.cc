@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/design/lever_quantities.h"
 
 #include "analytic/harmonic_balance.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/identification/intervals.h"
 
 #include "base/text.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/identification/measured_motion.h"
 
 #include "base/least_squares.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/identification/one_more_unknown.h"
 
 #include "scene/identification_text.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/identification/vibration_window.h"
 
 #include <boost/math/distributions/fisher_f.hpp>

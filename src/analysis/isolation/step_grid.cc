@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/isolation/step_grid.h"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/limit_cycle/sprag_slip.h"
 
 #include <algorithm>

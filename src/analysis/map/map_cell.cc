@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/map/map_cell.h"
 
 #include "analysis/stability/stability.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/map/map_grid.h"
 
 #include <algorithm>

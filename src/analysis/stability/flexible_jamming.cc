@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "analytic/jamming.h"
 #include "model/reduced_lever.h"
 #include "scene/scene.h"

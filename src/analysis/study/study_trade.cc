@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/study/study_trade.h"
 
 #include "analysis/study/trade.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/team/team.h"
 
 #include "base/errors.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/transient/held_run.h"
 
 #include "base/errors.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "fe/algebra/block_krylov.h"
 
 #include "base/errors.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "fe/body/cell_elasticity.h"
 
 #include <deal.II/base/quadrature_lib.h>

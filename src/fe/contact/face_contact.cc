@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "fe/contact/face_contact.h"
 
 #include "laws/friction_of_step.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "fe/contact/face_contact.h"
 
 #include "fe/contact/face_observation.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "fe/contact/rigid_obstacle.h"
 
 #include "fe/contact/face_pair.h"

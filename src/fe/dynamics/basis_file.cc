@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "fe/dynamics/basis_file.h"
 
 #include "base/child_process.h"

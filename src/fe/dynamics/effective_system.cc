@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "fe/dynamics/effective_system.h"
 
 #include <deal.II/lac/lapack_full_matrix.h>

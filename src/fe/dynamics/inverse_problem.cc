@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "fe/dynamics/inverse_problem.h"
 
 #include "base/errors.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "fe/dynamics/lever_constants.h"
 
 #include "model/lever_frame.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "fe/dynamics/sparse_vibration.h"
 
 #include "base/eigenvalues.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "fe/fields/body_fields.h"
 
 #include "fe/body/cell_elasticity.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "fe/fields/device_mesh.h"
 
 #include "fe/fields/rigid_block.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "fe/fields/help_first_rank.h"
 
 #include "fe/fields/body_fields.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "fe/fields/mode_frames.h"
 
 #include "fe/fields/help_first_rank.h"

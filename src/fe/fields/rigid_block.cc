@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "fe/fields/rigid_block.h"
 
 #include "fe/solid/rigid_cylinder.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "fe/fields/stress_peaks.h"
 
 #include "results/stress_entries.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "fe/algebra/compressed_rows.h"
 #include "fe/algebra/free_modes.h"
 #include "fe/leaf/leaf_body.h"

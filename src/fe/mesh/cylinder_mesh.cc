@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "base/errors.h"
 #include "base/text.h"
 #include "fe/body/body_properties.h"

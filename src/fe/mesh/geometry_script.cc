@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "fe/mesh/geometry_script.h"
 
 #include "base/available_memory.h"

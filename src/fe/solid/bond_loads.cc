@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "fe/solid/bond_loads.h"
 
 #include <deal.II/base/quadrature_lib.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "fe/solid/first_rank.h"
 
 #include <deal.II/base/mpi.h>

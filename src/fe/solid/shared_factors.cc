@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "fe/solid/shared_factors.h"
 
 #include "base/errors.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "fe/solid/solid_body.h"
 
 #include "base/archive.h"

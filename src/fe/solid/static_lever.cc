@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "fe/solid/static_lever.h"
 
 #include "base/text.h"

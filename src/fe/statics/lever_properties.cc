@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "fe/statics/lever_properties.h"
 
 #include "base/text.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-only
 #include "fe/statics/static_terms.h"
 
 #include "laws/friction_of_step.h"
