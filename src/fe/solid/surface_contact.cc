@@ -508,7 +508,8 @@ namespace sprag
     return std::find_first_of(a.begin(), a.end(), b.begin(), b.end()) != a.end();
   }
 
-  void SurfaceContact::complete(SurfaceEvaluation &found) const
+  /// Returns the sums over the patches that are looked at.
+  StepInLanes::Sums SurfaceContact::add_points_in_contact(SurfaceEvaluation &found) const
   {
     StepInLanes::Sums sums;
     std::optional<unsigned int> peak; // patch where the pressure is largest
@@ -522,6 +523,12 @@ namespace sprag
     found.points.clear();
     for (const unsigned int patch : looked_at)
       in_lanes.add_points(patch, !peak || share_line(patch, *peak), found.points);
+    return sums;
+  }
+
+  void SurfaceContact::complete(SurfaceEvaluation &found) const
+  {
+    const auto sums         = add_points_in_contact(found);
     found.stored            = sums.stored;
     found.beyond_face       = reaches_end(found);
     found.works             = StepWork();

@@ -152,6 +152,7 @@ namespace sprag
     void find_lines();
     void find_ends();
     bool share_line(unsigned int patch, unsigned int other) const;
+    StepInLanes::Sums add_points_in_contact(SurfaceEvaluation &found) const;
     RigidCylinder::Pose pose_of(const SurfacePlace &place) const;
     AxisSlopes turned_by(const dealii::Vector<double> &ports) const;
     Patches::Indices near(const SurfacePlace &place, const RigidCylinder::Pose &pose) const;
