@@ -105,14 +105,9 @@ namespace sprag
       const double lag   = change_by_frequency(rows, turn, turned.window_end) / largest(rows, Column::P);
       const std::string step =
           scene.time.tolerance > 0. ? "Try a third of the Time/Tolerance." : "Try a Time/Step 0.7 times as large.";
-      std::vector<ErrorPart> of_frequency, of_decay;
+      std::vector<ErrorPart> of_frequency;
       if (is_meshed(scene.analysis.model))
-      {
-        const auto probes = probe_slide(held, dynamics.penalties, maker);
-        of_frequency      = parts_of_slide(held, found, probes, frequency_of);
-        of_decay          = parts_of_slide(held, found, probes,
-                                           [&](const SlideStability &slide) { return eigenvalue_near(slide, measured).real(); });
-      }
+        of_frequency = parts_of_slide(held, found, probe_slide(held, dynamics.penalties, maker), frequency_of);
       for (const auto &part : of_frequency)
         if (!(part.value < too_far))
           return unknown_errors("with another " + part.name + (part.name == "mesh" ? ", or elsewhere between its nodes," : "") +
@@ -123,15 +118,10 @@ namespace sprag
       ErrorEstimate overshoot{ "overshoot", "it", with_step(times(of_frequency, 2.), first_swing, step), {} };
       if (is_meshed(scene.analysis.model) && faces < fewest_faces)
         overshoot.parts.push_back({ "turn", std::min(most_by_place, by_place / faces), "Try a smaller Mesh/Face size." });
-      const auto by_damping = [&](const double dt) { return algorithmic_damping(scene.time.spectral_radius, omega * dt); };
-      const double damping  = slowing_of(rows, turn, turned.window_end, 0., by_damping).frequency;
-      const ErrorEstimate decay{
-        "decay", "it, the scatter of its fit apart", with_step(of_decay, damping * omega / std::abs(turned.growth_rate), step), {}
-      };
       return { { "P", "its peak", with_step(times(of_frequency, lag), slowing.P / largest(rows, Column::P), step), {} },
                overshoot,
                { "frequency", "it", with_step(of_frequency, slowing.frequency, step), {} },
-               decay };
+               { "decay", "", {}, "No estimate: what mesh and step change is less than the scatter of the decay's fit." } };
     }
   } // namespace
 

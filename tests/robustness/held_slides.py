@@ -73,7 +73,7 @@ class BadSlide(ProgramTest):
             "Lever/Depth 3": ["must be auto, none or a list of SECTION/NAME FROM TO"],
             "Lever/Depth 3 25;; Friction/Factor 0 2": ["must be auto, none or a list"],
             "Lever/Depth three 25": ["must be auto, none or a list"],
-            "Lever/Depth 3 25mm": ["must be auto, none or a list"],
+            "Lever/Depth 3 25 N": ["mm"],
             "Friction/Coefficient 0.1 1": ["Friction/Coefficient counts only with Friction/Law = Coulomb", "Friction/Factor"],
             "yes": ["must be auto, none or a list"],
         }.items():

@@ -75,7 +75,7 @@ class Output(RunTest):
             with self.subTest(scene):
                 done = self.run_scene(scene)
                 log = (self.output / "run.log").read_text()
-                self.assertRegex(log, r"\Asprag \d+\.\d+\.\d+, \d{4}-\d\d-\d\d \d\d:\d\d:\d\d ")
+                self.assertRegex(log, r"\Asprag \d+\.\d+\.\d+( \(\w+\+?\))?, \d{4}-\d\d-\d\d \d\d:\d\d:\d\d ")
                 self.assertIn(f"{scene}.prm", log.splitlines()[1])
                 for setting in SHORT[scene]:
                     self.assertIn(setting.replace("=", " = "), log)

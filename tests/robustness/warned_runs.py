@@ -32,7 +32,7 @@ PROVOKED = {
     "crushed cork under a beam": ("reversal-a", ("Friction layer/Strength=0.1",), ["pressure_beyond_strength"]),
     "soft tangential penalty": ("model-a", (*FORWARD, "Contact/Tangential penalty=1e-6"), ["soft_tangential_penalty"]),
     "stiff penalty": ("model-a", (*FORWARD, "Mesh/Faces in contact=0", "Contact/Penalty=1e4"), ["stiff_penalty"]),
-    "e within round-off of R": ("model-a", (*FORWARD, "Geometry/Interface offset=55.999999999"), ["contact_between_points"]),
+    "e almost R": ("model-a", (*FORWARD, "Geometry/Interface offset=55.999999"), ["contact_between_points", "soft_penalty", "coarse_contact"]),
     "one step": ("model-a", (*FORWARD, "Analysis/Step=65"), ["long_steps"]),
     "near locking": ("closed-form-a", ("Friction/Law=Coulomb", "Friction/Coefficient=2.62"), ["near_locking", "pressure_beyond_strength"]),
     "none": ("model-a", FORWARD, []),

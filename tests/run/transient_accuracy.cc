@@ -85,7 +85,7 @@ TEST(TransientAccuracy, ToldErrorsAreThoseOfShorterSteps)
       EXPECT_LT(total_error(estimates[i]), 3. * errors[i]) << estimates[i].quantity;
     }
     EXPECT_EQ(estimates[3].quantity, "decay");
-    EXPECT_GT(total_error(estimates[3]), 0.);
+    EXPECT_NE(estimates[3].unknown, "");
   }
 }
 

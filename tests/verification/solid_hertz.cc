@@ -45,7 +45,7 @@ TEST(SolidHertz, ABallOnABlock)
   constexpr double R = 10., modulus = 1000. / (1. - 0.3 * 0.3), depth = 0.0165;
   const auto parts = graded_parts(0.12, 0.48, 1.6, 10.);
   const SolidBlock block({ parts, graded_parts(0.12, 0.24, 1.6, 10.), parts }, { 1000., 0.3 });
-  const auto near = near_face(block, 0.6);
+  const auto near = near_face(block, 0.7);
   std::vector<double> radius, pressure, approach;
   for (const double penalty : { 2e4, 1e5 })
   {

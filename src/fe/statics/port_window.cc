@@ -87,7 +87,7 @@ namespace sprag
     unsigned int place = 0;
     for (const unsigned int port : of_ports)
     {
-      while (window[place] != port)
+      while (window.at(place) != port) // throws where the window lacks it
         ++place;
       result.push_back(place);
     }
