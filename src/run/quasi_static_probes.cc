@@ -96,10 +96,9 @@ namespace sprag
     make_mesh(coarse, mesh);
     StaticLever<2> on_coarse(mesh, coarse);
     StressComparison stress(on_coarse, stresses);
-    set_coarse(
-        repeated(on_coarse, chosen, start, settings,
-                 [&](const State &state, const Row &row, const Evaluation &) { stress.look_at(state, row); }),
-        result);
+    set_coarse(repeated(on_coarse, chosen, start, settings,
+                        [&](const State &state, const Row &row, const Evaluation &) { stress.look_at(state, row); }),
+               result);
     result.stress = stress.changes();
     result.pressure_with_stress =
         result.stress ? relative_change("largest_pressure", rows_at(times, result.run), rows_at(times, result.coarse)) : 0.;

@@ -11,7 +11,7 @@ namespace sprag
 {
   namespace
   {
-    constexpr double explains     = 0.5;  ///< of the squares of residuals beyond the noise, from which an unknown is named
+    constexpr double explains     = 0.8;  ///< of the squares of residuals beyond the noise, from which an unknown is named
     constexpr double small_change = 1e-4; ///< change of a lever by which derivatives are found, relative
 
     /// A change of the lever, or of what a channel shows of it.
