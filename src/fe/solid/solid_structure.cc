@@ -53,7 +53,7 @@ namespace sprag
   Vector<double> SolidStructure::of_body(const Vector<double> &coordinates, const unsigned int lever) const
   {
     const auto first = coordinates.begin() + first_of_body(lever);
-    return { first, first + body.n_dofs() };
+    return Vector<double>(first, first + body.n_dofs());
   }
 
   void SolidStructure::set_faces(const PortLoads &forces, const PortSelection &near, Vector<double> &coordinates)

@@ -297,12 +297,12 @@ namespace sprag
   }
   StepInLanes::Constants SurfaceContact::constants_of(const PortStep &of, const FrictionLaw &friction) const
   {
-    auto result                     = constants(Kind::in_time, { of.end, of.to.x }, friction_of_step(friction, of.to.v));
-    result.weights                  = of.weights;
-    result.begin                    = begin_pose;
-    result.share                    = of.weights.stiffness();
-    const auto &[begin, end, share] = std::tie(result.begin, result.end, result.share);
-    const auto balanced             = [&](const double a, const double b) { return (1. - share) * a + share * b; };
+    auto result       = constants(Kind::in_time, { of.end, of.to.x }, friction_of_step(friction, of.to.v));
+    result.weights    = of.weights;
+    result.begin      = begin_pose;
+    result.share      = of.weights.stiffness();
+    const auto &begin = result.begin, &end = result.end;
+    const auto balanced = [share = result.share](const double a, const double b) { return (1. - share) * a + share * b; };
     result.balance =
         properties.cylinder.pose(balanced(begin.x, end.x), balanced(begin.theta, end.theta),
                                  { { balanced(begin.turned[0], end.turned[0]), balanced(begin.turned[1], end.turned[1]) } });
