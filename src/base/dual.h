@@ -43,7 +43,7 @@ namespace sprag
   template <class N>
   using Plain = typename PlainOf<N>::type;
 
-  /// Whether C is a constant to dual numbers over T: one without their derivatives.
+  /// Is true where C is a constant to dual numbers over T: it has none of their derivatives.
   template <class C, class T>
   constexpr bool is_constant = std::is_arithmetic_v<C> || std::is_same_v<C, T>;
   template <class C, class T, int n>

@@ -363,7 +363,7 @@ namespace sprag
       return { std::move(columns), chosen };
     }
 
-    /// What the process that reads a file of HDF5 hands back.
+    /// The reply of the process that reads a file of HDF5.
     struct Found
     {
       Names names, units; ///< of the columns

@@ -102,7 +102,7 @@ namespace sprag
     const auto &channels     = scene.identification.measured.channels;
     const std::size_t sought = found.used.empty() ? 0 : jacobian.size() / found.used.size();
     const auto basis         = singular_values(jacobian, sought).left;
-    /// What a lever is shown to do, over the deviations; NaN where it has no slide.
+    /// Returns the value that a channel shows of a lever, over its deviation; NaN where the lever has no slide.
     const auto shown = [&](const Candidate &candidate, const UsedValue &value)
     {
       const auto slide   = fit.slide(candidate.lever, found.correction, value.row, value.stroke);

@@ -39,7 +39,7 @@ namespace sprag
     constexpr double mesh_patience  = 20.;
     constexpr std::size_t mesh_room = std::size_t(1) << 30;
 
-    /// Of the memory that is left, so that a stranger's script takes none from other programs.
+    /// Share of the free memory that a stranger's script may take, so that other programs keep theirs.
     constexpr double share_of_scripts = 0.8;
 
     /// What the process that runs gmsh hands back.

@@ -19,7 +19,7 @@ namespace sprag
     N profile_slope;
   };
 
-  /// How far the cylinder's surface lies back at a place along the axis, and its slope there.
+  /// The depth by which the cylinder's surface lies back at a place along the axis, and its slope there.
   template <class N>
   struct CylinderProfile
   {

@@ -61,7 +61,7 @@ namespace sprag
     /// Returns a state's forces on the face of each lever and the displacements where they act.
     std::vector<FaceSample> samples(const dealii::Vector<double> &coordinates, const PortLoads &forces) const;
 
-    /// What the compliance of the face of a linear body leaves out, against a solve with the whole body, the worst of some
+    /// The error of the compliance of the face of a linear body against a solve with the whole body, the worst of some
     /// states.
     struct Exactness
     {
