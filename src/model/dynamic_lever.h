@@ -141,15 +141,24 @@ namespace sprag
         force = slides.solve(drive, ratio, law);
       };
       seek();
-      if (force == nullptr && with_friction && slides.approach(drive, friction))
-        seek();
+      if (force == nullptr && with_friction)
+      {
+        if (!grow_friction(drive))
+          return {};
+        const auto grown = slides.last_equilibrium();
+        ratio            = slides.speed_ratio(drive, 1e-3 * frame.geometries.front().cylinder_radius);
+        slides.start_from(grown);
+        force = slides.solve(drive, ratio, law);
+        if (force == nullptr)
+          throw no_equilibrium(drive, 1.);
+      }
       // Where the structure answers otherwise than its compliance, by round-off, that is put right.
       constexpr unsigned int most_corrections = 2;
       dealii::Vector<double> round_off(frame.ports.size());
       for (unsigned int i = 0; i < most_corrections && force != nullptr; ++i)
       {
         auto change = structure->port_positions(structure->deform(*force));
-        change -= slides.last_ports();
+        change -= slides.last_equilibrium().ports;
         const auto counts = [&](const unsigned int port)
         { return std::abs(frame.lengths[port] * change[port]) > 1e-10 * found.overlap(); };
         if (std::none_of(force->ports.begin(), force->ports.end(), counts))
@@ -162,30 +171,32 @@ namespace sprag
       HeldSlide slide;
       slide.drive    = drive;
       slide.motion   = completed(structure->deform(*force), { drive.time, drive.x, 0., 0. }, *force);
-      slide.ports    = slides.last_ports();
+      slide.ports    = slides.last_equilibrium().ports;
       slide.friction = friction;
       slide.speed    = ratio * sliding_speed(frame.geometries.front(), drive.x, drive.v);
       slide.overlap  = found.overlap();
       Row row;
       contact->observe(found, row, 0);
       slide.indentation = row[Column::indentation];
-      slide.mu          = with_friction ? row[Column::mu] : 0.;
-      slide.forces      = { row[Column::P], row[Column::Q] };
-      slide.margin      = with_friction ? P_free / slide.forces.P : 1.;
-      slide.uniqueness  = uniqueness(slide);
+      if (with_friction && slide.indentation > frame.largest_indentation)
+        return {};
+      slide.mu         = with_friction ? row[Column::mu] : 0.;
+      slide.forces     = { row[Column::P], row[Column::Q] };
+      slide.margin     = with_friction ? P_free / slide.forces.P : 1.;
+      slide.uniqueness = uniqueness(sliding_state(slide));
       return slide;
     }
 
     std::vector<Eigenmode> vibrations(const HeldSlide &slide, const bool in_contact, const unsigned int number) override
     {
-      const auto forces = perturbation(slide, in_contact);
+      const auto forces = perturbation(sliding_state(slide), in_contact);
       return explained(*structure, structure->vibrations(forces, number), forces, frame.ports);
     }
 
     std::vector<std::complex<double>> eigenvalues(const HeldSlide &slide, const unsigned int number) override
     {
       std::vector<std::complex<double>> result;
-      for (const auto &mode : structure->vibrations(perturbation(slide, true), number))
+      for (const auto &mode : structure->vibrations(perturbation(sliding_state(slide), true), number))
         result.push_back(mode.eigenvalue);
       return result;
     }
@@ -361,12 +372,12 @@ namespace sprag
     }
 
     /// The contact's forces about a held slide, those of the hub's spring and the coupling with a sprung support.
-    PortPerturbation perturbation(const HeldSlide &slide, const bool in_contact)
+    PortPerturbation perturbation(const SlidingState &slide, const bool in_contact)
     {
       const auto turns_of_slide = turns_of(frame.ports, slide.ports);
       const auto theta          = inclinations_of(frame, turns_of_slide);
       contact->reachable_ports(slide.drive.x, theta);
-      const auto of_contact = in_contact ? contact->linearise(sliding_state(slide), found) : PortPerturbation();
+      const auto of_contact = in_contact ? contact->linearise(slide, found) : PortPerturbation();
       auto ports            = of_contact.ports;
       for (const auto &others : { coupling.coupled_ports(), hub_spring.loaded_ports() })
         ports.insert(ports.end(), others.begin(), others.end());
@@ -381,12 +392,57 @@ namespace sprag
     }
 
     /// The determinant that HeldSlide describes.
-    double uniqueness(const HeldSlide &slide)
+    double uniqueness(const SlidingState &slide)
     {
       structure->use_statics();
       const auto forces = perturbation(slide, true);
       return port_determinant(structure->compliance(), forces.ports, forces.stiffness()) /
              port_determinant(structure->compliance(), forces.ports, forces.pressure);
+    }
+
+    /// The failure of the method, beyond a share of friction at which there is an equilibrium.
+    static AnalysisError no_equilibrium(const DrivePoint &drive, const double share)
+    {
+      return AnalysisError("no equilibrium found at x = " + std::to_string(drive.x) + " mm beyond " + std::to_string(share) +
+                           " times the friction, where the lever does not jam. Try a smaller Mesh/Face size.");
+    }
+
+    /// Follows the equilibrium from no friction to the scene's, in steps that are halved where Newton's method fails or has left
+    /// the branch. Returns whether it gets there; false where the branch ends at a fold, towards which the square of the
+    /// uniqueness falls to 0, or with a layer pressed too far. Throws AnalysisError where it ends elsewhere: that is the method's
+    /// failure and no property of the lever.
+    bool grow_friction(const DrivePoint &drive)
+    {
+      constexpr double smallest_step = 1e-4, near = 1e-2; // shares of the friction
+      slides.solve(drive, 1., ContactFriction::none);
+      const double speed       = sliding_speed(frame.geometries.front(), drive.x, drive.v);
+      const auto uniqueness_at = [&](const double share)
+      {
+        const auto ports = slides.last_equilibrium().ports;
+        return uniqueness({ ports, drive, speed, nullptr, ContactFriction::sliding, Wanted::with_tangent, share });
+      };
+      double share = 0., unique = 1., overlap = 0.;
+      double to_fold = 1.; // from the share, by the last two
+      for (double step = 0.25; share < 1. && step > smallest_step;)
+      {
+        const double next = std::min(1., share + step);
+        const auto before = slides.last_equilibrium();
+        const double u    = slides.solve_with_share(drive, next) != nullptr ? uniqueness_at(next) : 0.;
+        if (u > 0.)
+        {
+          to_fold = u < unique ? u * u * (next - share) / (unique * unique - u * u) : 1.;
+          share = next, unique = u, overlap = found.overlap();
+          step *= 1.5;
+        }
+        else
+        {
+          slides.start_from(before);
+          step *= 0.5;
+        }
+      }
+      if (share < 1. && to_fold > near && !(overlap > frame.largest_indentation))
+        throw no_equilibrium(drive, share);
+      return share == 1.;
     }
 
     std::optional<Motion> sliding(const DrivePoint &drive, const double ratio)

@@ -19,6 +19,8 @@ namespace sprag
                       dealii::Vector<double>(ports.size()),
                       scene.plate.sensor_stiffness,
                       swings(scene) };
+    if (scene.layer.thickness > 0.)
+      frame.largest_indentation = 0.5 * scene.layer.thickness;
     frame.lengths = 1.;
     for (unsigned int slope = 0; slope < ports.slopes; ++slope)
       frame.lengths[ports.slope(slope)] = 0.5 * scene.lever.width;

@@ -8,6 +8,7 @@
 #include <deal.II/lac/vector.h>
 
 #include <functional>
+#include <limits>
 
 namespace sprag
 {
@@ -25,6 +26,10 @@ namespace sprag
     dealii::Vector<double> lengths;  ///< what a unit of each port moves [mm]: 1, and an arm for rotations
     double sensor_stiffness = 0.;    ///< of each force sensor of a friction plate [N/mm]
     bool joined             = false; ///< the springs of a pair by a joint that nothing else carries
+
+    /// Of the layer, beyond which a slide counts as jammed [mm]: half its thickness, where the pressure is half of its Young's
+    /// modulus and a run without inertia ends, too.
+    double largest_indentation = std::numeric_limits<double>::infinity();
 
     /// Tells the row of a lever the forces of its sensors [N].
     std::function<void(std::vector<double> forces, Row &row)> tell_sensors = [](std::vector<double> forces, Row &row)

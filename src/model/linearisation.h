@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
+#include "laws/friction_of_step.h"
 #include "model/dynamic_model.h"
 
 #include <deal.II/lac/full_matrix.h>
@@ -19,7 +20,16 @@ namespace sprag
     const dealii::Vector<double> *rates = nullptr; ///< of the ports, which add to the slip; none: at rest
     ContactFriction friction            = ContactFriction::sliding;
     Wanted wanted                       = Wanted::with_tangent;
+    double friction_share               = 1.; ///< times mu of the law, 0 to 1: a friction on the way to the scene's
   };
+
+  /// The law that a slide sees.
+  inline FrictionLaw friction_of_slide(const FrictionLaw &friction, const SlidingState &sliding)
+  {
+    FrictionLaw law = friction_of_step(friction, sliding.drive.v);
+    law.factor *= sliding.friction_share;
+    return law;
+  }
 
   /// Displacements of points along the lever, in lever axes [mm].
   struct SurfaceShape

@@ -197,7 +197,7 @@ namespace sprag
         const auto ports = ports_of(lever, state.ports);
         const auto rates = state.rates != nullptr ? ports_of(lever, *state.rates) : dealii::Vector<double>();
         evaluate(lever, SlidingState{ ports, state.drive, state.speed, state.rates != nullptr ? &rates : nullptr, state.friction,
-                                      state.wanted });
+                                      state.wanted, state.friction_share });
       }
       join(found);
     }

@@ -67,7 +67,7 @@ namespace sprag
     found.window      = window_at(state.ports, state.drive.x);
     const auto &end = found.end = configure(found.window, coordinates(found.window, state.ports, state.drive.x));
     const Local rate            = state.rates == nullptr ? Local() : rates(found.window, *state.rates, 0.);
-    const auto law              = friction_of_step(properties.friction, state.drive.v);
+    const auto law              = friction_of_slide(properties.friction, state);
     const auto normal           = mean_normal_force(properties.normal, end.gap, end.gap);
     const auto dashpot          = end_damping(properties.damping, normal.end, end.gap, end.gap_row * rate);
     found.slip_rate             = state.speed + end.slip_row * rate;

@@ -34,6 +34,13 @@ namespace sprag
   class SteadySlides
   {
   public:
+    struct Equilibrium
+    {
+      dealii::Vector<double> ports;
+      PortLoads forces;
+      OfLevers ideal{}; ///< inclinations of the levers in ideal contact
+    };
+
     /// All are kept by reference.
     SteadySlides(Structure &structure_, Contact &contact_, typename Contact::Evaluation &found_, const LeverFrame &frame_,
                  HubSpringExcess &hub_spring_)
@@ -46,7 +53,7 @@ namespace sprag
     }
 
     /// Finds the equilibrium of steady sliding at a ratio of speeds, see speed_ratio(). Returns its forces, for which
-    /// the contact was evaluated last, and null where there is none. `round_off`: displacements that the ports have besides.
+    /// the contact was evaluated last, and null where none is found. `round_off`: displacements that the ports have besides.
     const PortForces *solve(const DrivePoint &drive, const double ratio,
                             const ContactFriction friction          = ContactFriction::sliding,
                             const dealii::Vector<double> *round_off = nullptr)
@@ -62,22 +69,10 @@ namespace sprag
       return nullptr;
     }
 
-    /// Walks to a drive from where the cylinder has not moved so far and presses less, in steps that are halved where they fail.
-    /// Returns whether it gets there: from the ideal lever Newton's method may miss an equilibrium near to where the lever locks.
-    bool approach(const DrivePoint &drive, const ContactFriction friction)
+    /// Does as solve() with a share of the friction, 0 to 1, from the last equilibrium alone.
+    const PortForces *solve_with_share(const DrivePoint &drive, const double share)
     {
-      const double way = std::min(drive.x, 0.3 * frame.geometries.front().cylinder_radius);
-      last_sliding.reinit(0);
-      last_forces          = {};
-      const auto can_be_at = [&](const double before) { return solve_from_last(moved(drive, -before), 1., friction, nullptr); };
-      double left          = way;
-      const bool is_found  = can_be_at(left) != nullptr;
-      for (double step = way / 8.; is_found && left > 0. && step > way / 2000.;)
-        if (const double next = std::max(0., left - step); can_be_at(next) != nullptr)
-          left = next;
-        else
-          step *= 0.5;
-      return is_found && left == 0.;
+      return solve_from_last(drive, 1., ContactFriction::sliding, nullptr, share);
     }
 
     /// Does as solve() for one drive after another: to what a step in time leaves out, from a kept tangent where the contact
@@ -102,24 +97,29 @@ namespace sprag
     double speed_ratio(const DrivePoint &drive, const double h)
     {
       const bool before = solve(moved(drive, -h), 1.) != nullptr;
-      const auto from   = last_sliding;
+      const auto from   = last.ports;
       const bool after  = solve(moved(drive, h), 1.) != nullptr;
       if (!before || !after)
         return 1.;
-      const double slip = contact.mean_slip(found, from, drive.x - h, last_sliding, drive.x + h);
+      const double slip = contact.mean_slip(found, from, drive.x - h, last.ports, drive.x + h);
       return slip / (2. * h * sliding_speed(frame.geometries.front(), drive.x, 1.));
     }
 
-    /// Displacements of the ports in the last equilibrium.
-    const dealii::Vector<double> &last_ports() const
+    const Equilibrium &last_equilibrium() const
     {
-      return last_sliding;
+      return last;
+    }
+
+    /// Seeks the next equilibrium from this one.
+    void start_from(Equilibrium equilibrium)
+    {
+      last = std::move(equilibrium);
     }
 
     /// Visits the equilibrium from which the next one is sought.
     void visit_history(Archive &archive)
     {
-      archive(last_sliding, last_forces, last_sliding_theta, followed, followed_speed);
+      archive(last.ports, last.forces, last.ideal, followed, followed_speed);
       visit(archive, kept);
     }
 
@@ -129,11 +129,9 @@ namespace sprag
     typename Contact::Evaluation &found; ///< the model's
     const LeverFrame &frame;
     HubSpringExcess &hub_spring;
-    dealii::Vector<double> last_sliding; ///< ports of the last equilibrium, from which the next one starts
-    PortLoads last_forces;               ///< there
-    OfLevers last_sliding_theta{};       ///< inclinations of ideal contact there
-    ForceHistory followed;               ///< by follow(), where the contact keeps a tangent
-    double followed_speed = 0.;          ///< v of the last of them
+    Equilibrium last;           ///< from which the next one starts
+    ForceHistory followed;      ///< by follow(), where the contact keeps a tangent
+    double followed_speed = 0.; ///< v of the last of them
     std::shared_ptr<const KeptTangent> kept;
     KeptFactors factors;
 
@@ -147,7 +145,7 @@ namespace sprag
     double guessed_turn(const unsigned int lever, const OfLevers &ideal) const
     {
       const unsigned int hub = frame.ports.rotation(lever);
-      return (last_sliding.size() > 0 ? last_sliding[hub] - last_sliding_theta[lever] : -frame.rest_inclination) + ideal[lever];
+      return (last.ports.size() > 0 ? last.ports[hub] - last.ideal[lever] : -frame.rest_inclination) + ideal[lever];
     }
 
     /// Evaluates the contact at displacements of the ports.
@@ -161,7 +159,7 @@ namespace sprag
     /// See follow(). Null where that does not converge.
     const PortForces *solve_with_kept_tangent(const DrivePoint &drive)
     {
-      if (last_forces.ports.empty())
+      if (last.forces.ports.empty())
         return nullptr;
       structure.use_statics();
       const auto ideal                  = ideal_inclinations(drive.x);
@@ -191,12 +189,12 @@ namespace sprag
     PortLoads turned_forces(const dealii::Vector<double> &free, const PortSelection &near, const OfLevers &ideal) const
     {
       dealii::Vector<double> z(free.size());
-      add_response(structure.compliance(), last_forces.ports, last_forces.values, near, z);
+      add_response(structure.compliance(), last.forces.ports, last.forces.values, near, z);
       OfLevers growth{ { 1., 1. } };
       for (unsigned int lever = 0; lever < frame.ports.levers; ++lever)
         if (const unsigned int hub = frame.ports.rotation(lever); z[hub] != 0.)
           growth[lever] = (guessed_turn(lever, ideal) - free[hub]) / z[hub];
-      PortLoads result = last_forces;
+      PortLoads result = last.forces;
       for (unsigned int i = 0; i < result.ports.size(); ++i)
         result.values[i] *= growth[std::min(frame.ports.lever_of(result.ports[i]), frame.ports.levers - 1)];
       return result;
@@ -204,15 +202,13 @@ namespace sprag
 
     const PortForces *accept(const dealii::Vector<double> &z, const OfLevers &ideal, const PortForces &forces)
     {
-      last_sliding       = z;
-      last_sliding_theta = ideal;
-      last_forces        = { forces.ports, forces.values };
+      last = { z, { forces.ports, forces.values }, ideal };
       return &forces;
     }
 
     /// See solve(), from the last equilibrium.
     const PortForces *solve_from_last(const DrivePoint &drive, const double ratio, const ContactFriction friction,
-                                      const dealii::Vector<double> *round_off)
+                                      const dealii::Vector<double> *round_off, const double share = 1.)
     {
       structure.use_statics();
       const auto ideal            = ideal_inclinations(drive.x);
@@ -222,13 +218,13 @@ namespace sprag
         for (const unsigned int port : near)
           free[port] += (*round_off)[port];
       dealii::Vector<double> z = free;
-      add_response(structure.compliance(), last_forces.ports, last_forces.values, near, z);
+      add_response(structure.compliance(), last.forces.ports, last.forces.values, near, z);
       for (unsigned int lever = 0; lever < frame.ports.levers; ++lever)
         z[frame.ports.rotation(lever)] = guessed_turn(lever, ideal);
 
       const double speed = ratio * sliding_speed(frame.geometries.front(), drive.x, drive.v);
       const auto at      = [&](const dealii::Vector<double> &ports) -> const PortForces      &{
-        return evaluate({ ports, drive, speed, nullptr, friction });
+        return evaluate({ ports, drive, speed, nullptr, friction, Wanted::with_tangent, share });
       };
       const auto solved = solve_ports(
           { structure.compliance(), free, frame.lengths, near }, at, [&] { return found.overlap(); }, z);
@@ -237,7 +233,7 @@ namespace sprag
       if (!found.within_reach)
       {
         contact.widen_reach();
-        return solve_from_last(drive, ratio, friction, round_off);
+        return solve_from_last(drive, ratio, friction, round_off, share);
       }
       return accept(z, ideal, *solved.forces);
     }

@@ -73,6 +73,15 @@ namespace sprag
     return result;
   }
 
+  ContactLaw law_of_face(const Scene &scene)
+  {
+    if (!is_meshed(scene.analysis.model))
+      return { scene.contact.stiffness, scene.contact.exponent };
+    constexpr double n   = 1.5;
+    const auto reference = contact_reference(scene);
+    return { std::pow(reference.stiffness / n, n) / std::sqrt(reference.P), n };
+  }
+
   double neutral_axis_offset(const Scene &scene)
   {
     const double mesh = scene.geometry.interface_offset + scene.layer.thickness + 0.5 * scene.lever.depth;

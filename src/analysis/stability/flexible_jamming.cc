@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "analytic/jamming.h"
+#include "base/errors.h"
 #include "model/reduced_lever.h"
+#include "scene/contact_reference.h"
 #include "scene/scene.h"
 
 #include <algorithm>
@@ -13,16 +15,26 @@ namespace sprag
     /// The scene as a beam moving at x with a constant mu; none where it has no equilibrium, or not a unique one.
     std::optional<HeldSlide> beam_slide(const Scene &scene, const JammingMargin &at, const double mu)
     {
-      Scene beam          = scene;
-      beam.analysis.model = ModelType::beam;
-      beam.friction       = {};
-      beam.friction.law   = CoulombFriction{ mu };
-      beam.support.type   = SupportType::rigid;
-      beam.contact.type   = ContactType::compliant;
-      const double v      = std::copysign(scene.drive.peak_speed(), at.v);
-      auto slide          = make_reduced_lever(beam)->hold({ 0., at.x, v, 0. }, ContactFriction::sliding);
-      if (slide && slide->forces.P > 0. && slide->uniqueness > 0.)
-        return slide;
+      const auto law         = law_of_face(scene);
+      Scene beam             = scene;
+      beam.contact.stiffness = law.stiffness;
+      beam.contact.exponent  = law.exponent;
+      beam.analysis.model    = ModelType::beam;
+      beam.friction          = {};
+      beam.friction.law      = CoulombFriction{ mu };
+      beam.support.type      = SupportType::rigid;
+      beam.contact.type      = ContactType::compliant;
+      const double v         = std::copysign(scene.drive.peak_speed(), at.v);
+      try
+      {
+        auto slide = make_reduced_lever(beam)->hold({ 0., at.x, v, 0. }, ContactFriction::sliding);
+        if (slide && slide->forces.P > 0. && slide->uniqueness > 0.)
+          return slide;
+      }
+      catch (const AnalysisError &)
+      {
+        // No such equilibrium is found.
+      }
       return {};
     }
 

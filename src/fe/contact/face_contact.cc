@@ -187,7 +187,7 @@ namespace sprag
     found.sums.in_parts = in_parts;
     const auto at       = configuration(sliding.ports, sliding.drive.x);
     enter({ at, at });
-    const auto law = friction_of_step(properties.friction, sliding.drive.v);
+    const auto law = friction_of_slide(properties.friction, sliding);
     visit_patches(clip(near(), found),
                   [&](auto &below, const unsigned int patch)
                   {

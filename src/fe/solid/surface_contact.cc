@@ -441,7 +441,7 @@ namespace sprag
   {
     const SurfacePlace place{ sliding.ports, sliding.drive.x };
     clear(found);
-    auto step           = constants(Kind::slide, place, friction_of_step(friction, sliding.drive.v));
+    auto step           = constants(Kind::slide, place, friction_of_slide(friction, sliding));
     step.slide.speed    = sliding.speed;
     step.slide.friction = sliding.friction;
     if (sliding.rates != nullptr)
