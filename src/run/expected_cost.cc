@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "run/expected_cost.h"
 
+#include "analysis/stability/sweep.h"
 #include "analysis/study/study_points.h"
 #include "base/errors.h"
 #include "program/memory.h"
@@ -151,17 +152,32 @@ namespace sprag
       return start + basis * std::pow(N, 1.5) + steps * step * parts(scene);
     }
 
-    /// Slides that an analysis of held ones judges: the slide, without its parts in turn, and along single parameters.
-    double slides_of(const Scene &scene)
+    /// Slides and, of meshed levers, meshes that an analysis of held ones takes.
+    struct HeldWork
     {
-      double slides = 1.;
+      double slides = 1., meshes = 1.;
+    };
+
+    HeldWork held_work(const Scene &scene)
+    {
+      HeldWork work;
       if (scene.analysis.type != AnalysisType::stability)
-        return slides;
+        return work;
+      constexpr double values_of_damping = 10., limits_of_stick = 2., between = 8.; // of a critical value
+      const double verdict = least_slides(scene);
+      work.slides          = verdict;
+      if (scene.stability.ranges == "none" && scene.stability.damping)
+        work.slides += (values_of_damping + limits_of_stick) * verdict;
       if (scene.stability.roles)
-        slides += 6.;
+        work.slides += 6.;
       for (const auto &range : critical_searches(scene).value_or(std::vector<ParameterRange>()))
-        slides += range.points;
-      return slides;
+      {
+        const double values = range.points + between;
+        work.slides += values * (range.name == "Stability/Position" ? 1. : verdict);
+        if (is_meshed(scene.analysis.model) && changes_mesh(scene, range))
+          work.meshes += values;
+      }
+      return work;
     }
 
     double a_slide(const Scene &scene)
@@ -187,7 +203,8 @@ namespace sprag
                                                                                 : basis_of_slide;
       const double mesh     = is_meshed(scene.analysis.model) ? bases * basis * std::pow(N, 1.5) : 0.;
       const bool has_fields = is_meshed(scene.analysis.model) && scene.output.fields != FieldOutput::none;
-      return start + mesh + slides_of(scene) * a_slide(scene) + (has_fields ? fields_of_modes : 0.);
+      const auto work       = held_work(scene);
+      return start + work.meshes * mesh + work.slides * a_slide(scene) + (has_fields ? fields_of_modes : 0.);
     }
 
     void add_run(const std::function<Scene()> &scene_of_run, ExpectedCost &sum)
@@ -234,7 +251,8 @@ namespace sprag
       case AnalysisType::stability:
         return held(scene);
       case AnalysisType::map:
-        return start + judgements_of_cell * scene.map.first.points * scene.map.second.points * a_slide(scene);
+        return start + judgements_of_cell * scene.map.first.points * scene.map.second.points *
+                           std::max(1., 0.5 * least_slides(scene)) * a_slide(scene);
       default:
         return std::numeric_limits<double>::quiet_NaN();
       }

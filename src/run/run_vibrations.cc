@@ -4,6 +4,7 @@
 #include "base/progress.h"
 #include "base/text.h"
 #include "fe/fields/mode_frames.h"
+#include "levers/prepared_scene.h"
 #include "model/growth.h"
 #include "program/result_writer.h"
 #include "report/accuracy_report.h"
@@ -16,8 +17,10 @@
 #include "run/vibration_accuracy.h"
 #include "run/vibration_print.h"
 #include "run/vibration_report.h"
+#include "scene/contact_reference.h"
 #include "scene/held_slide.h"
 #include "scene/mirrored_pair.h"
+#include "scene/read.h"
 #include "scene/scene.h"
 
 #include <algorithm>
@@ -28,29 +31,63 @@ namespace sprag
 {
   namespace
   {
+    /// The largest growth rate of the slides that a verdict looks at [1/s]; NaN where it is not known.
+    double growth_of(const Scene &scene, DynamicsMaker &maker)
+    {
+      try
+      {
+        return sweep(scene, maker).worst().growth_rate;
+      }
+      catch (const AnalysisError &)
+      {
+        return std::nan("");
+      }
+    }
+
+    /// The scene as its worst slide has it.
+    Scene scene_of_slide(const Scene &scene, const JudgedSlide &slide)
+    {
+      Scene result               = slide.constants.empty() ? scene : prepared(variant(scene, slide.constants));
+      result.stability.position  = slide.drive.x;
+      result.stability.direction = slide.drive.v < 0. ? Direction::backward : Direction::forward;
+      return result;
+    }
+
     /// Accuracy of a critical value, over the distance searched.
     double tolerance_of(const Scene &scene)
     {
       return is_reduced(scene.analysis.model) ? 1e-8 : 1e-3;
     }
 
+    /// Values that a search is expected to try beside its points; the bar waits for the end where it takes more.
+    constexpr unsigned int expected_between = 12;
+
     std::vector<CriticalSearch> all_critical(const Scene &scene, DynamicsMaker &maker, const bool quiet)
     {
       const auto ranges = critical_searches(scene).value_or(std::vector<ParameterRange>());
-      double points     = 0.;
+      double expected   = 0.;
       for (const auto &range : ranges)
-        points += range.points;
-      Progress progress(std::cerr, progress_style(quiet || is_reduced(scene.analysis.model)), std::max(1., points));
-      double done = 0.;
+        expected += range.points + expected_between;
+      Progress progress(std::cerr, progress_style(quiet || is_reduced(scene.analysis.model)), std::max(1., expected));
+      double begun = 0.;
       std::vector<CriticalSearch> result;
       for (const auto &range : ranges)
-        result.push_back(critical_values(scene, range, tolerance_of(scene), maker, [&] { progress.update(++done, {}); }));
+      {
+        const double own = range.points + expected_between;
+        double done      = 0.;
+        const auto tried = [&] { progress.update(begun + std::min(++done, own - 0.5), {}); };
+        // Meshes that serve for one value alone are not worth a place in the cache.
+        DynamicsMaker passing(false);
+        auto &maker_of_range = is_meshed(scene.analysis.model) && changes_mesh(scene, range) ? passing : maker;
+        result.push_back(critical_values(scene, range, tolerance_of(scene), maker_of_range, tried));
+        progress.update(begun += own, {});
+      }
       return result;
     }
 
     /// Finds over which Contact/Damping the verdict stays what it is: where a search from the scene's own to none and to a large
-    /// one first meets another kind of slide, or a value that cannot be judged. That damping is seldom measured, and more of it
-    /// can make a slide grow as well as die out.
+    /// one first meets another kind, or a value that cannot be judged. That damping is seldom measured, and more of it can make a
+    /// slide grow as well as die out.
     DampingRange damping_range(const Scene &scene, DynamicsMaker &maker)
     {
       constexpr double largest      = 0.2;
@@ -58,32 +95,45 @@ namespace sprag
       constexpr unsigned int points = 4;
       const double own              = scene.contact.damping;
       const double end              = std::max(largest, own);
-      const auto ends_of            = [&](const double from, const double to)
+      DampingRange result{ 0., end, end, std::nan("") };
+      const auto ends_of = [&](const double from, const double to)
       {
-        std::vector<double> result;
+        std::vector<double> ends;
         if (!(from < to))
-          return result;
+          return ends;
         const auto search = critical_values(scene, { "Contact/Damping", from, to, points }, accuracy, maker);
         for (const auto &change : search.changes)
-          result.push_back(change.value);
-        result.insert(result.end(), search.not_judged.begin(), search.not_judged.end());
-        return result;
+          ends.push_back(change.value);
+        ends.insert(ends.end(), search.not_judged.begin(), search.not_judged.end());
+        return ends;
       };
-      DampingRange result{ 0., end, end, std::nan("") };
       for (const double value : ends_of(0., own))
         result.low = std::max(result.low, value);
       for (const double value : ends_of(own, end))
         result.high = std::min(result.high, value);
-      Scene undamped           = scene;
-      undamped.contact.damping = 0.;
-      try
+      Scene undamped             = scene;
+      undamped.contact.damping   = 0.;
+      result.growth_rate_at_none = growth_of(undamped, maker);
+      return result;
+    }
+
+    /// Judges with a spring of stick ten times as soft as it is, and rigid. The mesh of a meshed lever has the layer's own shear:
+    /// its stick is judged rigid alone.
+    StickLimits stick_limits(const Scene &scene, DynamicsMaker &maker)
+    {
+      constexpr double soft = 0.1, rigid = 1e6;
+      StickLimits result;
+      Scene changed = scene;
+      if (is_meshed(scene.analysis.model))
+        changed.contact.tangential_penalty = rigid * contact_reference(scene).stiffness;
+      else
       {
-        result.growth_rate_at_none = judge(undamped, maker).growth_rate();
+        const double own                     = contact_reference(scene).tangential;
+        changed.contact.tangential_stiffness = soft * own;
+        result.soft                          = growth_of(changed, maker);
+        changed.contact.tangential_stiffness = rigid * own;
       }
-      catch (const AnalysisError &)
-      {
-        // It stays unknown.
-      }
+      result.rigid = growth_of(changed, maker);
       return result;
     }
 
@@ -177,10 +227,12 @@ namespace sprag
       return vibration_accuracy(held, found, dynamics, maker);
     }
 
-    RunEnd stability(const Scene &scene, DynamicsMaker &maker, const RunOptions &options, Warnings &warnings)
+    RunEnd stability(const Scene &whole, DynamicsMaker &maker, const RunOptions &options, Warnings &warnings)
     {
       RunEnd result;
       SlideStability found;
+      const auto swept  = timed(maker, [&] { return sweep(whole, maker, true); });
+      const Scene scene = scene_of_slide(whole, swept.worst());
       {
         const Scene held    = held_scene(scene);
         const auto dynamics = maker.make(held);
@@ -192,13 +244,15 @@ namespace sprag
         result.groups = { mode_group(modes, dynamics.model()) };
         if (found.slide)
           write_fields(scene, dynamics, pose_of_slide(scene, dynamics.model(), *found.slide), modes, options);
-        result.summary = slide_entries(found);
         if (found.slide)
           append(warnings, slide_warnings(scene, found.slide->drive, found.slide->forces.P, found.slide->indentation));
         if (found.slide)
           append(warnings, beam_warnings(scene, found.frequency(), found.growth_rate()));
         const auto accuracy =
             estimates_errors(options) ? accuracy_of(held, found, dynamics.meshed, maker) : std::vector<ErrorEstimate>();
+        const bool is_decided = !is_unstable(found.kind) || accuracy.empty() || !(total_error(accuracy.front()) > 1.);
+        result.summary        = slide_entries(found, is_decided);
+        append(result.summary, sweep_entries(swept));
         result.accuracy = accuracy_entries(accuracy);
         append(warnings, target_warnings(scene.accuracy, accuracy));
         if (options.verbose)
@@ -210,16 +264,20 @@ namespace sprag
         }
         else if (!options.quiet)
         {
-          print_slide(std::cout, found);
+          print_slide(std::cout, found, is_decided);
           print_brief_errors(std::cout, accuracy);
         }
       }
-      if (found.slide && scene.stability.damping && options.in_memory == nullptr)
+      if (!options.quiet)
+        print_sweep(std::cout, whole, swept);
+      if (found.slide && scene.stability.damping && whole.stability.ranges == "none" && options.in_memory == nullptr)
       {
-        const auto range = timed(maker, [&] { return damping_range(scene, maker); });
+        const auto range  = timed(maker, [&] { return damping_range(whole, maker); });
+        const auto limits = timed(maker, [&] { return stick_limits(whole, maker); });
         append(result.summary, damping_entries(range));
+        append(result.summary, stick_entries(limits));
         if (!options.quiet)
-          print_damping(std::cout, range);
+          print_constants(std::cout, range, limits);
       }
       if (scene.stability.roles)
       {
@@ -230,10 +288,10 @@ namespace sprag
       }
       if (scene.stability.critical != "none")
       {
-        const auto critical = all_critical(scene, maker, options.quiet);
+        const auto critical = all_critical(whole, maker, options.quiet);
         append(result.summary, critical_entries(critical));
         if (!options.quiet)
-          print_critical(std::cout, critical, options.verbose);
+          print_critical(std::cout, whole, critical, options.verbose);
       }
       return result;
     }

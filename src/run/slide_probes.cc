@@ -15,6 +15,9 @@ namespace sprag
   {
     /// By how much of a face the slide is moved to see how far its place between the nodes changes it.
     constexpr double shares_of_face[] = { 0.25, 0.5, 0.75 };
+
+    /// Modes that a lever with one alone is compared with.
+    constexpr unsigned int several_modes = 4;
   } // namespace
 
   SlideProbes probe_slide(const Scene &scene, const ContactPenalties &penalties, DynamicsMaker &maker)
@@ -38,7 +41,15 @@ namespace sprag
     {
       coarse.condensed.modes = scene.condensed.modes / 2;
       const auto dynamics    = maker.make_with_modes(scene, coarse.condensed.modes);
-      result.fewer_modes     = judge(dynamics.model(), held_drive(scene), scene.stability.modes);
+      result.other_modes     = judge(dynamics.model(), held_drive(scene), scene.stability.modes);
+    }
+    else if (scene.analysis.model == ModelType::condensed)
+    {
+      coarse.condensed.modes = several_modes;
+      Scene more             = scene;
+      more.condensed.modes   = several_modes;
+      DynamicsMaker of_more;
+      result.other_modes = judge(more, of_more);
     }
     DynamicsMaker of_coarse;
     result.coarse = judge(coarse, of_coarse);
@@ -50,7 +61,7 @@ namespace sprag
   {
     const auto difference = [&](const SlideStability &a, const SlideStability &b)
     { return std::abs((value(a) - value(b)) / value(found)); };
-    const auto &on_mesh = probes.fewer_modes ? *probes.fewer_modes : found;
+    const auto &on_mesh = probes.other_modes ? *probes.other_modes : found;
     ErrorPart mesh      = mesh_part(scene, difference(probes.coarse, on_mesh), order_of_forces(scene));
     double least = value(found), most = value(found);
     for (const auto &slide : probes.elsewhere)
@@ -60,8 +71,8 @@ namespace sprag
     }
     mesh.value                   = std::max(mesh.value, (most - least) / std::abs(value(found)));
     std::vector<ErrorPart> parts = { mesh, penalty_part(scene, difference(probes.soft, found)) };
-    if (probes.fewer_modes)
-      parts.push_back({ "modes", difference(*probes.fewer_modes, found), "Try twice the Condensed/Modes." });
+    if (probes.other_modes)
+      parts.push_back({ "modes", difference(*probes.other_modes, found), "Try twice the Condensed/Modes." });
     return parts;
   }
 } // namespace sprag

@@ -4,6 +4,10 @@
 #include "base/text.h"
 #include "report/brief_lines.h"
 #include "run/vibration_report.h"
+#include "scene/held_slide.h"
+#include "scene/scene.h"
+
+#include <boost/algorithm/string/join.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -140,9 +144,10 @@ namespace sprag
     }
   }
 
-  void print_slide(std::ostream &stream, const SlideStability &found)
+  void print_slide(std::ostream &stream, const SlideStability &found, const bool is_decided)
   {
-    brief_line(stream, "verdict", verdict_text(found));
+    brief_line(stream, "verdict",
+               is_decided ? verdict_text(found) : "undecided, growth is less than its error: " + verdict_text(found));
     if (!found.slide)
       return;
     const auto &slide = *found.slide;
@@ -157,11 +162,44 @@ namespace sprag
     print_growing(stream, found.modes);
   }
 
-  void print_damping(std::ostream &stream, const DampingRange &range)
+  void print_sweep(std::ostream &stream, const Scene &scene, const SweptSlides &swept)
+  {
+    const auto &first        = swept.ways.front().along;
+    const bool over_stroke   = first.range.points > 1;
+    const auto directions    = held_directions(scene);
+    const std::string ways   = directions.size() > 1                      ? "both ways"
+                               : directions.front() == Direction::forward ? "forward alone"
+                                                                          : "backward alone";
+    const std::string places = over_stroke ? "x = " + four_digits(first.range.from) + " to " + with_unit(first.range.to, "mm")
+                                           : "x = " + with_unit(first.range.from, "mm") + " alone";
+    brief_line(stream, "looked at",
+               places + ", " + ways + (scene.stability.ranges == "none" ? "" : ", with ends of " + scene.stability.ranges) +
+                   ": " + std::to_string(swept.slides()) + (swept.slides() == 1 ? " slide" : " slides"));
+    if (!over_stroke)
+      return;
+    bool is_stable = true;
+    for (const auto &way : swept.ways)
+      for (const auto &stretch : unstable_stretches(way.along))
+      {
+        is_stable                  = false;
+        const std::string constant = boost::algorithm::join(way.constants, ", ");
+        brief_line(stream, kind_name(stretch.kind),
+                   std::string(way.direction == Direction::forward ? "forward" : "backward") +
+                       " from x = " + four_digits(stretch.from) + " to " + with_unit(stretch.to, "mm") +
+                       (constant.empty() ? "" : ", " + constant));
+      }
+    if (is_stable)
+      brief_line(stream, "stable", "everywhere that was looked at");
+  }
+
+  void print_constants(std::ostream &stream, const DampingRange &damping, const StickLimits &stick)
   {
     brief_line(stream, "verdict holds",
-               "for Contact/Damping " + four_digits(range.low) + " to " + four_digits(range.high) + " of 0 to " +
-                   four_digits(range.looked_up_to) + "; without, growth " + with_unit(range.growth_rate_at_none, "1/s"));
+               "for Contact/Damping " + four_digits(damping.low) + " to " + four_digits(damping.high) + " of 0 to " +
+                   four_digits(damping.looked_up_to) + "; without, growth " + with_unit(damping.growth_rate_at_none, "1/s"));
+    brief_line(stream, "stiffness in stick",
+               (std::isnan(stick.soft) ? "" : "a tenth of it: growth " + with_unit(stick.soft, "1/s") + ", ") + "rigid: growth " +
+                   with_unit(stick.rigid, "1/s"));
   }
 
   void print_roles(std::ostream &stream, const SlideStability &present, const std::vector<Role> &roles)
@@ -180,10 +218,12 @@ namespace sprag
       line(role.name, kind_name(role.kind), role.growth_rate, role.frequency, role.motion);
   }
 
-  void print_critical(std::ostream &stream, const std::vector<CriticalSearch> &searches, const bool with_spacing)
+  void print_critical(std::ostream &stream, const Scene &scene, const std::vector<CriticalSearch> &searches,
+                      const bool with_spacing)
   {
-    stream << "  Critical values, all else as it is; narrow islands between the values tried may be missed:\n";
-    for (const auto &[range, first, changes, not_judged, spacing, more_values] : searches)
+    stream << "  Critical values of " << (looks_over_stroke(scene) ? "the worst slide" : "this slide")
+           << ", all else as it is; narrow islands between the values tried may be missed:\n";
+    for (const auto &[range, first, changes, worst, not_judged, reason, spacing, more_values] : searches)
     {
       const auto unit = unit_of_parameter(range.name);
       stream << "    " << range.name << " from " << four_digits(range.from) << " to " << with_unit(range.to, unit) << ": "
@@ -193,7 +233,10 @@ namespace sprag
         const bool of_friction = range.name == "Friction/Factor" && !std::isnan(critical.mu);
         stream << ", " << kind_name(critical.above) << " from " << with_unit(critical.value, unit)
                << (of_friction ? " (mu = " + four_digits(critical.mu) + ")" : "")
-               << (critical.motion.empty() ? "" : " (" + critical.motion + ")");
+               << (critical.worse.motion.empty() ? "" : " (" + critical.worse.motion + ")");
+        if (looks_over_stroke(scene) && range.name != "Stability/Position")
+          stream << " (worst " << (critical.worse.drive.v < 0. ? "backward" : "forward")
+                 << " at x = " << with_unit(critical.worse.drive.x, "mm") << ")";
       }
       stream << (first && changes.empty() ? " throughout" : "");
       if (first && !not_judged.empty())

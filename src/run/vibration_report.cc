@@ -15,11 +15,11 @@ namespace sprag
 {
   namespace
   {
-    using Value = std::function<double(const Eigenmode &)>;
+    using ValueOfMode = std::function<double(const Eigenmode &)>;
 
     void append_numbers(const std::vector<Eigenmode> &modes, Group &group)
     {
-      const auto add = [&](const ColumnInfo &info, const Value &value)
+      const auto add = [&](const ColumnInfo &info, const ValueOfMode &value)
       { group.datasets.push_back(dataset_of(modes, info, value)); };
       add({ "frequency", "Hz", "Im lambda / 2 pi" }, frequency_of);
       add({ "growth_rate", "1/s", "Re lambda" }, [](const auto &mode) { return mode.mode.eigenvalue.real(); });
@@ -111,7 +111,7 @@ namespace sprag
     /// Which motion of a pair's levers is unstable on one side.
     std::string of_motion(const CriticalValue &critical)
     {
-      return critical.motion.empty() ? "" : ", the levers " + critical.motion;
+      return critical.worse.motion.empty() ? "" : ", the levers " + critical.worse.motion;
     }
 
   } // namespace
@@ -166,6 +166,65 @@ namespace sprag
     return group;
   }
 
+  std::vector<UnstableStretch> unstable_stretches(const CriticalSearch &along)
+  {
+    std::vector<UnstableStretch> result;
+    double from      = along.range.from;
+    auto kind        = along.first;
+    const auto close = [&](const double to)
+    {
+      if (kind && *kind != SlideKind::stable)
+        result.push_back({ from, to, *kind });
+    };
+    for (const auto &change : along.changes)
+    {
+      close(change.value);
+      from = change.value;
+      kind = change.above;
+    }
+    close(along.range.to);
+    return result;
+  }
+
+  std::vector<Entry> sweep_entries(const SweptSlides &swept)
+  {
+    std::vector<Entry> result = { { "slides_looked_at", static_cast<double>(swept.slides()), "1",
+                                    "by the verdict, which is the worst of them; 1: at one x, one way" } };
+    for (const auto &[direction, way] :
+         { std::pair<Direction, std::string>{ Direction::forward, "forward" }, { Direction::backward, "backward" } })
+    {
+      double from = std::nan(""), to = std::nan(""), growth = std::nan("");
+      bool is_looked_at = false;
+      for (const auto &of : swept.ways)
+      {
+        if (of.direction != direction)
+          continue;
+        is_looked_at = true;
+        growth       = std::fmax(growth, of.along.worst->growth_rate);
+        for (const auto &stretch : unstable_stretches(of.along))
+        {
+          from = std::fmin(from, stretch.from);
+          to   = std::fmax(to, stretch.to);
+        }
+      }
+      if (!is_looked_at)
+        continue;
+      result.push_back({ "largest_growth_rate_" + way, growth, "1/s", "of all slides " + way + " that were looked at" });
+      result.push_back(
+          { "unstable_" + way + "_from", from, "mm", "least x of a slide " + way + " that is not stable; NaN: none" });
+      result.push_back({ "unstable_" + way + "_to", to, "mm", "largest x of such a slide" });
+    }
+    return result;
+  }
+
+  std::vector<Entry> stick_entries(const StickLimits &limits)
+  {
+    const std::string what = "largest growth rate with the contact's stiffness in stick ";
+    return { { "growth_rate_soft_stick", limits.soft, "1/s",
+               what + "a tenth of what it is; NaN: the mesh has the layer's shear" },
+             { "growth_rate_rigid_stick", limits.rigid, "1/s", what + "without end: friction does not lag" } };
+  }
+
   std::vector<Entry> damping_entries(const DampingRange &range)
   {
     return { { "contact_damping_limit_low", range.low, "1",
@@ -176,10 +235,11 @@ namespace sprag
                "of the mode that grows most with Contact/Damping = 0" } };
   }
 
-  std::vector<Entry> slide_entries(const SlideStability &found)
+  std::vector<Entry> slide_entries(const SlideStability &found, const bool is_decided)
   {
-    std::vector<Entry> result = { { "verdict", kind_name(found.kind), "",
-                                    "stable, flutter (sprag-slip), divergence or jammed" } };
+    std::vector<Entry> result = { { "verdict", is_decided ? kind_name(found.kind) : "undecided", "",
+                                    "stable, flutter (sprag-slip), divergence, jammed, or undecided: it grows by less than the "
+                                    "error of that" } };
     if (!found.slide)
       return result;
     const auto &slide = *found.slide;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
-#include "analysis/stability/critical.h"
 #include "analysis/stability/roles.h"
+#include "analysis/stability/sweep.h"
 #include "results/result_file.h"
 
 #include <vector>
@@ -31,7 +31,8 @@ namespace sprag
   Group mode_group(const std::vector<Eigenmode> &modes, const DynamicModel &model);
 
   // Entries of /summary.
-  std::vector<Entry> slide_entries(const SlideStability &found);
+  /// `is_decided`: the slide does not grow by less than the error of that.
+  std::vector<Entry> slide_entries(const SlideStability &found, bool is_decided = true);
 
   /// The range of Contact/Damping about that of the scene over which the kind of a slide stays the same.
   struct DampingRange
@@ -41,7 +42,27 @@ namespace sprag
     double growth_rate_at_none; ///< without damping of the contact [1/s]
   };
 
+  /// Growth at the limits of the contact's stiffness in stick, through which friction lags behind the pressure.
+  struct StickLimits
+  {
+    double soft  = std::numeric_limits<double>::quiet_NaN(); ///< a tenth of it [1/s]; NaN where a mesh has the layer's shear
+    double rigid = std::numeric_limits<double>::quiet_NaN(); ///< no lag [1/s]
+  };
+
+  /// Where along x slides of one kind are, other than stable.
+  struct UnstableStretch
+  {
+    double from, to; ///< [mm]
+    SlideKind kind;
+  };
+
+  std::vector<UnstableStretch> unstable_stretches(const CriticalSearch &along);
+
+  /// Tells where the slides that were looked at are unstable, and their worst growth, each way.
+  std::vector<Entry> sweep_entries(const SweptSlides &swept);
+
   std::vector<Entry> damping_entries(const DampingRange &range);
+  std::vector<Entry> stick_entries(const StickLimits &limits);
   std::vector<Entry> role_entries(const std::vector<Role> &roles);
   std::vector<Entry> critical_entries(const std::vector<CriticalSearch> &searches);
 } // namespace sprag

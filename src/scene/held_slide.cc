@@ -16,18 +16,18 @@ namespace sprag
 {
   namespace
   {
-    /// Reduced models cost so little that islands can be looked for.
+    /// Single slides of reduced models cost so little that islands can be looked for.
     unsigned int tried_points(const Scene &scene)
     {
-      return is_reduced(scene.analysis.model) ? 49 : 13;
+      return !is_reduced(scene.analysis.model) ? 13 : looks_over_stroke(scene) ? 25 : 49;
     }
 
     std::vector<ParameterRange> usual_searches(const Scene &scene)
     {
-      const unsigned int tried = tried_points(scene);
-      const double from = scene.drive.minimum(), to = scene.drive.maximum();
-      std::vector<ParameterRange> result = { { "Friction/Factor", 0., 3., tried },
-                                             { "Stability/Position", from + 0.05 * (to - from), to, tried } };
+      const unsigned int tried           = tried_points(scene);
+      std::vector<ParameterRange> result = { { "Friction/Factor", 0., 3., tried } };
+      if (!looks_over_stroke(scene))
+        result.push_back(stroke_range(scene, tried));
       if (scene.drive.profile() != DriveProfile::table)
         result.push_back({ "Drive/Speed", 1., 800., tried });
       if (scene.analysis.model == ModelType::beam)
@@ -53,7 +53,42 @@ namespace sprag
         return {};
       return ParameterRange{ boost::algorithm::join(words, " "), *from, *to };
     }
+
+    std::optional<std::vector<ParameterRange>> listed_ranges(const std::string &text)
+    {
+      std::vector<ParameterRange> result;
+      if (text == "none")
+        return result;
+      std::istringstream stream(text);
+      for (std::string entry; std::getline(stream, entry, ';');)
+      {
+        const auto range = range_of(entry);
+        if (!range)
+          return {};
+        result.push_back(*range);
+      }
+      return result;
+    }
   } // namespace
+
+  bool looks_over_stroke(const Scene &scene)
+  {
+    const auto type = scene.analysis.type;
+    return (type == AnalysisType::stability || type == AnalysisType::map) && !scene.stability.position;
+  }
+
+  ParameterRange stroke_range(const Scene &scene, const unsigned int points)
+  {
+    const double from = scene.drive.minimum(), to = scene.drive.maximum();
+    return { "Stability/Position", from + 0.05 * (to - from), to, points };
+  }
+
+  std::vector<Direction> held_directions(const Scene &scene)
+  {
+    if (scene.stability.direction == Direction::both)
+      return { Direction::forward, Direction::backward };
+    return { scene.stability.direction };
+  }
 
   DrivePoint held_drive(const Scene &scene)
   {
@@ -78,8 +113,9 @@ namespace sprag
 
   std::array<double, 2> reachable_contact(const Scene &scene)
   {
-    const double room    = 0.1 * scene.geometry.cylinder_radius + 4. * scene.layer.thickness;
-    const bool stays     = holds_slide(scene.analysis.type) && scene.analysis.type != AnalysisType::sprag_slip; // which wanders
+    const double room = 0.1 * scene.geometry.cylinder_radius + 4. * scene.layer.thickness;
+    const bool stays  = holds_slide(scene.analysis.type) && scene.analysis.type != AnalysisType::sprag_slip && // which wanders
+                       !looks_over_stroke(scene);
     const double held_at = kinematics(scene.geometry, held_drive(scene).x).s;
     const auto way       = stays ? std::array<double, 2>{ { held_at, held_at } } : swept_contact(scene);
     return { { way[0] - room, way[1] + room } };
@@ -87,21 +123,17 @@ namespace sprag
 
   std::optional<std::vector<ParameterRange>> critical_searches(const Scene &scene)
   {
-    const std::string &text = scene.stability.critical;
-    if (text == "auto")
+    if (scene.stability.critical == "auto")
       return usual_searches(scene);
-    std::vector<ParameterRange> result;
-    if (text == "none")
-      return result;
-    std::istringstream stream(text);
-    for (std::string entry; std::getline(stream, entry, ';');)
-    {
-      auto range = range_of(entry);
-      if (!range)
-        return {};
-      range->points = tried_points(scene);
-      result.push_back(*range);
-    }
+    auto result = listed_ranges(scene.stability.critical);
+    if (result)
+      for (auto &range : *result)
+        range.points = tried_points(scene);
     return result;
+  }
+
+  std::optional<std::vector<ParameterRange>> uncertain_ranges(const Scene &scene)
+  {
+    return listed_ranges(scene.stability.ranges);
   }
 } // namespace sprag

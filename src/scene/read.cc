@@ -120,8 +120,9 @@ namespace sprag
                       const auto number = number_text(in_own_unit(parameters, parameter, text, value_of));
                       return kept_value(parameter.rule, number);
                     });
-        convert(*find_parameter(parameters, "Stability/Critical"),
-                [&](const std::string &text) { return ranges_in_own_units(parameters, text, value_of); });
+        for (const std::string name : { "Stability/Critical", "Stability/Ranges" })
+          convert(*find_parameter(parameters, name),
+                  [&](const std::string &text) { return ranges_in_own_units(parameters, text, value_of); });
       }
 
       void convert(const Parameter &parameter, const std::function<std::string(const std::string &)> &converted)
@@ -297,13 +298,17 @@ namespace sprag
           if (scene.map.first.name == scene.map.second.name)
             report("Map/Second parameter", "must be another than First parameter");
         }
-        if (scene.analysis.type != AnalysisType::stability)
-          return;
-        if (const auto searches = critical_searches(scene))
-          for (const auto &range : *searches)
-            check_range("Stability/Critical", range);
-        else
-          report("Stability/Critical", "must be auto, none or a list of SECTION/NAME FROM TO separated by semicolons");
+        const auto check_list = [this](const std::string &parameter, const auto &ranges, const std::string &besides)
+        {
+          if (!ranges)
+            return report(parameter, "must be " + besides + " or a list of SECTION/NAME FROM TO separated by semicolons");
+          for (const auto &range : *ranges)
+            check_range(parameter, range);
+        };
+        if (scene.analysis.type == AnalysisType::stability || scene.analysis.type == AnalysisType::map)
+          check_list("Stability/Ranges", uncertain_ranges(scene), "none");
+        if (scene.analysis.type == AnalysisType::stability)
+          check_list("Stability/Critical", critical_searches(scene), "auto, none");
       }
 
       void read_study()

@@ -260,9 +260,11 @@ namespace sprag
     void stability(Section section, StabilitySettings &settings)
     {
       section.number_or_auto("Position", settings.position, at_least(0.), "mm",
-                             "x at which the slide is held, between the ends of the drive; auto: the drive's largest");
-      section.choice("Direction", settings.direction, { { "forward", Direction::forward }, { "backward", Direction::backward } },
-                     "Of the motion, away from x = 0 or back");
+                             "x at which the slide is held, between the ends of the drive; auto: a verdict looks at the whole "
+                             "stroke, modal and sprag slip at the drive's largest x");
+      section.choice("Direction", settings.direction,
+                     { { "forward", Direction::forward }, { "backward", Direction::backward }, { "both", Direction::both } },
+                     "Of the motion, away from x = 0 or back; both: a verdict looks at both, modal and sprag slip backward");
       section.integer("Modes", settings.modes, { 1., 1000. }, "Reported, those of the lowest frequencies and any unstable one");
       section.choice("Damping", settings.damping, { { "on", true }, { "off", false } },
                      "off: lever, support and contact without damping; friction keeps its dependence on speed");
@@ -274,6 +276,10 @@ namespace sprag
                    "Where the slide loses stability or jams along single parameters: list of SECTION/NAME FROM TO, separated by "
                    "semicolons, as in Lever/Depth 3 mm 20 mm; auto: friction factor, x, speed and, where it needs no new mesh, "
                    "depth; none");
+      section.text(
+          "Ranges", settings.ranges,
+          "Of what is not known well: list of SECTION/NAME FROM TO as for Critical. Verdicts, maps and critical values are "
+          "then the worst of the scene and all combinations of the ranges' ends, as Contact/Damping 0.01 0.1; none");
       section.choice("Roles", settings.roles, { { "on", true }, { "off", false } },
                      "Whether the slide is judged again without flexure, inertia, mu'(v), support and damping, one by one");
     }

@@ -9,7 +9,8 @@ namespace sprag
   enum class Direction
   {
     forward,
-    backward
+    backward,
+    both ///< a single slide is the one backward then
   };
 
   /// What holds cylinder and lever together in undamped modes.
@@ -23,13 +24,14 @@ namespace sprag
   /// Linearised vibration about a steady slide held at one x.
   struct StabilitySettings
   {
-    std::optional<double> position; ///< x [mm]; none: the drive's largest
-    Direction direction  = Direction::backward;
+    std::optional<double> position; ///< x [mm]; none: the whole stroke for a verdict, the drive's largest for a single slide
+    Direction direction  = Direction::both;
     unsigned int modes   = 10;                        ///< reported, lowest first, > 0
     bool damping         = true;                      ///< false: no damping of lever, support and contact
     HeldContact contact  = HeldContact::frictionless; ///< of modal analyses
     std::string critical = "auto";                    ///< parameters searched for critical values, see critical_searches()
     bool roles           = true;                      ///< whether flexure, inertia ... are left out in turn
+    std::string ranges   = "none";                    ///< parameters over which a verdict is the worst, see uncertain_ranges()
   };
 
   /// A parameter by its --set name, over a range.

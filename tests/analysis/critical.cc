@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "analysis/stability/critical.h"
+#include "analysis/stability/sweep.h"
 
 #include "analysis/stability/roles.h"
 #include "analytic/jamming.h"
@@ -165,7 +165,7 @@ TEST(CriticalValues, TellTheMotionOfAPair)
   EXPECT_NEAR(present.worst_mode().mirroring, 1., 1e-9);
   const auto found = critical_values(scene, { "Lever/Depth", 5., 21., 5 }, 1e-6, maker);
   ASSERT_EQ(found.changes.size(), 1u);
-  EXPECT_EQ(found.changes.front().motion, "either");
+  EXPECT_EQ(found.changes.front().worse.motion, "either");
   const auto told = roles(scene, present, maker);
   const auto without_damping =
       std::find_if(told.begin(), told.end(), [](const Role &role) { return role.name == "without_damping"; });

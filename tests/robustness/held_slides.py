@@ -195,11 +195,11 @@ class Damping(RunTest):
 
 
 class NearLocking(RunTest):
-    """A lever of 20 mm moving back at x = 65 mm slides up to mu = 2.48; Newton's method misses that from the ideal lever at 2.3 and 2.45."""
+    """A lever of 20 mm moving back at x = 65 mm: Newton's method misses the slide from the ideal lever at 2.3, 2.45 and 2.5."""
 
     def test_is_followed_to_a_slide(self):
         forces = []
-        for mu in (2.25, 2.3, 2.45):
+        for mu in (2.25, 2.3, 2.45, 2.5):
             changes = ("Analysis/Model=condensed", "Lever/Depth=20", "Friction/Law=Coulomb", f"Friction/Coefficient={mu}", "Stability/Critical=none")
             changes += ("Stability/Roles=off", "Stability/Direction=backward", "Stability/Position=65", "Stability/Damping=off")
             settings = [word for change in changes for word in ("--set", change)]
@@ -207,8 +207,72 @@ class NearLocking(RunTest):
             self.assertEqual((done.returncode, done.stderr), (0, ""))
             with h5py.File(self.output / "result.h5", "r") as file:
                 forces.append(float(file["summary/P"][()]))
-        # The closed form grows by (s - 2.25 e)/(s - 2.45 e) = 2.1; a lever that bends less.
-        self.assertTrue(forces[0] < forces[1] < forces[2] < 2.1 * forces[0], forces)
+        # The closed form grows by (s - 2.25 e)/(s - 2.5 e) = 2.9; a lever that bends less.
+        self.assertTrue(forces[0] < forces[1] < forces[2] < forces[3] < 2.9 * forces[0], forces)
+
+
+class Stroke(RunTest):
+    """A beam of 10 mm of model A, which is stable moving back and flutters on its way out."""
+
+    STROKE = ("Stability/Position=auto", "Stability/Direction=both", "Lever/Depth=10", "Stability/Critical=none", "Stability/Roles=off")
+
+    def run_with(self, *changes):
+        settings = [word for change in changes for word in ("--set", change)]
+        done = sprag(SOURCE / "params" / "stability-a.prm", *settings, "--output", self.output, "--overwrite")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done.stdout
+
+    def numbers(self, group):
+        with h5py.File(self.output / "result.h5", "r") as file:
+            return {name: data[()] for name, data in file[group].items() if data.dtype.kind == "f"}
+
+    def dense(self, *changes):
+        """x and growth of slides held one by one."""
+        places = np.linspace(3.25, 65, 96)
+        vary = "Stability/Position = " + ", ".join(map(str, places))
+        self.run_with(*changes, "Analysis/Type=study", "Study/Type=stability", f"Study/Vary={vary}")
+        return places, self.numbers("table")["growth_rate"]
+
+    def test_is_looked_at_both_ways(self):
+        printed = self.run_with(*self.STROKE)
+        found = self.numbers("summary")
+        self.assertRegex(printed, r"looked at +x = 3.25 to 65 mm, both ways: \d+ slides\n")
+        self.assertRegex(printed, r"flutter +forward from x = ")
+        for way in ("forward", "backward"):
+            places, growth = self.dense(*self.STROKE, f"Stability/Direction={way}")
+            # A parabola between slides 2 mm apart: its top is nearer to the next one than a tenth of the growth's range.
+            self.assertAlmostEqual(found[f"largest_growth_rate_{way}"], growth.max(), delta=0.02 * np.ptp(growth))
+            unstable = places[growth > 0]
+            if unstable.size == 0:
+                self.assertTrue(np.isnan(found[f"unstable_{way}_from"]))
+                continue
+            for end, x in (("from", unstable[0]), ("to", unstable[-1])):
+                self.assertAlmostEqual(found[f"unstable_{way}_{end}"], x, delta=places[1] - places[0])
+        self.assertGreater(found["unstable_forward_to"], found["unstable_forward_from"] + 10)
+        # A place alone is marked.
+        printed = self.run_with(*self.STROKE, "Stability/Position=65", "Stability/Direction=backward")
+        self.assertRegex(printed, r"verdict +stable")
+        self.assertRegex(printed, r"looked at +x = 65 mm alone, backward alone: 1 slide\n")
+
+    def test_critical_depth_is_that_of_the_worst_slide(self):
+        changes = [change for change in self.STROKE if "Critical" not in change]
+        printed = self.run_with(*changes, "Stability/Critical=Lever/Depth 9 16")
+        self.assertRegex(printed, r"Lever/Depth from 9 to 16 mm: flutter, stable from [\d.]+ mm \(worst forward at x = ")
+        depth = self.numbers("summary")["critical_lever_depth_1"]
+        for share, is_stable in ((0.99, False), (1.01, True)):
+            growth = [self.dense(*self.STROKE, f"Lever/Depth={share * depth}", f"Stability/Direction={way}")[1].max() for way in ("forward", "backward")]
+            self.assertEqual(max(growth) < 0, is_stable, growth)
+
+    def test_ranges_give_the_worst_of_their_ends(self):
+        damping, friction = (0.005, 0.1), (0.8, 1.2)
+        place = (*self.STROKE, "Lever/Depth=13", "Stability/Position=40")
+        self.run_with(*place, "Stability/Ranges=Contact/Damping 0.005 0.1; Friction/Factor 0.8 1.2")
+        found = self.numbers("summary")["growth_rate"]
+        vary = f"Contact/Damping = 0.02, {damping[0]}, {damping[1]}; Friction/Factor = 1, {friction[0]}, {friction[1]}; Stability/Direction = forward, backward"
+        self.run_with(*place, "Analysis/Type=study", "Study/Type=stability", f"Study/Vary={vary}")
+        table = self.numbers("table")
+        corner = [(z == 0.02) == (f == 1) for z, f in zip(table["contact_damping"], table["friction_factor"])]
+        self.assertAlmostEqual(found, table["growth_rate"][corner].max(), delta=1e-6 * abs(found))
 
 
 class StiffLever(RunTest):

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/map/map_cell.h"
 
-#include "analysis/stability/stability.h"
+#include "analysis/stability/sweep.h"
 #include "base/errors.h"
 #include "levers/prepared_scene.h"
 #include "scene/closed_form.h"
@@ -30,22 +30,19 @@ namespace sprag
       return cell;
     }
 
-    void set_slide(MapCell &cell, const unsigned int direction, const SlideStability &found)
+    /// Leaves the direction failed where the analysis fails.
+    void set_slide(const SweptSlides &slides, const Direction direction, MapCell &cell)
     {
       // One NaN for all, as a journal keeps no others apart.
-      const auto number                               = [](const double value) { return std::isnan(value) ? no_number : value; };
-      const std::array<double, n_slide_values> values = { { static_cast<double>(found.kind), number(found.growth_rate()),
-                                                            number(found.frequency()), number(found.uniqueness()),
-                                                            found.slide ? number(found.slide->forces.P) : no_number } };
-      std::copy(values.begin(), values.end(), cell.values.begin() + 1 + static_cast<long>(direction * n_slide_values));
-    }
-    /// Leaves the direction failed where the analysis fails.
-    void judge_slide(const Scene &scene, DynamicModel &model, MapCell &cell)
-    {
+      const auto number = [](const double value) { return std::isnan(value) ? no_number : value; };
+      const auto place  = cell.values.begin() + 1 + (direction == Direction::forward ? 0 : n_slide_values);
       try
       {
-        const auto found = judge(model, held_drive(scene), scene.stability.modes);
-        set_slide(cell, scene.stability.direction == Direction::forward ? 0 : 1, found);
+        const auto &worst                               = slides.worst(direction);
+        const std::array<double, n_slide_values> values = { { static_cast<double>(worst.kind), number(worst.growth_rate),
+                                                              number(worst.frequency), number(worst.uniqueness),
+                                                              number(worst.P) } };
+        std::copy(values.begin(), values.end(), place);
       }
       catch (const AnalysisError &)
       {
@@ -105,14 +102,12 @@ namespace sprag
     MapCell cell = empty_cell(failed_cell);
     try
     {
-      Scene here          = scene_at(site);
-      cell.values[0]      = kinematics(here.geometry, 0.).theta;
-      const auto dynamics = maker.make(held_scene(here));
+      Scene here               = scene_at(site);
+      here.stability.direction = Direction::both;
+      cell.values[0]           = kinematics(here.geometry, 0.).theta;
+      const auto slides        = sweep(here, maker);
       for (const auto direction : { Direction::forward, Direction::backward })
-      {
-        here.stability.direction = direction;
-        judge_slide(here, dynamics.model(), cell);
-      }
+        set_slide(slides, direction, cell);
     }
     catch (const InputError &)
     {
@@ -127,24 +122,9 @@ namespace sprag
 
   std::optional<unsigned int> CellJudge::mesh_parameter() const
   {
-    if (!is_meshed(scene.analysis.model) || changes_mesh(0) == changes_mesh(1))
+    const bool first = changes_mesh(scene, scene.map.first), second = changes_mesh(scene, scene.map.second);
+    if (!is_meshed(scene.analysis.model) || first == second)
       return {};
-    return changes_mesh(0) ? 0 : 1;
-  }
-
-  bool CellJudge::changes_mesh(const unsigned int parameter) const
-  {
-    const ParameterRange &range = parameter == 0 ? scene.map.first : scene.map.second;
-    // Values inside the range, where a scene is admissible sooner than at its ends.
-    const auto changed = [&](const double coordinate)
-    { return variant(scene, { override_text(range.name, parameter_at(range, coordinate)) }); };
-    try
-    {
-      return !share_mesh(changed(0.5 * (range.points - 1)), changed(0.25 * (range.points - 1)));
-    }
-    catch (const InputError &)
-    {
-      return false;
-    }
+    return first ? 0 : 1;
   }
 } // namespace sprag

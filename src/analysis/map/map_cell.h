@@ -62,6 +62,5 @@ namespace sprag
     DynamicsMaker maker;
 
     Scene scene_at(const MapSite &site) const;
-    bool changes_mesh(unsigned int parameter) const;
   };
 } // namespace sprag

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: GPL-3.0-only
+#include "analysis/stability/sweep.h"
+
+#include "base/errors.h"
+#include "levers/prepared_scene.h"
+#include "scene/contact_reference.h"
+#include "scene/held_slide.h"
+#include "scene/read.h"
+#include "scene/scene.h"
+
+#include <cmath>
+
+namespace sprag
+{
+  namespace
+  {
+    /// Reduced and condensed levers judge a slide in milliseconds.
+    unsigned int points_along(const Scene &scene)
+    {
+      const bool is_cheap = scene.analysis.model != ModelType::finite_element && scene.analysis.dimension == 2;
+      return is_cheap ? 33 : 9;
+    }
+
+    /// Overrides of the scene's own constants, none, and of all combinations of the ends of Stability/Ranges.
+    std::vector<std::vector<std::string>> corners(const Scene &scene)
+    {
+      std::vector<std::vector<std::string>> result = { {} };
+      const auto ranges                            = uncertain_ranges(scene).value_or(std::vector<ParameterRange>());
+      for (unsigned int corner = 0; corner < 1u << ranges.size() && !ranges.empty(); ++corner)
+      {
+        result.emplace_back();
+        for (std::size_t i = 0; i < ranges.size(); ++i)
+          result.back().push_back(override_text(ranges[i].name, (corner >> i & 1u) == 0 ? ranges[i].from : ranges[i].to));
+      }
+      return result;
+    }
+
+    CriticalSearch slides_along(const Scene &scene, DynamicModel &model, const SearchEffort &effort)
+    {
+      const bool over_stroke = looks_over_stroke(scene);
+      const auto judge_at    = [&](const double x)
+      {
+        DrivePoint drive = held_drive(scene);
+        drive.x          = x;
+        auto slide       = judged(judge(model, drive, scene.stability.modes), drive);
+        if (over_stroke || !is_reduced(scene.analysis.model)) // where single modes would take long to follow
+          slide.growth_rates.clear();
+        return slide;
+      };
+      if (over_stroke)
+        return search_kinds(stroke_range(scene, points_along(scene)), effort, judge_at);
+      const double x = held_drive(scene).x;
+      return search_kinds({ "Stability/Position", x, x, 1 }, { 0., 0 }, judge_at);
+    }
+
+    /// A beam in place of a meshed bar, with the contact law of its layer.
+    Scene beam_instead(const Scene &scene)
+    {
+      const auto law = law_of_face(scene);
+      return prepared(variant(scene, { "Analysis/Model=beam", override_text("Contact/Stiffness", law.stiffness),
+                                       override_text("Contact/Exponent", law.exponent) }));
+    }
+
+    /// Values in the middle of what a beam says is narrower than the spacing of the range's points.
+    std::vector<double> hints_of_beam(const Scene &scene, const ParameterRange &range)
+    {
+      if (!is_meshed(scene.analysis.model) || scene.analysis.dimension == 3 || !scene.mesh.file.empty())
+        return {};
+      DynamicsMaker maker;
+      const auto judge_at = [&](const double value)
+      { return sweep(beam_instead(variant(scene, { override_text(range.name, value) })), maker).worst(); };
+      ParameterRange finer = range;
+      finer.points         = 2 * range.points - 1;
+      const auto found     = search_kinds(finer, { 0.01, 4 }, judge_at);
+      std::vector<double> hints;
+      for (std::size_t i = 1; i < found.changes.size(); ++i)
+        if (const double low = found.changes[i - 1].value, high = found.changes[i].value;
+            std::abs(high - low) < spacing_of(range))
+          hints.push_back(0.5 * (low + high));
+      return hints;
+    }
+  } // namespace
+
+  const JudgedSlide &SweptSlides::worst(const Direction direction) const
+  {
+    const JudgedSlide *result = nullptr;
+    for (const auto &way : ways)
+    {
+      if (direction != Direction::both && way.direction != direction)
+        continue;
+      if (!way.along.not_judged.empty())
+        throw AnalysisError(way.along.reason);
+      if (result == nullptr || is_worse(*way.along.worst, *result))
+        result = &*way.along.worst;
+    }
+    return *result;
+  }
+
+  unsigned int SweptSlides::slides() const
+  {
+    unsigned int sum = 0;
+    for (const auto &way : ways)
+      sum += way.along.range.points + way.along.more_values;
+    return sum;
+  }
+
+  SweptSlides sweep(const Scene &scene, DynamicsMaker &maker, const bool finds_edges)
+  {
+    constexpr unsigned int island_steps = 4;
+    constexpr double tolerance          = 2e-3;
+    SweptSlides result;
+    for (const auto &constants : corners(scene))
+    {
+      Scene here          = constants.empty() ? scene : prepared(variant(scene, constants));
+      const auto dynamics = maker.make(held_scene(here));
+      for (const auto direction : held_directions(scene))
+      {
+        here.stability.direction = direction;
+        SweptWay way{ direction, constants,
+                      slides_along(here, dynamics.model(), { finds_edges ? tolerance : 0., island_steps }) };
+        if (way.along.worst)
+          way.along.worst->constants = constants;
+        result.ways.push_back(std::move(way));
+      }
+    }
+    return result;
+  }
+
+  unsigned int least_slides(const Scene &scene)
+  {
+    const auto n = static_cast<unsigned int>(corners(scene).size() * held_directions(scene).size());
+    return n * (looks_over_stroke(scene) ? points_along(scene) : 1);
+  }
+
+  bool changes_mesh(const Scene &scene, const ParameterRange &range)
+  {
+    // Values inside the range, where a scene is admissible sooner than at its ends.
+    const auto at = [&](const double share)
+    { return variant(scene, { override_text(range.name, range.from + share * (range.to - range.from)) }); };
+    try
+    {
+      return !share_mesh(at(0.5), at(0.25));
+    }
+    catch (const InputError &)
+    {
+      return false;
+    }
+  }
+
+  CriticalSearch critical_values(const Scene &scene, const ParameterRange &range, const double tolerance, DynamicsMaker &maker,
+                                 const std::function<void()> &tried)
+  {
+    const auto judge_at = [&](const double value)
+    { return sweep(prepared(variant(scene, { override_text(range.name, value) })), maker).worst(); };
+    return search_kinds(range, { tolerance, is_reduced(scene.analysis.model) ? 14u : 5u }, judge_at, hints_of_beam(scene, range),
+                        tried);
+  }
+} // namespace sprag
