@@ -12,7 +12,6 @@
 #include "program/outcome.h"
 #include "program/output_folder.h"
 #include "program/run_log.h"
-#include "run/processes.h"
 #include "run/run.h"
 #include "scene/analysis_use.h"
 #include "scene/read.h"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "run/coarser_scene.h"
 
+#include "base/errors.h"
+#include "scene/analysis_use.h"
 #include "scene/scene.h"
 
 #include <algorithm>
@@ -8,6 +10,34 @@
 
 namespace sprag
 {
+  std::vector<ErrorEstimate> estimates_or_reason(const Scene &scene, const std::vector<std::string> &quantities,
+                                                 const std::function<std::vector<ErrorEstimate>()> &estimate)
+  {
+    std::string reason;
+    try
+    {
+      if (!scene.mesh.file.empty() && needs_mesh(scene))
+        throw NoEstimate{ "a mesh from a file has no coarser one to compare with. Run a finer mesh beside it." };
+      return estimate();
+    }
+    catch (const NoEstimate &none)
+    {
+      reason = none.reason;
+    }
+    catch (const AnalysisError &error)
+    {
+      reason = "in the comparison " + std::string(error.what()) + '.';
+    }
+    catch (const InputError &error)
+    {
+      reason = "the coarser mesh cannot serve: " + std::string(error.what()) + '.';
+    }
+    std::vector<ErrorEstimate> result;
+    for (const auto &quantity : quantities)
+      result.push_back({ quantity, "", {}, "No estimate: " + reason });
+    return result;
+  }
+
   Scene with_penalties(Scene scene, const ContactPenalties &penalties, const double share)
   {
     scene.contact.penalty            = share * penalties.normal;

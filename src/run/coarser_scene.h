@@ -4,7 +4,9 @@
 #include "analytic/error_estimate.h"
 #include "fe/contact/face_contact_point.h"
 
+#include <functional>
 #include <string>
+#include <vector>
 
 namespace sprag
 {
@@ -15,8 +17,16 @@ namespace sprag
   constexpr double softer  = 3.; ///< penalty of a run over that of its probe
   constexpr double coarser = 2.; ///< face size of a probe over that of its run
 
-  constexpr const char *no_coarser_mesh =
-      "No estimate: a mesh from a file has no coarser one to compare with. Run a finer mesh beside it.";
+  /// Says why no error can be estimated, the end of a sentence.
+  struct NoEstimate
+  {
+    std::string reason;
+  };
+
+  /// Returns what `estimate` finds, or of all these quantities the reason why it finds none: a NoEstimate, a failure of a probe
+  /// or a coarser mesh that is refused. A mesh from a file has no coarser one.
+  std::vector<ErrorEstimate> estimates_or_reason(const Scene &scene, const std::vector<std::string> &quantities,
+                                                 const std::function<std::vector<ErrorEstimate>()> &estimate);
 
   /// Returns the scene with `share` > 0 of given penalties in place of automatic ones.
   Scene with_penalties(Scene scene, const ContactPenalties &penalties, double share);

@@ -5,7 +5,7 @@
 #include "base/errors.h"
 #include "program/memory.h"
 #include "program/recorder.h"
-#include "run/beam_run.h"
+#include "run/transient_settings.h"
 #include "scene/analysis_use.h"
 #include "scene/contact_reference.h"
 #include "scene/contact_width.h"
@@ -24,50 +24,15 @@ namespace sprag
 {
   namespace
   {
-    // CPU times as measured [s], N displacements, on the machine of slowness() = 1.
+    // CPU times are those measured where slowness() = 1 [s].
     constexpr double start             = 0.2;
-    constexpr double model             = 5.5e-6; ///< times N
-    constexpr double telling_and_peaks = 8e-6;   ///< times N, without inertia
-    constexpr double static_step       = 1.3e-3;
-    constexpr double static_window     = 3.5e-10; ///< a step, times N^1.45
-    constexpr double general_step      = 2.3e-5;  ///< times N
-    constexpr double solid_body        = 2.2e-7;  ///< times N^1.45, with the basis of its face and the checks of it
-    constexpr double solid_step        = 8e-10;   ///< times N^1.4
-    constexpr double solid_finite      = 4e-6;    ///< at finite strain, times N^1.1
-    constexpr double solid_modes       = 6.5e-7;  ///< times N^1.45, body and held slide included
-    constexpr double solid_in_time     = 1.1e-8;  ///< a step, times displacements of the face^1.55
-    constexpr double fields_of_solid   = 1.4e-5;  ///< of eight modes, times N
-    constexpr double reduced_step      = 2e-5;
-    constexpr double basis             = 5.5e-7; ///< times N^1.5
-    // Of it, what held slides need.
-    constexpr double basis_of_modes        = 0.4;
-    constexpr double basis_of_slide        = 0.8;
-    constexpr double basis_of_meshed_slide = 1.5;
-    constexpr double fields_of_modes       = 1.2;
-    constexpr double fields_in_time        = 1.2e-5; ///< times N
-    constexpr double condensed_step        = 2.5e-4;
-    constexpr double condensed_faces       = 7.5e-6; ///< a step, times the square of the faces in contact
-    constexpr double meshed_step           = 4.5e-7; ///< times N
-    constexpr double reduced_slide         = 1e-3;
-    constexpr double condensed_slide       = 0.03;
-    constexpr double meshed_slide          = 6e-5; ///< times N
-
-    // Levers under a table.
-    constexpr double table_steps           = 6000.; ///< in a second of motion at the usual tolerance, whatever the motion
-    constexpr double table_steps_exponent  = 0.45;  ///< with which they grow as the tolerance falls
-    constexpr double condensed_table_step  = 5e-5;
-    constexpr double condensed_table_faces = 5e-7; ///< a step, times the square of the faces in contact
-    constexpr double solid_table_step      = 0.2;  ///< in three dimensions, over one of a lever in time
-
-    // Newton iterations.
-    constexpr double of_static_step  = 9.;
-    constexpr double of_step_in_time = 2.5;
-
-    constexpr double judgements_of_cell = 0.4;  ///< both ways, in models that are kept from cell to cell
-    constexpr double usual_tolerance    = 5e-3; ///< Time/Tolerance at which meshed levers take twice a beam's steps
-    constexpr double steps_of_reversal  = 20.;  ///< without inertia, through stick
-    constexpr double elastic_cylinder   = 2.;   ///< a step with one over a step without
-    constexpr double second_lever       = 2.2;  ///< the same
+    constexpr double of_static_step    = 9.;    ///< Newton iterations
+    constexpr double of_step_in_time   = 2.5;   ///< Newton iterations
+    constexpr double steps_of_reversal = 20.;   ///< without inertia, through stick
+    constexpr double usual_tolerance   = 5e-3;  ///< Time/Tolerance at which meshed levers take twice a beam's steps
+    constexpr double table_steps       = 6000.; ///< of levers under a table in a second of motion at that tolerance
+    constexpr double elastic_cylinder  = 2.;    ///< a step with one over a step without
+    constexpr double second_lever      = 2.2;   ///< the same
 
     double parts(const Scene &scene)
     {
@@ -84,71 +49,68 @@ namespace sprag
       return taken.value_or(expected_rows(scene) + steps_of_reversal * turns);
     }
 
-    double without_inertia(const Scene &scene, const StepsTaken &taken)
+    /// CPU times that a run takes once and for each of its steps or slides, where slowness() = 1 [s].
+    struct Times
     {
-      const double N     = expected_size(scene).displacements;
-      const double steps = static_steps(scene, taken);
-      const bool linear  = scene.lever.material == MaterialModel::linear && scene.analysis.solution == Solution::automatic;
-      const double step  = linear ? static_step + static_window * std::pow(N, 1.45) : general_step * N;
-      return start + (model + telling_and_peaks) * N + steps * step * parts(scene);
+      double once, each;
+    };
+
+    /// Without inertia. What a run takes once are model, stresses and told errors, in space the basis of the face and its checks.
+    Times times_without_inertia(const Scene &scene)
+    {
+      const double N       = expected_size(scene).displacements;
+      const bool is_linear = scene.lever.material == MaterialModel::linear;
+      if (scene.analysis.dimension == 3)
+        return { 2.2e-7 * std::pow(N, 1.45), is_linear ? 8e-10 * std::pow(N, 1.4) : 4e-6 * std::pow(N, 1.1) };
+      const bool is_factorised_once = is_linear && scene.analysis.solution == Solution::automatic;
+      return { 1.35e-5 * N, is_factorised_once ? 1.3e-3 + 3.5e-10 * std::pow(N, 1.45) : 2.3e-5 * N };
     }
 
-    double in_three_dimensions(const Scene &scene, const StepsTaken &taken)
+    /// In time, or of both levers under a table. What a run takes once are the basis and, in time, fields.
+    Times times_with_inertia(const Scene &scene)
     {
-      const double N     = expected_size(scene).displacements;
-      const double steps = static_steps(scene, taken);
-      const double step =
-          scene.lever.material == MaterialModel::linear ? solid_step * std::pow(N, 1.4) : solid_finite * std::pow(N, 1.1);
-      return start + solid_body * std::pow(N, 1.45) + steps * step * parts(scene);
+      const bool is_table             = scene.analysis.type == AnalysisType::isolation;
+      const auto [N, n_face_unknowns] = expected_size(scene);
+      if (scene.analysis.dimension == 3)
+        return { 6.5e-7 * std::pow(N, 1.45), (is_table ? 0.2 : 1.) * 1.1e-8 * std::pow(n_face_unknowns, 1.55) };
+      if (!is_meshed(scene.analysis.model))
+        return { 0., 2e-5 };
+      const double once  = 5.5e-7 * std::pow(N, 1.5) + (is_table ? 0. : 1.2e-5 * N);
+      const double faces = estimated_contact_width(scene, contact_reference(scene).P) / scene.mesh.face_size;
+      if (scene.analysis.model == ModelType::condensed)
+        return { once, is_table ? 5e-5 + 5e-7 * faces * faces : 2.5e-4 + 7.5e-6 * faces * faces };
+      return { once, (is_table ? 2. : 1.) * 4.5e-7 * N };
     }
 
+    /// Of held slides. What a run takes once are the basis, or in space modes and one slide, and fields.
+    Times times_of_slides(const Scene &scene)
+    {
+      const double N        = expected_size(scene).displacements;
+      const bool has_fields = scene.output.fields != FieldOutput::none;
+      if (scene.analysis.dimension == 3)
+        return { 6.5e-7 * std::pow(N, 1.45) + (has_fields ? 1.4e-5 * N : 0.), 0.03 };
+      if (!is_meshed(scene.analysis.model))
+        return { 0., 1e-3 };
+      const bool is_condensed = scene.analysis.model == ModelType::condensed;
+      const double basis      = !is_condensed ? 8.25e-7 : scene.analysis.type == AnalysisType::modal ? 2.2e-7 : 4.4e-7;
+      return { basis * std::pow(N, 1.5) + (has_fields ? 1.2 : 0.), is_condensed ? 0.03 : 6e-5 * N };
+    }
+
+    /// As many as a beam takes. The ripple of elements that pass shortens large steps most.
     double steps_in_time(const Scene &scene)
     {
       constexpr double most_steps = 2e5; // that are taken by a beam to count them
-      if (scene.time.tolerance == 0. || expected_rows(scene) > most_steps)
-        return scene.drive.duration() / scene.time.step;
-      return static_cast<double>(beam_run(scene).size());
+      const bool is_counted       = scene.time.tolerance > 0. && expected_rows(scene) <= most_steps;
+      const double steps          = is_counted ? static_cast<double>(beam_run(scene).size()) : scene.drive.duration() / scene.time.step;
+      const bool ripples          = is_meshed(scene.analysis.model) && scene.analysis.dimension == 2;
+      return steps * (ripples ? 1. + std::min(1., scene.time.tolerance / usual_tolerance) : 1.);
     }
 
-    /// Of modes, a held slide or a run in time of so many steps in three dimensions.
-    double solid_with_inertia(const Scene &scene, const double steps)
+    double steps_of_table(const Scene &scene)
     {
-      const auto [N, of_face] = expected_size(scene);
-      return start + solid_modes * std::pow(N, 1.45) + steps * solid_in_time * std::pow(of_face, 1.55) * parts(scene);
-    }
-
-    double in_time(const Scene &scene, const StepsTaken &known)
-    {
-      const double N     = expected_size(scene).displacements;
-      const double steps = known ? *known : steps_in_time(scene);
-      if (scene.analysis.dimension == 3)
-        return solid_with_inertia(scene, steps);
-      if (!is_meshed(scene.analysis.model))
-        return start + steps * reduced_step * parts(scene);
-      const double faces = estimated_contact_width(scene, contact_reference(scene).P) / scene.mesh.face_size;
-      const double step =
-          scene.analysis.model == ModelType::condensed ? condensed_step + condensed_faces * faces * faces : meshed_step * N;
-      // The ripple of elements that pass shortens large steps most.
-      const double taken = steps * (known ? 1. : 1. + std::min(1., scene.time.tolerance / usual_tolerance));
-      return start + basis * std::pow(N, 1.5) + fields_in_time * N + taken * step * parts(scene);
-    }
-
-    double under_table(const Scene &scene)
-    {
-      const double N = expected_size(scene).displacements;
-      const double steps =
-          scene.isolation.duration * (scene.time.tolerance > 0.
-                                          ? table_steps * std::pow(usual_tolerance / scene.time.tolerance, table_steps_exponent)
-                                          : 1. / scene.time.step);
-      if (scene.analysis.dimension == 3)
-        return solid_with_inertia(scene, solid_table_step * steps);
-      if (!is_meshed(scene.analysis.model))
-        return start + steps * reduced_step * parts(scene);
-      const double faces = estimated_contact_width(scene, contact_reference(scene).P) / scene.mesh.face_size;
-      const double step  = scene.analysis.model == ModelType::condensed
-                               ? condensed_table_step + condensed_table_faces * faces * faces
-                               : 2. * meshed_step * N;
-      return start + basis * std::pow(N, 1.5) + steps * step * parts(scene);
+      const double tolerance = scene.time.tolerance;
+      return scene.isolation.duration *
+             (tolerance > 0. ? table_steps * std::pow(usual_tolerance / tolerance, 0.45) : 1. / scene.time.step);
     }
 
     /// Slides that an analysis of held ones judges: the slide, without its parts in turn, and along single parameters.
@@ -162,32 +124,6 @@ namespace sprag
       for (const auto &range : critical_searches(scene).value_or(std::vector<ParameterRange>()))
         slides += range.points;
       return slides;
-    }
-
-    double a_slide(const Scene &scene)
-    {
-      switch (scene.analysis.model)
-      {
-      case ModelType::condensed:
-        return condensed_slide * parts(scene);
-      case ModelType::finite_element:
-        return meshed_slide * expected_size(scene).displacements * parts(scene);
-      default:
-        return reduced_slide * parts(scene);
-      }
-    }
-
-    double held(const Scene &scene)
-    {
-      const double N = expected_size(scene).displacements;
-      if (scene.analysis.dimension == 3)
-        return solid_with_inertia(scene, 0.) + (scene.output.fields == FieldOutput::none ? 0. : fields_of_solid * N);
-      const double bases    = scene.analysis.model == ModelType::finite_element ? basis_of_meshed_slide
-                              : scene.analysis.type == AnalysisType::modal      ? basis_of_modes
-                                                                                : basis_of_slide;
-      const double mesh     = is_meshed(scene.analysis.model) ? bases * basis * std::pow(N, 1.5) : 0.;
-      const bool has_fields = is_meshed(scene.analysis.model) && scene.output.fields != FieldOutput::none;
-      return start + mesh + slides_of(scene) * a_slide(scene) + (has_fields ? fields_of_modes : 0.);
     }
 
     void add_run(const std::function<Scene()> &scene_of_run, ExpectedCost &sum)
@@ -222,19 +158,21 @@ namespace sprag
 
     double seconds_of(const Scene &scene, const StepsTaken &taken = {})
     {
+      const auto sum = [&](const Times &times, const double number)
+      { return start + times.once + number * times.each * parts(scene); };
       switch (scene.analysis.type)
       {
       case AnalysisType::quasi_static:
-        return scene.analysis.dimension == 3 ? in_three_dimensions(scene, taken) : without_inertia(scene, taken);
+        return sum(times_without_inertia(scene), static_steps(scene, taken));
       case AnalysisType::transient:
-        return in_time(scene, taken);
+        return sum(times_with_inertia(scene), taken ? *taken : steps_in_time(scene));
       case AnalysisType::isolation:
-        return under_table(scene);
+        return sum(times_with_inertia(scene), steps_of_table(scene));
       case AnalysisType::modal:
       case AnalysisType::stability:
-        return held(scene);
-      case AnalysisType::map:
-        return start + judgements_of_cell * scene.map.first.points * scene.map.second.points * a_slide(scene);
+        return sum(times_of_slides(scene), slides_of(scene));
+      case AnalysisType::map: // both ways, in models that are kept from cell to cell
+        return sum({ 0., 0.4 * times_of_slides(scene).each }, scene.map.first.points * scene.map.second.points);
       default:
         return std::numeric_limits<double>::quiet_NaN();
       }

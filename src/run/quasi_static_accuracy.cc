@@ -2,12 +2,17 @@
 #include "run/quasi_static_accuracy.h"
 
 #include "analysis/accuracy/sample_changes.h"
+#include "analysis/accuracy/slide_samples.h"
+#include "base/append.h"
 #include "base/errors.h"
 #include "base/text.h"
+#include "fe/mesh/mesh.h"
 #include "report/peak_report.h"
 #include "results/row_statistics.h"
 #include "run/coarser_scene.h"
-#include "run/left_out_inertia.h"
+#include "run/quasi_static_accuracy.h"
+#include "scene/closed_form.h"
+#include "scene/contact_reference.h"
 #include "scene/scene.h"
 
 #include <algorithm>
@@ -15,6 +20,205 @@
 
 namespace sprag
 {
+  namespace
+  {
+    constexpr double way_of_difference = 1e-3; ///< to both sides, over the cylinder's radius
+
+    /// Angular acceleration of the ideal lever [rad/s^2]; 0 where the drive turns near by, or begins or ends.
+    double angular_acceleration(const Scene &scene, const double time)
+    {
+      const auto &drive = scene.drive;
+      const auto at     = drive.at(time);
+      const double span = way_of_difference * scene.geometry.cylinder_radius / std::abs(at.v);
+      if (time < span || time + span > drive.duration())
+        return 0.;
+      const auto before = drive.at(time - span), after = drive.at(time + span);
+      const bool turns = direction_of(before.v) != direction_of(at.v) || direction_of(after.v) != direction_of(at.v);
+      if (turns || std::max({ before.x, at.x, after.x }) >= pivot_contact(scene.geometry))
+        return 0.;
+      const auto theta = [&](const DrivePoint &point) { return kinematics(scene.geometry, point.x).theta; };
+      return (theta(before) - 2. * theta(at) + theta(after)) / (span * span);
+    }
+  } // namespace
+
+  double left_out_inertia(const Scene &scene, const std::vector<Row> &rows)
+  {
+    const double J = moment_of_inertia(scene);
+    double change  = 0.;
+    for (const Row &row : rows)
+      if (row[Column::v] != 0. && row[Column::P] > 0.)
+      {
+        const auto ideal = closed_form(scene, row[Column::x], row[Column::v]);
+        const double moment =
+            ideal.P * (ideal.contact.s + direction_of(row[Column::v]) * ideal.mu * scene.geometry.interface_offset);
+        change = std::max(change, std::abs(J * angular_acceleration(scene, row[Column::time]) / moment) * row[Column::P]);
+      }
+    return change / largest(rows, Column::P);
+  }
+
+  namespace
+  {
+    constexpr double near_peak = 0.5;  ///< stress of the states that count, over the largest
+    constexpr double near_edge = 0.85; ///< stress at the contact's edge over the largest, from which a finer mesh finds it there
+  }                                    // namespace
+
+  StressComparison::StressComparison(const StaticLever<2> &other, const std::vector<StressSample> &run)
+      : model(other)
+      , samples(run)
+      , fields(model.body())
+  {
+  }
+
+  void StressComparison::look_at(const State &state, const Row &row)
+  {
+    const auto of_run =
+        std::find_if(samples.begin(), samples.end(), [&](const StressSample &sample) { return sample.time == state.drive.time; });
+    if (of_run == samples.end())
+      return;
+    StressSample found;
+    for (const auto &displacement : model.body_displacements(state.coordinates, state.forces))
+      sprag::look_at(fields, fields.at(displacement), row, found);
+    pairs.push_back({ *of_run, found });
+  }
+
+  std::optional<StressChanges> StressComparison::changes() const
+  {
+    const auto change = [&](double StressSample::*const part)
+    {
+      const double peak = largest(pairs, [&](const Pair &pair) { return pair.run.*part; });
+      double result     = 0.;
+      for (const auto &[run, other] : pairs)
+        if (run.*part >= near_peak * peak)
+          result = std::max(result, std::abs(other.*part - run.*part));
+      return peak > 0. ? result / peak : 0.;
+    };
+    if (pairs.empty())
+      return {};
+    const auto peak =
+        std::max_element(pairs.begin(), pairs.end(), [](const Pair &a, const Pair &b) { return a.run.layer < b.run.layer; });
+    return StressChanges{ change(&StressSample::lever), change(&StressSample::layer),
+                          peak->run.layer_edge > near_edge * peak->run.layer };
+  }
+
+  std::vector<double> times_of(const std::vector<StressSample> &samples)
+  {
+    std::vector<double> times;
+    for (const auto &sample : samples)
+      times.push_back(sample.time);
+    return times;
+  }
+
+  namespace
+  {
+    constexpr unsigned int samples_of_stroke = 6, samples_in_space = 3;
+
+    std::vector<Row> rows_at(const std::vector<double> &times, const std::vector<Row> &rows)
+    {
+      std::vector<Row> result;
+      for (const Row &row : rows)
+        if (std::find(times.begin(), times.end(), row[Column::time]) != times.end())
+          result.push_back(row);
+      return result;
+    }
+
+    std::vector<double> times_of(const std::vector<Row> &rows)
+    {
+      std::vector<double> result;
+      for (const Row &row : rows)
+        result.push_back(row[Column::time]);
+      return result;
+    }
+
+    /// Sets the samples of a run, and returns them with the rows of its passage through stick between.
+    std::vector<Row> choose_rows(const std::vector<Row> &rows, const unsigned int of_stroke, const std::vector<double> &times,
+                                 Probes &probes)
+    {
+      probes.run     = slide_samples(rows, of_stroke, times);
+      probes.passage = passage_rows(rows);
+      auto chosen    = times_of(probes.run);
+      append(chosen, times_of(probes.passage));
+      return rows_at(chosen, rows);
+    }
+
+    void set_coarse(const std::vector<Row> &rows, Probes &probes)
+    {
+      probes.coarse         = rows_at(times_of(probes.run), rows);
+      probes.coarse_passage = rows_at(times_of(probes.passage), rows);
+    }
+
+    void set_soft(const std::vector<Row> &rows, Probes &probes)
+    {
+      probes.soft         = rows_at(times_of(probes.run), rows);
+      probes.soft_passage = rows_at(times_of(probes.passage), rows);
+    }
+
+    /// Gives a model its own penalties back.
+    template <class Levers>
+    struct OwnPenalties
+    {
+      Levers &levers;
+      const ContactPenalties penalties = levers.penalties();
+
+      ~OwnPenalties()
+      {
+        levers.use_penalties(penalties);
+      }
+    };
+
+    /// The samples in the run's own model with a softer penalty, where that says anything.
+    template <class Levers>
+    std::vector<Row> with_softer_penalty(const Scene &scene, Levers &levers, const std::vector<Row> &samples, const double start,
+                                         const QuasiStaticSettings &settings)
+    {
+      const bool augments = scene.contact.enforcement == Enforcement::augmented_lagrangian;
+      if (augments && !scene.contact.tangential_penalty)
+        return {};
+      const OwnPenalties<Levers> own{ levers };
+      const auto &penalties = own.penalties;
+      levers.use_penalties({ augments ? penalties.normal : penalties.normal / softer, penalties.tangential / softer });
+      return repeated(levers, samples, start, settings);
+    }
+  } // namespace
+
+  Probes plane_probes(const Scene &scene, StaticLever<2> &levers, const std::vector<Row> &rows,
+                      const QuasiStaticSettings &settings, const std::vector<StressSample> &stresses)
+  {
+    Probes result;
+    const auto times   = times_of(stresses);
+    const double start = rows.front()[Column::x];
+    const auto chosen  = choose_rows(rows, samples_of_stroke, times, result);
+    Mesh mesh;
+    const Scene coarse = with_coarser_mesh(with_penalties(scene, levers.penalties(), 1.));
+    make_mesh(coarse, mesh);
+    StaticLever<2> on_coarse(mesh, coarse);
+    StressComparison stress(on_coarse, stresses);
+    set_coarse(repeated(on_coarse, chosen, start, settings,
+                        [&](const State &state, const Row &row, const Evaluation &) { stress.look_at(state, row); }),
+               result);
+    result.stress = stress.changes();
+    result.pressure_with_stress =
+        result.stress ? relative_change("largest_pressure", rows_at(times, result.run), rows_at(times, result.coarse)) : 0.;
+    set_soft(with_softer_penalty(scene, levers, chosen, start, settings), result);
+    return result;
+  }
+
+  Probes solid_probes(const Scene &scene, SolidBody &body, StaticLever<3> &lever, const std::vector<Row> &rows,
+                      const QuasiStaticSettings &settings)
+  {
+    Probes result;
+    const double start = rows.front()[Column::x];
+    const auto chosen  = choose_rows(rows, samples_in_space, {}, result);
+    set_soft(with_softer_penalty(scene, lever, chosen, start, settings), result);
+    body.release_factors(); // before there are others
+    Mesh mesh;
+    const Scene coarse = with_coarser_mesh(with_penalties(scene, lever.penalties(), 1.));
+    make_mesh(coarse, mesh);
+    const SolidBody coarse_body(coarse, mesh);
+    StaticLever<3> on_coarse(coarse_body, coarse);
+    set_coarse(repeated(on_coarse, chosen, start, settings), result);
+    return result;
+  }
+
   namespace
   {
     bool augments(const Scene &scene)
@@ -136,26 +340,16 @@ namespace sprag
                {},
                "No estimate: the contact is only " + rounded_text(faces) + " faces wide. Try a smaller Mesh/Face size." };
     }
-
-    std::vector<ErrorEstimate> unknown_errors(const std::string &reason)
-    {
-      std::vector<ErrorEstimate> result;
-      for (const char *const quantity : { "P", "Q", "loop_area", "largest_pressure", "contact_width", "largest_stress" })
-        result.push_back({ quantity, "", {}, reason });
-      return result;
-    }
   } // namespace
 
   std::vector<ErrorEstimate> quasi_static_accuracy(const Scene &scene, const std::vector<Row> &rows,
                                                    const std::function<Probes()> &probe)
   {
-    if (!scene.mesh.file.empty())
-      return unknown_errors(no_coarser_mesh);
-    try
+    const auto estimate_all = [&]
     {
       const Probes probes = probe();
       if (probes.run.size() < 2)
-        return unknown_errors("No estimate: there are no two states in which the whole contact slides.");
+        throw NoEstimate{ "there are no two states in which the whole contact slides." };
       const double faces       = faces_in_contact(scene, probes.run);
       const bool forces_follow = faces > 1.;
       const bool all_follows   = expected_pressure_error(faces, scene.mesh.degree) <= follows_pressure;
@@ -176,14 +370,8 @@ namespace sprag
         if (estimate.quantity == "P" && !estimate.parts.empty())
           estimate.left_out = { { "inertia", inertia, "Analysis/Type = transient has it." } };
       return result;
-    }
-    catch (const AnalysisError &error)
-    {
-      return unknown_errors("No estimate: in the comparison there was " + std::string(error.what()) + ".");
-    }
-    catch (const InputError &error)
-    {
-      return unknown_errors("No estimate: the coarser mesh cannot serve: " + std::string(error.what()) + ".");
-    }
+    };
+    return estimates_or_reason(scene, { "P", "Q", "loop_area", "largest_pressure", "contact_width", "largest_stress" },
+                               estimate_all);
   }
 } // namespace sprag

@@ -6,15 +6,11 @@
 #include "fe/fields/mode_frames.h"
 #include "model/growth.h"
 #include "program/result_writer.h"
-#include "report/accuracy_report.h"
-#include "report/brief_lines.h"
-#include "report/report.h"
 #include "report/warnings.h"
 #include "run/analyses.h"
 #include "run/in_memory.h"
 #include "run/shown_body.h"
 #include "run/vibration_accuracy.h"
-#include "run/vibration_print.h"
 #include "run/vibration_report.h"
 #include "scene/held_slide.h"
 #include "scene/mirrored_pair.h"
@@ -69,7 +65,7 @@ namespace sprag
         result.insert(result.end(), search.not_judged.begin(), search.not_judged.end());
         return result;
       };
-      DampingRange result{ 0., end, end, std::nan("") };
+      DampingRange result{ 0., end, std::nan("") };
       for (const double value : ends_of(0., own))
         result.low = std::max(result.low, value);
       for (const double value : ends_of(own, end))
@@ -92,9 +88,8 @@ namespace sprag
       if (!dynamics.lever && !dynamics.solid)
         return {};
       const auto n_dofs = dynamics.lever ? dynamics.lever->body->n_dofs() : dynamics.solid->body->n_dofs();
-      return { { "degrees_of_freedom", static_cast<double>(n_dofs), "1", "displacements, those of the hub included" },
-               { "coordinates", static_cast<double>(dynamics.meshed.n_coordinates), "1",
-                 "generalised coordinates of the model" } };
+      return { { "degrees_of_freedom", static_cast<double>(n_dofs) },
+               { "coordinates", static_cast<double>(dynamics.meshed.n_coordinates) } };
     }
 
     /// Counts the wall and CPU time of finding a slide and its vibrations.
@@ -163,8 +158,7 @@ namespace sprag
       RunEnd result;
       result.meta = meshed_entries(dynamics);
       for (std::size_t i = 0; i < modes.size(); ++i)
-        result.summary.push_back({ "frequency_" + std::to_string(i + 1), modes[i].mode.eigenvalue.imag() / (2. * M_PI), "Hz",
-                                   "of the undamped mode" });
+        result.summary.push_back({ "frequency_" + std::to_string(i + 1), frequency_of(modes[i]) });
       result.groups = { mode_group(modes, model) };
       write_fields(scene, dynamics, pose_of_slide(scene, model, *slide), modes, options);
       return result;
@@ -197,37 +191,23 @@ namespace sprag
           append(warnings, slide_warnings(scene, found.slide->drive, found.slide->forces.P, found.slide->indentation));
         if (found.slide)
           append(warnings, beam_warnings(scene, found.frequency(), found.growth_rate()));
-        const auto accuracy =
-            estimates_errors(options) ? accuracy_of(held, found, dynamics.meshed, maker) : std::vector<ErrorEstimate>();
-        result.accuracy = accuracy_entries(accuracy);
-        append(warnings, target_warnings(scene.accuracy, accuracy));
+        if (estimates_errors(options))
+          result.accuracy = accuracy_of(held, found, dynamics.meshed, maker);
         if (options.verbose)
         {
-          print_summary(std::cout, result.summary);
           print_modes(std::cout, modes);
           print_growth(std::cout, modes);
-          print_accuracy(std::cout, accuracy);
         }
-        else if (!options.quiet)
-        {
-          print_slide(std::cout, found);
-          print_brief_errors(std::cout, accuracy);
-        }
+        else if (!options.quiet && found.slide)
+          print_growing(std::cout, found.modes);
       }
       if (found.slide && scene.stability.damping && options.in_memory == nullptr)
       {
         const auto range = timed(maker, [&] { return damping_range(scene, maker); });
         append(result.summary, damping_entries(range));
-        if (!options.quiet)
-          print_damping(std::cout, range);
       }
       if (scene.stability.roles)
-      {
-        const auto told = roles(scene, found, maker);
-        append(result.summary, role_entries(told));
-        if (!options.quiet)
-          print_roles(std::cout, found, told);
-      }
+        append(result.summary, role_entries(roles(scene, found, maker)));
       if (scene.stability.critical != "none")
       {
         const auto critical = all_critical(scene, maker, options.quiet);
@@ -246,8 +226,6 @@ namespace sprag
     auto &maker         = *shared;
     const bool undamped = scene.analysis.type == AnalysisType::modal;
     const auto end      = undamped ? modal(scene, maker, options) : stability(scene, maker, options, warnings);
-    if (!options.quiet)
-      print_brief_cost(std::cout, Known(end.summary), PhaseTimer::cpu_seconds());
     ResultWriter(scene, options, maker.timer(), {}).finish("completed", end, warnings);
   }
 } // namespace sprag

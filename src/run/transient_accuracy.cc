@@ -4,11 +4,10 @@
 #include "analysis/accuracy/dilation.h"
 #include "analysis/transient/growing_modes.h"
 #include "analytic/oscillation.h"
-#include "base/errors.h"
 #include "base/text.h"
 #include "results/row_statistics.h"
 #include "run/coarser_scene.h"
-#include "run/slide_probes.h"
+#include "run/vibration_accuracy.h"
 #include "scene/held_slide.h"
 #include "scene/scene.h"
 
@@ -27,14 +26,6 @@ namespace sprag
     constexpr double most_by_place = 0.4;
 
     constexpr double too_far = 0.2; ///< relative change of a frequency, beyond which another vibration was compared
-
-    std::vector<ErrorEstimate> unknown_errors(const std::string &reason)
-    {
-      std::vector<ErrorEstimate> result;
-      for (const char *const quantity : { "P", "overshoot", "frequency", "decay" })
-        result.push_back({ quantity, "", {}, "No estimate: " + reason });
-      return result;
-    }
 
     /// The slide just behind the first reversal.
     Scene slide_behind_reversal(Scene scene)
@@ -72,32 +63,30 @@ namespace sprag
       return parts;
     }
 
-    std::string why_not(const Scene &scene, const std::vector<Row> &rows)
+    void require_closed_contact(const Scene &scene, const std::vector<Row> &rows)
     {
       if (scene.drive.reversals().empty())
-        return "the drive does not turn, and nothing rings.";
+        throw NoEstimate{ "the drive does not turn, and nothing rings." };
       const auto is_open = [&](const Row &row)
       { return row[Column::time] > scene.drive.reversals().front() && row[Column::P] == 0.; };
       if (std::any_of(rows.begin(), rows.end(), is_open))
-        return "the contact opens, and when it does depends on every small error.";
-      if (!scene.mesh.file.empty() && is_meshed(scene.analysis.model))
-        return "a mesh from a file has no coarser one to compare with. Run a finer mesh beside it.";
-      return {};
+        throw NoEstimate{ "the contact opens, and when it does depends on every small error." };
     }
 
     std::vector<ErrorEstimate> estimates(const Scene &scene, const MeshedDynamics &dynamics, const std::vector<Row> &rows,
                                          DynamicsMaker &maker)
     {
+      require_closed_contact(scene, rows);
       const auto turned     = oscillations(rows, scene.drive).front();
       const double measured = turned.frequency;
       if (!(measured > 0.))
-        return unknown_errors("P does not ring behind the first reversal.");
+        throw NoEstimate{ "P does not ring behind the first reversal." };
       const Scene held        = slide_behind_reversal(scene);
       const auto found        = judge(held, maker);
       const auto frequency_of = [&](const SlideStability &slide)
       { return eigenvalue_near(slide, measured).imag() / (2. * M_PI); };
       if (!(frequency_of(found) > 0.) || !(eigenvalue_near(found, measured).real() < 0.))
-        return unknown_errors("the slide behind the first reversal does not ring down.");
+        throw NoEstimate{ "the slide behind the first reversal does not ring down." };
       const double turn  = scene.drive.reversals().front();
       const double omega = 2. * M_PI * frequency_of(found);
       const auto by_step = [&](const double dt) { return std::abs(algorithmic_slowing(scene.time.spectral_radius, omega * dt)); };
@@ -110,8 +99,8 @@ namespace sprag
         of_frequency = parts_of_slide(held, found, probe_slide(held, dynamics.penalties, maker), frequency_of);
       for (const auto &part : of_frequency)
         if (!(part.value < too_far))
-          return unknown_errors("with another " + part.name + (part.name == "mesh" ? ", or elsewhere between its nodes," : "") +
-                                " the slide behind the first reversal has no vibration of this frequency.");
+          throw NoEstimate{ "with another " + part.name + (part.name == "mesh" ? ", or elsewhere between its nodes," : "") +
+                            " the slide behind the first reversal has no vibration of this frequency." };
       const double between_rows = 1. - std::cos(0.5 * omega * slowing.first_step); // of a peak
       const double first_swing  = 2. * by_step(slowing.first_step) + between_rows;
       const double faces        = largest(rows, Column::contact_width) / scene.mesh.face_size;
@@ -128,19 +117,7 @@ namespace sprag
   std::vector<ErrorEstimate> transient_accuracy(const Scene &scene, const MeshedDynamics &dynamics, const std::vector<Row> &rows,
                                                 DynamicsMaker &maker)
   {
-    if (const auto reason = why_not(scene, rows); !reason.empty())
-      return unknown_errors(reason);
-    try
-    {
-      return estimates(scene, dynamics, rows, maker);
-    }
-    catch (const AnalysisError &error)
-    {
-      return unknown_errors("in the comparison " + std::string(error.what()) + ".");
-    }
-    catch (const InputError &error)
-    {
-      return unknown_errors("the coarser mesh cannot serve: " + std::string(error.what()) + ".");
-    }
+    return estimates_or_reason(scene, { "P", "overshoot", "frequency", "decay" },
+                               [&] { return estimates(scene, dynamics, rows, maker); });
   }
 } // namespace sprag

@@ -1,50 +1,92 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "run/vibration_accuracy.h"
 
-#include "base/errors.h"
 #include "run/coarser_scene.h"
-#include "run/slide_probes.h"
+#include "run/vibration_accuracy.h"
+#include "scene/held_slide.h"
 #include "scene/scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
 
 namespace sprag
 {
   namespace
   {
-    std::vector<ErrorEstimate> unknown_growth(const std::string &reason)
-    {
-      return { { "growth_rate", "", {}, reason }, { "frequency", "", {}, reason } };
-    }
+    /// By how much of a face the slide is moved to see how far its place between the nodes changes it.
+    constexpr double shares_of_face[] = { 0.25, 0.5, 0.75 };
   } // namespace
+
+  SlideProbes probe_slide(const Scene &scene, const ContactPenalties &penalties, DynamicsMaker &maker)
+  {
+    SlideProbes result;
+    result.soft = judge(with_penalties(scene, penalties, 1. / softer), maker);
+    {
+      const Scene held    = held_scene(scene);
+      const auto dynamics = maker.make(held);
+      for (const double share : shares_of_face)
+      {
+        DrivePoint drive  = held_drive(scene);
+        const double away = share * scene.mesh.face_size;
+        drive.x += drive.x - away > scene.drive.minimum() ? -away : away;
+        if (auto slide = judge(dynamics.model(), drive, held.stability.modes); slide.slide)
+          result.elsewhere.push_back(std::move(slide));
+      }
+    }
+    Scene coarse = with_coarser_mesh(with_penalties(scene, penalties, 1.));
+    if (scene.analysis.model == ModelType::condensed && scene.condensed.modes > 1)
+    {
+      coarse.condensed.modes = scene.condensed.modes / 2;
+      const auto dynamics    = maker.make_with_modes(scene, coarse.condensed.modes);
+      result.fewer_modes     = judge(dynamics.model(), held_drive(scene), scene.stability.modes);
+    }
+    DynamicsMaker of_coarse;
+    result.coarse = judge(coarse, of_coarse);
+    return result;
+  }
+
+  std::vector<ErrorPart> parts_of_slide(const Scene &scene, const SlideStability &found, const SlideProbes &probes,
+                                        const std::function<double(const SlideStability &)> &value)
+  {
+    const auto difference = [&](const SlideStability &a, const SlideStability &b)
+    { return std::abs((value(a) - value(b)) / value(found)); };
+    const auto &on_mesh = probes.fewer_modes ? *probes.fewer_modes : found;
+    ErrorPart mesh      = mesh_part(scene, difference(probes.coarse, on_mesh), order_of_forces(scene));
+    double least = value(found), most = value(found);
+    for (const auto &slide : probes.elsewhere)
+    {
+      least = std::fmin(least, value(slide)); // passes over places without a slide
+      most  = std::fmax(most, value(slide));
+    }
+    mesh.value                   = std::max(mesh.value, (most - least) / std::abs(value(found)));
+    std::vector<ErrorPart> parts = { mesh, penalty_part(scene, difference(probes.soft, found)) };
+    if (probes.fewer_modes)
+      parts.push_back({ "modes", difference(*probes.fewer_modes, found), "Try twice the Condensed/Modes." });
+    return parts;
+  }
 
   std::vector<ErrorEstimate> vibration_accuracy(const Scene &scene, const SlideStability &found, const MeshedDynamics &dynamics,
                                                 DynamicsMaker &maker)
   {
     if (!is_meshed(scene.analysis.model))
       return {};
-    if (!scene.mesh.file.empty())
-      return unknown_growth(no_coarser_mesh);
-    if (!(found.frequency() > 0.))
-      return unknown_growth("No estimate: the mode that grows most does not oscillate.");
-    try
+    const auto estimate = [&]
     {
+      if (!(found.frequency() > 0.))
+        throw NoEstimate{ "the mode that grows most does not oscillate." };
       const auto probes = probe_slide(scene, dynamics.penalties, maker);
       if (!(probes.coarse.frequency() > 0.) || !(probes.soft.frequency() > 0.))
-        return unknown_growth(
-            "No estimate: on a coarser mesh or with a softer penalty the mode that grows most does not oscillate.");
+        throw NoEstimate{ "on a coarser mesh or with a softer penalty the mode that grows most does not oscillate." };
       const auto parts = [&](const auto &value) { return parts_of_slide(scene, found, probes, value); };
-      return { { "growth_rate",
-                 "it, and beyond 100 % the verdict may flip",
-                 parts([](const SlideStability &slide) { return slide.growth_rate(); }),
-                 {} },
-               { "frequency", "it", parts([](const SlideStability &slide) { return slide.frequency(); }), {} } };
-    }
-    catch (const AnalysisError &error)
-    {
-      return unknown_growth("No estimate: in the comparison " + std::string(error.what()) + ".");
-    }
-    catch (const InputError &error)
-    {
-      return unknown_growth("No estimate: the coarser mesh cannot serve: " + std::string(error.what()) + ".");
-    }
+      return std::vector<ErrorEstimate>{
+        { "growth_rate",
+          "it, and beyond 100 % the verdict may flip",
+          parts([](const SlideStability &slide) { return slide.growth_rate(); }),
+          {} },
+        { "frequency", "it", parts([](const SlideStability &slide) { return slide.frequency(); }), {} }
+      };
+    };
+    return estimates_or_reason(scene, { "growth_rate", "frequency" }, estimate);
   }
 } // namespace sprag

@@ -4,11 +4,25 @@
 #include "analysis/stability/critical.h"
 #include "analysis/stability/roles.h"
 #include "results/result_file.h"
+#include "run/vibration_report.h"
 
+#include <iosfwd>
 #include <vector>
 
 namespace sprag
 {
+  /// Prints frequencies and where the energy of each mode is, leaving out parts that have none in any.
+  void print_modes(std::ostream &stream, const std::vector<Eigenmode> &modes);
+
+  /// Prints growth rates and what they are made of.
+  void print_growth(std::ostream &stream, const std::vector<Eigenmode> &modes);
+
+  /// Prints the modes that grow most or decay least, with what feeds and damps each of them most.
+  void print_growing(std::ostream &stream, std::vector<Eigenmode> modes);
+
+  /// Prints where the verdict changes along each parameter; `with_spacing`: and how closely was tried.
+  void print_critical(std::ostream &stream, const std::vector<CriticalSearch> &searches, bool with_spacing);
+
   /// Returns Im lambda / 2 pi [Hz].
   double frequency_of(const Eigenmode &mode);
 
@@ -37,11 +51,12 @@ namespace sprag
   struct DampingRange
   {
     double low, high;           ///< shares of critical
-    double looked_up_to;        ///< share of critical
     double growth_rate_at_none; ///< without damping of the contact [1/s]
   };
 
   std::vector<Entry> damping_entries(const DampingRange &range);
+
   std::vector<Entry> role_entries(const std::vector<Role> &roles);
+
   std::vector<Entry> critical_entries(const std::vector<CriticalSearch> &searches);
 } // namespace sprag

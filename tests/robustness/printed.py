@@ -15,7 +15,7 @@ MAP = ("Analysis/Model=beam", "Map/Coarsest=2", "Map/First points=5", "Map/Secon
 # Scene: settings that make it cheap, and the most lines that it may print before its warnings.
 SCENES = {
     "closed-form-a": ((), 10),
-    "fig10": ((), 2),
+    "fig10": ((), 3),
     "contact-law-a": (COARSE, 6),
     "calibration-a": (COARSE, 16),
     "modal-a": (COARSE, 12),
@@ -41,7 +41,7 @@ UNIT = (
 WITH_UNIT = re.compile(rf"{NUMBER}(?:(?: to|,)? +{NUMBER})? (?:{UNIT})")
 # Numbers that have none.
 PURE = re.compile(
-    rf"\b(?:mu =|n =|delta\^|peak|first harmonic|root mean square|transmissibility|tolerance|[\w /]+/(?:Degree|Modes|Factor) (?:=|from)) {NUMBER}(?: \({NUMBER} to {NUMBER})?"
+    rf"\b(?:mu =|n =|delta\^|peak|first harmonic|root mean square|transmissibility|tolerance|[\w /]+/(?:Degree|Modes|Factor|Damping) (?:=|from)) {NUMBER}(?: \(?(?:{NUMBER} )?to {NUMBER})?"
     rf"|flutter from {NUMBER} \(|order .*|x = 0\b|of degree \d|[a-z],? \d\."
 )
 

@@ -2,7 +2,7 @@
 #include "run/quasi_static_accuracy.h"
 
 #include "run/field_recorder.h"
-#include "run/left_out_inertia.h"
+#include "run/quasi_static_accuracy.h"
 #include "scene/closed_form.h"
 #include "scene/contact_reference.h"
 

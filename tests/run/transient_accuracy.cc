@@ -5,7 +5,7 @@
 #include "analytic/oscillation.h"
 #include "mpi_environment.h"
 #include "results/row_statistics.h"
-#include "run/beam_run.h"
+#include "run/transient_settings.h"
 #include "scene/read.h"
 #include "scene/scene.h"
 #include "support/params_folder.h"
