@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/isolation/lever_table.h"
+#include "analysis/transient/transient_settings.h"
 #include "analytic/isolated_table.h"
 #include "base/progress.h"
 #include "base/text.h"
@@ -9,7 +10,6 @@
 #include "program/result_writer.h"
 #include "run/analyses.h"
 #include "run/in_memory.h"
-#include "run/transient_settings.h"
 #include "scene/scene.h"
 
 #include <cstdint>

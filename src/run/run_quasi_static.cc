@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/statics/quasi_static.h"
 #include "base/append.h"
+#include "estimate/quasi_static_accuracy.h"
 #include "fe/solid/static_lever.h"
 #include "model/state_archive.h"
 #include "program/memory.h"
@@ -9,7 +10,6 @@
 #include "run/analyses.h"
 #include "run/field_recorder.h"
 #include "run/in_memory.h"
-#include "run/quasi_static_accuracy.h"
 #include "scene/scene.h"
 
 #include <filesystem>

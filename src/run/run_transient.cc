@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/transient/growing_modes.h"
 #include "analysis/transient/transient.h"
+#include "analysis/transient/transient_settings.h"
 #include "base/append.h"
 #include "base/text.h"
+#include "estimate/transient_accuracy.h"
 #include "levers/dynamics.h"
 #include "program/recorder.h"
 #include "program/steps_in_time.h"
@@ -11,8 +13,6 @@
 #include "run/field_recorder.h"
 #include "run/in_memory.h"
 #include "run/shown_body.h"
-#include "run/transient_accuracy.h"
-#include "run/transient_settings.h"
 #include "scene/mirrored_pair.h"
 #include "scene/scene.h"
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "run/choice.h"
+#include "estimate/choice.h"
 
 #include "base/phase_timer.h"
+#include "estimate/expected_cost.h"
 #include "mpi_environment.h"
-#include "run/expected_cost.h"
 #include "scene/read.h"
 #include "scene/scene.h"
 #include "support/params_folder.h"

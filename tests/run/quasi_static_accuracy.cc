@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "run/quasi_static_accuracy.h"
+#include "estimate/quasi_static_accuracy.h"
 
+#include "estimate/quasi_static_accuracy.h"
 #include "run/field_recorder.h"
-#include "run/quasi_static_accuracy.h"
 #include "scene/closed_form.h"
 #include "scene/contact_reference.h"
 

@@ -11,7 +11,7 @@ ROOT = pathlib.Path(os.environ.get("SPRAG_SOURCE", pathlib.Path(__file__).parent
 
 # A folder of src/ includes itself and what stands before it; the programs include any. An analysis knows no mesh.
 PROGRAMS = ["main.cc", "main_models.cc"]
-ORDER = ["base", "laws", "scene", "results", "analytic", "report", "program", "model", "fe", "levers", "analysis", "run"]
+ORDER = ["base", "laws", "scene", "results", "analytic", "report", "program", "model", "fe", "levers", "analysis", "estimate", "run"]
 UNSEEN = {"analysis": ["fe"]}
 # So do the rooms of a folder.
 ROOMS = {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "run/choice.h"
+#include "estimate/choice.h"
 
 #include "base/phase_timer.h"
+#include "estimate/expected_cost.h"
 #include "levers/prepared_scene.h"
 #include "report/percent.h"
-#include "run/expected_cost.h"
 #include "scene/read.h"
 #include "scene/scene.h"
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "run/expected_cost.h"
+#include "estimate/expected_cost.h"
 
 #include "analysis/study/study_points.h"
+#include "analysis/transient/transient_settings.h"
 #include "base/errors.h"
 #include "program/memory.h"
 #include "program/recorder.h"
-#include "run/transient_settings.h"
 #include "scene/analysis_use.h"
 #include "scene/contact_reference.h"
 #include "scene/contact_width.h"
@@ -101,8 +101,8 @@ namespace sprag
     {
       constexpr double most_steps = 2e5; // that are taken by a beam to count them
       const bool is_counted       = scene.time.tolerance > 0. && expected_rows(scene) <= most_steps;
-      const double steps          = is_counted ? static_cast<double>(beam_run(scene).size()) : scene.drive.duration() / scene.time.step;
-      const bool ripples          = is_meshed(scene.analysis.model) && scene.analysis.dimension == 2;
+      const double steps = is_counted ? static_cast<double>(beam_run(scene).size()) : scene.drive.duration() / scene.time.step;
+      const bool ripples = is_meshed(scene.analysis.model) && scene.analysis.dimension == 2;
       return steps * (ripples ? 1. + std::min(1., scene.time.tolerance / usual_tolerance) : 1.);
     }
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "run/transient_accuracy.h"
+#include "estimate/transient_accuracy.h"
 
 #include "analysis/accuracy/dilation.h"
 #include "analysis/transient/growing_modes.h"
 #include "analytic/oscillation.h"
 #include "base/text.h"
+#include "estimate/coarser_scene.h"
+#include "estimate/vibration_accuracy.h"
 #include "results/row_statistics.h"
-#include "run/coarser_scene.h"
-#include "run/vibration_accuracy.h"
 #include "scene/held_slide.h"
 #include "scene/scene.h"
 

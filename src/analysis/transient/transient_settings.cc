@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "run/transient_settings.h"
+#include "analysis/transient/transient_settings.h"
 
 #include "levers/dynamics.h"
 #include "scene/contact_reference.h"

@@ -3,9 +3,9 @@
 
 #include "analysis/statics/quasi_static.h"
 #include "analytic/error_estimate.h"
+#include "estimate/stress_sample.h"
 #include "fe/solid/static_lever.h"
 #include "results/columns.h"
-#include "run/stress_sample.h"
 
 #include <functional>
 #include <optional>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "run/coarser_scene.h"
+#include "estimate/coarser_scene.h"
 
 #include "base/errors.h"
 #include "scene/analysis_use.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "run/choice.h"
+#include "estimate/choice.h"
 
 #include "analysis/accuracy/sample_changes.h"
 #include "analysis/accuracy/slide_samples.h"

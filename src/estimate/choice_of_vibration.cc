@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "run/choice.h"
+#include "estimate/choice.h"
 
 #include "analysis/accuracy/dilation.h"
 #include "analysis/stability/stability.h"
+#include "analysis/transient/transient_settings.h"
 #include "analytic/error_estimate.h"
 #include "base/errors.h"
 #include "base/text.h"
+#include "estimate/coarser_scene.h"
 #include "report/percent.h"
 #include "results/row_statistics.h"
-#include "run/coarser_scene.h"
-#include "run/transient_settings.h"
 #include "scene/accuracy.h"
 #include "scene/check_parts.h"
 #include "scene/contact_reference.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "run/vibration_accuracy.h"
+#include "estimate/vibration_accuracy.h"
 
-#include "run/coarser_scene.h"
-#include "run/vibration_accuracy.h"
+#include "estimate/coarser_scene.h"
+#include "estimate/vibration_accuracy.h"
 #include "scene/held_slide.h"
 #include "scene/scene.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "run/stress_sample.h"
+#include "estimate/stress_sample.h"
 
 #include "fe/fields/stress_peaks.h"
 

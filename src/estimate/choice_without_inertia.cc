@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "run/choice.h"
+#include "estimate/choice.h"
 
 #include "analysis/accuracy/row_spacing.h"
 #include "analysis/accuracy/sample_changes.h"
@@ -7,13 +7,13 @@
 #include "analytic/error_estimate.h"
 #include "base/phase_timer.h"
 #include "base/text.h"
+#include "estimate/coarser_scene.h"
+#include "estimate/expected_cost.h"
 #include "fe/mesh/mesh.h"
 #include "fe/solid/static_lever.h"
 #include "program/memory.h"
 #include "report/percent.h"
 #include "report/report.h"
-#include "run/coarser_scene.h"
-#include "run/expected_cost.h"
 #include "scene/accuracy.h"
 #include "scene/contact_reference.h"
 #include "scene/contact_width.h"
