@@ -27,6 +27,14 @@ namespace sprag
 
   struct Scene
   {
+    // In one file: some twenty would compile 5 kB for each copy otherwise.
+    Scene();
+    Scene(const Scene &);
+    Scene(Scene &&) noexcept;
+    Scene &operator=(const Scene &);
+    Scene &operator=(Scene &&) noexcept;
+    ~Scene();
+
     AnalysisSettings analysis;
     Geometry geometry;
     Drive drive;
