@@ -35,10 +35,26 @@ namespace sprag
                    "Let a .geo in Mesh/File do all that you may, not only read its own folder; see meshes/README.md");
       app.add_option("--jobs", arguments.jobs, "Processes that work on a map or study; default: one a core")
           ->check(CLI::Range(1u, most_processes));
+      app.set_help_flag("-h,--help",
+                        "Print this help and stop; with SECTION or SECTION/NAME in place of FILE.prm, what that means");
       app.set_version_flag("--version", "sprag " + version());
       app.footer(
           "Exit status: 0 success, 1 the analysis failed or was interrupted (finished steps are kept), 2 bad input (nothing "
           "is written).");
+    }
+
+    /// Prints a section or parameter. Returns the exit status.
+    int explain(const std::string &name)
+    {
+      try
+      {
+        std::cout << help_text(name);
+        return success;
+      }
+      catch (const InputError &error)
+      {
+        return tell(error);
+      }
     }
   } // namespace
 
@@ -49,6 +65,11 @@ namespace sprag
     try
     {
       app.parse(argc, argv);
+    }
+    catch (const CLI::CallForHelp &help)
+    {
+      const auto &words = app.get_option("FILE.prm")->results();
+      return words.empty() ? app.exit(help) : explain(words.front());
     }
     catch (const CLI::ParseError &error)
     {

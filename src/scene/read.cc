@@ -475,6 +475,11 @@ namespace sprag
       }
     };
 
+    std::string text_with_defaults(const std::vector<Parameter> &parameters, const Scene &defaults)
+    {
+      return parameters_text(parameters, { { time_tolerance, number_text(defaults.time.tolerance) } });
+    }
+
     Scene changed(const Scene &scene, const std::vector<std::string> &overrides, const std::map<std::string, std::string> &chosen)
     {
       const auto read = [&](const auto &declared)
@@ -529,7 +534,23 @@ namespace sprag
   std::string default_parameters_text()
   {
     SceneSettings defaults;
-    const auto parameters = scene_parameters(defaults);
-    return parameters_text(parameters, { { time_tolerance, number_text(defaults.scene.time.tolerance) } });
+    return text_with_defaults(scene_parameters(defaults), defaults.scene);
+  }
+
+  std::string help_text(const std::string &name)
+  {
+    SceneSettings defaults;
+    std::vector<Parameter> found;
+    std::vector<std::string> names;
+    for (const auto &parameter : scene_parameters(defaults))
+    {
+      for (const auto &candidate : { parameter.section, full_name(parameter) })
+        if (boost::algorithm::iequals(candidate, name))
+          found.push_back(parameter);
+      names.insert(names.end(), { parameter.section, full_name(parameter) });
+    }
+    if (found.empty())
+      throw InputError("--help " + name + ": there is no such section or parameter" + did_you_mean(nearest(name, names)));
+    return text_with_defaults(found, defaults.scene);
   }
 } // namespace sprag

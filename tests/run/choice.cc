@@ -118,7 +118,7 @@ TEST(Choice, InThreeDimensionsTheRestIsChosenByThePlane)
   EXPECT_NE(chosen(choice, "Analysis/Step"), "");
 }
 
-TEST(Choice, ASlideOfAThinLeverTakesThreeDimensionsForItsGrowth)
+TEST(Choice, ASlideOfAThinLeverTakesThreeDimensionsForItsGrowthSlow)
 {
   std::vector<std::string> cheap = { "Analysis/Dimension=auto", "Mesh/Elements across=2", "Mesh/Face size=4" };
   const auto choice              = choose_settings(asked("solid-stability-a", cheap));

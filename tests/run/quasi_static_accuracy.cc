@@ -166,7 +166,7 @@ TEST(QuasiStaticAccuracy, TheLargestStressIsWithinWhatIsTold)
 }
 
 /// In space the reference has cells of half the length and width, and a penalty three times as stiff.
-TEST(QuasiStaticAccuracy, InThreeDimensionsToldErrorsMeetTheTrueOnes)
+TEST(QuasiStaticAccuracy, InThreeDimensionsToldErrorsMeetTheTrueOnesSlow)
 {
   const auto coarse    = told_in_space(solid_scene(1., 2));
   Scene fine           = solid_scene(0.5, 4);

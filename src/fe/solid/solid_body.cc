@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "fe/solid/solid_body.h"
 
-#include "base/archive.h"
 #include "base/errors.h"
+#include "base/messages.h"
 #include "fe/solid/solid_connectors.h"
 #include "fe/solid/solid_stiffness.h"
 #include "fe/statics/lever_properties.h"
@@ -23,6 +23,13 @@
 namespace sprag
 {
   using namespace dealii;
+
+  void visit(Archive &archive, SolidProperties &properties)
+  {
+    auto &body = properties.body;
+    archive(body.degree, body.plane, body.material, body.width, body.curved, body.point_spacing, body.constants,
+            properties.interface_offset, properties.layer, properties.skin, properties.folder);
+  }
 
   namespace
   {
@@ -64,22 +71,11 @@ namespace sprag
       return { solid_properties(scene), scene.geometry.interface_offset, scene.layer.thickness, skin_depth(scene), folder };
     }
 
-    void visit(Archive &archive, SolidProperties &properties)
-    {
-      auto &body = properties.body;
-      archive(body.degree, body.plane, body.material, body.width, body.curved, body.point_spacing, body.constants,
-              properties.interface_offset, properties.layer, properties.skin, properties.folder);
-    }
-
     /// Returns those that the first rank has, which calls the others to build the body.
     SolidProperties shared(const BodyCalls &call_others, SolidProperties properties)
     {
       call_others(SharedTask::build);
-      Archive written;
-      visit(written, properties);
-      Archive received(Utilities::MPI::broadcast(call_others.ranks, written.bytes()));
-      visit(received, properties);
-      return properties;
+      return broadcast(call_others.ranks, std::move(properties));
     }
 
     using Sharing = SolidMesh::Settings;
