@@ -5,6 +5,7 @@ import argparse
 from pathlib import Path
 
 FORMATS = ("png", "pdf", "svg")
+DPI = 200
 
 
 def parser_of(documentation):
@@ -46,9 +47,14 @@ def picture_paths(options, default):
     return [base.with_name(f"{base.name}.{ending}") for ending in options.format or ("png",)]
 
 
-def save(figure, paths, dpi=300):
+def save(figure, paths, dpi=DPI):
     """Writes a picture, makes the folders it needs and says where it is."""
     for path in paths:
         path.parent.mkdir(parents=True, exist_ok=True)
-        figure.savefig(path, dpi=dpi)
+        if path.suffix == ".png":
+            # savefig() would draw twice.
+            figure.set_dpi(dpi)
+            figure.canvas.print_png(path, pil_kwargs={"compress_level": 2})
+        else:
+            figure.savefig(path, dpi=dpi)
         print(path)

@@ -10,10 +10,6 @@ WAYS = {1: (">", "forward"), -1: ("<", "backward")}
 STATES = (("free_frequency_", "free"), ("contact_frequency_", "contact"))
 
 
-def is_calibration(result):
-    return "P_beam" in result.table
-
-
 def calibration(result):
     """P and Q of both over x; frequencies of both, with what the beam is off."""
     figure = plt.figure(figsize=(TWO_COLUMNS, 130 * MILLIMETRE))

@@ -45,7 +45,7 @@ def comparison(results):
 def check_steps(results):
     """Throws NotAResult where there are none that pictures could share."""
     for result in results:
-        if result.is_sweep:
+        if "time" not in result.table:
             raise NotAResult(f"{result.folder}: has no steps to share a picture, a result of its type is drawn by itself")
         if len(result.table["time"]) == 0:
             reason = result.summary.get("status")

@@ -43,7 +43,7 @@ def contact(result):
 def chosen_states(result, count=COUNT):
     """[(row of the face's steps, way, number of the position)] of states in contact, spread over x, the same x each way."""
     face, ways, slides = result.face, ways_of_states(result), sliding(result)
-    pressed = np.flatnonzero(face.pressure.max(axis=1, initial=0) > 0)
+    pressed = np.flatnonzero(result.table["P"][rows_of_states(result)] > 0)
     if len(pressed) == 0:
         return []
     wanted = positions(face.x[pressed], count)
@@ -55,7 +55,7 @@ def chosen_states(result, count=COUNT):
         for number, x in enumerate(wanted):
             if len(rows) and (best := rows[np.abs(face.x[rows] - x).argmin()]) is not None and abs(face.x[best] - x) <= near:
                 found.append((int(best), way, number))
-    return found
+    return [state for state in found if (face.pressure[state[0]] > 0).any()]
 
 
 def positions(x, count):
@@ -138,7 +138,7 @@ def draw_about_centre(axes, face, chosen):
 
 
 def figure_legend(figure, face, chosen):
-    names = {number: f"$x$ = {face.x[step]:.3g} {face.units['x']}" for step, _, number in reversed(chosen)}
+    names = {number: f"x = {face.x[step]:.3g} {face.units['x']}" for step, _, number in reversed(chosen)}
     numbers = sorted(names)
     handles = [plt.Line2D([], [], color=COLOURS[number], marker=MARKERS[number], markersize=3) for number in numbers]
     legend_on_top(figure, handles, [names[number] for number in numbers])

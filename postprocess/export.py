@@ -109,9 +109,10 @@ def face_of(result):
     face = result.face
     if face is None:
         raise NotAResult(f"{result.folder}: no friction face in it")
-    steps, points = np.nonzero(face.pressure > 0)
+    pressure, traction = np.asarray(face.pressure), np.asarray(face.traction)
+    steps, points = np.nonzero(pressure > 0)
     named = {"time": face.time[steps], "x": face.x[steps], "xi": face.xi[points]}
-    named.update(pressure=face.pressure[steps, points], traction=face.traction[steps, points])
+    named.update(pressure=pressure[steps, points], traction=traction[steps, points])
     return {header(name, face.units.get(name)): values for name, values in named.items()}
 
 

@@ -43,18 +43,29 @@ class Frame:
 
     def shown(self, names):
         """Which nodes belong to those parts."""
-        return np.isin(self.part, names)
+        return any_of(self.part, names)
+
+    @cached_property
+    def places(self):
+        """A number of the place of each node."""
+        return np.unique(np.round(self.nodes, 6) + 0.0, axis=0, return_inverse=True)[1].reshape(-1)
 
     def borders(self, names=tuple(PARTS.values())):
         """Node numbers of the edges between parts and on the outside of those named [edges x 2]."""
-        cells = self.outlines[np.isin(self.cell_part, names)]
+        cells = self.outlines[any_of(self.cell_part, names)]
         edges = np.stack((cells, np.roll(cells, -1, axis=1)), axis=-1).reshape(-1, 2)
         if len(edges) == 0:
             return edges
-        places = np.unique(np.round(self.nodes, 6) + 0.0, axis=0, return_inverse=True)[1].reshape(-1)
-        keys = np.column_stack((np.sort(places[edges], axis=1), np.unique(self.part, return_inverse=True)[1][edges[:, 0]]))
-        _, index, counts = np.unique(keys, axis=0, return_index=True, return_counts=True)
+        part = np.select([self.part == name for name in NUMBERS], list(NUMBERS.values()))[edges[:, 0]]
+        low, high = np.sort(self.places[edges], axis=1).T
+        keys = (part * len(self.nodes) + low) * len(self.nodes) + high
+        _, index, counts = np.unique(keys, return_index=True, return_counts=True)
         return edges[index[counts == 1]]
+
+
+def any_of(words, names):
+    """Which of an array of words are among the names."""
+    return np.any([words == name for name in names], axis=0)
 
 
 def read_frame(result, path=None, row=None):
@@ -190,7 +201,7 @@ def written_frames(result):
     """Of a run in which the cylinder moves."""
     if "modes" in result.groups:
         raise NotAResult(f"{result.folder}: its frames are modes, which plot.py draws along the face and ParaView shows (mode-01.xdmf, ...)")
-    if result.is_sweep or len(result.table["time"]) == 0:
+    if len(result.table.get("time", ())) == 0:
         return []
     x, times = result.table["x"], result.table["time"]
     steps = np.diff(x, prepend=x[0])
@@ -202,14 +213,14 @@ def written_frames(result):
 
 
 def chosen_frame(result, x=None, way=None):
-    """The frame nearest to x, that of the largest x where none is asked for. Throws NotAResult where there is none near."""
+    """The frame nearest to x, that of the largest P where none is asked for. Throws NotAResult where there is none near."""
     frames = written_frames(result)
     candidates = [frame for frame in frames if way is None or frame.way == WAYS[way]]
     if not frames:
         raise NotAResult(f"{result.folder}: no frames of fields there; Output/Fields must not be none, and Analysis/Model be meshed")
     near = number(result, "Output", "Field interval") / 2
     if x is None and candidates:
-        return max(candidates, key=lambda frame: frame.x)
+        return max(candidates, key=lambda frame: result.table["P"][frame.row])
     nearest = min(candidates, key=lambda frame: abs(frame.x - x), default=None)
     if nearest is None or abs(nearest.x - x) > near:
         wanted = " ".join(filter(None, (f"at x = {x:g} mm" if x is not None else "", way)))

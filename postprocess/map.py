@@ -33,10 +33,6 @@ class Map:
         return all(name.startswith("Geometry/") for name in self.names)
 
 
-def is_map(result):
-    return "kind_low" in result.table
-
-
 def read_map(result):
     with h5py.File(result.folder / "result.h5", "r") as file:
         group = file["map"]

@@ -47,16 +47,31 @@ def script(main):
     return with_exit_code
 
 
+class Rows:
+    """A quantity of the friction face [written steps x points]: rows[step] reads that step, numpy.asarray(rows) all of them."""
+
+    def __init__(self, path, name, steps, order):
+        self.path, self.name, self.steps, self.order = path, name, steps, order
+
+    def __getitem__(self, step):
+        with open_result(self.path) as file:
+            return file["face"][self.name][range(self.steps)[step]][self.order]
+
+    def __array__(self, dtype=None):
+        with open_result(self.path) as file:
+            return file["face"][self.name][: self.steps][:, self.order].astype(dtype or float)
+
+
 @dataclass
 class Face:
-    """The friction face; pressure and traction are [written steps x points]."""
+    """The friction face at the steps that were written."""
 
-    xi: np.ndarray
-    weight: np.ndarray
-    time: np.ndarray
-    x: np.ndarray
-    pressure: np.ndarray
-    traction: np.ndarray
+    xi: np.ndarray  # of the points [mm]
+    weight: np.ndarray  # area of each [mm^2]
+    time: np.ndarray  # of the steps [s]
+    x: np.ndarray  # of the cylinder at these steps [mm]
+    pressure: Rows  # [MPa]
+    traction: Rows  # of friction [MPa]
     units: dict
     zeta: Optional[np.ndarray] = None  # across the width, in three dimensions
 
@@ -82,9 +97,9 @@ class Result:
         return self.folder.resolve().name
 
     @property
-    def is_sweep(self):
-        """Slopes over mu or theta0 instead of steps of time."""
-        return "time" not in self.table
+    def type(self):
+        """Of the analysis, as Analysis/Type has it."""
+        return self.parameter("Analysis", "Type")
 
     def has(self, column):
         """Whether a column is there and holds at least one number."""
@@ -143,20 +158,20 @@ def read_result(folder):
             result.groups = {n: _entries(g) for n, g in file.items() if isinstance(g, h5py.Group) and n not in KNOWN}
             result.entry_units = {**_attributes(file["summary"], "unit"), **_attributes(file["meta"], "unit")}
         if "face" in file:
-            result.face = _read_face(file["face"])
+            result.face = _read_face(path, file["face"])
         return result
 
 
-def _read_face(group):
-    steps = _equally_long({name: group[name][:] for name in ("time", "x", "pressure", "traction")})
+def _read_face(path, group):
+    length = min(len(group[name]) for name in ("time", "x", "pressure", "traction"))
     order = np.argsort(group["xi"][:])
     return Face(
         xi=group["xi"][:][order],
         weight=group["weight"][:][order],
-        time=steps["time"],
-        x=steps["x"],
-        pressure=steps["pressure"][:, order],
-        traction=steps["traction"][:, order],
+        time=group["time"][:length],
+        x=group["x"][:length],
+        pressure=Rows(path, "pressure", length, order),
+        traction=Rows(path, "traction", length, order),
         units=_attributes(group, "unit"),
         zeta=group["zeta"][:][order] if "zeta" in group else None,
     )

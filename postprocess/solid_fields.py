@@ -172,7 +172,7 @@ def near_contact(result, frame, row, lever):
 
 
 def solid_fields(result, x=None, way=None, magnify=None):
-    """The frame nearest to x, that of the largest x where none is asked for. Throws NotAResult where there is none near."""
+    """The frame nearest to x, that of the largest P where none is asked for. Throws NotAResult where there is none near."""
     written = chosen_frame(result, x, way)
     frame = read_solid_frame(result, written.file)
     magnify = magnify or automatic_magnification(result, frame, written.row)

@@ -55,10 +55,6 @@ class Varied:
         return f"{parameter_label(self.name)} {text}" if self.is_number or text == "auto" else text
 
 
-def is_study(result):
-    return "outcome" in result.table and "run" in result.table
-
-
 def slug(name):
     return "".join(c.lower() if c.isalnum() else "_" for c in name)
 

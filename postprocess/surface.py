@@ -39,7 +39,7 @@ def surface(result):
 
 def largest_states(result):
     """[(row of the face's steps, way)] where the face carries most, each way."""
-    force = result.face.pressure @ result.face.weight
+    force = np.asarray(result.face.pressure) @ result.face.weight
     ways = ways_of_states(result)
     found = []
     for way in WAYS:

@@ -45,7 +45,7 @@ FREQUENCIES = {"free_frequency_1": (40.0, 40.4), "free_frequency_2": (700.0, 686
 
 
 def make_calibration(folder):
-    file = new_file(folder)
+    file = new_file(folder, "calibration")
     table = file.create_group("table")
     x = np.tile((16.25, 32.5, 48.75), 2)
     direction = np.repeat((1.0, -1.0), 3)

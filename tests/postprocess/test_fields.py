@@ -346,7 +346,7 @@ class DrawTest(PictureTest):
             self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1), done.stderr)
             self.assertIn(words, done.stderr)
 
-    def test_plot_draws_the_frame_of_the_largest_x(self):
+    def test_plot_draws_a_frame(self):
         make_run(self.folder / "a", lever_blocks())
         self.expect_picture(draw("plot.py", self.folder / "a"), "fields")
 

@@ -20,8 +20,8 @@ from style import plt, use_print_style  # noqa: E402
 SCENES = Path(os.environ.get("SPRAG_SOURCE", SOURCE)) / "params"
 COARSE = {"Mesh/Face size": 2}
 WITHOUT_FIELDS = {**COARSE, "Output/Fields": "none"}
-FORCES = {"forces-over-time", "forces-over-x"}
-IN_TIME = {*FORCES, "reversal", "energy"}
+FORCES = {"forces-over-x"}
+IN_TIME = {*FORCES, "forces-over-time", "reversal", "energy"}
 # Scene -> its settings here and its pictures.
 PICTURES = {
     "closed-form-a": ({}, FORCES),
