@@ -14,7 +14,9 @@ install(DIRECTORY meshes params postprocess DESTINATION ${CMAKE_INSTALL_DOCDIR}
 install(CODE "
   file(MAKE_DIRECTORY \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/bin\")
   file(CREATE_LINK ../libexec/sprag/sprag \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/bin/sprag\" SYMBOLIC)
-  file(CREATE_LINK ../${data}/postprocess/plot.py \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/bin/sprag-plot\" SYMBOLIC)")
+  file(CREATE_LINK ../${data}/postprocess/plot.py \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/bin/sprag-plot\" SYMBOLIC)
+  file(MAKE_DIRECTORY \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/lib/python3/dist-packages\")
+  file(CREATE_LINK ../../../${data}/postprocess/sprag \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/lib/python3/dist-packages/sprag\" SYMBOLIC)")
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)

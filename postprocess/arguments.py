@@ -2,7 +2,13 @@
 """What the scripts have in common on the command line: where pictures go, in which format, and how they are written."""
 
 import argparse
+import sys
+import traceback
+from functools import wraps
 from pathlib import Path
+
+from sprag.program import program
+from sprag.results import NotAResult
 
 FORMATS = ("png", "pdf", "svg")
 DPI = 200
@@ -11,6 +17,35 @@ DPI = 200
 def parser_of(documentation):
     """A parser whose --help begins with what the script says of itself."""
     return argparse.ArgumentParser(description=documentation, formatter_class=argparse.RawDescriptionHelpFormatter)
+
+
+def script(main):
+    """The exit code of what a script does: 0, or 2 with one line on stderr where a result or file cannot be read or written. What a
+    damaged result lacks shows anywhere, by any exception: the line tells what was read and where it failed."""
+
+    name = Path(main.__code__.co_filename).name
+
+    @wraps(main)
+    def with_exit_code(arguments=None):
+        try:
+            main(arguments)
+        except (NotAResult, OSError) as error:
+            print(f"{name}: {error}", file=sys.stderr)
+            return 2
+        except Exception as error:
+            place = traceback.extract_tb(error.__traceback__)[-1]
+            what = f"{type(error).__name__}: {error}".splitlines()[0]
+            where = f"{Path(place.filename).name}, line {place.lineno}"
+            given = ", ".join(word for word in map(str, arguments or sys.argv[1:]) if Path(word).exists())
+            print(f"{name}: {given}: a result is damaged or of another version of sprag: {what} ({where})", file=sys.stderr)
+            return 2
+        return 0
+
+    return with_exit_code
+
+
+def add_program(parser):
+    parser.add_argument("--sprag", type=Path, default=program(), metavar="FILE", help="the program (the one built or installed with this script)")
 
 
 def add_folders(parser, number="+", what="result folder, holding result.h5"):

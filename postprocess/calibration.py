@@ -32,7 +32,7 @@ def constants(result):
     entries = (("stiffness", "$k$"), ("moment_of_inertia", "$J$"), ("bending_stiffness", "$EI$"), ("contact_stiffness", "$k_c$"),
                ("contact_exponent", "exponent"))  # fmt: skip
     return ", ".join(
-        f"{symbol} = {result.summary[name]:.5g}{unit(result.entry_units.get(name, ''))}"
+        f"{symbol} = {result.summary[name]:.5g}{unit(result.summary[name].unit)}"
         for name, symbol in entries
         if name in result.summary
     )

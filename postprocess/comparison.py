@@ -12,8 +12,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from arguments import add_folders, add_output, parser_of, picture_paths, save
-from results import NotAResult, read_result, script
+from arguments import add_folders, add_output, parser_of, picture_paths, save, script
+from sprag.results import NotAResult, read_result
 from several import FEW_NUMBERS, told_apart
 from style import MILLIMETRE, TWO_COLUMNS, envelope, is_signal, label, panel_letter, plt, use_print_style
 from transient import LEAD, WINDOW, has_reversal, is_transient, parameter, reversal_time, turning_points, zoom_end
@@ -96,7 +96,7 @@ def draw_number(axes, results, several, name):
     axes.plot(several.values[order], numbers[order], color="0.6", linewidth=0.8, zorder=1)
     for value, number, look in zip(several.values, numbers, several.looks):
         axes.plot(value, number, "o", color=look["color"], markersize=4)
-    unit = results[0].entry_units.get(name, "1")
+    unit = results[0].summary[name].unit
     axes.set_ylabel(f"{name.replace('_', ' ')} [{unit}]")
     axes.set_xlabel(several.label)
     axes.ticklabel_format(axis="y", useOffset=False)

@@ -8,9 +8,9 @@ import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection, TriMesh
 from matplotlib.tri import Triangulation
 
-from arguments import add_folders, add_output, parser_of, picture_paths, save
+from arguments import add_folders, add_output, parser_of, picture_paths, save, script
 from frames import PARTS, WAYS, any_of, chosen_frame, number, pose, read_frame, rest_inclination
-from results import NotAResult, read_result, script
+from sprag.results import NotAResult, read_result
 from shades import COLOUR_MAP, RIGID, is_logarithmic, mappable_of, norm_of, rounded, size_of
 from solid_fields import solid_fields
 from style import COLOURS, MILLIMETRE, TWO_COLUMNS, plt, use_print_style
@@ -263,7 +263,7 @@ def draw_contact(axes, window):
 
 
 def draw_tractions(axes, window):
-    scenery, face = window.scenery, window.scenery.result.face
+    scenery, face = window.scenery, window.scenery.result.friction_face
     if face is None or len(face.time) == 0:
         axes.annotate("no pressure was written", (0.5, 0.5), xycoords="axes fraction", ha="center")
     else:

@@ -10,14 +10,14 @@ import numpy as np
 
 import plot
 from apparatus import device_of
-from arguments import add_output, parser_of
+from arguments import add_output, add_program, parser_of
 from comparison import comparison
 from contact import contact
 from device import drawing
 from fields import fields
 from forces import forces_over_time, forces_over_x
-from program import ROOT, RunFailed, add_program, run_scene
-from results import NotAResult, read_result
+from sprag.program import ROOT, RunFailed, run_scene
+from sprag.results import NotAResult, read_result
 from slope import contact_law, slopes_over_coefficient, slopes_over_inclination
 from style import COLOURS, MARKERS, MILLIMETRE, ONE_COLUMN, look, plt, set_labels, use_print_style
 from transient import energy, reversal

@@ -78,7 +78,7 @@ def draw_slopes(axes, results):
     slopes = {round(r.summary["slope_forward"], 9): r for r in known}
     for slope, result in slopes.items() if len(slopes) == 1 else ():
         end = np.nanmax(result.table["x"])
-        name = f"$C_Q x$, $C_Q$ = {slope:.4f} {result.entry_units['slope_forward']}"
+        name = f"$C_Q x$, $C_Q$ = {slope:.4f} {result.summary['slope_forward'].unit}"
         axes.plot([0, end], [0, slope * end], color="black", linestyle=":", linewidth=1.2, label=name)
 
 

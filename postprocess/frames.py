@@ -4,17 +4,15 @@
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-import re
 
-import h5py
 import numpy as np
 
-from results import NotAResult
+from sprag.results import WAYS, NotAResult, read_fields
 
 # As FieldFrames writes them.
 PARTS = {1: "lever", 2: "layer", 3: "hub", 4: "web", 5: "plate", 6: "cylinder", 7: "leaf"}
 NUMBERS = {name: number for number, name in PARTS.items()}
-WAYS = {"forward": 1, "backward": -1}
+MOVED = ("displacement", "elastic_displacement", "von_mises_stress")  # of a frame
 
 
 @dataclass
@@ -74,21 +72,14 @@ def read_frame(result, path=None, row=None):
     A leaf spring is in the axes of the lever at rest, its displacement includes the hub's rotation. Nodes of an elastic cylinder
     are about its centre.
     """
-    path_of_mesh = result.folder / "fields-mesh.h5"
-    try:
-        with h5py.File(path_of_mesh, "r") as file:
-            mesh = {name: dataset[:] for name, dataset in file["fields"].items()}
-        moved = {"displacement": 0, "elastic_displacement": 0, "von_mises_stress": 0}
-        if path is not None:
-            with h5py.File(path, "r") as file:
-                moved = {name: file["fields"][name][:] for name in moved}
-        in_plane = {name: np.broadcast_to(values, (len(mesh["nodes"]), 3))[:, :2] for name, values in moved.items() if "disp" in name}
-        stress = np.broadcast_to(moved["von_mises_stress"], len(mesh["nodes"]))
-        part = mesh["part"].round().astype(int)
-        of_first = mesh["lever"] == 1
-        quads_of_all = mesh["cells"].astype(int)
-    except (OSError, KeyError, ValueError) as error:
-        raise NotAResult(f"{path or path_of_mesh}: cannot be read as fields of this version of sprag ({error})") from error
+    mesh = {name: np.asarray(values) for name, values in read_fields(result.folder, path).items()}
+    if missing := {"nodes", "part", "lever", "cells", *(MOVED if path else ())} - set(mesh):
+        raise NotAResult(f"{path or result.folder}: cannot be read as fields of this version of sprag (no {', '.join(sorted(missing))})")
+    moved = [np.broadcast_to(mesh[name], (len(mesh["nodes"]), 3))[:, :2] if path else np.zeros((len(mesh["nodes"]), 2)) for name in MOVED[:2]]
+    stress = mesh["von_mises_stress"] if path else np.zeros(len(mesh["nodes"]))
+    part = mesh["part"].round().astype(int)
+    of_first = mesh["lever"] == 1
+    quads_of_all = mesh["cells"].astype(int)
 
     rest = pose(result)
     stands = rest if row is None else pose(result, row)
@@ -109,17 +100,8 @@ def read_frame(result, path=None, row=None):
         return frame
 
     leaf = part == NUMBERS["leaf"]
-    bent = rest.along_axes(nodes + in_plane["displacement"] - stands.pivot) - in_lever
-    return only(of_first & ~leaf, stands.along_axes(in_plane["elastic_displacement"])), only(of_first & leaf, bent)
-
-
-def indexed(folder, name="fields"):
-    """[(time, file)] of the frames written so far, in order."""
-    index = Path(folder) / f"{name}.xdmf"
-    if not index.is_file():
-        return []
-    found = re.findall(r'<Time Value="([^"]+)".*?>([^<>\s]+-\d+\.h5):/', index.read_text(encoding="utf-8"), re.DOTALL)
-    return [(float(time), index.parent / file) for time, file in found]
+    bent = rest.along_axes(nodes + moved[0] - stands.pivot) - in_lever
+    return only(of_first & ~leaf, stands.along_axes(moved[1])), only(of_first & leaf, bent)
 
 
 @dataclass
@@ -204,12 +186,8 @@ def written_frames(result):
     if len(result.table.get("time", ())) == 0:
         return []
     x, times = result.table["x"], result.table["time"]
-    steps = np.diff(x, prepend=x[0])
-    moving = np.flatnonzero(steps)
-    last = np.maximum(np.searchsorted(moving, np.arange(len(x)), side="right") - 1, 0)
-    ways = np.sign(steps[moving[last]]).astype(int) if len(moving) else np.ones(len(x), dtype=int)
-    found = [(file, time, int(np.abs(times - time).argmin())) for time, file in indexed(result.folder) if file.is_file()]
-    return [Written(file, time, row, x[row], ways[row]) for file, time, row in found]
+    found = [(file, time, int(np.abs(times - time).argmin())) for time, file in result.frames if file.is_file()]
+    return [Written(file, time, row, x[row], result.ways[row]) for file, time, row in found]
 
 
 def chosen_frame(result, x=None, way=None):

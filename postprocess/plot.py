@@ -5,7 +5,7 @@
 import sys
 from pathlib import Path
 
-from arguments import DPI, add_folders, add_output, names_picture, parser_of, save
+from arguments import DPI, add_folders, add_output, names_picture, parser_of, save, script
 from calibration import calibration
 from comparison import check_steps, comparison
 from contact import contact
@@ -17,7 +17,7 @@ from identification import identification
 from isolation import is_transmissibility_study, isolation_pictures, transmissibility
 from map import stability_map
 from pair import has_pair, pair_of_levers
-from results import NotAResult, read_result, script
+from sprag.results import NotAResult, read_result
 from sensors import has_sensors, sensor_forces
 from slope import contact_law, slope_sweep
 from sprag_slip import sprag_slip_pictures
@@ -75,7 +75,7 @@ def pictures_of_drive(result):
         pictures["forces-over-time"] = forces_over_time([result])
     if is_solid(result):
         pictures["contact"] = surface(result)
-    elif result.face is not None:
+    elif result.friction_face is not None:
         pictures["contact"] = contact(result)
     if is_transient(result) and has_reversal(result):
         pictures["reversal"] = reversal(result)

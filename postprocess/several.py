@@ -7,8 +7,8 @@ from typing import Optional
 import numpy as np
 from matplotlib import colormaps
 
-from parameters import differing, parse
-from results import NotAResult
+from sprag.parameters import differing, parse
+from sprag.results import NotAResult
 from style import LINES, legend_on_top, look, parameter_label, scale_of, with_unit
 
 MOST_RESULTS = 20

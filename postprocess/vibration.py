@@ -3,7 +3,7 @@
 
 import numpy as np
 
-from results import NotAResult
+from sprag.results import NotAResult
 from style import COLOURS, MILLIMETRE, ONE_COLUMN, TWO_COLUMNS, panel_letter, plt
 
 KINDS = ("stable", "flutter", "divergence")

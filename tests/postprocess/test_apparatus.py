@@ -13,7 +13,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 from pictures import PictureTest, draw  # noqa: E402
 import calibration  # noqa: E402
 import sensors  # noqa: E402
-from results import read_result  # noqa: E402
+from sprag.results import read_result  # noqa: E402
 from test_plot import fill_run, finish, make_run, make_transient, new_file, put  # noqa: E402
 
 SHARES = np.array((0.1, 0.4, 0.3, 0.2))

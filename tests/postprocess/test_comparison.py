@@ -12,9 +12,9 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 from pictures import PictureTest, draw  # noqa: E402
 import comparison  # noqa: E402
 import forces  # noqa: E402
-import parameters  # noqa: E402
+from sprag import parameters  # noqa: E402
 import several  # noqa: E402
-from results import NotAResult, read_result  # noqa: E402
+from sprag.results import NotAResult, read_result  # noqa: E402
 from style import plt, use_print_style  # noqa: E402
 from test_plot import fill_run, finish, make_run, make_transient, new_file, put  # noqa: E402
 

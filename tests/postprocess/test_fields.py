@@ -13,7 +13,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 from pictures import PictureTest, draw  # noqa: E402
 import fields  # noqa: E402
 import frames  # noqa: E402
-from results import NotAResult, read_result  # noqa: E402
+from sprag.results import NotAResult, read_result  # noqa: E402
 from test_plot import finish, new_file, put  # noqa: E402
 
 NUMBERS = {name: number for number, name in frames.PARTS.items()}
@@ -122,7 +122,7 @@ def write_frames(folder, rows, blocks):
 
 
 PARAMETERS = f"""subsection Analysis
-  set Type = quasi static
+  set Type = quasi-static
 end
 subsection Cylinder
   set Inner radius = 10

@@ -14,7 +14,7 @@ from pictures import FOLDER, PictureTest, draw  # noqa: E402
 import identification  # noqa: E402
 import layout  # noqa: E402
 import measure  # noqa: E402
-from results import read_result  # noqa: E402
+from sprag.results import read_result  # noqa: E402
 from style import use_print_style  # noqa: E402
 from test_plot import finish, make_run, new_file, put  # noqa: E402
 

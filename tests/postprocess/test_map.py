@@ -12,7 +12,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 
 from pictures import PictureTest, draw  # noqa: E402
 import map as stability  # noqa: E402
-import results  # noqa: E402
+from sprag import results  # noqa: E402
 
 N_FIRST, N_SECOND = 5, 4
 

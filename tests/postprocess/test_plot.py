@@ -12,7 +12,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 
 from pictures import PictureTest  # noqa: E402
 import forces  # noqa: E402
-import results  # noqa: E402
+from sprag import results  # noqa: E402
 
 
 def put(group, name, values, unit):

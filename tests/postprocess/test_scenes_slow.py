@@ -13,8 +13,8 @@ from pictures import SOURCE, PictureTest  # noqa: E402
 import comparison  # noqa: E402
 import pages  # noqa: E402
 import plot  # noqa: E402
-import program  # noqa: E402
-from results import read_result  # noqa: E402
+from sprag import program  # noqa: E402
+from sprag.results import read_result  # noqa: E402
 from style import plt, use_print_style  # noqa: E402
 
 SCENES = Path(os.environ.get("SPRAG_SOURCE", SOURCE)) / "params"

@@ -41,6 +41,12 @@ class Install(FolderTest):
         told = self.call(program, scene, *CHEAP, "--output", "there", status=2).stderr
         self.assertIn(str(script), told)
 
+    def test_python_finds_its_package(self):
+        code = f"import sprag; print(sprag.run({str(self.data / 'params' / 'closed-form-a.prm')!r}).summary['status'])"
+        environment = {"PYTHONPATH": str(self.prefix / "lib" / "python3" / "dist-packages"), "PATH": "/usr/bin:/bin", "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
+        done = subprocess.run(["/usr/bin/python3", "-c", code], capture_output=True, text=True, check=False, env=environment, cwd=self.folder)
+        self.assertEqual((done.returncode, done.stdout.strip()), (0, "completed"), done.stderr)
+
     def test_nothing_of_it_names_the_sources(self):
         for path in self.prefix.rglob("*"):
             if path.is_file() and path.suffix in (".py", ".prm", ".geo", ".md"):
