@@ -7,7 +7,7 @@ from pathlib import Path
 
 from arguments import DPI, add_folders, add_output, names_picture, parser_of, save, script
 from calibration import calibration
-from comparison import check_steps, comparison
+from comparison import check_steps, comparisons
 from contact import contact
 from design import design_pictures
 from fields import fields
@@ -37,8 +37,7 @@ OF_ONE_RUN = ("forces-over-time", "forces-over-x", "contact", "reversal", "energ
 def draw(results):
     """{picture name: figure} for one or several results."""
     if len(results) > 1:
-        check_steps(results)
-        return {"forces-over-time": forces_over_time(results), "forces-over-x": forces_over_x(results), "comparison": comparison(results)}
+        return comparisons(results)
     (result,) = results
     if result.type not in IN_STEPS and not result.finished:
         raise NotAResult(f"{result.folder}: this analysis has nothing to draw before it is finished")
@@ -131,7 +130,8 @@ def main(arguments=None):
     if options.on_word and not sys.stdin.readline():
         return
     endings = options.format or ("png",)
-    pictures = draw([read_result(folder) for folder in options.folders])
+    results = [read_result(folder) for folder in options.folders]
+    pictures = draw(results)
     save_all(pictures, options.output, endings)
     if options.folders == [options.output]:
         remove_earlier(pictures, options.output, endings)

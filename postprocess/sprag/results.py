@@ -35,20 +35,22 @@ class Column(np.ndarray):
 
 
 class Number(float):
-    """A number with the attributes unit, "1" where it has none, and description."""
+    """A number with the attributes unit, "1" where it has none, and description; more of the file in the dictionary more."""
 
-    unit = "1"
-    description = ""
+
+class Text(str):
+    """A text with the same attributes; a warning's more has its "effect" and "remedy"."""
 
 
 def described(value, attributes):
-    """An array or number of a file with its unit and description; texts as they are."""
-    if isinstance(value, np.ndarray) and value.dtype.kind in "fiu":
+    """An array, number or text of a file with its unit and description; arrays of texts as they are."""
+    if isinstance(value, np.ndarray):
+        if value.dtype.kind not in "fiu":
+            return value
         value = value.view(Column)
-    elif isinstance(value, np.floating):
-        value = Number(value)
     else:
-        return value
+        value = Text(value) if isinstance(value, str) else Number(value)
+        value.more = dict(attributes)
     value.unit, value.description = attributes.get("unit", "1"), attributes.get("description", "")
     return value
 
@@ -261,7 +263,7 @@ def _entries(group):
 
 
 def _value(data):
-    return data.asstr()[()] if h5py.check_string_dtype(data.dtype) else described(data[()], data.attrs)
+    return described(data.asstr()[()] if h5py.check_string_dtype(data.dtype) else data[()], data.attrs)
 
 
 def indexed(folder, name="fields"):

@@ -172,7 +172,7 @@ class PlotTest(PictureTest):
         make_run(self.folder / "a")
         make_run(self.folder / "b")
         done = self.plot(self.folder / "a", self.folder / "b")
-        self.expect_pictures(done, ["forces-over-time.png", "forces-over-x.png", "comparison.png"])
+        self.expect_pictures(done, ["comparison.png", "forces-over-x.png", "pressure.png"])
 
     def test_line_of_the_slope_only_where_there_is_one(self):
         for name, slope, lines in (("constant", 0.08, 1), ("changing", np.nan, 0)):
@@ -215,7 +215,7 @@ class PlotTest(PictureTest):
             finish(make_transient(self.folder / model, model, growth))
         finish(make_transient(self.folder / "another", "beam"))
         done = self.plot(*(path for path in self.folder.iterdir()))
-        self.expect_pictures(done, ["forces-over-time.png", "forces-over-x.png", "comparison.png"])
+        self.expect_pictures(done, ["comparison.png", "forces-over-x.png", "forces-over-time.png"])
 
     def test_picture_file(self):
         make_run(self.folder / "a")
@@ -226,7 +226,7 @@ class PlotTest(PictureTest):
     def test_sweep_and_run_do_not_mix(self):
         make_run(self.folder / "a")
         make_sweep(self.folder / "b", {"mu": np.linspace(0, 1.2, 5)})
-        self.expect_refusal(self.plot(self.folder / "a", self.folder / "b"), "by itself")
+        self.expect_refusal(self.plot(self.folder / "a", self.folder / "b"), "nothing in common")
 
     def test_sweep_over_coefficient(self):
         mu = np.linspace(0, 1.2, 5)
