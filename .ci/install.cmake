@@ -7,7 +7,7 @@ install(TARGETS sprag sprag-models DESTINATION libexec/sprag)
 install(DIRECTORY meshes params postprocess DESTINATION ${data}
   FILES_MATCHING PATTERN "*.geo" PATTERN "*.prm" PATTERN "__pycache__" EXCLUDE PATTERN "pictures" EXCLUDE)
 install(DIRECTORY postprocess DESTINATION ${data} USE_SOURCE_PERMISSIONS
-  FILES_MATCHING PATTERN "*.py" PATTERN "__pycache__" EXCLUDE)
+  FILES_MATCHING PATTERN "*.py" PATTERN "*.html" PATTERN "__pycache__" EXCLUDE)
 install(FILES README.md CHANGELOG.md LICENSE CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY meshes params postprocess DESTINATION ${CMAKE_INSTALL_DOCDIR}
   FILES_MATCHING PATTERN "*.md" PATTERN "*.png" PATTERN "*.svg" PATTERN "__pycache__" EXCLUDE)
@@ -24,7 +24,7 @@ set(CPACK_PACKAGE_CONTACT "the authors of sprag <sprag@localhost>")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "Finite-element contact of the linear friction damper")
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
-set(CPACK_DEBIAN_PACKAGE_DEPENDS "python3, python3-numpy, python3-h5py, python3-matplotlib, libopenblas0-serial, openmpi-bin")
+set(CPACK_DEBIAN_PACKAGE_DEPENDS "python3, python3-numpy, python3-h5py, python3-jinja2, python3-matplotlib, libopenblas0-serial, openmpi-bin")
 find_program(SHLIBDEPS dpkg-shlibdeps)
 if(SHLIBDEPS)
   set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)

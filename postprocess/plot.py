@@ -18,6 +18,7 @@ from isolation import is_transmissibility_study, isolation_pictures, transmissib
 from map import stability_map
 from pair import has_pair, pair_of_levers
 from sprag.results import NotAResult, read_result
+from report import write_report
 from sensors import has_sensors, sensor_forces
 from slope import contact_law, slope_sweep
 from sprag_slip import sprag_slip_pictures
@@ -114,6 +115,7 @@ def read_arguments(arguments):
     parser = parser_of(__doc__)
     add_folders(parser)
     add_output(parser, "PICTURE_DIR", "the only result folder, or the current one")
+    parser.add_argument("--report", action="store_true", help="write report.html too, with all pictures in it")
     parser.add_argument("--on-word", action="store_true", help="wait for a line on standard input, and do nothing without one")
     options = parser.parse_args(arguments)
     if names_picture(options.output):
@@ -132,9 +134,11 @@ def main(arguments=None):
     endings = options.format or ("png",)
     results = [read_result(folder) for folder in options.folders]
     pictures = draw(results)
-    save_all(pictures, options.output, endings)
+    save_all(pictures, options.output, (*endings, "png") if options.report and "png" not in endings else endings)
     if options.folders == [options.output]:
         remove_earlier(pictures, options.output, endings)
+    if options.report:
+        write_report(results, {name: options.output / f"{name}.png" for name in pictures}, options.output / "report.html")
 
 
 if __name__ == "__main__":
