@@ -23,7 +23,6 @@ from style import COLOURS, MARKERS, MILLIMETRE, ONE_COLUMN, look, plt, set_label
 from transient import energy, reversal
 
 PICTURES = ROOT / "postprocess" / "pictures"
-DPI = 110  # small enough to stand in a README
 
 
 class Runner:
@@ -213,7 +212,7 @@ def main(arguments=None):
         with tempfile.TemporaryDirectory(prefix="sprag-figures-") as folder:
             runner = Runner(options.sprag.resolve(), Path(folder))
             for name in options.only:
-                plot.save_all({name: FIGURES[name](runner)}, options.output or PICTURES, options.format or ("png",), DPI)
+                plot.save_all({name: FIGURES[name](runner)}, options.output or PICTURES, options.format or ("png",))
     except (RunFailed, NotAResult, OSError) as error:
         print(f"figures.py: {error}", file=sys.stderr)
         return 1

@@ -47,7 +47,7 @@ def motion(result):
     for axes, letter in zip((ways, accelerations), "ab"):
         axes.set_xlim(time[0], time[-1])
         panel_letter(axes, letter)
-        show_legend(axes, loc="upper right", ncol=3)
+        show_legend(axes, loc="lower right", bbox_to_anchor=(1, 1), ncol=3, borderaxespad=0.2)
     return figure
 
 

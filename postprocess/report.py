@@ -11,6 +11,13 @@ from sketch import device_svg
 from sprag.parameters import differing, parse, scene_of, set_apart, value_of
 from sprag.results import NotAResult
 
+# What the sketch of the device leaves out, where a parameter is not as usual.
+NOT_SKETCHED = {
+    ("Lever/Outline", "bar"): "the outline of the lever",
+    ("Friction plate/Type", "none"): "the friction plate",
+    ("Rotational spring/Type", "torsional"): "the leaf spring",
+    ("Mirrored pair/Type", "half"): "the second lever",
+}
 TEMPLATE = Path(__file__).with_name("report.html")
 
 
@@ -45,6 +52,7 @@ def about(result, name, parameters, device):
         "type": result.type,
         "verdict": verdict(result),
         "device": device,
+        "left_out": [words for (name, usual), words in NOT_SKETCHED.items() if name in parameters and parameters[name].text != usual],
         "warnings": [(text, text.more.get("effect", ""), text.more.get("remedy", "")) for text in warnings(result)],
         "apart": [(key, said(parameter), parameter.default) for key, parameter in apart.items()],
         "scene": scene_of(apart),

@@ -108,7 +108,7 @@ def looks_of(count):
     """Curves that words tell apart: seven looks by heart, beyond them as many colours as there are. The first ones are drawn below the
     others and are wider, so that they show where they are hidden."""
     if count <= len(LINES):
-        return [{**look(index), "linewidth": 0.9 + 1.5 * (count - 1 - index) / max(count - 1, 1)} for index in range(count)]
+        return [{**look(index), "linewidth": 1.0 + 1.4 * (count - 1 - index) / max(count - 1, 1)} for index in range(count)]
     colours = colormaps["tab20"]
     return [{"color": colours(index % 20), "linestyle": LINES[index % 2]} for index in range(count)]
 

@@ -154,7 +154,7 @@ def draw_eigenvalues(axes, modes):
         if of_kind.any():
             axes.plot(modes["growth_rate"][of_kind], modes["frequency"][of_kind], marker, color=COLOURS[kind], markersize=4, label=name)
     scale_eigenvalues(axes, modes["growth_rate"], modes["frequency"])
-    axes.legend(loc="lower left", handlelength=1)
+    axes.legend(loc="upper right", handlelength=1)  # fast modes are damped
 
 
 def scale_eigenvalues(axes, rates, frequencies):
@@ -166,7 +166,7 @@ def scale_eigenvalues(axes, rates, frequencies):
     if (farthest := np.abs(rates).max(initial=0)) > linear:
         axes.set_xscale("symlog", linthresh=linear, linscale=2)
         decades = 10.0 ** np.arange(np.floor(np.log10(linear)) + 1, np.log10(farthest) + 0.3)
-        ticks = np.array([*-decades[::-1], -linear, -linear / 2, 0, linear / 2, linear])
+        ticks = [*-decades[decades >= 3 * linear][::-1], -linear, -linear / 2, 0, linear / 2, linear]
         low, high = axes.get_xlim()
         axes.set_xticks([tick for tick in ticks if low <= tick <= high])
         axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}".replace("-", "\N{MINUS SIGN}")))
