@@ -72,8 +72,9 @@ def read_frame(result, path=None, row=None):
     A leaf spring is in the axes of the lever at rest, its displacement includes the hub's rotation. Nodes of an elastic cylinder
     are about its centre.
     """
-    mesh = {name: np.asarray(values) for name, values in read_fields(result.folder, path).items()}
-    if missing := {"nodes", "part", "lever", "cells", *(MOVED if path else ())} - set(mesh):
+    names = {"nodes", "part", "lever", "cells", *(MOVED if path else ())}
+    mesh = {name: np.asarray(values) for name, values in read_fields(result.folder, path, names=names).items()}
+    if missing := names - set(mesh):
         raise NotAResult(f"{path or result.folder}: cannot be read as fields of this version of sprag (no {', '.join(sorted(missing))})")
     moved = [np.broadcast_to(mesh[name], (len(mesh["nodes"]), 3))[:, :2] if path else np.zeros((len(mesh["nodes"]), 2)) for name in MOVED[:2]]
     stress = mesh["von_mises_stress"] if path else np.zeros(len(mesh["nodes"]))

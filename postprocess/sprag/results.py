@@ -71,11 +71,14 @@ class Rows:
 
     def __init__(self, path, name, steps, order):
         self.path, self.name, self.steps, self.order = path, name, steps, order
+        self.known = {}
 
     def __getitem__(self, step):
-        with open_result(self.path) as file:
-            data = file["face"][self.name]
-            return described(data[range(self.steps)[step]][self.order], data.attrs)
+        if step not in self.known:
+            with open_result(self.path) as file:
+                data = file["face"][self.name]
+                self.known[step] = described(data[range(self.steps)[step]][self.order], data.attrs)
+        return self.known[step]
 
     def __array__(self, dtype=None):
         with open_result(self.path) as file:
@@ -275,13 +278,14 @@ def indexed(folder, name="fields"):
     return [(float(time), index.parent / file) for time, file in found]
 
 
-def read_fields(folder, path=None, group="fields"):
-    """{name: Column} of the mesh and, if a path is given, of the frame in it; group "fields" or "face". Throws NotAResult."""
+def read_fields(folder, path=None, group="fields", names=None):
+    """{name: Column} of the mesh and, if a path is given, of the frame in it; group "fields" or "face"; all names unless some are given.
+    Throws NotAResult."""
     found, mesh = {}, Path(folder) / "fields-mesh.h5"
     for part in (mesh, path) if path else (mesh,):
         try:
             with h5py.File(part, "r") as file:
-                found.update(_entries(file[group]))
+                found.update({name: _value(data) for name, data in file[group].items() if names is None or name in names})
         except (OSError, KeyError, ValueError) as error:
             raise NotAResult(f"{part}: cannot be read as fields of this version of sprag ({error})") from error
     return found
