@@ -8,6 +8,7 @@ install(DIRECTORY meshes params postprocess DESTINATION ${data}
   FILES_MATCHING PATTERN "*.geo" PATTERN "*.prm" PATTERN "__pycache__" EXCLUDE PATTERN "pictures" EXCLUDE)
 install(DIRECTORY postprocess DESTINATION ${data} USE_SOURCE_PERMISSIONS
   FILES_MATCHING PATTERN "*.py" PATTERN "*.html" PATTERN "__pycache__" EXCLUDE)
+install(FILES .ci/completion.bash DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/bash-completion/completions RENAME sprag)
 install(FILES README.md CHANGELOG.md LICENSE CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY meshes params postprocess DESTINATION ${CMAKE_INSTALL_DOCDIR}
   FILES_MATCHING PATTERN "*.md" PATTERN "*.png" PATTERN "*.svg" PATTERN "__pycache__" EXCLUDE)
