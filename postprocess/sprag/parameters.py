@@ -2,14 +2,15 @@
 """Reads the full list of parameters that a result holds and that `sprag FILE.prm --print-parameters` prints."""
 
 import re
-from typing import NamedTuple
+from typing import NamedTuple, Optional
 
 
 class Parameter(NamedTuple):
-    """The text of a value as used and its unit; "1" where it has none."""
+    """The text of a value as used, its unit, "1" where it has none, and its default's text where it was set apart from it."""
 
     text: str
     unit: str
+    default: Optional[str] = None
 
     @property
     def number(self):
@@ -36,9 +37,34 @@ def parse(listing):
         elif line.startswith("set "):
             name, _, value = line[len("set ") :].partition("=")
             unit = re.findall(r"\[([^\[\]]+)\](?=[:;])", comment)
-            found["/".join((*section, name.strip()))] = Parameter(value_of_text(value), unit[-1] if unit and unit[-1] != "-" else "1")
+            text, default = value_of_text(value), re.search(r"#\s*default:(.*)$", value)
+            apart = default and different(text, default[1].strip())
+            unit = unit[-1] if unit and unit[-1] != "-" else "1"
+            found["/".join((*section, name.strip()))] = Parameter(text, unit, default[1].strip() if apart else None)
         comment = f"{comment} {line[1:].strip()}".strip() if line.startswith("#") else ""
     return found
+
+
+def different(one, other):
+    """Whether two texts differ; 1e3 and 1000 do not."""
+    try:
+        return float(one) != float(other)
+    except ValueError:
+        return one != other
+
+
+def set_apart(parameters):
+    """{name: Parameter} of those that are not at their defaults, where output goes left out."""
+    return {name: parameter for name, parameter in parameters.items() if parameter.default is not None and not name.startswith("Output/")}
+
+
+def scene_of(parameters):
+    """A scene that holds those parameters alone, as the program reads it."""
+    sections = {}
+    for name, parameter in parameters.items():
+        *section, own = name.split("/")
+        sections.setdefault("/".join(section), []).append(f"  set {own} = {parameter.text}")
+    return "\n".join(f"subsection {section}\n" + "\n".join(lines) + "\nend\n" for section, lines in sections.items())
 
 
 def differing(listings):
