@@ -176,7 +176,7 @@ TEST(SummaryTable, PrintsEntriesOfALineTogetherAndNothingThatDoesNotApply)
   EXPECT_EQ(printed.str(), "  largest Q             forward 18 N, backward -23.46 N\n"
                            "  on the ground         backward -20 N\n"
                            "  reversal 1.           overshoot of P 24 %\n"
-                           "  and 1 more in /summary\n"
+                           "                        and 1 more in /summary\n"
                            "  errors, estimated     P 2 %\n"
                            "  not estimated         Q: No estimate.\n"
                            "  to improve the worst  Try less.\n"
