@@ -11,7 +11,7 @@ from sketch import device_svg
 from sprag.parameters import differing, parse, scene_of, set_apart, value_of
 from sprag.results import NotAResult
 
-# What the sketch of the device leaves out, where a parameter is not as usual.
+# The sketch of the device leaves these out, where a parameter is not as usual.
 NOT_SKETCHED = {
     ("Lever/Outline", "bar"): "the outline of the lever",
     ("Friction plate/Type", "none"): "the friction plate",

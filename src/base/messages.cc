@@ -30,9 +30,14 @@ namespace sprag
     }
   } // namespace
 
+  bool is_alone(const MPI_Comm ranks)
+  {
+    return number_of(ranks) == 1;
+  }
+
   std::string broadcast_bytes(const MPI_Comm ranks, std::string bytes)
   {
-    if (number_of(ranks) > 1)
+    if (!is_alone(ranks))
       send(ranks, 0, bytes);
     return bytes;
   }

@@ -371,10 +371,11 @@ namespace sprag
     std::vector<std::string> main_entries(const AnalysisType type, const StudyRows &rows)
     {
       std::vector<std::string> names;
+      std::set<std::string> seen;
       for (const auto *row : rows)
         for (const auto &entry : row->found.summary)
-          if (const auto found = summary_row(type, entry.name); found && found->is_main && found->number <= 3)
-            if (std::find(names.begin(), names.end(), entry.name) == names.end())
+          if (seen.insert(entry.name).second)
+            if (const auto found = summary_row(type, entry.name); found && found->is_main && found->number <= 3)
               names.push_back(entry.name);
       return names;
     }

@@ -380,6 +380,8 @@ class ScenesTest(RunTest):
                     for data in file["table"].values():
                         self.assertIn("unit", data.attrs)
                         self.assertTrue(data.attrs["description"])
+                    for name, data in file["summary"].items():
+                        self.assertTrue(data.attrs.get("description"), name)
                     self.assertEqual(file["summary/status"].asstr()[()], "completed")
                     self.assertIn("cpu_time", file["meta"])
                     names = re.findall(r"^Warning: (\w+)$", done.stdout, re.MULTILINE)

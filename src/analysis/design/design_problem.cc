@@ -27,8 +27,8 @@ namespace sprag
       return *std::max_element(constraints.begin(), constraints.end());
     }
 
-    /// Whether one place is better than another: those that keep all constraints by their objective, the others by how far they
-    /// are from that.
+    /// Returns whether a place is better than another. Those that keep all constraints compare by their objective, the others by
+    /// how far they are from keeping them.
     bool is_better(const Optimum &a, const Optimum &b)
     {
       if (a.violation <= 0. && b.violation <= 0.)
@@ -120,7 +120,7 @@ namespace sprag
       }
       catch (const nlopt::roundoff_limited &)
       {
-        // As exact as it can be.
+        // The place found is as exact as it can be.
       }
     }
 
@@ -250,19 +250,12 @@ namespace sprag
       return least;
     }
 
-    void add_slopes(const Scene &scene, DesignQuantities &result)
+    void add_ideal_slopes(const Scene &scene, DesignQuantities &result)
     {
-      const double v             = scene.drive.peak_speed();
-      const double mu            = sliding_friction(scene, 0., v).coefficient;
-      const double k             = scene.spring.stiffness;
-      const double out           = representative_slope(scene.geometry, k, mu, 1);
-      const double back          = representative_slope(scene.geometry, k, mu, -1);
-      result[Q::forward_slope]   = out;
-      result[Q::backward_slope]  = back;
-      result[Q::damping_slope]   = 0.5 * (out - back);
-      result[Q::restoring_slope] = 0.5 * (out + back);
-      result[Q::slope_ratio]     = ratio_of_ways(out, back);
-      result[Q::friction_ratio]  = scene.isolation.levers * result[Q::damping_slope] / scene.isolation.stiffness;
+      const double mu  = sliding_friction(scene, 0., scene.drive.peak_speed()).coefficient;
+      const auto slope = [&](const int direction)
+      { return representative_slope(scene.geometry, scene.spring.stiffness, mu, direction); };
+      add_slopes(scene, slope(1), slope(-1), result);
     }
 
     double largest_size_of(const std::vector<double> &forces)
@@ -273,7 +266,7 @@ namespace sprag
       return largest;
     }
 
-    /// By Simpson's rule over an even number of intervals.
+    /// Integrates by Simpson's rule over an even number of intervals.
     double integral_of(const std::vector<double> &values, const double length)
     {
       double sum = values.front() + values.back();
@@ -379,6 +372,16 @@ namespace sprag
     return farthest / largest_size_of(forces);
   }
 
+  void add_slopes(const Scene &scene, const double forward, const double backward, DesignQuantities &quantities)
+  {
+    quantities[Q::forward_slope]   = forward;
+    quantities[Q::backward_slope]  = backward;
+    quantities[Q::damping_slope]   = 0.5 * (forward - backward);
+    quantities[Q::restoring_slope] = 0.5 * (forward + backward);
+    quantities[Q::slope_ratio]     = ratio_of_ways(forward, backward);
+    quantities[Q::friction_ratio]  = scene.isolation.levers * quantities[Q::damping_slope] / scene.isolation.stiffness;
+  }
+
   double ratio_of_ways(const double forward, const double backward)
   {
     return backward < 0. ? forward / -backward : std::numeric_limits<double>::infinity();
@@ -388,7 +391,7 @@ namespace sprag
   {
     DesignQuantities result;
     const auto at_rest = kinematics(scene.geometry, 0.);
-    add_slopes(scene, result);
+    add_ideal_slopes(scene, result);
     add_forces(scene, result);
     result[Q::jamming_margin] = least_margin(scene);
     result[Q::reach]          = pivot_contact(scene.geometry);

@@ -96,6 +96,9 @@ namespace sprag
   /// Returns the ratio of forces or slopes forward and back; infinite where the way back does not damp.
   double ratio_of_ways(double forward, double backward);
 
+  /// Adds the quantities that follow from the representative slopes of one lever forward and back [N/mm].
+  void add_slopes(const Scene &scene, double forward, double backward, DesignQuantities &quantities);
+
   /// Returns those quantities of a lever that keeps the rules which follow from the closed form on the stroke.
   DesignQuantities lever_quantities(const Scene &scene);
 

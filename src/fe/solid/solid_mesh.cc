@@ -168,9 +168,9 @@ namespace sprag
     }
 
     /// What counts is that of the first rank. Returns whether it is a half.
-    bool create(const Handed &of_first, SolidMesh &mesh)
+    bool create(Handed of_first, SolidMesh &mesh)
     {
-      auto handed = broadcast(mesh.get_communicator(), of_first);
+      auto handed = broadcast(mesh.get_communicator(), std::move(of_first));
       if (!handed.mistakes.empty())
         throw InputError(handed.mistakes);
       auto &[vertices, cells, sides] = handed.description;
