@@ -50,8 +50,7 @@ namespace sprag
     StepContactLaw law;
     law.normal            = properties.normal;
     law.damping           = properties.damping;
-    law.tangential        = properties.tangential;
-    law.friction          = friction_of_step(properties.friction, step.to.v);
+    law.slip              = { friction_of_step(properties.friction, step.to.v), properties.tangential };
     law.weights           = step.weights;
     auto &response        = found.response;
     response              = step_response(kinematics, step.memory.front(), law);
@@ -68,28 +67,31 @@ namespace sprag
     const auto &end = found.end = configure(found.window, coordinates(found.window, state.ports, state.drive.x));
     const Local rate            = state.rates == nullptr ? Local() : rates(found.window, *state.rates, 0.);
     const auto law              = friction_of_step(properties.friction, state.drive.v);
-    const auto normal           = mean_normal_force(properties.normal, end.gap, end.gap);
-    const auto dashpot          = end_damping(properties.damping, normal.end, end.gap, end.gap_row * rate);
+    using N                     = Dual<double, 2>; // of the gap and its rate
+    const auto gap              = variable<N>(end.gap, 0);
+    const auto spring           = spring_force(properties.normal, gap);
+    const auto dashpot          = dashpot_force(properties.damping, spring, gap, variable<N>(end.gap_row * rate, 1));
+    const auto pressure         = spring + dashpot;
     found.slip_rate             = state.speed + end.slip_row * rate;
     found.sliding               = slides ? sliding_friction(law, found.slip_rate) : SlidingFriction{};
     found.sticks                = slides && law.regularisation_speed == 0.;
-    found.d_pressure            = (1. + dashpot.d_normal) * normal.d_end * end.gap_row;
-    found.d_pressure_rate       = dashpot.d_rate * end.gap_row;
+    found.d_pressure            = pressure.d[0] * end.gap_row;
+    found.d_pressure_rate       = pressure.d[1] * end.gap_row;
 
     auto &response                = found.response;
     response                      = {};
     response.mu                   = std::abs(found.sliding.coefficient);
-    response.pressure             = normal.end + dashpot.force;
+    response.pressure             = pressure.v;
     response.traction[0]          = found.sliding.coefficient * response.pressure;
     response.slipping             = slides;
     response.memory.traction      = response.traction;
-    response.memory.damping       = dashpot.force;
+    response.memory.damping       = dashpot.v;
     response.memory.slip_speed[0] = state.speed;
     const double stretched        = law.regularisation_speed > 0. ? 0. : response.traction[0];
-    response.energy               = normal.energy + 0.5 * stretched * stretched / properties.tangential;
-    response.force                = response.pressure * end.gap_row - response.traction[0] * end.slip_row;
-    response.tangent              = pressure_tangent(found) + friction_tangent(state.friction, found);
-    found.works                   = {};
+    response.energy  = spring_energy(properties.normal, end.gap) + 0.5 * stretched * stretched / properties.tangential;
+    response.force   = response.pressure * end.gap_row - response.traction[0] * end.slip_row;
+    response.tangent = pressure_tangent(found) + friction_tangent(state.friction, found);
+    found.works      = {};
     sum_forces(found);
   }
 

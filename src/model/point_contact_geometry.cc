@@ -10,31 +10,33 @@ namespace sprag
 
   namespace
   {
+    constexpr int n_nodal_of_element = 4;
+
     /// Cubic shapes of an element of length h at s h from its first node, 0 <= s <= 1, and their derivatives along it; for
     /// deflection and slope of the first node, then of the second.
+    template <class N>
     struct HermiteShapes
     {
-      HermiteShapes(const double h, const double s)
-          : shape{ 1. - s * s * (3. - 2. * s), h * s * (1. - s) * (1. - s), s * s * (3. - 2. * s), -h * s * s * (1. - s) }
-          , slope{ 6. * s * (s - 1.) / h, 1. + s * (3. * s - 4.), 6. * s * (1. - s) / h, s * (3. * s - 2.) }
-          , curvature{ (12. * s - 6.) / (h * h), (6. * s - 4.) / h, (6. - 12. * s) / (h * h), (6. * s - 2.) / h }
-          , third{ 12. / (h * h * h), 6. / (h * h), -12. / (h * h * h), 6. / (h * h) }
+      HermiteShapes(const double h, const N &s)
+          : shape{ 1. - s * s * (3. - 2. * s), h * (s * (1. - s) * (1. - s)), s * s * (3. - 2. * s), -h * (s * s * (1. - s)) }
+          , slope{ 6. / h * (s * (s - 1.)), 1. + s * (3. * s - 4.), 6. / h * (s * (1. - s)), s * (3. * s - 2.) }
+          , curvature{ 1. / (h * h) * (12. * s - 6.), 1. / h * (6. * s - 4.), 1. / (h * h) * (6. - 12. * s),
+                       1. / h * (6. * s - 2.) }
       {
       }
 
-      double shape[4], slope[4], curvature[4], third[4];
+      N shape[n_nodal_of_element], slope[n_nodal_of_element], curvature[n_nodal_of_element];
     };
   } // namespace
 
+  /// The bent surface at a place, in numbers of some kind.
+  template <class N>
   struct PointContact::Surface
   {
-    unsigned int nodal; ///< first local coordinate of the element
-    double shape[4];    ///< deflection by them, and its derivatives along the lever
-    double slope[4];
-    double curvature[4];
-    LeverPoint point;
-    double tangent[2]; ///< d(point)/dxi
-    double bend[2];    ///< d2(point)/dxi2
+    N xi, eta;
+    N tangent[2];                ///< d(xi, eta)/d(place)
+    N shape[n_nodal_of_element]; ///< deflection by the element's coordinates, and its derivative along the lever
+    N slope[n_nodal_of_element];
   };
 
   /// Two elements around the point across from the circle's centre: the contact stays between their ends for a step.
@@ -68,122 +70,107 @@ namespace sprag
     return q;
   }
 
-  PointContact::Surface PointContact::surface(const unsigned int window, const Local &q, const double xi) const
+  unsigned int PointContact::first_of_element(const unsigned int window, const double xi) const
   {
-    Surface result{};
+    return properties.mesh.elements > 0 && xi >= (window + 1) * properties.mesh.element_length() ? 2 : 0;
+  }
+
+  template <class N, class Nodal>
+  PointContact::Surface<N> PointContact::surface(const unsigned int window, const Nodal &nodal, const N &xi) const
+  {
+    Surface<N> at{};
     const auto &mesh = properties.mesh;
     const double e   = properties.geometry.interface_offset;
     const double arm = e - properties.neutral_axis_offset;
-    double w[4]      = { 0., 0., 0., 0. };
+    N w{}, w_slope{}, w_curvature{};
     if (mesh.elements > 0)
     {
-      const double h          = mesh.element_length();
-      const bool second       = xi >= (window + 1) * h;
-      const double s          = xi / h - window - (second ? 1. : 0.);
-      const unsigned int base = second ? 2 : 0;
-      result.nodal            = base;
-      const HermiteShapes of(h, s);
-      for (unsigned int a = 0; a < 4; ++a)
+      const double h = mesh.element_length();
+      const HermiteShapes<N> of(h, 1. / h * xi - (window + first_of_element(window, value(xi)) / 2));
+      for (unsigned int a = 0; a < n_nodal_of_element; ++a)
       {
-        const double value  = q[base + a];
-        result.shape[a]     = of.shape[a];
-        result.slope[a]     = of.slope[a];
-        result.curvature[a] = of.curvature[a];
-        w[0] += of.shape[a] * value;
-        w[1] += of.slope[a] * value;
-        w[2] += of.curvature[a] * value;
-        w[3] += of.third[a] * value;
+        at.shape[a] = of.shape[a];
+        at.slope[a] = of.slope[a];
+        w           = w + nodal[a] * of.shape[a];
+        w_slope     = w_slope + nodal[a] * of.slope[a];
+        w_curvature = w_curvature + nodal[a] * of.curvature[a];
       }
     }
-    result.point      = { xi - arm * w[1], e + w[0] };
-    result.tangent[0] = 1. - arm * w[2];
-    result.tangent[1] = w[1];
-    result.bend[0]    = -arm * w[3];
-    result.bend[1]    = w[2];
-    return result;
+    at.xi         = xi - arm * w_slope;
+    at.eta        = w + e;
+    at.tangent[0] = 1. - arm * w_curvature;
+    at.tangent[1] = w_slope;
+    return at;
   }
 
   /// Newton's method for (p - c) . p' = 0 from the point across from the circle's centre.
-  double PointContact::closest(const unsigned int window, const Local &q) const
+  PointContact::Closest PointContact::closest(const unsigned int window, const Local &q) const
   {
+    using N      = Dual<double, 1>;
     const auto c = cylinder_centre(properties.geometry, q[x_index], q[theta_index]);
-    double xi    = c.xi;
+    Closest result{ c.xi, 1. };
     for (unsigned int i = 0; i < 20 && properties.mesh.elements > 0; ++i)
     {
-      const auto at      = surface(window, q, xi);
-      const double r[2]  = { at.point.xi - c.xi, at.point.eta - c.eta };
-      const double slope = r[0] * at.tangent[0] + r[1] * at.tangent[1];
-      const double d_slope =
-          at.tangent[0] * at.tangent[0] + at.tangent[1] * at.tangent[1] + r[0] * at.bend[0] + r[1] * at.bend[1];
-      const double change = slope / d_slope;
-      xi -= change;
+      const auto *const nodal = &q[first_of_element(window, result.xi)];
+      const auto at           = surface(window, nodal, variable<N>(result.xi, 0));
+      const N slope           = (at.xi - c.xi) * at.tangent[0] + (at.eta - c.eta) * at.tangent[1];
+      const double change     = slope.v / slope.d[0];
+      result.d_slope          = slope.d[0];
+      result.xi -= change;
       if (std::abs(change) < 1e-12 * properties.geometry.pivot_distance)
         break;
     }
-    return xi;
+    return result;
   }
 
   double PointContact::gap(const unsigned int window, const Local &q) const
   {
-    const auto c     = cylinder_centre(properties.geometry, q[x_index], q[theta_index]);
-    const auto point = surface(window, q, closest(window, q)).point;
-    return std::hypot(point.xi - c.xi, point.eta - c.eta) - properties.geometry.cylinder_radius;
+    const double xi = closest(window, q).xi;
+    const auto at   = surface(window, &q[first_of_element(window, xi)], xi);
+    const auto c    = cylinder_centre(properties.geometry, q[x_index], q[theta_index]);
+    return std::hypot(at.xi - c.xi, at.eta - c.eta) - properties.geometry.cylinder_radius;
   }
 
   PointContact::Configuration PointContact::configure(const unsigned int window, const Local &q) const
   {
-    const double xi   = closest(window, q);
-    const auto at     = surface(window, q, xi);
-    const auto circle = moving_circle_contact(properties.geometry, at.point, q[x_index], q[theta_index]);
-    const double arm  = properties.geometry.interface_offset - properties.neutral_axis_offset;
+    constexpr int n_used = n_nodal_of_element + 2; // coordinates of the element, theta, x
+    using N              = Dual<double, n_used>;
+    const auto foot      = closest(window, q);
+    const auto first     = first_of_element(window, foot.xi);
+    const auto circle    = placed_circle(properties.geometry, variable<N>(q[x_index], 5), variable<N>(q[theta_index], 4));
+    Several<N, n_nodal_of_element> nodal;
+    for (unsigned int a = 0; a < n_nodal_of_element; ++a)
+      nodal[a] = variable<N>(q[first + a], a);
 
-    // How the local coordinates move the material point, and how that changes along the lever.
-    constexpr unsigned int n_used = 6;
-    unsigned int index[n_used];
-    Tensor<1, 4> move[n_used];
-    Tensor<1, 4> change[n_used];
-    unsigned int used = 0;
-    if (properties.mesh.elements > 0)
-      for (unsigned int a = 0; a < 4; ++a, ++used)
-      {
-        index[used]  = at.nodal + a;
-        move[used]   = Tensor<1, 4>({ -arm * at.slope[a], at.shape[a], 0., 0. });
-        change[used] = Tensor<1, 4>({ -arm * at.curvature[a], at.slope[a], 0., 0. });
-      }
-    index[used]  = theta_index;
-    move[used++] = Tensor<1, 4>({ 0., 0., 1., 0. });
-    index[used]  = x_index;
-    move[used++] = Tensor<1, 4>({ 0., 0., 0., 1. });
-
-    const Tensor<1, 4> tangent({ at.tangent[0], at.tangent[1], 0., 0. });
-    const Tensor<1, 4> bend({ at.bend[0], at.bend[1], 0., 0. });
-    const Tensor<1, 4> gap_along  = circle.gap_curvature * tangent;
-    const Tensor<1, 4> slip_along = circle.slip_curvature * tangent;
-    const double stiffness        = tangent * gap_along + circle.gap_row * bend;
-    double gap_shift[n_used];
-    double slip_shift[n_used];
-    for (unsigned int i = 0; i < used; ++i)
-    {
-      gap_shift[i]  = change[i] * circle.gap_row + move[i] * gap_along;
-      slip_shift[i] = change[i] * circle.slip_row + move[i] * slip_along;
-    }
+    // Another step of Newton's method tells how the closest point moves with the coordinates.
+    const auto fixed = surface(window, nodal, N{} + foot.xi);
+    const N slope    = (fixed.xi - circle.xi) * fixed.tangent[0] + (fixed.eta - circle.eta) * fixed.tangent[1];
+    const auto at    = surface(window, nodal, N(foot.xi - 1. / foot.d_slope * slope));
+    const auto point = on_circle(circle, at.xi, at.eta);
+    const double arm = properties.geometry.interface_offset - properties.neutral_axis_offset;
 
     Configuration result;
-    result.along         = at.point.xi;
-    result.gap           = circle.gap;
-    result.gap_at_point  = circle.gap_row;
-    result.slip_at_point = circle.slip_row;
-    for (unsigned int i = 0; i < used; ++i)
+    result.along       = at.xi.v;
+    result.gap         = point.gap.v;
+    const auto set_row = [&](const unsigned int i, const Several<N, 4> &at_point, Local &row, LocalMatrix &curvature)
     {
-      result.gap_row[index[i]]   = move[i] * circle.gap_row;
-      result.slip_row[index[i]]  = move[i] * circle.slip_row;
-      const Tensor<1, 4> of_gap  = circle.gap_curvature * move[i];
-      const Tensor<1, 4> of_slip = circle.slip_curvature * move[i];
-      for (unsigned int j = 0; j < used; ++j)
-      {
-        result.gap_curvature[index[i]][index[j]]  = of_gap * move[j] - gap_shift[i] * gap_shift[j] / stiffness;
-        result.slip_curvature[index[i]][index[j]] = of_slip * move[j] - slip_shift[i] * gap_shift[j] / stiffness;
-      }
+      const unsigned int index[n_used] = { first, first + 1, first + 2, first + 3, theta_index, x_index };
+      const bool is_nodal              = i < n_nodal_of_element;
+      const N of =
+          is_nodal ? at.shape[i] * at_point[1] - arm * (at.slope[i] * at_point[0]) : at_point[i - n_nodal_of_element + 2];
+      row[index[i]] = of.v;
+      for (unsigned int j = 0; j < n_used; ++j)
+        curvature[index[i]][index[j]] = of.d[j];
+    };
+    for (unsigned int i = properties.mesh.elements > 0 ? 0 : n_nodal_of_element; i < n_used; ++i)
+    {
+      set_row(i, point.gap_row, result.gap_row, result.gap_curvature);
+      set_row(i, point.slip_row, result.slip_row, result.slip_curvature);
+    }
+    for (unsigned int i = 0; i < 4; ++i)
+    {
+      result.gap_at_point[i]  = point.gap_row[i].v;
+      result.slip_at_point[i] = point.slip_row[i].v;
     }
     return result;
   }
@@ -210,7 +197,7 @@ namespace sprag
     for (unsigned int i = 1; i <= parts * mesh.elements; ++i)
     {
       const unsigned int element = (i - 1) / parts;
-      const HermiteShapes of(mesh.element_length(), static_cast<double>(i) / parts - element);
+      const HermiteShapes<double> of(mesh.element_length(), static_cast<double>(i) / parts - element);
       double w     = 0.;
       double slope = 0.;
       for (unsigned int a = 0; a < 4; ++a)

@@ -65,10 +65,10 @@ namespace sprag
                                const std::optional<StaticTerms> &statics)
     {
       StepContactLaw law;
-      law.normal     = { properties.penalties.normal, 1. };
-      law.tangential = properties.penalties.tangential;
-      law.friction   = statics ? statics->friction : friction_of_step(properties.friction, step.to.v);
-      law.weights    = step.weights;
+      law.normal         = { properties.penalties.normal, 1. };
+      law.slip.stiffness = properties.penalties.tangential;
+      law.slip.friction  = statics ? statics->friction : friction_of_step(properties.friction, step.to.v);
+      law.weights        = step.weights;
       if (statics)
       {
         law.balance    = ForceBalance::end;
