@@ -46,7 +46,7 @@ namespace sprag
     }
   } // namespace
 
-  SparseStructure::SparseStructure(const ElasticBody<2> &body, std::shared_ptr<const InertialMatrices<2>> matrices_,
+  SparseStructure::SparseStructure(const ElasticBody<2> &body, std::shared_ptr<const InertialMatrices> matrices_,
                                    const FreeModes &modes, const LeverDynamics &constants_)
       : matrices(std::move(matrices_))
       , constants(constants_)
@@ -95,7 +95,7 @@ namespace sprag
     {
       statics         = std::make_unique<Step>();
       statics->system = std::make_unique<EffectiveSystem>(
-          *matrices, lever_ports, damping, InertialMatrices<2>::Weights{ 0., 1., 0., constants.spring_stiffness }, 0.);
+          *matrices, lever_ports, damping, InertialMatrices::Weights{ 0., 1., 0., constants.spring_stiffness }, 0.);
       statics->compliance = port_compliance(*statics->system, constants.support_stiffness);
     }
     current = statics.get();
@@ -105,10 +105,9 @@ namespace sprag
   {
     auto step     = std::make_unique<Step>();
     step->weights = w;
-    const InertialMatrices<2>::Weights of_matrices{ w.mass() + w.damping() * constants.mass_damping,
-                                                    w.stiffness() + w.damping() * constants.stiffness_damping,
-                                                    w.damping() * constants.relaxation,
-                                                    w.stiffness() * constants.spring_stiffness };
+    const InertialMatrices::Weights of_matrices{ w.mass() + w.damping() * constants.mass_damping,
+                                                 w.stiffness() + w.damping() * constants.stiffness_damping,
+                                                 w.damping() * constants.relaxation, w.stiffness() * constants.spring_stiffness };
     step->system     = std::make_unique<EffectiveSystem>(*matrices, lever_ports, damping, of_matrices, w.damping());
     step->compliance = port_compliance(*step->system, effective_support(w));
     return step;

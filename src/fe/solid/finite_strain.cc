@@ -64,20 +64,4 @@ namespace sprag
     Vector<double> result(loads.begin(), loads.end());
     return result += unbalance;
   }
-
-  double FiniteStrain::energy(const Vector<double> &displacement)
-  {
-    double result = 0.;
-    for (const auto &cell : cells)
-    {
-      elasticity.reinit(cell.cell, of(cell, displacement));
-      result += elasticity.energy();
-    }
-    for (const auto &connector : body.connectors())
-    {
-      const double compression = connector.compression(displacement);
-      result += 0.5 * connector.stiffness * compression * compression;
-    }
-    return result;
-  }
 } // namespace sprag

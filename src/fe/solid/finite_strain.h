@@ -30,9 +30,6 @@ namespace sprag
     /// Returns the correction by an unbalance and a change of the forces that goes with it.
     dealii::Vector<double> correction(const dealii::Vector<double> &unbalance, const PortLoads &change) const;
 
-    /// Elastic energy, that of the connectors included [mJ].
-    double energy(const dealii::Vector<double> &displacement);
-
   private:
     struct Cell
     {

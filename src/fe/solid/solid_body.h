@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
-#include "fe/body/friction_face.h"
+#include "fe/body/elastic_body.h"
 #include "fe/solid/body_factors.h"
 #include "fe/solid/solid_mesh.h"
-
-#include <deal.II/fe/fe_system.h>
-#include <deal.II/fe/mapping_q1.h>
 
 #include <optional>
 
@@ -30,10 +27,22 @@ namespace sprag
     std::string folder;           ///< for files with factors of the whole body; empty: they stay in memory
   };
 
-  /// The linear elastic lever in three dimensions, in axes in which its hub does not move. The ranks at hand hold the mesh and
-  /// the numbers of its displacements, each for itself; they share stiffness and factors. The first asks the others for it, see
-  /// help_first_rank(): what responds, factorises or releases is for the first.
-  class SolidBody
+  /// The mesh of a body in three dimensions, which the ranks at hand build together before there is a body on it.
+  struct SharedSolid
+  {
+    /// The first rank builds from the scene's plane mesh, see make_solid_mesh(), the others without a scene help.
+    SharedSolid(const BodyCalls &calls, SolidProperties of_first, const Scene *scene, const Mesh *plane);
+
+    const BodyCalls call_others;
+    const SolidProperties given;
+    SolidMesh mesh;
+    bool half; ///< whether it is a half, which is the same on both sides of the middle
+  };
+
+  /// The lever in three dimensions. The ranks at hand hold the mesh and the numbers of its displacements, each for itself; they
+  /// share stiffness without load and its factors. The first asks the others for it, see help_first_rank(): what responds,
+  /// factorises or releases is for the first.
+  class SolidBody : private SharedSolid, public ElasticBody<3>
   {
   public:
     /// Builds and factorises it from the scene's plane mesh, see make_solid_mesh(). Throws AnalysisError where the factorisation
@@ -45,52 +54,10 @@ namespace sprag
     SolidBody &operator=(SolidBody &&) = delete;
     ~SolidBody();
 
-    unsigned int n_dofs() const
-    {
-      return dof_handler.n_dofs();
-    }
-
-    const dealii::DoFHandler<3> &dofs() const
-    {
-      return dof_handler;
-    }
-
-    const dealii::Mapping<3> &cell_mapping() const
-    {
-      return mapping;
-    }
-
-    const BodyProperties &body_properties() const
-    {
-      return properties;
-    }
-
-    /// Those that hold the hub, and the middle of a half.
-    const dealii::AffineConstraints<double> &held() const
-    {
-      return constraints;
-    }
-
-    bool is_held(const unsigned int dof) const
-    {
-      return constraints.is_constrained(dof);
-    }
-
     /// Whether it is a half, which is the same on both sides of the middle.
     bool is_half() const
     {
-      return properties.width == 2.;
-    }
-
-    /// Those of the friction plate, see find_connectors().
-    const std::vector<Connector> &connectors() const
-    {
-      return springs;
-    }
-
-    const FrictionFace<3> &friction_face() const
-    {
-      return face;
+      return half;
     }
 
     /// How far the skin reaches from the friction face [mm]: beyond the layer as far as the pressure of a contact is more than
@@ -112,9 +79,6 @@ namespace sprag
     /// Returns the number of a degree of freedom for loads of respond_near(), -1 where it has none: with a skin of those of the
     /// skin off its bond, else the degree of freedom itself where it is free.
     int number_near(unsigned int dof) const;
-
-    /// Returns mass [t] and moment of inertia about the pivot [t mm^2] at the given density [t/mm^3], hub included.
-    std::array<double, 2> mass_and_inertia(double density) const;
 
     /// Turns forces on the degrees of freedom [N] into displacements [mm].
     void respond(std::vector<double> &loads) const;
@@ -141,31 +105,20 @@ namespace sprag
     }
 
   private:
-    SolidBody(const BodyCalls &calls, SolidProperties of_first);
-    void number_displacements(bool is_half);
+    SolidBody(const BodyCalls &calls, SolidProperties of_first, const Scene *scene, const Mesh *plane);
+    StiffnessSource stiffness_source() const;
     void factorise(bool single);
     void do_factorise(bool single);
     void release();
     bool factors_serve();
     SparseColumns loads_on_face(bool near) const;
-    void hold_hub();
+    void find_ends();
     void find_skin();
     bool number_skin();
-    void order_face_nodes();
 
-    const BodyCalls call_others;
-    const SolidProperties given;
-    double depth_of_skin; ///< [mm]
-    BodyProperties properties;
-    SolidMesh mesh;
-    const dealii::FESystem<3> fe;
-    const dealii::MappingQ1<3> mapping;
-    dealii::DoFHandler<3> dof_handler;
-    dealii::AffineConstraints<double> constraints;
-    FrictionFace<3> face;
+    double depth_of_skin;   ///< [mm]
     double face_begin = 0.; ///< along xi [mm]
     double face_end   = 0.;
-    std::vector<Connector> springs;
     std::vector<int> number_in_skin;
     const std::vector<int> all; ///< no numbers
     BodyFactors factors;

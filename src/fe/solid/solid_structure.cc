@@ -117,15 +117,10 @@ namespace sprag
     return result;
   }
 
-  double SolidStructure::energy(const unsigned int lever, const Vector<double> &coordinates) const
-  {
-    return finite->energy(of_body(coordinates, lever));
-  }
-
   void SolidStructure::tell_sensors(const unsigned int lever, const Vector<double> &coordinates, const PortLoads &forces,
                                     Row &row) const
   {
-    sensors.tell(finite ? sensors.at(of_body(coordinates, lever)) : sensors(on_face(forces, lever)), row);
+    sensors.tell(finite ? body.sensor_forces(of_body(coordinates, lever)) : sensors(on_face(forces, lever)), row);
   }
 
   const std::vector<unsigned int> &SolidStructure::line_at(const double zeta) const

@@ -37,9 +37,6 @@ namespace sprag
     std::vector<dealii::Vector<double>> body_displacements(const dealii::Vector<double> &coordinates,
                                                            const PortLoads &forces) const;
 
-    /// Returns the elastic energy of a lever at finite strain [mJ].
-    double energy(unsigned int lever, const dealii::Vector<double> &coordinates) const;
-
     /// Tells a row the forces of the sensors of a lever [N].
     void tell_sensors(unsigned int lever, const dealii::Vector<double> &coordinates, const PortLoads &forces, Row &row) const;
 

@@ -471,16 +471,13 @@ namespace sprag
     row[Column::Q_support]            = ports.sprung ? support * u : row[Column::Q];
     row[Column::support_energy]       = 0.5 * support * u * u;
     const bool is_linear              = properties.body.material == MaterialModel::linear;
-    if constexpr (dim == 2)
-      row[Column::elastic_energy] = is_linear ? row[Column::elastic_energy] + cylinder_energy(lever, state)
-                                              : own_body.energy(body_displacements(state.coordinates, state.forces)[lever]);
-    else
-    {
-      const auto &solid           = std::get<SolidStructure>(own_structure);
-      const double of_lever       = is_linear ? row[Column::elastic_energy] : solid.energy(lever, state.coordinates);
-      row[Column::elastic_energy] = of_lever + cylinder_energy(lever, state);
-      row[Column::indentation]    = solid.indentation(lever, properties.layer_thickness, state.coordinates, state.forces, row);
-    }
+    if (!is_linear)
+      row[Column::elastic_energy] = own_body.energy(body_displacements(state.coordinates, state.forces)[lever]);
+    if (is_linear || dim == 3) // a body in a plane has its elastic cylinder
+      row[Column::elastic_energy] += cylinder_energy(lever, state);
+    if constexpr (dim == 3)
+      row[Column::indentation] = std::get<SolidStructure>(own_structure)
+                                     .indentation(lever, properties.layer_thickness, state.coordinates, state.forces, row);
     std::visit([&](const auto &s) { s.tell_sensors(lever, state.coordinates, state.forces, row); }, own_structure);
   }
 
