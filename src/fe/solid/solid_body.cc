@@ -18,53 +18,6 @@ namespace sprag
 {
   using namespace dealii;
 
-  namespace
-  {
-    constexpr int together = 64; ///< columns that are refined together, which bounds the memory that they take
-
-    std::vector<double> dense(const SparseColumns &columns, const unsigned int n)
-    {
-      std::vector<double> result(static_cast<std::size_t>(n) * columns.size(), 0.);
-      for (int j = 0; j < columns.size(); ++j)
-        for (int k = columns.begin[j]; k < columns.begin[j + 1]; ++k)
-          result[static_cast<std::size_t>(j) * n + columns.row[k - 1] - 1] += columns.value[k - 1];
-      return result;
-    }
-
-    SparseColumns some_of(const SparseColumns &columns, const int first, const int last)
-    {
-      SparseColumns result;
-      for (int j = first; j < last; ++j)
-      {
-        for (int k = columns.begin[j]; k < columns.begin[j + 1]; ++k)
-          result.add(columns.row[k - 1] - 1, columns.value[k - 1]);
-        result.end_column();
-      }
-      return result;
-    }
-
-    /// Solves with columns scaled to a size of 1: what is left of loads may be too small for single precision.
-    std::vector<float> solve_scaled(const SharedFactors<float> &factors, const std::vector<double> &columns)
-    {
-      const std::size_t n = factors.size();
-      std::vector<float> result(columns.size());
-      std::vector<double> sizes;
-      for (std::size_t begin = 0; begin < columns.size(); begin += n)
-      {
-        double size = std::numeric_limits<double>::min();
-        for (std::size_t i = begin; i < begin + n; ++i)
-          size = std::max(size, std::abs(columns[i]));
-        for (std::size_t i = begin; i < begin + n; ++i)
-          result[i] = static_cast<float>(columns[i] / size);
-        sizes.push_back(size);
-      }
-      factors.solve(result);
-      for (std::size_t i = 0; i < result.size(); ++i)
-        result[i] = static_cast<float>(sizes[i / n] * result[i]);
-      return result;
-    }
-  } // namespace
-
   BodyFactors::BodyFactors(const StiffnessSource &of_body, const std::vector<int> &numbers, const SharedTask solve,
                            const BodyCalls &calls)
       : source(of_body)
@@ -74,79 +27,37 @@ namespace sprag
   {
   }
 
-  void BodyFactors::factorise(const std::vector<Connector> &connectors, const FactorStorage &storage)
+  void BodyFactors::factorise(const std::vector<Connector> &connectors, const std::string &folder)
   {
     release();
     n            = size_of_part(source, number_in_part);
     auto entries = assemble_stiffness(source, number_in_part);
     for (const auto &connector : connectors)
       add(connector, entries);
-    if (!storage.single)
-    {
-      precise = std::make_unique<SharedFactors<double>>(call_others.ranks, storage.folder);
-      return precise->factorise(std::move(entries));
-    }
-    rough = std::make_unique<SharedFactors<float>>(call_others.ranks, storage.folder);
-    rough->factorise(std::move(entries));
-    const auto solve_roughly = [this](const std::vector<double> &columns)
-    {
-      call_others(task);
-      return solve_scaled(*rough, columns);
-    };
-    if (call_others.is_first())
-      refinement = std::make_unique<Refinement>(source, number_in_part, connectors, solve_roughly);
-  }
-
-  bool BodyFactors::prepare(const SparseColumns &loads)
-  {
-    return precise || refinement->find_soft_motions(dense(loads, n));
+    factors = std::make_unique<SharedFactors>(call_others.ranks, folder);
+    factors->factorise(std::move(entries));
   }
 
   void BodyFactors::solve(std::vector<double> &columns) const
   {
     call_others(task);
-    if (precise)
-      return precise->solve(columns);
-    auto step = solve_scaled(*rough, columns);
-    columns   = refinement->refined(std::move(columns), std::move(step));
+    factors->solve(columns);
   }
 
   std::vector<double> BodyFactors::solve(const SparseColumns &columns) const
   {
-    if (precise || columns.size() <= together)
-      return solve_some(columns);
-    std::vector<double> result;
-    result.reserve(static_cast<std::size_t>(n) * columns.size());
-    for (int first = 0; first < columns.size(); first += together)
-    {
-      const auto some = solve_some(some_of(columns, first, std::min(first + together, columns.size())));
-      result.insert(result.end(), some.begin(), some.end());
-    }
-    return result;
-  }
-
-  std::vector<double> BodyFactors::solve_some(const SparseColumns &columns) const
-  {
     call_others(task);
-    if (precise)
-      return precise->solve(columns);
-    auto step = rough->solve(columns);
-    return refinement->refined(dense(columns, n), std::move(step));
+    return factors->solve(columns);
   }
 
   void BodyFactors::take_part() const
   {
-    if (precise)
-      precise->take_part();
-    else
-      rough->take_part();
+    factors->take_part();
   }
 
   void BodyFactors::release()
   {
-    precise.reset();
-    rough.reset();
-    refinement.reset();
+    factors.reset();
   }
 
   namespace
@@ -224,14 +135,12 @@ namespace sprag
   {
   }
 
-  SolidBody::SolidBody(const Scene &scene, const Mesh &plane, const FactorSettings &settings)
-      : SolidBody(BodyCalls(), properties_of(scene, settings.folder), &scene, &plane)
+  SolidBody::SolidBody(const Scene &scene, const Mesh &plane, const std::string &folder)
+      : SolidBody(BodyCalls(), properties_of(scene, folder), &scene, &plane)
   {
     use_connectors(find_connectors({ cell_mapping(), dofs(), held() }, scene, half));
-    factorise(
-        settings.single.value_or(scene.analysis.type == AnalysisType::quasi_static && n_dofs() >= least_in_single_precision));
-    if (!factors_serve())
-      factorise(false);
+    call_others(SharedTask::factorise);
+    factorise();
   }
 
   SolidBody::SolidBody(const MPI_Comm ranks)
@@ -255,42 +164,12 @@ namespace sprag
     return { cell_mapping(), dofs(), held(), body_properties() };
   }
 
-  void SolidBody::factorise(const bool single)
-  {
-    call_others(single ? SharedTask::factorise_roughly : SharedTask::factorise_precisely);
-    do_factorise(single);
-  }
-
   /// Factors of the whole come first: nothing else takes memory then.
-  void SolidBody::do_factorise(const bool single)
+  void SolidBody::factorise()
   {
-    factors.factorise(connectors(), { single, given.folder });
+    factors.factorise(connectors(), given.folder);
     if (has_skin())
-      factors_of_skin.factorise({}, { single, {} });
-  }
-
-  bool SolidBody::factors_serve()
-  {
-    return factors.prepare(loads_on_face(false)) && (!has_skin() || factors_of_skin.prepare(loads_on_face(true)));
-  }
-
-  /// Uniform ones and such as grow across, in three directions: they bend and twist a lever.
-  SparseColumns SolidBody::loads_on_face(const bool near) const
-  {
-    const auto growth = { +[](const Point<3> &) { return 1.; }, +[](const Point<3> &place) { return place[2]; } };
-    SparseColumns result;
-    for (const auto &load : growth)
-      for (unsigned int direction = 0; direction < 3; ++direction)
-      {
-        for (const auto &node : friction_face().nodes)
-        {
-          const unsigned int dof = node.dofs[direction];
-          if (const int number = near ? number_near(dof) : static_cast<int>(dof); number >= 0 && !is_held(dof))
-            result.add(static_cast<unsigned int>(number), load(node.position));
-        }
-        result.end_column();
-      }
-    return result;
+      factors_of_skin.factorise({}, {});
   }
 
   /// Mesh and factors are given back by all ranks together.
@@ -403,9 +282,8 @@ namespace sprag
       return factors.take_part();
     case SharedTask::solve_near:
       return factors_of_skin.take_part();
-    case SharedTask::factorise_roughly:
-    case SharedTask::factorise_precisely:
-      return do_factorise(task == SharedTask::factorise_roughly);
+    case SharedTask::factorise:
+      return factorise();
     default:
       return release();
     }

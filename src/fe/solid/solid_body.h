@@ -4,7 +4,7 @@
 #include "fe/body/dimension.h"
 #include "fe/body/elastic_body.h"
 #include "fe/solid/first_rank.h"
-#include "fe/solid/refinement.h"
+#include "fe/solid/solid_stiffness.h"
 
 #include <deal.II/distributed/shared_tria.h>
 
@@ -15,13 +15,6 @@ namespace sprag
 {
   struct Scene;
 
-  /// How factors are kept.
-  struct FactorStorage
-  {
-    bool single = false; ///< in single precision, half of the memory and of the time, whose solutions are refined
-    std::string folder;  ///< for files with them; empty: in memory
-  };
-
   /// Factors of the stiffness of a body or of a part of it, by which all ranks solve together.
   class BodyFactors
   {
@@ -30,15 +23,11 @@ namespace sprag
     /// `number_in_part`, see assemble_stiffness(), and the calls.
     BodyFactors(const StiffnessSource &source, const std::vector<int> &number_in_part, SharedTask task, const BodyCalls &calls);
 
-    /// Factorises, with connectors of the whole body, which the first rank gives. To be called by all ranks. Throws
-    /// AnalysisError.
-    void factorise(const std::vector<Connector> &connectors, const FactorStorage &storage);
+    /// Factorises, with connectors of the whole body, which the first rank gives. With a folder the factors are kept in files
+    /// there, else in memory. To be called by all ranks. Throws AnalysisError.
+    void factorise(const std::vector<Connector> &connectors, const std::string &folder);
 
-    /// Prepares solves by some loads that move the body as the softest of its motions do, see Refinement. Returns false where
-    /// factors of single precision do not serve. To be called by the first rank, as solve().
-    bool prepare(const SparseColumns &loads);
-
-    /// Solves with some columns, one after another, in place. Throws AnalysisError.
+    /// Solves with some columns, one after another, in place. Throws AnalysisError. To be called by the first rank.
     void solve(std::vector<double> &columns) const;
 
     /// Returns the solutions for sparse columns, one after another, likewise.
@@ -57,16 +46,12 @@ namespace sprag
     }
 
   private:
-    std::vector<double> solve_some(const SparseColumns &columns) const;
-
     const StiffnessSource source;
     const std::vector<int> &number_in_part;
     const SharedTask task;
     const BodyCalls &call_others;
     unsigned int n = 0;
-    std::unique_ptr<SharedFactors<float>> rough;    ///< either these
-    std::unique_ptr<SharedFactors<double>> precise; ///< or those
-    std::unique_ptr<Refinement> refinement;         ///< of rough ones, of the first rank
+    std::unique_ptr<SharedFactors> factors;
   };
 
   /// A mesh of three dimensions, which every rank knows whole and shares the work on.
@@ -82,12 +67,6 @@ namespace sprag
 
   /// Receives what the first rank makes.
   bool receive_solid_mesh(SolidMesh &mesh);
-
-  struct FactorSettings
-  {
-    std::optional<bool> single = {}; ///< whether in single precision; without it those of large bodies without inertia are
-    std::string folder         = {}; ///< for files with the factors of the whole body; empty: they stay in memory
-  };
 
   /// What all ranks must know of a body in three dimensions besides its mesh.
   struct SolidProperties
@@ -117,9 +96,10 @@ namespace sprag
   class SolidBody : private SharedSolid, public ElasticBody<3>
   {
   public:
-    /// Builds and factorises it from the scene's plane mesh, see make_solid_mesh(). Throws AnalysisError where the factorisation
+    /// Builds and factorises it from the scene's plane mesh, see make_solid_mesh(); the factors of the whole body are kept in
+    /// files in a folder, or without one in memory. Throws AnalysisError where the factorisation
     /// fails, InputError for a Mesh/File that cannot serve.
-    SolidBody(const Scene &scene, const Mesh &plane, const FactorSettings &settings = {});
+    SolidBody(const Scene &scene, const Mesh &plane, const std::string &folder = {});
 
     /// Helps the first rank to build one.
     explicit SolidBody(MPI_Comm ranks);
@@ -179,11 +159,8 @@ namespace sprag
   private:
     SolidBody(const BodyCalls &calls, SolidProperties of_first, const Scene *scene, const Mesh *plane);
     StiffnessSource stiffness_source() const;
-    void factorise(bool single);
-    void do_factorise(bool single);
+    void factorise();
     void release();
-    bool factors_serve();
-    SparseColumns loads_on_face(bool near) const;
     void find_ends();
     void find_skin();
     bool number_skin();
