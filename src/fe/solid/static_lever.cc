@@ -2,11 +2,13 @@
 #include "fe/solid/static_lever.h"
 
 #include "base/text.h"
+#include "fe/contact/face_contact.h"
 #include "fe/statics/contact_penalties.h"
-#include "fe/statics/static_terms.h"
+#include "laws/friction_of_step.h"
 #include "model/joined_memory.h"
 #include "model/joined_ports.h"
 #include "scene/across.h"
+#include "scene/closed_form.h"
 #include "scene/lever_shape.h"
 #include "scene/mirrored_pair.h"
 #include "scene/scene.h"
@@ -17,6 +19,33 @@
 namespace sprag
 {
   using namespace dealii;
+
+  /// The terms that a step without inertia adds to the contact. With the damper's `geometry` friction takes the speeds of sliding
+  /// of a rigid lever at the end of the step, see FaceStep, without it their means over the step. In the cone mode nothing has
+  /// been rubbed yet where no time has passed.
+  StaticTerms static_terms(const FrictionLaw &friction, const std::optional<Geometry> &geometry, const DrivePoint &begin,
+                           const DrivePoint &end, const FrictionMode mode)
+  {
+    constexpr double least_ratio = 1e-6;
+    const double duration        = end.time - begin.time;
+    StaticTerms result{ friction_of_step(friction, end.v), duration, mode };
+    if (duration == 0.)
+    {
+      if (mode == FrictionMode::cone)
+        result.friction = { CoulombFriction{ 0. } };
+      result.duration = 1.;
+      return result;
+    }
+    if (!geometry || end.x == begin.x)
+      return result;
+    const auto from    = kinematics(*geometry, begin.x);
+    const auto to      = kinematics(*geometry, end.x);
+    result.travel      = to.s - from.s;
+    const double slid  = -result.travel - geometry->cylinder_radius * (to.theta - from.theta);
+    result.speed_ratio = std::max(least_ratio, sliding_speed(*geometry, end.x, end.v) * duration / slid);
+    result.duration /= result.speed_ratio;
+    return result;
+  }
 
   namespace
   {
