@@ -212,7 +212,7 @@ namespace sprag
     }
     const auto files = options.in_memory ? nullptr : folder_for_factors(scene, options);
     std::optional<SolidBody> body;
-    timed(timer, "body", [&] { body.emplace(scene, *mesh, FactorSettings{ {}, files ? files->folder : "" }); });
+    timed(timer, "body", [&] { body.emplace(scene, *mesh, files ? files->folder : ""); });
     std::optional<StaticLever<3>> levers;
     timed(timer, "model", [&] { levers.emplace(*body, scene); });
     const auto probes = [&](const auto &rows, const auto &settings, const auto &)

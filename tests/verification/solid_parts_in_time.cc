@@ -122,7 +122,7 @@ TEST(SolidPartsInTime, MassAndMomentOfInertiaAreThePlanes)
         Mesh plane;
         make_mesh(scene, plane);
         const ElasticBody<2> of_plane(plane, lever_properties(scene).body);
-        const InertialMatrices<2> expected(of_plane, inertia_of(scene));
+        const InertialMatrices expected(of_plane, inertia_of(scene));
         const SolidBody body(scene, plane);
         const SolidMass mass(body, inertia_of(scene));
         EXPECT_EQ(body.is_half(), tilt == 0.);
@@ -327,7 +327,7 @@ TEST(SolidPartsInTime, SensorsAreThoseOfTheDeformedBodySlow)
   {
     motion = model.step(motion, scene.drive.at(i * 1e-4), StepWeights{ 1e-4, 0., 0., 0.25, 0.5 }).motion.value();
     model.observe(motion, row);
-    const auto expected = dynamics.solid->sensors->at(dynamics.meshed.elastic_displacement(motion, 0));
+    const auto expected = dynamics.solid->body->sensor_forces(dynamics.meshed.elastic_displacement(motion, 0));
     ASSERT_EQ(row.across.size(), first_sensor + expected.size());
     for (std::size_t side = 0; side < expected.size(); ++side)
       EXPECT_NEAR(row.across[first_sensor + side], expected[side], 1e-7 * row[Column::P]);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "fe/solid/solid_mesh.h"
+#include "fe/solid/solid_body.h"
 
 #include "base/errors.h"
 #include "base/messages.h"

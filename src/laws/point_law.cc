@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "laws/contact.h"
-
 #include "laws/point_law.h"
 
 #include <algorithm>
@@ -92,55 +90,19 @@ namespace sprag
     }
   } // namespace
 
-  NormalTraction normal_traction(const double gap, const double multiplier, const double penalty)
-  {
-    const double trial = multiplier - penalty * gap;
-    return trial > 0. ? NormalTraction{ trial, -penalty } : NormalTraction{ 0., 0. };
-  }
-
   FrictionValue slip_friction(const FrictionLaw &law, const double load, const double resistance, const double pressure)
   {
     return friction_coefficient(law, slip_speed({ law, load, pressure, resistance }));
   }
 
-  ConeReturn return_to_cone(const double trial, const double pressure, const FrictionLaw &law, const double penalty,
-                            const double dt, const double shift)
+  SlidingFriction sliding_friction(const FrictionLaw &law, const double speed)
   {
-    using One     = dealii::Tensor<1, 1>;
-    const auto of = friction_traction(One({ trial }), pressure, law, penalty, dt, One({ shift }));
-    return { of.traction[0], of.d_trial[0][0], of.d_pressure[0], of.mu, of.slipping, of.d_shift[0][0] };
+    const auto mu    = friction_coefficient(law, std::abs(speed));
+    const double v_r = law.regularisation_speed;
+    if (v_r == 0.)
+      return { std::copysign(mu.coefficient, speed), mu.derivative };
+    const double root  = std::hypot(speed, v_r);
+    const double share = speed / root;
+    return { mu.coefficient * share, mu.derivative * std::abs(share) + mu.coefficient * v_r * v_r / (root * root * root) };
   }
-
-  template <int slips>
-  FrictionTraction<slips> friction_traction(const dealii::Tensor<1, slips> &trial, const double pressure, const FrictionLaw &law,
-                                            const double penalty, const double dt, const dealii::Tensor<1, slips> &shift)
-  {
-    using N = Dual<double, 2 * slips + 1>; // of trial, shift and pressure
-    Several<N, slips> trials, shifts;
-    for (int i = 0; i < slips; ++i)
-    {
-      trials[i] = variable<N>(trial[i], i);
-      shifts[i] = variable<N>(shift[i], slips + i);
-    }
-    const auto found = return_to_cone(SlipLaw{ law, penalty }, trials, variable<N>(pressure, 2 * slips), dt, shifts, trials);
-    FrictionTraction<slips> result;
-    result.mu       = found.mu;
-    result.slipping = found.slipping;
-    for (int i = 0; i < slips; ++i)
-    {
-      result.traction[i]   = found.traction[i].v;
-      result.d_pressure[i] = found.traction[i].d[2 * slips];
-      for (int j = 0; j < slips; ++j)
-      {
-        result.d_trial[i][j] = found.traction[i].d[j];
-        result.d_shift[i][j] = found.traction[i].d[slips + j];
-      }
-    }
-    return result;
-  }
-
-  template FrictionTraction<1> friction_traction(const dealii::Tensor<1, 1> &, double, const FrictionLaw &, double, double,
-                                                 const dealii::Tensor<1, 1> &);
-  template FrictionTraction<2> friction_traction(const dealii::Tensor<1, 2> &, double, const FrictionLaw &, double, double,
-                                                 const dealii::Tensor<1, 2> &);
 } // namespace sprag
