@@ -10,9 +10,9 @@ import numpy as np
 
 from forces import first_stroke
 from frames import read_frame
-from parameters import parse
-from program import RunFailed, run_scene
-from results import NotAResult, read_result
+from sprag.parameters import parse
+from sprag.program import RunFailed, run_scene
+from sprag.results import NotAResult, read_result
 
 # Of a run that makes the mesh of a scene and little else.
 COARSE = {

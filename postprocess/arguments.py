@@ -2,14 +2,50 @@
 """What the scripts have in common on the command line: where pictures go, in which format, and how they are written."""
 
 import argparse
+import sys
+import traceback
+from functools import wraps
 from pathlib import Path
 
+from sprag.program import program
+from sprag.results import NotAResult
+
 FORMATS = ("png", "pdf", "svg")
+DPI = 200
 
 
 def parser_of(documentation):
     """A parser whose --help begins with what the script says of itself."""
     return argparse.ArgumentParser(description=documentation, formatter_class=argparse.RawDescriptionHelpFormatter)
+
+
+def script(main):
+    """The exit code of what a script does: 0, or 2 with one line on stderr where a result or file cannot be read or written. What a
+    damaged result lacks shows anywhere, by any exception: the line tells what was read and where it failed."""
+
+    name = Path(main.__code__.co_filename).name
+
+    @wraps(main)
+    def with_exit_code(arguments=None):
+        try:
+            main(arguments)
+        except (NotAResult, OSError) as error:
+            print(f"{name}: {error}", file=sys.stderr)
+            return 2
+        except Exception as error:
+            place = traceback.extract_tb(error.__traceback__)[-1]
+            what = f"{type(error).__name__}: {error}".splitlines()[0]
+            where = f"{Path(place.filename).name}, line {place.lineno}"
+            given = ", ".join(word for word in map(str, arguments or sys.argv[1:]) if Path(word).exists())
+            print(f"{name}: {given}: a result is damaged or of another version of sprag: {what} ({where})", file=sys.stderr)
+            return 2
+        return 0
+
+    return with_exit_code
+
+
+def add_program(parser):
+    parser.add_argument("--sprag", type=Path, default=program(), metavar="FILE", help="the program (the one built or installed with this script)")
 
 
 def add_folders(parser, number="+", what="result folder, holding result.h5"):
@@ -46,9 +82,14 @@ def picture_paths(options, default):
     return [base.with_name(f"{base.name}.{ending}") for ending in options.format or ("png",)]
 
 
-def save(figure, paths, dpi=300):
+def save(figure, paths, dpi=DPI):
     """Writes a picture, makes the folders it needs and says where it is."""
     for path in paths:
         path.parent.mkdir(parents=True, exist_ok=True)
-        figure.savefig(path, dpi=dpi)
+        if path.suffix == ".png":
+            # savefig() would draw twice.
+            figure.set_dpi(dpi)
+            figure.canvas.print_png(path, pil_kwargs={"compress_level": 2})
+        else:
+            figure.savefig(path, dpi=dpi)
         print(path)

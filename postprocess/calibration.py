@@ -10,10 +10,6 @@ WAYS = {1: (">", "forward"), -1: ("<", "backward")}
 STATES = (("free_frequency_", "free"), ("contact_frequency_", "contact"))
 
 
-def is_calibration(result):
-    return "P_beam" in result.table
-
-
 def calibration(result):
     """P and Q of both over x; frequencies of both, with what the beam is off."""
     figure = plt.figure(figsize=(TWO_COLUMNS, 130 * MILLIMETRE))
@@ -36,7 +32,7 @@ def constants(result):
     entries = (("stiffness", "$k$"), ("moment_of_inertia", "$J$"), ("bending_stiffness", "$EI$"), ("contact_stiffness", "$k_c$"),
                ("contact_exponent", "exponent"))  # fmt: skip
     return ", ".join(
-        f"{symbol} = {result.summary[name]:.5g}{unit(result.entry_units.get(name, ''))}"
+        f"{symbol} = {result.summary[name]:.5g}{unit(result.summary[name].unit)}"
         for name, symbol in entries
         if name in result.summary
     )

@@ -4,6 +4,7 @@
 
 Runs that differ in method alone, as in model or mesh: P over time, at the first reversal, and how far each is from the finest.
 Runs of different devices: P and Q over x or, with inertia, over time, and their main numbers over the parameter.
+Results of other types: their curves, eigenvalues or boundaries. plot.py draws more pictures of them.
 """
 
 import sys
@@ -11,15 +12,19 @@ from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
+from matplotlib.ticker import MaxNLocator
 
-from arguments import add_folders, add_output, parser_of, picture_paths, save
-from results import NotAResult, read_result, script
+from arguments import add_folders, add_output, parser_of, picture_paths, save, script
+from sprag.results import WAYS, NotAResult, read_result
+from forces import forces_over_time, forces_over_x
+from overlays import draw_number, overlays
 from several import FEW_NUMBERS, told_apart
 from style import MILLIMETRE, TWO_COLUMNS, envelope, is_signal, label, panel_letter, plt, use_print_style
 from transient import LEAD, WINDOW, has_reversal, is_transient, parameter, reversal_time, turning_points, zoom_end
 
 LEVELS = ("closed form", "rigid", "beam", "condensed", "finite element")  # from coarse to fine
 NUMBERS = ("peak_P_forward", "peak_P_backward", "loop_area")  # of a summary, drawn over the parameter
+DRIVEN = ("quasi-static", "transient", "sprag slip")  # types that follow the cylinder
 
 
 class View(NamedTuple):
@@ -32,8 +37,23 @@ class View(NamedTuple):
     parts: int
 
 
+def comparisons(results):
+    """{picture name: figure}. Throws NotAResult where there are too many, or they have nothing in common."""
+    if not all(result.type in DRIVEN for result in results):
+        return overlays(results)
+    check_steps(results)
+    pictures, in_time = {"comparison": comparison(results)}, any(is_transient(result) for result in results)
+    if in_time or told_apart(results).is_numerical:
+        pictures["forces-over-x"] = forces_over_x(results)
+    if in_time:
+        pictures["forces-over-time"] = forces_over_time(results)
+    if all(result.friction_face is not None and result.friction_face.zeta is None for result in results):
+        pictures["pressure"] = pressures(results)
+    return {name: figure for name, figure in pictures.items() if figure}
+
+
 def comparison(results):
-    """Throws NotAResult where there are too many."""
+    """The one picture that says most of runs along a drive."""
     several = told_apart(results)
     if several.is_numerical:
         return over_time(results, several, draw_deviations)
@@ -43,10 +63,8 @@ def comparison(results):
 
 
 def check_steps(results):
-    """Throws NotAResult where there are none that pictures could share."""
+    """Throws NotAResult where there are none yet."""
     for result in results:
-        if result.is_sweep:
-            raise NotAResult(f"{result.folder}: has no steps to share a picture, a result of its type is drawn by itself")
         if len(result.table["time"]) == 0:
             reason = result.summary.get("status")
             raise NotAResult(f"{result.folder}: " + (f"no step was made: {reason}" if reason else "no step is finished yet"))
@@ -88,18 +106,6 @@ def over_x(results, several, numbers):
         draw_number(axes, results, several, name)
     several.explain(figure, [*forces, *rest], forces[1])
     return figure
-
-
-def draw_number(axes, results, several, name):
-    order = np.argsort(several.values, kind="stable")
-    numbers = np.array([float(result.summary[name]) for result in results])
-    axes.plot(several.values[order], numbers[order], color="0.6", linewidth=0.8, zorder=1)
-    for value, number, look in zip(several.values, numbers, several.looks):
-        axes.plot(value, number, "o", color=look["color"], markersize=4)
-    unit = results[0].entry_units.get(name, "1")
-    axes.set_ylabel(f"{name.replace('_', ' ')} [{unit}]")
-    axes.set_xlabel(several.label)
-    axes.ticklabel_format(axis="y", useOffset=False)
 
 
 # Over time
@@ -187,6 +193,57 @@ def draw_curve(axes, time, values, view, **look):
     axes.set_xlim(view.scale * (view.begin - view.origin), view.scale * (view.end - view.origin))
 
 
+# The contact
+
+
+def pressures(results, x=None):
+    """Pressure and friction traction of all at one x, each way, and how far the pressure is from the first one's; None without contact.
+
+    x [mm]: 0.9 of the largest one that all reach unless it is given. Runs that have no step there are shifted by what they miss.
+    """
+    several = told_apart(results)
+    x = 0.9 * min(float(result.friction_face.x.max()) for result in results) if x is None else x
+    x = results[0].face(x).x
+    figure, panels = plt.subplots(3, 2, sharex="col", sharey="row", figsize=(TWO_COLUMNS, 130 * MILLIMETRE))
+    for column, way in enumerate(WAYS):
+        try:
+            faces = [result.face(x, way) for result in results]
+        except NotAResult:
+            continue  # a drive may end before it turns back
+        draw_faces(panels[:, column], faces, several, x)
+        panels[0, column].set_title(f"({'ab'[column]}) {way}, $x$ = {x:.4g} mm", loc="left", fontsize=8)
+        panels[2, column].set_xlabel(r"lever coordinate $\xi$ [mm]")
+        panels[2, column].xaxis.set_major_locator(MaxNLocator(5))
+    if not any(axes.lines for axes in panels.flat):
+        plt.close(figure)
+        return None
+    for axes, text in zip(panels[:, 0], ("pressure [MPa]", "traction [MPa]", f"pressure less that\nof {several.names[0]} [MPa]")):
+        axes.set_ylabel(text)
+    for axes in panels.flat:
+        axes.set_visible(bool(axes.lines))
+    several.explain(figure, panels.flat, panels[1, 1] if panels[1, 1].lines else panels[1, 0])
+    return figure
+
+
+def draw_faces(panels, faces, several, x):
+    """Over xi, moved by what the steps are from x, along which the contact moves."""
+    places = [face.xi + (face.x - x) for face in faces]
+    pressed = np.concatenate([place[face.pressure > 0] for place, face in zip(places, faces)])
+    if len(pressed) == 0:
+        return
+    low, high = pressed.min(), pressed.max()
+    room = 0.05 * (high - low)
+    for place, face, name, look in zip(places, faces, several.names, several.looks):
+        near = (place > low - 4 * room) & (place < high + 4 * room)
+        first = np.interp(place[near], places[0], faces[0].pressure)
+        for axes, values in zip(panels, (face.pressure[near], face.traction[near], face.pressure[near] - first)):
+            axes.plot(place[near], values, label=name, **look)
+    panels[0].set_xlim(low - room, high + room)
+    if not any(is_signal(line.get_ydata(), faces[0].pressure) for line in panels[2].lines):
+        panels[2].annotate("all the same but for round-off", (0.5, 0.75), xycoords="axes fraction", ha="center")
+        panels[2].set_yticks([])
+
+
 @script
 def main(arguments=None):
     parser = parser_of(__doc__)
@@ -195,8 +252,8 @@ def main(arguments=None):
     options = parser.parse_args(arguments)
     use_print_style()
     results = [read_result(folder) for folder in options.folders]
-    check_steps(results)
-    save(comparison(results), picture_paths(options, Path("comparison")))
+    pictures = comparisons(results)
+    save(pictures.get("comparison") or next(iter(pictures.values())), picture_paths(options, Path("comparison")))
 
 
 if __name__ == "__main__":

@@ -20,12 +20,12 @@ def contact(result):
     if ways:
         panels.append(figure.add_subplot(grid[0, :]))
         panels += [figure.add_subplot(grid[1, index] if len(ways) == 2 else grid[1, :]) for index in range(len(ways))]
-        draw_along_face(panels[0], result.face, chosen)
+        draw_along_face(panels[0], result.friction_face, chosen)
         for axes, way in zip(panels[1:], ways):
-            draw_about_centre(axes, result.face, [state for state in chosen if state[1] == way])
+            draw_about_centre(axes, result.friction_face, [state for state in chosen if state[1] == way])
             top = panels[0].get_ylim()[1]
             axes.set_ylim(-0.04 * top, top)
-        figure_legend(figure, result.face, chosen)
+        figure_legend(figure, result.friction_face, chosen)
     widths, depths = (figure.add_subplot(grid[rows - 1, column]) for column in range(2))
     draw_widths(widths, result)
     draw_depths(depths, result)
@@ -42,8 +42,8 @@ def contact(result):
 
 def chosen_states(result, count=COUNT):
     """[(row of the face's steps, way, number of the position)] of states in contact, spread over x, the same x each way."""
-    face, ways, slides = result.face, ways_of_states(result), sliding(result)
-    pressed = np.flatnonzero(face.pressure.max(axis=1, initial=0) > 0)
+    face, ways, slides = result.friction_face, ways_of_states(result), sliding(result)
+    pressed = np.flatnonzero(result.table["P"][rows_of_states(result)] > 0)
     if len(pressed) == 0:
         return []
     wanted = positions(face.x[pressed], count)
@@ -55,7 +55,7 @@ def chosen_states(result, count=COUNT):
         for number, x in enumerate(wanted):
             if len(rows) and (best := rows[np.abs(face.x[rows] - x).argmin()]) is not None and abs(face.x[best] - x) <= near:
                 found.append((int(best), way, number))
-    return found
+    return [state for state in found if (face.pressure[state[0]] > 0).any()]
 
 
 def positions(x, count):
@@ -69,27 +69,20 @@ def positions(x, count):
     return np.array(apart) if len(apart) <= count else np.linspace(max(x.min(), far / count), far, count)
 
 
-def ways_of_states(result):
-    """1 forward, -1 backward; a turning point belongs to the stroke that led to it."""
-    x = result.table["x"]
-    steps = np.sign(np.diff(x, prepend=x[0]))
-    moving = np.flatnonzero(steps)
-    if len(moving) == 0:
-        return np.ones(len(result.face.time), dtype=int)
-    rows = rows_of_states(result)
-    last = np.maximum(np.searchsorted(moving, rows, side="right") - 1, 0)
-    return steps[moving[last]].astype(int)
-
-
 def rows_of_states(result):
     """Of the table."""
-    return np.searchsorted(result.table["time"], result.face.time - 1e-9 * np.abs(result.face.time)).clip(max=len(result.table["time"]) - 1)
+    return result.friction_face.rows_of(result.table["time"])
+
+
+def ways_of_states(result):
+    """1 forward, -1 backward; a turning point belongs to the stroke that led to it."""
+    return result.ways[rows_of_states(result)]
 
 
 def sliding(result):
     """1 or -1 where the whole contact slides that way, 0 where it sticks in part, as behind a reversal; 0 where nothing tells."""
     if not all(result.has(name) for name in ("normal_resultant", "friction_resultant", "mu")):
-        return np.zeros(len(result.face.time), dtype=int)
+        return np.zeros(len(result.friction_face.time), dtype=int)
     normal, friction, mu = (result.table[name][rows_of_states(result)] for name in ("normal_resultant", "friction_resultant", "mu"))
     return np.where(np.abs(friction) >= 0.97 * mu * normal, np.sign(friction), 0).astype(int)
 
@@ -123,8 +116,8 @@ def draw_along_face(axes, face, chosen):
         patch = pressed_points(face, step)
         axes.plot(face.xi[patch], face.pressure[step][patch], color=COLOURS[number], linestyle=WAYS[way][1], linewidth=1)
     axes.set_ylim(bottom=0)
-    axes.set_xlabel(f"lever coordinate $\\xi$ [{face.units['xi']}]")
-    axes.set_ylabel(f"pressure [{face.units['pressure']}]")
+    axes.set_xlabel(f"lever coordinate $\\xi$ [{face.xi.unit}]")
+    axes.set_ylabel(f"pressure [MPa]")
 
 
 def draw_about_centre(axes, face, chosen):
@@ -133,12 +126,12 @@ def draw_about_centre(axes, face, chosen):
         xi, pressure, centre = face.xi[patch], face.pressure[step][patch], centre_of_pressure(face, step)
         look_of_it = {"color": COLOURS[number], "linestyle": WAYS[way][1], "marker": MARKERS[number], "markersize": 2}
         axes.plot(xi - centre, pressure, linewidth=0.8, **look_of_it)
-    axes.set_xlabel(f"$\\xi$ minus the centre of pressure [{face.units['xi']}]")
-    axes.set_ylabel(f"pressure [{face.units['pressure']}]")
+    axes.set_xlabel(f"$\\xi$ minus the centre of pressure [{face.xi.unit}]")
+    axes.set_ylabel(f"pressure [MPa]")
 
 
 def figure_legend(figure, face, chosen):
-    names = {number: f"$x$ = {face.x[step]:.3g} {face.units['x']}" for step, _, number in reversed(chosen)}
+    names = {number: f"x = {face.x[step]:.3g} {face.x.unit}" for step, _, number in reversed(chosen)}
     numbers = sorted(names)
     handles = [plt.Line2D([], [], color=COLOURS[number], marker=MARKERS[number], markersize=3) for number in numbers]
     legend_on_top(figure, handles, [names[number] for number in numbers])

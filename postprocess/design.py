@@ -7,10 +7,6 @@ from style import COLOURS, LINES, MARKERS, MILLIMETRE, ONE_COLUMN, TWO_COLUMNS, 
 from study import slug
 
 
-def is_design(result):
-    return "largest_violation" in result.table
-
-
 def design_pictures(result):
     pictures = {}
     if len(result.table["largest_violation"]) > 2:

@@ -13,10 +13,9 @@ import numpy as np
 from matplotlib.patches import Circle, Polygon
 
 from apparatus import connectors, device_of
-from arguments import add_output, parser_of, picture_paths, save
+from arguments import add_output, add_program, parser_of, picture_paths, save, script
 from drafting import CENTRE_LINE, HIDDEN, angle, dimension, force, ground, note, outline, pointer, spiral, zigzag
-from program import add_program
-from results import NotAResult, script
+from sprag.results import NotAResult
 from style import COLOURS, MILLIMETRE, TWO_COLUMNS, plt, use_print_style
 
 FILLS = {

@@ -15,9 +15,9 @@ from pathlib import Path
 import h5py
 import numpy as np
 
-from arguments import add_folders, add_output, parser_of
-from parameters import parse
-from results import NotAResult, open_result, read_result, script
+from arguments import add_folders, add_output, parser_of, script
+from sprag.parameters import parse
+from sprag.results import NotAResult, open_result, read_result
 
 ENTRIES = ("summary", "accuracy", "warnings", "meta")  # groups of single numbers and texts
 FORMATS = ("csv", "json")
@@ -42,29 +42,16 @@ def tables_of(result):
 
 
 def columns_of(result):
-    """The table; of a study with words instead of their numbers, and why runs were not completed."""
-    texts = result.groups.get("runs", {})
-    columns = {}
-    for name, values in ordered(result.table, [name for name in texts if name in result.table]).items():
-        words = texts.get(name)
-        if words is None or are_numbers(words):
-            columns[header(name, result.units.get(name))] = values
-        else:
-            columns[name] = words
-    return {**columns, **{name: words for name, words in texts.items() if name not in result.table}}
+    """The table, of a study what was varied first and its words last."""
+    columns, texts = result.columns(), result.groups.get("runs", {})
+    first = ordered({name: values for name, values in columns.items() if name in result.table}, [name for name in texts if name in result.table])
+    return {header(name, getattr(values, "unit", None)): values for name, values in {**first, **columns}.items()}
 
 
 def ordered(columns, before=()):
     """What one looks for first; the rest by its name."""
     first = [name for name in ("run", *before, *FIRST) if name in columns]
     return {name: columns[name] for name in dict.fromkeys([*first, *sorted(columns)])}
-
-
-def are_numbers(texts):
-    try:
-        return bool(np.isfinite(np.asarray(texts).astype(float)).all())
-    except ValueError:
-        return False
 
 
 def header(name, unit):
@@ -106,13 +93,14 @@ def over_axes(group, first, second, grids):
 
 def face_of(result):
     """Pressure and traction, a row for each point under pressure at each step that was written."""
-    face = result.face
+    face = result.friction_face
     if face is None:
         raise NotAResult(f"{result.folder}: no friction face in it")
-    steps, points = np.nonzero(face.pressure > 0)
+    pressure, traction = np.asarray(face.pressure), np.asarray(face.traction)
+    steps, points = np.nonzero(pressure > 0)
     named = {"time": face.time[steps], "x": face.x[steps], "xi": face.xi[points]}
-    named.update(pressure=face.pressure[steps, points], traction=face.traction[steps, points])
-    return {header(name, face.units.get(name)): values for name, values in named.items()}
+    named.update(pressure=pressure[steps, points], traction=traction[steps, points])
+    return {header(name, getattr(values, "unit", "MPa")): values for name, values in named.items()}
 
 
 def values_of(data):
@@ -175,7 +163,7 @@ def export(result, folder, formats, only, comma):
     names = [*tables, *(["summary"] if "summary" in entries else [])]
     unknown = [name for name in only or () if name not in names]
     if unknown:
-        raise NotAResult(f"{result.folder}: no {', '.join(unknown)} in it; there are {', '.join([*names, 'face'] if result.face else names)}")
+        raise NotAResult(f"{result.folder}: no {', '.join(unknown)} in it; there are {', '.join([*names, 'face'] if result.friction_face else names)}")
     folder.mkdir(parents=True, exist_ok=True)
     wanted = only or names
     if "csv" in formats:

@@ -5,11 +5,12 @@
 import sys
 
 import numpy as np
-from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.collections import LineCollection, PolyCollection, TriMesh
+from matplotlib.tri import Triangulation
 
-from arguments import add_folders, add_output, parser_of, picture_paths, save
-from frames import PARTS, WAYS, chosen_frame, number, pose, read_frame, rest_inclination
-from results import NotAResult, read_result, script
+from arguments import add_folders, add_output, parser_of, picture_paths, save, script
+from frames import PARTS, WAYS, any_of, chosen_frame, number, pose, read_frame, rest_inclination
+from sprag.results import NotAResult, read_result
 from shades import COLOUR_MAP, RIGID, is_logarithmic, mappable_of, norm_of, rounded, size_of
 from solid_fields import solid_fields
 from style import COLOURS, MILLIMETRE, TWO_COLUMNS, plt, use_print_style
@@ -79,14 +80,19 @@ def draw_apparatus(axes, scenery, magnify):
     norm = norm_of([body.stress[body.shown(scenery.coloured)] for body, _ in bodies], each_by_itself(bodies, scenery))
     for body, where in bodies:
         mappable = draw_stress(axes, body, where, scenery.coloured, norm) or mappable_of(norm)
-        axes.add_collection(PolyCollection(where[large_cells(body, np.ptp(points, axis=0).max())], facecolor="none", **GRID))
-        axes.add_collection(LineCollection(where[body.borders()], colors="black", linewidths=0.4, zorder=4))
+        add(axes, PolyCollection(where[large_cells(body, np.ptp(points, axis=0).max())], facecolor="none", **GRID))
+        add(axes, LineCollection(where[body.borders()], colors="black", linewidths=0.4, zorder=4))
     if magnify > 1:
-        axes.add_collection(LineCollection(rest[frame.borders()], colors="0.55", linewidths=0.3, linestyles=":", zorder=1))
+        add(axes, LineCollection(rest[frame.borders()], colors="0.55", linewidths=0.3, linestyles=":", zorder=1))
     draw_connectors(axes, scenery, points)
     draw_surroundings(axes, scenery)
     set_view(axes, scenery, bodies)
     return mappable
+
+
+def add(axes, collection):
+    """The limits of all panels are set by hand: finding those of a collection would cost as much as drawing it."""
+    return axes.add_collection(collection, autolim=False)
 
 
 def large_cells(body, span, share=0.005):
@@ -100,15 +106,16 @@ def each_by_itself(bodies, scenery):
 
 
 def draw_stress(axes, body, points, coloured, norm):
-    """Filled colour over the parts named; the others grey. Returns what a colour bar stands for."""
-    pale = body.outlines[~np.isin(body.cell_part, coloured)]
-    axes.add_collection(PolyCollection(points[pale], facecolor=RIGID, edgecolor=RIGID, linewidth=0.2, zorder=2))
+    """Filled colour over the parts named as far as they are seen; the others grey. Returns what a colour bar stands for."""
+    pale = body.outlines[~any_of(body.cell_part, coloured)]
+    add(axes, PolyCollection(points[pale], facecolor=RIGID, edgecolor=RIGID, linewidth=0.2, zorder=2))
     quads = body.quads[body.shown(coloured)[body.quads[:, 0]]]
     if len(quads) == 0:
         return None
     triangles = np.concatenate((quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]))
-    return axes.tripcolor(*points.T, body.stress, triangles=triangles, shading="gouraud", cmap=COLOUR_MAP, norm=norm, zorder=2,
-                          rasterized=True)  # fmt: skip
+    mesh = TriMesh(Triangulation(*points.T, triangles), norm=norm, cmap=COLOUR_MAP, zorder=2, rasterized=True)
+    mesh.set_array(body.stress)
+    return add(axes, mesh)
 
 
 def draw_cylinder(axes, scenery):
@@ -152,17 +159,15 @@ def draw_surroundings(axes, scenery):
 
 
 def set_view(axes, scenery, bodies):
-    """Around what is in colour; of the cylinder the half that faces the lever."""
+    """Around what is in colour."""
     names = scenery.coloured if scenery.part != "all" else PARTS.values()
     shown = [points[body.shown(list(names))] for body, points in bodies]
     corners = np.concatenate(shown)
     if scenery.part == "all":
-        corners = np.concatenate((corners, [scenery.pose.pivot, (scenery.pose.x - scenery.radius, 0.0)]))
+        corners = np.concatenate((corners, [scenery.pose.pivot, (scenery.pose.x - scenery.radius, -scenery.radius)]))
     if len(corners):
         low, high = corners.min(axis=0), corners.max(axis=0)
         room = 0.04 * max(high - low)
-        if scenery.part in ("all", "cylinder"):
-            low[1] = 0.0 - 0.15 * scenery.radius
         axes.set_xlim(low[0] - room, high[0] + room)
         axes.set_ylim(low[1] - room, high[1] + room)
     axes.set_aspect("equal")
@@ -244,8 +249,8 @@ def draw_contact(axes, window):
     norm = norm_of([frame.stress[inside & frame.shown(coloured)]])
     mappable = draw_stress(axes, frame, points, coloured, norm) or mappable_of(norm)
     cells = points[frame.outlines[inside[frame.outlines].any(axis=1)]]
-    axes.add_collection(PolyCollection(cells, facecolor="none", edgecolor="white", linewidth=0.3, zorder=3))
-    axes.add_collection(LineCollection(points[frame.borders()], colors="black", linewidths=0.8, zorder=4))
+    add(axes, PolyCollection(cells, facecolor="none", edgecolor="white", linewidth=0.3, zorder=3))
+    add(axes, LineCollection(points[frame.borders()], colors="black", linewidths=0.8, zorder=4))
     if not scenery.elastic_cylinder:
         xi = np.linspace(window.middle - window.half, window.middle + window.half, 400)
         axes.fill_between(xi, window.circle(xi), low - 1, facecolor="0.94", zorder=1)
@@ -258,7 +263,7 @@ def draw_contact(axes, window):
 
 
 def draw_tractions(axes, window):
-    scenery, face = window.scenery, window.scenery.result.face
+    scenery, face = window.scenery, window.scenery.result.friction_face
     if face is None or len(face.time) == 0:
         axes.annotate("no pressure was written", (0.5, 0.5), xycoords="axes fraction", ha="center")
     else:
@@ -280,7 +285,7 @@ def caption(scenery, magnify, window):
     way = {sign: name for name, sign in WAYS.items()}[scenery.way]
     theta = np.degrees(scenery.pose.theta)
     time, force = scenery.column("time"), scenery.column("P")
-    state = f"$x$ = {scenery.pose.x:.4g} mm {way}, $t$ = {time:.5g} s, $\\theta$ = {theta:.4g}°, $P$ = {force:.4g} N"
+    state = f"x = {scenery.pose.x:.4g} mm {way}, t = {time:.5g} s, \N{GREEK SMALL LETTER THETA} = {theta:.4g}°, P = {force:.4g} N"
     above = "" if magnify == 1 else f" (elastic displacement × {magnify:g}; dotted: without it)"
     below = "" if window.magnify == 1 else f", distances and displacements across × {window.magnify:g}"
     return f"{scenery.result.name}: {state}", f"apparatus{above}", f"contact in lever axes{below}"
@@ -345,7 +350,7 @@ def magnification(text):
 def read_arguments(arguments):
     parser = parser_of(__doc__)
     add_folders(parser, 1, "result folder with fields (Output/Fields)")
-    parser.add_argument("--x", type=float, help="position of the cylinder [mm]; default: the frame of the largest x")
+    parser.add_argument("--x", type=float, help="position of the cylinder [mm]; default: the frame of the largest P")
     parser.add_argument("--way", choices=WAYS, help="of motion; default: either")
     parser.add_argument("--magnify", type=magnification, metavar="NUMBER|auto", help="elastic displacement in the whole (auto)")
     parser.add_argument("--magnify-contact", type=magnification, metavar="NUMBER|auto", help="distances at the contact (auto)")

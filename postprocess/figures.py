@@ -10,20 +10,19 @@ import numpy as np
 
 import plot
 from apparatus import device_of
-from arguments import add_output, parser_of
+from arguments import add_output, add_program, parser_of
 from comparison import comparison
 from contact import contact
 from device import drawing
 from fields import fields
 from forces import forces_over_time, forces_over_x
-from program import ROOT, RunFailed, add_program, run_scene
-from results import NotAResult, read_result
+from sprag.program import ROOT, RunFailed, run_scene
+from sprag.results import NotAResult, read_result
 from slope import contact_law, slopes_over_coefficient, slopes_over_inclination
 from style import COLOURS, MARKERS, MILLIMETRE, ONE_COLUMN, look, plt, set_labels, use_print_style
 from transient import energy, reversal
 
 PICTURES = ROOT / "postprocess" / "pictures"
-DPI = 110  # small enough to stand in a README
 
 
 class Runner:
@@ -213,7 +212,7 @@ def main(arguments=None):
         with tempfile.TemporaryDirectory(prefix="sprag-figures-") as folder:
             runner = Runner(options.sprag.resolve(), Path(folder))
             for name in options.only:
-                plot.save_all({name: FIGURES[name](runner)}, options.output or PICTURES, options.format or ("png",), DPI)
+                plot.save_all({name: FIGURES[name](runner)}, options.output or PICTURES, options.format or ("png",))
     except (RunFailed, NotAResult, OSError) as error:
         print(f"figures.py: {error}", file=sys.stderr)
         return 1

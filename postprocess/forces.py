@@ -4,7 +4,8 @@
 import numpy as np
 
 from several import told_apart
-from style import MILLIMETRE, ONE_COLUMN, TWO_COLUMNS, label, legend_on_top, panel_letter, plt, set_labels
+from sprag.results import WAYS
+from style import MILLIMETRE, ONE_COLUMN, TWO_COLUMNS, label, legend_on_top, panel_letter, plt, set_labels, with_unit
 
 CLOSED_FORM = {"color": "black", "linestyle": (0, (4, 4)), "linewidth": 0.8}
 
@@ -66,7 +67,10 @@ def forces_over_x(results):
         panel_letter(axes, letter)
     draw_slopes(panels[1], results)
     for axes, column in zip(panels, ("P", "Q")):
-        draw_directions(axes, results[0], column)
+        draw_directions(axes, results[0], column, named=len(results) == 1)
+    area = results[0].summary.get("loop_area", np.nan)
+    if len(results) == 1 and np.isfinite(area):
+        panels[1].set_title(f"loop area {with_unit(f'{area:.4g}', area.unit)}", loc="right", fontsize=7)
     panels[1].axhline(0, color="black", linewidth=0.5)
     explain(figure, panels, panels[1], results, several)
     return figure
@@ -78,17 +82,22 @@ def draw_slopes(axes, results):
     slopes = {round(r.summary["slope_forward"], 9): r for r in known}
     for slope, result in slopes.items() if len(slopes) == 1 else ():
         end = np.nanmax(result.table["x"])
-        name = f"$C_Q x$, $C_Q$ = {slope:.4f} {result.entry_units['slope_forward']}"
+        name = f"$C_Q x$, $C_Q$ = {slope:.4f} {result.summary['slope_forward'].unit}"
         axes.plot([0, end], [0, slope * end], color="black", linestyle=":", linewidth=1.2, label=name)
 
 
-def draw_directions(axes, result, column):
-    """An arrow along the first stroke each way."""
+def draw_directions(axes, result, column, named):
+    """An arrow along the first stroke each way, with its name outside the loop."""
     x, y = result.table["x"], result.table[column]
-    for sign in (1, -1):
-        stroke = first_stroke(x, sign)
-        if len(stroke) > 2:
-            draw_arrow(axes, x[stroke], y[stroke])
+    strokes = {way: first_stroke(x, sign) for way, sign in WAYS.items()}
+    middles = {way: np.nanmean(y[stroke]) for way, stroke in strokes.items() if len(stroke) > 2}
+    for way, middle in middles.items():
+        end = draw_arrow(axes, x[strokes[way]], y[strokes[way]])
+        if named and end is not None:
+            place = middle < max(middles.values()), np.corrcoef(x[strokes[way]], y[strokes[way]])[0, 1] > 0  # below, rises
+            side = 1 if place[0] == place[1] else -1
+            axes.annotate(way, end, xytext=(6 * side, -6 if place[0] else 6), textcoords="offset points", fontsize=7,
+                          ha="left" if side > 0 else "right", va="top" if place[0] else "bottom")  # fmt: skip
 
 
 def first_stroke(x, sign):
@@ -102,7 +111,7 @@ def first_stroke(x, sign):
 
 
 def draw_arrow(axes, x, y):
-    """An arrow head on the curve halfway along the stroke; of a curve that vibrates on its mean."""
+    """An arrow head on the curve halfway along the stroke; of a curve that vibrates on its mean. Where it ends; None without."""
     path = np.cumsum(np.abs(np.diff(x, prepend=x[0])))
     ends = []
     for share in (0.46, 0.56):
@@ -114,3 +123,5 @@ def draw_arrow(axes, x, y):
     if np.isfinite(ends).all():
         arrow = {"arrowstyle": "-|>", "color": "black", "linewidth": 1, "mutation_scale": 10}
         axes.annotate("", xy=ends[1], xytext=ends[0], arrowprops=arrow)
+        return ends[1]
+    return None

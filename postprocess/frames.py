@@ -4,17 +4,15 @@
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-import re
 
-import h5py
 import numpy as np
 
-from results import NotAResult
+from sprag.results import WAYS, NotAResult, read_fields
 
 # As FieldFrames writes them.
 PARTS = {1: "lever", 2: "layer", 3: "hub", 4: "web", 5: "plate", 6: "cylinder", 7: "leaf"}
 NUMBERS = {name: number for number, name in PARTS.items()}
-WAYS = {"forward": 1, "backward": -1}
+MOVED = ("displacement", "elastic_displacement", "von_mises_stress")  # of a frame
 
 
 @dataclass
@@ -43,18 +41,29 @@ class Frame:
 
     def shown(self, names):
         """Which nodes belong to those parts."""
-        return np.isin(self.part, names)
+        return any_of(self.part, names)
+
+    @cached_property
+    def places(self):
+        """A number of the place of each node."""
+        return np.unique(np.round(self.nodes, 6) + 0.0, axis=0, return_inverse=True)[1].reshape(-1)
 
     def borders(self, names=tuple(PARTS.values())):
         """Node numbers of the edges between parts and on the outside of those named [edges x 2]."""
-        cells = self.outlines[np.isin(self.cell_part, names)]
+        cells = self.outlines[any_of(self.cell_part, names)]
         edges = np.stack((cells, np.roll(cells, -1, axis=1)), axis=-1).reshape(-1, 2)
         if len(edges) == 0:
             return edges
-        places = np.unique(np.round(self.nodes, 6) + 0.0, axis=0, return_inverse=True)[1].reshape(-1)
-        keys = np.column_stack((np.sort(places[edges], axis=1), np.unique(self.part, return_inverse=True)[1][edges[:, 0]]))
-        _, index, counts = np.unique(keys, axis=0, return_index=True, return_counts=True)
+        part = np.select([self.part == name for name in NUMBERS], list(NUMBERS.values()))[edges[:, 0]]
+        low, high = np.sort(self.places[edges], axis=1).T
+        keys = (part * len(self.nodes) + low) * len(self.nodes) + high
+        _, index, counts = np.unique(keys, return_index=True, return_counts=True)
         return edges[index[counts == 1]]
+
+
+def any_of(words, names):
+    """Which of an array of words are among the names."""
+    return np.any([words == name for name in names], axis=0)
 
 
 def read_frame(result, path=None, row=None):
@@ -63,21 +72,15 @@ def read_frame(result, path=None, row=None):
     A leaf spring is in the axes of the lever at rest, its displacement includes the hub's rotation. Nodes of an elastic cylinder
     are about its centre.
     """
-    path_of_mesh = result.folder / "fields-mesh.h5"
-    try:
-        with h5py.File(path_of_mesh, "r") as file:
-            mesh = {name: dataset[:] for name, dataset in file["fields"].items()}
-        moved = {"displacement": 0, "elastic_displacement": 0, "von_mises_stress": 0}
-        if path is not None:
-            with h5py.File(path, "r") as file:
-                moved = {name: file["fields"][name][:] for name in moved}
-        in_plane = {name: np.broadcast_to(values, (len(mesh["nodes"]), 3))[:, :2] for name, values in moved.items() if "disp" in name}
-        stress = np.broadcast_to(moved["von_mises_stress"], len(mesh["nodes"]))
-        part = mesh["part"].round().astype(int)
-        of_first = mesh["lever"] == 1
-        quads_of_all = mesh["cells"].astype(int)
-    except (OSError, KeyError, ValueError) as error:
-        raise NotAResult(f"{path or path_of_mesh}: cannot be read as fields of this version of sprag ({error})") from error
+    names = {"nodes", "part", "lever", "cells", *(MOVED if path else ())}
+    mesh = {name: np.asarray(values) for name, values in read_fields(result.folder, path, names=names).items()}
+    if missing := names - set(mesh):
+        raise NotAResult(f"{path or result.folder}: cannot be read as fields of this version of sprag (no {', '.join(sorted(missing))})")
+    moved = [np.broadcast_to(mesh[name], (len(mesh["nodes"]), 3))[:, :2] if path else np.zeros((len(mesh["nodes"]), 2)) for name in MOVED[:2]]
+    stress = mesh["von_mises_stress"] if path else np.zeros(len(mesh["nodes"]))
+    part = mesh["part"].round().astype(int)
+    of_first = mesh["lever"] == 1
+    quads_of_all = mesh["cells"].astype(int)
 
     rest = pose(result)
     stands = rest if row is None else pose(result, row)
@@ -98,17 +101,8 @@ def read_frame(result, path=None, row=None):
         return frame
 
     leaf = part == NUMBERS["leaf"]
-    bent = rest.along_axes(nodes + in_plane["displacement"] - stands.pivot) - in_lever
-    return only(of_first & ~leaf, stands.along_axes(in_plane["elastic_displacement"])), only(of_first & leaf, bent)
-
-
-def indexed(folder, name="fields"):
-    """[(time, file)] of the frames written so far, in order."""
-    index = Path(folder) / f"{name}.xdmf"
-    if not index.is_file():
-        return []
-    found = re.findall(r'<Time Value="([^"]+)".*?>([^<>\s]+-\d+\.h5):/', index.read_text(encoding="utf-8"), re.DOTALL)
-    return [(float(time), index.parent / file) for time, file in found]
+    bent = rest.along_axes(nodes + moved[0] - stands.pivot) - in_lever
+    return only(of_first & ~leaf, stands.along_axes(moved[1])), only(of_first & leaf, bent)
 
 
 @dataclass
@@ -190,26 +184,22 @@ def written_frames(result):
     """Of a run in which the cylinder moves."""
     if "modes" in result.groups:
         raise NotAResult(f"{result.folder}: its frames are modes, which plot.py draws along the face and ParaView shows (mode-01.xdmf, ...)")
-    if result.is_sweep or len(result.table["time"]) == 0:
+    if len(result.table.get("time", ())) == 0:
         return []
     x, times = result.table["x"], result.table["time"]
-    steps = np.diff(x, prepend=x[0])
-    moving = np.flatnonzero(steps)
-    last = np.maximum(np.searchsorted(moving, np.arange(len(x)), side="right") - 1, 0)
-    ways = np.sign(steps[moving[last]]).astype(int) if len(moving) else np.ones(len(x), dtype=int)
-    found = [(file, time, int(np.abs(times - time).argmin())) for time, file in indexed(result.folder) if file.is_file()]
-    return [Written(file, time, row, x[row], ways[row]) for file, time, row in found]
+    found = [(file, time, int(np.abs(times - time).argmin())) for time, file in result.frames if file.is_file()]
+    return [Written(file, time, row, x[row], result.ways[row]) for file, time, row in found]
 
 
 def chosen_frame(result, x=None, way=None):
-    """The frame nearest to x, that of the largest x where none is asked for. Throws NotAResult where there is none near."""
+    """The frame nearest to x, that of the largest P where none is asked for. Throws NotAResult where there is none near."""
     frames = written_frames(result)
     candidates = [frame for frame in frames if way is None or frame.way == WAYS[way]]
     if not frames:
         raise NotAResult(f"{result.folder}: no frames of fields there; Output/Fields must not be none, and Analysis/Model be meshed")
     near = number(result, "Output", "Field interval") / 2
     if x is None and candidates:
-        return max(candidates, key=lambda frame: frame.x)
+        return max(candidates, key=lambda frame: result.table["P"][frame.row])
     nearest = min(candidates, key=lambda frame: abs(frame.x - x), default=None)
     if nearest is None or abs(nearest.x - x) > near:
         wanted = " ".join(filter(None, (f"at x = {x:g} mm" if x is not None else "", way)))

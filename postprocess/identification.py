@@ -10,10 +10,6 @@ FARTHEST = 40  # rows of the autocorrelation
 NAMES = {"mu": r"$\mu$", "k": "$k$", "e": "$e$", "th0": r"$\theta_0$", "lag": "lag", "friction_factor": "factor"}
 
 
-def is_identification(result):
-    return "identification" in result.groups
-
-
 def forces_of(result):
     return [name.removesuffix("_fitted") for name in ("P_fitted", "Q_fitted", "sensors_fitted") if name in result.table]
 

@@ -14,10 +14,6 @@ CRITERIA = {"VC-A": 50.8e-3, "VC-B": 25.4e-3, "VC-C": 12.7e-3, "VC-D": 6.35e-3, 
 BENT = ("VC-A", "VC-B")  # the others are level down to 1 Hz
 
 
-def is_isolation(result):
-    return "damper_force" in result.table and "x_base" in result.table
-
-
 def is_transmissibility_study(result):
     """A study of isolation systems over the frequency of the base."""
     if "isolation_base_frequency" not in result.table or "transmissibility_fundamental" not in result.table:
@@ -51,7 +47,7 @@ def motion(result):
     for axes, letter in zip((ways, accelerations), "ab"):
         axes.set_xlim(time[0], time[-1])
         panel_letter(axes, letter)
-        show_legend(axes, loc="upper right", ncol=3)
+        show_legend(axes, loc="lower right", bbox_to_anchor=(1, 1), ncol=3, borderaxespad=0.2)
     return figure
 
 

@@ -3,7 +3,6 @@
 
 from dataclasses import dataclass
 
-import h5py
 import numpy as np
 from matplotlib.colors import SymLogNorm
 from matplotlib.patches import Patch
@@ -33,19 +32,10 @@ class Map:
         return all(name.startswith("Geometry/") for name in self.names)
 
 
-def is_map(result):
-    return "kind_low" in result.table
-
-
 def read_map(result):
-    with h5py.File(result.folder / "result.h5", "r") as file:
-        group = file["map"]
-        axes = [group[name].attrs for name in ("first", "second")]
-        return Map(
-            names=tuple(axis["description"] for axis in axes),
-            units=tuple(axis["unit"] for axis in axes),
-            values={name: data[:] for name, data in group.items()},
-        )
+    values = result.groups["map"]
+    axes = [values[name] for name in ("first", "second")]
+    return Map(tuple(axis.description for axis in axes), tuple(axis.unit for axis in axes), values)
 
 
 # Boundaries

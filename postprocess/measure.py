@@ -10,8 +10,8 @@ from pathlib import Path
 
 import numpy as np
 
-from arguments import parser_of
-from results import NotAResult, read_result, script
+from arguments import parser_of, script
+from sprag.results import NotAResult, read_result
 
 COLUMNS = {"time": "s", "x": "mm", "P": "N", "Q": "N"}
 

@@ -8,9 +8,9 @@ from pathlib import Path
 import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
 
-from arguments import add_output, parser_of, picture_paths, save
+from arguments import add_output, parser_of, picture_paths, save, script
 from frames import number, pose, read_frame
-from results import NotAResult, read_result, script
+from sprag.results import NotAResult, read_result
 from style import MILLIMETRE, TWO_COLUMNS, legend_on_top, plt, use_print_style
 
 FILLS = {

@@ -2,72 +2,84 @@
 # SPDX-License-Identifier: GPL-3.0-only
 """Draws result folders of sprag: forces, contact, fields, sensors, reversals, energies, sweeps, calibrations, comparisons."""
 
+import gc
 import sys
 from pathlib import Path
 
-from arguments import add_folders, add_output, names_picture, parser_of, save
-from calibration import calibration, is_calibration
-from comparison import check_steps, comparison
+if __name__ == "__main__":
+    gc.disable()  # it would take 6 % of the time, for next to no memory
+
+from arguments import DPI, add_folders, add_output, names_picture, parser_of, save, script
+from calibration import calibration
+from comparison import check_steps, comparisons
 from contact import contact
-from design import design_pictures, is_design
+from design import design_pictures
 from fields import fields
 from forces import forces_over_time, forces_over_x
 from frames import written_frames
-from identification import identification, is_identification
-from isolation import is_isolation, is_transmissibility_study, isolation_pictures, transmissibility
-from map import is_map, stability_map
+from identification import identification
+from isolation import is_transmissibility_study, isolation_pictures, transmissibility
+from map import stability_map
 from pair import has_pair, pair_of_levers
-from results import NotAResult, read_result, script
+from sprag.results import NotAResult, read_result
+from report import write_report
 from sensors import has_sensors, sensor_forces
 from slope import contact_law, slope_sweep
-from sprag_slip import is_sprag_slip, sprag_slip_pictures
-from study import is_study, study_pictures
+from sprag_slip import sprag_slip_pictures
+from study import study_pictures
 from style import plt, use_print_style
 from surface import is_solid, surface
 from transient import energy, has_reversal, is_transient, reversal
 from vibration import vibration_pictures
 
 
+# Types of analysis that are drawn as far as they have come.
+IN_STEPS = ("quasi-static", "transient", "isolation", "sprag slip")
 # A later run in the same folder may have none of these pictures.
 OF_ONE_RUN = ("forces-over-time", "forces-over-x", "contact", "reversal", "energy", "sensors", "pair", "fields")
 
 
 def draw(results):
     """{picture name: figure} for one or several results."""
-    if len(results) == 1 and is_map(results[0]):
-        return {"map": stability_map(results[0])}
-    if len(results) == 1 and is_study(results[0]) and is_transmissibility_study(results[0]):
-        return {**study_pictures(results[0]), "transmissibility": transmissibility(results[0])}
-    if len(results) == 1 and is_study(results[0]):
-        return study_pictures(results[0])
-    if len(results) == 1 and is_design(results[0]):
-        return design_pictures(results[0])
-    if len(results) == 1 and is_identification(results[0]):
-        return {"identification": identification(results[0])}
-    if len(results) == 1 and is_calibration(results[0]):
-        return {"calibration": calibration(results[0])}
-    if len(results) == 1 and "P_fitted" in results[0].table:
-        return {"contact-law": contact_law(results[0])}
-    if len(results) == 1 and is_sprag_slip(results[0]):
-        check_steps(results)
-        return sprag_slip_pictures(results[0])
-    if len(results) == 1 and "modes" in results[0].groups:
-        return vibration_pictures(results[0])
-    if len(results) == 1 and results[0].is_sweep:
-        return {"slope": slope_sweep(results[0])}
-    if len(results) == 1 and is_isolation(results[0]):
-        check_steps(results)
-        return isolation_pictures(results[0])
+    if len(results) > 1:
+        return comparisons(results)
+    (result,) = results
+    if result.type not in IN_STEPS and not result.finished:
+        raise NotAResult(f"{result.folder}: this analysis has nothing to draw before it is finished")
+    match result.type:
+        case "map":
+            return {"map": stability_map(result)}
+        case "study":
+            more = {"transmissibility": transmissibility(result)} if is_transmissibility_study(result) else {}
+            return {**study_pictures(result), **more}
+        case "design":
+            return design_pictures(result)
+        case "identification":
+            return {"identification": identification(result)}
+        case "calibration":
+            return {"calibration": calibration(result)}
+        case "contact law":
+            return {"contact-law": contact_law(result)}
+        case "modal" | "stability":
+            return vibration_pictures(result)
+        case "slope":
+            return {"slope": slope_sweep(result)}
     check_steps(results)
-    pictures = {"forces-over-time": forces_over_time(results), "forces-over-x": forces_over_x(results)}
-    return {**pictures, **(pictures_of_one(results[0]) if len(results) == 1 else {"comparison": comparison(results)})}
+    match result.type:
+        case "sprag slip":
+            return sprag_slip_pictures(result)
+        case "isolation":
+            return isolation_pictures(result)
+    return pictures_of_drive(result)
 
 
-def pictures_of_one(result):
-    pictures = {}
+def pictures_of_drive(result):
+    pictures = {"forces-over-x": forces_over_x([result])}
+    if is_transient(result):
+        pictures["forces-over-time"] = forces_over_time([result])
     if is_solid(result):
         pictures["contact"] = surface(result)
-    elif result.face is not None:
+    elif result.friction_face is not None:
         pictures["contact"] = contact(result)
     if is_transient(result) and has_reversal(result):
         pictures["reversal"] = reversal(result)
@@ -81,7 +93,7 @@ def pictures_of_one(result):
 
 
 def picture_of_fields(result):
-    """Of the frame of the largest x. One that cannot be read, as while it is written, must not keep the others from being drawn."""
+    """Of the frame of the largest P. One that cannot be read, as while it is written, must not keep the others from being drawn."""
     try:
         return {"fields": fields(result)} if written_frames(result) else {}
     except NotAResult as error:
@@ -89,7 +101,7 @@ def picture_of_fields(result):
         return {}
 
 
-def save_all(pictures, folder, endings=("png",), dpi=300):
+def save_all(pictures, folder, endings=("png",), dpi=DPI):
     """Every figure in every format, under its name."""
     for name, figure in pictures.items():
         save(figure, [folder / f"{name}.{ending}" for ending in endings], dpi)
@@ -107,6 +119,8 @@ def read_arguments(arguments):
     parser = parser_of(__doc__)
     add_folders(parser)
     add_output(parser, "PICTURE_DIR", "the only result folder, or the current one")
+    parser.add_argument("--report", action="store_true", help="write report.html too, with all pictures in it")
+    parser.add_argument("--on-word", action="store_true", help="wait for a line on standard input, and do nothing without one")
     options = parser.parse_args(arguments)
     if names_picture(options.output):
         parser.error("-o names a folder, as there are several pictures; comparison.py draws one of several results")
@@ -119,11 +133,16 @@ def read_arguments(arguments):
 def main(arguments=None):
     options = read_arguments(arguments)
     use_print_style()
+    if options.on_word and not sys.stdin.readline():
+        return
     endings = options.format or ("png",)
-    pictures = draw([read_result(folder) for folder in options.folders])
-    save_all(pictures, options.output, endings)
+    results = [read_result(folder) for folder in options.folders]
+    pictures = draw(results)
+    save_all(pictures, options.output, (*endings, "png") if options.report and "png" not in endings else endings)
     if options.folders == [options.output]:
         remove_earlier(pictures, options.output, endings)
+    if options.report:
+        write_report(results, {name: options.output / f"{name}.png" for name in pictures}, options.output / "report.html")
 
 
 if __name__ == "__main__":

@@ -7,11 +7,12 @@ from typing import Optional
 import numpy as np
 from matplotlib import colormaps
 
-from parameters import differing, parse
-from results import NotAResult
+from sprag.parameters import differing, parse
+from sprag.results import NotAResult
 from style import LINES, legend_on_top, look, parameter_label, scale_of, with_unit
 
 MOST_RESULTS = 20
+MOST_NAMED = 3  # parameters that differ; where there are more, folders name the results
 MOST_LABELS = 5  # at the ends of curves; more are told apart by a scale or a legend
 FEW_NUMBERS = 3  # of a scale
 # Of the runs, not of the device.
@@ -28,12 +29,8 @@ class Several:
     values: Optional[np.ndarray]  # numbers of the parameter, where it is one
     names: list
     looks: list
+    is_numerical: bool  # the runs differ in method alone, so that they have the same exact answer
     scale: object = None  # of colours, instead of names
-
-    @property
-    def is_numerical(self):
-        """The runs differ in method alone, so that they have the same exact answer."""
-        return self.parameter is None or self.parameter.split("/")[0] in NUMERICAL
 
     @property
     def remark(self):
@@ -47,7 +44,7 @@ class Several:
         elif len(self.names) <= MOST_LABELS:
             label_ends(beside, [line for line in beside.lines if line.get_label() in self.names])
             if self.label:
-                beside.set_title(parameter_label(self.parameter) + self.remark, loc="right", fontsize=7)
+                beside.set_title(self.label + self.remark, loc="right", fontsize=7)
         else:
             lines = {line.get_label(): line for line in beside.lines}
             handles = [lines[name] for name in self.names if name in lines] + handles
@@ -60,21 +57,32 @@ def told_apart(results):
     if len(results) > MOST_RESULTS:
         raise NotAResult(f"{len(results)} results: one picture tells up to {MOST_RESULTS} apart; a study compares more")
     listings = [parse(result.parameters) for result in results]
-    name, looks = chosen(listings), looks_of(len(results))
-    if name is None:
-        return Several(None, "", 0, None, unique([result.name for result in results], results), looks)
+    different, looks = differing(listings), looks_of(len(results))
+    numerical = all(name.split("/")[0] in NUMERICAL for name in different)
+    if not different or len(different) > MOST_NAMED:
+        return Several(None, "", 0, None, unique([result.name for result in results], results), looks, numerical)
+    name = chosen(listings)
     found = [parameters.get(name) for parameters in listings]
     unit = next(parameter.unit for parameter in found if parameter)
-    label, others = parameter_label(name, unit), len(differing(listings)) - 1
+    label, others = parameter_label(name, unit), len(different) - 1
+    texts = [said(parameter) for parameter in found]
+    if len(set(texts)) < len(texts) and others:
+        texts = [", ".join(said(parameters.get(each)) for each in different) for parameters in listings]
+        return Several(name, ", ".join(map(parameter_label, different)), 0, None, unique(texts, results), looks, numerical)
     if not all(parameter and parameter.number is not None for parameter in found):
-        texts = [parameter.text if parameter else "default" for parameter in found]
-        return Several(name, label, others, None, unique(texts, results), looks)
-    values = np.array([parameter.number for parameter in found])
-    names = unique([with_unit(f"{value:g}", unit) for value in values], results)
+        return Several(name, label, others, None, unique(texts, results), looks, numerical)
+    values, names = np.array([parameter.number for parameter in found]), unique(texts, results)
     if len(results) <= MOST_LABELS or len(np.unique(values)) < FEW_NUMBERS:
-        return Several(name, label, others, values, names, looks)
+        return Several(name, label, others, values, names, looks, numerical)
     scale = scale_of(values)
-    return Several(name, label, others, values, names, [{"color": scale.to_rgba(value)} for value in values], scale)
+    return Several(name, label, others, values, names, [{"color": scale.to_rgba(value)} for value in values], numerical, scale)
+
+
+def said(parameter):
+    """A value with its unit; "default" where a result does not know the parameter."""
+    if parameter is None:
+        return "default"
+    return parameter.text if parameter.number is None else with_unit(f"{parameter.number:g}", parameter.unit)
 
 
 def chosen(listings):
@@ -97,9 +105,10 @@ def unique(texts, results):
 
 
 def looks_of(count):
-    """Curves that words tell apart: seven looks by heart, beyond them as many colours as there are."""
+    """Curves that words tell apart: seven looks by heart, beyond them as many colours as there are. The first ones are drawn below the
+    others and are wider, so that they show where they are hidden."""
     if count <= len(LINES):
-        return [look(index) for index in range(count)]
+        return [{**look(index), "linewidth": 1.0 + 1.4 * (count - 1 - index) / max(count - 1, 1)} for index in range(count)]
     colours = colormaps["tab20"]
     return [{"color": colours(index % 20), "linestyle": LINES[index % 2]} for index in range(count)]
 

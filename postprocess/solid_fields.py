@@ -3,12 +3,11 @@
 
 from dataclasses import dataclass
 
-import h5py
 import numpy as np
 from matplotlib.collections import PolyCollection
 
-from frames import NUMBERS, WAYS, chosen_frame, number, pose
-from results import NotAResult
+from frames import NUMBERS, chosen_frame, number, pose
+from sprag.results import WAYS, NotAResult, read_fields
 from shades import COLOUR_MAP, RIGID, mappable_of, norm_of, rounded, size_of
 from style import MILLIMETRE, TWO_COLUMNS, plt
 
@@ -53,17 +52,14 @@ class SolidFrame:
 
 
 def read_solid_frame(result, path):
+    now, on_face = (read_fields(result.folder, path, group) for group in ("fields", "face"))
     try:
-        with h5py.File(result.folder / "fields-mesh.h5", "r") as file:
-            mesh, face = ({name: data[:] for name, data in file[group].items()} for group in ("fields", "face"))
-        with h5py.File(path, "r") as file:
-            now, on_face = ({name: data[:] for name, data in file[group].items()} for group in ("fields", "face"))
         elastic, of_face = now["elastic_displacement"], on_face["elastic_displacement"]
-        return SolidFrame(mesh["nodes"], now["displacement"] - elastic, elastic, now["von_mises_stress"],
-                          mesh["part"].round().astype(int), mesh["cells"].astype(int), mesh["lever"].round(), face["nodes"],
-                          on_face["displacement"] - of_face, of_face, face["cells"].astype(int), face["lever"].round(),
+        return SolidFrame(now["nodes"], now["displacement"] - elastic, elastic, now["von_mises_stress"],
+                          now["part"].round().astype(int), now["cells"].astype(int), now["lever"].round(), on_face["nodes"],
+                          on_face["displacement"] - of_face, of_face, on_face["cells"].astype(int), on_face["lever"].round(),
                           on_face["pressure"])  # fmt: skip
-    except (OSError, KeyError, ValueError) as error:
+    except (KeyError, ValueError) as error:
         raise NotAResult(f"{path}: cannot be read as fields of this version of sprag ({error})") from error
 
 
@@ -172,7 +168,7 @@ def near_contact(result, frame, row, lever):
 
 
 def solid_fields(result, x=None, way=None, magnify=None):
-    """The frame nearest to x, that of the largest x where none is asked for. Throws NotAResult where there is none near."""
+    """The frame nearest to x, that of the largest P where none is asked for. Throws NotAResult where there is none near."""
     written = chosen_frame(result, x, way)
     frame = read_solid_frame(result, written.file)
     magnify = magnify or automatic_magnification(result, frame, written.row)

@@ -13,14 +13,6 @@ MINUS = "\N{MINUS SIGN}"
 SHADE = {"color": "0.88", "linewidth": 0, "zorder": 0}
 
 
-def is_sprag_slip(result):
-    """By its parameters: a run that goes on or was killed has no summary."""
-    try:
-        return result.parameter("Analysis", "Type") == "sprag slip"
-    except KeyError:
-        return False
-
-
 def sprag_slip_pictures(result):
     pictures = {"growth": growth(result)}
     if np.isfinite(number(result, "cycle_begin")):

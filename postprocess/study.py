@@ -6,27 +6,10 @@ from dataclasses import dataclass
 import numpy as np
 from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter
 
+from headlines import HEADLINES
 from style import COLOURS, LINES, MARKERS, MILLIMETRE, TWO_COLUMNS, WIDE, legend_on_top, panel_letter, parameter_label, plt, scale_of
 
-# What is drawn of each Study/Type, as far as its runs have it.
-QUANTITIES = {
-    "quasi-static": ("peak_P_forward", "peak_P_backward", "loop_area", "peak_Q_forward", "peak_Q_backward", "largest_pressure"),
-    "transient": (
-        "peak_P_forward",
-        "peak_P_backward",
-        "loop_area",
-        "reversal_1_frequency",
-        "reversal_1_growth_rate",
-        "reversal_1_open_share",
-    ),
-    "modal": ("frequency_1", "frequency_2", "frequency_3", "frequency_4"),
-    "stability": ("growth_rate", "frequency", "P", "margin"),
-    "sprag slip": ("measured_growth_rate", "measured_frequency", "cycle_amplitude_P", "cycle_open_share"),
-    "contact law": ("stiffness", "exponent", "rms_error"),
-    "calibration": ("stiffness", "moment_of_inertia", "P_deviation", "Q_deviation"),
-    "slope": ("critical_inclination",),
-    "isolation": ("transmissibility_peak", "transmissibility_rms", "largest_displacement", "residual_offset", "stops", "dissipated_energy"),
-}
+MOST_PANELS = 6
 # Beyond them a bar tells colours apart.
 MOST_LINES = 7
 
@@ -53,10 +36,6 @@ class Varied:
 
     def said(self, text):
         return f"{parameter_label(self.name)} {text}" if self.is_number or text == "auto" else text
-
-
-def is_study(result):
-    return "outcome" in result.table and "run" in result.table
 
 
 def slug(name):
@@ -139,7 +118,7 @@ def panels_for(count):
 
 
 def quantities_of(result):
-    wanted = QUANTITIES.get(result.parameter("Study", "Type"), ())
+    wanted = HEADLINES.get(result.parameter("Study", "Type"), ())[:MOST_PANELS]
     return [name for name in wanted if result.has(name)]
 
 

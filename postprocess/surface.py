@@ -8,7 +8,7 @@ from style import COLOURS, MILLIMETRE, TWO_COLUMNS, look, panel_letter, plt, set
 
 
 def is_solid(result):
-    return result.face is not None and result.face.zeta is not None
+    return result.friction_face is not None and result.friction_face.zeta is not None
 
 
 def surface(result):
@@ -17,15 +17,15 @@ def surface(result):
     figure = plt.figure(figsize=(TWO_COLUMNS, 118 * MILLIMETRE), constrained_layout=True)
     grid = figure.add_gridspec(2, 2)
     maps = [figure.add_subplot(grid[0, index] if len(states) > 1 else grid[0, :]) for index in range(max(len(states), 1))]
-    drawn = [draw_map(axes, result.face, step) for axes, (step, _) in zip(maps, states)]
+    drawn = [draw_map(axes, result.friction_face, step) for axes, (step, _) in zip(maps, states)]
     if drawn:
         top = max(mesh.get_array().max() for mesh in drawn)
         for mesh in drawn:
             mesh.set_clim(0, top)
         bar = figure.colorbar(drawn[-1], ax=maps, shrink=0.9)
-        bar.set_label(f"pressure [{result.face.units['pressure']}]")
+        bar.set_label(f"pressure [MPa]")
     across, over_x = (figure.add_subplot(grid[1, column]) for column in range(2))
-    draw_load_across(across, result.face, states)
+    draw_load_across(across, result.friction_face, states)
     if np.nanmax(np.abs(result.table["centre_across"]), initial=0) > 0:
         draw_centre(over_x, result)
     else:
@@ -33,13 +33,13 @@ def surface(result):
     for axes, letter in zip((*maps, across, over_x), "abcd"):
         panel_letter(axes, letter)
     for axes, letter, (step, way) in zip(maps, "ab", states):
-        axes.set_title(f"({letter}) {WAYS[way][0]}, x = {result.face.x[step]:.3g} {result.face.units['x']}", loc="left", fontsize=8)
+        axes.set_title(f"({letter}) {WAYS[way][0]}, x = {result.friction_face.x[step]:.3g} {result.friction_face.x.unit}", loc="left", fontsize=8)
     return figure
 
 
 def largest_states(result):
     """[(row of the face's steps, way)] where the face carries most, each way."""
-    force = result.face.pressure @ result.face.weight
+    force = np.asarray(result.friction_face.pressure) @ result.friction_face.weight
     ways = ways_of_states(result)
     found = []
     for way in WAYS:
@@ -64,8 +64,8 @@ def draw_map(axes, face, step):
     room = 0.75 * (pressed.max() - pressed.min()) + 0.5
     near = np.abs(xi - centre) < room
     drawn = axes.tripcolor(xi[near], zeta[near], pressure[near], shading="gouraud", cmap="viridis", rasterized=True)
-    axes.set_xlabel(f"lever coordinate $\\xi$ [{face.units['xi']}]")
-    axes.set_ylabel(f"across, $\\zeta$ [{face.units['zeta']}]")
+    axes.set_xlabel(f"lever coordinate $\\xi$ [{face.xi.unit}]")
+    axes.set_ylabel(f"across, $\\zeta$ [{face.zeta.unit}]")
     return drawn
 
 
@@ -78,7 +78,7 @@ def draw_load_across(axes, face, states):
         span = face.weight.sum() / (2 * np.abs(face.zeta).max())  # length of the face where the weights are those of the width
         load = np.bincount(line, force) / np.bincount(line, area) * span
         axes.plot(lines, load, color=COLOURS[index], linestyle=WAYS[way][1], marker=".", markersize=3, linewidth=0.8, label=WAYS[way][0])
-    axes.set_xlabel(f"across, $\\zeta$ [{face.units['zeta']}]")
+    axes.set_xlabel(f"across, $\\zeta$ [{face.zeta.unit}]")
     axes.set_ylabel("load over the width [N/mm]")
     axes.set_ylim(bottom=0)
     if len(states) > 1:

@@ -14,7 +14,7 @@ DISSIPATED = ("friction_work", "damping_work", "algorithmic_work")
 
 
 def is_transient(result):
-    return parameter(result, "Analysis", "Type", "") == "transient"
+    return result.type == "transient"
 
 
 def parameter(result, section, name, otherwise):

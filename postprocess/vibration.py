@@ -2,8 +2,10 @@
 """Pictures of a vibration analysis: eigenvalues, mode shapes, what feeds the growth and what each ingredient does."""
 
 import numpy as np
+from matplotlib.ticker import FuncFormatter, NullLocator
 
-from results import NotAResult
+from shades import rounded
+from sprag.results import NotAResult
 from style import COLOURS, MILLIMETRE, ONE_COLUMN, TWO_COLUMNS, panel_letter, plt
 
 KINDS = ("stable", "flutter", "divergence")
@@ -151,11 +153,26 @@ def draw_eigenvalues(axes, modes):
         of_kind = modes["kind"] == kind
         if of_kind.any():
             axes.plot(modes["growth_rate"][of_kind], modes["frequency"][of_kind], marker, color=COLOURS[kind], markersize=4, label=name)
+    scale_eigenvalues(axes, modes["growth_rate"], modes["frequency"])
+    axes.legend(loc="upper right", handlelength=1)  # fast modes are damped
+
+
+def scale_eigenvalues(axes, rates, frequencies):
+    """The stability limit and the slow modes large, strongly damped ones far off: both axes logarithmic away from zero."""
     axes.axvline(0, color="black", linewidth=0.8)
-    use_log_scale(axes, modes["frequency"])
+    use_log_scale(axes, frequencies)
+    lowest = np.abs(rates[np.argsort(frequencies)[:3]]).max(initial=1)
+    linear = 2 * rounded(max(lowest, rates.max(initial=0)))
+    if (farthest := np.abs(rates).max(initial=0)) > linear:
+        axes.set_xscale("symlog", linthresh=linear, linscale=2)
+        decades = 10.0 ** np.arange(np.floor(np.log10(linear)) + 1, np.log10(farthest) + 0.3)
+        ticks = [*-decades[decades >= 3 * linear][::-1], -linear, -linear / 2, 0, linear / 2, linear]
+        low, high = axes.get_xlim()
+        axes.set_xticks([tick for tick in ticks if low <= tick <= high])
+        axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}".replace("-", "\N{MINUS SIGN}")))
+        axes.xaxis.set_minor_locator(NullLocator())
     axes.set_xlabel(r"growth rate $\mathrm{Re}\,\lambda$ [1/s]")
     axes.set_ylabel(r"frequency $\mathrm{Im}\,\lambda/2\pi$ [Hz]")
-    axes.legend(loc="lower left", handlelength=1)
 
 
 def use_log_scale(axes, frequencies):

@@ -5,6 +5,7 @@
 #include "base/guard.h"
 #include "base/hdf5_handle.h"
 #include "base/interrupt.h"
+#include "base/messages.h"
 #include "fe/fields/help_first_rank.h"
 #include "fe/mesh/geometry_script.h"
 #include "fe/solid/first_rank.h"
@@ -12,7 +13,6 @@
 #include "program/outcome.h"
 #include "program/output_folder.h"
 #include "program/run_log.h"
-#include "run/processes.h"
 #include "run/run.h"
 #include "scene/analysis_use.h"
 #include "scene/read.h"
@@ -42,7 +42,7 @@ namespace sprag
       of_all.add(program_fingerprint());
       of_all.add(parameters_text(scene));
       of_all.add(folder);
-      const auto fingerprints = MPI::all_gather(MPI_COMM_WORLD, of_all.text());
+      const auto fingerprints = gather(MPI_COMM_WORLD, of_all.text());
       for (std::size_t rank = 1; rank < fingerprints.size(); ++rank)
         if (fingerprints[rank] != fingerprints[0])
           throw InputError(

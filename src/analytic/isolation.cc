@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "analytic/isolation.h"
 
-#include "analytic/steady_state.h"
+#include "base/archive.h"
 #include "base/errors.h"
 #include "base/interrupt.h"
 #include "base/text.h"
@@ -9,11 +9,86 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <vector>
 
 namespace sprag
 {
   namespace
   {
+    /// Tells from the state at the same phase of each period of the base whether the motion repeats.
+    class SteadyState
+    {
+    public:
+      /// Adds a state, both of the unit of `amplitude`, the largest displacement of the period that ends with it.
+      void add(double z, double rate_over_frequency, double amplitude);
+
+      /// Returns after how many periods, at most 8, the motion repeats so closely that the way left to the steady state is below
+      /// this share of the amplitude, at the last two instants; none where it does not. What is left follows from how fast
+      /// changes become smaller.
+      std::optional<unsigned int> periods(double tolerance) const;
+
+    private:
+      friend void visit(Archive &archive, SteadyState &steady);
+
+      struct Instant
+      {
+        double z, rate, amplitude;
+      };
+
+      std::vector<Instant> instants;
+
+      double change(std::size_t instant, unsigned int periods) const;
+      unsigned int shortest(unsigned int repeating, double tolerance) const;
+      bool repeats(std::size_t instant, unsigned int periods, double tolerance) const;
+    };
+
+    void SteadyState::add(const double z, const double rate_over_frequency, const double amplitude)
+    {
+      instants.push_back({ z, rate_over_frequency, amplitude });
+    }
+
+    double SteadyState::change(const std::size_t instant, const unsigned int periods) const
+    {
+      const auto &now = instants[instant], &before = instants[instant - periods];
+      return std::hypot(now.z - before.z, now.rate - before.rate);
+    }
+
+    bool SteadyState::repeats(const std::size_t instant, const unsigned int periods, const double tolerance) const
+    {
+      constexpr double round_off = 1e-13;
+      const double last = change(instant, periods), before = change(instant - periods, periods);
+      const double amplitude = instants[instant].amplitude;
+      if (last <= round_off * amplitude)
+        return true;
+      const double ratio = last / before;
+      return ratio < 1. && last * ratio / (1. - ratio) <= tolerance * amplitude && last <= 1e3 * tolerance * amplitude;
+    }
+
+    /// A decay that turns seems to repeat after several periods first; close to the steady state all that is left is small.
+    unsigned int SteadyState::shortest(const unsigned int repeating, const double tolerance) const
+    {
+      const std::size_t last = instants.size() - 1;
+      for (unsigned int p = 1; p < repeating; ++p)
+        if (repeating % p == 0 && change(last, p) <= 4. * tolerance * instants[last].amplitude)
+          return p;
+      return repeating;
+    }
+
+    std::optional<unsigned int> SteadyState::periods(const double tolerance) const
+    {
+      constexpr unsigned int most = 8;
+      for (unsigned int p = 1; p <= most && 2 * p + 2 <= instants.size(); ++p)
+        if (repeats(instants.size() - 1, p, tolerance) && repeats(instants.size() - 2, p, tolerance))
+          return shortest(p, tolerance);
+      return {};
+    }
+
+    void visit(Archive &archive, SteadyState &steady)
+    {
+      archive(steady.instants);
+    }
+
     /// Of one period of a harmonic base.
     struct Period
     {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
-#include "analytic/stroke_errors.h"
 #include "results/result_file.h"
 #include "scene/analysis_settings.h"
 
@@ -10,6 +9,33 @@
 
 namespace sprag
 {
+  /// Where a run was and the forces there.
+  struct StrokePoint
+  {
+    double x         = 0.; ///< [mm]
+    double direction = 0.; ///< of the motion: its sign counts
+    double P         = 0.; ///< [N]
+    double Q         = 0.; ///< of all levers [N]
+  };
+
+  /// The points of a run in the order of time. Where the direction changes a stroke ends; the point of a turn belongs to the
+  /// stroke that ends there.
+  using StrokeCurve = std::vector<StrokePoint>;
+
+  /// Travel behind a reversal that is left out [mm]: friction turns there.
+  constexpr double left_out_behind_reversal = 0.5;
+
+  struct StrokeErrors
+  {
+    double P; ///< largest difference on any stroke, over the largest |P| of the reference on it
+    double Q; ///< the same of Q
+  };
+
+  /// Compares each point of the curve with the reference on the same stroke, of which there must be as many, linearly between
+  /// its points. Points beyond the ends of the reference's stroke or less than left_out_behind_reversal behind a turn are left
+  /// out. NaN where nothing is left or the strokes are not those of the reference.
+  StrokeErrors stroke_errors(const StrokeCurve &curve, const StrokeCurve &reference);
+
   /// A quantity by which the runs of a study are compared with its reference.
   struct Measure
   {

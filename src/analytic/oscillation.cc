@@ -2,6 +2,7 @@
 #include "analytic/oscillation.h"
 
 #include "analytic/ringing.h"
+#include "base/append.h"
 #include "base/text.h"
 #include "results/row_statistics.h"
 
@@ -320,43 +321,26 @@ namespace sprag
     std::vector<Entry> entries;
     for (std::size_t i = 0; i < oscillations.size(); ++i)
     {
-      const auto &found     = oscillations[i];
-      const std::string of  = "reversal_" + std::to_string(i + 1) + '_';
-      const auto add_number = [&](const std::string &name, const double value, const std::string &unit,
-                                  const std::string &meaning) {
-        entries.push_back({ of + name, value, unit, meaning });
-      };
-      const std::string window =
-          " in the window, which begins at the end of the reversal and lasts 0.1 s or to the next reversal";
-      const std::string excess =
-          " over Q_quasi_static in its direction up to the end of the window, relative to its largest size there";
-
-      entries.push_back({ of + "verdict", verdict_name(found.verdict), "",
-                          "vibrates (rms over 8 % of the largest P_quasi_static in the window, contact open for over 1 % of the "
-                          "time), elements pass (what lasts is the mesh's), decays (rms_end up to 1.2 % of that P, or 0.1 % of "
-                          "the run's, contact never open), grows (growth_rate > 0, rms_end over that), rings (none of these) or "
-                          "unknown (no rows in the window)" });
-      add_number("time", found.time, "s", "time of the turning point");
-      add_number("x", found.x, "mm", "position of the turning point");
-      add_number("frequency", found.frequency, "Hz", "dominant in P" + window + "; NaN without oscillation");
-      add_number("frequency_Q", found.frequency_Q, "Hz", "dominant in Q of the contact in the same window");
-      add_number("frequency_Q_support", found.frequency_Q_support, "Hz",
-                 "dominant in the force on the support in the same window");
-      add_number("growth_rate", found.growth_rate, "1/s", "growth of the envelope of P - P_quasi_static; negative: decays");
-      add_number("open_share", found.open_share, "1", "share of time with the contact open" + window);
-      add_number("overshoot_P", found.overshoot_P, "1",
-                 "largest excess of P over P_quasi_static up to the end of the window, relative to its largest size there");
-      add_number("overshoot_Q", found.overshoot_Q, "1", "largest excess of Q of the contact" + excess);
-      add_number("overshoot_Q_support", found.overshoot_Q_support, "1", "largest excess of the force on the support" + excess);
-      add_number("rms", found.rms, "N", "root mean square of P - P_quasi_static" + window);
-      add_number("rms_end", found.rms_end, "N", "the same over the last tenth of the window");
-      add_number("P_scale", found.scale, "N", "largest P_quasi_static in the window, to which the verdict refers");
-      add_number("passing_frequency", found.passing_frequency, "Hz",
-                 "at which elements of the mesh pass under the contact, where that is what rings; else NaN");
-      add_number("rms_Q", found.rms_Q, "N", "root mean square of Q - Q_quasi_static" + window);
-      add_number("rms_Q_support", found.rms_Q_support, "N", "root mean square of Q_support - Q_quasi_static" + window);
-      add_number("extent", found.extent, "mm",
-                 "travel from the turning point until P - P_quasi_static stays below 5 % of its peak after the reversal");
+      const auto &found    = oscillations[i];
+      const std::string of = "reversal_" + std::to_string(i + 1) + '_';
+      append<Entry>(entries, { { of + "verdict", verdict_name(found.verdict) },
+                               { of + "time", found.time },
+                               { of + "x", found.x },
+                               { of + "frequency", found.frequency },
+                               { of + "frequency_Q", found.frequency_Q },
+                               { of + "frequency_Q_support", found.frequency_Q_support },
+                               { of + "growth_rate", found.growth_rate },
+                               { of + "open_share", found.open_share },
+                               { of + "overshoot_P", found.overshoot_P },
+                               { of + "overshoot_Q", found.overshoot_Q },
+                               { of + "overshoot_Q_support", found.overshoot_Q_support },
+                               { of + "rms", found.rms },
+                               { of + "rms_end", found.rms_end },
+                               { of + "P_scale", found.scale },
+                               { of + "passing_frequency", found.passing_frequency },
+                               { of + "rms_Q", found.rms_Q },
+                               { of + "rms_Q_support", found.rms_Q_support },
+                               { of + "extent", found.extent } });
     }
     return entries;
   }

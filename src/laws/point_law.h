@@ -2,8 +2,6 @@
 #pragma once
 
 #include "base/dual.h"
-#include "laws/contact.h"
-#include "laws/contact_step.h"
 #include "laws/friction.h"
 
 #include <limits>
@@ -27,6 +25,23 @@ namespace sprag
       return values[i];
     }
   };
+
+  /// Unilateral spring p = stiffness delta^exponent of the overlap delta = max(0, -gap).
+  struct NormalLaw
+  {
+    double stiffness = 0.; ///< > 0
+    double exponent  = 1.; ///< >= 1
+  };
+
+  /// Traction over pressure where a contact slides, and its derivative by the slip speed.
+  struct SlidingFriction
+  {
+    double coefficient = 0.; ///< signed as the speed
+    double derivative  = 0.; ///< [s/mm]
+  };
+
+  /// mu(|w|) sgn(w), or mu(|w|) w / sqrt(w^2 + v_r^2) with a regularisation speed v_r; w != 0 [mm/s].
+  SlidingFriction sliding_friction(const FrictionLaw &law, double speed);
 
   /// Friction as a step applies it.
   struct SlipLaw
@@ -282,5 +297,14 @@ namespace sprag
         1. / 6. * (spring_force(law, begin) + 4. * spring_force(law, N(0.5 * (begin + end))) + spring_force(law, end));
     const N by_energy = (spring_energy(law, begin) - spring_energy(law, end)) / select(small, N{} + 1., change);
     return select(small, simpson, by_energy);
+  }
+
+  /// Force of a dashpot beside a spring of force `normal`, -damping * gap_rate while closed; it cannot pull the surfaces
+  /// together.
+  template <class N>
+  SPRAG_PART N dashpot_force(const double damping, const N &normal, const N &gap, const N &gap_rate)
+  {
+    const N dashpot = -damping * gap_rate;
+    return select(value(gap) < 0., select(value(dashpot) < -value(normal), N(-normal), dashpot), N{});
   }
 } // namespace sprag

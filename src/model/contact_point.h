@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
-#include "laws/contact_step.h"
-
 #include <deal.II/base/tensor.h>
 
 namespace sprag
@@ -32,11 +30,6 @@ namespace sprag
     double step = 0.;                    ///< duration of the last step if it ended in contact, else 0 [s]
 
     unsigned int point = 0; ///< index of the point in a face, where only points in contact are remembered
-
-    FrictionHistory<slips> history() const
-    {
-      return { traction, slip_speed, step };
-    }
   };
 
   // In a plane a point slips one way.

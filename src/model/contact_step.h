@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
-#include "laws/contact.h"
-#include "laws/contact_step.h"
+#include "laws/point_law.h"
 #include "model/contact_point.h"
 #include "model/generalised_alpha.h"
 
@@ -21,9 +20,8 @@ namespace sprag
   struct StepContactLaw
   {
     NormalLaw normal;
-    double damping    = 0.; ///< force over rate of approach while closed [N s/mm]
-    double tangential = 0.; ///< stiffness in stick, > 0
-    FrictionLaw friction;
+    double damping = 0.; ///< force over rate of approach while closed [N s/mm]
+    SlipLaw slip;
     StepWeights weights{};
     ForceBalance balance = ForceBalance::mean; ///< at the end the spring is linear and has no dashpot
     FrictionMode mode    = FrictionMode::cone; ///< counts for a balance at the end
@@ -54,7 +52,7 @@ namespace sprag
     dealii::Tensor<1, slips> slip_bend;                     ///< [q] . d(slip_row)/dq [q] [mm]
     double gap_rate_end = 0.;                               ///< counts with contact damping only [mm/s]
     dealii::Tensor<1, n> gap_rate_row;                      ///< d(gap_rate_end)/dq_1
-    dealii::Tensor<1, slips> slip_shift;                    ///< see friction_traction(); counts for a balance at the end [mm]
+    dealii::Tensor<1, slips> slip_shift;                    ///< see return_to_cone(); counts for a balance at the end [mm]
   };
 
   /// A step that ends at a point's kinematics and is balanced there, from where the slip coordinate was `slip_begin` [mm].
@@ -111,36 +109,59 @@ namespace sprag
     double creep       = 0.; ///< slip below the regularisation speed [mm]
   };
 
-  /// Sets tractions at the end of a step.
-  template <class Friction, int slips>
-  void set_tractions(const double pressure, const Friction &friction, PointTraction<slips> &result)
+  template <int slips>
+  SlipMemory<double, slips> slip_memory(const PointMemory<slips> &memory)
   {
-    result.pressure        = pressure;
-    result.traction        = friction.traction;
-    result.mu              = friction.mu;
-    result.slipping        = friction.slipping;
-    result.memory.traction = friction.traction;
-  }
-
-  /// Sets the force of a step and its derivative: from a pressure and its derivative by the coordinates, and from a traction and
-  /// its derivatives by the change of slip and by a pressure, that one with a derivative `pressure_row`.
-  template <int n, int slips>
-  void set_force(const StepKinematics<n, slips> &point, const double pressure, const dealii::Tensor<1, n> &d_pressure,
-                 const dealii::Tensor<1, slips> &traction, const dealii::Tensor<2, slips> &by_slip,
-                 const dealii::Tensor<1, slips> &by_pressure, const dealii::Tensor<1, n> &pressure_row,
-                 StepResponse<n, slips> &response)
-  {
-    response.mean_traction = traction;
-    response.force         = pressure * point.gap_row;
-    response.tangent       = outer_product(point.gap_row, d_pressure) + pressure * point.gap_curvature;
+    SlipMemory<double, slips> result;
+    result.step = memory.step;
     for (unsigned int s = 0; s < slips; ++s)
     {
-      auto d_traction = by_pressure[s] * pressure_row;
-      for (unsigned int r = 0; r < slips; ++r)
-        d_traction += by_slip[s][r] * point.slip_change_row[r];
-      response.force -= traction[s] * point.slip_row[s];
-      response.tangent -= outer_product(point.slip_row[s], d_traction) + traction[s] * point.slip_curvature[s];
+      result.traction[s]   = memory.traction[s];
+      result.slip_speed[s] = memory.slip_speed[s];
     }
+    return result;
+  }
+
+  /// Numbers with derivatives by the gap at the end of a step, by its slips, and by what stands beside these: the shifts of the
+  /// slips where forces are balanced at the end, else the rate of the gap.
+  template <int slips>
+  using StepNumber = Dual<double, 1 + 2 * slips>;
+
+  template <int slips>
+  Several<StepNumber<slips>, slips> variables(const dealii::Tensor<1, slips> &at, const int first)
+  {
+    Several<StepNumber<slips>, slips> result;
+    for (int i = 0; i < slips; ++i)
+      result[i] = variable<StepNumber<slips>>(at[i], first + i);
+    return result;
+  }
+
+  /// Sets tractions at the end of a step, its force and the derivative of that.
+  template <int n, int slips>
+  void set_response(const StepKinematics<n, slips> &point, const StepNumber<slips> &end_pressure,
+                    const PointFriction<StepNumber<slips>, slips> &end, const StepNumber<slips> &pressure,
+                    const Several<StepNumber<slips>, slips> &traction, StepResponse<n, slips> &response)
+  {
+    const auto row_of = [&](const StepNumber<slips> &a)
+    {
+      auto row = a.d[0] * point.gap_row_end + a.d[1 + slips] * point.gap_rate_row;
+      for (unsigned int r = 0; r < slips; ++r)
+        row += a.d[1 + r] * point.slip_change_row[r];
+      return row;
+    };
+    response.pressure = end_pressure.v;
+    response.mu       = end.mu;
+    response.slipping = end.slipping;
+    response.force    = pressure.v * point.gap_row;
+    response.tangent  = outer_product(point.gap_row, row_of(pressure)) + pressure.v * point.gap_curvature;
+    for (unsigned int s = 0; s < slips; ++s)
+    {
+      response.traction[s]      = end.traction[s].v;
+      response.mean_traction[s] = traction[s].v;
+      response.force -= traction[s].v * point.slip_row[s];
+      response.tangent -= outer_product(point.slip_row[s], row_of(traction[s])) + traction[s].v * point.slip_curvature[s];
+    }
+    response.memory.traction = response.traction;
   }
 
   /// A balance at the end of a step: tractions and forces there. The memory holds the multipliers of the current augmentation. A
@@ -149,20 +170,21 @@ namespace sprag
   StepResponse<n, slips> end_response(const StepKinematics<n, slips> &point, const PointMemory<slips> &memory,
                                       const StepContactLaw &law)
   {
+    using N = StepNumber<slips>;
     StepResponse<n, slips> response;
-    const auto normal = normal_traction(point.gap_end, memory.normal_multiplier, law.normal.stiffness);
-    if (normal.pressure == 0.)
+    const N pressure = memory.normal_multiplier - law.normal.stiffness * variable<N>(point.gap_end, 0);
+    if (!(pressure.v > 0.))
       return response;
-    const auto stick = memory.traction + law.tangential * point.slip_change;
-    const auto friction =
-        law.mode == FrictionMode::stick
-            ? FrictionTraction<slips>{ stick, dealii::unit_symmetric_tensor<slips>(), {}, 0., false, {} }
-            : friction_traction(stick, normal.pressure, law.friction, law.tangential, law.weights.dt, point.slip_shift);
-    const auto d_pressure = normal.derivative * point.gap_row_end;
-    set_force(point, normal.pressure, d_pressure, friction.traction, law.tangential * friction.d_trial, friction.d_pressure,
-              d_pressure, response);
-    set_tractions(normal.pressure, friction, response);
-    response.d_shift = friction.d_shift;
+    PointFriction<N, slips> friction;
+    const auto slip   = variables(point.slip_change, 1);
+    friction.traction = stick_traction(law.slip, slip_memory(memory).traction, slip);
+    if (law.mode == FrictionMode::cone)
+      friction =
+          return_to_cone(law.slip, friction.traction, pressure, law.weights.dt, variables(point.slip_shift, 1 + slips), slip);
+    set_response(point, pressure, friction, pressure, friction.traction, response);
+    for (unsigned int s = 0; s < slips; ++s)
+      for (unsigned int r = 0; r < slips; ++r)
+        response.d_shift[s][r] = friction.traction[s].d[1 + slips + r];
     return response;
   }
 
@@ -173,39 +195,39 @@ namespace sprag
   StepResponse<n, slips> mean_response(const StepKinematics<n, slips> &point, const PointMemory<slips> &memory,
                                        const StepContactLaw &law)
   {
+    using N = StepNumber<slips>;
     StepResponse<n, slips> response;
-    const double delay  = law.weights.delay();
-    const auto normal   = mean_normal_force(law.normal, point.gap_begin, point.gap_end);
-    const auto dashpot  = end_damping(law.damping, normal.end, point.gap_end, point.gap_rate_end);
-    const auto friction = end_friction(memory.history(), law.tangential, point.slip_change, normal.end + dashpot.force,
-                                       law.friction, law.weights.dt);
-    if (normal.mean == 0. && normal.end == 0. && memory.damping == 0. && memory.traction == dealii::Tensor<1, slips>())
+    const double delay = law.weights.delay(), alpha = law.weights.alpha_f;
+    const N gap         = variable<N>(point.gap_end, 0);
+    const double begin  = spring_force(law.normal, point.gap_begin);
+    const N end         = spring_force(law.normal, gap);
+    const N mean        = mean_spring_force(law.normal, point.gap_begin, gap);
+    const N dashpot     = dashpot_force(law.damping, end, gap, variable<N>(point.gap_rate_end, 1 + slips));
+    const N damped      = (1. - alpha) * dashpot + alpha * memory.damping;
+    const N pressure    = mean + delay * (end - begin) + damped;
+    const auto slip     = variables(point.slip_change, 1);
+    const auto before   = slip_memory(memory);
+    const auto friction = end_friction(law.slip, before, slip, N(end + dashpot), law.weights.dt);
+    if (mean.v == 0. && end.v == 0. && memory.damping == 0. && memory.traction == dealii::Tensor<1, slips>())
       return response;
 
-    const double gap_change    = point.gap_end - point.gap_begin;
-    const double begin         = normal.begin;
-    const double damped        = (1. - law.weights.alpha_f) * dashpot.force + law.weights.alpha_f * memory.damping;
-    const double pressure      = normal.mean + delay * (normal.end - begin) + damped;
-    const auto traction_change = friction.traction - memory.traction;
-    const auto traction        = 0.5 * (memory.traction + friction.traction) + delay * traction_change;
-    const double share         = 0.5 + delay;
-
-    const auto d_end      = normal.d_end * point.gap_row_end;
-    const auto d_dashpot  = dashpot.d_normal * d_end + dashpot.d_rate * point.gap_rate_row;
-    const auto d_pressure = normal.d_mean * point.gap_row_end + delay * d_end + (1. - law.weights.alpha_f) * d_dashpot;
-
-    set_force(point, pressure, d_pressure, traction, share * friction.d_slip, share * friction.d_pressure, d_end + d_dashpot,
-              response);
-    set_tractions(normal.end + dashpot.force, friction, response);
-    response.memory.damping    = dashpot.force;
-    response.memory.slip_speed = friction.slip_speed;
-    response.memory.step       = law.weights.dt;
-    response.energy            = normal.energy + friction.energy;
-    response.friction          = friction.dissipated;
-    response.damping           = -damped * gap_change;
-    response.algorithmic       = delay * (traction_change * point.slip_change - (normal.end - begin) * gap_change -
-                                    pressure * point.gap_bend + traction * point.slip_bend);
-    response.creep             = friction.creep;
+    const double gap_change = point.gap_end - point.gap_begin;
+    double work             = -(end.v - begin) * gap_change - pressure.v * point.gap_bend;
+    Several<N, slips> traction;
+    for (unsigned int s = 0; s < slips; ++s)
+    {
+      traction[s] = (0.5 + delay) * friction.traction[s] + (0.5 - delay) * before.traction[s];
+      work += (friction.traction[s].v - before.traction[s]) * point.slip_change[s] + traction[s].v * point.slip_bend[s];
+      response.memory.slip_speed[s] = friction.slip_speed[s];
+    }
+    set_response(point, N(end + dashpot), friction, pressure, traction, response);
+    response.memory.damping = dashpot.v;
+    response.memory.step    = law.weights.dt;
+    response.energy         = spring_energy(law.normal, point.gap_end) + friction.energy;
+    response.friction       = friction.dissipated;
+    response.damping        = -damped.v * gap_change;
+    response.algorithmic    = delay * work;
+    response.creep          = friction.creep;
     return response;
   }
 

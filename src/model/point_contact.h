@@ -143,14 +143,22 @@ namespace sprag
     }
 
   private:
-    /// The bent surface at a material coordinate, with derivatives along it.
+    template <class N>
     struct Surface;
+
+    /// The place along the lever that is closest to the circle's centre, and the derivative of (p - c) . p' there.
+    struct Closest
+    {
+      double xi, d_slope;
+    };
 
     unsigned int window_at(const dealii::Vector<double> &ports, double x) const;
     Local coordinates(unsigned int window, const dealii::Vector<double> &ports, double x) const;
     Local rates(unsigned int window, const dealii::Vector<double> &port_rates, double v) const;
-    Surface surface(unsigned int window, const Local &q, double xi) const;
-    double closest(unsigned int window, const Local &q) const;
+    unsigned int first_of_element(unsigned int window, double xi) const;
+    template <class N, class Nodal>
+    Surface<N> surface(unsigned int window, const Nodal &nodal, const N &xi) const;
+    Closest closest(unsigned int window, const Local &q) const;
     double gap(unsigned int window, const Local &q) const;
     Configuration configure(unsigned int window, const Local &q) const;
     StepKinematics<n> step_kinematics(const PortStep &step, const Local &end_rates, Evaluation &found) const;

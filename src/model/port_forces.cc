@@ -3,8 +3,10 @@
 
 #include "base/errors.h"
 #include "model/block_product.h"
-#include "model/port_matrix.h"
+#include "model/port_compliance.h"
 #include "model/reduced_factors.h"
+
+#include <deal.II/lac/lapack_full_matrix.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,6 +16,332 @@
 namespace sprag
 {
   using namespace dealii;
+
+  /// Some rows and the same columns of a tangent A = df/dz, where they are.
+  struct PartOfTangent
+  {
+    const dealii::FullMatrix<double> &whole;
+    const std::vector<unsigned int> &places; ///< in the whole
+
+    double operator()(const unsigned int i, const unsigned int j) const
+    {
+      return whole(places[i], places[j]);
+    }
+
+    unsigned int n() const
+    {
+      return static_cast<unsigned int>(places.size());
+    }
+  };
+
+  /// Factors of M = 1 - G A on some of the ports, A = df/dz. Forces on a block of ports follow its own displacements and few
+  /// others, say the turn of a joint. So M is factorised block by block, D, and what stands beside the blocks, in few columns C,
+  /// enters by Woodbury:
+  ///   M = D + E,   x = D^-1 (b - E x_C),   (1 + (D^-1 E)_C) x_C = (D^-1 b)_C.
+  class BlockMatrix
+  {
+  public:
+    /// Throws an exception of deal.II where it is singular.
+    BlockMatrix(const PortCompliance &compliance, const std::vector<unsigned int> &ports, const PartOfTangent &tangent);
+
+    void solve(dealii::Vector<double> &values) const;
+
+    double determinant() const;
+
+  private:
+    using Places = std::pair<unsigned int, unsigned int>; // the first, and beyond the last
+
+    struct Block
+    {
+      Places places;
+      PortCompliance::Block of_ports;
+      dealii::LAPACKFullMatrix<double> matrix;
+      dealii::LAPACKFullMatrix<double> answers; ///< D^-1 E, a column for each of C
+    };
+
+    std::vector<Block> blocks;
+    std::vector<unsigned int> columns; ///< C
+    dealii::LAPACKFullMatrix<double> of_columns;
+
+    void find_columns(const PartOfTangent &tangent);
+    void factorise(const std::vector<unsigned int> &ports, const PartOfTangent &tangent, Block &block) const;
+    double answer(unsigned int row, unsigned int k) const;
+  };
+
+  namespace
+  {
+    bool holds(const std::pair<unsigned int, unsigned int> &places, const unsigned int i)
+    {
+      return places.first <= i && i < places.second;
+    }
+
+    /// Tangent of the ports of one block.
+    struct TangentOfBlock
+    {
+      const PartOfTangent &tangent;
+      unsigned int first; ///< of the block
+      unsigned int n;
+
+      double operator()(const unsigned int i, const unsigned int j) const
+      {
+        return tangent(first + i, first + j);
+      }
+    };
+
+    /// Compliance of the ports of one block.
+    struct ComplianceOfBlock
+    {
+      const FullMatrix<double> &matrix;
+      std::vector<unsigned int> rows; ///< of the ports
+
+      ComplianceOfBlock(const PortCompliance::Block &block, const std::vector<unsigned int> &ports, const unsigned int first,
+                        const unsigned int last)
+          : matrix(*block.matrix)
+      {
+        for (unsigned int i = first; i < last; ++i)
+          rows.push_back(ports[i] - block.begin);
+      }
+
+      double operator()(const unsigned int i, const unsigned int j) const
+      {
+        return matrix(rows[i], rows[j]);
+      }
+    };
+
+    /// 1 - G A by its definition.
+    void fill(const ComplianceOfBlock &compliance, const TangentOfBlock &tangent, LAPACKFullMatrix<double> &result)
+    {
+      const unsigned int n = tangent.n;
+      LAPACKFullMatrix<double> loaded(n), of_block(n);
+      for (unsigned int j = 0; j < n; ++j)
+        for (unsigned int i = 0; i < n; ++i)
+        {
+          loaded(i, j)   = -compliance(j, i); // G is symmetric
+          of_block(i, j) = tangent(i, j);
+        }
+      loaded.mmult(result, of_block);
+      for (unsigned int i = 0; i < n; ++i)
+        result(i, i) += 1;
+    }
+  } // namespace
+
+  BlockMatrix::BlockMatrix(const PortCompliance &compliance, const std::vector<unsigned int> &ports, const PartOfTangent &tangent)
+  {
+    for (const auto &block : compliance.blocks())
+      if (const auto places = block.places_among(ports); places.first < places.second)
+        blocks.push_back({ places, block, LAPACKFullMatrix<double>(places.second - places.first), LAPACKFullMatrix<double>() });
+    find_columns(tangent);
+    for (auto &block : blocks)
+      factorise(ports, tangent, block);
+    if (columns.empty())
+      return;
+    of_columns.reinit(static_cast<unsigned int>(columns.size()));
+    for (unsigned int j = 0; j < columns.size(); ++j)
+      for (unsigned int k = 0; k < columns.size(); ++k)
+        of_columns(j, k) = (j == k ? 1. : 0.) + answer(columns[j], k);
+    of_columns.compute_lu_factorization();
+  }
+
+  void BlockMatrix::solve(Vector<double> &values) const
+  {
+    for (const auto &[places, of_ports, matrix, answers] : blocks)
+    {
+      Vector<double> of_block(values.begin() + places.first, values.begin() + places.second);
+      matrix.solve(of_block);
+      std::copy(of_block.begin(), of_block.end(), values.begin() + places.first);
+    }
+    if (columns.empty())
+      return;
+    Vector<double> of_others(static_cast<unsigned int>(columns.size()));
+    for (unsigned int k = 0; k < columns.size(); ++k)
+      of_others[k] = values[columns[k]];
+    of_columns.solve(of_others);
+    for (const auto &[places, of_ports, matrix, answers] : blocks)
+      for (unsigned int i = places.first; i < places.second; ++i)
+        for (unsigned int k = 0; k < columns.size(); ++k)
+          values[i] -= answers(i - places.first, k) * of_others[k];
+  }
+
+  double BlockMatrix::determinant() const
+  {
+    double result = columns.empty() ? 1. : of_columns.determinant();
+    for (const auto &block : blocks)
+      result *= block.matrix.determinant();
+    return result;
+  }
+
+  void BlockMatrix::find_columns(const PartOfTangent &tangent)
+  {
+    const unsigned int n = tangent.n();
+    std::vector<char> counts(n, 0);
+    for (const auto &[places, of_ports, matrix, answers] : blocks)
+      for (unsigned int i = places.first; i < places.second; ++i)
+      {
+        for (unsigned int column = 0; column < places.first; ++column)
+          counts[column] |= tangent(i, column) != 0.;
+        for (unsigned int column = places.second; column < n; ++column)
+          counts[column] |= tangent(i, column) != 0.;
+      }
+    for (unsigned int column = 0; column < n; ++column)
+      if (counts[column])
+        columns.push_back(column);
+  }
+
+  void BlockMatrix::factorise(const std::vector<unsigned int> &ports, const PartOfTangent &tangent, Block &block) const
+  {
+    const auto [first, last] = block.places;
+    const ComplianceOfBlock compliance(block.of_ports, ports, first, last);
+    const TangentOfBlock of_block{ tangent, first, last - first };
+    fill(compliance, of_block, block.matrix);
+    block.matrix.compute_lu_factorization();
+    if (columns.empty())
+      return;
+    block.answers.reinit(of_block.n, static_cast<unsigned int>(columns.size()));
+    for (unsigned int k = 0; k < columns.size(); ++k)
+      if (!holds(block.places, columns[k]))
+        for (unsigned int a = 0; a < of_block.n; ++a)
+          if (const double force = tangent(first + a, columns[k]); force != 0.)
+            for (unsigned int i = 0; i < of_block.n; ++i)
+              block.answers(i, k) -= compliance(a, i) * force; // G is symmetric
+    block.matrix.solve(block.answers);
+  }
+
+  /// Of D^-1 E.
+  double BlockMatrix::answer(const unsigned int row, const unsigned int k) const
+  {
+    const auto block =
+        std::find_if(blocks.begin(), blocks.end(), [&](const auto &candidate) { return holds(candidate.places, row); });
+    return block->answers(row - block->places.first, k);
+  }
+
+  /// Factors of M = 1 - G A on some of the ports, A = df/dz. Ports that follow no others, B (a hub on its spring, a support),
+  /// have forces that follow all displacements: they border the matrix of the others, I.
+  ///   S = M_BB - M_BI M_II^-1 M_IB,   x_B = S^-1 (b_B - M_BI M_II^-1 b_I),   x_I = M_II^-1 b_I - M_II^-1 M_IB x_B.
+  class PortMatrix
+  {
+  public:
+    /// Throws an exception of deal.II where it is singular.
+    PortMatrix(const PortCompliance &compliance, const std::vector<unsigned int> &ports,
+               const dealii::FullMatrix<double> &tangent);
+
+    void solve(dealii::Vector<double> &values) const;
+
+    double determinant() const;
+
+  private:
+    using Places = std::vector<unsigned int>;
+
+    void make_border(const PortCompliance &compliance, const std::vector<unsigned int> &ports,
+                     const dealii::FullMatrix<double> &tangent);
+
+    Places inner;  ///< I
+    Places border; ///< B
+    std::optional<BlockMatrix> of_inner;
+    dealii::FullMatrix<double> below;           ///< M_BI
+    dealii::FullMatrix<double> aside;           ///< M_II^-1 M_IB
+    dealii::LAPACKFullMatrix<double> of_border; ///< S
+  };
+
+  namespace
+  {
+    FullMatrix<double> part(const FullMatrix<double> &matrix, const std::vector<unsigned int> &rows,
+                            const std::vector<unsigned int> &columns)
+    {
+      if (rows.empty() || columns.empty())
+        return FullMatrix<double>();
+      FullMatrix<double> result(rows.size(), columns.size());
+      result.extract_submatrix_from(matrix, rows, columns);
+      return result;
+    }
+
+    std::vector<unsigned int> some_of(const std::vector<unsigned int> &ports, const std::vector<unsigned int> &places)
+    {
+      std::vector<unsigned int> result;
+      for (const unsigned int place : places)
+        result.push_back(ports[place]);
+      return result;
+    }
+  } // namespace
+
+  PortMatrix::PortMatrix(const PortCompliance &compliance, const std::vector<unsigned int> &ports,
+                         const FullMatrix<double> &tangent)
+  {
+    for (const auto &block : compliance.blocks())
+    {
+      const auto [first, last] = block.places_among(ports);
+      for (unsigned int place = first; place < last; ++place)
+        (block.matrix->m() == 1 ? border : inner).push_back(place);
+    }
+    if (!inner.empty())
+      of_inner.emplace(compliance, some_of(ports, inner), PartOfTangent{ tangent, inner });
+    if (!border.empty())
+      make_border(compliance, ports, tangent);
+  }
+
+  void PortMatrix::make_border(const PortCompliance &compliance, const std::vector<unsigned int> &ports,
+                               const FullMatrix<double> &tangent)
+  {
+    const auto n = static_cast<unsigned int>(border.size()), n_inner = static_cast<unsigned int>(inner.size());
+    const auto inner_ports = some_of(ports, inner);
+    below                  = part(tangent, border, inner);
+    aside.reinit(n_inner, n_inner > 0 ? n : 0);
+    of_border.reinit(n);
+    for (unsigned int b = 0; b < n; ++b)
+    {
+      const double own = compliance(ports[border[b]], ports[border[b]]);
+      for (unsigned int i = 0; i < n_inner; ++i)
+        below(b, i) *= -own;
+      for (unsigned int c = 0; c < n; ++c)
+        of_border(b, c) = (b == c ? 1. : 0.) - own * tangent(border[b], border[c]);
+    }
+    for (unsigned int b = 0; b < n && n_inner > 0; ++b)
+    {
+      Vector<double> forces(n_inner), displacements(compliance.size()), column(n_inner);
+      for (unsigned int i = 0; i < n_inner; ++i)
+        forces[i] = tangent(inner[i], border[b]);
+      add_response(compliance, inner_ports, forces, inner_ports, displacements);
+      for (unsigned int i = 0; i < n_inner; ++i)
+        column[i] = -displacements[inner_ports[i]];
+      of_inner->solve(column);
+      for (unsigned int i = 0; i < n_inner; ++i)
+        aside(i, b) = column[i];
+      for (unsigned int c = 0; c < n; ++c)
+        for (unsigned int i = 0; i < n_inner; ++i)
+          of_border(c, b) -= below(c, i) * column[i];
+    }
+    of_border.compute_lu_factorization();
+  }
+
+  void PortMatrix::solve(Vector<double> &values) const
+  {
+    const auto n = static_cast<unsigned int>(border.size()), n_inner = static_cast<unsigned int>(inner.size());
+    Vector<double> of_inside(n_inner), of_edge(n);
+    for (unsigned int i = 0; i < n_inner; ++i)
+      of_inside[i] = values[inner[i]];
+    for (unsigned int b = 0; b < n; ++b)
+      of_edge[b] = values[border[b]];
+    if (n_inner > 0)
+      of_inner->solve(of_inside);
+    if (n > 0)
+    {
+      for (unsigned int b = 0; b < n; ++b)
+        for (unsigned int i = 0; i < n_inner; ++i)
+          of_edge[b] -= below(b, i) * of_inside[i];
+      of_border.solve(of_edge);
+      for (unsigned int i = 0; i < n_inner; ++i)
+        for (unsigned int b = 0; b < n; ++b)
+          of_inside[i] -= aside(i, b) * of_edge[b];
+    }
+    for (unsigned int i = 0; i < n_inner; ++i)
+      values[inner[i]] = of_inside[i];
+    for (unsigned int b = 0; b < n; ++b)
+      values[border[b]] = of_edge[b];
+  }
+
+  double PortMatrix::determinant() const
+  {
+    return (of_inner ? of_inner->determinant() : 1.) * (border.empty() ? 1. : of_border.determinant());
+  }
 
   namespace
   {

@@ -22,8 +22,8 @@ namespace sprag
   std::vector<Entry> isolation_summary(const Scene &scene, const IsolationFindings &found);
 
   /// Writes and prints what a run of an isolation system found, with facts of the run.
-  void finish_isolation(const Scene &scene, const RunOptions &options, const IsolationFindings &found,
-                        const std::vector<Entry> &facts, const std::string &status, ResultWriter &writer, Warnings &warnings);
+  void finish_isolation(const Scene &scene, const IsolationFindings &found, const std::vector<Entry> &facts,
+                        const std::string &status, ResultWriter &writer, Warnings &warnings);
 
   /// Returns what a run of an isolation system warns of.
   Warnings isolation_warnings(const Scene &scene, const IsolationFindings &found);

@@ -181,30 +181,22 @@ namespace sprag
       return 8. * (sought_in * displacements + kept * reached * reached);
     }
 
-    /// Of factors of double precision of the whole of a body in three dimensions, over displacements^(4/3).
+    /// Of factors of the whole of a body in three dimensions, over displacements^(4/3).
     constexpr double bytes_of_factors = 99.;
 
     /// Of all matrices of a body in three dimensions, likewise.
-    constexpr double bytes_of_solid = 215., bytes_of_solid_in_single_precision = 135.;
-
-    bool has_single_precision(const Scene &scene, const double displacements)
-    {
-      return scene.analysis.type == AnalysisType::quasi_static && displacements >= least_in_single_precision;
-    }
+    constexpr double bytes_of_solid = 215.;
 
     double bytes_of_solid_factors(const Scene &scene)
     {
-      const double displacements = expected_size(scene).displacements;
-      return (has_single_precision(scene, displacements) ? 0.5 : 1.) * bytes_of_factors * std::pow(displacements, 4. / 3.);
+      return bytes_of_factors * std::pow(expected_size(scene).displacements, 4. / 3.);
     }
 
     double bytes_of_matrices(const Scene &scene)
     {
       const auto [displacements, ports] = expected_size(scene);
       if (scene.analysis.dimension == 3)
-        return (has_single_precision(scene, displacements) ? bytes_of_solid_in_single_precision : bytes_of_solid) *
-                   std::pow(displacements, 4. / 3.) +
-               bytes_of_solid_modes(scene, displacements, ports);
+        return bytes_of_solid * std::pow(displacements, 4. / 3.) + bytes_of_solid_modes(scene, displacements, ports);
       const double levers       = scene.pair.type == PairType::full && !is_factorised_once(scene) ? 2. : 1.;
       const auto [each, copies] = cost_of(scene);
       const double bar          = scene.plate.type == PlateType::none ? 1. : bar_behind_plate;

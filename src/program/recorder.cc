@@ -4,7 +4,6 @@
 #include "base/append.h"
 #include "base/interrupt.h"
 #include "base/text.h"
-#include "report/brief.h"
 #include "report/transient_report.h"
 #include "report/warnings.h"
 #include "results/row_archive.h"
@@ -45,7 +44,6 @@ namespace sprag
                      Checkpoint *const checkpoint_)
       : scene(scene_)
       , quiet(options.quiet)
-      , verbose(options.verbose)
       , writer(scene, options, timer, table_columns(scene.plate, scene.pair, scene.analysis.dimension, scene.cylinder), points)
       , progress(std::cerr, progress_style(quiet), path_length(scene.drive))
       , stress(no_stress_peaks("the model has no mesh"))
@@ -144,21 +142,13 @@ namespace sprag
     add_pair(rows, summary);
     append(summary, stress);
     append(warnings, row_warnings(scene, rows));
-    append(warnings, target_warnings(scene.accuracy, accuracy));
     if (in_time)
       append(warnings, transient_warnings(scene, rows));
     if (checkpoint != nullptr)
-      meta.push_back({ "steps_taken_over", static_cast<double>(taken_over), "1", "from an interrupted run of the scene" });
-    auto end = writer.finish(status, { summary, meta, {}, accuracy_entries(accuracy) }, warnings);
+      meta.push_back({ "steps_taken_over", static_cast<double>(taken_over) });
+    const auto end = writer.finish(status, { summary, meta, {}, accuracy }, warnings);
     if (checkpoint != nullptr)
       checkpoint->finish(status);
-    if (!quiet && verbose)
-    {
-      print_summary(std::cout, end.summary);
-      print_accuracy(std::cout, accuracy);
-    }
-    else if (!quiet)
-      print_brief(std::cout, end.summary, accuracy, PhaseTimer::cpu_seconds());
     return end.summary;
   }
 } // namespace sprag

@@ -4,7 +4,6 @@
 #include "base/progress.h"
 #include "program/checkpoint.h"
 #include "program/result_writer.h"
-#include "report/accuracy_report.h"
 #include "report/report.h"
 #include "scene/drive.h"
 
@@ -49,14 +48,13 @@ namespace sprag
       accuracy = std::move(estimates);
     }
 
-    /// Writes summary, meta and warnings, to which it adds those that follow from the rows, and prints the table at the end of a
-    /// run. Status and meta: see ResultWriter. Finishes the checkpoint. Returns the summary.
+    /// Writes and prints summary, meta and warnings, to which it adds those that follow from the rows. Status and meta: see
+    /// ResultWriter. Finishes the checkpoint. Returns the summary.
     std::vector<Entry> finish(const std::string &status, std::vector<Entry> meta, Warnings &warnings);
 
   private:
     const Scene &scene;
     const bool quiet;
-    const bool verbose;
     ResultWriter writer;
     Progress progress;
     std::vector<Row> rows;

@@ -6,6 +6,9 @@
 #include "base/peak_memory.h"
 #include "base/version.h"
 #include "program/in_memory.h"
+#include "report/brief.h"
+#include "report/report.h"
+#include "report/summary_table.h"
 #include "results/entries.h"
 #include "scene/read.h"
 #include "scene/scene.h"
@@ -13,6 +16,7 @@
 #include <petscversion.h>
 
 #include <gmsh.h>
+#include <iostream>
 
 namespace sprag
 {
@@ -22,19 +26,17 @@ namespace sprag
     std::vector<Entry> process_entries(PhaseTimer &timer)
     {
       std::vector<Entry> entries;
-      entries.push_back({ "version", version(), "", "of sprag, with the commit that it was built from" });
-      entries.push_back({ "deal.II", std::string(SPRAG_DEAL_II_VERSION), "", "version of the library" });
-      entries.push_back({ "PETSc",
-                          std::to_string(PETSC_VERSION_MAJOR) + "." + std::to_string(PETSC_VERSION_MINOR) + "." +
-                              std::to_string(PETSC_VERSION_SUBMINOR),
-                          "", "version of the library" });
-      entries.push_back({ "gmsh", std::string(GMSH_API_VERSION), "", "version of the library" });
+      entries.push_back({ "version", version() });
+      entries.push_back({ "deal.II", std::string(SPRAG_DEAL_II_VERSION) });
+      entries.push_back({ "PETSc", std::to_string(PETSC_VERSION_MAJOR) + "." + std::to_string(PETSC_VERSION_MINOR) + "." +
+                                       std::to_string(PETSC_VERSION_SUBMINOR) });
+      entries.push_back({ "gmsh", std::string(GMSH_API_VERSION) });
       for (const auto &[name, phase] : timer.phases())
-        entries.push_back({ "wall_time_" + name, phase.wall, "s", "wall time in the phase" });
+        entries.push_back({ "wall_time_" + name, phase.wall });
       for (const auto &[name, phase] : timer.phases())
-        entries.push_back({ "cpu_time_" + name, phase.cpu, "s", "CPU time in the phase" });
-      entries.push_back({ "cpu_time", PhaseTimer::cpu_seconds(), "s", "CPU time of the process" });
-      entries.push_back({ "peak_memory", peak_memory() / (1024. * 1024.), "MiB", "largest resident memory" });
+        entries.push_back({ "cpu_time_" + name, phase.cpu });
+      entries.push_back({ "cpu_time", PhaseTimer::cpu_seconds() });
+      entries.push_back({ "peak_memory", peak_memory() / (1024. * 1024.) });
       return entries;
     }
   } // namespace
@@ -50,16 +52,15 @@ namespace sprag
       require_writable(options.folder);
   }
 
-  ResultWriter::ResultWriter(const Scene &scene, const RunOptions &options, PhaseTimer &of_run,
+  ResultWriter::ResultWriter(const Scene &of_scene, const RunOptions &of_options, PhaseTimer &of_run,
                              const std::vector<ColumnInfo> &columns, const FacePoints &points)
-      : timer(of_run)
-      , in_memory(options.in_memory)
-      , chosen(options.chosen)
-      , keeps_curve(scene.analysis.type == AnalysisType::quasi_static)
+      : scene(of_scene)
+      , options(of_options)
+      , timer(of_run)
   {
-    if (in_memory != nullptr)
+    if (options.in_memory != nullptr)
     {
-      in_memory->found = {};
+      options.in_memory->found = {};
       return;
     }
     prepare_folder(scene, options);
@@ -68,22 +69,32 @@ namespace sprag
 
   void ResultWriter::keep(const Row &row)
   {
-    if (keeps_curve)
-      in_memory->found.curve.push_back({ row[Column::x], row[Column::v], row[Column::P], row.drive_force() });
+    if (scene.analysis.type == AnalysisType::quasi_static)
+      options.in_memory->found.curve.push_back({ row[Column::x], row[Column::v], row[Column::P], row.drive_force() });
   }
 
-  RunEnd ResultWriter::finish(const std::string &status, RunEnd end, const Warnings &warnings)
+  RunEnd ResultWriter::finish(const std::string &status, RunEnd end, Warnings &warnings)
   {
-    if (in_memory != nullptr)
+    describe_summary(scene.analysis.type, end.summary);
+    sprag::append(warnings, target_warnings(scene.accuracy, end.accuracy));
+    if (options.in_memory != nullptr)
     {
-      in_memory->found.summary = end.summary;
+      options.in_memory->found.summary = end.summary;
       return end;
     }
     end.summary.push_back(status_entry(status));
-    if (!chosen.empty())
-      end.meta.push_back({ "chosen_settings", chosen, "", "that followed from Accuracy" });
+    if (!options.chosen.empty())
+      end.meta.push_back({ "chosen_settings", options.chosen });
     sprag::append(end.meta, process_entries(timer));
-    file->finish(end.summary, end.meta, warnings, end.groups, end.accuracy);
+    describe_facts(end.meta);
+    file->finish(end.summary, end.meta, warnings, end.groups, accuracy_entries(end.accuracy));
+    if (options.verbose)
+    {
+      print_summary(std::cout, end.summary);
+      print_accuracy(std::cout, end.accuracy);
+    }
+    else if (!options.quiet)
+      print_brief(std::cout, scene.analysis.type, end.summary, end.accuracy, PhaseTimer::cpu_seconds());
     return end;
   }
 } // namespace sprag

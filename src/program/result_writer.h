@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
+#include "analytic/error_estimate.h"
 #include "base/errors.h"
 #include "base/phase_timer.h"
 #include "program/output_folder.h"
@@ -17,10 +18,10 @@ namespace sprag
   /// The results of a run besides its rows, written at its end.
   struct RunEnd
   {
-    std::vector<Entry> summary;
-    std::vector<Entry> meta     = {}; ///< facts of the run's own; program, libraries and costs are added to them
-    std::vector<Group> groups   = {};
-    std::vector<Entry> accuracy = {};
+    std::vector<Entry> summary;               ///< unit and meaning follow from the tables of the pages, see SummaryRow
+    std::vector<Entry> meta             = {}; ///< facts of the run's own; program, libraries and costs are added to them
+    std::vector<Group> groups           = {};
+    std::vector<ErrorEstimate> accuracy = {};
   };
 
   /// Throws InputError where the folder of a run that writes files cannot serve; makes nothing.
@@ -45,15 +46,15 @@ namespace sprag
         keep(appended);
     }
 
-    /// Writes everything that the run leaves and closes the file. `status` is "completed" or what went wrong, and becomes the
-    /// last entry of the summary. Returns what was written, meta complete.
-    RunEnd finish(const std::string &status, RunEnd end, const Warnings &warnings);
+    /// Writes everything that the run leaves, closes the file and prints the summary, unless quiet. `status` is "completed" or
+    /// what went wrong, and becomes the last entry of the summary. Warns where errors exceed the scene's target. Returns what
+    /// was written, meta complete.
+    RunEnd finish(const std::string &status, RunEnd end, Warnings &warnings);
 
   private:
+    const Scene &scene;
+    const RunOptions options;
     PhaseTimer &timer;
-    InMemory *const in_memory;
-    const std::string chosen;
-    const bool keeps_curve;
     std::optional<ResultFile> file;
 
     void keep(const Row &row);

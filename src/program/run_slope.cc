@@ -3,13 +3,10 @@
 #include "laws/friction.h"
 #include "program/result_writer.h"
 #include "program/run_by_formulas.h"
-#include "report/brief_lines.h"
-#include "report/report.h"
 #include "scene/closed_form.h"
 #include "scene/scene.h"
 
 #include <cmath>
-#include <iostream>
 
 namespace sprag
 {
@@ -20,14 +17,7 @@ namespace sprag
     ResultWriter writer(scene, options, timer, sweep.columns);
     for (const auto &row : sweep.rows)
       writer.append(row);
-    const double mu                  = friction_coefficient(scene.friction, scene.drive.peak_speed()).coefficient;
-    const std::vector<Entry> summary = { { "critical_inclination", std::atan(mu), "rad",
-                                           "th0B = atan mu: steeper, Q helps the backward stroke" } };
-    const auto end                   = writer.finish("completed", { summary }, warnings);
-    if (options.verbose)
-      print_summary(std::cout, end.summary);
-    else if (!options.quiet)
-      brief_line(std::cout, "critical inclination",
-                 Known(end.summary).quantity("critical_inclination") + ": steeper, Q helps the backward stroke");
+    const double mu = friction_coefficient(scene.friction, scene.drive.peak_speed()).coefficient;
+    writer.finish("completed", { { { "critical_inclination", std::atan(mu) } } }, warnings);
   }
 } // namespace sprag

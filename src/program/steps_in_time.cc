@@ -30,8 +30,7 @@ namespace sprag
           const double taken = static_cast<double>(report.steps) - static_cast<double>(recorder.steps_taken_over());
           const double rate  = seconds > 0. ? std::max(0., taken) / seconds : 0.;
           const auto ending  = status_at_end(status);
-          recorder.finish(ending, joined(facts, { { "steps_per_cpu_second", rate, "1/s", "accepted steps, output included" } }),
-                          warnings);
+          recorder.finish(ending, joined(facts, { { "steps_per_cpu_second", rate } }), warnings);
           if (ending != status)
             throw AnalysisError(ending);
         });

@@ -1,128 +1,163 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "report/brief.h"
 
-#include "base/append.h"
+#include "base/text.h"
 #include "report/brief_lines.h"
 #include "report/percent.h"
+#include "report/summary_table.h"
+#include "scene/analysis_settings.h"
+
+#include <boost/algorithm/string/replace.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
+#include <map>
 #include <ostream>
 
 namespace sprag
 {
   namespace
   {
-    constexpr unsigned int most_reversals = 12; ///< lines of their table
-
-    const std::vector<std::string> ways = { "forward", "backward" };
-
-    /// A value for each way that the run has, where one is known.
-    void both_ways(std::ostream &stream, const Known &known, const std::string &label, const std::string &name,
-                   const std::string &unit)
+    std::string text_of(const std::vector<ErrorPart> &parts)
     {
-      std::string values;
-      bool has_some = false;
-      for (const auto &way : ways)
-        if (known.number("peak_P_" + way))
-        {
-          const auto value = known.number(name + '_' + way);
-          has_some         = has_some || value;
-          values += padded(four_digits(value), 12);
-        }
-      if (has_some)
-        brief_line(stream, label, values + ' ' + unit);
+      std::string text;
+      for (const auto &part : parts)
+        text += (text.empty() ? "" : ", ") + part.name + ' ' + percent(part.value);
+      return text;
     }
 
-    /// Adds, for each way, the largest deviation of P, Q and theta from the closed form, of models that are not the closed form
-    /// [%].
-    std::vector<Entry> with_deviations(std::vector<Entry> entries)
+    std::string left_out_text(const ErrorEstimate &estimate)
     {
-      const Known known(entries);
-      std::vector<Entry> deviations; // apart, as what is known points to the entries
-      for (const auto &way : ways)
-      {
-        double largest = 0.;
-        for (const std::string of : { "P_", "Q_", "theta_" })
-          largest = std::max(largest, known.number("deviation_" + of + way).value_or(0.));
-        if (largest > 0.)
-          deviations.push_back({ "deviation_" + way, 100. * largest, "%", "" });
-      }
-      append(entries, deviations);
-      return entries;
-    }
-
-    void print_strokes(std::ostream &stream, const Known &known)
-    {
-      std::string header;
-      for (const auto &way : ways)
-        header += known.number("peak_P_" + way) ? padded(way, 12) : "";
-      brief_line(stream, "", header);
-      both_ways(stream, known, "largest P", "peak_P", "N");
-      both_ways(stream, known, "largest Q", "peak_Q", "N");
-      if (known.number("peak_Q_support_forward") != known.number("peak_Q_forward") ||
-          known.number("peak_Q_support_backward") != known.number("peak_Q_backward"))
-        both_ways(stream, known, "on the ground", "peak_Q_support", "N");
-      both_ways(stream, known, "slope of Q at x = 0", "slope", "N/mm");
-      if (known.number("slope_forward") || known.number("slope_backward"))
-        both_ways(stream, known, "  by the closed form", "representative_slope", "N/mm");
-      both_ways(stream, known, "off the closed form", "deviation", "%");
-    }
-
-    void print_contact(std::ostream &stream, const Known &known)
-    {
-      if (const auto work = known.number("loop_area"))
-        brief_line(stream, "work of the drive",
-                   four_digits(work) + " N mm, of friction " + four_digits(known.number("friction_work")) + " N mm");
-      const auto pressure = known.number("largest_pressure");
-      if (pressure && *pressure > 0.)
-        brief_line(stream, "largest pressure",
-                   four_digits(pressure) + " MPa at x = " + four_digits(known.number("largest_pressure_x")) + " mm " +
-                       known.text("largest_pressure_direction"));
-      std::string stress;
-      for (const std::string part : { "lever", "layer" })
-        if (const auto value = known.number("largest_" + part + "_stress"))
-          stress += (stress.empty() ? "" : ", ") + part + ' ' + four_digits(value) + " MPa";
-      if (!stress.empty())
-        brief_line(stream, "largest stress", stress + " (von Mises)");
-      if (const auto force = known.number("peak_lateral_force"))
-        brief_line(stream, "pair",
-                   "across the path " + four_digits(force) + " N, P of the levers " +
-                       four_digits(known.number("peak_difference_P")) + " N apart");
-    }
-
-    void print_reversals(std::ostream &stream, const Known &known)
-    {
-      const auto name      = [](const unsigned int i, const char *of) { return "reversal_" + std::to_string(i) + '_' + of; };
-      unsigned int printed = 0, i = 1;
-      for (; known.number(name(i, "x")); ++i)
-      {
-        if (printed == most_reversals)
-          continue;
-        if (printed++ == 0)
-          stream << "  reversal   x [mm]  frequency [Hz]  growth [1/s]  overshoot of P [%]  ringing\n";
-        auto overshoot = known.number(name(i, "overshoot_P"));
-        if (overshoot)
-          *overshoot *= 100.;
-        stream << padded(std::to_string(i), 10) << padded(four_digits(known.number(name(i, "x"))), 9)
-               << padded(four_digits(known.number(name(i, "frequency"))), 16)
-               << padded(four_digits(known.number(name(i, "growth_rate"))), 14) << padded(four_digits(overshoot), 20) << "  "
-               << known.text(name(i, "verdict")) << '\n';
-      }
-      if (i > printed + 1)
-        stream << "             and " << i - 1 - printed << " more in /summary\n";
+      return estimate.left_out.empty() ? "" : " The model leaves out: " + text_of(estimate.left_out) + '.';
     }
   } // namespace
 
-  void print_brief(std::ostream &stream, const std::vector<Entry> &summary, const std::vector<ErrorEstimate> &errors,
-                   const double cpu_seconds)
+  std::vector<Entry> accuracy_entries(const std::vector<ErrorEstimate> &estimates)
   {
-    const auto entries = with_deviations(summary);
-    const Known known(entries);
-    print_strokes(stream, known);
-    print_contact(stream, known);
-    print_reversals(stream, known);
-    print_brief_errors(stream, errors);
-    print_brief_cost(stream, known, cpu_seconds);
+    std::vector<Entry> entries;
+    for (const auto &estimate : estimates)
+    {
+      Entry whole{ estimate.quantity, total_error(estimate), "1", "estimated error relative to " + estimate.relative_to };
+      if (estimate.parts.empty())
+        whole.attributes = { { "unknown", estimate.unknown } };
+      else
+        whole.attributes = { { "largest_part", largest_part(estimate).name }, { "remedy", largest_part(estimate).remedy } };
+      entries.push_back(whole);
+      for (const auto &part : estimate.parts)
+        entries.push_back({ estimate.quantity + '_' + part.name, part.value, "1",
+                            "part of the error of " + estimate.quantity + ": " + part.remedy });
+      for (const auto &part : estimate.left_out)
+        entries.push_back({ estimate.quantity + '_' + part.name, part.value, "1",
+                            "left out of " + estimate.quantity + " by the model, not in its error: " + part.remedy });
+    }
+    return entries;
+  }
+
+  void print_accuracy(std::ostream &stream, const std::vector<ErrorEstimate> &estimates)
+  {
+    if (!estimates.empty())
+      stream << "Accuracy, estimated:\n";
+    for (const auto &estimate : estimates)
+    {
+      stream << "  " << std::left << std::setw(18) << estimate.quantity << std::right;
+      if (estimate.parts.empty())
+        stream << estimate.unknown << '\n';
+      else
+        stream << std::setw(9) << percent(total_error(estimate)) << " of " << estimate.relative_to << ": "
+               << text_of(estimate.parts) << ". " << largest_part(estimate).remedy << left_out_text(estimate) << '\n';
+    }
+  }
+
+  Warnings target_warnings(const AccuracySettings &asked, const std::vector<ErrorEstimate> &estimates)
+  {
+    std::string missed, remedy;
+    for (const auto &estimate : estimates)
+    {
+      const bool is_asked =
+          std::find(asked.quantities.begin(), asked.quantities.end(), estimate.quantity) != asked.quantities.end();
+      if (!(asked.target > 0.) || !is_asked || estimate.parts.empty() || !(total_error(estimate) > asked.target))
+        continue;
+      missed += (missed.empty() ? "" : ", ") + estimate.quantity + ' ' + percent(total_error(estimate));
+      remedy = remedy.empty() ? largest_part(estimate).remedy : remedy;
+    }
+    if (missed.empty())
+      return {};
+    return { { "target_missed", "The run tells errors of " + missed + ", where " + percent(asked.target) + " was asked for.",
+               "These quantities are less accurate than asked for.", remedy } };
+  }
+
+  namespace
+  {
+    constexpr int most_numbered = 12; ///< lines of reversals
+
+    /// Returns the text behind the label of a line; empty where nothing is known.
+    std::string text_of(const SummaryRow &row, const Entry &entry, const Entry *before)
+    {
+      if (const auto *const word = std::get_if<std::string>(&entry.value))
+        return word->empty() ? "" : boost::replace_all_copy(row.text, "#", *word);
+      const double value = std::get<double>(entry.value);
+      const bool is_idle = value == 0. || (before != nullptr && before->value == entry.value);
+      if (!std::isfinite(value) || (row.is_hidden_if_idle && is_idle))
+        return {};
+      const auto share = formatted("%.3g", 100. * std::abs(value)) + " %";
+      return boost::replace_all_copy(boost::replace_all_copy(row.text, "#%", share), "#", with_unit(value, row.unit));
+    }
+
+    /// Prints each label once, with all its entries behind it.
+    void print_entries(std::ostream &stream, const AnalysisType type, const std::vector<Entry> &summary)
+    {
+      std::vector<std::pair<std::string, std::string>> lines;
+      int left_out        = 0;
+      const Entry *before = nullptr;
+      for (const auto &entry : summary)
+      {
+        const auto row  = summary_row(type, entry.name);
+        const auto text = row && !row->label.empty() ? text_of(*row, entry, before) : "";
+        before          = &entry;
+        if (text.empty())
+          continue;
+        left_out = std::max(left_out, row->number - most_numbered);
+        if (row->number > most_numbered)
+          continue;
+        const auto line = std::find_if(lines.begin(), lines.end(), [&](const auto &one) { return one.first == row->label; });
+        if (line == lines.end())
+          lines.emplace_back(row->label, text);
+        else
+          line->second += text.front() == '+' ? ' ' + text.substr(1) : ", " + text;
+      }
+      for (const auto &[label, text] : lines)
+        brief_line(stream, label, text);
+      if (left_out > 0)
+        brief_line(stream, "", "and " + std::to_string(left_out) + " more in /summary");
+    }
+
+    void print_errors(std::ostream &stream, const std::vector<ErrorEstimate> &errors)
+    {
+      std::string estimated;
+      std::map<std::string, std::string> unknown; // quantities by the reason why they have no estimate
+      const ErrorEstimate *worst = nullptr;
+      for (const auto &error : errors)
+      {
+        auto &text = error.parts.empty() ? unknown[error.unknown] : estimated;
+        text += (text.empty() ? "" : ", ") + error.quantity + (error.parts.empty() ? "" : ' ' + percent(total_error(error)));
+        if (!error.parts.empty() && (worst == nullptr || total_error(error) > total_error(*worst)))
+          worst = &error;
+      }
+      if (worst != nullptr)
+        brief_line(stream, "errors, estimated", estimated);
+      for (const auto &[reason, quantities] : unknown)
+        brief_line(stream, "not estimated", quantities + ": " + reason);
+      if (worst != nullptr)
+        brief_line(stream, "to improve the worst", largest_part(*worst).remedy);
+    }
+  } // namespace
+
+  void print_brief(std::ostream &stream, const AnalysisType type, const std::vector<Entry> &summary,
+                   const std::vector<ErrorEstimate> &errors, const double cpu_seconds)
+  {
+    print_entries(stream, type, summary);
+    print_errors(stream, errors);
+    brief_line(stream, "cost", formatted("%.2g", cpu_seconds) + " s of CPU time");
   }
 } // namespace sprag

@@ -3,14 +3,28 @@
 
 #include "analytic/error_estimate.h"
 #include "results/result_file.h"
+#include "results/warning.h"
+#include "scene/analysis_settings.h"
 
 #include <iosfwd>
 #include <vector>
 
 namespace sprag
 {
-  /// Prints of a run along a drive what a reader wants to know first: peaks, slopes, work, pressure, stress, the ringing behind
-  /// each reversal, told errors and cost. Entries that are missing or unknown (NaN) leave no trace. All else is in /summary.
-  void print_brief(std::ostream &stream, const std::vector<Entry> &summary, const std::vector<ErrorEstimate> &errors,
-                   double cpu_seconds);
+  struct AccuracySettings;
+
+  /// Returns the entries of /accuracy: of each quantity its estimated relative error, NaN where none holds, with the attributes
+  /// largest_part and remedy, or why there is none; and of each of its parts one called <quantity>_<part>.
+  std::vector<Entry> accuracy_entries(const std::vector<ErrorEstimate> &estimates);
+
+  /// Prints a line a quantity: its error, its parts and what halves the largest.
+  void print_accuracy(std::ostream &stream, const std::vector<ErrorEstimate> &estimates);
+
+  /// Warns where the error that a run tells of a quantity is larger than the target that the scene gives.
+  Warnings target_warnings(const AccuracySettings &asked, const std::vector<ErrorEstimate> &estimates);
+
+  /// Prints what a reader wants to know first: the entries of a summary that have a line in the tables of the pages, see
+  /// SummaryRow, the estimated errors and the cost. Entries that are unknown (NaN) leave no trace. All else is in /summary.
+  void print_brief(std::ostream &stream, AnalysisType type, const std::vector<Entry> &summary,
+                   const std::vector<ErrorEstimate> &errors, double cpu_seconds);
 } // namespace sprag

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "report/peak_report.h"
 
+#include "base/append.h"
 #include "base/local_regression.h"
 #include "base/text.h"
 #include "results/row_statistics.h"
@@ -175,11 +176,10 @@ namespace sprag
     if (!peak.row)
       return;
     const double value = face_size > 0. ? smoothed_largest_pressure(rows, face_size).value : peak.value;
-    entries.push_back({ "largest_pressure", value, "MPa", "largest pressure on the friction face over the run" });
-    entries.push_back({ "largest_pressure_x", (*peak.row)[Column::x], "mm", "position of the cylinder there" });
-    entries.push_back({ "largest_pressure_direction", direction(*peak.row), "", "which way the cylinder moved there" });
-    entries.push_back(
-        { "largest_pressure_xi", peak.place, "mm", "place of the largest pressure on the lever, distance from the pivot" });
+    append<Entry>(entries, { { "largest_pressure", value },
+                             { "largest_pressure_x", (*peak.row)[Column::x] },
+                             { "largest_pressure_direction", direction(*peak.row) },
+                             { "largest_pressure_xi", peak.place } });
   }
 
   double expected_pressure_error(const double elements, const unsigned int degree)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "report/report.h"
 
+#include "base/append.h"
 #include "base/errors.h"
 #include "base/least_squares.h"
 #include "base/text.h"
@@ -119,19 +120,12 @@ namespace sprag
     void add_stroke(const Scene &scene, const Rows &turned, const Rows &settled, const std::string &way,
                     std::vector<Entry> &entries)
     {
-      const std::string on = " on the " + way + " stroke";
-      entries.push_back({ "peak_P_" + way, peak(turned, Column::P), "N", "largest normal force" + on });
-      entries.push_back({ "peak_Q_" + way, peak(turned, Column::Q), "N", "largest quasi-friction force" + on });
+      append<Entry>(entries, { { "peak_P_" + way, peak(turned, Column::P) }, { "peak_Q_" + way, peak(turned, Column::Q) } });
       if (begins_closed(scene))
-        entries.push_back({ "slope_" + way, slope_at_zero(settled), "N/mm",
-                            "C_Q, slope of Q at x = 0 fitted over 10 mm" + on + "; NaN where mu changes there" });
-      const std::string apart = on + ", relative to the stroke's peak, the first 2 mm after a reversal apart";
-      entries.push_back({ "deviation_P_" + way, deviation(settled, Column::P, Column::P_closed_form), "1",
-                          "largest deviation of P from the closed form" + apart });
-      entries.push_back({ "deviation_Q_" + way, deviation(settled, Column::Q, Column::Q_closed_form), "1",
-                          "largest deviation of Q from the closed form" + apart });
-      entries.push_back({ "deviation_theta_" + way, deviation(settled, Column::theta, Column::theta_closed_form), "1",
-                          "largest deviation of theta from the closed form" + apart });
+        entries.push_back({ "slope_" + way, slope_at_zero(settled) });
+      append<Entry>(entries, { { "deviation_P_" + way, deviation(settled, Column::P, Column::P_closed_form) },
+                               { "deviation_Q_" + way, deviation(settled, Column::Q, Column::Q_closed_form) },
+                               { "deviation_theta_" + way, deviation(settled, Column::theta, Column::theta_closed_form) } });
     }
   } // namespace
 
@@ -155,13 +149,10 @@ namespace sprag
     {
       if (scene.analysis.dimension != 3 || !scene.cylinder.has_free_axis())
         return;
-      const auto by_P         = [](const Row &a, const Row &b) { return a[Column::P] < b[Column::P]; };
-      const auto &across      = std::max_element(rows.begin(), rows.end(), by_P)->across;
-      const auto tilt         = columns_across().size();
-      const auto skew         = tilt + 1;
-      const std::string where = ", where P is largest";
-      entries.push_back({ "tilt", across[tilt], "1", "slope of the cylinder's axis towards the lever" + where });
-      entries.push_back({ "skew", across[skew], "1", "slope of the cylinder's axis along x" + where });
+      const auto by_P    = [](const Row &a, const Row &b) { return a[Column::P] < b[Column::P]; };
+      const auto &across = std::max_element(rows.begin(), rows.end(), by_P)->across;
+      const auto tilt    = columns_across().size();
+      append<Entry>(entries, { { "tilt", across[tilt] }, { "skew", across[tilt + 1] } });
     }
   } // namespace
 
@@ -177,34 +168,28 @@ namespace sprag
         if (!begins_closed(scene))
           continue;
         const double mu = sliding_friction(scene, 0., direction * scene.drive.peak_speed()).coefficient;
-        entries.push_back({ "representative_slope_" + way,
-                            representative_slope(scene.geometry, scene.spring.stiffness, mu, direction), "N/mm",
-                            "C_Q of the closed form at x = 0 with mu at the drive's peak speed" });
+        entries.push_back(
+            { "representative_slope_" + way, representative_slope(scene.geometry, scene.spring.stiffness, mu, direction) });
       }
 
     const Row &last         = rows.back();
     const double work       = last[Column::drive_work];
     const double dissipated = last[Column::friction_work];
     const double stored     = stored_energy(last) - stored_energy(rows.front());
-    entries.push_back({ "loop_area", work, "N mm", "integral of Q over x; the loop area after whole cycles" });
-    entries.push_back({ "friction_work", dissipated, "N mm", "work dissipated by friction" });
-    entries.push_back(
-        { "energy_residual", work - dissipated - stored, "N mm", "drive work less friction work and change of stored energy" });
+    append<Entry>(entries,
+                  { { "loop_area", work }, { "friction_work", dissipated }, { "energy_residual", work - dissipated - stored } });
     add_largest_pressure(rows, entries, scene.mesh.face_size);
     add_slopes(scene, rows, entries);
     const double penetration = largest(rows, Column::penetration);
-    entries.push_back({ "penetration", penetration, "mm", "largest numerical overlap of cylinder and friction face" });
+    entries.push_back({ "penetration", penetration });
     if (scene.layer.thickness > 0.)
-      entries.push_back({ "penetration_share", penetration / scene.layer.thickness, "1",
-                          "largest overlap over the thickness of the friction layer" });
-    entries.push_back({ "cone_violation", largest(rows, Column::cone_violation), "1",
-                        "largest excess of friction over the cone, relative to mu times the peak pressure" });
-    entries.push_back(
-        { "elastic_slip", largest(rows, Column::elastic_slip), "mm", "largest elastic slip of the tangential penalty" });
-    entries.push_back({ "steps", static_cast<double>(rows.size()) - 1., "1", "accepted steps" });
-    entries.push_back({ "iterations", sum(rows, Column::iterations), "1", "Newton iterations" });
-    entries.push_back({ "augmentations", sum(rows, Column::augmentations), "1", "augmentations of the contact multipliers" });
-    entries.push_back({ "augmentations_worst", largest(rows, Column::augmentations), "1", "augmentations of the worst step" });
+      entries.push_back({ "penetration_share", penetration / scene.layer.thickness });
+    append<Entry>(entries, { { "cone_violation", largest(rows, Column::cone_violation) },
+                             { "elastic_slip", largest(rows, Column::elastic_slip) },
+                             { "steps", static_cast<double>(rows.size()) - 1. },
+                             { "iterations", sum(rows, Column::iterations) },
+                             { "augmentations", sum(rows, Column::augmentations) },
+                             { "augmentations_worst", largest(rows, Column::augmentations) } });
     return entries;
   }
 
@@ -212,13 +197,10 @@ namespace sprag
   {
     if (rows.empty() || rows.front().second_lever().empty())
       return;
-    entries.push_back({ "peak_lateral_force", signed_peak(rows, [](const Row &row) { return row.lateral_force(); }), "N",
-                        "largest y-force of both levers on the cylinder" });
-    entries.push_back({ "peak_swing", signed_peak(rows, [](const Row &row) { return row.swing(); }), "rad",
-                        "largest turn of both levers the same way" });
-    entries.push_back({ "peak_difference_P",
-                        signed_peak(rows, [](const Row &row) { return row[Column::P] - row.of_second_lever(Column::P); }), "N",
-                        "largest difference of both levers' normal forces" });
+    const auto difference = [](const Row &row) { return row[Column::P] - row.of_second_lever(Column::P); };
+    append<Entry>(entries, { { "peak_lateral_force", signed_peak(rows, [](const Row &row) { return row.lateral_force(); }) },
+                             { "peak_swing", signed_peak(rows, [](const Row &row) { return row.swing(); }) },
+                             { "peak_difference_P", signed_peak(rows, difference) } });
   }
 
   double value_of(const std::vector<Entry> &entries, const std::string &name)

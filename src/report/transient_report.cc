@@ -59,25 +59,9 @@ namespace sprag
     void add_peaks(const std::vector<Row> &rows, std::vector<Entry> &entries)
     {
       for (const auto &[direction, way] : { std::pair<int, std::string>{ 1, "forward" }, { -1, "backward" } })
-      {
-        const std::string on = " while moving " + way;
-        entries.push_back({ "peak_P_" + way, peak(rows, Column::P, direction), "N", "largest normal force" + on });
-        entries.push_back({ "peak_Q_" + way, peak(rows, Column::Q, direction), "N", "largest x-force of the contact" + on });
-        entries.push_back(
-            { "peak_Q_support_" + way, peak(rows, Column::Q_support, direction), "N", "largest x-force of the support" + on });
-      }
-    }
-
-    void add_energies(const std::vector<Row> &rows, std::vector<Entry> &entries)
-    {
-      const Row &last = rows.back();
-      entries.push_back({ "loop_area", last[Column::drive_work], "N mm", "work of the drive; the loop area after whole cycles" });
-      entries.push_back({ "friction_work", last[Column::friction_work], "N mm", "work dissipated by friction" });
-      entries.push_back({ "damping_work", last[Column::damping_work], "N mm", "work dissipated by damping" });
-      entries.push_back(
-          { "algorithmic_work", last[Column::algorithmic_work], "N mm", "work dissipated by the time integration" });
-      entries.push_back({ "energy_residual", largest(rows, Column::energy_residual), "N mm", "largest residual of the ledger" });
-      entries.push_back({ "energy_residual_share", residual_share(rows), "1", "largest residual over the largest work" });
+        append<Entry>(entries, { { "peak_P_" + way, peak(rows, Column::P, direction) },
+                                 { "peak_Q_" + way, peak(rows, Column::Q, direction) },
+                                 { "peak_Q_support_" + way, peak(rows, Column::Q_support, direction) } });
     }
 
     std::string contact_text(const Scene &scene)
@@ -129,16 +113,20 @@ namespace sprag
     if (rows.empty())
       return entries;
     add_peaks(rows, entries);
-    add_energies(rows, entries);
+    const Row &last = rows.back();
+    append<Entry>(entries, { { "loop_area", last[Column::drive_work] },
+                             { "friction_work", last[Column::friction_work] },
+                             { "damping_work", last[Column::damping_work] },
+                             { "algorithmic_work", last[Column::algorithmic_work] },
+                             { "energy_residual", largest(rows, Column::energy_residual) },
+                             { "energy_residual_share", residual_share(rows) } });
     add_largest_pressure(rows, entries);
-    entries.push_back({ "penetration", largest(rows, Column::penetration), "mm", "largest numerical overlap" });
-    entries.push_back(
-        { "cone_violation", largest(rows, Column::cone_violation), "1", "largest excess of friction over the cone" });
-    entries.push_back(
-        { "creep", rows.back()[Column::creep], "mm", "slip below Friction/Regularisation speed; 0: stick resolved" });
-    entries.push_back({ "steps", static_cast<double>(rows.size()) - 1., "1", "accepted steps" });
-    entries.push_back({ "rejected_steps", sum(rows, Column::rejected_steps), "1", "attempts discarded" });
-    entries.push_back({ "iterations", sum(rows, Column::iterations), "1", "Newton iterations" });
+    append<Entry>(entries, { { "penetration", largest(rows, Column::penetration) },
+                             { "cone_violation", largest(rows, Column::cone_violation) },
+                             { "creep", last[Column::creep] },
+                             { "steps", static_cast<double>(rows.size()) - 1. },
+                             { "rejected_steps", sum(rows, Column::rejected_steps) },
+                             { "iterations", sum(rows, Column::iterations) } });
     append(entries, oscillation_entries(oscillations(rows, scene.drive, size_of_elements(scene))));
     return entries;
   }

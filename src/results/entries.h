@@ -9,7 +9,7 @@ namespace sprag
   /// Returns the last entry of every summary: "completed" or what went wrong.
   inline Entry status_entry(const std::string &status)
   {
-    return { "status", status, "", "how the run ended" };
+    return { "status", status, "", "completed, or why the run ended early" };
   }
 
   /// Adds a group of entries to an open file. Throws AnalysisError when HDF5 fails.

@@ -17,8 +17,8 @@ namespace sprag
   {
     std::string name;
     std::variant<double, std::string> value;
-    std::string unit; ///< "1" where dimensionless, empty for text
-    std::string description;
+    std::string unit                                            = {}; ///< "1" where dimensionless, empty for text
+    std::string description                                     = {};
     std::vector<std::pair<std::string, std::string>> attributes = {}; ///< further ones, name and text
   };
 

@@ -2,6 +2,7 @@
 #include "results/shared_writing.h"
 
 #include "base/errors.h"
+#include "base/messages.h"
 #include "results/hdf5.h"
 
 #include <deal.II/base/mpi.h>
@@ -73,7 +74,7 @@ namespace sprag
         problem = "cannot write " + path + ": " + std::strerror(errno);
       else
         ::close(file);
-      const auto problems = MPI::all_gather(ranks, problem);
+      const auto problems = gather(ranks, problem);
       for (std::size_t rank = 0; rank < problems.size(); ++rank)
         if (!problems[rank].empty())
           throw AnalysisError(named(problems[rank], rank) + (rank > 0 ? ". All of them need the folder of --output" : ""));
@@ -131,14 +132,14 @@ namespace sprag
     Plan plan{ path, all };
     Archive archive;
     visit(archive, plan);
-    MPI::broadcast(writers.ranks, archive.bytes());
+    broadcast_bytes(writers.ranks, archive.bytes());
     write_shares(plan, writers.ranks);
   }
 
   void take_part_in_writing(const MPI_Comm ranks)
   {
     Plan plan;
-    Archive archive(MPI::broadcast(ranks, std::string()));
+    Archive archive(broadcast_bytes(ranks, std::string()));
     visit(archive, plan);
     write_shares(plan, ranks);
   }

@@ -69,19 +69,6 @@ namespace sprag
       return { part(Direction::forward, v), part(Direction::backward, -v) };
     }
 
-    void add_slopes(const Scene &scene, const Ratios &ratios, DesignQuantities &found)
-    {
-      const auto ideal          = lever_quantities(scene);
-      const double out          = ratios.forward * ideal[Q::forward_slope];
-      const double back         = ratios.backward * ideal[Q::backward_slope];
-      found[Q::forward_slope]   = out;
-      found[Q::backward_slope]  = back;
-      found[Q::damping_slope]   = 0.5 * (out - back);
-      found[Q::restoring_slope] = 0.5 * (out + back);
-      found[Q::slope_ratio]     = ratio_of_ways(out, back);
-      found[Q::friction_ratio]  = scene.isolation.levers * found[Q::damping_slope] / scene.isolation.stiffness;
-    }
-
     /// Q and P of slides at places, of one way.
     struct Slides
     {
@@ -236,7 +223,9 @@ namespace sprag
       judgement.failure = "there is no unique slide at some x of the stroke: the lever jams";
       return;
     }
-    add_slopes(scene, ratios_near_rest(scene, maker), judgement.found);
+    const auto ideal  = lever_quantities(scene);
+    const auto ratios = ratios_near_rest(scene, maker);
+    add_slopes(scene, ratios.forward * ideal[Q::forward_slope], ratios.backward * ideal[Q::backward_slope], judgement.found);
     add_forces(scene, out, back, judgement.found);
   }
 

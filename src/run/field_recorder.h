@@ -2,10 +2,10 @@
 #pragma once
 
 #include "base/phase_timer.h"
+#include "estimate/stress_sample.h"
 #include "fe/fields/field_frames.h"
 #include "fe/fields/stress_peaks.h"
 #include "model/port_forces.h"
-#include "run/stress_sample.h"
 
 #include <functional>
 #include <map>

@@ -3,9 +3,7 @@
 #include "base/append.h"
 #include "levers/prepared_scene.h"
 #include "program/result_writer.h"
-#include "report/report.h"
 #include "run/analyses.h"
-#include "run/briefs.h"
 #include "scene/read.h"
 #include "scene/scene.h"
 
@@ -35,42 +33,38 @@ namespace sprag
     {
       Entries entries;
       if (parts.thickness)
-        entries.push_back({ "leaf_thickness", *parts.thickness, "mm", "of the leaf spring, for the stiffness asked for" });
-      if (parts.added && parts.scene.calibration.mass == AddedMass::tip)
-        entries.push_back({ "tip_mass", *parts.added, "t", "at the tip, for the moment of inertia asked for" });
-      else if (parts.added)
-        entries.push_back({ "hub_inertia", *parts.added, "t mm^2", "at the hub, for the moment of inertia asked for" });
-      entries.push_back({ "stiffness", reduced.stiffness, "N mm/rad", "k at rest" });
-      entries.push_back({ "moment_of_inertia", reduced.moment_of_inertia, "t mm^2", "J about the pivot" });
-      entries.push_back({ "bending_stiffness", reduced.bending.stiffness, "N mm^2", "EI of the beam that bends most like it" });
-      entries.push_back({ "bending_error", reduced.bending.deflection_error, "1", "rms error of that beam's deflections" });
-      entries.push_back({ "neutral_axis_offset", reduced.bending.neutral_axis_offset, "mm", "e_a of that beam" });
-      const auto &law = reduced.contact.fit;
-      entries.push_back({ "contact_stiffness", law.stiffness, "N/mm^n", "Contact/Stiffness" });
-      entries.push_back({ "contact_exponent", law.exponent, "1", "Contact/Exponent" });
-      entries.push_back({ "contact_error", law.rms_error, "1", "rms error of P of that law, relative" });
+        entries.push_back({ "leaf_thickness", *parts.thickness });
+      if (parts.added)
+        entries.push_back({ parts.scene.calibration.mass == AddedMass::tip ? "tip_mass" : "hub_inertia", *parts.added });
+      const auto &beam = reduced.bending;
+      const auto &law  = reduced.contact.fit;
+      append<Entry>(entries, { { "stiffness", reduced.stiffness },
+                               { "moment_of_inertia", reduced.moment_of_inertia },
+                               { "bending_stiffness", beam.stiffness },
+                               { "bending_error", beam.deflection_error },
+                               { "neutral_axis_offset", beam.neutral_axis_offset },
+                               { "contact_stiffness", law.stiffness },
+                               { "contact_exponent", law.exponent },
+                               { "contact_error", law.rms_error } });
       return entries;
     }
 
-    void add_frequencies(const std::string &name, const std::string &where, const std::array<std::vector<double>, 2> &found,
-                         Entries &entries)
+    void add_frequencies(const std::string &name, const std::array<std::vector<double>, 2> &found, Entries &entries)
     {
       for (std::size_t i = 0; i < std::min(found[0].size(), found[1].size()); ++i)
       {
-        const std::string number = std::to_string(i + 1);
-        entries.push_back({ name + number, found[0][i], "Hz", "of the meshed lever " + where });
-        entries.push_back({ name + number + "_beam", found[1][i], "Hz", "of the calibrated beam " + where });
-        entries.push_back({ name + number + "_deviation", found[1][i] / found[0][i] - 1., "1", "of the beam from the mesh" });
+        const std::string numbered = name + std::to_string(i + 1);
+        append<Entry>(entries, { { numbered, found[0][i] },
+                                 { numbered + "_beam", found[1][i] },
+                                 { numbered + "_deviation", found[1][i] / found[0][i] - 1. } });
       }
     }
 
     Entries disagreement_entries(const Disagreement &found)
     {
-      Entries entries = { { "P_deviation", found.of_forces(0), "1",
-                            "of the beam from the mesh in steady sliding, over the peak" },
-                          { "Q_deviation", found.of_forces(1), "1", "the same of Q" } };
-      add_frequencies("free_frequency_", "out of contact", found.free_frequencies, entries);
-      add_frequencies("contact_frequency_", "in contact, without friction", found.contact_frequencies, entries);
+      Entries entries = { { "P_deviation", found.of_forces(0) }, { "Q_deviation", found.of_forces(1) } };
+      add_frequencies("free_frequency_", found.free_frequencies, entries);
+      add_frequencies("contact_frequency_", found.contact_frequencies, entries);
       return entries;
     }
   } // namespace
@@ -101,13 +95,8 @@ namespace sprag
       writer.append(std::vector<double>{ point.x, point.direction, point.forces[0].P, point.forces[1].P, point.forces[0].Q,
                                          point.forces[1].Q });
     const auto summary = joined(part_entries(parts, reduced), disagreement_entries(found));
-    const auto end     = writer.finish("completed", { summary }, warnings);
-    if (options.quiet)
-      return;
-    if (options.verbose)
-      print_summary(std::cout, end.summary);
-    else
-      print_brief_of_calibration(std::cout, end.summary);
-    std::cout << "\nScenes: " << options.folder << "/calibrated.prm, " << options.folder << "/beam.prm\n";
+    writer.finish("completed", { summary }, warnings);
+    if (!options.quiet)
+      std::cout << "\nScenes: " << options.folder << "/calibrated.prm, " << options.folder << "/beam.prm\n";
   }
 } // namespace sprag

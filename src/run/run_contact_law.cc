@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/statics/contact_law.h"
 #include "program/result_writer.h"
-#include "report/report.h"
 #include "run/analyses.h"
-#include "run/briefs.h"
 
 #include <cmath>
 #include <iomanip>
@@ -15,13 +13,9 @@ namespace sprag
   {
     std::vector<Entry> contact_law_entries(const FittedContact &law)
     {
-      return { { "stiffness", law.fit.stiffness, "N/mm^n", "Contact/Stiffness of the reduced models" },
-               { "exponent", law.fit.exponent, "1", "Contact/Exponent" },
-               { "largest_error", law.fit.largest_error, "1", "of P of the fitted law, relative" },
-               { "rms_error", law.fit.rms_error, "1", "of P of the fitted law, relative" },
-               { "penalty_error", law.penalty_error(), "1",
-                 "of P by the overlap that the indentation's penalty leaves, relative" },
-               { "largest_P", law.points.back().P, "N", "up to which the law was fitted" } };
+      return { { "stiffness", law.fit.stiffness },         { "exponent", law.fit.exponent },
+               { "largest_error", law.fit.largest_error }, { "rms_error", law.fit.rms_error },
+               { "penalty_error", law.penalty_error() },   { "largest_P", law.points.back().P } };
     }
   } // namespace
 
@@ -39,13 +33,9 @@ namespace sprag
     for (const auto &point : law.points)
       writer.append(std::vector<double>{ point.P, point.approach, point.bending, point.local(),
                                          law.fit.stiffness * std::pow(point.local(), law.fit.exponent) });
-    const auto end = writer.finish("completed", { contact_law_entries(law) }, warnings);
+    writer.finish("completed", { contact_law_entries(law) }, warnings);
     if (options.quiet)
       return;
-    if (options.verbose)
-      print_summary(std::cout, end.summary);
-    else
-      print_brief_of_contact_law(std::cout, end.summary);
     std::cout << std::setprecision(6)
               << "\nLines for the parameter file:\n\nsubsection Contact\n  set Stiffness = " << law.fit.stiffness
               << "\n  set Exponent  = " << law.fit.exponent << "\nend\n";

@@ -1,22 +1,230 @@
 // SPDX-License-Identifier: GPL-3.0-only
+#include "analysis/identification/identification.h"
 #include "base/append.h"
 #include "base/errors.h"
 #include "base/interrupt.h"
 #include "base/text.h"
+#include "base/unknown.h"
 #include "program/result_writer.h"
+#include "report/brief_lines.h"
+#include "results/result_file.h"
 #include "run/analyses.h"
-#include "run/identification_report.h"
+#include "scene/closed_form.h"
+#include "scene/identification_text.h"
 #include "scene/read.h"
 #include "scene/scene.h"
 
+#include <boost/algorithm/string/join.hpp>
+
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <iosfwd>
 #include <iostream>
+#include <ostream>
+#include <set>
+#include <vector>
 
 namespace sprag
 {
   namespace
   {
+    std::string word_of(const ForceChannel &channel)
+    {
+      return word_for(force_words(), channel.force);
+    }
+
+    /// An interval's half-width to two digits.
+    std::string half_width(const FoundNumber &found)
+    {
+      return formatted("%.2g", found.high - found.value);
+    }
+
+    /// Independent values over all, below which residuals follow each other more than those of sensors do.
+    constexpr double least_independent = 0.3;
+    constexpr double least_deviation   = 1e-3; ///< of residuals over the largest force, below which they are round-off
+
+    /// Whether residuals follow each other as they do where the model is another than what was measured.
+    bool is_not_followed(const ForceChannel &channel, const ChannelNoise &noise)
+    {
+      double largest = 0.;
+      for (const double value : channel.values)
+        largest = std::isnan(value) ? largest : std::max(largest, std::abs(value));
+      return noise.effective_rows() < least_independent * noise.rows && noise.deviation > least_deviation * largest;
+    }
+
+    std::string remedy_of_another(const Identification &found)
+    {
+      std::vector<std::string> named;
+      for (const auto &more : found.more)
+        named.push_back(more.name + " (by about " + with_unit(more.change, more.unit) + ")");
+      return (named.empty() ? "" : "Check " + boost::algorithm::join(named, " or ") + ", which would explain the residuals. ") +
+             "Look at the residuals over x. Check what is taken as known: Geometry/Cylinder radius and the other "
+             "lengths, sign and scale of each force; seek offsets or lag in Identification/Unknowns.";
+    }
+
+    std::string remedy_of_indistinct()
+    {
+      return "Measure both directions, over more of the stroke, P beside Q, or at other speeds; or leave one of them out of "
+             "Identification/Unknowns and give its value.";
+    }
+
+    std::vector<ColumnInfo> identification_columns(const MeasuredStroke &measured)
+    {
+      std::vector<ColumnInfo> result;
+      if (!measured.time.empty())
+        result.push_back({ "time", "s", "as measured" });
+      result.insert(result.end(), { { "x", "mm", "position of the cylinder that the forces belong to, the lag taken off" },
+                                    { "v", "mm/s", "its speed" },
+                                    { "direction", "1", "1 forward, -1 back" },
+                                    { "used", "1", "1: the row counted" } });
+      for (const auto &channel : measured.channels)
+      {
+        const auto word = word_of(channel);
+        result.push_back({ word, "N", "as measured" });
+        result.push_back({ word + "_fitted", "N", "of the lever found, offset included" });
+        result.push_back({ word + "_residual", "N", "measured less fitted" });
+      }
+      return result;
+    }
+
+    /// Returns the rows of the columns, one a row of the measurement.
+    std::vector<std::vector<double>> identification_rows(const MeasuredStroke &measured, const StrokeFit &fit,
+                                                         const Identification &found)
+    {
+      std::set<std::size_t> used;
+      for (const auto &value : found.used)
+        used.insert(value.row);
+      std::vector<std::vector<double>> result;
+      const double lag = found.lever.lag;
+      for (std::size_t row = 0; row < measured.rows(); ++row)
+      {
+        const auto stroke = fit.way().stroke_at(row, lag);
+        const auto place  = fit.way().at(row, lag, stroke);
+        std::vector<double> values;
+        if (!measured.time.empty())
+          values.push_back(measured.time[row]);
+        const double direction = fit.way().strokes()[stroke].direction;
+        values.insert(values.end(), { place.x, place.v, direction, used.count(row) > 0 ? 1. : 0. });
+        const bool is_known = fit.way().covers(row, lag, stroke) && place.x >= 0.;
+        const auto slide    = is_known ? fit.slide(found.lever, found.correction, row, stroke) : std::nullopt;
+        for (std::size_t channel = 0; channel < measured.channels.size(); ++channel)
+        {
+          const double shown = slide ? fit.shown(found.lever, *slide, channel) : unknown;
+          const double value = measured.channels[channel].values[row];
+          values.insert(values.end(), { value, shown, value - shown });
+        }
+        result.push_back(values);
+      }
+      return result;
+    }
+
+    std::vector<Entry> identification_summary(const Scene &scene, const Identification &found)
+    {
+      std::vector<Entry> result;
+      for (const auto &[number, value, deviation, low, high] : found.found)
+        append<Entry>(result, { { number.name, value, number.unit, number.meaning },
+                                { number.name + "_low", low, number.unit },
+                                { number.name + "_high", high, number.unit },
+                                { number.name + "_deviation", deviation, number.unit } });
+      result.push_back({ "theta0", kinematics(found.lever.geometry, 0.).theta });
+      const auto &channels = scene.identification.measured.channels;
+      for (std::size_t i = 0; i < channels.size(); ++i)
+      {
+        const auto word = word_of(channels[i]);
+        append<Entry>(result, { { "noise_" + word, found.noise[i].deviation },
+                                { "values_" + word, found.noise[i].rows },
+                                { "effective_values_" + word, found.noise[i].effective_rows() } });
+      }
+      const auto &known = found.knowledge;
+      append<Entry>(result, { { "reversal_window", found.window },
+                              { "degrees_of_freedom", known.freedom },
+                              { "rounds", static_cast<double>(found.rounds) },
+                              { "indistinct", boost::algorithm::join(known.indistinct, " ") },
+                              { "weak", boost::algorithm::join(known.weak, " ") } });
+      return result;
+    }
+
+    /// Returns the group /identification: names, values, deviations, correlation and singular values with their directions.
+    std::vector<Group> identification_groups(const Identification &found)
+    {
+      const auto n         = found.found.size();
+      const auto &known    = found.knowledge;
+      const auto value     = [](const FoundNumber &one) { return one.value; };
+      const auto deviation = [](const FoundNumber &one) { return one.deviation; };
+      const auto scale     = [](const FoundNumber &one) { return one.number.scale; };
+      Group group{ "identification",
+                   { dataset_of(found.found, { "values", "", "of the unknowns, in the order of names" }, value),
+                     dataset_of(found.found, { "deviations", "", "their standard deviations" }, deviation),
+                     dataset_of(found.found, { "scales", "", "changes of them that are large, by which the next are scaled" },
+                                scale),
+                     { { "correlation", "1", "of each two unknowns" }, known.correlation, { n, n } },
+                     { { "singular_values", "1", "of the Jacobian of scaled unknowns over the noise, decreasing" },
+                       known.singular.values,
+                       {} },
+                     { { "directions", "1", "components of the scaled unknowns, a column each singular value" },
+                       known.singular.directions,
+                       { n, n } } } };
+      TextDataset names{ "names", "of the unknowns", {} };
+      for (const auto &one : found.found)
+        names.values.push_back(one.number.name);
+      group.texts.push_back(names);
+      return { group };
+    }
+
+    /// Returns the warnings that follow from what was found.
+    Warnings identification_warnings(const Scene &scene, const Identification &found)
+    {
+      Warnings warnings;
+      std::vector<std::string> not_followed;
+      const auto &channels = scene.identification.measured.channels;
+      for (std::size_t i = 0; i < channels.size(); ++i)
+        if (const auto &noise = found.noise[i]; is_not_followed(channels[i], noise))
+          not_followed.push_back(formatted("%.0f", noise.rows) + " values of " + word_of(channels[i]) + " are worth " +
+                                 formatted("%.0f", noise.effective_rows()) + " independent ones");
+      if (!not_followed.empty())
+        warnings.push_back({ "model_does_not_follow", boost::algorithm::join(not_followed, ", ") + ".",
+                             "Residuals follow each other, as they do where the lever of the scene is another than the measured "
+                             "one. The intervals count noise alone and then miss the true values by many times their width.",
+                             remedy_of_another(found) });
+      const auto &indistinct = found.knowledge.indistinct;
+      if (!indistinct.empty())
+        warnings.push_back({ "indistinct_unknowns", boost::algorithm::join(indistinct, " "),
+                             "Their values are hardly better than where the search began, and the intervals, which a straight "
+                             "line through the model gives, are only a sign of it.",
+                             remedy_of_indistinct() });
+      if (found.window_is_full)
+        warnings.push_back(
+            { "long_vibration",
+              "Residuals are larger than noise up to a quarter of a stroke behind a turn, the most that is left out.",
+              "Vibration, or what the lever cannot follow, may go on behind it and bias the values.",
+              "Give a longer Identification/Reversal window, or look at the residuals for another model." });
+      if (!found.converged)
+        warnings.push_back({ "not_converged", "The fit still changes after " + std::to_string(found.rounds) + " rounds.",
+                             "Values and intervals are those of the last round.",
+                             "Start from other values, or take fewer unknowns." });
+      return warnings;
+    }
+
+    void print_identification(std::ostream &stream, const Scene &scene, const Identification &found)
+    {
+      for (const auto &one : found.found)
+        brief_line(stream, one.number.name,
+                   with_unit(one.value, "") + " +- " + half_width(one) + (one.number.unit == "1" ? "" : " " + one.number.unit));
+      const auto &channels = scene.identification.measured.channels;
+      for (std::size_t i = 0; i < channels.size(); ++i)
+        brief_line(stream, "noise of " + word_of(channels[i]),
+                   with_unit(found.noise[i].deviation, "N") + ", " + formatted("%.0f", found.noise[i].rows) + " values worth " +
+                       formatted("%.0f", found.noise[i].effective_rows()) + " independent ones");
+      brief_line(stream, "left out",
+                 mm(found.window) + " behind the beginning and each reversal" +
+                     (scene.identification.window ? "" : ", from the data"));
+      for (const auto &sentence : found.knowledge.weak)
+        brief_line(stream, "", sentence);
+      stream << "+- is half of the interval of " << formatted("%.4g", 100. * scene.identification.confidence) << " %\n";
+    }
+
     void write(const std::string &file, const std::string &text)
     {
       std::ofstream stream(file);
@@ -86,9 +294,9 @@ namespace sprag
             warnings.push_back(warning);
           if (options.in_memory == nullptr)
             no_scene = write_scene(scene, options, unknowns, found);
-          writer.finish(status, { identification_summary(scene, found), {}, identification_groups(found) }, warnings);
           if (!options.quiet)
             print_identification(std::cout, scene, found);
+          writer.finish(status, { identification_summary(scene, found), {}, identification_groups(found) }, warnings);
         });
     if (!no_scene.empty())
       throw AnalysisError("The values found are no scene, identified.prm is not written: " + no_scene);

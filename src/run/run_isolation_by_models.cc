@@ -1,23 +1,114 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/isolation/lever_table.h"
+#include "analysis/transient/transient_settings.h"
+#include "analytic/isolated_table.h"
+#include "base/progress.h"
+#include "base/text.h"
 #include "levers/dynamics.h"
+#include "program/checkpoint.h"
 #include "program/isolation_report.h"
+#include "program/result_writer.h"
 #include "run/analyses.h"
 #include "run/in_memory.h"
-#include "run/table_recorder.h"
-#include "run/transient_settings.h"
+#include "scene/scene.h"
 
+#include <cstdint>
+#include <iostream>
 #include <optional>
+#include <vector>
 
 namespace sprag
 {
   namespace
   {
+    /// Takes the rows of a table on levers in time as they come: writes them, hands them to the checkpoint and shows the
+    /// progress.
+    class TableRecorder
+    {
+    public:
+      /// Makes the folder and result file and begins with the rows of an interrupted run. Throws InputError if they cannot be
+      /// written. All must live as long.
+      TableRecorder(const Scene &scene, const RunOptions &options, PhaseTimer &timer, Checkpoint &checkpoint);
+
+      void record(const IsolatedTable &table, bool is_before);
+
+      /// Ends the progress and returns the file for what the run leaves at its end.
+      ResultWriter &finish();
+
+    private:
+      const Scene &scene;
+      Checkpoint &checkpoint;
+      ResultWriter writer;
+      Progress progress;
+      std::vector<std::vector<double>> to_keep; ///< rows for the checkpoint's journal
+      std::size_t kept = 0;                     ///< of these, there already
+
+      void take_over(bool quiet);
+    };
+
+    enum class RecordKind : std::uint64_t
+    {
+      row
+    };
+
+    TableRecorder::TableRecorder(const Scene &scene_, const RunOptions &options, PhaseTimer &timer, Checkpoint &checkpoint_)
+        : scene(scene_)
+        , checkpoint(checkpoint_)
+        , writer(scene, options, timer, isolation_columns())
+        , progress(std::cerr, progress_style(options.quiet || options.in_memory != nullptr), scene.isolation.duration)
+    {
+      if (checkpoint.resumes())
+        take_over(options.quiet);
+      checkpoint.set_records(
+          [this](RowJournal &journal)
+          {
+            // Whatever append() throws, it has what it was given.
+            while (kept < to_keep.size())
+              journal.append(RecordKind::row, to_keep[kept++]);
+            to_keep.clear();
+            kept = 0;
+          });
+    }
+
+    void TableRecorder::take_over(const bool quiet)
+    {
+      std::vector<double> row;
+      std::size_t rows = 0;
+      for (Archive records = checkpoint.recorded(); !records.at_end(); ++rows)
+      {
+        RecordKind kind{};
+        records(kind, row);
+        writer.append(row);
+      }
+      const double time = row.empty() ? 0. : row.front();
+      progress.begin_at(time);
+      if (!quiet)
+        std::cout << "Goes on:      from t = " << rounded_text(time) << " s, row " << rows << " of an interrupted run\n"
+                  << std::flush;
+    }
+
+    void TableRecorder::record(const IsolatedTable &table, const bool is_before)
+    {
+      auto row = isolation_row(scene.isolation, table, is_before);
+      checkpoint.hand_on([&] { writer.append(row); });
+      if (checkpoint.keeps())
+        to_keep.push_back(std::move(row));
+      ProgressFields fields;
+      fields.z = table.state().z;
+      progress.update(table.state().time, fields);
+    }
+
+    ResultWriter &TableRecorder::finish()
+    {
+      progress.finish();
+      return writer;
+    }
+
     std::vector<Entry> facts_of(const LeverTable &table, const unsigned long steps_taken_over)
     {
-      return { { "steps", static_cast<double>(table.number_of_steps()), "1", "accepted" },
-               { "iterations_a_step", table.iterations_a_step(), "1", "ways of the table tried in a step" },
-               { "steps_taken_over", static_cast<double>(steps_taken_over), "1", "from an interrupted run of the scene" } };
+      return { { "steps", static_cast<double>(table.number_of_steps()) },
+               { "iterations_a_step", table.iterations_a_step() },
+               { "steps_taken_over", static_cast<double>(steps_taken_over) } };
     }
   } // namespace
 
@@ -51,7 +142,7 @@ namespace sprag
         [&](const std::string &status)
         {
           const std::vector<Entry> facts = table ? facts_of(*table, steps_taken_over) : std::vector<Entry>();
-          finish_isolation(scene, options, found, facts, status, recorder.finish(), warnings);
+          finish_isolation(scene, found, facts, status, recorder.finish(), warnings);
           checkpoint.finish(status);
         });
   }

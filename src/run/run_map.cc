@@ -5,9 +5,7 @@
 #include "program/result_writer.h"
 #include "program/run_files.h"
 #include "report/brief_lines.h"
-#include "report/report.h"
 #include "run/analyses.h"
-#include "run/briefs.h"
 #include "scene/scene.h"
 #include "scene/scene_key.h"
 
@@ -146,18 +144,14 @@ namespace sprag
     {
       const auto [n_first, n_second] = map.grid.points();
       const auto on_grid             = std::count(group.datasets[2].values.begin(), group.datasets[2].values.end(), 1.);
-      std::vector<Entry> summary = { { "grid_points", static_cast<double>(n_first) * n_second, "1", "cells of the full grid" },
-                                     { "grid_cells_judged", static_cast<double>(on_grid), "1", "of them" },
-                                     { "cells_judged", static_cast<double>(judged), "1", "those of the boundaries included" },
-                                     { "boundary_points", static_cast<double>(map.boundary.size()), "1", "rows of /table" } };
+      std::vector<Entry> summary     = { { "grid_points", static_cast<double>(n_first) * n_second },
+                                         { "grid_cells_judged", static_cast<double>(on_grid) },
+                                         { "cells_judged", static_cast<double>(judged) },
+                                         { "boundary_points", static_cast<double>(map.boundary.size()) } };
       for (const std::string way : { "forward", "backward" })
-      {
-        const std::string kind = "kind_" + way;
-        summary.push_back(
-            { "unstable_" + way, share_of(group, kind, { 1., 2. }), "1", "share of the grid: flutter, divergence" });
-        summary.push_back({ "jammed_" + way, share_of(group, kind, { 3. }), "1", "share of the grid" });
-        summary.push_back({ "not_judged_" + way, share_of(group, kind, { 4., 5. }), "1", "share: inadmissible or failed" });
-      }
+        append<Entry>(summary, { { "unstable_" + way, share_of(group, "kind_" + way, { 1., 2. }) },
+                                 { "jammed_" + way, share_of(group, "kind_" + way, { 3. }) },
+                                 { "not_judged_" + way, share_of(group, "kind_" + way, { 4., 5. }) } });
       return summary;
     }
 
@@ -166,27 +160,20 @@ namespace sprag
     {
       const double cpu = MPI::sum(PhaseTimer::cpu_seconds(), MPI_COMM_WORLD);
       const auto ranks = static_cast<double>(MPI::n_mpi_processes(MPI_COMM_WORLD));
-      return { { "ranks", ranks, "1", "processes" },
-               { "cells_taken_over", static_cast<double>(team.taken_over()), "1", "from the journal" },
-               { "wall_time", wall_seconds, "s", "of the map" },
-               { "cpu_time_all", cpu, "s", "of all processes" } };
+      return { { "ranks", ranks },
+               { "cells_taken_over", static_cast<double>(team.taken_over()) },
+               { "wall_time", wall_seconds },
+               { "cpu_time_all", cpu } };
     }
 
     void write_map(const Scene &scene, const RunOptions &options, const StabilityMap &map, MapTeam &team,
-                   const std::string &status, const std::vector<Entry> &meta, const Warnings &warnings)
+                   const std::string &status, const std::vector<Entry> &meta, Warnings &warnings)
     {
       const Group group = map_group(scene, map.grid, team.cells());
       ResultWriter writer(scene, options, team.cell_judge().timer(), boundary_columns(scene.map));
-      std::vector<std::vector<double>> boundary;
       for (const auto &point : map.boundary)
-        boundary.push_back(boundary_row(scene.map, point));
-      for (const auto &row : boundary)
-        writer.append(row);
-      const auto end = writer.finish(status, { summary_of_map(map, group, team.cells().size()), meta, { group } }, warnings);
-      if (options.verbose)
-        print_summary(std::cout, end.summary);
-      else if (!options.quiet)
-        print_brief_of_map(std::cout, scene.map, boundary, joined(end.summary, meta));
+        writer.append(boundary_row(scene.map, point));
+      writer.finish(status, { summary_of_map(map, group, team.cells().size()), meta, { group } }, warnings);
     }
 
     void announce(const Journal &journal, MapProgress &progress)

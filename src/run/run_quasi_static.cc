@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/statics/quasi_static.h"
 #include "base/append.h"
+#include "estimate/quasi_static_accuracy.h"
 #include "fe/solid/static_lever.h"
 #include "model/state_archive.h"
 #include "program/memory.h"
@@ -9,7 +10,6 @@
 #include "run/analyses.h"
 #include "run/field_recorder.h"
 #include "run/in_memory.h"
-#include "run/quasi_static_accuracy.h"
 #include "scene/scene.h"
 
 #include <filesystem>
@@ -32,21 +32,17 @@ namespace sprag
       const auto &body           = lever.body();
       const auto [mass, inertia] = body.mass_and_inertia(scene.lever.density);
       const auto &[normal, slip] = lever.penalties();
-      std::vector<Entry> result{
-        { "cells", static_cast<double>(body.dofs().get_triangulation().n_active_cells()), "1", "cells of the mesh" },
-        { "degrees_of_freedom", static_cast<double>(body.n_dofs()), "1", "displacements, those of the hub included" },
-        { "face_points", static_cast<double>(body.friction_face().points.size()), "1",
-          "integration points of the friction face" },
-        { "face_size", scene.mesh.face_size, "mm", "element length along the friction face in use, the longest of a Mesh/File" },
-        { "penalty", normal, "N/mm^3", "normal penalty in use" },
-        { "tangential_penalty", slip, "N/mm^3", "tangential penalty in use" },
-        { "lever_mass", mass, "t", "mass of lever, layer and hub at the lever's density" },
-        { "lever_inertia", inertia, "t mm^2", "their moment of inertia about the pivot" }
-      };
+      std::vector<Entry> result{ { "cells", static_cast<double>(body.dofs().get_triangulation().n_active_cells()) },
+                                 { "degrees_of_freedom", static_cast<double>(body.n_dofs()) },
+                                 { "face_points", static_cast<double>(body.friction_face().points.size()) },
+                                 { "face_size", scene.mesh.face_size },
+                                 { "penalty", normal },
+                                 { "tangential_penalty", slip },
+                                 { "lever_mass", mass },
+                                 { "lever_inertia", inertia } };
       if constexpr (in_space<Lever>)
-        result.push_back({ "bond_loads",
-                           static_cast<double>(std::get<SolidStructure>(lever.structure()).face_compliance().basis_size()), "1",
-                           "loads on the bond of the layer by which the answer of the lever behind it is found" });
+        result.push_back(
+            { "bond_loads", static_cast<double>(std::get<SolidStructure>(lever.structure()).face_compliance().basis_size()) });
       return result;
     }
 
@@ -88,11 +84,7 @@ namespace sprag
         if (!std::get<SolidStructure>(lever.structure()).is_linear() || of_face.empty())
           return {};
         const auto worst = std::get<SolidStructure>(lever.structure()).exactness(of_face);
-        return {
-          { "compliance_error", worst.displacement, "1",
-            "largest displacement of the face that its compliance leaves out against the whole body, over the largest one" },
-          { "compliance_work_error", worst.work, "1", "and of the work of the forces on it, over that work" }
-        };
+        return { { "compliance_error", worst.displacement }, { "compliance_work_error", worst.work } };
       }
 
     private:
@@ -164,9 +156,7 @@ namespace sprag
               const auto probes = [&] { return probes_of(recorder.recorded(), settings, fields->stress_samples()); };
               recorder.set_accuracy(quasi_static_accuracy(scene, recorder.recorded(), probes));
             }
-            meta.push_back(
-                { "stick_stiffness", stick, "N/mm",
-                  "tangential stiffness of layer and penalty in stick at the first reversal, of both levers of a pair" });
+            meta.push_back({ "stick_stiffness", stick });
             const auto ending = status_at_end(status);
             summary           = recorder.finish(ending, meta, warnings);
             if (ending != status)
@@ -222,7 +212,7 @@ namespace sprag
     }
     const auto files = options.in_memory ? nullptr : folder_for_factors(scene, options);
     std::optional<SolidBody> body;
-    timed(timer, "body", [&] { body.emplace(scene, *mesh, FactorSettings{ {}, files ? files->folder : "" }); });
+    timed(timer, "body", [&] { body.emplace(scene, *mesh, files ? files->folder : ""); });
     std::optional<StaticLever<3>> levers;
     timed(timer, "model", [&] { levers.emplace(*body, scene); });
     const auto probes = [&](const auto &rows, const auto &settings, const auto &)

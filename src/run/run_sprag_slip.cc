@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-only
+#include "analysis/limit_cycle/continuation.h"
+#include "base/append.h"
 #include "base/progress.h"
 #include "base/text.h"
+#include "base/unknown.h"
 #include "laws/friction.h"
 #include "program/result_writer.h"
-#include "report/report.h"
 #include "report/transient_report.h"
 #include "report/warnings.h"
+#include "results/result_file.h"
 #include "run/analyses.h"
-#include "run/briefs.h"
 #include "run/in_memory.h"
-#include "run/sprag_slip_report.h"
 #include "scene/held_slide.h"
 #include "scene/scene.h"
 
@@ -22,6 +23,126 @@ namespace sprag
 {
   namespace
   {
+    /// Results of a sprag-slip analysis; a part is empty while the run has not come to it.
+    struct SpragSlip
+    {
+      SlideStability slide;
+      bool exact = true; ///< whether the eigenvalue leaves out nothing of the friction in time, see Growth
+      std::optional<Growth> growth;
+      std::optional<Settled> settled;
+      double settled_begin = 0.;             ///< of the rows written of the vibration [s]
+      std::vector<ContinuationPoint> points; ///< of the continuation
+      std::optional<Coexistence> coexistence;
+      LedgerReport ledger;
+      unsigned long steps = 0;
+    };
+
+    using Value = std::function<double(const ContinuationPoint &)>;
+
+    void add_branch(const std::vector<ContinuationPoint> &points, const std::string &way,
+                    const Settled ContinuationPoint::*branch, std::vector<Dataset> &datasets)
+    {
+      const auto add = [&](const std::string &name, const std::string &unit, const std::string &meaning,
+                           const std::function<double(const Settled &)> &value)
+      {
+        datasets.push_back(dataset_of(points, { name + '_' + way, unit, meaning + " on the way " + way },
+                                      [&](const ContinuationPoint &point)
+                                      { return point.holds() ? value(point.*branch) : unknown; }));
+      };
+      add("kind", "1", "0 slide, 1 cycle, 2 irregular vibration, 3 undecided,",
+          [](const Settled &settled) { return static_cast<double>(settled.kind); });
+      add("amplitude_P", "N", "amplitude of P", [](const Settled &settled) { return settled.window.amplitude_P; });
+      add("amplitude_indentation", "mm", "amplitude of the indentation",
+          [](const Settled &settled) { return settled.window.amplitude_indentation; });
+      add("open_share", "1", "share of time without contact", [](const Settled &settled) { return settled.window.open_share; });
+      add("stick_share", "1", "share of time with part of the contact not sliding on",
+          [](const Settled &settled) { return settled.window.stick_share; });
+      add("frequency", "Hz", "frequency of P", [](const Settled &settled) { return settled.window.frequency; });
+    }
+
+    Group continuation_group(const std::vector<ContinuationPoint> &points)
+    {
+      Group group{ "continuation", {} };
+      const auto add = [&](const ColumnInfo &info, const Value &value)
+      { group.datasets.push_back(dataset_of(points, info, value)); };
+      const auto of_slide = [](const ContinuationPoint &point, const double value) { return point.holds() ? value : unknown; };
+      add({ "x", "mm", "where the slide is held" }, [](const ContinuationPoint &point) { return point.x; });
+      add({ "stable", "1", "1: the slide is stable by its eigenvalues, 0: it is not, or there is none" },
+          [](const ContinuationPoint &point) { return point.slide.kind == SlideKind::stable ? 1. : 0.; });
+      add({ "growth_rate", "1/s", "largest real part of the eigenvalues" },
+          [](const ContinuationPoint &point) { return point.slide.growth_rate(); });
+      add({ "mode_frequency", "Hz", "of that eigenvalue" },
+          [](const ContinuationPoint &point) { return point.slide.frequency(); });
+      add({ "P", "N", "of the slide" },
+          [&](const ContinuationPoint &point) { return of_slide(point, point.holds() ? point.slide.slide->forces.P : 0.); });
+      add({ "indentation", "mm", "of the slide" },
+          [&](const ContinuationPoint &point) { return of_slide(point, point.holds() ? point.slide.slide->indentation : 0.); });
+      add_branch(points, "away", &ContinuationPoint::away, group.datasets);
+      add_branch(points, "back", &ContinuationPoint::back, group.datasets);
+      return group;
+    }
+
+    Group growth_group(const Growth &growth, const double at_start)
+    {
+      const auto column = [&](const ColumnInfo &info, const auto &value) { return dataset_of(growth.sizes, info, value); };
+      return { "growth",
+               { column({ "time", "s", "from the perturbation on" }, [](const Sample &sample) { return sample.time; }),
+                 column({ "amplitude", "1", "of the overlap over its mean, from the envelope of P" },
+                        [](const Sample &sample) { return sample.value; }),
+                 column({ "predicted", "1", "the same by the eigenvalue" },
+                        [&](const Sample &sample) { return at_start * std::exp(growth.eigenvalue.real() * sample.time); }) } };
+    }
+
+    std::vector<Entry> sprag_slip_summary(const SpragSlip &found)
+    {
+      std::vector<Entry> entries = { { "slide", kind_name(found.slide.kind) } };
+      if (const auto &slide = found.slide.slide)
+        append<Entry>(entries, { { "x", slide->drive.x },
+                                 { "P", slide->forces.P },
+                                 { "indentation", slide->indentation },
+                                 { "slip_speed", slide->speed } });
+      if (const auto &growth = found.growth)
+        append<Entry>(entries, { { "linear_growth_rate", growth->eigenvalue.real() },
+                                 { "measured_growth_rate", growth->envelope.rate },
+                                 { "growth_difference", growth->growth_difference() },
+                                 { "linear_frequency", growth->predicted_frequency() },
+                                 { "measured_frequency", growth->frequency },
+                                 { "frequency_difference", growth->frequency_difference() },
+                                 { "growth_scatter", growth->envelope.scatter },
+                                 { "growth_slid", growth->slid ? 1. : 0. },
+                                 { "growth_reached", growth->reached ? 1. : 0. },
+                                 { "linearisation", found.exact ? "exact" : "without the tangential spring of stick" } });
+      if (found.settled)
+      {
+        const auto &window = found.settled->window;
+        append<Entry>(entries, { { "cycle", settling_name(found.settled->kind) },
+                                 { "cycle_begin", found.settled_begin },
+                                 { "cycle_amplitude_P", window.amplitude_P },
+                                 { "cycle_amplitude_indentation", window.amplitude_indentation },
+                                 { "cycle_relative_amplitude", window.amplitude_P / found.slide.slide->forces.P },
+                                 { "cycle_open_share", window.open_share },
+                                 { "cycle_stick_share", window.stick_share },
+                                 { "cycle_frequency", window.frequency },
+                                 { "cycle_agreement", found.settled->agreement } });
+      }
+      const auto range = found.coexistence.value_or(Coexistence{ unknown, unknown });
+      if (!found.points.empty())
+        append<Entry>(entries, { { "coexistence_from", range.from }, { "coexistence_to", range.to } });
+      append<Entry>(entries,
+                    { { "energy_residual_share", found.ledger.share() }, { "steps", static_cast<double>(found.steps) } });
+      return entries;
+    }
+
+    /// Returns the groups /growth and /continuation of the result file.
+    std::vector<Group> sprag_slip_groups(const SpragSlip &found, const SpragSlipSettings &settings)
+    {
+      std::vector<Group> groups;
+      if (found.growth)
+        groups.push_back(growth_group(*found.growth, found.slide.kind == SlideKind::stable ? settings.final : settings.initial));
+      if (!found.points.empty())
+        groups.push_back(continuation_group(found.points));
+      return groups;
+    }
 
     constexpr double most_growth_rows    = 20000.; ///< written of the growth
     constexpr unsigned int approach_rows = 16;     ///< a period, from the growth to the vibration it leads to
@@ -214,12 +335,7 @@ namespace sprag
         [&](const std::string &status)
         {
           progress.finish();
-          const auto end =
-              writer.finish(status, { sprag_slip_summary(found), {}, sprag_slip_groups(found, scene.sprag_slip) }, warnings);
-          if (options.verbose)
-            print_summary(std::cout, end.summary);
-          else if (!options.quiet)
-            print_brief_of_sprag_slip(std::cout, end.summary);
+          writer.finish(status, { sprag_slip_summary(found), {}, sprag_slip_groups(found, scene.sprag_slip) }, warnings);
         });
   }
 } // namespace sprag

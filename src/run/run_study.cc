@@ -1,26 +1,443 @@
 // SPDX-License-Identifier: GPL-3.0-only
+#include "analysis/study/study_trade.h"
 #include "analysis/team/team.h"
+#include "base/append.h"
+#include "base/phase_timer.h"
 #include "base/progress.h"
+#include "base/text.h"
+#include "base/unknown.h"
 #include "program/result_writer.h"
 #include "program/run_files.h"
-#include "report/report.h"
+#include "report/brief_lines.h"
+#include "report/percent.h"
+#include "report/summary_table.h"
+#include "results/result_file.h"
 #include "run/analyses.h"
-#include "run/study_print.h"
-#include "run/study_report.h"
 #include "run/study_runs.h"
 #include "scene/scene.h"
 #include "scene/scene_key.h"
+#include "scene/sections.h"
 
+#include <boost/algorithm/string/join.hpp>
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
+#include <cmath>
 #include <ctime>
+#include <iosfwd>
 #include <iostream>
+#include <map>
 #include <optional>
+#include <ostream>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace sprag
 {
   namespace
   {
+    /// The finished runs of a study, a row each.
+    struct StudyTable
+    {
+      std::vector<Dataset> numbers;   ///< parameters, costs, errors, the numbers of the runs' summaries; NaN where a run has none
+      std::vector<TextDataset> texts; ///< parameters, outcome, reason, warnings, the texts of the summaries
+    };
+
+    /// Returns the finished runs of a study without its reference.
+    std::vector<const StudyRecord *> finished_rows(const std::vector<StudyPoint> &points, const StudyRecords &records)
+    {
+      std::vector<const StudyRecord *> rows;
+      for (const auto &[run, record] : records)
+        if (run < points.size())
+          rows.push_back(&record);
+      return rows;
+    }
+
+    /// Returns the number of those with this outcome.
+    std::size_t count_of(const std::vector<const StudyRecord *> &rows, const RunOutcome outcome)
+    {
+      return static_cast<std::size_t>(
+          std::count_if(rows.begin(), rows.end(), [&](const StudyRecord *row) { return row->outcome == outcome; }));
+    }
+
+    /// Returns an entry of a run's summary, null where it has none of this name.
+    const Entry *find_entry(const StudyRecord &record, const std::string &name)
+    {
+      const auto &summary = record.found.summary;
+      const auto found    = std::find_if(summary.begin(), summary.end(), [&](const Entry &entry) { return entry.name == name; });
+      return found == summary.end() ? nullptr : &*found;
+    }
+
+    bool has_numbers(const Rule &rule)
+    {
+      return rule.kind != Rule::Kind::choice && rule.kind != Rule::Kind::text && rule.kind != Rule::Kind::file;
+    }
+
+    /// Of a parameter that takes words: the place of each among its values.
+    double number_of(const VariedParameter &varied, const std::size_t index, const bool numeric)
+    {
+      const auto number = leading_number(varied.values[index]);
+      return numeric ? (number ? number->value : unknown) : static_cast<double>(index);
+    }
+
+    void add_parameters(const StudySettings &study, const std::vector<StudyPoint> &points,
+                        const std::vector<const StudyRecord *> &rows, StudyTable &table)
+    {
+      SceneSettings settings;
+      const auto declared = scene_parameters(settings);
+      for (std::size_t i = 0; i < study.varied.size(); ++i)
+      {
+        const auto &varied = study.varied[i];
+        const Rule &rule   = find_parameter(declared, varied.name)->rule;
+        const bool numeric = has_numbers(rule);
+        const auto meaning = varied.name + (numeric ? "" : ": place among its values");
+        table.numbers.push_back(dataset_of(rows, { identifier_of(varied.name), rule.unit.empty() ? "1" : rule.unit, meaning },
+                                           [&](const StudyRecord *row)
+                                           { return number_of(varied, points[row->run][i], numeric); }));
+        TextDataset texts{ identifier_of(varied.name), varied.name, {} };
+        for (const auto *row : rows)
+          texts.values.push_back(varied.values[points[row->run][i]]);
+        table.texts.push_back(texts);
+      }
+    }
+
+    void add_costs(const std::vector<const StudyRecord *> &rows, StudyTable &table)
+    {
+      const auto add = [&](const ColumnInfo &info, const auto &value)
+      { table.numbers.push_back(dataset_of(rows, info, [&](const StudyRecord *row) { return value(*row); })); };
+      add({ "run", "1", "place among the runs of the study" },
+          [](const StudyRecord &row) { return static_cast<double>(row.run); });
+      add({ "outcome", "1", "0 completed, 1 failed, 2 refused" },
+          [](const StudyRecord &row) { return static_cast<double>(row.outcome); });
+      add({ "cpu_time", "s", "that the run takes alone, meshes and bases that it shares with others included" },
+          [](const StudyRecord &row) { return row.cpu_time; });
+      add({ "cpu_time_spent", "s", "that it took here" }, [](const StudyRecord &row) { return row.cpu_spent; });
+      add({ "work", "s",
+            "count of what the run takes alone, by which runs are ranked: CPU time on another machine, NaN: not counted" },
+          [](const StudyRecord &row) { return row.work; });
+      add({ "wall_time", "s", "that passed" }, [](const StudyRecord &row) { return row.wall_time; });
+      add({ "peak_memory", "MiB", "largest resident memory of its process while it ran" },
+          [](const StudyRecord &row) { return row.peak_memory; });
+      add({ "warnings", "1", "number of warnings" },
+          [](const StudyRecord &row) { return static_cast<double>(row.warnings.size()); });
+      TextDataset outcome{ "outcome", "how the run ended", {} }, reason{ "reason", "why it was not completed", {} },
+          warnings{ "warnings", "their names", {} };
+      for (const auto *row : rows)
+      {
+        outcome.values.push_back(outcome_name(row->outcome));
+        reason.values.push_back(row->reason);
+        warnings.values.push_back(boost::algorithm::join(row->warnings, ", "));
+      }
+      append(table.texts, { outcome, reason, warnings });
+    }
+
+    void add_errors(const StudyTrade &trade, StudyTable &table)
+    {
+      for (const auto &measured : trade.measured)
+      {
+        const auto &name = measured.measure.name;
+        table.numbers.push_back({ { "error_" + name, "1", measured.measure.meaning }, measured.errors, {} });
+        table.numbers.push_back({ { "pareto_" + name, "1", "1: nobody cheaper is as exact" }, {}, {} });
+        for (const bool best : measured.front)
+          table.numbers.back().values.push_back(best ? 1. : 0.);
+      }
+    }
+
+    /// All that any run tells, in the order in which it is met.
+    std::vector<Entry> all_entries(const std::vector<const StudyRecord *> &rows)
+    {
+      std::vector<Entry> all;
+      std::set<std::string> names;
+      for (const auto *row : rows)
+        for (const auto &entry : row->found.summary)
+          if (names.insert(entry.name).second)
+            all.push_back(entry);
+      return all;
+    }
+
+    void add_summaries(const std::vector<const StudyRecord *> &rows, StudyTable &table)
+    {
+      for (const auto &entry : all_entries(rows))
+        if (std::holds_alternative<double>(entry.value))
+          table.numbers.push_back(dataset_of(rows, { entry.name, entry.unit.empty() ? "1" : entry.unit, entry.description },
+                                             [&](const StudyRecord *row)
+                                             {
+                                               const Entry *found = find_entry(*row, entry.name);
+                                               return found != nullptr ? std::get<double>(found->value) : unknown;
+                                             }));
+        else
+        {
+          TextDataset texts{ entry.name, entry.description, {} };
+          for (const auto *row : rows)
+          {
+            const Entry *found = find_entry(*row, entry.name);
+            texts.values.push_back(found != nullptr ? std::get<std::string>(found->value) : "");
+          }
+          table.texts.push_back(texts);
+        }
+    }
+
+    /// Where names meet the first one counts.
+    template <class Column, class Name>
+    void drop_repeated(std::vector<Column> &columns, const Name &name)
+    {
+      std::set<std::string> seen;
+      columns.erase(
+          std::remove_if(columns.begin(), columns.end(), [&](const Column &column) { return !seen.insert(name(column)).second; }),
+          columns.end());
+    }
+
+    StudyTable study_table(const StudySettings &study, const std::vector<StudyPoint> &points, const StudyRecords &records,
+                           const StudyTrade &trade)
+    {
+      const auto rows = finished_rows(points, records);
+      StudyTable table;
+      add_costs(rows, table);
+      add_parameters(study, points, rows, table);
+      add_errors(trade, table);
+      add_summaries(rows, table);
+      drop_repeated(table.numbers, [](const Dataset &column) { return column.info.name; });
+      drop_repeated(table.texts, [](const TextDataset &column) { return column.name; });
+      return table;
+    }
+
+    /// Returns the group /trade: the accuracies and for each measure the run that meets them at the least cost; the observed
+    /// orders.
+    Group trade_group(const StudySettings &study, const std::vector<StudyPoint> &points, const StudyRecords &records,
+                      const StudyTrade &trade)
+    {
+      const auto rows = finished_rows(points, records);
+      Group group{ "trade", { { { "accuracy", "1", "relative error admitted" }, {}, {} } } };
+      group.datasets.front().values.assign(recommended_accuracies.begin(), recommended_accuracies.end());
+      for (const auto &measured : trade.measured)
+      {
+        const auto &name = measured.measure.name;
+        Dataset run{ { "run_" + name, "1",
+                       "the cheapest run that meets the accuracy, and with it those of smaller sizes; NaN: none" },
+                     {},
+                     {} };
+        Dataset cost{ { "cpu_time_" + name, "s", "of that run" }, {}, {} };
+        TextDataset settings{ "settings_" + name, "of that run", {} };
+        for (const auto &row : measured.recommended)
+        {
+          run.values.push_back(row ? static_cast<double>(rows[*row]->run) : unknown);
+          cost.values.push_back(row ? rows[*row]->cpu_time : unknown);
+          settings.values.push_back(row ? settings_text(study, points[rows[*row]->run]) : "");
+        }
+        append(group.datasets, { run, cost });
+        group.texts.push_back(settings);
+      }
+      Dataset orders{ { "order", "1", "p of error = C size^p, fitted over the runs" }, {}, {} };
+      TextDataset of{ "order_of", "measure over size; the other settings", {} };
+      for (const auto &[measure, parameter, others, order] : trade.orders)
+      {
+        orders.values.push_back(order);
+        of.values.push_back(measure + " over " + parameter + (others.empty() ? "" : "; " + others));
+      }
+      group.datasets.push_back(orders);
+      group.texts.push_back(of);
+      return group;
+    }
+
+    /// Returns the group /reference: the numbers of the reference's summary.
+    Group reference_group(const StudyRecord &reference)
+    {
+      Group group{ "reference", { { { "cpu_time", "s", "of the reference" }, { reference.cpu_time }, {} } } };
+      for (const auto &entry : reference.found.summary)
+        if (const double *number = std::get_if<double>(&entry.value))
+          group.datasets.push_back({ { entry.name, entry.unit.empty() ? "1" : entry.unit, entry.description }, { *number }, {} });
+      return group;
+    }
+
+    std::vector<Entry> study_summary(const StudySettings &study, const std::vector<StudyPoint> &points,
+                                     const StudyRecords &records)
+    {
+      const auto rows = finished_rows(points, records);
+      double cpu      = 0.;
+      for (const auto &[run, record] : records)
+        cpu += record.cpu_spent;
+      const auto number          = [&](const RunOutcome outcome) { return static_cast<double>(count_of(rows, outcome)); };
+      std::vector<Entry> entries = { { "runs", static_cast<double>(points.size()) },
+                                     { "completed", number(RunOutcome::completed) },
+                                     { "failed", number(RunOutcome::failed) },
+                                     { "refused", number(RunOutcome::refused) },
+                                     { "cpu_time_of_runs", cpu } };
+      if (const auto reference = records.find(points.size()); reference != records.end())
+        entries.push_back(
+            { "reference",
+              outcome_name(reference->second.outcome) + (reference->second.reason.empty() ? "" : ": " + reference->second.reason),
+              "", study.reference });
+      return entries;
+    }
+
+    constexpr std::size_t most_runs_printed = 5; ///< of those that failed, and of those that were refused
+    constexpr std::size_t usual_accuracy    = 1; ///< of the recommended ones, 1 %
+    const std::string all                   = "all";
+
+    using StudyRows = std::vector<const StudyRecord *>;
+
+    std::string settings_with_units(const StudySettings &study, const StudyPoint &point)
+    {
+      std::string text;
+      for (std::size_t i = 0; i < point.size(); ++i)
+      {
+        const auto &varied = study.varied[i];
+        const auto unit    = unit_of_parameter(varied.name);
+        text += (i == 0 ? "" : ", ") + varied.name + " = " + varied.values[point[i]] + (unit.empty() ? "" : ' ' + unit);
+      }
+      return text;
+    }
+
+    std::string reference_text(const StudySettings &study)
+    {
+      std::string text;
+      for (const auto &[name, values] : study.reference_values)
+        text += (text.empty() ? "" : ", ") + name + " = " + values.front() +
+                (unit_of_parameter(name).empty() ? "" : ' ' + unit_of_parameter(name));
+      return text;
+    }
+
+    std::string accuracy_text(const double accuracy)
+    {
+      return rounded_text(100. * accuracy) + " %";
+    }
+
+    void print_unfinished(std::ostream &stream, const StudySettings &study, const std::vector<StudyPoint> &points,
+                          const std::vector<const StudyRecord *> &rows, const RunOutcome outcome)
+    {
+      std::size_t printed = 0;
+      for (const auto *row : rows)
+        if (row->outcome == outcome && printed++ < most_runs_printed)
+          stream << "  " << outcome_name(outcome) << ": " << settings_with_units(study, points[row->run]) << ": " << row->reason
+                 << '\n';
+      if (printed > most_runs_printed)
+        stream << "  ... and " << printed - most_runs_printed << " more " << outcome_name(outcome) << '\n';
+    }
+
+    struct Printer
+    {
+      std::ostream &stream;
+      const StudySettings &study;
+      const std::vector<StudyPoint> &points;
+      const StudyRows &rows;
+
+      std::string run_text(const std::optional<std::size_t> &row, const MeasuredErrors &measured) const
+      {
+        if (!row)
+          return "none";
+        return settings_with_units(study, points[rows[*row]->run]) + ": " + formatted("%.3g", rows[*row]->cpu_time) +
+               " s of CPU time, " + percent(measured.errors[*row]) + " off";
+      }
+
+      void accuracies(const MeasuredErrors &measured) const
+      {
+        brief_line(stream, measured.measure.name, "");
+        for (std::size_t i = 0; i < recommended_accuracies.size(); ++i)
+          brief_line(stream, "  within " + accuracy_text(recommended_accuracies[i]), run_text(measured.recommended[i], measured));
+      }
+
+      void at_usual_accuracy(const std::vector<MeasuredErrors> &all_measured) const
+      {
+        brief_line(stream, "each alone within " + accuracy_text(recommended_accuracies[usual_accuracy]), "");
+        for (const auto &measured : all_measured)
+          if (measured.measure.name != all)
+            brief_line(stream, "  " + measured.measure.name, run_text(measured.recommended[usual_accuracy], measured));
+      }
+    };
+
+    /// Of each size, for each measure from the least to the largest of all other settings.
+    void print_orders(std::ostream &stream, const std::vector<ObservedOrder> &orders)
+    {
+      std::map<std::pair<std::string, std::string>, std::pair<double, double>> ranges;
+      for (const auto &[measure, parameter, others, order] : orders)
+      {
+        auto &range = ranges.insert({ { parameter, measure }, { order, order } }).first->second;
+        range       = { std::min(range.first, order), std::max(range.second, order) };
+      }
+      std::map<std::string, std::string> texts;
+      for (const auto &[of, range] : ranges)
+      {
+        auto &text = texts[of.first];
+        text += (text.empty() ? "" : ", ") + of.second + formatted(" %.2f", range.first) +
+                (range.first < range.second ? formatted(" to %.2f", range.second) : "");
+      }
+      for (const auto &[parameter, text] : texts)
+        brief_line(stream, "observed order", "over " + parameter + ": " + text);
+    }
+
+    /// Returns the names that the runs' summaries mark as main, those with a number up to 3.
+    std::vector<std::string> main_entries(const AnalysisType type, const StudyRows &rows)
+    {
+      std::vector<std::string> names;
+      std::set<std::string> seen;
+      for (const auto *row : rows)
+        for (const auto &entry : row->found.summary)
+          if (seen.insert(entry.name).second)
+            if (const auto found = summary_row(type, entry.name); found && found->is_main && found->number <= 3)
+              names.push_back(entry.name);
+      return names;
+    }
+
+    void print_range(std::ostream &stream, const Printer &printer, const std::string &name)
+    {
+      struct Found
+      {
+        double value;
+        std::string unit;
+        std::size_t run;
+      };
+      std::vector<Found> found;
+      for (const auto *row : printer.rows)
+        if (const auto *const entry = find_entry(*row, name))
+          if (const double *number = std::get_if<double>(&entry->value); number != nullptr && std::isfinite(*number))
+            found.push_back({ *number, entry->unit, row->run });
+      if (found.empty())
+        return;
+      // Peaks of a force that acts backward are negative: the largest is that of the largest magnitude.
+      const bool is_peak = name.rfind("peak_", 0) == 0;
+      const auto size    = [is_peak](const Found &one) { return is_peak ? std::abs(one.value) : one.value; };
+      const auto [least, most] =
+          std::minmax_element(found.begin(), found.end(), [&size](const Found &a, const Found &b) { return size(a) < size(b); });
+      brief_line(stream, name,
+                 four_digits(least->value) + " to " + with_unit(most->value, most->unit) + ", most for " +
+                     settings_with_units(printer.study, printer.points[most->run]));
+    }
+
+    /// Prints how the runs of a study ended and, where there is a reference, the cheapest settings that meet accuracies: with
+    /// `in_full` for each quantity, else for all at once and for each at one accuracy. Without a reference it prints between
+    /// which values the results lie.
+    void print_study(std::ostream &stream, const StudySettings &study, const std::vector<StudyPoint> &points,
+                     const StudyRecords &records, const StudyTrade &trade, const bool in_full)
+    {
+      const auto rows = finished_rows(points, records);
+      print_unfinished(stream, study, points, rows, RunOutcome::failed);
+      print_unfinished(stream, study, points, rows, RunOutcome::refused);
+      const auto reference = records.find(points.size());
+      if (reference != records.end() && reference->second.outcome != RunOutcome::completed)
+        stream << "  no errors: the reference is " << outcome_name(reference->second.outcome) << ": " << reference->second.reason
+               << '\n';
+      const Printer printer{ stream, study, points, rows };
+      if (trade.measured.empty())
+      {
+        for (const auto &name : main_entries(study.type, rows))
+          print_range(stream, printer, name);
+        return;
+      }
+      stream << "  The cheapest settings, against " << reference_text(study) << " ("
+             << formatted("%.3g", reference->second.cpu_time) << " s of CPU time):\n";
+      if (in_full)
+        for (const auto &measured : trade.measured)
+          printer.accuracies(measured);
+      else
+      {
+        printer.accuracies(trade.measured.back());
+        printer.at_usual_accuracy(trade.measured);
+      }
+      print_orders(stream, trade.orders);
+    }
+
     namespace MPI = dealii::Utilities::MPI;
 
     void announce(const Journal &journal, const std::size_t runs, const ProgressStyle style)
@@ -50,14 +467,14 @@ namespace sprag
     {
       const double cpu = MPI::sum(static_cast<double>(std::clock()) / CLOCKS_PER_SEC, MPI_COMM_WORLD);
       const auto ranks = static_cast<double>(MPI::n_mpi_processes(MPI_COMM_WORLD));
-      return { { "ranks", ranks, "1", "processes" },
-               { "runs_taken_over", static_cast<double>(taken_over), "1", "from the journal" },
-               { "wall_time", wall_seconds, "s", "of the study" },
-               { "cpu_time_all", cpu, "s", "of all processes" } };
+      return { { "ranks", ranks },
+               { "runs_taken_over", static_cast<double>(taken_over) },
+               { "wall_time", wall_seconds },
+               { "cpu_time_all", cpu } };
     }
 
     void write_study(const Scene &scene, const RunOptions &options, const StudyRuns &runs, const StudyRecords &records,
-                     const std::string &status, const std::vector<Entry> &meta, const Warnings &warnings)
+                     const std::string &status, const std::vector<Entry> &meta, Warnings &warnings)
     {
       const auto &points = runs.points();
       const auto trade   = trade_of(scene.study, points, records);
@@ -80,9 +497,7 @@ namespace sprag
         groups.push_back(trade_group(scene.study, points, records, trade));
         groups.push_back(reference_group(records.at(points.size())));
       }
-      const auto end = writer.finish(status, { study_summary(scene.study, points, records), meta, groups }, warnings);
-      if (options.verbose)
-        print_summary(std::cout, end.summary);
+      writer.finish(status, { study_summary(scene.study, points, records), meta, groups }, warnings);
       if (!options.quiet)
         print_study(std::cout, scene.study, points, records, trade, options.verbose);
     }

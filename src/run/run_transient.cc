@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/transient/growing_modes.h"
 #include "analysis/transient/transient.h"
+#include "analysis/transient/transient_settings.h"
 #include "base/append.h"
 #include "base/text.h"
+#include "estimate/transient_accuracy.h"
 #include "levers/dynamics.h"
 #include "program/recorder.h"
 #include "program/steps_in_time.h"
@@ -11,8 +13,6 @@
 #include "run/field_recorder.h"
 #include "run/in_memory.h"
 #include "run/shown_body.h"
-#include "run/transient_accuracy.h"
-#include "run/transient_settings.h"
 #include "scene/mirrored_pair.h"
 #include "scene/scene.h"
 
@@ -48,23 +48,18 @@ namespace sprag
 
     std::vector<Entry> meshed_entries(const MeshedDynamics &lever, const Body &body)
     {
-      std::vector<Entry> entries = {
-        { "degrees_of_freedom", static_cast<double>(body.n_dofs()), "1", "displacements, those of the hub included" },
-        { "coordinates", static_cast<double>(lever.n_coordinates), "1", "generalised coordinates of the model" },
-        { "face_points", static_cast<double>(body.friction_face().points.size()), "1",
-          "integration points of the friction face" },
-        { "penalty", lever.penalties.normal, "N/mm^3", "normal penalty in use" },
-        { "tangential_penalty", lever.penalties.tangential, "N/mm^3", "tangential penalty in use" },
-        { "density_factor", lever.density_factor, "1", "by which the densities were scaled to meet Lever/Moment of inertia" },
-        { "moment_of_inertia", lever.moment_of_inertia, "t mm^2",
-          "of all that turns with the hub, about the pivot: Lever/Moment of inertia, or what follows from the densities as "
-          "built" },
-        { "lever_mass", lever.lever_mass, "t", "mass of lever and layer after scaling, tip mass included" },
-        { "basis_from_cache", lever.basis_from_cache ? 1. : 0., "1", "whether a stored condensed basis was used" },
-        { "basis_cpu_time", lever.basis_cpu_seconds, "s", "that the condensed basis took, or would have taken" }
-      };
+      std::vector<Entry> entries = { { "degrees_of_freedom", static_cast<double>(body.n_dofs()) },
+                                     { "coordinates", static_cast<double>(lever.n_coordinates) },
+                                     { "face_points", static_cast<double>(body.friction_face().points.size()) },
+                                     { "penalty", lever.penalties.normal },
+                                     { "tangential_penalty", lever.penalties.tangential },
+                                     { "density_factor", lever.density_factor },
+                                     { "moment_of_inertia", lever.moment_of_inertia },
+                                     { "lever_mass", lever.lever_mass },
+                                     { "basis_from_cache", lever.basis_from_cache ? 1. : 0. },
+                                     { "basis_cpu_time", lever.basis_cpu_seconds } };
       for (std::size_t i = 0; i < std::min<std::size_t>(5, lever.frequencies.size()); ++i)
-        entries.push_back({ "frequency_" + std::to_string(i + 1), lever.frequencies[i], "Hz", "of the lever out of contact" });
+        entries.push_back({ "frequency_" + std::to_string(i + 1), lever.frequencies[i] });
       return entries;
     }
 

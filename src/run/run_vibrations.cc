@@ -3,19 +3,15 @@
 #include "base/errors.h"
 #include "base/progress.h"
 #include "base/text.h"
+#include "estimate/vibration_accuracy.h"
 #include "fe/fields/mode_frames.h"
 #include "levers/prepared_scene.h"
 #include "model/growth.h"
 #include "program/result_writer.h"
-#include "report/accuracy_report.h"
-#include "report/brief_lines.h"
-#include "report/report.h"
 #include "report/warnings.h"
 #include "run/analyses.h"
 #include "run/in_memory.h"
 #include "run/shown_body.h"
-#include "run/vibration_accuracy.h"
-#include "run/vibration_print.h"
 #include "run/vibration_report.h"
 #include "scene/contact_reference.h"
 #include "scene/held_slide.h"
@@ -95,7 +91,7 @@ namespace sprag
       constexpr unsigned int points = 4;
       const double own              = scene.contact.damping;
       const double end              = std::max(largest, own);
-      DampingRange result{ 0., end, end, std::nan("") };
+      DampingRange result{ 0., end, std::nan("") };
       const auto ends_of = [&](const double from, const double to)
       {
         std::vector<double> ends;
@@ -142,9 +138,8 @@ namespace sprag
       if (!dynamics.lever && !dynamics.solid)
         return {};
       const auto n_dofs = dynamics.lever ? dynamics.lever->body->n_dofs() : dynamics.solid->body->n_dofs();
-      return { { "degrees_of_freedom", static_cast<double>(n_dofs), "1", "displacements, those of the hub included" },
-               { "coordinates", static_cast<double>(dynamics.meshed.n_coordinates), "1",
-                 "generalised coordinates of the model" } };
+      return { { "degrees_of_freedom", static_cast<double>(n_dofs) },
+               { "coordinates", static_cast<double>(dynamics.meshed.n_coordinates) } };
     }
 
     /// Counts the wall and CPU time of finding a slide and its vibrations.
@@ -213,8 +208,7 @@ namespace sprag
       RunEnd result;
       result.meta = meshed_entries(dynamics);
       for (std::size_t i = 0; i < modes.size(); ++i)
-        result.summary.push_back({ "frequency_" + std::to_string(i + 1), modes[i].mode.eigenvalue.imag() / (2. * M_PI), "Hz",
-                                   "of the undamped mode" });
+        result.summary.push_back({ "frequency_" + std::to_string(i + 1), frequency_of(modes[i]) });
       result.groups = { mode_group(modes, model) };
       write_fields(scene, dynamics, pose_of_slide(scene, model, *slide), modes, options);
       return result;
@@ -252,40 +246,25 @@ namespace sprag
             estimates_errors(options) ? accuracy_of(held, found, dynamics.meshed, maker) : std::vector<ErrorEstimate>();
         const bool is_decided = !is_unstable(found.kind) || accuracy.empty() || !(total_error(accuracy.front()) > 1.);
         result.summary        = slide_entries(found, is_decided);
-        append(result.summary, sweep_entries(swept));
-        result.accuracy = accuracy_entries(accuracy);
-        append(warnings, target_warnings(scene.accuracy, accuracy));
+        result.accuracy       = accuracy;
         if (options.verbose)
         {
-          print_summary(std::cout, result.summary);
           print_modes(std::cout, modes);
           print_growth(std::cout, modes);
-          print_accuracy(std::cout, accuracy);
         }
-        else if (!options.quiet)
-        {
-          print_slide(std::cout, found, is_decided);
-          print_brief_errors(std::cout, accuracy);
-        }
+        else if (!options.quiet && found.slide)
+          print_growing(std::cout, found.modes);
       }
-      if (!options.quiet)
-        print_sweep(std::cout, whole, swept);
+      append(result.summary, sweep_entries(swept));
       if (found.slide && scene.stability.damping && whole.stability.ranges == "none" && options.in_memory == nullptr)
       {
         const auto range  = timed(maker, [&] { return damping_range(whole, maker); });
         const auto limits = timed(maker, [&] { return stick_limits(whole, maker); });
         append(result.summary, damping_entries(range));
         append(result.summary, stick_entries(limits));
-        if (!options.quiet)
-          print_constants(std::cout, range, limits);
       }
       if (scene.stability.roles)
-      {
-        const auto told = roles(scene, found, maker);
-        append(result.summary, role_entries(told));
-        if (!options.quiet)
-          print_roles(std::cout, found, told);
-      }
+        append(result.summary, role_entries(roles(scene, found, maker)));
       if (scene.stability.critical != "none")
       {
         const auto critical = all_critical(whole, maker, options.quiet);
@@ -304,8 +283,6 @@ namespace sprag
     auto &maker         = *shared;
     const bool undamped = scene.analysis.type == AnalysisType::modal;
     const auto end      = undamped ? modal(scene, maker, options) : stability(scene, maker, options, warnings);
-    if (!options.quiet)
-      print_brief_cost(std::cout, Known(end.summary), PhaseTimer::cpu_seconds());
     ResultWriter(scene, options, maker.timer(), {}).finish("completed", end, warnings);
   }
 } // namespace sprag

@@ -3,23 +3,180 @@
 
 #include "base/append.h"
 #include "base/text.h"
+#include "report/brief_lines.h"
+#include "scene/held_slide.h"
+#include "scene/scene.h"
+
+#include <boost/algorithm/string/join.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <iomanip>
 #include <map>
+#include <ostream>
 #include <sstream>
 
 namespace sprag
 {
   namespace
   {
-    using ValueOfMode = std::function<double(const Eigenmode &)>;
+    std::string cell(const double value, const int width)
+    {
+      std::ostringstream number;
+      number << std::setprecision(4) << (std::abs(value) < 1e-6 ? 0. : value);
+      const std::string text = std::isnan(value) ? "-" : number.str();
+      return std::string(static_cast<std::size_t>(std::max(1, width - static_cast<int>(text.size()))), ' ') + text;
+    }
+
+    struct EnergyColumn
+    {
+      std::string name;
+      double EnergyShares::*share;
+    };
+
+    /// Those that say anything of one of the modes.
+    std::vector<EnergyColumn> energy_columns(const std::vector<Eigenmode> &modes)
+    {
+      std::vector<EnergyColumn> columns = { { "spring", &EnergyShares::rotation },
+                                            { "lever", &EnergyShares::bending },
+                                            { "support", &EnergyShares::support },
+                                            { "contact", &EnergyShares::contact } };
+      const auto says_nothing           = [&](const EnergyColumn &column)
+      {
+        return std::none_of(modes.begin(), modes.end(),
+                            [&](const Eigenmode &mode) { return std::abs(mode.energy.*column.share) >= 5e-4; });
+      };
+      columns.erase(std::remove_if(columns.begin(), columns.end(), says_nothing), columns.end());
+      return columns;
+    }
+
+    struct GrowthPart
+    {
+      std::string name;
+      double value; ///< [1/s]
+    };
+
+    std::string text_of(const GrowthPart &part)
+    {
+      return part.name + ' ' + four_digits(part.value);
+    }
+
+    /// What feeds a mode most and what damps it most.
+    std::array<std::string, 2> extremes(const GrowthShares &growth)
+    {
+      const std::vector<GrowthPart> parts = {
+        { "friction on rotation", growth.friction_rotation },   { "friction on bending", growth.friction_bending },
+        { "friction on the support", growth.friction_support }, { "friction by velocities", growth.friction_speed },
+        { "contact damping", growth.contact_damping },          { "structural damping", growth.structure_damping }
+      };
+      const auto [least, most] =
+          std::minmax_element(parts.begin(), parts.end(), [](const auto &a, const auto &b) { return a.value < b.value; });
+      return { { most->value > 0. ? text_of(*most) : "-", least->value < 0. ? text_of(*least) : "-" } };
+    }
+
+    std::string motion_of(const Eigenmode::AcrossShares &across)
+    {
+      if (across.plane > 0.5)
+        return "in the plane";
+      return across.twisting > across.sideways ? "twisting" : "sideways";
+    }
+  } // namespace
+
+  void print_modes(std::ostream &stream, const std::vector<Eigenmode> &modes)
+  {
+    if (modes.empty())
+      return;
+    const auto columns = energy_columns(modes);
+    stream << "  frequency [Hz]";
+    for (const auto &column : columns)
+      stream << padded(column.name + " [%]", 13);
+    stream << (is_pair(modes) ? "    mirroring [1]" : "") << (is_solid(modes) ? "  motion" : "") << "\n";
+    for (const auto &mode : modes)
+    {
+      stream << cell(frequency_of(mode), 16);
+      for (const auto &column : columns)
+        stream << cell(std::round(1000. * mode.energy.*column.share) / 10., 13);
+      stream << (is_pair(modes) ? cell(mode.mirroring, 17) : "") << (is_solid(modes) ? "  " + motion_of(mode.across) : "")
+             << '\n';
+    }
+  }
+
+  void print_growth(std::ostream &stream, const std::vector<Eigenmode> &modes)
+  {
+    if (modes.empty())
+      return;
+    stream << "\n  frequency    growth  kind        growth [1/s] by friction on               friction's   damping of\n"
+           << "       [Hz]     [1/s]               rotation    bending   support  velocities   contact  structure\n";
+    for (const auto &mode : modes)
+    {
+      const auto &g    = mode.growth;
+      std::string kind = "  " + kind_name(kind_of(mode));
+      kind.resize(13, ' ');
+      stream << cell(frequency_of(mode), 11) << cell(mode.mode.eigenvalue.real(), 10) << kind << cell(g.friction_rotation, 10)
+             << cell(g.friction_bending, 11) << cell(g.friction_support, 10) << cell(g.friction_speed, 12)
+             << cell(g.contact_damping, 10) << cell(g.structure_damping, 11) << '\n';
+    }
+  }
+
+  void print_growing(std::ostream &stream, std::vector<Eigenmode> modes)
+  {
+    constexpr std::size_t most_modes = 3;
+    const auto more = [](const Eigenmode &a, const Eigenmode &b) { return a.mode.eigenvalue.real() > b.mode.eigenvalue.real(); };
+    std::stable_sort(modes.begin(), modes.end(), more);
+    modes.resize(std::min(modes.size(), most_modes));
+    stream << "  growth [1/s]  frequency [Hz]  fed most by [1/s]               damped most by [1/s]\n";
+    for (const auto &mode : modes)
+    {
+      const auto [fed, damped] = extremes(mode.growth);
+      stream << cell(mode.mode.eigenvalue.real(), 14) << cell(frequency_of(mode), 16) << "  " << padded(fed, -32) << damped
+             << '\n';
+    }
+  }
+
+  void print_critical(std::ostream &stream, const Scene &scene, const std::vector<CriticalSearch> &searches,
+                      const bool with_spacing)
+  {
+    const bool is_worst = looks_over_stroke(scene);
+    stream << "  Critical values of " << (is_worst ? "the worst slide" : "this slide")
+           << ", all else as it is; narrow islands between the values tried may be missed:\n";
+    for (const auto &[range, first, changes, worst, not_judged, reason, spacing, more_values] : searches)
+    {
+      const auto unit = unit_of_parameter(range.name);
+      stream << "    " << range.name << " from " << four_digits(range.from) << " to " << with_unit(range.to, unit) << ": "
+             << (first ? kind_name(*first) : "cannot be judged");
+      for (const auto &critical : changes)
+      {
+        const bool of_friction = range.name == "Friction/Factor" && !std::isnan(critical.mu);
+        stream << ", " << kind_name(critical.above) << " from " << with_unit(critical.value, unit)
+               << (of_friction ? " (mu = " + four_digits(critical.mu) + ")" : "")
+               << (critical.worse.motion.empty() ? "" : " (" + critical.worse.motion + ")");
+        if (is_worst && range.name != "Stability/Position")
+          stream << " (worst " << (critical.worse.drive.v < 0. ? "backward" : "forward")
+                 << " at x = " << with_unit(critical.worse.drive.x, "mm") << ")";
+      }
+      stream << (first && changes.empty() ? " throughout" : "");
+      if (first && !not_judged.empty())
+      {
+        const auto [least, most] = std::minmax_element(not_judged.begin(), not_judged.end());
+        stream << "; cannot be judged at " << (*least < *most ? four_digits(*least) + " to " : "") << with_unit(*most, unit)
+               << (*least < *most ? " (" + std::to_string(not_judged.size()) + " values)" : "");
+      }
+      if (with_spacing)
+        stream << "; tried every " << with_unit(spacing, unit);
+      if (with_spacing && more_values > 0)
+        stream << " and " << more_values << " times between, where growth peaks";
+      stream << '\n';
+    }
+  }
+
+  namespace
+  {
+    using ModeValue = std::function<double(const Eigenmode &)>;
 
     void append_numbers(const std::vector<Eigenmode> &modes, Group &group)
     {
-      const auto add = [&](const ColumnInfo &info, const ValueOfMode &value)
+      const auto add = [&](const ColumnInfo &info, const ModeValue &value)
       { group.datasets.push_back(dataset_of(modes, info, value)); };
       add({ "frequency", "Hz", "Im lambda / 2 pi" }, frequency_of);
       add({ "growth_rate", "1/s", "Re lambda" }, [](const auto &mode) { return mode.mode.eigenvalue.real(); });
@@ -106,7 +263,31 @@ namespace sprag
       }
     }
 
-    const std::string motions = "mirroring, swinging, either where both tie, mixed where the levers differ";
+    /// A stretch of x whose slides are of one kind, other than stable.
+    struct UnstableStretch
+    {
+      double from, to; ///< [mm]
+    };
+
+    std::vector<UnstableStretch> unstable_stretches(const CriticalSearch &along)
+    {
+      std::vector<UnstableStretch> result;
+      double from      = along.range.from;
+      auto kind        = along.first;
+      const auto close = [&](const double to)
+      {
+        if (kind && *kind != SlideKind::stable)
+          result.push_back({ from, to });
+      };
+      for (const auto &change : along.changes)
+      {
+        close(change.value);
+        from = change.value;
+        kind = change.above;
+      }
+      close(along.range.to);
+      return result;
+    }
 
     /// Which motion of a pair's levers is unstable on one side.
     std::string of_motion(const CriticalValue &critical)
@@ -166,30 +347,14 @@ namespace sprag
     return group;
   }
 
-  std::vector<UnstableStretch> unstable_stretches(const CriticalSearch &along)
-  {
-    std::vector<UnstableStretch> result;
-    double from      = along.range.from;
-    auto kind        = along.first;
-    const auto close = [&](const double to)
-    {
-      if (kind && *kind != SlideKind::stable)
-        result.push_back({ from, to, *kind });
-    };
-    for (const auto &change : along.changes)
-    {
-      close(change.value);
-      from = change.value;
-      kind = change.above;
-    }
-    close(along.range.to);
-    return result;
-  }
-
   std::vector<Entry> sweep_entries(const SweptSlides &swept)
   {
-    std::vector<Entry> result = { { "slides_looked_at", static_cast<double>(swept.slides()), "1",
-                                    "by the verdict, which is the worst of them; 1: at one x, one way" } };
+    const auto &x              = swept.ways.front().along.range;
+    std::vector<Entry> result = { { "looked_from", std::min(x.from, x.to) },
+                                   { "looked_to", std::max(x.from, x.to) },
+                                   { "slides_looked_at", static_cast<double>(swept.slides()) } };
+    if (const auto &constants = swept.worst().constants; !constants.empty())
+      result.push_back({ "worst_constants", boost::algorithm::join(constants, ", ") });
     for (const auto &[direction, way] :
          { std::pair<Direction, std::string>{ Direction::forward, "forward" }, { Direction::backward, "backward" } })
     {
@@ -207,58 +372,42 @@ namespace sprag
           to   = std::fmax(to, stretch.to);
         }
       }
-      if (!is_looked_at)
-        continue;
-      result.push_back({ "largest_growth_rate_" + way, growth, "1/s", "of all slides " + way + " that were looked at" });
-      result.push_back(
-          { "unstable_" + way + "_from", from, "mm", "least x of a slide " + way + " that is not stable; NaN: none" });
-      result.push_back({ "unstable_" + way + "_to", to, "mm", "largest x of such a slide" });
+      if (is_looked_at)
+        append<Entry>(result, { { "largest_growth_rate_" + way, growth },
+                                { "unstable_" + way + "_from", from },
+                                { "unstable_" + way + "_to", to } });
     }
     return result;
   }
 
   std::vector<Entry> stick_entries(const StickLimits &limits)
   {
-    const std::string what = "largest growth rate with the contact's stiffness in stick ";
-    return { { "growth_rate_soft_stick", limits.soft, "1/s",
-               what + "a tenth of what it is; NaN: the mesh has the layer's shear" },
-             { "growth_rate_rigid_stick", limits.rigid, "1/s", what + "without end: friction does not lag" } };
+    return { { "growth_rate_soft_stick", limits.soft }, { "growth_rate_rigid_stick", limits.rigid } };
   }
 
   std::vector<Entry> damping_entries(const DampingRange &range)
   {
-    return { { "contact_damping_limit_low", range.low, "1",
-               "least Contact/Damping for which the verdict holds; 0: it holds without" },
-             { "contact_damping_limit_high", range.high, "1",
-               "largest Contact/Damping for which it holds, or the largest that was looked at" },
-             { "growth_rate_without_contact_damping", range.growth_rate_at_none, "1/s",
-               "of the mode that grows most with Contact/Damping = 0" } };
+    return { { "contact_damping_limit_low", range.low },
+             { "contact_damping_limit_high", range.high },
+             { "growth_rate_without_contact_damping", range.growth_rate_at_none } };
   }
 
   std::vector<Entry> slide_entries(const SlideStability &found, const bool is_decided)
   {
-    std::vector<Entry> result = { { "verdict", is_decided ? kind_name(found.kind) : "undecided", "",
-                                    "stable, flutter (sprag-slip), divergence, jammed, or undecided: it grows by less than the "
-                                    "error of that" } };
-    if (!found.slide)
-      return result;
-    const auto &slide = *found.slide;
-    append<Entry>(
-        result,
-        {
-            { "growth_rate", found.growth_rate(), "1/s", "largest Re lambda" },
-            { "frequency", found.frequency(), "Hz", "of that mode" },
-            { "x", slide.drive.x, "mm", "where the slide is held" },
-            { "speed", slide.speed, "mm/s", "of the cylinder's surface along the lever" },
-            { "mu", slide.mu, "1", "friction coefficient" },
-            { "P", slide.forces.P, "N", "normal force" },
-            { "Q", slide.forces.Q, "N", "force along x" },
-            { "indentation", slide.indentation, "mm", "physical compression of the friction layer, at its largest" },
-            { "margin", slide.margin, "1", "to jamming: P without friction over P" },
-            { "uniqueness", slide.uniqueness, "1", "determinant of the tangent over that without friction; <= 0: not unique" },
-        });
-    if (is_pair(found.modes))
-      result.push_back({ "motion", found.motion(), "", "of the levers in that mode: " + motions });
+    std::vector<Entry> result = { { "verdict", is_decided ? kind_name(found.kind) : "undecided" } };
+    if (const auto &slide = found.slide)
+      append<Entry>(result, { { "growth_rate", found.growth_rate() },
+                              { "frequency", found.frequency() },
+                              { "x", slide->drive.x },
+                              { "speed", slide->speed },
+                              { "mu", slide->mu },
+                              { "P", slide->forces.P },
+                              { "Q", slide->forces.Q },
+                              { "indentation", slide->indentation },
+                              { "margin", slide->margin },
+                              { "uniqueness", slide->uniqueness } });
+    if (found.slide && is_pair(found.modes))
+      result.push_back({ "motion", found.motion() });
     return result;
   }
 
@@ -267,11 +416,11 @@ namespace sprag
     std::vector<Entry> result;
     for (const auto &role : roles)
     {
-      result.push_back({ role.name + "_verdict", kind_name(role.kind), "", role.meaning });
-      result.push_back({ role.name + "_growth_rate", role.growth_rate, "1/s", role.meaning });
-      result.push_back({ role.name + "_frequency", role.frequency, "Hz", role.meaning });
+      append<Entry>(result, { { role.name + "_verdict", kind_name(role.kind), "", role.meaning },
+                              { role.name + "_growth_rate", role.growth_rate },
+                              { role.name + "_frequency", role.frequency } });
       if (!role.motion.empty())
-        result.push_back({ role.name + "_motion", role.motion, "", "of the levers in the most unstable mode: " + motions });
+        result.push_back({ role.name + "_motion", role.motion });
     }
     return result;
   }
@@ -289,10 +438,8 @@ namespace sprag
                            search.range.name + ": from " + kind_name(critical.below) + " to " + kind_name(critical.above) +
                                of_motion(critical) });
       }
-      result.push_back({ name + "_spacing", search.spacing, "",
-                         "of the values of " + search.range.name + " tried: narrower islands may be missed" });
-      result.push_back({ name + "_values", static_cast<double>(search.range.points + search.more_values), "1",
-                         "tried, those between where a growth rate peaks included" });
+      append<Entry>(result, { { name + "_spacing", search.spacing },
+                              { name + "_values", static_cast<double>(search.range.points + search.more_values) } });
     }
     return result;
   }

@@ -5,10 +5,23 @@
 #include "analysis/stability/sweep.h"
 #include "results/result_file.h"
 
+#include <iosfwd>
 #include <vector>
 
 namespace sprag
 {
+  /// Prints frequencies and where the energy of each mode is, leaving out parts that have none in any.
+  void print_modes(std::ostream &stream, const std::vector<Eigenmode> &modes);
+
+  /// Prints growth rates and what they are made of.
+  void print_growth(std::ostream &stream, const std::vector<Eigenmode> &modes);
+
+  /// Prints the modes that grow most or decay least, with what feeds and damps each of them most.
+  void print_growing(std::ostream &stream, std::vector<Eigenmode> modes);
+
+  /// Prints where the verdict changes along each parameter; `with_spacing`: and how closely was tried.
+  void print_critical(std::ostream &stream, const Scene &scene, const std::vector<CriticalSearch> &searches, bool with_spacing);
+
   /// Returns Im lambda / 2 pi [Hz].
   double frequency_of(const Eigenmode &mode);
 
@@ -38,7 +51,6 @@ namespace sprag
   struct DampingRange
   {
     double low, high;           ///< shares of critical
-    double looked_up_to;        ///< share of critical
     double growth_rate_at_none; ///< without damping of the contact [1/s]
   };
 
@@ -49,20 +61,12 @@ namespace sprag
     double rigid = std::numeric_limits<double>::quiet_NaN(); ///< no lag [1/s]
   };
 
-  /// Where along x slides of one kind are, other than stable.
-  struct UnstableStretch
-  {
-    double from, to; ///< [mm]
-    SlideKind kind;
-  };
-
-  std::vector<UnstableStretch> unstable_stretches(const CriticalSearch &along);
-
   /// Tells where the slides that were looked at are unstable, and their worst growth, each way.
   std::vector<Entry> sweep_entries(const SweptSlides &swept);
 
   std::vector<Entry> damping_entries(const DampingRange &range);
   std::vector<Entry> stick_entries(const StickLimits &limits);
   std::vector<Entry> role_entries(const std::vector<Role> &roles);
+
   std::vector<Entry> critical_entries(const std::vector<CriticalSearch> &searches);
 } // namespace sprag

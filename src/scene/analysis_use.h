@@ -16,9 +16,6 @@ namespace sprag
   /// Returns whether an analysis has pieces that several processes share.
   bool works_in_parallel(AnalysisType type);
 
-  /// Displacements of a body in three dimensions from which on its factors are of single precision, without inertia.
-  constexpr double least_in_single_precision = 5e5;
-
   /// Returns whether several processes share the body of an analysis, which is in three dimensions or may turn out to be.
   bool shares_body(const Scene &scene);
 

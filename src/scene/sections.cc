@@ -18,15 +18,15 @@ namespace sprag
                                                    { "sprag slip", AnalysisType::sprag_slip },
                                                    { "calibration", AnalysisType::calibration },
                                                    { "isolation", AnalysisType::isolation } };
+    const auto all_types                       = joined(types_of_a_run, { { "map", AnalysisType::map },
+                                                                          { "identification", AnalysisType::identification },
+                                                                          { "design", AnalysisType::design },
+                                                                          { "study", AnalysisType::study } });
 
     void analysis(Section section, SceneSettings &input)
     {
       AnalysisSettings &settings = input.scene.analysis;
-      section.choice("Type", settings.type,
-                     joined(types_of_a_run, { { "map", AnalysisType::map },
-                                              { "identification", AnalysisType::identification },
-                                              { "design", AnalysisType::design },
-                                              { "study", AnalysisType::study } }),
+      section.choice("Type", settings.type, all_types,
                      "Follow the drive without inertia, sweep the representative slope C_Q, follow the drive with inertia, fit "
                      "the contact of rigid and beam to finite elements, find vibration modes at one x, judge whether the slide "
                      "there is stable, perturb it in time and follow it to its limit cycle, make parts that have a given k and J "
@@ -346,6 +346,11 @@ namespace sprag
                      "CPU time that the run may take; what fits best is chosen; 0: any");
     }
   } // namespace
+
+  std::string word_of(const AnalysisType type)
+  {
+    return word_for(all_types, type);
+  }
 
   std::vector<Parameter> scene_parameters(SceneSettings &settings)
   {

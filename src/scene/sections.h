@@ -58,6 +58,9 @@ namespace sprag
     std::optional<unsigned int> dimension = 2;                         ///< none: by what a probe tells
   };
 
+  /// Returns the word for a type of analysis, "quasi-static".
+  std::string word_of(AnalysisType type);
+
   /// Lists every parameter of a scene file. Defaults are the present values in `settings`, where Parameter::store writes to;
   /// `settings` must outlive the result.
   std::vector<Parameter> scene_parameters(SceneSettings &settings);

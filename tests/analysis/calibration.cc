@@ -56,7 +56,7 @@ TEST(Calibration, TheLeafsThicknessMeetsK)
   }
 }
 
-TEST(Calibration, AddedMassMeetsJ)
+TEST(Calibration, AddedMassMeetsJSlow)
 {
   for (const auto &[model, J] : { std::pair<std::string, double>{ "a", 6.45 }, { "b", 6.86 } })
     for (const std::string place : { "hub", "tip" })

@@ -202,7 +202,7 @@ TEST(Identification, FindsTheFrictionLawWhereTheSpeedVaries)
   expect_honest(scene, law, [&](const unsigned int seed) { return measured(rows, { 0.1, 0. }, seed); });
 }
 
-TEST(Identification, FindsATableOfFriction)
+TEST(Identification, FindsATableOfFrictionSlow)
 {
   Scene truth                          = model_a();
   truth.analysis                       = device().analysis;

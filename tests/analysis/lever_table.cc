@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/isolation/lever_table.h"
+#include "analysis/transient/transient_settings.h"
 #include "base/errors.h"
 #include "base/text.h"
 #include "levers/dynamics.h"
 #include "mpi_environment.h"
-#include "run/transient_settings.h"
 #include "scene/scene.h"
 #include "support/isolated.h"
 

@@ -2,6 +2,7 @@
 #include "analytic/oscillation.h"
 
 #include "analytic/ringing.h"
+#include "report/summary_table.h"
 
 #include <algorithm>
 #include <cmath>
@@ -336,9 +337,10 @@ TEST(Oscillation, WindowEndsWhereTheNextReversalBegins)
 TEST(Oscillation, EntriesSayWhatTheyAre)
 {
   const Drive quick(DriveProfile::triangle, 0., 6.5, 112., 1.5, duration);
-  const auto found   = oscillations(rows_with(sinusoid(8., 290., -45.), quick), quick);
-  const auto entries = oscillation_entries(found);
-  const auto entry   = [&](const std::string &name)
+  const auto found = oscillations(rows_with(sinusoid(8., 290., -45.), quick), quick);
+  auto entries     = oscillation_entries(found);
+  describe_summary(AnalysisType::transient, entries);
+  const auto entry = [&](const std::string &name)
   { return *std::find_if(entries.begin(), entries.end(), [&](const Entry &e) { return e.name == name; }); };
   EXPECT_EQ(std::get<double>(entry("reversal_1_frequency").value), found[0].frequency);
   EXPECT_EQ(entry("reversal_1_frequency").unit, "Hz");

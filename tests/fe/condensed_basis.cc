@@ -69,7 +69,7 @@ namespace
 TEST(CondensedBasis, WithAllModesIsTheFiniteElements)
 {
   const MeshedBar bar({});
-  const unsigned int all = TotalCoordinates<2>(*bar).size();
+  const unsigned int all = TotalCoordinates(*bar).size();
   const auto basis       = make_basis(*bar, settings_of(all));
   ASSERT_EQ(basis.stiffness.size(), all);
   for (const bool sprung : { false, true })

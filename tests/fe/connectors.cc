@@ -112,7 +112,7 @@ TEST(Connectors, APlateOnTwoSensorsFollowsTheLeverRule)
   for (const double xi : { 12., 20.3, 33. })
   {
     const auto u      = loaded(*plate, xi, { { -F, P } });
-    const auto forces = sensor_forces(*plate, u);
+    const auto forces = plate->sensor_forces(u);
     // Moments about the guide's line, the plate's back: friction along -xi acts layer and plate in front of it.
     const double tilt = F * (scene.back() - scene.offset) / (x_2 - x_1);
     EXPECT_NEAR(forces[0], P * (x_2 - xi) / (x_2 - x_1) + tilt, 1e-8 * P) << xi;
@@ -140,7 +140,7 @@ TEST(Connectors, AStiffPlateSharesItsLoadLinearlyAmongFourSensors)
   {
     scene.stiffer = stiffer;
     const MeshedPlate plate(scene);
-    const auto forces = sensor_forces(*plate, loaded(*plate, xi, { { 0., P } }));
+    const auto forces = plate->sensor_forces(loaded(*plate, xi, { { 0., P } }));
     for (unsigned int i = 0; i < 4; ++i)
       error[stiffer > 1.] = std::max(error[stiffer > 1.], std::abs(forces[i] - rigid(scene.sensors[i])));
   }
@@ -184,7 +184,7 @@ TEST(Connectors, APadBesideItsSideIsRefusedByName)
 TEST(Connectors, RotationOfTheHubCostsNothing)
 {
   const MeshedPlate plate(PlateOnBar{});
-  const InertialMatrices<2> matrices(*plate, plate_inertia());
+  const InertialMatrices matrices(*plate, plate_inertia());
   const auto turned = matrices.coordinates.rigid_rotation();
   Vector forces(turned.size());
   CompressedRows(matrices.stiffness).multiply<1>({ { &turned } }, { { &forces } });
@@ -195,7 +195,7 @@ TEST(Connectors, RotationOfTheHubCostsNothing)
 TEST(Connectors, TotalCoordinatesHaveTheStiffnessOfTheBody)
 {
   const MeshedPlate plate(PlateOnBar{});
-  const InertialMatrices<2> matrices(*plate, plate_inertia());
+  const InertialMatrices matrices(*plate, plate_inertia());
   Vector total(matrices.coordinates.size());
   for (unsigned int i = 0; i < total.size(); ++i)
     total[i] = 1e-3 * std::sin(1. + i);

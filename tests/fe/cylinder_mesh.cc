@@ -101,10 +101,10 @@ TEST(CylinderMesh, DoesNotTurnWithTheLever)
   const MeshedPair pair;
   const MeshedBar bar(bar_on_cylinder());
   auto inertia = bar_inertia(0.5, 0.);
-  const InertialMatrices<2> alone(*bar, inertia);
+  const InertialMatrices alone(*bar, inertia);
   const double density                     = 1e-6;
   inertia.densities[material_id::cylinder] = density;
-  const InertialMatrices<2> matrices(*pair, inertia);
+  const InertialMatrices matrices(*pair, inertia);
   EXPECT_NEAR(matrices.density_factor, alone.density_factor, 1e-12 * alone.density_factor);
   EXPECT_NEAR(matrices.total_mass, alone.total_mass, 1e-12 * alone.total_mass);
   const auto turn = matrices.coordinates.rigid_rotation();

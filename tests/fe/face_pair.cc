@@ -289,7 +289,7 @@ TEST(FacePair, AnUndeformedCylinderIsTheRigidCircle)
           point.xi += shapes.values[b] * (nodes[b].position[0] + q[2 * nodes[b].index]);
           point.eta += shapes.values[b] * (nodes[b].position[1] + q[2 * nodes[b].index + 1]);
         }
-        const auto contact = moving_circle_contact(geometry, point, 0.3, 0.02);
+        const auto contact = moving_circle_contact(placed_for_points(geometry, 0.3, 0.02), point);
         mean.gap += weight * contact.gap;
         mean.slip += weight * contact.slip;
         mean.gap_row += weight * contact.gap_row;

@@ -41,7 +41,7 @@ namespace
                           { material_id::web, scene.lever.density },
                           { material_id::layer, scene.layer.density } };
     inertia.source    = InertiaSource::as_built;
-    const InertialMatrices<2> matrices(body, inertia);
+    const InertialMatrices matrices(body, inertia);
     dealii::PETScWrappers::SparseMatrix stiffness;
     matrices.sum({ 0., 1., 0., scene.spring.stiffness }, stiffness);
     return { free_modes(stiffness, matrices.mass, 5).stiffness, matrices.total_mass, matrices.moment_of_inertia };

@@ -34,7 +34,7 @@ namespace
     const double L       = bar.length;
     const double rotary  = bar.depth * bar.depth / 12.;
     const double inertia = mass_of(bar) * (L * L / 3. + rotary) + tip_mass * (L * L + rotary);
-    const InertialMatrices<2> matrices(*meshed, bar_inertia(inertia, tip_mass));
+    const InertialMatrices matrices(*meshed, bar_inertia(inertia, tip_mass));
     dealii::PETScWrappers::SparseMatrix stiffness;
     matrices.sum({ 0., 1., 0., spring }, stiffness);
     return free_modes(stiffness, matrices.mass, n);
@@ -122,7 +122,7 @@ TEST(FreeModes, OfAHeldBarAreThoseOfABeam)
 TEST(FreeModes, AreOrthonormalAndTurnForward)
 {
   const MeshedBar bar({});
-  const InertialMatrices<2> matrices(*bar, bar_inertia(1e-3, 0.));
+  const InertialMatrices matrices(*bar, bar_inertia(1e-3, 0.));
   dealii::PETScWrappers::SparseMatrix stiffness;
   matrices.sum({ 0., 1., 0., 100. }, stiffness);
   // Few of them iteratively, all by the dense solver.

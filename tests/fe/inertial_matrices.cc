@@ -53,7 +53,7 @@ namespace
 TEST(InertialMatrices, RigidRotationCostsNothing)
 {
   const MeshedBar bar({});
-  const InertialMatrices<2> matrices(*bar, bar_inertia(moment_of_inertia, 0.));
+  const InertialMatrices matrices(*bar, bar_inertia(moment_of_inertia, 0.));
   const auto turned = matrices.coordinates.rigid_rotation();
   // Round-off of stresses of the size of Young's modulus, 7e4 MPa, on areas of some 10 mm^2, displaced by 20 mm.
   EXPECT_NEAR(product(matrices.stiffness, turned).linfty_norm(), 0., 1e-13 * 7e4 * 10. * 20.);
@@ -68,7 +68,7 @@ TEST(InertialMatrices, HasTheMomentOfInertiaOfTheScene)
   {
     auto inertia         = bar_inertia(moment_of_inertia, tip);
     inertia.leaf.inertia = tip > 0. ? 0.1 * moment_of_inertia : 0.;
-    const InertialMatrices<2> matrices(*bar, inertia);
+    const InertialMatrices matrices(*bar, inertia);
     const auto turned = matrices.coordinates.rigid_rotation();
     EXPECT_NEAR(turned * product(matrices.mass, turned), moment_of_inertia, 1e-12 * moment_of_inertia);
   }
@@ -78,7 +78,7 @@ TEST(InertialMatrices, ScalesTheDensitiesAndNotTheTip)
 {
   const Bar shape;
   const MeshedBar bar(shape);
-  const InertialMatrices<2> matrices(*bar, bar_inertia(moment_of_inertia, tip_mass));
+  const InertialMatrices matrices(*bar, bar_inertia(moment_of_inertia, tip_mass));
   const double low    = shape.offset + shape.layer;
   const double high   = low + shape.depth;
   const double of_tip = tip_mass * (shape.length * shape.length + (low * low + low * high + high * high) / 3.);
@@ -95,13 +95,13 @@ TEST(InertialMatrices, ScalesTheDensitiesAndNotTheTip)
 TEST(InertialMatrices, RefusesATipHeavierThanTheWhole)
 {
   const MeshedBar bar({});
-  EXPECT_THROW(InertialMatrices<2>(*bar, bar_inertia(moment_of_inertia, 1.)), InputError);
+  EXPECT_THROW(InertialMatrices(*bar, bar_inertia(moment_of_inertia, 1.)), InputError);
 }
 
 TEST(InertialMatrices, AgreesWithTheStiffnessInTheAxesOfTheHub)
 {
   const MeshedBar bar({});
-  const InertialMatrices<2> matrices(*bar, bar_inertia(moment_of_inertia, 0.));
+  const InertialMatrices matrices(*bar, bar_inertia(moment_of_inertia, 0.));
   Vector total(matrices.coordinates.size());
   for (unsigned int i = 0; i < total.size(); ++i)
     total[i] = 1e-3 * std::sin(1. + i);
@@ -117,7 +117,7 @@ TEST(InertialMatrices, AgreesWithTheStiffnessInTheAxesOfTheHub)
 TEST(InertialMatrices, SumsItsMatrices)
 {
   const MeshedBar bar({});
-  const InertialMatrices<2> matrices(*bar, bar_inertia(moment_of_inertia, tip_mass));
+  const InertialMatrices matrices(*bar, bar_inertia(moment_of_inertia, tip_mass));
   Matrix sum;
   matrices.sum({ 2., 3., 4., 5. }, sum);
   Vector some(matrices.coordinates.size());

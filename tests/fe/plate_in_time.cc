@@ -49,7 +49,7 @@ namespace
   /// Row whose product with total coordinates is the momentum of plate and layer along eta.
   Vector momentum_of_plate(const ElasticBody<2> &body, const LeverInertia &inertia)
   {
-    const TotalCoordinates<2> coordinates(body);
+    const TotalCoordinates coordinates(body);
     Vector row(coordinates.size());
     const auto &fe = body.dofs().get_fe();
     dealii::FEValues<2> values(fe, dealii::QGauss<2>(3), dealii::update_values | dealii::update_JxW_values);
@@ -135,7 +135,7 @@ TEST(PlateInTime, CondensedSensorsAreThoseOfTheFiniteElements)
 {
   const PlateOnBar scene;
   const MeshedPlate plate(scene);
-  const unsigned int all = TotalCoordinates<2>(*plate).size();
+  const unsigned int all = TotalCoordinates(*plate).size();
   for (const bool sprung : { false, true })
   {
     auto whole         = sparse_structure(*plate, plate_inertia(), 4, undamped_dynamics(sprung));

@@ -88,7 +88,7 @@ TEST(RigidCylinder, IsACircleInAPlaneWhereItIsTrue)
   const Geometry geometry = model_a().geometry;
   const RigidCylinder cylinder(geometry, {});
   const auto solid              = at(cylinder, Coordinates({ 121., 45.57, 7., 0.086, 64., 0., 0. }));
-  const auto plane              = moving_circle_contact(geometry, { 121., 45.57 }, 64., 0.086);
+  const auto plane              = moving_circle_contact(placed_for_points(geometry, 64., 0.086), { 121., 45.57 });
   const unsigned int of_plane[] = { 0, 1, 3, 4 };
   EXPECT_NEAR(solid.gap, plane.gap, 1e-12);
   EXPECT_NEAR(solid.slip[0], plane.slip, 1e-12);

@@ -154,7 +154,7 @@ namespace
             solution[indices[i]] += values.shape_value(i, q) * force[cube.fe.system_to_component_index(i).first] * values.JxW(q);
       }
     }
-    SharedFactors<double> factors(MPI_COMM_SELF);
+    SharedFactors factors(MPI_COMM_SELF);
     factors.factorise(cube.stiffness());
     factors.solve(solution);
     const Vector<double> found(solution.begin(), solution.end());

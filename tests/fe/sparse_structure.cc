@@ -26,7 +26,7 @@ namespace
 
     explicit SmallLever(const LeverDynamics &lever_constants)
         : constants(lever_constants)
-        , matrices(std::make_shared<InertialMatrices<2>>(*bar, bar_inertia(1e-3, 1e-7)))
+        , matrices(std::make_shared<InertialMatrices>(*bar, bar_inertia(1e-3, 1e-7)))
         , modes(modes_on_spring(*matrices, 5))
         , structure(*bar, matrices, modes, constants)
     {
@@ -37,7 +37,7 @@ namespace
 
   public:
     const LeverDynamics constants;
-    const std::shared_ptr<const InertialMatrices<2>> matrices;
+    const std::shared_ptr<const InertialMatrices> matrices;
     const FreeModes modes;
     SparseStructure structure;
   };

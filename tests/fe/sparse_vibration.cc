@@ -53,7 +53,7 @@ namespace
   public:
     MeshedLever(const LeverDynamics &lever_constants, const unsigned int n_modes)
         : constants(lever_constants)
-        , matrices(std::make_shared<InertialMatrices<2>>(*bar, bar_inertia(1e-3, 1e-7)))
+        , matrices(std::make_shared<InertialMatrices>(*bar, bar_inertia(1e-3, 1e-7)))
         , ports(*bar, *matrices, constants.sprung)
         , modes(find_modes(n_modes))
         , structure(*bar, matrices, modes, constants)
@@ -105,7 +105,7 @@ namespace
 
   public:
     const LeverDynamics constants;
-    const std::shared_ptr<const InertialMatrices<2>> matrices;
+    const std::shared_ptr<const InertialMatrices> matrices;
     const LeverPorts ports;
     const FreeModes modes;
     SparseStructure structure;

@@ -54,11 +54,11 @@ TEST_P(StepInLanesOfAnAxis, AStepInTimeFollowsTheLawsAtEachPoint)
     const auto found = step(begin, end, Bed::x, memory);
 
     StepContactLaw law;
-    law.normal        = { bed.surface().penalties().normal, 1. };
-    law.tangential    = bed.surface().penalties().tangential;
-    law.friction      = friction;
-    law.weights       = weights;
-    const auto turned = [&](const dealii::Vector<double> &ports) {
+    law.normal         = { bed.surface().penalties().normal, 1. };
+    law.slip.stiffness = bed.surface().penalties().tangential;
+    law.slip.friction  = friction;
+    law.weights        = weights;
+    const auto turned  = [&](const dealii::Vector<double> &ports) {
       return bed.ports.slopes > 0 ? AxisSlopes{ { ports[bed.ports.slope(0)], ports[bed.ports.slope(1)] } } : AxisSlopes{};
     };
     const double share = weights.stiffness();
@@ -187,13 +187,13 @@ TEST_P(StepInLanesOfAnAxis, AStepWithoutInertiaFollowsTheLawsAtEachPoint)
         const auto found = step(begin, end, Bed::x, memory);
 
         StepContactLaw law;
-        law.normal        = { bed.surface().penalties().normal, 1. };
-        law.tangential    = bed.surface().penalties().tangential;
-        law.friction      = friction;
-        law.balance       = ForceBalance::end;
-        law.mode          = mode;
-        law.weights.dt    = terms.duration;
-        const auto turned = [&](const dealii::Vector<double> &ports) {
+        law.normal         = { bed.surface().penalties().normal, 1. };
+        law.slip.stiffness = bed.surface().penalties().tangential;
+        law.slip.friction  = friction;
+        law.balance        = ForceBalance::end;
+        law.mode           = mode;
+        law.weights.dt     = terms.duration;
+        const auto turned  = [&](const dealii::Vector<double> &ports) {
           return bed.ports.slopes > 0 ? AxisSlopes{ { ports[bed.ports.slope(0)], ports[bed.ports.slope(1)] } } : AxisSlopes{};
         };
         const auto hub         = bed.ports.rotation();
@@ -244,7 +244,7 @@ TEST_P(StepInLanesOfAnAxis, AStepWithoutInertiaFollowsTheLawsAtEachPoint)
             const auto traction =
                 before(points, state.index, terms.travel, [&](const auto q) { return remembered(q).traction[0]; });
             shift   = from[0] - *slip - terms.travel * slope;
-            elastic = augmented ? 0. : (*traction - was.traction[0]) / law.tangential;
+            elastic = augmented ? 0. : (*traction - was.traction[0]) / law.slip.stiffness;
             ++shifted;
           }
           kinematics.slip_shift[0] = shift + elastic;
@@ -257,7 +257,8 @@ TEST_P(StepInLanesOfAnAxis, AStepWithoutInertiaFollowsTheLawsAtEachPoint)
           EXPECT_NEAR(state.slip_change[0], terms.speed_ratio * (kinematics.slip_change[0] + shift), scale);
           EXPECT_NEAR(state.slip_change[1], terms.speed_ratio * kinematics.slip_change[1], scale);
           EXPECT_NEAR(state.elastic_slip,
-                      (expected.traction - (augmented ? was.traction : dealii::Tensor<1, 2>())).norm() / law.tangential, scale);
+                      (expected.traction - (augmented ? was.traction : dealii::Tensor<1, 2>())).norm() / law.slip.stiffness,
+                      scale);
           for (unsigned int i = 0; i < 5; ++i)
             EXPECT_NEAR(state.end_force[i], expected.force[i], 1e-7 * expected.force.norm());
           moment += point.weight * expected.force[3];

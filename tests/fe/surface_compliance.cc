@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "fe/statics/surface_compliance.h"
+#include "fe/statics/static_structure.h"
 
 #include "fe/meshed.h"
 #include "fe/statics/lever_properties.h"

@@ -75,7 +75,7 @@ TEST(Widths, UniformTensionIsHeldByBothWidths)
   EXPECT_NEAR(at_end, tension, 1e-12 * tension);
   const double energy = 0.5 * tension * strain * bar.shape.length;
   EXPECT_NEAR(bar.body->energy(u), energy, 1e-12 * energy);
-  const auto in_time = InertialMatrices<2>(
+  const auto in_time = InertialMatrices(
       *bar.body, { { { material_id::lever, 1e-9 }, { material_id::web, 1e-9 } }, 0., 0., InertiaSource::as_built, 0., {} });
   Vector total(in_time.coordinates.size()), product(in_time.coordinates.size());
   for (unsigned int i = 0; i < u.size(); ++i)
@@ -94,7 +94,7 @@ TEST(Widths, AsBuiltTheInertiaIsThatOfTheMaterial)
   inertia.moment_of_inertia = 123.;
   inertia.hub               = 2e-4;
   inertia.source            = InertiaSource::as_built;
-  const InertialMatrices<2> matrices(*bar.body, inertia);
+  const InertialMatrices matrices(*bar.body, inertia);
   const auto of_strip = [&](const double from, const double to, const double width)
   { return 2.7e-9 * width * s.length * (to - from) * (s.length * s.length + from * from + from * to + to * to) / 3.; };
   const double middle   = s.offset + s.layer;
@@ -114,13 +114,13 @@ TEST(Widths, ScaledDensitiesLeaveTheHubsShare)
   LeverInertia inertia;
   inertia.densities         = { { material_id::lever, 2.7e-9 }, { material_id::web, 2.7e-9 } };
   inertia.source            = InertiaSource::as_built;
-  const double built        = InertialMatrices<2>(*bar.body, inertia).moment_of_inertia;
+  const double built        = InertialMatrices(*bar.body, inertia).moment_of_inertia;
   inertia.source            = InertiaSource::scaled;
   inertia.hub               = 0.7 * built;
   inertia.moment_of_inertia = 2.7 * built;
-  const InertialMatrices<2> matrices(*bar.body, inertia);
+  const InertialMatrices matrices(*bar.body, inertia);
   EXPECT_NEAR(matrices.density_factor, 2., 1e-12);
   EXPECT_NEAR(matrices.moment_of_inertia, 2.7 * built, 1e-12 * built);
   inertia.hub = 2.8 * built;
-  EXPECT_THROW(InertialMatrices<2>(*bar.body, inertia), InputError);
+  EXPECT_THROW(InertialMatrices(*bar.body, inertia), InputError);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "laws/contact.h"
+#include "friction_of_point.h"
+
 #include "laws/friction.h"
 
 #include <cmath>
@@ -17,12 +18,19 @@ namespace
   const FrictionLaw falling = { TabulatedFriction({ 0., 20., 60., 120., 400. }, { 0.9, 0.85, 0.5, 0.35, 0.3 }),
                                 FrictionSpeed::sliding };
 
+  struct ConeReturn
+  {
+    double traction, d_trial, d_pressure, mu;
+    bool slipping;
+    double d_shift;
+  };
+
   /// Friction of a point with one slip, in numbers.
   ConeReturn friction_traction(const double trial, const double pressure, const FrictionLaw &law, const double penalty,
                                const double dt, const double shift = 0.)
   {
     using One           = dealii::Tensor<1, 1>;
-    const auto friction = sprag::friction_traction(One({ trial }), pressure, law, penalty, dt, One({ shift }));
+    const auto friction = test::friction_traction(One({ trial }), pressure, law, penalty, dt, One({ shift }));
     return { friction.traction[0], friction.d_trial[0][0], friction.d_pressure[0],
              friction.mu,          friction.slipping,      friction.d_shift[0][0] };
   }
@@ -69,22 +77,6 @@ namespace
     }
   }
 } // namespace
-
-TEST(NormalTraction, IsThePositivePartOfMultiplierLessPenaltyTimesGap)
-{
-  EXPECT_DOUBLE_EQ(normal_traction(-0.01, 0., 500.).pressure, 5.);
-  EXPECT_DOUBLE_EQ(normal_traction(0.001, 2., 500.).pressure, 1.5);
-  EXPECT_EQ(normal_traction(0.01, 0., 500.).pressure, 0.);
-  EXPECT_EQ(normal_traction(0.01, 2., 500.).pressure, 0.);
-  EXPECT_EQ(normal_traction(0., 0., 500.).pressure, 0.);
-}
-
-TEST(NormalTraction, DerivativeIsThePenaltyUnderPressureAndZeroApart)
-{
-  EXPECT_EQ(normal_traction(-0.01, 0., 500.).derivative, -500.);
-  EXPECT_EQ(normal_traction(0.001, 2., 500.).derivative, -500.);
-  EXPECT_EQ(normal_traction(0.01, 2., 500.).derivative, 0.);
-}
 
 TEST(FrictionTraction, ShiftLeadsToMuAtAnotherSpeedThanTheMean)
 {

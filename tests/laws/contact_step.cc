@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "laws/contact_step.h"
+#include "friction_of_point.h"
+
 #include "laws/friction.h"
 
 #include <algorithm>
@@ -54,10 +55,23 @@ namespace
                         const FrictionLaw &law, const double dt)
   {
     using One = dealii::Tensor<1, 1>;
-    const FrictionHistory<1> before{ One({ history.traction }), One({ history.slip_speed }), history.step };
-    const auto friction = sprag::end_friction(before, stiffness, One({ slip_change }), pressure, law, dt);
+    const test::FrictionHistory<1> before{ One({ history.traction }), One({ history.slip_speed }), history.step };
+    const auto friction = test::end_friction(before, stiffness, One({ slip_change }), pressure, law, dt);
     return { friction.traction[0], friction.d_slip[0][0], friction.d_pressure[0], friction.mu,      friction.slip_speed[0],
              friction.energy,      friction.dissipated,   friction.creep,         friction.slipping };
+  }
+
+  struct Spring
+  {
+    double begin, end, d_end, mean, d_mean, energy;
+  };
+
+  /// The spring over a step, in numbers.
+  Spring mean_normal_force(const NormalLaw &law, const double gap_begin, const double gap_end)
+  {
+    const auto gap = variable<Dual<double, 1>>(gap_end, 0);
+    const auto end = spring_force(law, gap), mean = mean_spring_force(law, gap_begin, gap);
+    return { spring_force(law, gap_begin), end.v, end.d[0], mean.v, mean.d[0], spring_energy(law, gap_end) };
   }
 
   constexpr double stiffness = 1000.; ///< in stick [N/mm]
@@ -164,12 +178,12 @@ TEST(MeanNormalForce, DerivativesOfAContactThatJustTouchesOrIsOpen)
 
 TEST(EndDamping, ResistsBothWaysButNeverPulls)
 {
-  EXPECT_DOUBLE_EQ(end_damping(0.05, 20., -0.01, -30.).force, 1.5);
-  EXPECT_DOUBLE_EQ(end_damping(0.05, 20., -0.01, 30.).force, -1.5);
-  EXPECT_DOUBLE_EQ(end_damping(0.05, 20., -0.01, 1e4).force, -20.);
-  EXPECT_EQ(end_damping(0.05, 0., 0.01, -30.).force, 0.);
+  EXPECT_DOUBLE_EQ(dashpot_force(0.05, 20., -0.01, -30.), 1.5);
+  EXPECT_DOUBLE_EQ(dashpot_force(0.05, 20., -0.01, 30.), -1.5);
+  EXPECT_DOUBLE_EQ(dashpot_force(0.05, 20., -0.01, 1e4), -20.);
+  EXPECT_EQ(dashpot_force(0.05, 0., 0.01, -30.), 0.);
   for (double rate = 0.; rate < 2e3; rate += 10.)
-    EXPECT_GE(20. + end_damping(0.05, 20., -0.01, rate).force, 0.) << rate;
+    EXPECT_GE(20. + dashpot_force(0.05, 20., -0.01, rate), 0.) << rate;
 }
 
 TEST(EndDamping, DerivativesAgreeWithFiniteDifferences)
@@ -177,10 +191,10 @@ TEST(EndDamping, DerivativesAgreeWithFiniteDifferences)
   // Linear on both branches: round-off over h.
   for (const double rate : { -300., -1., 0., 30., 500. })
   {
-    const auto exact = end_damping(0.05, 20., -0.01, rate);
-    EXPECT_NEAR(exact.d_rate, central([](const double r) { return end_damping(0.05, 20., -0.01, r).force; }, rate, 0.1), 1e-12);
-    EXPECT_NEAR(exact.d_normal, central([=](const double n) { return end_damping(0.05, n, -0.01, rate).force; }, 20., 0.1),
-                1e-12);
+    using N          = Dual<double, 2>;
+    const auto exact = dashpot_force(0.05, variable<N>(20., 0), N{} - 0.01, variable<N>(rate, 1));
+    EXPECT_NEAR(exact.d[1], central([](const double r) { return dashpot_force(0.05, 20., -0.01, r); }, rate, 0.1), 1e-12);
+    EXPECT_NEAR(exact.d[0], central([=](const double n) { return dashpot_force(0.05, n, -0.01, rate); }, 20., 0.1), 1e-12);
   }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "laws/contact.h"
-#include "laws/contact_step.h"
+#include "friction_of_point.h"
+
 #include "laws/friction.h"
 
 #include <algorithm>
@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 using namespace sprag;
+using namespace sprag::test;
 
 // Friction of a point on a surface, which slips two ways.
 
@@ -129,7 +130,7 @@ TEST(SurfaceFriction, TangentIsTheDerivativeWhereSlipTurns)
     for (const auto &history : histories)
       for (const Two &slip : { along(0.3, 1e-3), along(0.8, 7e-3), along(1.5, 0.03), along(3., 0.03) })
       {
-        const auto friction = [&](const Two &s, const double p) { return end_friction(history, stiffness, s, p, law, dt); };
+        const auto friction = [&](const Two &s, const double p) { return test::end_friction(history, stiffness, s, p, law, dt); };
         const auto exact    = friction(slip, pressure);
         const double h      = 1e-7;
         const auto divided  = differences([&](const Two &s) { return friction(s, pressure).traction; }, slip, h);
@@ -149,8 +150,8 @@ TEST(SurfaceFriction, ShiftCountsAsFarAsItGoesAlongTheTraction)
     const auto exact = at(trial, shift);
     ASSERT_TRUE(exact.slipping);
     EXPECT_NEAR(exact.traction[0] * trial[1], exact.traction[1] * trial[0], 1e-16);
-    const auto size = return_to_cone(0.5, 0.5, cork, 500., 1e-4, shift * trial / 0.5);
-    EXPECT_NEAR(exact.traction.norm(), size.traction, 1e-15);
+    const auto size = friction_traction(One({ 0.5 }), 0.5, cork, 500., 1e-4, One({ shift * trial / 0.5 }));
+    EXPECT_NEAR(exact.traction.norm(), size.traction[0], 1e-15);
     EXPECT_NEAR((exact.d_trial - differences([&](const Two &t) { return at(t, shift).traction; }, trial, 1e-6)).norm(), 0., 1e-8);
     EXPECT_NEAR((exact.d_shift - differences([&](const Two &s) { return at(trial, s).traction; }, shift, 1e-8)).norm(), 0., 1e-4);
   }

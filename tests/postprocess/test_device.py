@@ -15,8 +15,8 @@ from pictures import SOURCE, PictureTest, draw  # noqa: E402
 import apparatus  # noqa: E402
 import device  # noqa: E402
 import drafting  # noqa: E402
-import program  # noqa: E402
-from results import NotAResult, read_result  # noqa: E402
+from sprag import program  # noqa: E402
+from sprag.results import NotAResult, read_result  # noqa: E402
 from style import plt, use_print_style  # noqa: E402
 
 SCENES = Path(os.environ.get("SPRAG_SOURCE", SOURCE)) / "params"

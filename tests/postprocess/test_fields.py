@@ -13,7 +13,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 from pictures import PictureTest, draw  # noqa: E402
 import fields  # noqa: E402
 import frames  # noqa: E402
-from results import NotAResult, read_result  # noqa: E402
+from sprag.results import NotAResult, read_result  # noqa: E402
 from test_plot import finish, new_file, put  # noqa: E402
 
 NUMBERS = {name: number for number, name in frames.PARTS.items()}
@@ -122,7 +122,7 @@ def write_frames(folder, rows, blocks):
 
 
 PARAMETERS = f"""subsection Analysis
-  set Type = quasi static
+  set Type = quasi-static
 end
 subsection Cylinder
   set Inner radius = 10
@@ -346,7 +346,7 @@ class DrawTest(PictureTest):
             self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1), done.stderr)
             self.assertIn(words, done.stderr)
 
-    def test_plot_draws_the_frame_of_the_largest_x(self):
+    def test_plot_draws_a_frame(self):
         make_run(self.folder / "a", lever_blocks())
         self.expect_picture(draw("plot.py", self.folder / "a"), "fields")
 

@@ -101,7 +101,7 @@ class LayoutTest(PictureTest):
 
     def test_scripts_are_looked_at_while_they_draw(self):
         script = self.folder / "script.py"
-        script.write_text("import matplotlib.pyplot as plt\nplt.subplots()\nplt.savefig('" + str(self.folder / "empty.png") + "')\n")
+        script.write_text("import matplotlib.pyplot as plt\nplt.subplots()\nplt.gcf().canvas.print_png('" + str(self.folder / "empty.png") + "')\n")
         done = draw(script)
         self.assertEqual(done.returncode, 0)
         self.assertIn("layout of empty.png: panel 1 (without words): holds no data", done.stderr)

@@ -12,7 +12,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 from pictures import PictureTest, draw  # noqa: E402
 import mesh  # noqa: E402
 import test_fields  # noqa: E402
-from results import NotAResult  # noqa: E402
+from sprag.results import NotAResult  # noqa: E402
 
 NAMES = """$PhysicalNames
 4

@@ -3,6 +3,7 @@
 contact_sheet.py looks at the pictures of every scene. Run with /usr/bin/python3."""
 
 import os
+import shutil
 import sys
 import unittest
 from pathlib import Path
@@ -13,15 +14,15 @@ from pictures import SOURCE, PictureTest  # noqa: E402
 import comparison  # noqa: E402
 import pages  # noqa: E402
 import plot  # noqa: E402
-import program  # noqa: E402
-from results import read_result  # noqa: E402
+from sprag import program  # noqa: E402
+from sprag.results import read_result  # noqa: E402
 from style import plt, use_print_style  # noqa: E402
 
 SCENES = Path(os.environ.get("SPRAG_SOURCE", SOURCE)) / "params"
 COARSE = {"Mesh/Face size": 2}
 WITHOUT_FIELDS = {**COARSE, "Output/Fields": "none"}
-FORCES = {"forces-over-time", "forces-over-x"}
-IN_TIME = {*FORCES, "reversal", "energy"}
+FORCES = {"forces-over-x"}
+IN_TIME = {*FORCES, "forces-over-time", "reversal", "energy"}
 # Scene -> its settings here and its pictures.
 PICTURES = {
     "closed-form-a": ({}, FORCES),
@@ -77,6 +78,21 @@ class ScenesTest(PictureTest):
                 with self.subTest(scene=scene, picture=name):
                     self.expect_layout(figure)
             plt.close("all")
+            # Any result has something in common with one of its own type.
+            shutil.copytree(result.folder, self.folder / f"{scene} again")
+            compared = plot.draw([result, read_result(self.folder / f"{scene} again")])
+            for name, figure in compared.items():
+                with self.subTest(scene=scene, compared=name):
+                    self.expect_layout(figure)
+            plt.close("all")
+
+    def test_comparison_of_slides(self):
+        results = [self.result_of("stability-b", {"Lever/Depth": depth, "Stability/Critical": "none"}, f"d{depth}") for depth in (8, 16)]
+        pictures = plot.draw(results)
+        self.assertEqual(set(pictures), {"modes", "numbers"})
+        lines = {line.get_label(): line.get_xdata() for line in pictures["modes"].axes[0].lines}
+        for name, result in zip(("8 mm", "16 mm"), results):
+            self.assertEqual(max(lines[name]), result.summary["growth_rate"])
 
     def test_comparison_of_many_devices(self):
         results = []

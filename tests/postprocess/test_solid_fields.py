@@ -13,12 +13,15 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 from pictures import PictureTest, draw  # noqa: E402
 import frames  # noqa: E402
 import solid_fields  # noqa: E402
-from results import read_result  # noqa: E402
+from sprag.results import read_result  # noqa: E402
 from test_plot import finish, new_file, put  # noqa: E402
 
 RADIUS, OFFSET, DISTANCE, WIDTH = 20.0, 15.0, 100.0, 12.0
 ALONG, ACROSS, ASIDE = np.linspace(0, 90, 31), np.array((OFFSET, OFFSET + 2, OFFSET + 12)), np.linspace(-6, 6, 5)
-PARAMETERS = f"""subsection Friction layer
+PARAMETERS = f"""subsection Analysis
+  set Type = quasi-static
+end
+subsection Friction layer
   set Thickness = 2
 end
 subsection Geometry

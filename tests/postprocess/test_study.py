@@ -11,7 +11,7 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 
 from pictures import PictureTest  # noqa: E402
-import results  # noqa: E402
+from sprag import results  # noqa: E402
 import study  # noqa: E402
 from style import plt, use_print_style  # noqa: E402
 

@@ -11,7 +11,7 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 
 from pictures import PictureTest  # noqa: E402
-import results  # noqa: E402
+from sprag import results  # noqa: E402
 import sprag_slip  # noqa: E402
 import vibration  # noqa: E402
 from style import plt  # noqa: E402

@@ -358,6 +358,10 @@ class Options(ProgramTest):
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         for option in ("FILE.prm", "--set", "--output", "--validate", "--print-parameters", "--quiet", "--version"):
             self.assertIn(option, done.stdout)
+        one = sprag("--help", "lever/depth").stdout
+        self.assertRegex(one, r"subsection Lever\n(?:  # .*\n)+  set Depth = 20\nend\n")
+        self.assertIn(one.partition("set Depth")[0].partition("subsection Lever\n")[2], sprag("Lever", "--help").stdout)
+        self.complains(["--help", "Lever/Dept"], "--help Lever/Dept: there is no such section or parameter; did you mean 'Lever/Depth'?")
         done = sprag("--version")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertRegex(done.stdout, r"^sprag \d+\.\d+")

@@ -41,6 +41,26 @@ class Install(FolderTest):
         told = self.call(program, scene, *CHEAP, "--output", "there", status=2).stderr
         self.assertIn(str(script), told)
 
+    def test_python_finds_its_package(self):
+        code = f"import sprag; print(sprag.run({str(self.data / 'params' / 'closed-form-a.prm')!r}).summary['status'])"
+        environment = {"PYTHONPATH": str(self.prefix / "lib" / "python3" / "dist-packages"), "PATH": "/usr/bin:/bin", "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
+        done = subprocess.run(["/usr/bin/python3", "-c", code], capture_output=True, text=True, check=False, env=environment, cwd=self.folder)
+        self.assertEqual((done.returncode, done.stdout.strip()), (0, "completed"), done.stderr)
+
+    def completions(self, *words):
+        """What bash offers for the last of the words."""
+        code = 'source "$1"; shift; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _sprag "$1"; printf "%s\\n" "${COMPREPLY[@]}"'
+        script = self.prefix / "share" / "bash-completion" / "completions" / "sprag"
+        return self.call("bash", "-c", code, "bash", script, self.prefix / "bin" / "sprag", *words).stdout.split("\n")[:-1]
+
+    def test_bash_completes_its_words(self):
+        self.assertEqual(self.completions("--set", "Lever/Dep"), ["Lever/Depth="])
+        self.assertEqual(self.completions("--set", "Mesh/Face\\ s"), ["Mesh/Face\\ size="])
+        self.assertEqual(self.completions("--over"), ["--overwrite"])
+        (self.folder / "own.prm").touch()
+        (self.folder / "own.txt").touch()
+        self.assertEqual(self.completions("ow"), ["own.prm"])
+
     def test_nothing_of_it_names_the_sources(self):
         for path in self.prefix.rglob("*"):
             if path.is_file() and path.suffix in (".py", ".prm", ".geo", ".md"):

@@ -3,6 +3,7 @@
 /usr/bin/python3; environment: SPRAG, the program, and SPRAG_SOURCE, the sources."""
 
 import os
+import re
 import sys
 import unittest
 from pathlib import Path
@@ -47,9 +48,9 @@ class Output(RunTest):
                 self.assertEqual(any("largest stress" in line for line in lines), scene == "model-a")
 
     def test_the_peaks_printed_are_those_of_the_file(self):
-        words = next(line for line in self.run_scene("model-a").stdout.splitlines() if "largest P" in line).split()
+        line = next(line for line in self.run_scene("model-a").stdout.splitlines() if "largest P" in line)
         with h5py.File(self.output / "result.h5") as file:
-            for printed, way in zip(words[2:4], ("forward", "backward")):
+            for way, printed in re.findall(r"(forward|backward) (\S+) N", line):
                 self.assertAlmostEqual(float(printed) / file[f"summary/peak_P_{way}"][()], 1, delta=1e-3)
 
     def test_many_reversals_are_a_table_with_an_end(self):

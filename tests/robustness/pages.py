@@ -68,7 +68,7 @@ class Pages(FolderTest):
                     arguments.append(str(SOURCE / word if (SOURCE / word).is_file() else empty))
                 elif word not in PASSED_OVER and not word.startswith("output/"):
                     arguments.append(word)
-            if not any(word.endswith(".prm") for word in arguments):
+            if not any(word.endswith(".prm") or word == "--help" for word in arguments):
                 arguments = [str(empty), *arguments]
             if tuple(arguments) in tried:
                 continue

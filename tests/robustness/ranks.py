@@ -80,8 +80,26 @@ class RanksTest(RunTest):
                 size = max(size, 10.5)  # its largest displacement [mm], whatever the phase of a frame
             self.assertLessEqual(apart.max(initial=0), 2e-6 * size, name)
 
+    def expect_same_data(self, analysis, changes, group, names, tolerance):
+        """By one process and by two."""
+        alone, shared = (self.data_of(ranks, {**HELD, "Analysis/Type": analysis, **changes}, group, names) for ranks in (1, 2))
+        for name, values in alone.items():
+            np.testing.assert_allclose(shared[name], values, rtol=0, atol=tolerance * np.nanmax(np.abs(values)), err_msg=name)
+
+    def data_of(self, ranks, changes, group, names):
+        folder = self.folder / f"{changes['Analysis/Type']}-{ranks}"
+        done = run(ranks, folder, changes)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with h5py.File(folder / "result.h5") as file:
+            return {name: file[group][name][:] for name in names}
+
 
 class Ranks(RanksTest):
+    def test_do_not_change_motions(self):
+        changes = {"Drive/Stroke": "6", "Drive/Start": "4", **PARTS}
+        # In time round-off of the gap meets the contact's stiffness.
+        self.expect_same_data("transient", changes, "table", ("P", "Q", "theta", "sensor_1_left", "sensor_2_right"), 1e-6)
+
     def test_do_not_change_what_is_found(self):
         tables, fields = {}, {}
         for ranks in (1, 2):
@@ -89,6 +107,7 @@ class Ranks(RanksTest):
             done = run(ranks, folder, {**SETTINGS, "Mirrored pair/Type": "full"})
             self.assertEqual(done.returncode, 0, done.stderr)
             self.assertEqual(done.stdout.count("largest P"), 1, done.stdout)
+            self.assertEqual(done.stdout.count("Processes:    2, which share"), ranks - 1, done.stdout)
             with h5py.File(folder / "result.h5") as file:
                 tables[ranks] = {name: file["table"][name][:] for name in ("P", "Q", "theta", "P_2", "centre_across", "centre_across_2")}
             fields[ranks] = fields_of(folder)
@@ -100,66 +119,6 @@ class Ranks(RanksTest):
             apart = np.nanmax(np.abs(alone - tables[2][name])) / np.nanmax(np.abs(alone))
             self.assertLess(apart, 1e-5 if name.startswith("centre_across") else 1e-8, name)
         self.expect_alike(fields[2], fields[1])
-
-    def test_without_the_folder_end_with_a_message(self):
-        """As on machines that do not share their disks."""
-        places = [self.folder / str(rank) for rank in range(2)]
-        words = ["mpirun"]
-        for place in places:
-            place.mkdir()
-            words += [":"] * (place != places[0]) + ["-n", "1", "-wdir", str(place), *command("output", SETTINGS)]
-        done = finished(words)
-        self.assertEqual(done.returncode, 1, done.stderr)
-        self.assertEqual(done.stderr.count("process 1 of mpirun: cannot write output/fields-mesh.h5: No such file"), 1, done.stderr)
-        self.assertEqual(list(places[1].iterdir()), [])
-
-    def test_do_not_change_slides_and_motions(self):
-        tables = {
-            "stability": ("modes", ("frequency", "growth_rate")),
-            "modal": ("modes", ("frequency", "across_real", "sideways_real")),
-            "transient": ("table", ("P", "Q", "theta", "sensor_1_left", "sensor_2_right")),
-        }
-        for analysis, (group, names) in tables.items():
-            changes = {**HELD, "Analysis/Type": analysis}
-            if analysis == "stability":
-                changes.update({"Stability/Critical": "none", "Stability/Roles": "off"})
-            elif analysis == "transient":
-                changes.update({"Drive/Stroke": "6", "Drive/Start": "4", **PARTS})
-            with self.subTest(analysis):
-                alone, shared = (self.data_of(ranks, analysis, changes, group, names) for ranks in (1, 2))
-                # In time round-off of the gap meets the contact's stiffness.
-                tolerance = 1e-6 if analysis == "transient" else 1e-8
-                for name, values in alone.items():
-                    np.testing.assert_allclose(shared[name], values, rtol=0, atol=tolerance * np.nanmax(np.abs(values)), err_msg=name)
-
-    def test_are_told_what_they_do(self):
-        in_space = run(2, self.folder / "space", {**SETTINGS, "Drive/Stroke": "2"})
-        self.assertEqual(in_space.stdout.count("Processes:    2, which share"), 1, in_space.stdout + in_space.stderr)
-        chosen = {"Analysis/Dimension": "auto", "Accuracy/Quantity": "P", "Mesh/Face size": "3", "Mesh/Faces in contact": "0"}
-        in_plane = run(2, self.folder / "plane", {**chosen, "Drive/Stroke": "15"})
-        self.assertEqual(in_plane.returncode, 0, in_plane.stderr)
-        self.assertIn("Processes:    2, of which a lever in a plane needs the first alone", in_plane.stdout)
-
-    def data_of(self, ranks, analysis, changes, group, names):
-        folder = self.folder / f"{analysis}-{ranks}"
-        done = run(ranks, folder, changes)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        with h5py.File(folder / "result.h5") as file:
-            return {name: file[group][name][:] for name in names}
-
-    def test_of_another_program_are_refused(self):
-        program = Path(SPRAG).resolve().with_name("sprag-models")
-        other = self.folder / "sprag-models"
-        shutil.copy(program, other)
-        with open(other, "ab") as file:
-            file.write(b"another version")
-        scene = SOURCE / "params" / "model-a.prm"
-        sets = [part for name, value in SETTINGS.items() for part in ("--set", f"{name}={value}")]
-        each = [scene, "--output", self.output, *sets]
-        done = finished(list(map(str, ["mpirun", "-n", "1", program, *each, ":", "-n", "1", other, *each])))
-        self.assertEqual(done.returncode, 2, done.stderr)
-        self.assertEqual(done.stderr.count("process 1 of mpirun runs another program"), 1, done.stderr)
-        self.assertFalse(self.output.exists())
 
     def ranks_apart(self, *places):
         """A study by two ranks, each with a working directory and an --output of its own."""

@@ -2,13 +2,14 @@
 """Several processes of MPI that write fields of modes, and one of which is killed."""
 
 import os
+import shutil
 import signal
 import subprocess
 import unittest
 from pathlib import Path
 
 import numpy as np
-from ranks import ALONE, HELD, SETTINGS, TIMEOUT, RanksTest, command, fields_of, run
+from ranks import ALONE, HELD, SETTINGS, SOURCE, SPRAG, TIMEOUT, RanksTest, command, fields_of, finished, run
 
 OFTEN = {**ALONE, "SPRAG_CHECKPOINT_SECONDS": "0.02"}
 
@@ -20,6 +21,43 @@ def ranks_of(mpirun):
 
 
 class SlowRanks(RanksTest):
+    def test_do_not_change_slides(self):
+        changes = {"Stability/Critical": "none", "Stability/Roles": "off"}
+        self.expect_same_data("stability", changes, "modes", ("frequency", "growth_rate"), 1e-8)
+        self.expect_same_data("modal", {}, "modes", ("frequency", "across_real", "sideways_real"), 1e-8)
+
+    def test_without_the_folder_end_with_a_message(self):
+        """As on machines that do not share their disks."""
+        places = [self.folder / str(rank) for rank in range(2)]
+        words = ["mpirun"]
+        for place in places:
+            place.mkdir()
+            words += [":"] * (place != places[0]) + ["-n", "1", "-wdir", str(place), *command("output", SETTINGS)]
+        done = finished(words)
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertEqual(done.stderr.count("process 1 of mpirun: cannot write output/fields-mesh.h5: No such file"), 1, done.stderr)
+        self.assertEqual(list(places[1].iterdir()), [])
+
+    def test_are_told_where_one_is_enough(self):
+        chosen = {"Analysis/Dimension": "auto", "Accuracy/Quantity": "P", "Mesh/Face size": "3", "Mesh/Faces in contact": "0"}
+        in_plane = run(2, self.folder / "plane", {**chosen, "Drive/Stroke": "15"})
+        self.assertEqual(in_plane.returncode, 0, in_plane.stderr)
+        self.assertIn("Processes:    2, of which a lever in a plane needs the first alone", in_plane.stdout)
+
+    def test_of_another_program_are_refused(self):
+        program = Path(SPRAG).resolve().with_name("sprag-models")
+        other = self.folder / "sprag-models"
+        shutil.copy(program, other)
+        with open(other, "ab") as file:
+            file.write(b"another version")
+        scene = SOURCE / "params" / "model-a.prm"
+        sets = [part for name, value in SETTINGS.items() for part in ("--set", f"{name}={value}")]
+        each = [scene, "--output", self.output, *sets]
+        done = finished(list(map(str, ["mpirun", "-n", "1", program, *each, ":", "-n", "1", other, *each])))
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertEqual(done.stderr.count("process 1 of mpirun runs another program"), 1, done.stderr)
+        self.assertFalse(self.output.exists())
+
     def test_do_not_change_fields_of_modes(self):
         changes = {**HELD, "Analysis/Type": "modal", "Stability/Modes": "2", "Output/Fields": "turning points"}
         alone, shared = ({}, {})

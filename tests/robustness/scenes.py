@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-only
-"""Every scene of params/ is accepted, runs on a coarse mesh and writes its columns. Run with /usr/bin/python3; environment:
+"""Every scene of params/ is accepted, runs on a coarse mesh, writes its columns and prints few lines, every number with its unit. Run with /usr/bin/python3; environment:
 SPRAG, the program, and SPRAG_SOURCE, the sources.
 
     scenes.py            # runs all but twins: scenes with the analysis and the parts of another
@@ -14,12 +14,13 @@ import h5py
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
-from runs import SOURCE, RunTest, sprag  # noqa: E402
+from runs import SOURCE, RunTest, counted, sprag  # noqa: E402
 
 SCENES = sorted((SOURCE / "params").glob("*.prm"))
 # Those of model B whose like is there for model A, maps over other parameters, and parts and studies that another scene has as well.
 ALIKE = {
-    "design-front-machine", "neo-hookean-a", "solid-plate-reversal-a", "solid-rib-a", "solid-stability-a", "study-growth-a", "study-pressure-a",
+    "design-front-machine", "neo-hookean-a", "plate-reversal-a", "solid-frame-a", "solid-neo-hookean-a", "solid-plate-a", "solid-plate-reversal-a",
+    "solid-rib-a", "solid-shaft-a", "solid-stability-a", "study-growth-a", "study-pressure-a",
 }  # fmt: skip
 TWINS = {
     path
@@ -74,6 +75,40 @@ GROUPS = {
 }
 STABLE, FLUTTER, DIVERGENCE = range(3)
 
+# The most lines that scenes of each kind may print before their warnings, with a unit behind each number.
+MOST_LINES = {
+    "closed-form-a": 10, "fig10": 3, "contact-law-a": 6, "calibration-a": 16, "modal-a": 12, "pair-modal-a": 12, "pair-stability-a": 23, "isolation-a": 12,
+    "isolation-free-a": 12, "isolation-ground-a": 12, "onset-a": 14, "map-position-depth-a": 8, "study-offset-a": 10, "reversal-a": 20,
+}  # fmt: skip
+NUMBER = r"[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?"
+# Units, and what is counted.
+UNIT = (
+    r"(?:N mm/rad|N mm\^2|N/mm\^n|N/mm\^3|N/mm|N mm|N|MPa|t mm\^?2|mm/s\^2|mm/s|mm|Hz|1/s|s|rad|%)(?![\w/^])"
+    r"|(?:of|more|runs|completed|failed|refused|steps|turns|stops|periods?|points|processes|values|in the grid|judged)\b"
+)
+WITH_UNIT = re.compile(rf"{NUMBER}(?:(?: to|,)? +{NUMBER})? (?:{UNIT})")
+# Numbers that have none.
+PURE = re.compile(
+    rf"\b(?:mu =|n =|delta\^|peak|first harmonic|root mean square|transmissibility|tolerance|[\w /]+/(?:Degree|Modes|Factor|Damping) (?:=|from)) {NUMBER}(?: \(?(?:{NUMBER} )?to {NUMBER})?"
+    rf"|flutter from {NUMBER} \(|order .*|x = 0\b|of degree \d|[a-z],? \d\."
+)
+
+# How far a run is, on the standard error.
+PROGRESS = re.compile(r"^(?: *\d+ % .*|(?:grid|boundaries|study|map): .*)\n", re.MULTILINE)
+
+
+def numbers_without_unit(lines):
+    """Lines with more numbers without a unit than the heading of their table has columns with one."""
+    columns = 0
+    for line in lines:
+        left = re.findall(rf"(?<![\w/.^]){NUMBER}(?![\w/^])", PURE.sub("", WITH_UNIT.sub("", line)))
+        if heading := re.findall(r"\[[^\]]+\]", line):
+            columns = len(heading) + line.startswith("  reversal")
+        elif not left:
+            columns = 0 if re.search(r"\d", line) else columns
+        if len(left) > columns:
+            yield line
+
 NEVER_NAN = ("time", "x", "v", "theta", "P", "F", "Q", "drive_work", "friction_work", "spring_energy")
 NEVER_NAN_MESHED = NEVER_NAN + (
     "normal_resultant",
@@ -94,7 +129,7 @@ SWEEPS = {
 def columns_of_the_program():
     """Names of the columns that every table has, in the order of src/results/columns.cc."""
     text = (SOURCE / "src/results/columns.cc").read_text(encoding="utf-8").partition("add_sensors")[0]
-    return re.findall(r'^\s*\{ "(\w+)", "[^"]*",', text, re.MULTILINE)
+    return " ".join(re.findall(r'"([\w ]+)"', text)).split()
 
 
 def parameter(text, section, name):
@@ -118,13 +153,6 @@ class ScenesTest(RunTest):
             with self.subTest(scene=scene.stem):
                 done = sprag(scene, "--validate")
                 self.assertEqual((done.returncode, done.stderr), (0, ""))
-
-    def test_a_pair_of_meshed_levers_writes_its_fields_in_time(self):
-        for model, dimension in (("condensed", 2), ("finite element", 2), ("condensed", 3)):
-            changes = {"Analysis/Model": model, "Analysis/Dimension": dimension, "Mesh/Elements across": 2, "Condensed/Modes": 12, "Mesh/Face size": 4, "Drive/Start": 59, "Drive/Stroke": 60, "Condensed/Cache": self.output.parent / "cache"}
-            run = sprag(SOURCE / "params/pair-reversal-a.prm", "--output", self.output, "--overwrite", "--quiet", *(word for name, value in changes.items() for word in ("--set", f"{name}={value}")))
-            self.assertEqual((run.returncode, run.stderr), (0, ""), (model, dimension))
-            self.assertGreater(len(list(self.output.glob("fields*"))), 0)
 
     def test_table_1(self):
         values = {"model-a": ("56", "45.6", "185.5", "0", "7.40e4"), "model-b": ("21.1", "0", "193.9", "0", "6.41e4")}
@@ -321,6 +349,22 @@ class ScenesTest(RunTest):
         self.assertEqual((output / "fields.xdmf").is_file(), "face" in file)
         self.assertEqual(len(list(output.glob("mode-*.xdmf"))), len(file["modes/frequency"]) if modes else 0)
 
+    def check_printed(self, scene, text):
+        lines = re.split(r"\n\s*(?:Warning:|Lines for|Scenes:)", text)[0].splitlines()
+        if scene in MOST_LINES:
+            self.assertTrue(0 < len(lines) <= MOST_LINES[scene], text)
+            self.assertEqual(list(numbers_without_unit(lines)), [])
+        self.assertNotRegex(text, r"\bnan\b|\binf\b")
+
+    def test_a_number_without_unit_is_seen(self):
+        table = ["  growth [1/s]  frequency [Hz]", "  as it is  77.39  186.1", "  cost  2 s of CPU time", "  as it is 1 2"]
+        self.assertEqual(list(numbers_without_unit(["  margin  0.743", "  P = 3 N, Q = 4"])), ["  margin  0.743", "  P = 3 N, Q = 4"])
+        self.assertEqual(list(numbers_without_unit(table)), table[-1:])
+
+    def test_verbose_prints_the_rest(self):
+        done = sprag(SOURCE / "params/isolation-a.prm", "--verbose", "--output", self.output)
+        self.assertIn("energy_residual", done.stdout)
+
     def test_all_run(self):
         for scene in sorted(TWINS if ONLY_TWINS else set(SCENES) - TWINS):
             with self.subTest(scene=scene.stem):
@@ -329,14 +373,20 @@ class ScenesTest(RunTest):
                 options = []
                 for name, value in {**COARSE, **changes}.items():
                     options += ["--set", f"{name}={value}"]
-                done = sprag(scene, *options, "--output", output, "--quiet")
-                self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
+                done = sprag(scene, *options, "--output", output)
+                self.assertEqual((done.returncode, PROGRESS.sub("", done.stderr)), (0, ""))
+                self.check_printed(scene.stem, done.stdout)
                 with h5py.File(output / "result.h5", "r") as file:
                     for data in file["table"].values():
                         self.assertIn("unit", data.attrs)
                         self.assertTrue(data.attrs["description"])
+                    for name, data in file["summary"].items():
+                        self.assertTrue(data.attrs.get("description"), name)
                     self.assertEqual(file["summary/status"].asstr()[()], "completed")
                     self.assertIn("cpu_time", file["meta"])
+                    names = re.findall(r"^Warning: (\w+)$", done.stdout, re.MULTILINE)
+                    self.assertEqual(done.stdout.splitlines()[-1], "completed, " + counted(names))
+                    self.assertEqual(sorted(file["warnings"]), sorted(names))
                     self.check(file)
                     self.check_fields(file, output)
 

@@ -10,7 +10,7 @@ from pathlib import Path
 import h5py
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
-from runs import SOURCE, RunTest, sprag  # noqa: E402
+from runs import SOURCE, RunTest, counted, sprag  # noqa: E402
 
 STRAIN = "Analysis/Plane=strain"
 FORWARD = ("Drive/Cycles=0.5", "Output/Fields=none", "Analysis/Step=2")
@@ -18,19 +18,15 @@ OTHER_DEVICE = ("Geometry/Cylinder radius=50", "Geometry/Pivot distance=180")
 
 # What is provoked: scene, options, warnings in the order of the program.
 PROVOKED = {
-    "soft penalty": ("model-a", (*FORWARD, "Contact/Penalty=20"), ["soft_penalty"]),
     "penalty of 1e-3": ("model-a", (*FORWARD, "Contact/Penalty=1e-3"), ["overlap_of_layer", "soft_penalty", "soft_tangential_penalty"]),
     "lever of 1 mm": ("model-a", (*FORWARD, "Lever/Depth=1"), ["coarse_contact", "large_deflection"]),
     "leaf of 5 mm": ("leaf-a", (*FORWARD, "Leaf spring/Thickness=5"), ["large_strain", "pressure_beyond_strength"]),
     "leaf of 8 mm": ("leaf-a", ("Analysis/Model=closed form", "Leaf spring/Thickness=8"), ["leaf_beyond_yield", "pressure_beyond_strength"]),
     "incompressible in plane stress": ("model-a", (*FORWARD, "Friction layer/Poisson's ratio=0.49", "Friction layer/Plane=stress"), ["plane_stress_of_layer"]),
     "coarse contact": ("model-a", (*FORWARD, "Mesh/Face size=2"), ["coarse_contact"]),
-    "contact narrow at first": ("model-a", (*FORWARD, "Mesh/Face size=0.5"), ["coarse_contact"]),
     "own mesh": ("model-a", (*FORWARD, "Mesh/File=../meshes/lever.geo"), ["coarse_contact"]),
     "other device": ("model-a", (*FORWARD, *OTHER_DEVICE), ["defaults_of_model_a", "coarse_contact"]),
-    "crushed cork": ("model-a", (*FORWARD, "Friction layer/Strength=0.1"), ["pressure_beyond_strength"]),
     "crushed cork under a beam": ("reversal-a", ("Friction layer/Strength=0.1",), ["pressure_beyond_strength"]),
-    "soft tangential penalty": ("model-a", (*FORWARD, "Contact/Tangential penalty=1e-6"), ["soft_tangential_penalty"]),
     "stiff penalty": ("model-a", (*FORWARD, "Mesh/Faces in contact=0", "Contact/Penalty=1e4"), ["stiff_penalty"]),
     "e almost R": ("model-a", (*FORWARD, "Geometry/Interface offset=55.999999"), ["contact_between_points", "soft_penalty", "coarse_contact"]),
     "one step": ("model-a", (*FORWARD, "Analysis/Step=65"), ["long_steps"]),
@@ -41,12 +37,6 @@ PROVOKED = {
 
 def run(scene, options, *arguments):
     return sprag(SOURCE / "params" / f"{scene}.prm", *arguments, *(word for option in options for word in ("--set", option)))
-
-
-def counted(names):
-    if not names:
-        return "no warnings"
-    return f"{len(names)} warning{'s' if len(names) > 1 else ''}: {', '.join(names)}"
 
 
 class WarnedRunsTest(RunTest):
@@ -97,21 +87,6 @@ class WarnedRunsTest(RunTest):
             self.assertTrue(done.stdout.endswith(f"{scene}.prm: valid, {counted(names)}\n"), done.stdout)
             self.assertEqual(run(scene, (*options, "Analysis/Warnings=error"), "--validate").returncode, 1)
         self.assertFalse(self.output.exists())
-
-    def test_every_analysis_counts_them(self):
-        cut = ("Mesh/Face size=4", "Stability/Critical=none", "Stability/Roles=off", "Map/First points=2", "Map/Second points=2")
-        cut += ("Map/Coarsest=1", "Map/Bisections=0", "Sprag slip/Continuation=0", "Sprag slip/Settling time=0.02")
-        for scene in ("fig10", "contact-law-a", "modal-a", "stability-a", "map-friction-depth-a", "onset-a", "calibration-a", "reversal-a"):
-            with self.subTest(scene=scene):
-                output = self.output / scene
-                options = (*cut, "Geometry/Cylinder radius=55", "Geometry/Interface offset=45")
-                done = run(scene, options, "--output", output)
-                self.assertEqual(done.returncode, 0, done.stderr)
-                names = re.findall(r"^Warning: (\w+)$", done.stdout, re.MULTILINE)
-                self.assertEqual(done.stdout.splitlines()[-1], "completed, " + counted(names))
-                self.assertEqual(sorted(self.stored(output)), sorted(names))
-                if scene != "fig10":
-                    self.assertIn("defaults_of_model_a", names)
 
     def test_a_failed_run_tells_them_too(self):
         options = ("Friction layer/Strength=0.01", "Analysis/Maximum deviation=1e-9", *FORWARD)

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "run/choice.h"
+#include "estimate/choice.h"
 
 #include "base/phase_timer.h"
+#include "estimate/expected_cost.h"
 #include "mpi_environment.h"
-#include "run/expected_cost.h"
 #include "scene/read.h"
 #include "scene/scene.h"
 #include "support/params_folder.h"
@@ -118,7 +118,7 @@ TEST(Choice, InThreeDimensionsTheRestIsChosenByThePlane)
   EXPECT_NE(chosen(choice, "Analysis/Step"), "");
 }
 
-TEST(Choice, ASlideOfAThinLeverTakesThreeDimensionsForItsGrowth)
+TEST(Choice, ASlideOfAThinLeverTakesThreeDimensionsForItsGrowthSlow)
 {
   std::vector<std::string> cheap = { "Analysis/Dimension=auto", "Mesh/Elements across=2", "Mesh/Face size=4" };
   const auto choice              = choose_settings(asked("solid-stability-a", cheap));

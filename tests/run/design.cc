@@ -109,7 +109,7 @@ TEST(RunDesign, AJudgeCorrectsTheClosedForm)
   EXPECT_LT(std::abs(Q), 20.1);
 }
 
-TEST(RunDesign, TheTableInTimeCorrectsTheHarmonicBalance)
+TEST(RunDesign, TheTableInTimeCorrectsTheHarmonicBalanceSlow)
 {
   const TemporaryFolder folder;
   run_in(folder, design(folder, { "Isolation/Base amplitude=5", "Isolation/Base frequency=0.75", "Isolation/Duration=100",

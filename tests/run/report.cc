@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "report/report.h"
+#include "report/brief.h"
+#include "report/summary_table.h"
 #include "report/transient_report.h"
 
 #include "scene/closed_form.h"
@@ -9,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <sstream>
 
 using namespace sprag;
 
@@ -137,4 +140,45 @@ TEST(Report, PeaksInTimeLieBetweenRows)
   const auto summary = transient_summary(model_a(), rows);
   EXPECT_NEAR(value_of(summary, "peak_P_forward"), 25., 2e-3);
   EXPECT_GT(value_of(summary, "peak_P_forward"), (*largest_row)[Column::P]);
+}
+
+TEST(SummaryTable, FindsTheRowWhoseStarStandsForLeast)
+{
+  const auto unit = [](const AnalysisType type, const std::string &entry) { return summary_row(type, entry).value().unit; };
+  EXPECT_EQ(unit(AnalysisType::transient, "reversal_12_frequency"), "Hz");
+  EXPECT_EQ(unit(AnalysisType::transient, "energy_residual"), "N mm");
+  EXPECT_EQ(unit(AnalysisType::isolation, "energy_residual"), "1");
+  EXPECT_EQ(unit(AnalysisType::calibration, "free_frequency_1_deviation"), "1");
+  EXPECT_EQ(unit(AnalysisType::stability, "critical_lever_depth_values"), "1");
+  EXPECT_EQ(unit(AnalysisType::stability, "critical_lever_depth_2"), "");
+  EXPECT_FALSE(summary_row(AnalysisType::quasi_static, "reversal_1_frequency"));
+  std::vector<Entry> entries = { { "peak_P_forward", 2. }, { "critical_x_1", 3., "mm", "own" }, { "own", 1., "s", "own" } };
+  describe_summary(AnalysisType::stability, entries);
+  EXPECT_EQ(entries[0].description, "");
+  EXPECT_EQ(entries[1].unit + entries[1].description, "mmvalue at which the verdict changes along the parameter; own");
+  EXPECT_EQ(entries[2].unit + entries[2].description, "sown");
+}
+
+TEST(SummaryTable, PrintsEntriesOfALineTogetherAndNothingThatDoesNotApply)
+{
+  const double unknown = std::nan("");
+  std::ostringstream printed;
+  print_brief(printed, AnalysisType::transient,
+              { { "peak_Q_forward", 18. },
+                { "peak_Q_support_forward", 18. },
+                { "peak_Q_backward", -23.456 },
+                { "peak_Q_support_backward", -20. },
+                { "reversal_1_frequency", unknown },
+                { "reversal_1_overshoot_P", 0.24 },
+                { "reversal_13_x", 65. },
+                { "creep", 1. } },
+              { { "P", "its peak", { { "step", 0.02, "Try less." } }, {} }, { "Q", "", {}, "No estimate." } }, 0.5);
+  EXPECT_EQ(printed.str(), "  largest Q             forward 18 N, backward -23.46 N\n"
+                           "  on the ground         backward -20 N\n"
+                           "  reversal 1.           overshoot of P 24 %\n"
+                           "                        and 1 more in /summary\n"
+                           "  errors, estimated     P 2 %\n"
+                           "  not estimated         Q: No estimate.\n"
+                           "  to improve the worst  Try less.\n"
+                           "  cost                  0.5 s of CPU time\n");
 }

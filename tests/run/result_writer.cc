@@ -21,9 +21,11 @@ TEST(ResultWriter, AddsStatusAndWhatEveryRunTells)
   const TemporaryFolder temporary;
   const std::string folder = temporary.path / "run";
   PhaseTimer timer;
-  ResultWriter writer(model_a(), { folder, true }, timer, columns);
+  const Scene scene = model_a();
+  ResultWriter writer(scene, { folder, true }, timer, columns);
   writer.append(std::vector<double>{ 1. });
-  const auto end = writer.finish("stopped", { { { "number", 2., "1", "of a test" } }, { { "own", 3., "1", "fact" } } }, {});
+  Warnings warnings;
+  const auto end = writer.finish("stopped", { { { "number", 2., "1", "of a test" } }, { { "own", 3., "1", "fact" } } }, warnings);
   EXPECT_EQ(end.summary.size(), 2u);
   EXPECT_EQ(end.meta.front().name, "own");
   EXPECT_GT(end.meta.size(), 5u);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "run/transient_accuracy.h"
+#include "estimate/transient_accuracy.h"
 
 #include "analysis/stability/stability.h"
+#include "analysis/transient/transient_settings.h"
 #include "analytic/oscillation.h"
 #include "mpi_environment.h"
 #include "results/row_statistics.h"
-#include "run/beam_run.h"
 #include "scene/read.h"
 #include "scene/scene.h"
 #include "support/params_folder.h"

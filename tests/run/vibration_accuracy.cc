@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "run/vibration_accuracy.h"
+#include "estimate/vibration_accuracy.h"
 
 #include "mpi_environment.h"
 #include "scene/held_slide.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "report/warnings.h"
-#include "report/accuracy_report.h"
+#include "report/brief.h"
 #include "scene/closed_form.h"
 #include "scene/contact_width.h"
 #include "scene/scene.h"

@@ -11,7 +11,7 @@ ROOT = pathlib.Path(os.environ.get("SPRAG_SOURCE", pathlib.Path(__file__).parent
 
 # A folder of src/ includes itself and what stands before it; the programs include any. An analysis knows no mesh.
 PROGRAMS = ["main.cc", "main_models.cc"]
-ORDER = ["base", "laws", "scene", "results", "analytic", "report", "program", "model", "fe", "levers", "analysis", "run"]
+ORDER = ["base", "laws", "scene", "results", "analytic", "report", "program", "model", "fe", "levers", "analysis", "estimate", "run"]
 UNSEEN = {"analysis": ["fe"]}
 # So do the rooms of a folder.
 ROOMS = {
@@ -21,9 +21,9 @@ ROOMS = {
 CODE = {".cc", ".h", ".py", ".sh", ".geo", ".cmake", ".txt"}
 MAX_LINES = 600
 LICENCE = "SPDX-License-Identifier: GPL-3.0-only"
-# Of a page as wc counts them. The reference of all parameters is looked into, not read.
+# Of a page as wc counts them. The references of all parameters and results are looked into, not read.
 MAX_WORDS = 1500
-REFERENCES = [pathlib.Path("params/README.md")]
+REFERENCES = [pathlib.Path("params/README.md"), *(pathlib.Path("postprocess") / name for name in ("results.md", "summary.md", "summary-of-analyses.md"))]
 # In pieces, or this file would find itself.
 UNFINISHED = re.compile(r"\b(TO" r"DO|FIX" r"ME)\b")
 

@@ -12,22 +12,22 @@ import tempfile
 import traceback
 from pathlib import Path
 
-from matplotlib.figure import Figure
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from layout import problems
 
-save = Figure.savefig
+print_png = FigureCanvasAgg.print_png
 
 
-def save_checked(figure, path, **options):
-    for text in problems(figure):
-        print(f"layout of {Path(path).name}: {text}", file=sys.stderr)
-    save(figure, path, **options)
+def print_checked(canvas, path, **options):
+    for text in problems(canvas.figure):
+        print(f"layout of {Path(path).name}: {text}", file=sys.stderr, flush=True)
+    print_png(canvas, path, **options)
 
 
 def run(script, arguments):
     """Exit status of the script as a program."""
-    Figure.savefig = save_checked
+    FigureCanvasAgg.print_png = print_checked
     sys.argv = [str(script), *map(str, arguments)]
     sys.path.insert(0, str(Path(script).parent))
     try:

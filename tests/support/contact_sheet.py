@@ -19,7 +19,7 @@ from layout import problems
 from pictures import SOURCE  # puts the scripts on the path
 
 import plot  # noqa: E402
-from results import NotAResult, read_result  # noqa: E402
+from sprag.results import NotAResult, read_result  # noqa: E402
 from style import TWO_COLUMNS, plt, use_print_style  # noqa: E402
 
 # What makes a scene short; its pictures keep their kinds of curves.

@@ -31,7 +31,7 @@ namespace sprag
   }
 
   /// Vibrations of a lever out of contact on its spring.
-  inline FreeModes modes_on_spring(const InertialMatrices<2> &matrices, const unsigned int number)
+  inline FreeModes modes_on_spring(const InertialMatrices &matrices, const unsigned int number)
   {
     dealii::PETScWrappers::SparseMatrix stiffness;
     matrices.sum({ 0., 1., 0., spring_of_bar }, stiffness);
@@ -41,7 +41,7 @@ namespace sprag
   inline SparseStructure sparse_structure(const ElasticBody<2> &body, const LeverInertia &inertia, const unsigned int modes,
                                           const LeverDynamics &constants)
   {
-    const auto matrices = std::make_shared<InertialMatrices<2>>(body, inertia);
+    const auto matrices = std::make_shared<InertialMatrices>(body, inertia);
     return SparseStructure(body, matrices, modes_on_spring(*matrices, modes), constants);
   }
 } // namespace sprag

@@ -22,6 +22,13 @@ def sprag(*arguments, program=SPRAG, timeout=TIMEOUT, **options):
     )
 
 
+def counted(names):
+    """Warnings as the last line that is printed tells them."""
+    if not names:
+        return "no warnings"
+    return f"{len(names)} warning{'s' if len(names) > 1 else ''}: {', '.join(names)}"
+
+
 class RunTest(FolderTest):
     """Has a folder for what a run writes, which is not there yet."""
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "fe/body/finite_statics.h"
-#include "fe/leaf/leaf_mesh.h"
+#include "fe/leaf/leaf_body.h"
 #include "mpi_environment.h"
 
 #include <deal.II/base/quadrature_lib.h>

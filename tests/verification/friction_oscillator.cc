@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "analytic/energy_ledger.h"
+#include "model/contact_step.h"
 #include "verification/point_at_port.h"
 
 #include <algorithm>
@@ -33,18 +34,20 @@ namespace
     void evaluate(const PortStep &step, Evaluation &found) const
     {
       const auto &before = step.memory.front();
-      const Slip slip({ step.end[0] - step.begin.position[0] });
-      const auto friction         = end_friction(before.history(), holding, slip, normal, law, step.weights.dt);
-      const double delay          = step.weights.delay();
-      const auto change           = friction.traction - before.traction;
-      found.forces.values[0]      = -(0.5 * (before.traction + friction.traction) + delay * change)[0];
-      found.forces.tangent(0, 0)  = -(0.5 + delay) * friction.d_slip[0][0];
-      found.remembered.traction   = friction.traction;
-      found.remembered.slip_speed = friction.slip_speed;
-      found.remembered.step       = step.weights.dt;
-      found.works                 = { 0., friction.dissipated, 0., delay * change * slip, friction.creep };
-      found.stored                = friction.energy;
-      found.compressed            = mu * normal / holding; // of the spring in stick at the cone
+      using N            = Dual<double, 1>; // of the slip
+      const double slip = step.end[0] - step.begin.position[0], was = before.traction[0];
+      const auto friction = end_friction(SlipLaw{ law, holding }, slip_memory(before), Several<N, 1>{ { variable<N>(slip, 0) } },
+                                         N{} + normal, step.weights.dt);
+      const double delay  = step.weights.delay();
+      const double traction = friction.traction[0].v, change = traction - was;
+      found.forces.values[0]         = -(0.5 * (was + traction) + delay * change);
+      found.forces.tangent(0, 0)     = -(0.5 + delay) * friction.traction[0].d[0];
+      found.remembered.traction[0]   = traction;
+      found.remembered.slip_speed[0] = friction.slip_speed[0];
+      found.remembered.step          = step.weights.dt;
+      found.works                    = { 0., friction.dissipated, 0., delay * change * slip, friction.creep };
+      found.stored                   = friction.energy;
+      found.compressed               = mu * normal / holding; // of the spring in stick at the cone
     }
 
   private:

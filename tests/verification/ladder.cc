@@ -52,7 +52,7 @@ TEST(Ladder, BeamAndCondensedLeverRingAtTheSameFrequency)
   }
 }
 
-TEST(Ladder, BeamAndCondensedLeverVibrateOrComeToRestAlike)
+TEST(Ladder, BeamAndCondensedLeverVibrateOrComeToRestAlikeSlow)
 {
   for (const auto model : { ModelType::beam, ModelType::condensed })
   {
@@ -76,7 +76,7 @@ TEST(Ladder, SlowFiniteElementsAgreeInFrequencyAndVerdict)
 // share of P errs by (omega / omega_n)^2 of what they contribute. The meshed lever's face starts out of balance, by as much as
 // the penalty is stiff: its nodes, which the modes leave without mass, ring far above the steps' frequency, so that P turns its
 // error of 9e-4 with every step and shrinks it by the spectral radius of 0.8. After 20 steps 1 % of it are left.
-TEST(Ladder, CondensedLeverApproachesTheFiniteElementsWithItsModes)
+TEST(Ladder, CondensedLeverApproachesTheFiniteElementsWithItsModesSlow)
 {
   auto scene       = with_fixed_step(with_face_size(around_the_reversal(thick_a(ModelType::finite_element), 63.5), 1.), 5e-5);
   const auto exact = run_meshed_in_time(scene);

@@ -78,7 +78,7 @@ TEST(LimitCycle, DiesWhereTheSlideIsStableAndTheKickSmall)
 }
 
 // Model B backward loses its stability between x = 41 and 42 and keeps the cycle that lives there down to below x = 40.
-TEST(Continuation, FindsWhereASlideAndACycleCoexist)
+TEST(Continuation, FindsWhereASlideAndACycleCoexistSlow)
 {
   Scene scene                   = backward_b();
   scene.sprag_slip.continuation = 6;

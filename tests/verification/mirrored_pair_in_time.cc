@@ -52,7 +52,7 @@ namespace
 // Both levers do the same to round-off, which swinging without a spring lets grow with the square of the time. That of a gap,
 // 7e-15 mm of the radius, is 1e-10 of an overlap of 7e-5 mm; the start's speeds, differences of equilibria 0.1 mm apart, make
 // some 1e-7 of P of it.
-TEST(MirroredPairInTime, WithoutOffsetBothLeversDoWhatOneAloneDoes)
+TEST(MirroredPairInTime, WithoutOffsetBothLeversDoWhatOneAloneDoesSlow)
 {
   for (const auto model : { ModelType::rigid, ModelType::beam, ModelType::condensed, ModelType::finite_element })
     for (const auto joint : { SpringJoint::free, SpringJoint::held })

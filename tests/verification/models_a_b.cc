@@ -219,7 +219,7 @@ TEST(ModelsAAndB, FrictionThatGrowsWithSpeedTurnsOverWithinItsRelaxation)
   }
 }
 
-TEST(ModelsAAndB, NodesThatPassUnderTheContactHardlyRippleTheForce)
+TEST(ModelsAAndB, NodesThatPassUnderTheContactHardlyRippleTheForceSlow)
 {
   for (const auto &[name, model] : models())
   {
@@ -342,7 +342,7 @@ TEST(ModelsAAndB, StrongFrictionPassesTheReversal)
     }
 }
 
-TEST(ModelsAAndB, SecondLoopRepeatsTheFirst)
+TEST(ModelsAAndB, SecondLoopRepeatsTheFirstSlow)
 {
   for (const auto &[name, model] : models())
   {

@@ -39,7 +39,7 @@ namespace sprag
       return [=, at = centre(x)](const LeverPoint &point)
       {
         const Geometry geometry = { radius, 0., at.xi, -at.eta };
-        auto result             = moving_circle_contact(geometry, point, 0., 0.);
+        auto result             = moving_circle_contact(placed_for_points(geometry, 0., 0.), point);
         for (const unsigned int i : { 2, 3 })
         {
           result.gap_row[i] = result.slip_row[i] = 0.;

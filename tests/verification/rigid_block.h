@@ -67,17 +67,17 @@ namespace sprag
       Found found;
       found.point = properties.contact(u);
       StepContactLaw law;
-      law.normal      = { properties.penalty, 1. };
-      law.tangential  = properties.penalty;
-      law.friction    = properties.friction;
-      law.weights.dt  = duration;
-      law.balance     = ForceBalance::end;
-      law.mode        = duration > 0. ? mode : FrictionMode::stick;
-      found.response  = step_response(sprag::step_to(found.point, slip_begin), step.trial.contact[0], law);
-      found.external  = load.force;
-      found.unbalance = load.force + found.response.force;
-      found.tangent   = load.derivative + found.response.tangent;
-      found.rate      = duration > 0. ? (found.point.slip - slip_begin) / duration : 0.;
+      law.normal         = { properties.penalty, 1. };
+      law.slip.stiffness = properties.penalty;
+      law.slip.friction  = properties.friction;
+      law.weights.dt     = duration;
+      law.balance        = ForceBalance::end;
+      law.mode           = duration > 0. ? mode : FrictionMode::stick;
+      found.response     = step_response(sprag::step_to(found.point, slip_begin), step.trial.contact[0], law);
+      found.external     = load.force;
+      found.unbalance    = load.force + found.response.force;
+      found.tangent      = load.derivative + found.response.tangent;
+      found.rate         = duration > 0. ? (found.point.slip - slip_begin) / duration : 0.;
       return { found.unbalance.norm(), found.response.pressure / properties.penalty, found };
     }
 

@@ -71,8 +71,8 @@ namespace
       point.gap_row[0]     = 1.;
       StepContactLaw law;
       law.normal                 = { penalty, 1. };
-      law.tangential             = 1.;
-      law.friction               = { CoulombFriction{ 0. }, FrictionSpeed::sliding };
+      law.slip.stiffness         = 1.;
+      law.slip.friction          = { CoulombFriction{ 0. }, FrictionSpeed::sliding };
       law.weights                = step.weights;
       const auto response        = step_response(point, step.memory.front(), law);
       found.forces.values[0]     = response.force[0];

@@ -146,7 +146,7 @@ namespace sprag
     dealii::AffineConstraints<double> constraints;
     BodyProperties properties;
     FrictionFace<3> face;
-    SharedFactors<double> factors;
+    SharedFactors factors;
   };
 
   /// The part of a block's face where it can be touched: its ports, three a node, and the compliance between them.

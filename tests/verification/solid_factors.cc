@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "base/errors.h"
 #include "fe/solid/solid_body.h"
 #include "scene/scene.h"
 #include "verification/solid_run.h"
 
 #include <filesystem>
-#include <limits>
 #include <unistd.h>
 
 using namespace sprag;
 
-// Factors of single precision, in files or in memory, against those of double precision.
+// Factors in files against those in memory, and against the stiffness of the cells.
 
 namespace
 {
@@ -20,14 +18,14 @@ namespace
   }
 
   /// A force at one node of the friction face in each direction, there and at another.
-  SparseColumns forces_on_face(const SolidBody &body, const bool near)
+  SparseColumns forces_on_face(const SolidBody &body)
   {
     const auto &nodes = body.friction_face().nodes;
     SparseColumns result;
     for (const std::size_t node : { nodes.size() / 5, nodes.size() / 2 })
       for (const unsigned int dof : nodes[node].dofs)
       {
-        result.add(near ? static_cast<unsigned int>(body.number_near(dof)) : dof, 1.);
+        result.add(dof, 1.);
         result.end_column();
       }
     return result;
@@ -51,65 +49,22 @@ namespace
     return size_of(a) / size;
   }
 
-  struct Responses
+  TEST(SolidFactors, InFilesFindTheSameAndLeaveNothing)
   {
-    std::vector<double> whole, dense, near;
-  };
-
-  Responses responses_with(const FactorSettings &settings)
-  {
+    namespace fs      = std::filesystem;
+    const auto folder = fs::temp_directory_path() / ("sprag-factors-" + std::to_string(::getpid()));
     const Scene scene = tilted_model_a();
     Mesh plane;
     make_mesh(scene, plane);
-    const SolidBody body(scene, plane, settings);
-    EXPECT_TRUE(body.has_skin());
-    std::vector<double> load(body.n_dofs(), 0.);
-    load[body.friction_face().nodes.front().dofs[1]] = 1e-12; // far below what single precision tells from nothing
-    body.respond(load);
-    return { body.respond(forces_on_face(body, false)), load, body.respond_near(forces_on_face(body, true)) };
-  }
-
-  /// What is refined misses 2e-9 at most, the factors of double precision themselves some 1e-11.
-  TEST(SolidFactors, OfSinglePrecisionFindWhatPreciseOnesFind)
-  {
-    const auto precise = responses_with({ false, {} }), single = responses_with({ true, {} });
-    EXPECT_LT(difference(precise.whole, single.whole), 2e-9);
-    EXPECT_LT(difference(precise.dense, single.dense), 2e-9);
-    EXPECT_LT(difference(precise.near, single.near), 2e-9);
-  }
-
-  TEST(SolidFactors, InFilesFindTheSameAndLeaveNothing)
-  {
-    namespace fs         = std::filesystem;
-    const auto folder    = fs::temp_directory_path() / ("sprag-factors-" + std::to_string(::getpid()));
-    const auto in_memory = responses_with({ true, {} });
+    const SolidBody in_memory(scene, plane);
     fs::create_directories(folder);
     {
-      const Scene scene = tilted_model_a();
-      Mesh plane;
-      make_mesh(scene, plane);
-      const SolidBody body(scene, plane, { true, folder.string() });
+      const SolidBody body(scene, plane, folder.string());
       EXPECT_FALSE(fs::is_empty(folder));
-      EXPECT_LT(difference(in_memory.whole, body.respond(forces_on_face(body, false))), 1e-10);
+      EXPECT_LT(difference(in_memory.respond(forces_on_face(in_memory)), body.respond(forces_on_face(body))), 1e-10);
     }
     EXPECT_TRUE(fs::is_empty(folder));
     fs::remove_all(folder);
-  }
-
-  /// Where pivots vanish in single precision, nothing sensible comes of it; the body then takes double precision.
-  TEST(SolidFactors, ThatFindNoNumbersAreKnown)
-  {
-    const Scene scene = tilted_model_a();
-    Mesh plane;
-    make_mesh(scene, plane);
-    const SolidBody body(scene, plane, { false, {} });
-    const auto nothing = [](const std::vector<double> &loads)
-    { return std::vector<float>(loads.size(), std::numeric_limits<float>::quiet_NaN()); };
-    const dealii::AffineConstraints<double> free;
-    Refinement refinement({ body.cell_mapping(), body.dofs(), free, body.body_properties() }, {}, {}, nothing);
-    std::vector<double> loads(body.n_dofs(), 1.);
-    EXPECT_FALSE(refinement.find_soft_motions(loads));
-    EXPECT_THROW(refinement.refined(loads, nothing(loads)), AnalysisError);
   }
 
   /// Stiffness times the displacements is the load: assembly and what refines by its cells know the same stiffness.
@@ -118,7 +73,7 @@ namespace
     const Scene scene = tilted_model_a();
     Mesh plane;
     make_mesh(scene, plane);
-    const SolidBody body(scene, plane, { false, {} });
+    const SolidBody body(scene, plane);
     dealii::AffineConstraints<double> held;
     for (unsigned int dof = 0; dof < body.n_dofs(); ++dof)
       if (body.is_held(dof))

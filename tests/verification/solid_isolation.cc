@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/isolation/lever_table.h"
+#include "analysis/transient/transient_settings.h"
 #include "levers/dynamics.h"
-#include "run/transient_settings.h"
 #include "scene/scene.h"
 #include "scenes.h"
 #include "support/isolated.h"

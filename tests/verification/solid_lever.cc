@@ -102,7 +102,7 @@ TEST(SolidLever, OneHalfIsEnoughWhereBothAreAlike)
     EXPECT_LT(difference(half.rows, whole.rows, column), 1e-6) << column_info(column).name;
 }
 
-TEST(SolidLever, AMirroredTiltGivesTheMirrorImage)
+TEST(SolidLever, AMirroredTiltGivesTheMirrorImageSlow)
 {
   const Scene scene = solid_model_a(0.3);
   const SolidRun one(tilted(scene, 2e-4)), other(tilted(scene, -2e-4));

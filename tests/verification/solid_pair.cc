@@ -102,7 +102,7 @@ TEST(SolidPair, ATiltedAxisPressesTheOtherSideOfTheSecondLever)
 }
 
 // The mirror plane leaves a skewed axis where it is.
-TEST(SolidPair, ASkewedAxisPressesTheSameSideOfBoth)
+TEST(SolidPair, ASkewedAxisPressesTheSameSideOfBothSlow)
 {
   Scene scene                = paired(tilted(solid_model_a(0.3), 0., 2e-3), SpringJoint::free);
   scene.mesh.elements_across = 2;
@@ -153,7 +153,7 @@ TEST(SolidPair, InTimeItIsThatOfThePlane)
 
 // Modes in which levers mirror each other and in which they swing, under an axis out of true; those of a lever alone are those in
 // which its mirror image moves with it.
-TEST(SolidPair, ItsModesAreThoseOfALeverAndOfTheSwing)
+TEST(SolidPair, ItsModesAreThoseOfALeverAndOfTheSwingSlow)
 {
   Scene scene              = in_time(3);
   scene.pair               = paired(scene, SpringJoint::free).pair;

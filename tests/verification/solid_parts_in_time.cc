@@ -122,7 +122,7 @@ TEST(SolidPartsInTime, MassAndMomentOfInertiaAreThePlanes)
         Mesh plane;
         make_mesh(scene, plane);
         const ElasticBody<2> of_plane(plane, lever_properties(scene).body);
-        const InertialMatrices<2> expected(of_plane, inertia_of(scene));
+        const InertialMatrices expected(of_plane, inertia_of(scene));
         const SolidBody body(scene, plane);
         const SolidMass mass(body, inertia_of(scene));
         EXPECT_EQ(body.is_half(), tilt == 0.);
@@ -143,7 +143,7 @@ TEST(SolidPartsInTime, PartsAloneMustNotHaveMoreThanTheMomentOfInertia)
 }
 
 // What the solver leaves of the lowest frequency grows with the square of the ratio to those of the mesh.
-TEST(SolidPartsInTime, ModesOfThePlaneAreThoseOfTheHalf)
+TEST(SolidPartsInTime, ModesOfThePlaneAreThoseOfTheHalfSlow)
 {
   const Scene bare = in_space(AnalysisType::transient);
   for (const Scene &scene : { on_leaf_with_tip(bare), on_sensors(bare), on_sensors(on_leaf_with_tip(bare)) })
@@ -223,7 +223,7 @@ TEST(SolidPartsInTime, SensorsFeelWhatThePlanesFeel)
 }
 
 // Eigenvalues of a slide in contact, friction and all.
-TEST(SolidPartsInTime, VibrationsOfASlideAreThoseOfThePlane)
+TEST(SolidPartsInTime, VibrationsOfASlideAreThoseOfThePlaneSlow)
 {
   const Scene bare = in_space(AnalysisType::stability);
   for (const Scene &scene : { on_leaf_with_tip(bare), on_sensors(bare) })
@@ -271,7 +271,7 @@ namespace
 } // namespace
 
 // Round-off meets the contact's stiffness.
-TEST(SolidPartsInTime, AMirroredTiltSwapsLeftAndRight)
+TEST(SolidPartsInTime, AMirroredTiltSwapsLeftAndRightSlow)
 {
   const auto one = rows_of(at_corners(2e-4)), other = rows_of(at_corners(-2e-4));
   ASSERT_EQ(one.size(), other.size());
@@ -289,7 +289,7 @@ TEST(SolidPartsInTime, AMirroredTiltSwapsLeftAndRight)
 }
 
 // Round-off meets the contact's stiffness.
-TEST(SolidPartsInTime, TheWholeBeforeATrueCylinderIsItsHalf)
+TEST(SolidPartsInTime, TheWholeBeforeATrueCylinderIsItsHalfSlow)
 {
   DynamicsMaker of_half(false), of_whole(false);
   const Scene scene = at_corners(0.);
@@ -309,7 +309,7 @@ TEST(SolidPartsInTime, TheWholeBeforeATrueCylinderIsItsHalf)
 }
 
 // At rest they balance the contact, whatever the number of modes; in motion they are those of the body as it is deformed.
-TEST(SolidPartsInTime, SensorsAreThoseOfTheDeformedBody)
+TEST(SolidPartsInTime, SensorsAreThoseOfTheDeformedBodySlow)
 {
   Scene scene           = at_corners(2e-4, AnalysisType::stability);
   scene.condensed.modes = 3;
@@ -327,7 +327,7 @@ TEST(SolidPartsInTime, SensorsAreThoseOfTheDeformedBody)
   {
     motion = model.step(motion, scene.drive.at(i * 1e-4), StepWeights{ 1e-4, 0., 0., 0.25, 0.5 }).motion.value();
     model.observe(motion, row);
-    const auto expected = dynamics.solid->sensors->at(dynamics.meshed.elastic_displacement(motion, 0));
+    const auto expected = dynamics.solid->body->sensor_forces(dynamics.meshed.elastic_displacement(motion, 0));
     ASSERT_EQ(row.across.size(), first_sensor + expected.size());
     for (std::size_t side = 0; side < expected.size(); ++side)
       EXPECT_NEAR(row.across[first_sensor + side], expected[side], 1e-7 * row[Column::P]);
@@ -335,7 +335,7 @@ TEST(SolidPartsInTime, SensorsAreThoseOfTheDeformedBody)
 }
 
 // See Growth.
-TEST(SolidPartsInTime, AVibrationGrowsAsItsEigenvalueSays)
+TEST(SolidPartsInTime, AVibrationGrowsAsItsEigenvalueSaysSlow)
 {
   Scene scene              = on_leaf_with_tip(at_corners(1e-4, AnalysisType::sprag_slip));
   scene.support.type       = SupportType::rigid;

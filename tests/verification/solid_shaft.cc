@@ -95,7 +95,7 @@ TEST_P(SolidShaft, CarriesTheMomentOfTheFaceAboutItsMiddle)
 
 // A stiff shaft yields as the moment on the fixed axis says, M/k; what its yielding takes off that moment is of the order of the
 // contact's own stiffness against a tilt over k, some 1e5/k, and so is what it changes in all else.
-TEST(SolidShaft, AStiffOneIsAFixedAxis)
+TEST(SolidShaft, AStiffOneIsAFixedAxisSlow)
 {
   const Scene fixed = tilted(solid_model_a(0.3), 4e-4, 2e-3);
   const SolidRun reference(fixed);
@@ -119,7 +119,7 @@ TEST(SolidShaft, AStiffOneIsAFixedAxis)
   }
 }
 
-TEST(SolidShaft, AMirroredAxisGivesTheMirrorImage)
+TEST(SolidShaft, AMirroredAxisGivesTheMirrorImageSlow)
 {
   Scene mirrored         = yielding();
   mirrored.cylinder.tilt = -mirrored.cylinder.tilt;

@@ -67,7 +67,7 @@ TEST(SolidShaftInTime, ASlideComesToTheStaticAnswer)
 }
 
 // Without dissipation the ledger leaves open but the turn of the contact's rows within a step, see Ledger.
-TEST(SolidShaftInTime, TheLedgerClosesWithTheWorkOfTheShaft)
+TEST(SolidShaftInTime, TheLedgerClosesWithTheWorkOfTheShaftSlow)
 {
   Scene scene = with_spectral_radius(with_fixed_step(undamped(yielding(AnalysisType::transient)), 5e-5), 1.);
   scene       = with_coulomb(scene, 0.);
@@ -98,7 +98,7 @@ TEST(SolidShaftInTime, TheLedgerClosesOverAReversal)
 }
 
 // See Growth.
-TEST(SolidShaftInTime, AVibrationGrowsAsItsEigenvalueSays)
+TEST(SolidShaftInTime, AVibrationGrowsAsItsEigenvalueSaysSlow)
 {
   Scene scene                   = yielding(AnalysisType::sprag_slip);
   scene.drive                   = Drive(DriveProfile::triangle, 0., 65., 112., 1.);
@@ -146,7 +146,7 @@ namespace
 
 // What moves as in a plane does not turn the axis. A lever that twists does: before an axis that aligns itself it twists as if
 // out of contact, before a stiff one as before a fixed one.
-TEST(SolidShaftInTime, OfATrueAxisTwistingModesAloneKnow)
+TEST(SolidShaftInTime, OfATrueAxisTwistingModesAloneKnowSlow)
 {
   using Shares     = Eigenmode::AcrossShares;
   const auto fixed = modes_on({}), aligning = modes_on(100.), stiff = modes_on(1e12);

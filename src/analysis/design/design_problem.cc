@@ -1,15 +1,414 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/design/design_problem.h"
 
+#include "analytic/harmonic_balance.h"
+#include "analytic/isolation.h"
+#include "base/errors.h"
+#include "base/interrupt.h"
 #include "base/text.h"
+#include "scene/closed_form.h"
+#include "scene/contact_width.h"
+#include "scene/damper.h"
 #include "scene/read.h"
 #include "scene/scene.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <nlopt.hpp>
+#include <random>
 
 namespace sprag
 {
+  namespace
+  {
+    double largest_of(const std::vector<double> &constraints)
+    {
+      return *std::max_element(constraints.begin(), constraints.end());
+    }
+
+    /// Returns whether a place is better than another. Those that keep all constraints compare by their objective, the others by
+    /// how far they are from keeping them.
+    bool is_better(const Optimum &a, const Optimum &b)
+    {
+      if (a.violation <= 0. && b.violation <= 0.)
+        return a.objective < b.objective;
+      return std::max(a.violation, 0.) < std::max(b.violation, 0.);
+    }
+
+    /// Evaluates once where the library asks for objective and constraints of one place apart, and keeps the best place.
+    class Evaluator
+    {
+    public:
+      explicit Evaluator(const BoxProblem &of)
+          : problem(of)
+      {
+      }
+
+      const BoxProblem::Evaluation &at(const double *first)
+      {
+        const std::vector<double> asked(first, first + problem.dimension);
+        // An interrupted search comes to its end without computing anything more.
+        if (asked == place || (interrupted() && !place.empty()))
+          return last;
+        place = asked;
+        last  = problem.evaluate(place);
+        const Optimum here{ place, last.objective, largest_of(last.constraints) };
+        if (found.place.empty() || is_better(here, found))
+          found = here;
+        return last;
+      }
+
+      const BoxProblem &of() const
+      {
+        return problem;
+      }
+
+      const Optimum &best() const
+      {
+        return found;
+      }
+
+    private:
+      const BoxProblem &problem;
+      std::vector<double> place;
+      BoxProblem::Evaluation last;
+      Optimum found{ {}, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity() };
+    };
+
+    Evaluator &evaluator_of(void *data)
+    {
+      return *static_cast<Evaluator *>(data);
+    }
+
+    double objective(unsigned int, const double *x, double *, void *data)
+    {
+      return evaluator_of(data).at(x).objective;
+    }
+
+    void constraints(unsigned int, double *result, unsigned int, const double *x, double *, void *data)
+    {
+      const auto &values = evaluator_of(data).at(x).constraints;
+      std::copy(values.begin(), values.end(), result);
+    }
+
+    double largest_constraint(unsigned int, const double *x, double *, void *data)
+    {
+      return largest_of(evaluator_of(data).at(x).constraints);
+    }
+
+    // Behind the place stands a bound on all constraints.
+    double bound(const unsigned int n, const double *x, double *, void *)
+    {
+      return x[n - 1];
+    }
+
+    void constraints_below_bound(const unsigned int m, double *result, const unsigned int n, const double *x, double *,
+                                 void *data)
+    {
+      constraints(m, result, n - 1, x, nullptr, data);
+      for (unsigned int i = 0; i < m; ++i)
+        result[i] -= x[n - 1];
+    }
+
+    void optimise(nlopt::opt &search, std::vector<double> x)
+    {
+      double value = 0.;
+      try
+      {
+        search.optimize(x, value);
+      }
+      catch (const nlopt::roundoff_limited &)
+      {
+        // The place found is as exact as it can be.
+      }
+    }
+
+    nlopt::opt local_search(const std::size_t n, const unsigned int evaluations, const double step)
+    {
+      nlopt::opt search(nlopt::LN_COBYLA, static_cast<unsigned int>(n));
+      search.set_xtol_rel(1e-10);
+      search.set_xtol_abs(1e-11);
+      search.set_maxeval(static_cast<int>(evaluations));
+      search.set_initial_step(step);
+      return search;
+    }
+
+    void approach_constraints(Evaluator &evaluator, std::vector<double> start, const unsigned int evaluations, const double step)
+    {
+      const std::size_t n = evaluator.of().dimension;
+      const double most   = largest_of(evaluator.at(start.data()).constraints);
+      auto search         = local_search(n + 1, evaluations, step);
+      std::vector<double> low(n + 1, 0.), high(n + 1, 1.), x = start;
+      low.back()  = -1.;
+      high.back() = std::max(most, 1.) + 1.;
+      x.push_back(std::max(most, 0.));
+      search.set_lower_bounds(low);
+      search.set_upper_bounds(high);
+      search.set_min_objective(bound, nullptr);
+      search.add_inequality_mconstraint(constraints_below_bound, &evaluator, std::vector<double>(evaluator.of().n_constraints));
+      search.set_stopval(-1e-3);
+      optimise(search, x);
+    }
+
+    void improve(Evaluator &evaluator, std::vector<double> start, const unsigned int evaluations, const double step)
+    {
+      const std::size_t n = evaluator.of().dimension;
+      auto search         = local_search(n, evaluations, step);
+      search.set_lower_bounds(0.);
+      search.set_upper_bounds(1.);
+      search.set_min_objective(objective, &evaluator);
+      search.add_inequality_mconstraint(constraints, &evaluator, std::vector<double>(evaluator.of().n_constraints));
+      optimise(search, start);
+    }
+
+    /// Steps become shorter where the search begins anew, as it may stop at an edge between two constraints.
+    Optimum from_start(const BoxProblem &problem, std::vector<double> start, const unsigned int evaluations,
+                       const bool only_approaches)
+    {
+      Evaluator evaluator(problem);
+      if (largest_of(evaluator.at(start.data()).constraints) > 0.)
+        for (const double step : { 0.1, 0.01, 1e-3 })
+          if (evaluator.best().violation > 0.)
+            approach_constraints(evaluator, evaluator.best().place, evaluations, step);
+      if (!only_approaches && evaluator.best().violation <= 0.)
+        for (const double step : { 0.1, 0.02, 1e-3 })
+          improve(evaluator, evaluator.best().place, evaluations, step);
+      return evaluator.best();
+    }
+
+    std::vector<double> global_start(const BoxProblem &problem, const SearchSettings &settings, const bool only_approaches)
+    {
+      Evaluator evaluator(problem);
+      nlopt::srand(settings.seed);
+      nlopt::opt search(nlopt::GN_ISRES, static_cast<unsigned int>(problem.dimension));
+      search.set_lower_bounds(0.);
+      search.set_upper_bounds(1.);
+      search.set_maxeval(static_cast<int>(settings.evaluations));
+      search.set_min_objective(only_approaches ? largest_constraint : objective, &evaluator);
+      if (!only_approaches)
+        search.add_inequality_mconstraint(constraints, &evaluator, std::vector<double>(problem.n_constraints));
+      optimise(search, std::vector<double>(problem.dimension, 0.5));
+      return evaluator.best().place;
+    }
+
+    Optimum search_everywhere(const BoxProblem &problem, const SearchSettings &settings, const bool only_approaches)
+    {
+      if (!settings.near.empty())
+        if (const auto found = from_start(problem, settings.near, settings.local, only_approaches); found.violation <= 0.)
+          return found;
+      const auto begin = global_start(problem, settings, only_approaches);
+      auto best        = from_start(problem, begin, settings.local, only_approaches);
+      std::mt19937 random(settings.seed);
+      std::vector<double> start(problem.dimension);
+      for (unsigned int i = 0; i < settings.starts && !(only_approaches && best.violation <= 0.); ++i)
+      {
+        // The same numbers with any standard library.
+        for (double &x : start)
+          x = static_cast<double>(random()) / static_cast<double>(std::mt19937::max());
+        const auto found = from_start(problem, start, settings.local, only_approaches);
+        if (is_better(found, best))
+          best = found;
+      }
+      return best;
+    }
+  } // namespace
+
+  Optimum least_violation(const BoxProblem &problem, const SearchSettings &settings)
+  {
+    return search_everywhere(problem, settings, true);
+  }
+
+  Optimum best_in_box(const BoxProblem &problem, const SearchSettings &settings)
+  {
+    return search_everywhere(problem, settings, false);
+  }
+
+  namespace
+  {
+    using Q = DesignQuantity;
+
+    constexpr unsigned int intervals = 32; ///< of the stroke
+
+    double place(const Scene &scene, const unsigned int i)
+    {
+      return scene.drive.minimum() + (scene.drive.maximum() - scene.drive.minimum()) * i / intervals;
+    }
+
+    /// Least (s - mu e)/s on the way back.
+    double least_margin(const Scene &scene)
+    {
+      double least = 1.;
+      for (unsigned int i = 0; i <= intervals; ++i)
+      {
+        const double x     = place(scene, i);
+        const double v     = -scene.drive.peak_speed();
+        const auto contact = kinematics(scene.geometry, x);
+        const double mu    = sliding_friction(scene, x, v).coefficient;
+        least              = std::min(least, 1. - mu * scene.geometry.interface_offset / contact.s);
+      }
+      return least;
+    }
+
+    void add_ideal_slopes(const Scene &scene, DesignQuantities &result)
+    {
+      const double mu  = sliding_friction(scene, 0., scene.drive.peak_speed()).coefficient;
+      const auto slope = [&](const int direction)
+      { return representative_slope(scene.geometry, scene.spring.stiffness, mu, direction); };
+      add_slopes(scene, slope(1), slope(-1), result);
+    }
+
+    double largest_size_of(const std::vector<double> &forces)
+    {
+      double largest = 0.;
+      for (const double force : forces)
+        largest = std::max(largest, std::abs(force));
+      return largest;
+    }
+
+    /// Integrates by Simpson's rule over an even number of intervals.
+    double integral_of(const std::vector<double> &values, const double length)
+    {
+      double sum = values.front() + values.back();
+      for (std::size_t i = 1; i + 1 < values.size(); ++i)
+        sum += (i % 2 == 1 ? 4. : 2.) * values[i];
+      return sum * length / (3. * static_cast<double>(values.size() - 1));
+    }
+
+    void add_forces(const Scene &scene, DesignQuantities &result)
+    {
+      std::vector<double> places, forward, backward, opening;
+      double largest_P = 0.;
+      const double v   = scene.drive.peak_speed();
+      for (unsigned int i = 0; i <= intervals; ++i)
+      {
+        const double x  = place(scene, i);
+        const auto out  = closed_form(scene, x, v);
+        const auto back = closed_form(scene, x, -v);
+        places.push_back(x);
+        forward.push_back(out.Q);
+        backward.push_back(back.Q);
+        opening.push_back(out.Q - back.Q);
+        largest_P = std::max({ largest_P, out.P, back.P });
+      }
+      result[Q::force_ratio]          = ratio_of_ways(forward.back(), backward.back());
+      result[Q::nonlinearity]         = std::max(nonlinearity_of(places, forward), nonlinearity_of(places, backward));
+      result[Q::largest_force]        = std::max(largest_size_of(forward), largest_size_of(backward));
+      result[Q::largest_normal_force] = largest_P;
+      result[Q::largest_pressure]     = layer_pressure(scene, largest_P);
+      result[Q::loop_area]            = integral_of(opening, scene.drive.maximum() - scene.drive.minimum());
+    }
+
+    /// Ends at infinity where the table cannot be followed.
+    double offset_of(const Scene &scene)
+    {
+      IsolationFindings found;
+      if (std::abs(scene.isolation.initial_displacement) >= damper_of(scene).reach)
+        return std::numeric_limits<double>::infinity();
+      try
+      {
+        run_isolation(scene, found, {});
+        return std::abs(found.residual_offset);
+      }
+      catch (const AnalysisError &)
+      {
+        return std::numeric_limits<double>::infinity();
+      }
+    }
+
+    void add_harmonic(const Scene &scene, DesignQuantities &quantities)
+    {
+      constexpr double infinite = std::numeric_limits<double>::infinity();
+      const auto &isolation     = scene.isolation;
+      const auto motions =
+          harmonic_balance(isolation_system(scene), isolation.base_amplitude, 2. * M_PI * isolation.base_frequency);
+      quantities[Q::transmissibility]   = motions.empty() ? infinite : 0.;
+      quantities[Q::relative_amplitude] = motions.empty() ? infinite : 0.;
+      for (const auto &motion : motions)
+      {
+        quantities[Q::transmissibility]   = std::max(quantities[Q::transmissibility], motion.transmissibility);
+        quantities[Q::relative_amplitude] = std::max(quantities[Q::relative_amplitude], motion.amplitude);
+      }
+    }
+  } // namespace
+
+  LeverRule hardest_rule(const Scene &scene, const bool has_length)
+  {
+    const Geometry &g = scene.geometry;
+    const double R = g.cylinder_radius, e = g.interface_offset, l = g.pivot_distance, h = g.pivot_height;
+    const double end = scene.drive.maximum();
+    LeverRule hardest{ -std::numeric_limits<double>::infinity(), {} };
+    const auto take = [&](const double violation, const std::string &text)
+    {
+      if (violation > hardest.violation)
+        hardest = { violation, text };
+    };
+    take((e - R) / R, "the interface's offset e must be less than the cylinder's radius R");
+    take((R - l) / l, "the pivot's distance l must be more than the cylinder's radius R");
+    take((h - (R - e)) / R, "the pivot's height h must be less than R - e");
+    if (hardest.violation < 0. && std::abs(h) <= R)
+      take((end - pivot_contact(g)) / l, "the cylinder must not reach the pivot on the stroke");
+    if (!(hardest.violation < 0.))
+      return hardest;
+    take(-sliding_speed(g, end, 1.), "the cylinder must slide along the lever on the whole stroke");
+    take(-least_margin(scene), "the lever must not jam on the way back");
+    constexpr double room = 2.; // as a scene with a lever of some length needs it
+    if (has_length)
+      take((kinematics(g, scene.drive.minimum()).s + room - scene.lever.length) / l,
+           "Lever/Length must reach 2 mm beyond the contact");
+    return hardest;
+  }
+
+  double nonlinearity_of(const std::vector<double> &x, const std::vector<double> &forces)
+  {
+    double products = 0., squares = 0., farthest = 0.;
+    for (std::size_t i = 0; i < x.size(); ++i)
+    {
+      products += x[i] * forces[i];
+      squares += x[i] * x[i];
+    }
+    for (std::size_t i = 0; i < x.size(); ++i)
+      farthest = std::max(farthest, std::abs(forces[i] - products / squares * x[i]));
+    return farthest / largest_size_of(forces);
+  }
+
+  void add_slopes(const Scene &scene, const double forward, const double backward, DesignQuantities &quantities)
+  {
+    quantities[Q::forward_slope]   = forward;
+    quantities[Q::backward_slope]  = backward;
+    quantities[Q::damping_slope]   = 0.5 * (forward - backward);
+    quantities[Q::restoring_slope] = 0.5 * (forward + backward);
+    quantities[Q::slope_ratio]     = ratio_of_ways(forward, backward);
+    quantities[Q::friction_ratio]  = scene.isolation.levers * quantities[Q::damping_slope] / scene.isolation.stiffness;
+  }
+
+  double ratio_of_ways(const double forward, const double backward)
+  {
+    return backward < 0. ? forward / -backward : std::numeric_limits<double>::infinity();
+  }
+
+  DesignQuantities lever_quantities(const Scene &scene)
+  {
+    DesignQuantities result;
+    const auto at_rest = kinematics(scene.geometry, 0.);
+    add_ideal_slopes(scene, result);
+    add_forces(scene, result);
+    result[Q::jamming_margin] = least_margin(scene);
+    result[Q::reach]          = pivot_contact(scene.geometry);
+    result[Q::inclination]    = at_rest.theta * 180. / M_PI;
+    result[Q::lever_length]   = at_rest.s;
+    return result;
+  }
+
+  void add_table_quantities(const Scene &scene, const std::vector<DesignQuantity> &asked, DesignQuantities &quantities)
+  {
+    const auto asks = [&](const Q quantity) { return std::find(asked.begin(), asked.end(), quantity) != asked.end(); };
+    if (asks(Q::transmissibility) || asks(Q::relative_amplitude))
+      add_harmonic(scene, quantities);
+    if (asks(Q::residual_offset))
+      quantities[Q::residual_offset] = offset_of(scene);
+  }
+
   namespace
   {
     /// What a violation of a demand with the target 0 is measured by.

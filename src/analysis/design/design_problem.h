@@ -1,19 +1,111 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
-#include "analysis/design/lever_quantities.h"
-#include "analysis/design/optimisation.h"
 #include "base/parameters.h"
+#include "scene/design.h"
+#include "scene/design_quantities.h"
 #include "scene/sections.h"
 
+#include <array>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace sprag
 {
   struct Scene;
+
+  /// A function to be minimised over the unit cube under constraints, all of which an evaluation finds together.
+  struct BoxProblem
+  {
+    struct Evaluation
+    {
+      double objective = 0.;
+      std::vector<double> constraints; ///< each <= 0 where it is kept
+    };
+
+    std::size_t dimension     = 0;
+    std::size_t n_constraints = 0; ///< >= 1
+    std::function<Evaluation(const std::vector<double> &)> evaluate;
+  };
+
+  struct SearchSettings
+  {
+    unsigned int evaluations = 4000; ///< of the global search
+    unsigned int starts      = 24;   ///< of local searches besides it
+    unsigned int local       = 400;  ///< evaluations of a local search
+    unsigned int seed        = 1;
+    std::vector<double> near = {}; ///< a place whose neighbourhood is enough where constraints can be kept there; empty: none
+  };
+
+  struct Optimum
+  {
+    std::vector<double> place; ///< in the unit cube
+    double objective = 0.;
+    double violation = 0.; ///< the largest of the constraints there
+  };
+
+  /// Finds the place at which the largest constraint is smallest: by evolution (ISRES) over the cube, then from there and from
+  /// other starts by linear approximations (COBYLA). It stops where all constraints are kept.
+  Optimum least_violation(const BoxProblem &problem, const SearchSettings &settings);
+
+  /// Finds the smallest objective where all constraints are kept, likewise; of a start that keeps none the nearest place that
+  /// does is the beginning. Where there is no such place it is that of least_violation().
+  Optimum best_in_box(const BoxProblem &problem, const SearchSettings &settings);
+
+  /// Values of all quantities of a lever; NaN of what is not known.
+  class DesignQuantities
+  {
+  public:
+    DesignQuantities()
+    {
+      values.fill(std::numeric_limits<double>::quiet_NaN());
+    }
+
+    double &operator[](const DesignQuantity quantity)
+    {
+      return values[static_cast<std::size_t>(quantity)];
+    }
+
+    double operator[](const DesignQuantity quantity) const
+    {
+      return values[static_cast<std::size_t>(quantity)];
+    }
+
+  private:
+    std::array<double, static_cast<std::size_t>(DesignQuantity::parameter)> values;
+  };
+
+  /// A rule that every lever keeps, whatever is demanded: it can be built and slides on the whole stroke.
+  struct LeverRule
+  {
+    double violation = 0.; ///< of lengths over the largest of them; <= 0: kept
+    std::string text;      ///< "the cylinder must not reach the pivot on the stroke"
+  };
+
+  /// Returns the first rule that the lever breaks, or the one that it comes closest to breaking. `has_length`: whether
+  /// Lever/Length must reach beyond the contact.
+  LeverRule hardest_rule(const Scene &scene, bool has_length);
+
+  /// Returns the largest distance of forces from the best line through 0, over the largest force.
+  double nonlinearity_of(const std::vector<double> &x, const std::vector<double> &forces);
+
+  /// Returns the ratio of forces or slopes forward and back; infinite where the way back does not damp.
+  double ratio_of_ways(double forward, double backward);
+
+  /// Adds the quantities that follow from the representative slopes of one lever forward and back [N/mm].
+  void add_slopes(const Scene &scene, double forward, double backward, DesignQuantities &quantities);
+
+  /// Returns those quantities of a lever that keeps the rules which follow from the closed form on the stroke.
+  DesignQuantities lever_quantities(const Scene &scene);
+
+  /// Fills in what the table does on such levers, as far as it is asked for: by one harmonic, and the offset by a run in time. A
+  /// table without a motion of one harmonic within the levers' way has an infinite transmissibility, one whose levers end or
+  /// lock an infinite offset.
+  void add_table_quantities(const Scene &scene, const std::vector<DesignQuantity> &asked, DesignQuantities &quantities);
 
   /// A lever within the bounds and what it does.
   struct Proposal

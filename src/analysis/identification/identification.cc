@@ -1,18 +1,214 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "analysis/identification/identification.h"
 
-#include "analysis/identification/one_more_unknown.h"
-#include "analysis/identification/vibration_window.h"
+#include "analysis/identification/stroke_fit.h"
 #include "base/errors.h"
+#include "scene/identification_text.h"
 #include "scene/scene.h"
+
+#include <boost/math/distributions/fisher_f.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
+#include <vector>
 
 namespace sprag
 {
   namespace
   {
+    struct VibrationWindow
+    {
+      double window; ///< [mm]
+      bool is_full;  ///< residuals are still large where it ends for being the largest
+    };
+
+    constexpr std::size_t fewest_rows = 8;
+    constexpr double groups_a_window  = 25.;
+    constexpr double chance           = 1e-4;
+
+    /// Neighbouring rows of one channel in one stroke.
+    struct RowGroup
+    {
+      std::vector<double> travels;
+      double squares = 0.;
+    };
+
+    double most_of_noise(const ChannelNoise &noise, const std::size_t rows)
+    {
+      const double of_group = std::max(1., static_cast<double>(rows) / noise.correlation);
+      const boost::math::fisher_f ratio(of_group, std::max(1., noise.effective_rows()));
+      return boost::math::quantile(boost::math::complement(ratio, chance));
+    }
+
+    /// Returns the most that may be left out behind a turn: a quarter of the shortest stroke [mm].
+    double largest_window(const MeasuredMotion &motion)
+    {
+      double shortest = motion.length(0);
+      for (std::size_t stroke = 1; stroke < motion.strokes().size(); ++stroke)
+        shortest = std::min(shortest, motion.length(stroke));
+      return 0.25 * shortest;
+    }
+
+    /// Finds how far behind turns residuals are larger than noise: up to the last of groups of neighbouring rows, at least 8,
+    /// whose mean square is more than what noise has once in 10^4 groups (F distribution). `residuals` are over the deviations of
+    /// noise, those within the largest window too.
+    VibrationWindow vibration_window(const StrokeFit &fit, const std::vector<std::pair<UsedValue, double>> &residuals,
+                                     const std::vector<ChannelNoise> &noise, const double largest)
+    {
+      std::map<std::pair<std::size_t, std::size_t>, std::vector<RowGroup>> all; // by channel and stroke
+      std::map<std::pair<std::size_t, std::size_t>, std::size_t> within;
+      const auto travel = [&](const UsedValue &value) { return fit.way().travel(value.row, 0., value.stroke); };
+      for (const auto &[value, residual] : residuals)
+        if (travel(value) <= largest)
+          ++within[{ value.channel, value.stroke }];
+      for (const auto &[value, residual] : residuals)
+      {
+        if (travel(value) > largest)
+          continue;
+        const std::pair place{ value.channel, value.stroke };
+        const auto rows = std::max(fewest_rows, static_cast<std::size_t>(static_cast<double>(within[place]) / groups_a_window));
+        auto &groups    = all[place];
+        if (groups.empty() || groups.back().travels.size() == rows)
+          groups.emplace_back();
+        groups.back().travels.push_back(travel(value));
+        groups.back().squares += residual * residual;
+      }
+      VibrationWindow result{ 0., false };
+      for (const auto &[place, groups] : all)
+        for (const auto &group : groups)
+        {
+          const auto rows = group.travels.size();
+          if (group.squares / static_cast<double>(rows) <= most_of_noise(noise[place.first], rows))
+            continue;
+          result.window  = std::max(result.window, group.travels.back());
+          result.is_full = result.is_full || &group == &groups.back();
+        }
+      return result;
+    }
+
+    constexpr double explains     = 0.8;  ///< of the squares of residuals beyond the noise, from which an unknown is named
+    constexpr double small_change = 1e-4; ///< change of a lever by which derivatives are found, relative
+
+    /// A change of the lever, or of what a channel shows of it.
+    struct Candidate
+    {
+      OneMoreUnknown unknown;
+      IdentifiedLever lever; ///< changed by `by`
+      double by;
+      bool scales_Q = false; ///< by 1 + `by`
+    };
+
+    std::vector<Candidate> candidates(const Scene &scene, const IdentifiedLever &lever)
+    {
+      const auto &settings = scene.identification;
+      const auto is_sought = [&](const Unknown unknown)
+      { return std::find(settings.sought.begin(), settings.sought.end(), unknown) != settings.sought.end(); };
+      std::vector<Candidate> result;
+      const double dR = small_change * lever.geometry.cylinder_radius;
+      result.push_back({ { "Geometry/Cylinder radius", "mm", 0., 0. }, lever, dR });
+      result.back().lever.geometry.cylinder_radius += dR;
+      for (std::size_t i = 0; i < settings.measured.channels.size(); ++i)
+      {
+        const auto &channel = settings.measured.channels[i];
+        const auto word     = word_for(force_words(), channel.force);
+        if (channel.force == MeasuredForce::drive)
+          result.push_back({ { "the scale of " + word, "1", 0., 0. }, lever, 1., true });
+        if (is_sought(Unknown::force_offsets))
+          continue;
+        result.push_back({ { "the offset of " + word, "N", 0., 0. }, lever, 1. });
+        result.back().lever.offsets[i] += 1.;
+      }
+      if (!is_sought(Unknown::lag) && !settings.measured.time.empty())
+      {
+        const auto &time = settings.measured.time;
+        const double dt  = 0.1 * (time.back() - time.front()) / static_cast<double>(time.size());
+        result.push_back({ { "lag", "s", 0., 0. }, lever, dt });
+        result.back().lever.lag += dt;
+      }
+      return result;
+    }
+
+    /// Takes off what the columns of an orthonormal basis, row by row, have of a vector.
+    std::vector<double> beside(const std::vector<double> &basis, std::vector<double> vector)
+    {
+      const std::size_t columns = basis.size() / vector.size();
+      for (std::size_t j = 0; j < columns; ++j)
+      {
+        double along = 0.;
+        for (std::size_t i = 0; i < vector.size(); ++i)
+          along += basis[i * columns + j] * vector[i];
+        for (std::size_t i = 0; i < vector.size(); ++i)
+          vector[i] -= along * basis[i * columns + j];
+      }
+      return vector;
+    }
+
+    double product(const std::vector<double> &a, const std::vector<double> &b)
+    {
+      double sum = 0.;
+      for (std::size_t i = 0; i < a.size(); ++i)
+        sum += a[i] * b[i];
+      return sum;
+    }
+
+    /// The squares that residuals would have if only the noise of neighbouring values were left, by second differences.
+    double squares_of_noise(const std::vector<UsedValue> &used, const std::vector<double> &residuals, const std::size_t channels)
+    {
+      double result = 0.;
+      for (std::size_t channel = 0; channel < channels; ++channel)
+      {
+        std::vector<double> own;
+        for (std::size_t i = 0; i < used.size(); ++i)
+          if (used[i].channel == channel)
+            own.push_back(residuals[i]);
+        for (std::size_t i = 2; i < own.size(); ++i)
+          result += std::pow(own[i - 2] - 2. * own[i - 1] + own[i], 2) / 6.;
+      }
+      return result;
+    }
+
+    /// Finds those of offsets, lag, scale of Q and cylinder radius each of which alone would explain the residuals but for noise,
+    /// beside changes of the unknowns sought. `jacobian` is that of the residuals over `deviations`. Straight lines stand for the
+    /// model: large changes are estimates.
+    std::vector<OneMoreUnknown> more_unknowns(const Scene &scene, const StrokeFit &fit, const Identification &found,
+                                              const std::vector<double> &deviations, const std::vector<double> &jacobian)
+    {
+      const auto &channels     = scene.identification.measured.channels;
+      const std::size_t sought = found.used.empty() ? 0 : jacobian.size() / found.used.size();
+      const auto basis         = singular_values(jacobian, sought).left;
+      /// Returns the value that a channel shows of a lever, over its deviation; NaN where the lever has no slide.
+      const auto shown = [&](const Candidate &candidate, const UsedValue &value)
+      {
+        const auto slide   = fit.slide(candidate.lever, found.correction, value.row, value.stroke);
+        const bool is_Q    = channels[value.channel].force == MeasuredForce::drive;
+        const double force = slide ? fit.shown(candidate.lever, *slide, value.channel) : std::nan("");
+        return (candidate.scales_Q && is_Q ? (1. + candidate.by) * force : force) / deviations[value.channel];
+      };
+      const Candidate own{ {}, found.lever, 1. };
+      std::vector<double> residuals;
+      for (const auto &value : found.used)
+        residuals.push_back(value.value / deviations[value.channel] - shown(own, value));
+      const double noise   = squares_of_noise(found.used, residuals, channels.size());
+      residuals            = beside(basis, residuals);
+      const double squares = product(residuals, residuals) - noise;
+      std::vector<OneMoreUnknown> result;
+      for (auto &candidate : candidates(scene, found.lever))
+      {
+        std::vector<double> change;
+        for (const auto &value : found.used)
+          change.push_back((shown(candidate, value) - shown(own, value)) / candidate.by);
+        change              = beside(basis, change);
+        const double length = product(change, change), along = product(change, residuals);
+        candidate.unknown.change = along / length;
+        candidate.unknown.share  = along * along / (length * squares);
+        if (squares > 0. && candidate.unknown.share > explains) // false for NaN
+          result.push_back(candidate.unknown);
+      }
+      return result;
+    }
+
     constexpr unsigned int most_rounds = 60;
     constexpr double settled           = 1e-6; ///< change of a scaled unknown in a round
     constexpr double held_within       = 3.;   ///< scales of an unknown

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
-#include "analysis/identification/intervals.h"
+#include "analysis/identification/stroke_fit.h"
 
 #include <string>
 #include <vector>

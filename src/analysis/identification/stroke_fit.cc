@@ -2,15 +2,72 @@
 #include "analysis/identification/stroke_fit.h"
 
 #include "base/errors.h"
+#include "base/monotone_cubic.h"
+#include "base/text.h"
+#include "levers/dynamics.h"
 #include "scene/analysis_use.h"
 #include "scene/closed_form.h"
+#include "scene/held_slide.h"
 #include "scene/scene.h"
 
+#include <boost/algorithm/string/join.hpp>
+#include <boost/math/distributions/students_t.hpp>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace sprag
 {
+  namespace
+  {
+    constexpr unsigned int places = 24; ///< over the drive, each way
+
+    /// P and Q over x, one way.
+    std::array<MonotoneCubic, 2> differences(const Scene &scene, DynamicModel &model, const double v)
+    {
+      const double from = scene.drive.minimum();
+      const double to   = scene.drive.maximum();
+      std::vector<double> x, P, Q;
+      if (from == 0.) // where nothing presses
+      {
+        x.push_back(0.);
+        P.push_back(0.);
+        Q.push_back(0.);
+      }
+      for (unsigned int i = 1; i <= places; ++i)
+      {
+        const DrivePoint drive{ 0., from + (to - from) * i / places, v, 0. };
+        const auto found = model.sliding_forces(drive);
+        if (!found)
+          throw AnalysisError("the model has no steady slide at x = " + mm(drive.x) + (v < 0. ? " backward" : " forward") +
+                              ", so that it cannot correct the closed form: take Analysis/Model = closed form");
+        const auto closed = closed_form(scene, drive.x, v);
+        x.push_back(drive.x);
+        P.push_back(found->P - closed.P);
+        Q.push_back(found->Q - closed.Q);
+      }
+      return { { MonotoneCubic(x, P), MonotoneCubic(x, Q) } };
+    }
+  } // namespace
+
+  ModelCorrection model_correction(const Scene &scene, const double peak_speed)
+  {
+    if (!identifies_by_model(scene))
+      return [](double, int) { return ForceDifference{}; };
+    Scene held             = scene;
+    held.stability.damping = false;
+    held                   = held_scene(held);
+    const auto dynamics    = DynamicsMaker(false).make(held);
+    const auto forward     = differences(scene, dynamics.model(), peak_speed);
+    const auto back        = differences(scene, dynamics.model(), -peak_speed);
+    return [forward, back](const double x, const int direction)
+    {
+      const auto &way = direction > 0 ? forward : back;
+      return ForceDifference{ way[0].value(x), way[1].value(x) };
+    };
+  }
+
   namespace
   {
     constexpr double least_speed   = 0.02; ///< over the peak; below that friction may be in stick
@@ -110,6 +167,206 @@ namespace sprag
     {
       // No lever: a trial step that is refused for its large residuals.
     }
+    return result;
+  }
+
+  namespace
+  {
+    constexpr double huber             = 1.345; ///< standard deviations; 95 % as good as least squares for normal noise
+    constexpr double unknown_from      = 0.5;   ///< half-width of an interval over the scale of what is unknown then
+    constexpr double deviation_of_lost = 1e6;   ///< scales of an unknown that the data do not feel at all
+    constexpr double slowest_decay     = 0.98;  ///< of the autocorrelation from row to row
+    constexpr double weak_from         = 0.98;  ///< correlation of two unknowns
+    constexpr double part_of_largest   = 0.2;   ///< components of a direction that name their unknowns
+    constexpr double smallest_singular = 1e-10; ///< over the largest: what is below is round-off
+
+    double autocorrelation(const std::vector<std::vector<double>> &strokes, const std::size_t distance)
+    {
+      double products = 0., squares = 0.;
+      for (const auto &stroke : strokes)
+        for (std::size_t i = 0; i < stroke.size(); ++i)
+        {
+          squares += stroke[i] * stroke[i];
+          if (i + distance < stroke.size())
+            products += stroke[i] * stroke[i + distance];
+        }
+      return squares > 0. ? products / squares : 0.;
+    }
+
+    double correlation_of(const std::vector<std::vector<double>> &strokes, const double rows)
+    {
+      std::size_t longest = 0;
+      for (const auto &stroke : strokes)
+        longest = std::max(longest, stroke.size());
+      double sum = 1., last = 0., rate = 0.;
+      for (std::size_t distance = 1; distance < longest / 2; ++distance)
+      {
+        const double found = autocorrelation(strokes, distance);
+        if (found < 2. / std::sqrt(rows))
+          break;
+        sum += 2. * found;
+        last = found;
+        rate = distance == 1 ? found : rate;
+      }
+      // What follows decays as from the first row to the second.
+      return sum + 2. * last * rate / (1. - std::min(rate, slowest_decay));
+    }
+
+    std::vector<std::string> names_in(const SingularValues &singular, const std::size_t direction,
+                                      const std::vector<UnknownNumber> &unknowns)
+    {
+      const auto n         = unknowns.size();
+      const auto component = [&](const std::size_t i) { return std::abs(singular.directions[i * n + direction]); };
+      double largest       = 0.;
+      for (std::size_t i = 0; i < n; ++i)
+        largest = std::max(largest, component(i));
+      std::vector<std::string> result;
+      for (std::size_t i = 0; i < n; ++i)
+        if (component(i) >= part_of_largest * largest)
+          result.push_back(unknowns[i].name);
+      return result;
+    }
+
+    std::string listed(std::vector<std::string> names)
+    {
+      const auto last = names.back();
+      names.pop_back();
+      return names.empty() ? last : boost::algorithm::join(names, ", ") + " and " + last;
+    }
+
+    /// Covariance of the scaled unknowns: (J'J)^-1 (sum of J_c' J_c times what a channel's noise is beyond white and normal)
+    /// (J'J)^-1.
+    std::vector<double> covariance(const SingularValues &singular, const std::vector<UsedValue> &values,
+                                   const std::vector<ChannelNoise> &noise)
+    {
+      const auto n = singular.values.size();
+      std::vector<double> middle(n * n), inverse(n), result(n * n);
+      for (std::size_t row = 0; row < values.size(); ++row)
+      {
+        const auto &channel = noise[values[row].channel];
+        const double factor = channel.correlation * channel.spread;
+        for (std::size_t a = 0; a < n; ++a)
+          for (std::size_t b = 0; b < n; ++b)
+            middle[a * n + b] += factor * singular.left[row * n + a] * singular.left[row * n + b];
+      }
+      for (std::size_t a = 0; a < n; ++a)
+      {
+        const bool is_lost = singular.values[a] <= smallest_singular * singular.values[0];
+        inverse[a]         = is_lost ? deviation_of_lost : 1. / singular.values[a];
+        if (is_lost)
+          middle[a * n + a] = 1.;
+      }
+      for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t j = 0; j < n; ++j)
+          for (std::size_t a = 0; a < n; ++a)
+            for (std::size_t b = 0; b < n; ++b)
+              result[i * n + j] +=
+                  singular.directions[i * n + a] * inverse[a] * middle[a * n + b] * inverse[b] * singular.directions[j * n + b];
+      return result;
+    }
+
+    void tell_indistinct(const std::vector<double> &covariances, const std::vector<UnknownNumber> &unknowns, Knowledge &found)
+    {
+      const auto n = unknowns.size();
+      for (std::size_t direction = n; direction-- > 0;)
+      {
+        double variance = 0.;
+        for (std::size_t i = 0; i < n; ++i)
+          for (std::size_t j = 0; j < n; ++j)
+            variance += found.singular.directions[i * n + direction] * covariances[i * n + j] *
+                        found.singular.directions[j * n + direction];
+        if (found.quantile * std::sqrt(variance) < unknown_from)
+          continue;
+        const auto names = names_in(found.singular, direction, unknowns);
+        found.indistinct.push_back(names.size() == 1 ? "The data do not tell " + names[0] + "."
+                                                     : "The data do not tell " + listed(names) + " apart.");
+      }
+    }
+
+    void tell_weak(const std::vector<UnknownNumber> &unknowns, Knowledge &found)
+    {
+      const auto n = unknowns.size();
+      for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t j = i + 1; j < n; ++j)
+          if (std::abs(found.correlation[i * n + j]) > weak_from)
+            found.weak.push_back(unknowns[i].name + " and " + unknowns[j].name + " are told apart badly: correlation " +
+                                 formatted("%.4f", found.correlation[i * n + j]) + ".");
+    }
+  } // namespace
+
+  double influence(const IdentificationLoss loss, const double residual)
+  {
+    return loss == IdentificationLoss::squares ? residual : std::clamp(residual, -huber, huber);
+  }
+
+  std::vector<ChannelNoise> noise_of(const std::vector<UsedValue> &values, const std::vector<double> &residuals,
+                                     const std::vector<double> &deviations, const IdentificationLoss loss,
+                                     const std::size_t unknowns)
+  {
+    std::vector<ChannelNoise> result(deviations.size());
+    for (std::size_t channel = 0; channel < result.size(); ++channel)
+    {
+      std::vector<std::vector<double>> strokes;
+      std::vector<double> sizes;
+      double squares = 0., influences = 0., slopes = 0.;
+      for (std::size_t i = 0, last = values.size(); i < values.size(); ++i)
+      {
+        if (values[i].channel != channel)
+          continue;
+        if (last == values.size() || values[i].stroke != values[last].stroke)
+          strokes.emplace_back();
+        last              = i;
+        const double felt = influence(loss, residuals[i]);
+        strokes.back().push_back(felt);
+        sizes.push_back(std::abs(residuals[i]));
+        squares += residuals[i] * residuals[i];
+        influences += felt * felt;
+        slopes += felt == residuals[i] ? 1. : 0.;
+      }
+      auto &noise = result[channel];
+      noise.rows  = static_cast<double>(sizes.size());
+      if (sizes.empty())
+        continue;
+      noise.correlation = correlation_of(strokes, noise.rows);
+      // The fit has taken its share of the independent ones.
+      const double taken      = static_cast<double>(unknowns) * noise.correlation / static_cast<double>(values.size());
+      const double free_share = 1. - std::min(taken, 0.9);
+      if (loss == IdentificationLoss::squares)
+        noise.deviation = deviations[channel] * std::sqrt(squares / noise.rows / free_share);
+      else
+      {
+        std::nth_element(sizes.begin(), sizes.begin() + sizes.size() / 2, sizes.end());
+        noise.deviation    = deviations[channel] * sizes[sizes.size() / 2] / 0.6745; // median of the normal distribution
+        const double share = slopes / noise.rows;
+        noise.spread       = influences / noise.rows / free_share / (share * share);
+      }
+    }
+    return result;
+  }
+
+  Knowledge knowledge(const std::vector<double> &jacobian, const std::vector<UsedValue> &values,
+                      const std::vector<ChannelNoise> &noise, const std::vector<UnknownNumber> &unknowns, const double confidence)
+  {
+    Knowledge result;
+    const auto n           = unknowns.size();
+    result.singular        = singular_values(jacobian, n);
+    const auto covariances = covariance(result.singular, values, noise);
+    double independent     = 0.;
+    for (const auto &channel : noise)
+      independent += channel.effective_rows();
+    result.freedom  = std::max(1., independent - static_cast<double>(n));
+    result.quantile = boost::math::quantile(boost::math::students_t(result.freedom), 0.5 + 0.5 * confidence);
+    result.correlation.resize(n * n);
+    for (std::size_t i = 0; i < n; ++i)
+    {
+      result.deviations.push_back(std::sqrt(covariances[i * n + i]));
+      for (std::size_t j = 0; j < n; ++j)
+        result.correlation[i * n + j] = covariances[i * n + j] / std::sqrt(covariances[i * n + i] * covariances[j * n + j]);
+    }
+    tell_indistinct(covariances, unknowns, result);
+    if (result.indistinct.empty())
+      tell_weak(unknowns, result);
+    result.singular.left.clear();
     return result;
   }
 } // namespace sprag

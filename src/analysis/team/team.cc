@@ -3,12 +3,11 @@
 
 #include "base/errors.h"
 #include "base/interrupt.h"
+#include "base/messages.h"
 #include "scene/scene.h"
 #include "scene/scene_key.h"
 
 #include <deal.II/base/mpi.h>
-
-#include <boost/serialization/utility.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -19,8 +18,6 @@ namespace sprag
 {
   namespace
   {
-    namespace MPI = dealii::Utilities::MPI;
-
     /// How long a rank keeps finished lines before it writes them.
     constexpr std::chrono::milliseconds batch_duration(500);
     constexpr std::chrono::milliseconds pause(20);
@@ -132,8 +129,8 @@ namespace sprag
       journal      = first_ranks_journal->address();
       from_journal = first_ranks_journal->lines();
     }
-    journal      = MPI::broadcast(MPI_COMM_WORLD, journal);
-    from_journal = MPI::broadcast(MPI_COMM_WORLD, from_journal);
+    journal      = broadcast(MPI_COMM_WORLD, journal);
+    from_journal = broadcast(MPI_COMM_WORLD, from_journal);
   }
 
   void Team::carry_out(const std::vector<std::vector<std::size_t>> &groups, const std::function<std::string(std::size_t)> &work,
@@ -157,9 +154,9 @@ namespace sprag
       }
       wait_for_others(wanted, counters);
     }
-    for (const auto &lines : MPI::all_gather(MPI_COMM_WORLD, batch.lines()))
+    for (const auto &lines : gather(MPI_COMM_WORLD, batch.lines()))
       std::for_each(lines.begin(), lines.end(), learn);
-    for (const auto &told : MPI::all_gather(MPI_COMM_WORLD, failure))
+    for (const auto &told : gather(MPI_COMM_WORLD, failure))
       if (!told.empty())
         throw AnalysisError(told);
   }
@@ -230,8 +227,8 @@ namespace sprag
       {
         analysis = { error.what() };
       }
-    input    = MPI::broadcast(MPI_COMM_WORLD, input);
-    analysis = MPI::broadcast(MPI_COMM_WORLD, analysis);
+    input    = broadcast(MPI_COMM_WORLD, input);
+    analysis = broadcast(MPI_COMM_WORLD, analysis);
     if (!input.empty())
       throw InputError(input);
     if (!analysis.empty())

@@ -5,162 +5,232 @@
 #include "base/text.h"
 
 #include <deal.II/base/quadrature_lib.h>
-#include <deal.II/fe/fe.h>
+#include <deal.II/fe/fe_values.h>
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 namespace sprag
 {
   using namespace dealii;
 
-  namespace
+  template <int dim>
+  double PadRange<dim>::measure() const
   {
-    /// Weights of displacements along the two axes, by degree of freedom.
-    using Weights = std::map<unsigned int, double>;
-
-    /// Mean displacement of a pad and its mean slope, the rate of normal displacement along the first axis.
-    struct Pad
-    {
-      std::array<Weights, 2> mean;
-      Weights slope;
-      double length = 0.; ///< of what was found of it [mm]
-      double height = 0.; ///< mean second coordinate [mm]
-    };
-
-    /// Part of a straight side of a cell, from one point to another along the first axis.
-    template <int dim>
-    struct Piece
-    {
-      typename DoFHandler<dim>::active_cell_iterator cell;
-      Point<dim> begin;
-      Point<dim> end;
-    };
-
-    template <int dim>
-    std::vector<Piece<dim>> pieces_between(const DoFHandler<dim> &dof_handler, const types::boundary_id side, const double from,
-                                           const double to)
-    {
-      std::vector<Piece<dim>> result;
-      for (const auto &cell : dof_handler.active_cell_iterators())
-        for (const auto &face : cell->face_iterators())
-          if (face->at_boundary() && face->boundary_id() == side)
-          {
-            Point<dim> begin = face->vertex(0), end = face->vertex(1);
-            if (begin[0] > end[0])
-              std::swap(begin, end);
-            const auto at = [&, whole = end - begin, origin = begin](const double xi)
-            { return origin + std::clamp((xi - origin[0]) / whole[0], 0., 1.) * whole; };
-            if (begin[0] < to && end[0] > from)
-              result.push_back({ cell, at(from), at(to) });
-          }
-      return result;
-    }
-
-    /// Collects the shape functions of pieces in a pad.
-    template <int dim>
-    struct PadCollector
-    {
-      const Mapping<dim> &mapping;
-      const FiniteElement<dim> &fe;
-      const AffineConstraints<double> &constraints;
-      const double full_length;
-      const QGauss<1> rule                      = QGauss<1>(fe.degree + 1);
-      std::vector<types::global_dof_index> dofs = std::vector<types::global_dof_index>(fe.n_dofs_per_cell());
-      Pad pad                                   = {};
-
-      void add(const Piece<dim> &piece)
-      {
-        piece.cell->get_dof_indices(dofs);
-        const double length = piece.end[0] - piece.begin[0];
-        for (unsigned int q = 0; q < rule.size(); ++q)
-        {
-          const Point<dim> point = piece.begin + rule.point(q)[0] * (piece.end - piece.begin);
-          const double share     = rule.weight(q) * length / full_length;
-          for_shapes(piece, point,
-                     [&](const unsigned int dof, const unsigned int component, const double shape)
-                     { pad.mean[component][dof] += share * shape; });
-          pad.height += share * point[1];
-        }
-        for (const auto &[point, sign] : { std::make_pair(piece.begin, -1.), std::make_pair(piece.end, 1.) })
-          for_shapes(piece, point,
-                     [&, sign = sign](const unsigned int dof, const unsigned int component, const double shape)
-                     {
-                       if (component == 1)
-                         pad.slope[dof] += sign * shape / full_length;
-                     });
-        pad.length += length;
-      }
-
-      template <class Use>
-      void for_shapes(const Piece<dim> &piece, const Point<dim> &point, const Use &use) const
-      {
-        const Point<dim> unit = mapping.transform_real_to_unit_cell(piece.cell, point);
-        for (unsigned int i = 0; i < dofs.size(); ++i)
-          if (const auto dof = static_cast<unsigned int>(dofs[i]); !constraints.is_constrained(dof))
-            use(dof, fe.system_to_component_index(i).first, fe.shape_value(i, unit));
-      }
-    };
-
-    std::string name_of(const ConnectorSettings &settings)
-    {
-      const std::string what = settings.type == ConnectorType::sensor ? "force sensor" : "linear guide";
-      return "the " + what + " at xi = " + mm(settings.middle) + ", " + mm(settings.length) + " long";
-    }
-
-    template <int dim>
-    Pad pad_on(const types::boundary_id side, const std::string &side_name, const ConnectorSettings &settings,
-               const Mapping<dim> &mapping, const DoFHandler<dim> &dof_handler, const AffineConstraints<double> &constraints)
-    {
-      const double from = settings.middle - 0.5 * settings.length;
-      const double to   = settings.middle + 0.5 * settings.length;
-      PadCollector<dim> collector{ mapping, dof_handler.get_fe(), constraints, settings.length };
-      for (const auto &piece : pieces_between(dof_handler, side, from, to))
-        collector.add(piece);
-      // What a pad lacks would be missing in its mean.
-      if (std::abs(collector.pad.length - settings.length) > 1e-6 * settings.length)
-        throw InputError(name_of(settings) + ", does not lie wholly on the curve '" + side_name + "'");
-      return std::move(collector.pad);
-    }
-
-    void add(const double factor, const Weights &weights, Weights &sum)
-    {
-      for (const auto &[dof, weight] : weights)
-        sum[dof] += factor * weight;
-    }
-
-    Connector between(const Pad &plate, const Pad &lever, const ConnectorSettings &settings)
-    {
-      const unsigned int axis = settings.type == ConnectorType::sensor ? 1 : 0;
-      Weights row             = plate.mean[axis];
-      add(-1., lever.mean[axis], row);
-      if (settings.type == ConnectorType::guide)
-        add(plate.height - lever.height, lever.slope, row);
-      Connector result{ settings.type, settings.stiffness, {} };
-      for (const auto &[dof, weight] : row)
-        if (weight != 0.)
-          result.row.emplace_back(dof, weight);
-      return result;
-    }
-  } // namespace
+    double result = 1.;
+    for (unsigned int i = 0; i < dim - 1; ++i)
+      result *= std::max(0., end[i] - begin[i]);
+    return result;
+  }
 
   template <int dim>
-  std::vector<Connector> find_connectors(const Mapping<dim> &mapping, const DoFHandler<dim> &dof_handler,
-                                         const AffineConstraints<double> &constraints,
-                                         const std::vector<ConnectorSettings> &settings)
+  PadRange<dim> PadRange<dim>::within(const PadRange &other) const
   {
-    std::vector<Connector> result;
-    for (const auto &connector : settings)
+    PadRange result = *this;
+    for (unsigned int i = 0; i < dim - 1; ++i)
     {
-      const auto pad = [&](const types::boundary_id side, const std::string &name)
-      { return pad_on(side, name, connector, mapping, dof_handler, constraints); };
-      result.push_back(
-          between(pad(boundary_id::sensor_plate, "sensor plate"), pad(boundary_id::sensor_lever, "sensor lever"), connector));
+      result.begin[i] = std::max(begin[i], other.begin[i]);
+      result.end[i]   = std::min(end[i], other.end[i]);
     }
     return result;
   }
 
-  template std::vector<Connector> find_connectors(const Mapping<2> &, const DoFHandler<2> &, const AffineConstraints<double> &,
-                                                  const std::vector<ConnectorSettings> &);
+  namespace
+  {
+    // Coordinate 2 i is xi or zeta.
+
+    template <int dim, class Face>
+    PadRange<dim> outline_of(const Face &face)
+    {
+      PadRange<dim> result;
+      for (unsigned int i = 0; i < dim - 1; ++i)
+      {
+        result.begin[i] = result.end[i] = face->vertex(0)[2 * i];
+        for (const unsigned int v : face->vertex_indices())
+        {
+          result.begin[i] = std::min(result.begin[i], face->vertex(v)[2 * i]);
+          result.end[i]   = std::max(result.end[i], face->vertex(v)[2 * i]);
+        }
+      }
+      return result;
+    }
+
+    template <class Face>
+    bool is_rectangle(const Face &face)
+    {
+      const double area = outline_of<3>(face).measure();
+      const auto a = face->vertex(1) - face->vertex(0), b = face->vertex(2) - face->vertex(0),
+                 c         = face->vertex(3) - face->vertex(0);
+      const double doubled = std::abs(c[0] * (a[2] - b[2]) - c[2] * (a[0] - b[0])); // of its area as seen along eta
+      return std::abs(0.5 * doubled - area) < 1e-6 * area;
+    }
+
+    /// The place on a straight or rectangular face at a share of a piece of its outline.
+    template <int dim, class Face>
+    Point<dim> place_on(const Face &face, const PadRange<dim> &outline, const PadRange<dim> &piece, const Point<dim - 1> &share)
+    {
+      Point<dim> result;
+      std::array<double, dim - 1> of_face;
+      for (unsigned int i = 0; i < dim - 1; ++i)
+      {
+        result[2 * i] = piece.begin[i] + share[i] * (piece.end[i] - piece.begin[i]);
+        of_face[i]    = (result[2 * i] - outline.begin[i]) / (outline.end[i] - outline.begin[i]);
+      }
+      for (const unsigned int v : face->vertex_indices())
+      {
+        double of_vertex = 1.;
+        for (unsigned int i = 0; i < dim - 1; ++i)
+          of_vertex *= face->vertex(v)[2 * i] > 0.5 * (outline.begin[i] + outline.end[i]) ? of_face[i] : 1. - of_face[i];
+        result[1] += of_vertex * face->vertex(v)[1];
+      }
+      return result;
+    }
+
+    std::string text_of(const PadRange<2> &pad)
+    {
+      return "xi = " + mm(0.5 * (pad.begin[0] + pad.end[0])) + ", " + mm(pad.end[0] - pad.begin[0]) + " long,";
+    }
+
+    std::string text_of(const PadRange<3> &pad)
+    {
+      return "xi = " + rounded_text(pad.begin[0]) + " to " + mm(pad.end[0]) + " and zeta = " + rounded_text(pad.begin[1]) +
+             " to " + mm(pad.end[1]);
+    }
+
+    DofWeights difference(const DofWeights &of_plate, const DofWeights &of_lever)
+    {
+      DofWeights result = of_plate;
+      for (const auto &[dof, weight] : of_lever)
+        result[dof] -= weight;
+      return result;
+    }
+  } // namespace
+
+  /// Collects the shape functions of the pieces of a side within a range.
+  template <int dim>
+  struct FacingPads<dim>::Collector
+  {
+    const PlateAndLever<dim> &body;
+    const PadRange<dim> range;
+    Pad pad = {};
+
+    void add(const typename DoFHandler<dim>::active_cell_iterator &cell, const unsigned int f)
+    {
+      const auto outline = outline_of<dim>(cell->face(f));
+      const auto piece   = outline.within(range);
+      if (piece.measure() <= 1e-9 * outline.measure())
+        return;
+      const auto &fe = body.dof_handler.get_fe();
+      const QGauss<dim - 1> rule(fe.degree + 1);
+      std::vector<Point<dim>> places, in_cell;
+      for (const auto &point : rule.get_points())
+      {
+        places.push_back(place_on<dim>(cell->face(f), outline, piece, point));
+        in_cell.push_back(body.mapping.transform_real_to_unit_cell(cell, places.back()));
+      }
+      FEValues<dim> values(body.mapping, fe, Quadrature<dim>(in_cell), update_values | update_gradients);
+      values.reinit(cell);
+      std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
+      cell->get_dof_indices(dofs);
+      for (unsigned int q = 0; q < rule.size(); ++q)
+      {
+        const double share = rule.weight(q) * piece.measure() / range.measure();
+        pad.measure += rule.weight(q) * piece.measure();
+        pad.height += share * places[q][1];
+        for (unsigned int i = 0; i < dofs.size(); ++i)
+          if (const auto dof = static_cast<unsigned int>(dofs[i]); !body.constraints.is_constrained(dof))
+            add(dof, fe.system_to_component_index(i).first, values.shape_value(i, q), values.shape_grad(i, q), share, places[q]);
+      }
+    }
+
+    void add(const unsigned int dof, const unsigned int component, const double shape, const Tensor<1, dim> &gradient,
+             const double share, const Point<dim> &place)
+    {
+      pad.mean[component][dof] += share * shape;
+      if (component == 1)
+        for (unsigned int i = 0; i < dim - 1; ++i)
+          pad.slope[i][dof] += share * gradient[2 * i];
+      if constexpr (dim == 3)
+        if (component == 0)
+        {
+          const double mean_square =
+              (std::pow(range.end[1], 3) - std::pow(range.begin[1], 3)) / 3. / (range.end[1] - range.begin[1]); // of zeta
+          pad.turn[dof] += share * place[2] * shape / mean_square;
+        }
+    }
+  };
+
+  template <int dim>
+  FacingPads<dim>::FacingPads(const ConnectorType type, const PadRange<dim> &range, const PlateAndLever<dim> &body)
+      : plate(pad_on(boundary_id::sensor_plate, "sensor plate", type, range, body))
+      , lever(pad_on(boundary_id::sensor_lever, "sensor lever", type, range, body))
+  {
+  }
+
+  template <int dim>
+  typename FacingPads<dim>::Pad FacingPads<dim>::pad_on(const types::boundary_id side, const std::string &name,
+                                                        const ConnectorType type, const PadRange<dim> &range,
+                                                        const PlateAndLever<dim> &body)
+  {
+    Collector collector{ body, range };
+    for (const auto &cell : body.dof_handler.active_cell_iterators())
+      for (const unsigned int f : cell->face_indices())
+        if (cell->face(f)->at_boundary() && cell->face(f)->boundary_id() == side)
+        {
+          if constexpr (dim == 3)
+            if (!is_rectangle(cell->face(f)))
+              throw InputError("the surface '" + name +
+                               "', which sensors press on, must be made of rectangles along xi and zeta");
+          collector.add(cell, f);
+        }
+    // What a pad lacks would be missing in its mean.
+    if (std::abs(collector.pad.measure - range.measure()) > 1e-6 * range.measure())
+      throw InputError((type == ConnectorType::sensor ? "the force sensor at " : "the linear guide at ") + text_of(range) +
+                       " does not lie wholly on the " + (dim == 2 ? "curve '" : "surface '") + name + "'");
+    return std::move(collector.pad);
+  }
+
+  template <int dim>
+  DofWeights FacingPads<dim>::approach() const
+  {
+    return difference(plate.mean[1], lever.mean[1]);
+  }
+
+  template <int dim>
+  DofWeights FacingPads<dim>::shift(const unsigned int direction) const
+  {
+    auto result = difference(plate.mean[2 * direction], lever.mean[2 * direction]);
+    for (const auto &[dof, weight] : lever.slope[direction])
+      result[dof] += (plate.height - lever.height) * weight;
+    return result;
+  }
+
+  template <int dim>
+  DofWeights FacingPads<dim>::turn() const
+  {
+    return difference(plate.turn, lever.turn);
+  }
+
+  Connector connector(const ConnectorType type, const double stiffness, const DofWeights &row)
+  {
+    Connector result{ type, stiffness, {} };
+    for (const auto &[dof, weight] : row)
+      if (weight != 0.)
+        result.row.emplace_back(dof, weight);
+    return result;
+  }
+
+  std::vector<Connector> find_connectors(const PlateAndLever<2> &body, const std::vector<ConnectorSettings> &settings)
+  {
+    std::vector<Connector> result;
+    for (const auto &[type, middle, length, stiffness] : settings)
+    {
+      const FacingPads<2> pads(type, { { { middle - 0.5 * length } }, { { middle + 0.5 * length } } }, body);
+      result.push_back(connector(type, stiffness, type == ConnectorType::sensor ? pads.approach() : pads.shift(0)));
+    }
+    return result;
+  }
+
+  template class FacingPads<2>;
+  template class FacingPads<3>;
 } // namespace sprag

@@ -29,14 +29,19 @@ namespace sprag
     find_constraints(constrain);
     face             = find_friction_face(mapping, dof_handler, constraints, properties, boundary_id::friction_face);
     face_of_cylinder = find_friction_face(mapping, dof_handler, constraints, properties, boundary_id::cylinder_face);
-    springs          = find_connectors(mapping, dof_handler, constraints, properties.connectors);
+    if constexpr (dim == 2)
+      springs = find_connectors({ mapping, dof_handler, constraints }, properties.connectors);
   }
 
   template <int dim>
   void ElasticBody<dim>::find_constraints(const Constrain &constrain)
   {
+    const Functions::ZeroFunction<dim> none(dim);
     for (const auto held_boundary : { boundary_id::hub, boundary_id::core })
-      VectorTools::interpolate_boundary_values(dof_handler, held_boundary, Functions::ZeroFunction<dim>(dim), constraints);
+      VectorTools::interpolate_boundary_values(dof_handler, held_boundary, none, constraints);
+    if (dim == 3)
+      VectorTools::interpolate_boundary_values(dof_handler, boundary_id::symmetry, none, constraints,
+                                               fe.component_mask(FEValuesExtractors::Scalar(dim - 1)));
     std::vector<types::global_dof_index> indices(fe.n_dofs_per_cell());
     for (const auto &cell : dof_handler.active_cell_iterators())
       if (cell->material_id() == material_id::hub)
@@ -148,21 +153,21 @@ namespace sprag
       {
         const double mass = density * values.JxW(q) * properties.width_of(cell->material_id());
         result[0] += mass;
-        result[1] += mass * values.quadrature_point(q).square();
+        result[1] += mass * (std::pow(values.quadrature_point(q)[0], 2) + std::pow(values.quadrature_point(q)[1], 2));
       }
     }
     return result;
   }
 
   template <int dim>
-  std::vector<double> sensor_forces(const ElasticBody<dim> &body, const Vector<double> &displacement)
+  std::vector<double> ElasticBody<dim>::sensor_forces(const Vector<double> &displacement) const
   {
     std::vector<double> result;
-    for (const auto &sensor : body.sensors())
+    for (const auto &sensor : sensors())
       result.push_back(sensor.stiffness * sensor.compression(displacement));
     return result;
   }
 
   template class ElasticBody<2>;
-  template std::vector<double> sensor_forces(const ElasticBody<2> &, const Vector<double> &);
+  template class ElasticBody<3>;
 } // namespace sprag

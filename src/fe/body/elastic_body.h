@@ -22,8 +22,8 @@
 
 namespace sprag
 {
-  /// A meshed elastic body in axes in which its hub does not move. Displacement degrees of freedom are numbered from 0;
-  /// those of the hub are held at 0.
+  /// A meshed elastic body in axes in which its hub does not move. Displacement degrees of freedom are numbered from 0; those
+  /// of the hub are held at 0, and of a half over the width those across in its middle.
   template <int dim>
   class ElasticBody
   {
@@ -60,6 +60,9 @@ namespace sprag
     /// Returns those of the connectors() that are force sensors.
     std::vector<Connector> sensors() const;
 
+    /// Returns the forces of the sensors at a displacement [N].
+    std::vector<double> sensor_forces(const dealii::Vector<double> &displacement) const;
+
     const dealii::Mapping<dim> &cell_mapping() const
     {
       return mapping;
@@ -81,7 +84,7 @@ namespace sprag
     /// Returns the elastic energy [mJ].
     double energy(const dealii::Vector<double> &displacement) const;
 
-    /// Returns mass [t] and moment of inertia about the origin of the axes [t mm^2] at the given density [t/mm^3], hub included.
+    /// Returns mass [t] and moment of inertia about the pivot [t mm^2] at the given density [t/mm^3], hub included.
     std::array<double, 2> mass_and_inertia(double density) const;
 
     const BodyProperties &body_properties() const
@@ -100,6 +103,13 @@ namespace sprag
       return constraints.is_constrained(dof);
     }
 
+  protected:
+    /// Sets connectors that are not those of the properties.
+    void use_connectors(std::vector<Connector> connectors)
+    {
+      springs = std::move(connectors);
+    }
+
   private:
     void find_constraints(const Constrain &constrain);
     void add_connectors(const dealii::Vector<double> &displacement, dealii::PETScWrappers::SparseMatrix &matrix,
@@ -114,8 +124,4 @@ namespace sprag
     FrictionFace<dim> face_of_cylinder;
     std::vector<Connector> springs;
   };
-
-  /// Returns the forces of the body's sensors at a displacement [N].
-  template <int dim>
-  std::vector<double> sensor_forces(const ElasticBody<dim> &body, const dealii::Vector<double> &displacement);
 } // namespace sprag

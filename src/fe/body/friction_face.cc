@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 namespace sprag
 {
@@ -160,6 +161,33 @@ namespace sprag
         }
       }
     };
+
+    /// Orders the nodes along the first axis, those with the same coordinate along the last.
+    template <int dim>
+    void order_nodes(FrictionFace<dim> &face)
+    {
+      std::vector<unsigned int> order(face.nodes.size()), place(face.nodes.size());
+      std::iota(order.begin(), order.end(), 0u);
+      const auto rounded = [&](const unsigned int node, const unsigned int d)
+      { return std::lround(1e6 * face.nodes[node].position[d]); };
+      std::sort(order.begin(), order.end(),
+                [&](const unsigned int a, const unsigned int b)
+                { return std::pair(rounded(a, 0), rounded(a, dim - 1)) < std::pair(rounded(b, 0), rounded(b, dim - 1)); });
+      std::vector<FaceNode<dim>> ordered;
+      for (unsigned int i = 0; i < order.size(); ++i)
+      {
+        place[order[i]] = i;
+        ordered.push_back(face.nodes[order[i]]);
+      }
+      face.nodes = std::move(ordered);
+      for (auto &point : face.points)
+        for (auto &[node, shape] : point.nodes)
+          node = place[node];
+      for (auto &edge : face.edges)
+        for (auto &node : edge.nodes)
+          if (node.index != FaceEdge<dim>::held)
+            node.index = place[node.index];
+    }
   } // namespace
 
   template <int dim>
@@ -172,7 +200,10 @@ namespace sprag
       for (const unsigned int f : cell->face_indices())
         if (cell->face(f)->at_boundary() && cell->face(f)->boundary_id() == boundary)
           collector.add(cell, f);
-    return collector.face();
+    auto face = collector.face();
+    if (dim == 3)
+      order_nodes(face);
+    return face;
   }
 
   template FrictionFace<2> find_friction_face(const Mapping<2> &, const DoFHandler<2> &, const AffineConstraints<double> &,

@@ -58,7 +58,7 @@ namespace sprag
   template <int dim>
   struct FrictionFace
   {
-    std::vector<FaceNode<dim>> nodes;
+    std::vector<FaceNode<dim>> nodes;   ///< in three dimensions ordered along the first axis, then the last
     std::vector<FacePoint<dim>> points; ///< patch by patch, ordered along the first axis, then the last
     std::vector<FacePatch> patches;
     std::vector<FaceEdge<dim>> edges; ///< of the patches

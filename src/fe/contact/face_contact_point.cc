@@ -11,7 +11,7 @@ namespace sprag
   {
     return [geometry](const double x, const double theta)
     {
-      const auto circle = placed_circle(geometry, x, theta);
+      const auto circle = placed_for_points(geometry, x, theta);
       return PlacedObstacle([circle](const LeverPoint &point) { return moving_circle_contact(circle, point); },
                             [circle](const LeverPoint &point) { return circle_gap(circle, point); });
     };
@@ -47,7 +47,7 @@ namespace sprag
     const double slip   = slip_at_begin(point) - between(slip_at_begin(i - 1), slip_at_begin(i)) - step.travel * slope;
     const double unwinding =
         between(step.memory_of(i - 1).traction[0], step.memory_of(i).traction[0]) - step.memory_of(point).traction[0];
-    return { slip, step.augmented ? 0. : unwinding / step.law.tangential, -step.travel };
+    return { slip, step.augmented ? 0. : unwinding / step.law.slip.stiffness, -step.travel };
   }
 
   SlidingTangent slide(const FaceContactProperties &properties, const FrictionLaw &law, const SlidingState &sliding,

@@ -221,7 +221,7 @@ namespace sprag
 
     state.memory.point   = state.index;
     state.slip_change[0] = slip_change * step.speed_ratio;
-    state.elastic_slip   = (response.traction - (step.augmented ? begin.traction : Slip())).norm() / step.law.tangential;
+    state.elastic_slip   = (response.traction - (step.augmented ? begin.traction : Slip())).norm() / step.law.slip.stiffness;
 
     sums.stored += weight * response.energy;
     sums.work.drive += weight * response.mean_traction[0] * run;

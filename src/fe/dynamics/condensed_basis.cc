@@ -160,7 +160,7 @@ namespace sprag
       return basis;
     }
 
-    void set_modes(const FreeModes &modes, const InertialMatrices<2> &matrices, const LeverPorts &ports, CondensedBasis &basis)
+    void set_modes(const FreeModes &modes, const InertialMatrices &matrices, const LeverPorts &ports, CondensedBasis &basis)
     {
       const auto m         = static_cast<unsigned int>(modes.shapes.size());
       const unsigned int n = matrices.coordinates.size();
@@ -185,7 +185,7 @@ namespace sprag
     }
 
     /// Static compliance less that of the modes kept.
-    void set_face_compliance(const InertialMatrices<2> &matrices, const LeverPorts &ports, const double spring_stiffness,
+    void set_face_compliance(const InertialMatrices &matrices, const LeverPorts &ports, const double spring_stiffness,
                              CondensedBasis &basis)
     {
       const ModalDamping none;
@@ -215,7 +215,7 @@ namespace sprag
   {
     const Timer timer;
     CondensedBasis basis;
-    const InertialMatrices<2> matrices(body, settings.inertia);
+    const InertialMatrices matrices(body, settings.inertia);
     const LeverPorts ports(body, matrices, true);
     PETScWrappers::SparseMatrix stiffness;
     matrices.sum({ 0., 1., 0., settings.spring_stiffness }, stiffness);
@@ -239,7 +239,7 @@ namespace sprag
       const auto n_attached = static_cast<unsigned int>(settings.inertia.leaf.modes.size());
       const auto n_sensors  = static_cast<unsigned int>(body.sensors().size());
       const auto n_face     = number_of_surface_ports(body) + n_sensors + 1;
-      if (auto basis = basis_of(std::move(*stored), n_face, TotalCoordinates<2>(body, n_attached).size()))
+      if (auto basis = basis_of(std::move(*stored), n_face, TotalCoordinates(body, n_attached).size()))
       {
         basis->sensors = n_sensors;
         return *basis;

@@ -62,7 +62,7 @@ namespace sprag
 
   private:
     const CondensedBasis &basis;
-    const InertialMatrices<2> matrices;
+    const InertialMatrices matrices;
     const LeverPorts ports;
     Mumps factors;
   };

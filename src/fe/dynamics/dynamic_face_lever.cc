@@ -59,12 +59,12 @@ namespace sprag
 
   double mesh_inertia(const Scene &scene, const ElasticBody<2> &body)
   {
-    return InertialMatrices<2>(body, inertia_of(scene)).moment_of_inertia;
+    return InertialMatrices(body, inertia_of(scene)).moment_of_inertia;
   }
 
   FiniteElementBasis make_finite_element_basis(const Scene &scene, const ElasticBody<2> &body)
   {
-    const auto matrices = std::make_shared<InertialMatrices<2>>(body, inertia_of(scene));
+    const auto matrices = std::make_shared<InertialMatrices>(body, inertia_of(scene));
     dealii::PETScWrappers::SparseMatrix stiffness;
     matrices->sum({ 0., 1., 0., scene.spring.stiffness }, stiffness);
     FiniteElementBasis basis{ matrices, free_modes(stiffness, matrices->mass, scene.condensed.modes), {} };

@@ -38,7 +38,7 @@ namespace sprag
   /// share it.
   struct FiniteElementBasis
   {
-    std::shared_ptr<const InertialMatrices<2>> matrices;
+    std::shared_ptr<const InertialMatrices> matrices;
     FreeModes modes;
     std::shared_ptr<const FiniteElementBasis> swinging; ///< of a pair's levers that swing together, where it is another
   };

@@ -22,8 +22,8 @@ namespace sprag
     }
   } // namespace
 
-  EffectiveSystem::EffectiveSystem(const InertialMatrices<2> &matrices_, const LeverPorts &ports_, const ModalDamping &damping_,
-                                   const InertialMatrices<2>::Weights &weights_, const double weight_of_damping)
+  EffectiveSystem::EffectiveSystem(const InertialMatrices &matrices_, const LeverPorts &ports_, const ModalDamping &damping_,
+                                   const InertialMatrices::Weights &weights_, const double weight_of_damping)
       : matrices(matrices_)
       , ports(ports_)
       , damping(damping_)

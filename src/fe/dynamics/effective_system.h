@@ -23,8 +23,8 @@ namespace sprag
   {
   public:
     /// `weight_of_damping` 0: without the modal damping. Arguments must outlive the system.
-    EffectiveSystem(const InertialMatrices<2> &matrices, const LeverPorts &ports, const ModalDamping &damping,
-                    const InertialMatrices<2>::Weights &weights, double weight_of_damping);
+    EffectiveSystem(const InertialMatrices &matrices, const LeverPorts &ports, const ModalDamping &damping,
+                    const InertialMatrices::Weights &weights, double weight_of_damping);
 
     /// Compliance of the lever's ports.
     dealii::FullMatrix<double> port_compliance() const;
@@ -48,10 +48,10 @@ namespace sprag
     /// Row and column of a port that is not a coordinate.
     void append(unsigned int port, dealii::FullMatrix<double> &compliance) const;
 
-    const InertialMatrices<2> &matrices;
+    const InertialMatrices &matrices;
     const LeverPorts &ports;
     const ModalDamping &damping;
-    const InertialMatrices<2>::Weights weights;
+    const InertialMatrices::Weights weights;
     Mumps factors;
     std::vector<dealii::Vector<double>> damped;                       ///< S^-1 M phi, S without modal damping
     dealii::FullMatrix<double> low_rank;                              ///< (D^-1 + (M phi)^T S^-1 M phi)^-1

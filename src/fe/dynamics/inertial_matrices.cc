@@ -22,11 +22,10 @@ namespace sprag
     using PETScMatrix = PETScWrappers::SparseMatrix;
 
     /// Adds matrices of cells and faces, given for degrees of freedom of the body, in total coordinates.
-    template <int dim>
     class Scatter
     {
     public:
-      Scatter(const TotalCoordinates<dim> &coordinates_, const unsigned int n)
+      Scatter(const TotalCoordinates &coordinates_, const unsigned int n)
           : coordinates(coordinates_)
           , dofs(n)
           , indices(n)
@@ -56,8 +55,8 @@ namespace sprag
       }
 
       /// Adds the rows whose products with the coordinates are the mass times the displacement along each axis. Returns the mass.
-      double add_momentum(const FullMatrix<double> &local, const FiniteElement<dim> &fe,
-                          std::array<Vector<double>, dim> &momentum) const
+      double add_momentum(const FullMatrix<double> &local, const FiniteElement<2> &fe,
+                          std::array<Vector<double>, 2> &momentum) const
       {
         double along_first = 0.;
         for (unsigned int i = 0; i < dofs.size(); ++i)
@@ -71,7 +70,7 @@ namespace sprag
       }
 
     private:
-      const TotalCoordinates<dim> &coordinates;
+      const TotalCoordinates &coordinates;
       std::vector<types::global_dof_index> dofs;
       std::vector<types::global_dof_index> indices;
       std::vector<double> shares;
@@ -79,8 +78,7 @@ namespace sprag
     };
 
     /// Of a cell or, with a mass per area, of a face.
-    template <int dim>
-    FullMatrix<double> local_mass(const FEValuesBase<dim> &values, const double density)
+    FullMatrix<double> local_mass(const FEValuesBase<2> &values, const double density)
     {
       const auto &fe       = values.get_fe();
       const unsigned int n = fe.n_dofs_per_cell();
@@ -92,13 +90,10 @@ namespace sprag
               result(i, j) += density * values.JxW(q) * values.shape_value(i, q) * values.shape_value(j, q);
       return result;
     }
-
-    template <int dim>
-    double inertia_of_cells(const ElasticBody<dim> &body, const std::map<types::material_id, double> &densities)
+    double inertia_of_cells(const ElasticBody<2> &body, const std::map<types::material_id, double> &densities)
     {
       const auto &properties = body.body_properties();
-      FEValues<dim> values(body.dofs().get_fe(), QGauss<dim>(properties.degree + 1),
-                           update_quadrature_points | update_JxW_values);
+      FEValues<2> values(body.dofs().get_fe(), QGauss<2>(properties.degree + 1), update_quadrature_points | update_JxW_values);
       double sum = 0.;
       for (const auto &cell : body.dofs().active_cell_iterators())
         if (cell->material_id() != material_id::hub && material_id::turns(cell->material_id()))
@@ -110,13 +105,11 @@ namespace sprag
         }
       return sum;
     }
-
-    template <int dim>
-    double inertia_of_tip(const ElasticBody<dim> &body, const double tip_mass)
+    double inertia_of_tip(const ElasticBody<2> &body, const double tip_mass)
     {
       const auto faces    = faces_of_tip(body.dofs());
-      const double length = total_measure<dim>(faces);
-      FEFaceValues<dim> values(body.dofs().get_fe(), QGauss<dim - 1>(2), update_quadrature_points | update_JxW_values);
+      const double length = total_measure<2>(faces);
+      FEFaceValues<2> values(body.dofs().get_fe(), QGauss<1>(2), update_quadrature_points | update_JxW_values);
       double sum = 0.;
       for (const auto &[cell, f] : faces)
       {
@@ -127,15 +120,13 @@ namespace sprag
       return sum;
     }
   } // namespace
-
-  template <int dim>
-  TotalCoordinates<dim>::TotalCoordinates(const ElasticBody<dim> &body, const unsigned int attached_coordinates)
+  TotalCoordinates::TotalCoordinates(const ElasticBody<2> &body, const unsigned int attached_coordinates)
       : movers(body.n_dofs())
       , arms(body.n_dofs())
       , n_attached(attached_coordinates)
   {
-    std::vector<Point<dim>> positions(body.n_dofs());
-    DoFTools::map_dofs_to_support_points(MappingQ1<dim>(), body.dofs(), positions);
+    std::vector<Point<2>> positions(body.n_dofs());
+    DoFTools::map_dofs_to_support_points(MappingQ1<2>(), body.dofs(), positions);
     const auto &fe = body.dofs().get_fe();
     std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
     for (const auto &cell : body.dofs().active_cell_iterators())
@@ -156,39 +147,27 @@ namespace sprag
       if (body.is_held(dof))
         movers[dof] = { rotation(), arms[dof] };
   }
-
-  template <int dim>
-  unsigned int TotalCoordinates<dim>::size() const
+  unsigned int TotalCoordinates::size() const
   {
     return n_free + n_attached + 1;
   }
-
-  template <int dim>
-  unsigned int TotalCoordinates<dim>::rotation() const
+  unsigned int TotalCoordinates::rotation() const
   {
     return n_free + n_attached;
   }
-
-  template <int dim>
-  unsigned int TotalCoordinates<dim>::attached(const unsigned int i) const
+  unsigned int TotalCoordinates::attached(const unsigned int i) const
   {
     return n_free + i;
   }
-
-  template <int dim>
-  const typename TotalCoordinates<dim>::Mover &TotalCoordinates<dim>::mover(const unsigned int dof) const
+  const TotalCoordinates::Mover &TotalCoordinates::mover(const unsigned int dof) const
   {
     return movers[dof];
   }
-
-  template <int dim>
-  double TotalCoordinates<dim>::arm(const unsigned int dof) const
+  double TotalCoordinates::arm(const unsigned int dof) const
   {
     return arms[dof];
   }
-
-  template <int dim>
-  std::vector<std::pair<unsigned int, double>> TotalCoordinates<dim>::row(const Connector &connector) const
+  std::vector<std::pair<unsigned int, double>> TotalCoordinates::row(const Connector &connector) const
   {
     std::vector<std::pair<unsigned int, double>> result;
     double of_rotation = 0.;
@@ -200,9 +179,7 @@ namespace sprag
     result.emplace_back(rotation(), of_rotation);
     return result;
   }
-
-  template <int dim>
-  Vector<double> TotalCoordinates<dim>::rigid_rotation() const
+  Vector<double> TotalCoordinates::rigid_rotation() const
   {
     Vector<double> result(size());
     for (unsigned int dof = 0; dof < movers.size(); ++dof)
@@ -210,9 +187,7 @@ namespace sprag
     result[rotation()] = 1.;
     return result;
   }
-
-  template <int dim>
-  Vector<double> TotalCoordinates<dim>::elastic_displacement(const Vector<double> &total) const
+  Vector<double> TotalCoordinates::elastic_displacement(const Vector<double> &total) const
   {
     Vector<double> result(static_cast<unsigned int>(movers.size()));
     for (unsigned int dof = 0; dof < movers.size(); ++dof)
@@ -231,9 +206,7 @@ namespace sprag
                        " must be larger");
     return (inertia.moment_of_inertia - added) / of_cells;
   }
-
-  template <int dim>
-  InertialMatrices<dim>::InertialMatrices(const ElasticBody<dim> &body, const LeverInertia &inertia)
+  InertialMatrices::InertialMatrices(const ElasticBody<2> &body, const LeverInertia &inertia)
       : coordinates(body, static_cast<unsigned int>(inertia.leaf.modes.size()))
   {
     const double of_cells = inertia_of_cells(body, inertia.densities);
@@ -258,9 +231,7 @@ namespace sprag
     for (auto *const matrix : { &mass, &stiffness, &layer_stiffness })
       matrix->compress(VectorOperation::add);
   }
-
-  template <int dim>
-  void InertialMatrices<dim>::find_pattern(const ElasticBody<dim> &body)
+  void InertialMatrices::find_pattern(const ElasticBody<2> &body)
   {
     pattern.reinit(coordinates.size(), coordinates.size());
     std::vector<types::global_dof_index> dofs(body.dofs().get_fe().n_dofs_per_cell());
@@ -289,9 +260,7 @@ namespace sprag
       pattern.add(hub, attached);
     }
   }
-
-  template <int dim>
-  void InertialMatrices<dim>::sum(const Weights &weights, PETScMatrix &result) const
+  void InertialMatrices::sum(const Weights &weights, PETScMatrix &result) const
   {
     const std::pair<const PETScMatrix &, double> parts[] = { { mass, weights.mass },
                                                              { stiffness, weights.stiffness },
@@ -304,19 +273,17 @@ namespace sprag
     result.add(coordinates.rotation(), coordinates.rotation(), weights.rotation);
     result.compress(VectorOperation::add);
   }
-
-  template <int dim>
-  void InertialMatrices<dim>::assemble_cells(const ElasticBody<dim> &body, const std::map<types::material_id, double> &densities)
+  void InertialMatrices::assemble_cells(const ElasticBody<2> &body, const std::map<types::material_id, double> &densities)
   {
     const auto &properties = body.body_properties();
     const auto &fe         = body.dofs().get_fe();
-    FEValues<dim> values(body.cell_mapping(), fe, QGauss<dim>(properties.degree + 1), update_values | update_JxW_values);
-    CellElasticity<dim> elasticity(body.cell_mapping(), fe, properties);
+    FEValues<2> values(body.cell_mapping(), fe, QGauss<2>(properties.degree + 1), update_values | update_JxW_values);
+    CellElasticity<2> elasticity(body.cell_mapping(), fe, properties);
     const unsigned int n = fe.n_dofs_per_cell();
     const Vector<double> at_rest(n);
     FullMatrix<double> of_cell(n, n);
     Vector<double> forces(n);
-    Scatter<dim> scatter(coordinates, n);
+    Scatter scatter(coordinates, n);
     for (const auto &cell : body.dofs().active_cell_iterators())
     {
       const auto material = cell->material_id();
@@ -326,7 +293,7 @@ namespace sprag
       elasticity.reinit(cell, at_rest);
       elasticity.assemble(of_cell, forces);
       scatter.reinit(cell);
-      const auto cell_mass = local_mass<dim>(values, densities.at(material) * properties.width_of(material));
+      const auto cell_mass = local_mass(values, densities.at(material) * properties.width_of(material));
       scatter.add(of_cell, stiffness);
       scatter.add(cell_mass, mass);
       if (material == material_id::layer)
@@ -335,9 +302,7 @@ namespace sprag
         total_mass += scatter.add_momentum(cell_mass, fe, momentum);
     }
   }
-
-  template <int dim>
-  void InertialMatrices<dim>::assemble_connectors(const ElasticBody<dim> &body)
+  void InertialMatrices::assemble_connectors(const ElasticBody<2> &body)
   {
     for (const auto &connector : body.connectors())
     {
@@ -347,27 +312,23 @@ namespace sprag
           stiffness.add(i, j, connector.stiffness * weight_i * weight_j);
     }
   }
-
-  template <int dim>
-  void InertialMatrices<dim>::assemble_tip(const ElasticBody<dim> &body, const double tip_mass)
+  void InertialMatrices::assemble_tip(const ElasticBody<2> &body, const double tip_mass)
   {
     const auto &fe      = body.dofs().get_fe();
     const auto faces    = faces_of_tip(body.dofs());
-    const double length = total_measure<dim>(faces);
-    FEFaceValues<dim> values(fe, QGauss<dim - 1>(body.body_properties().degree + 1), update_values | update_JxW_values);
-    Scatter<dim> scatter(coordinates, fe.n_dofs_per_cell());
+    const double length = total_measure<2>(faces);
+    FEFaceValues<2> values(fe, QGauss<1>(body.body_properties().degree + 1), update_values | update_JxW_values);
+    Scatter scatter(coordinates, fe.n_dofs_per_cell());
     for (const auto &[cell, f] : faces)
     {
       values.reinit(cell, f);
       scatter.reinit(cell);
-      const auto face_mass = local_mass<dim>(values, tip_mass / length);
+      const auto face_mass = local_mass(values, tip_mass / length);
       scatter.add(face_mass, mass);
       total_mass += scatter.add_momentum(face_mass, fe, momentum);
     }
   }
-
-  template <int dim>
-  void InertialMatrices<dim>::attach_hub(const double of_hub, const LeafBehaviour &leaf)
+  void InertialMatrices::attach_hub(const double of_hub, const LeafBehaviour &leaf)
   {
     const unsigned int hub  = coordinates.rotation();
     const auto add_momentum = [&](const unsigned int coordinate, const std::array<double, 2> &of_unit_rate)
@@ -389,7 +350,4 @@ namespace sprag
       add_momentum(coordinate, mode.momentum);
     }
   }
-
-  template class TotalCoordinates<2>;
-  template class InertialMatrices<2>;
 } // namespace sprag

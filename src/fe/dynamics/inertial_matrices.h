@@ -15,12 +15,11 @@ namespace sprag
 {
   /// Coordinates of a body in axes that do not turn, linear in the rotation of its hub: the total displacements
   /// u_tot = u_e + theta~ (-eta, xi) of all nodes which the hub does not hold, attached ones, and last theta~ itself.
-  template <int dim>
   class TotalCoordinates
   {
   public:
     /// `attached`: number of further coordinates, before the rotation, which move no node.
-    explicit TotalCoordinates(const ElasticBody<dim> &body, unsigned int attached = 0);
+    explicit TotalCoordinates(const ElasticBody<2> &body, unsigned int attached = 0);
 
     /// Number of coordinates, the rotation included.
     unsigned int size() const;
@@ -75,18 +74,17 @@ namespace sprag
   double scaling_of_densities(const LeverInertia &inertia, double of_cells, double added);
 
   /// Matrices of small vibrations in total coordinates, without the hub's spring.
-  template <int dim>
   class InertialMatrices
   {
   public:
     /// Throws InputError if tip mass and hub alone have more than the moment of inertia, or there is no end face for the tip.
-    InertialMatrices(const ElasticBody<dim> &body, const LeverInertia &inertia);
+    InertialMatrices(const ElasticBody<2> &body, const LeverInertia &inertia);
 
-    const TotalCoordinates<dim> coordinates;
+    const TotalCoordinates coordinates;
     dealii::PETScWrappers::SparseMatrix mass;
     dealii::PETScWrappers::SparseMatrix stiffness;       ///< of lever, friction layer and connectors
     dealii::PETScWrappers::SparseMatrix layer_stiffness; ///< the layer's part of it
-    std::array<dealii::Vector<double>, dim> momentum;    ///< integral of rho u along each axis = row times coordinates [t]
+    std::array<dealii::Vector<double>, 2> momentum;      ///< integral of rho u along each axis = row times coordinates [t]
     double moment_of_inertia = 0.;                       ///< about the pivot, of all that turns with the hub [t mm^2]
     double density_factor    = 1.;                       ///< by which the densities were scaled
     double total_mass        = 0.;                       ///< of lever, tip and leaf spring [t]
@@ -103,10 +101,10 @@ namespace sprag
     void sum(const Weights &weights, dealii::PETScWrappers::SparseMatrix &result) const;
 
   private:
-    void find_pattern(const ElasticBody<dim> &body);
-    void assemble_cells(const ElasticBody<dim> &body, const std::map<dealii::types::material_id, double> &densities);
-    void assemble_connectors(const ElasticBody<dim> &body);
-    void assemble_tip(const ElasticBody<dim> &body, double tip_mass);
+    void find_pattern(const ElasticBody<2> &body);
+    void assemble_cells(const ElasticBody<2> &body, const std::map<dealii::types::material_id, double> &densities);
+    void assemble_connectors(const ElasticBody<2> &body);
+    void assemble_tip(const ElasticBody<2> &body, double tip_mass);
     void attach_hub(double of_hub, const LeafBehaviour &leaf);
 
     dealii::DynamicSparsityPattern pattern;

@@ -10,7 +10,7 @@ namespace sprag
     return 2 * static_cast<unsigned int>(body.friction_face().nodes.size() + body.cylinder_face().nodes.size());
   }
 
-  LeverPorts::LeverPorts(const ElasticBody<2> &body, const InertialMatrices<2> &matrices, const bool sprung)
+  LeverPorts::LeverPorts(const ElasticBody<2> &body, const InertialMatrices &matrices, const bool sprung)
       : ports{ number_of_surface_ports(body), sprung, static_cast<unsigned int>(body.sensors().size()) }
       , n_lever(matrices.coordinates.size())
       , arms(ports.surface)

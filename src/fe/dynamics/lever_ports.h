@@ -17,7 +17,7 @@ namespace sprag
   class LeverPorts
   {
   public:
-    LeverPorts(const ElasticBody<2> &body, const InertialMatrices<2> &matrices, bool sprung);
+    LeverPorts(const ElasticBody<2> &body, const InertialMatrices &matrices, bool sprung);
 
     const PortLayout &layout() const
     {

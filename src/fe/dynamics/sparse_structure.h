@@ -34,7 +34,7 @@ namespace sprag
     static constexpr bool is_small       = false; ///< see ModalStructure
 
     /// `modes` are those of the free lever on its spring; all but the first are damped. The matrices are kept.
-    SparseStructure(const ElasticBody<2> &body, std::shared_ptr<const InertialMatrices<2>> matrices, const FreeModes &modes,
+    SparseStructure(const ElasticBody<2> &body, std::shared_ptr<const InertialMatrices> matrices, const FreeModes &modes,
                     const LeverDynamics &constants);
 
     const PortLayout &ports() const;
@@ -122,7 +122,7 @@ namespace sprag
     /// Adds the lever's movement under forces on the ports, and the support's with compliance `of_support`.
     void add_responses(const Step &step, const PortForces &forces, double of_support, dealii::Vector<double> &position) const;
 
-    const std::shared_ptr<const InertialMatrices<2>> matrices;
+    const std::shared_ptr<const InertialMatrices> matrices;
     const LeverDynamics constants;
     const LeverPorts lever_ports;
     const unsigned int n_lever; ///< coordinates without the support's

@@ -54,20 +54,17 @@ namespace sprag
       {
         const std::string name = stress_names[i];
         const Peak peak        = peaks[i].value_or(Peak{ missing, missing, 0, 0, { missing, missing, missing } });
-        result.push_back({ name, peak.stress, "MPa", stress_meanings[i] });
-        result.push_back({ name + "_x", peak.x, "mm", "position of the cylinder there" });
-        result.push_back({ name + "_direction",
-                           std::string(peak.direction == 0  ? "none"
-                                       : peak.direction > 0 ? "forward"
-                                                            : "backward"),
-                           "", "of the motion there" });
-        result.push_back({ name + "_xi", peak.place[0], "mm", "where: lever coordinate from the pivot" });
-        result.push_back(
-            { name + "_eta", peak.place[1], "mm", "where: across the lever from the pivot, away from the cylinder" });
+        result.push_back({ name, peak.stress });
+        result.push_back({ name + "_x", peak.x });
+        result.push_back({ name + "_direction", std::string(peak.direction == 0  ? "none"
+                                                            : peak.direction > 0 ? "forward"
+                                                                                 : "backward") });
+        result.push_back({ name + "_xi", peak.place[0] });
+        result.push_back({ name + "_eta", peak.place[1] });
         if (fields.is_in_space())
-          result.push_back({ name + "_zeta", peak.place[2], "mm", "where: across the lever from the middle of its width" });
+          result.push_back({ name + "_zeta", peak.place[2] });
         if (levers == 2)
-          result.push_back({ name + "_lever", peak.lever + 1., "1", "of which lever" });
+          result.push_back({ name + "_lever", peak.lever + 1. });
       }
     return result;
   }

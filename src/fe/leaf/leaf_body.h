@@ -2,14 +2,32 @@
 #pragma once
 
 #include "fe/body/finite_statics.h"
-#include "fe/leaf/leaf_mesh.h"
 #include "scene/analysis_settings.h"
 #include "scene/apparatus.h"
+
+#include <deal.II/grid/tria.h>
 
 #include <vector>
 
 namespace sprag
 {
+  struct LeafElements
+  {
+    unsigned int along;
+    unsigned int across;
+  };
+
+  /// Returns as many elements of degree 2 as put the stiffness of a thin leaf within 2.5e-4 of that of a fine mesh.
+  LeafElements leaf_elements(const LeafSpring &leaf);
+
+  /// Makes the mesh of the built-in `meshes/leaf.geo`, in axes of the lever at rest: material_id::leaf from boundary_id::clamp to
+  /// boundary_id::joint. A bent leaf has a manifold, on which its cells are curved. Throws InputError where leaf.sagitta or
+  /// leaf.thickness is half of the length or more.
+  void make_leaf_mesh(const LeafSpring &leaf, const LeafElements &elements, dealii::Triangulation<2> &triangulation);
+
+  /// Returns whether the leaf is bent by more than what the mesh takes for straight.
+  bool is_bent(const LeafSpring &leaf);
+
   /// A leaf spring of finite elements, degree 2, St. Venant-Kirchhoff, in axes of the lever at rest. Its clamp moves as a rigid
   /// body that the hub turns about the pivot, its joint as LeafSpring::end and axial allow: a clamped or guided end moves as one
   /// without turning, of a pinned one the mean over the section is held, and a loose

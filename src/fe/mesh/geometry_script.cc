@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "fe/mesh/geometry_script.h"
 
+#include "base/archive.h"
 #include "base/available_memory.h"
 #include "base/child_process.h"
 #include "base/confinement.h"
@@ -13,9 +14,6 @@
 
 #include <boost/algorithm/string/join.hpp>
 #include <boost/algorithm/string/replace.hpp>
-#include <boost/serialization/map.hpp>
-#include <boost/serialization/string.hpp>
-#include <boost/serialization/vector.hpp>
 
 #include <gmsh.h>
 
@@ -49,13 +47,12 @@ namespace sprag
       std::map<int, types::material_id> materials;  ///< by physical tag
       std::map<int, types::boundary_id> boundaries; ///< by physical tag
       std::string mesh;                             ///< in gmsh's format 2.2
-
-      template <class Archive>
-      void serialize(Archive &archive, const unsigned int /*version*/)
-      {
-        archive &mistakes &materials &boundaries &mesh;
-      }
     };
+
+    void visit(Archive &archive, Answer &answer)
+    {
+      archive(answer.mistakes, answer.materials, answer.boundaries, answer.mesh);
+    }
 
     /// Elements of a dimension by their nodes, to tell those that two groups with a meaning claim.
     struct Claims
@@ -458,14 +455,16 @@ namespace sprag
         {
           answer.mistakes = error.messages;
         }
-        const auto packed = Utilities::pack(answer, false);
-        return std::string(packed.begin(), packed.end());
+        Archive packed;
+        packed(answer);
+        return packed.bytes();
       };
       const auto found = in_child_process(in_process, is_mesh ? mesh_patience + 1e-6 * static_cast<double>(bytes) : 0.);
       if (!found.failure.empty() || found.text.empty())
         throw InputError(file + ": gmsh " + (found.failure.empty() ? "ends" : found.failure) +
                          " on it: the file is damaged, or meshing it needs too much memory");
-      auto answer = Utilities::unpack<Answer>(std::vector<char>(found.text.begin(), found.text.end()), false);
+      Answer answer;
+      Archive(found.text)(answer);
       if (!answer.mistakes.empty())
         throw InputError(answer.mistakes);
       return answer;

@@ -12,16 +12,15 @@ namespace sprag
 
   enum class SharedTask
   {
-    end,                 ///< the run is over
-    build,               ///< a body
-    release,             ///< it
-    factorise_roughly,   ///< in single precision
-    factorise_precisely, ///< in double precision
-    solve_whole,         ///< with the factors of the whole body
-    solve_near,          ///< with those of its skin
-    release_factors,     ///< of a body that is still looked at
-    recover_stress,      ///< of a body for its fields
-    write_rows           ///< of a file with fields
+    end,             ///< the run is over
+    build,           ///< a body
+    release,         ///< it
+    factorise,       ///< it
+    solve_whole,     ///< with the factors of the whole body
+    solve_near,      ///< with those of its skin
+    release_factors, ///< of a body that is still looked at
+    recover_stress,  ///< of a body for its fields
+    write_rows       ///< of a file with fields
   };
 
   /// What the first rank calls the others to. Made of numbers alone.

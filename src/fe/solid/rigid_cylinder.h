@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
-#include "fe/solid/cylinder_pose.h"
+#include "base/dual.h"
 #include "scene/apparatus.h"
 #include "scene/lever.h"
 
@@ -12,6 +12,102 @@
 
 namespace sprag
 {
+  /// A vector in space of any kind of number.
+  template <class N>
+  struct Triple
+  {
+    N x{}, y{}, z{};
+  };
+
+  template <class A, class B>
+  SPRAG_PART auto operator+(const Triple<A> &a, const Triple<B> &b)
+  {
+    return Triple<decltype(a.x + b.x)>{ a.x + b.x, a.y + b.y, a.z + b.z };
+  }
+  template <class A, class B>
+  SPRAG_PART auto operator-(const Triple<A> &a, const Triple<B> &b)
+  {
+    return Triple<decltype(a.x - b.x)>{ a.x - b.x, a.y - b.y, a.z - b.z };
+  }
+  template <class A, class B>
+  SPRAG_PART auto operator*(const A &factor, const Triple<B> &a)
+  {
+    return Triple<decltype(factor * a.x)>{ factor * a.x, factor * a.y, factor * a.z };
+  }
+  template <class A, class B>
+  SPRAG_PART auto dot(const Triple<A> &a, const Triple<B> &b)
+  {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+  }
+  template <class A, class B>
+  SPRAG_PART auto cross(const Triple<A> &a, const Triple<B> &b)
+  {
+    return Triple<decltype(a.x * b.x)>{ a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x };
+  }
+
+  /// Slopes of a cylinder's axis towards the lever (tilt) and along x (skew).
+  using AxisSlopes = std::array<double, 2>;
+
+  /// Axes of a cylinder in those of the world: `axis` lies along (skew, tilt, 1), `right` has no part towards the lever, `upward`
+  /// is across both.
+  template <class A>
+  struct CylinderAxes
+  {
+    Triple<A> axis, right, upward;
+
+    /// The same with a function of each number.
+    template <class Of>
+    SPRAG_PART auto each(const Of &of) const
+    {
+      const auto of_axis = [&](const Triple<A> &a) { return Triple<decltype(of(a.x))>{ of(a.x), of(a.y), of(a.z) }; };
+      return CylinderAxes<decltype(of(axis.x))>{ of_axis(axis), of_axis(right), of_axis(upward) };
+    }
+  };
+
+  template <class A>
+  CylinderAxes<A> cylinder_axes(const A &tilt, const A &skew)
+  {
+    const auto unit = [](const Triple<A> &a) { return 1. / square_root(dot(a, a)) * a; };
+    CylinderAxes<A> result{ unit({ skew, tilt, A{} + 1. }), unit({ A{} + 1., A{}, -skew }), {} };
+    result.upward = cross(result.axis, result.right);
+    return result;
+  }
+
+  /// A cylinder at its position x from the pivot frame's origin before a lever inclined by theta. A is the kind of number of the
+  /// axes: a plain one of a cylinder that is fixed on its shaft.
+  template <class N, class A = N>
+  struct CylinderPose
+  {
+    N x, cosine, sine; ///< of theta
+    CylinderAxes<A> axes;
+    CylinderAxes<A> turned[2]; ///< derivatives of the axes by the slopes
+  };
+
+  template <class N, class A>
+  CylinderPose<N, A> cylinder_pose(const N &x, const N &theta, const A &tilt, const A &skew)
+  {
+    using Slope     = Dual<A, 2>;
+    const A one     = A{} + 1.;
+    const auto axes = cylinder_axes(Slope{ tilt, { one, A{} } }, Slope{ skew, { A{}, one } });
+    return { x,
+             cosine(theta),
+             sine(theta),
+             axes.each([](const Slope &a) { return a.v; }),
+             { axes.each([](const Slope &a) { return a.d[0]; }), axes.each([](const Slope &a) { return a.d[1]; }) } };
+  }
+
+  template <class N, class A>
+  SPRAG_PART auto in_lanes(const CylinderPose<N, A> &pose)
+  {
+    const auto of = [](const A &a) { return in_lanes(a); };
+    return CylinderPose<decltype(in_lanes(pose.x)), decltype(of(pose.axes.axis.x))>{ in_lanes(pose.x),
+                                                                                     in_lanes(pose.cosine),
+                                                                                     in_lanes(pose.sine),
+                                                                                     pose.axes.each(of),
+                                                                                     { pose.turned[0].each(of),
+                                                                                       pose.turned[1].each(of) } };
+  }
+
   /// The damper's cylinder as a rigid body of finite length: its axis may lie out of true, by slopes towards the lever (tilt) and
   /// along x (skew), it may be a barrel and have rounded ends. Distances are measured across the axis: barrel and rounding are
   /// added to them as a profile over the place s along the axis, which is exact up to the square of their slope.

@@ -1,27 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "fe/solid/sensor_forces.h"
 
-#include <algorithm>
-#include <iterator>
-
 namespace sprag
 {
   using dealii::Vector;
 
-  namespace
-  {
-    std::vector<Connector> sensors_of(const SolidBody &body)
-    {
-      std::vector<Connector> result;
-      std::copy_if(body.connectors().begin(), body.connectors().end(), std::back_inserter(result),
-                   [](const auto &connector) { return connector.type == ConnectorType::sensor; });
-      return result;
-    }
-  } // namespace
-
   SensorForces::SensorForces(const SolidBody &body_)
       : body(body_)
-      , sensors(sensors_of(body))
+      , sensors(body.sensors())
   {
     if (sensors.empty())
       return;
@@ -62,14 +48,6 @@ namespace sprag
     std::vector<double> result;
     for (const auto &sensor : sensors)
       result.push_back(sensor.compression(displacement));
-    return result;
-  }
-
-  std::vector<double> SensorForces::at(const Vector<double> &displacement) const
-  {
-    auto result = compressions(displacement);
-    for (double &force : result)
-      force *= stiffness();
     return result;
   }
 

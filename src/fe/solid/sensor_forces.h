@@ -31,9 +31,6 @@ namespace sprag
     /// Returns their forces by those on a linear body's face, three ports a node [N].
     std::vector<double> operator()(const PortLoads &forces) const;
 
-    /// The same by the displacement of all degrees of freedom.
-    std::vector<double> at(const dealii::Vector<double> &displacement) const;
-
     /// Tells a row the forces of the places, and their parts on either side of the plate.
     void tell(std::vector<double> forces, Row &row) const;
 

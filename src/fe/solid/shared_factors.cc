@@ -16,16 +16,6 @@ namespace sprag
     constexpr int memory_relaxation = 30; ///< per cent
     constexpr int together          = 64; ///< right-hand sides: more gain little
 
-    void start(SMUMPS_STRUC_C &mumps)
-    {
-      smumps_c(&mumps);
-    }
-
-    void start(DMUMPS_STRUC_C &mumps)
-    {
-      dmumps_c(&mumps);
-    }
-
     std::string reason_of(const int status)
     {
       if (status == -13 || status == -9)
@@ -34,8 +24,7 @@ namespace sprag
     }
   } // namespace
 
-  template <class Number>
-  SharedFactors<Number>::SharedFactors(const MPI_Comm ranks, const std::string &folder)
+  SharedFactors::SharedFactors(const MPI_Comm ranks, const std::string &folder)
   {
     std::memset(&mumps, 0, sizeof mumps);
     mumps.comm_fortran = static_cast<MUMPS_INT>(MPI_Comm_c2f(ranks));
@@ -58,49 +47,37 @@ namespace sprag
     std::strncpy(mumps.ooc_prefix, "factors", sizeof mumps.ooc_prefix - 1);
   }
 
-  template <class Number>
-  SharedFactors<Number>::~SharedFactors()
+  SharedFactors::~SharedFactors()
   {
     mumps.job = terminate;
-    start(mumps);
+    dmumps_c(&mumps);
   }
 
-  template <class Number>
-  void SharedFactors<Number>::call(const int job, const char *what) const
+  void SharedFactors::call(const int job, const char *what) const
   {
     mumps.job = job;
-    start(mumps);
+    dmumps_c(&mumps);
     const int status = mumps.infog[0];
     if (status < 0)
       throw AnalysisError(std::string("the direct solver failed in ") + what + " (MUMPS INFOG(1) = " + std::to_string(status) +
                           ", INFOG(2) = " + std::to_string(mumps.infog[1]) + reason_of(status));
   }
 
-  template <class Number>
-  void SharedFactors<Number>::factorise(SymmetricEntries entries)
+  void SharedFactors::factorise(SymmetricEntries entries)
   {
-    std::vector<Number> values;
-    if constexpr (std::is_same_v<Number, double>)
-      values = std::move(entries.value);
-    else
-    {
-      values.assign(entries.value.begin(), entries.value.end());
-      std::vector<double>().swap(entries.value);
-    }
     n             = entries.size;
     mumps.n       = static_cast<MUMPS_INT>(n);
     mumps.nnz_loc = static_cast<MUMPS_INT8>(entries.row.size());
     mumps.irn_loc = entries.row.data();
     mumps.jcn_loc = entries.column.data();
-    mumps.a_loc   = values.data();
+    mumps.a_loc   = entries.value.data();
     call(analyse, "analysis");
     call(decompose, "factorisation");
     mumps.irn_loc = mumps.jcn_loc = nullptr;
     mumps.a_loc                   = nullptr;
   }
 
-  template <class Number>
-  void SharedFactors<Number>::solve(std::vector<Number> &columns) const
+  void SharedFactors::solve(std::vector<double> &columns) const
   {
     mumps.icntl[20 - 1] = 0;
     mumps.rhs           = columns.data();
@@ -109,12 +86,11 @@ namespace sprag
     call(back_substitute, "back-substitution");
   }
 
-  template <class Number>
-  std::vector<Number> SharedFactors<Number>::solve(const SparseColumns &columns) const
+  std::vector<double> SharedFactors::solve(const SparseColumns &columns) const
   {
     auto begin = columns.begin, row = columns.row;
-    std::vector<Number> values(columns.value.begin(), columns.value.end());
-    std::vector<Number> result(static_cast<std::size_t>(n) * columns.size());
+    auto values = columns.value;
+    std::vector<double> result(static_cast<std::size_t>(n) * columns.size());
     mumps.icntl[20 - 1] = 1;
     mumps.nz_rhs        = static_cast<MUMPS_INT>(row.size());
     mumps.irhs_ptr      = begin.data();
@@ -127,12 +103,8 @@ namespace sprag
     return result;
   }
 
-  template <class Number>
-  void SharedFactors<Number>::take_part() const
+  void SharedFactors::take_part() const
   {
     call(back_substitute, "back-substitution");
   }
-
-  template class SharedFactors<float>;
-  template class SharedFactors<double>;
 } // namespace sprag

@@ -2,12 +2,10 @@
 #pragma once
 
 #include <dmumps_c.h>
-#include <smumps_c.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <string>
-#include <type_traits>
 #include <vector>
 
 namespace sprag
@@ -46,11 +44,9 @@ namespace sprag
     }
   };
 
-  /// Cholesky factors, of single or double precision, of a symmetric positive definite matrix that all ranks hold together. MUMPS
-  /// is called directly: PETSc's interface to it has no ordering for long bodies and no sparse right-hand sides, which are most
-  /// of the work here.
+  /// Cholesky factors of a symmetric positive definite matrix that all ranks hold together. MUMPS is called directly: PETSc's
+  /// interface to it has no ordering for long bodies and no sparse right-hand sides, which are most of the work here.
   /// All functions throw AnalysisError, naming the status, when a factorisation or solve fails.
-  template <class Number>
   class SharedFactors
   {
   public:
@@ -64,10 +60,10 @@ namespace sprag
     void factorise(SymmetricEntries entries);
 
     /// Solves with some columns, one after another, in place. To be called by the first rank while the others take_part().
-    void solve(std::vector<Number> &columns) const;
+    void solve(std::vector<double> &columns) const;
 
     /// Returns the solutions for sparse columns, one after another, likewise.
-    std::vector<Number> solve(const SparseColumns &columns) const;
+    std::vector<double> solve(const SparseColumns &columns) const;
 
     /// Takes part in a solve of the first rank.
     void take_part() const;
@@ -80,7 +76,7 @@ namespace sprag
   private:
     void call(int job, const char *what) const;
 
-    mutable std::conditional_t<std::is_same_v<Number, float>, SMUMPS_STRUC_C, DMUMPS_STRUC_C> mumps;
+    mutable DMUMPS_STRUC_C mumps;
     unsigned int n = 0;
   };
 } // namespace sprag

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "fe/solid/solid_body.h"
 
-#include "base/archive.h"
 #include "base/errors.h"
+#include "base/messages.h"
 #include "fe/solid/solid_connectors.h"
 #include "fe/solid/solid_stiffness.h"
 #include "fe/statics/lever_properties.h"
@@ -10,19 +10,62 @@
 #include "scene/analysis_use.h"
 #include "scene/scene.h"
 
-#include <deal.II/base/quadrature_lib.h>
-#include <deal.II/fe/fe_q.h>
-#include <deal.II/fe/fe_values.h>
-#include <deal.II/numerics/vector_tools.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 namespace sprag
 {
   using namespace dealii;
+
+  void visit(Archive &archive, SolidProperties &properties)
+  {
+    auto &body = properties.body;
+    archive(body.degree, body.plane, body.material, body.width, body.curved, body.point_spacing, body.constants,
+            properties.interface_offset, properties.layer, properties.skin, properties.folder);
+  }
+
+  BodyFactors::BodyFactors(const StiffnessSource &of_body, const std::vector<int> &numbers, const SharedTask solve,
+                           const BodyCalls &calls)
+      : source(of_body)
+      , number_in_part(numbers)
+      , task(solve)
+      , call_others(calls)
+  {
+  }
+
+  void BodyFactors::factorise(const std::vector<Connector> &connectors, const std::string &folder)
+  {
+    release();
+    n            = size_of_part(source, number_in_part);
+    auto entries = assemble_stiffness(source, number_in_part);
+    for (const auto &connector : connectors)
+      add(connector, entries);
+    factors = std::make_unique<SharedFactors>(call_others.ranks, folder);
+    factors->factorise(std::move(entries));
+  }
+
+  void BodyFactors::solve(std::vector<double> &columns) const
+  {
+    call_others(task);
+    factors->solve(columns);
+  }
+
+  std::vector<double> BodyFactors::solve(const SparseColumns &columns) const
+  {
+    call_others(task);
+    return factors->solve(columns);
+  }
+
+  void BodyFactors::take_part() const
+  {
+    factors->take_part();
+  }
+
+  void BodyFactors::release()
+  {
+    factors.reset();
+  }
 
   namespace
   {
@@ -34,6 +77,7 @@ namespace sprag
       result.width = 1.;
       result.widths.clear();
       result.connectors.clear(); // has its own
+      result.curved = false;
       if (scene.analysis.type != AnalysisType::quasi_static)
         result.point_spacing = scene.geometry.cylinder_radius / 1000.; // as of levers in a plane in time
       return result;
@@ -64,104 +108,64 @@ namespace sprag
       return { solid_properties(scene), scene.geometry.interface_offset, scene.layer.thickness, skin_depth(scene), folder };
     }
 
-    void visit(Archive &archive, SolidProperties &properties)
-    {
-      auto &body = properties.body;
-      archive(body.degree, body.plane, body.material, body.width, body.curved, body.point_spacing, body.constants,
-              properties.interface_offset, properties.layer, properties.skin, properties.folder);
-    }
-
     /// Returns those that the first rank has, which calls the others to build the body.
     SolidProperties shared(const BodyCalls &call_others, SolidProperties properties)
     {
       call_others(SharedTask::build);
-      Archive written;
-      visit(written, properties);
-      Archive received(Utilities::MPI::broadcast(call_others.ranks, written.bytes()));
-      visit(received, properties);
-      return properties;
+      return broadcast(call_others.ranks, std::move(properties));
     }
 
-    using Sharing = SolidMesh::Settings;
+    /// Stiffness and areas of a half stand for the whole.
+    BodyProperties of_whole(BodyProperties properties, const bool is_half)
+    {
+      properties.width = is_half ? 2. : 1.;
+      return properties;
+    }
   } // namespace
 
-  SolidBody::SolidBody(const Scene &scene, const Mesh &plane, const FactorSettings &settings)
-      : SolidBody(BodyCalls(), properties_of(scene, settings.folder))
+  SharedSolid::SharedSolid(const BodyCalls &calls, SolidProperties of_first, const Scene *const scene, const Mesh *const plane)
+      : call_others(calls)
+      , given(shared(calls, std::move(of_first)))
+      , mesh(calls.ranks, SolidMesh::none, false, SolidMesh::Settings::partition_zorder)
+      , half(scene != nullptr ? make_solid_mesh(*scene, *plane, mesh) : receive_solid_mesh(mesh))
   {
-    number_displacements(make_solid_mesh(scene, plane, mesh));
-    springs = find_connectors({ mapping, dof_handler, constraints, is_half() }, scene);
-    factorise(
-        settings.single.value_or(scene.analysis.type == AnalysisType::quasi_static && n_dofs() >= least_in_single_precision));
-    if (!factors_serve())
-      factorise(false);
+  }
+
+  SolidBody::SolidBody(const Scene &scene, const Mesh &plane, const std::string &folder)
+      : SolidBody(BodyCalls(), properties_of(scene, folder), &scene, &plane)
+  {
+    use_connectors(find_connectors({ cell_mapping(), dofs(), held() }, scene, half));
+    call_others(SharedTask::factorise);
+    factorise();
   }
 
   SolidBody::SolidBody(const MPI_Comm ranks)
-      : SolidBody(BodyCalls(ranks), SolidProperties())
+      : SolidBody(BodyCalls(ranks), SolidProperties(), nullptr, nullptr)
   {
-    number_displacements(receive_solid_mesh(mesh));
   }
 
-  SolidBody::SolidBody(const BodyCalls &calls, SolidProperties of_first)
-      : call_others(calls)
-      , given(shared(calls, std::move(of_first)))
+  SolidBody::SolidBody(const BodyCalls &calls, SolidProperties of_first, const Scene *const scene, const Mesh *const plane)
+      : SharedSolid(calls, std::move(of_first), scene, plane)
+      , ElasticBody<3>(mesh, of_whole(given.body, half))
       , depth_of_skin(given.skin)
-      , properties(given.body)
-      , mesh(calls.ranks, SolidMesh::none, false, Sharing::partition_zorder)
-      , fe(FE_Q<3>(properties.degree), 3)
-      , dof_handler(mesh)
-      , factors({ mapping, dof_handler, constraints, properties }, all, SharedTask::solve_whole, call_others)
-      , factors_of_skin({ mapping, dof_handler, constraints, properties }, number_in_skin, SharedTask::solve_near, call_others)
+      , factors(stiffness_source(), all, SharedTask::solve_whole, call_others)
+      , factors_of_skin(stiffness_source(), number_in_skin, SharedTask::solve_near, call_others)
   {
-  }
-
-  void SolidBody::number_displacements(const bool is_half)
-  {
-    if (is_half)
-      properties.width = 2.; // stiffness and areas of a half stand for the whole
-    dof_handler.distribute_dofs(fe);
-    hold_hub();
-    face = find_friction_face(mapping, dof_handler, constraints, properties, boundary_id::friction_face);
-    order_face_nodes();
+    find_ends();
     find_skin();
   }
 
-  void SolidBody::factorise(const bool single)
+  StiffnessSource SolidBody::stiffness_source() const
   {
-    call_others(single ? SharedTask::factorise_roughly : SharedTask::factorise_precisely);
-    do_factorise(single);
+    return { cell_mapping(), dofs(), held(), body_properties() };
   }
 
   /// Factors of the whole come first: nothing else takes memory then.
-  void SolidBody::do_factorise(const bool single)
+  void SolidBody::factorise()
   {
-    factors.factorise(springs, { single, given.folder });
+    factors.factorise(connectors(), given.folder);
     if (has_skin())
-      factors_of_skin.factorise({}, { single, {} });
-  }
-
-  bool SolidBody::factors_serve()
-  {
-    return factors.prepare(loads_on_face(false)) && (!has_skin() || factors_of_skin.prepare(loads_on_face(true)));
-  }
-
-  /// Uniform ones and such as grow across, in three directions: they bend and twist a lever.
-  SparseColumns SolidBody::loads_on_face(const bool near) const
-  {
-    const auto growth = { +[](const Point<3> &) { return 1.; }, +[](const Point<3> &place) { return place[2]; } };
-    SparseColumns result;
-    for (const auto &load : growth)
-      for (unsigned int direction = 0; direction < 3; ++direction)
-      {
-        for (const auto &node : face.nodes)
-        {
-          const unsigned int dof = node.dofs[direction];
-          if (const int number = near ? number_near(dof) : static_cast<int>(dof); number >= 0 && !is_held(dof))
-            result.add(static_cast<unsigned int>(number), load(node.position));
-        }
-        result.end_column();
-      }
-    return result;
+      factors_of_skin.factorise({}, {});
   }
 
   /// Mesh and factors are given back by all ranks together.
@@ -170,54 +174,16 @@ namespace sprag
     call_others(SharedTask::release);
   }
 
-  void SolidBody::hold_hub()
-  {
-    VectorTools::interpolate_boundary_values(dof_handler, boundary_id::hub, Functions::ZeroFunction<3>(3), constraints);
-    std::vector<types::global_dof_index> indices(fe.n_dofs_per_cell());
-    for (const auto &cell : dof_handler.active_cell_iterators())
-      if (cell->material_id() == material_id::hub)
-      {
-        cell->get_dof_indices(indices);
-        for (const auto index : indices)
-          constraints.add_line(index);
-      }
-    VectorTools::interpolate_boundary_values(dof_handler, boundary_id::symmetry, Functions::ZeroFunction<3>(3), constraints,
-                                             fe.component_mask(FEValuesExtractors::Scalar(2)));
-    constraints.close();
-  }
-
-  /// Orders them along xi, those of the same xi along zeta, and finds where the face ends.
-  void SolidBody::order_face_nodes()
+  void SolidBody::find_ends()
   {
     face_begin = std::numeric_limits<double>::max();
     face_end   = -face_begin;
-    for (const auto &edge : face.edges)
+    for (const auto &edge : friction_face().edges)
       for (const auto &node : edge.nodes)
       {
         face_begin = std::min(face_begin, node.position[0]);
         face_end   = std::max(face_end, node.position[0]);
       }
-    std::vector<unsigned int> order(face.nodes.size()), place(face.nodes.size());
-    std::iota(order.begin(), order.end(), 0u);
-    const auto rounded = [&](const unsigned int node, const unsigned int d)
-    { return std::lround(1e6 * face.nodes[node].position[d]); };
-    std::sort(order.begin(), order.end(),
-              [&](const unsigned int a, const unsigned int b)
-              { return std::pair(rounded(a, 0), rounded(a, 2)) < std::pair(rounded(b, 0), rounded(b, 2)); });
-    std::vector<FaceNode<3>> ordered;
-    for (unsigned int i = 0; i < order.size(); ++i)
-    {
-      place[order[i]] = i;
-      ordered.push_back(face.nodes[order[i]]);
-    }
-    face.nodes = std::move(ordered);
-    for (auto &point : face.points)
-      for (auto &[node, shape] : point.nodes)
-        node = place[node];
-    for (auto &edge : face.edges)
-      for (auto &node : edge.nodes)
-        if (node.index != FaceEdge<3>::held)
-          node.index = place[node.index];
   }
 
   /// Makes the skin shallower until it is bonded everywhere; where it never is, there is none.
@@ -237,9 +203,9 @@ namespace sprag
   bool SolidBody::number_skin()
   {
     std::vector<char> in_skin(n_dofs(), 0), elsewhere(n_dofs(), 0);
-    std::vector<types::global_dof_index> indices(fe.n_dofs_per_cell());
+    std::vector<types::global_dof_index> indices(dofs().get_fe().n_dofs_per_cell());
     bool is_bonded = true;
-    for (const auto &cell : dof_handler.active_cell_iterators())
+    for (const auto &cell : dofs().active_cell_iterators())
       if (cell->material_id() != material_id::hub)
       {
         cell->get_dof_indices(indices);
@@ -256,24 +222,6 @@ namespace sprag
     if (number == 0 || is_all)
       number_in_skin.clear();
     return is_bonded || number_in_skin.empty();
-  }
-
-  std::array<double, 2> SolidBody::mass_and_inertia(const double density) const
-  {
-    FEValues<3> values(mapping, fe, QGauss<3>(2), update_quadrature_points | update_JxW_values);
-    std::array<double, 2> result{};
-    for (const auto &cell : dof_handler.active_cell_iterators())
-    {
-      values.reinit(cell);
-      for (const unsigned int q : values.quadrature_point_indices())
-      {
-        const auto &place = values.quadrature_point(q);
-        const double mass = density * properties.width * values.JxW(q);
-        result[0] += mass;
-        result[1] += mass * (place[0] * place[0] + place[1] * place[1]);
-      }
-    }
-    return result;
   }
 
   bool SolidBody::is_skin(const DoFHandler<3>::active_cell_iterator &cell) const
@@ -330,9 +278,8 @@ namespace sprag
       return factors.take_part();
     case SharedTask::solve_near:
       return factors_of_skin.take_part();
-    case SharedTask::factorise_roughly:
-    case SharedTask::factorise_precisely:
-      return do_factorise(task == SharedTask::factorise_roughly);
+    case SharedTask::factorise:
+      return factorise();
     default:
       return release();
     }

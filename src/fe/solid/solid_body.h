@@ -1,24 +1,72 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #pragma once
 
-#include "fe/body/friction_face.h"
-#include "fe/solid/body_factors.h"
-#include "fe/solid/solid_mesh.h"
+#include "fe/body/dimension.h"
+#include "fe/body/elastic_body.h"
+#include "fe/solid/first_rank.h"
+#include "fe/solid/solid_stiffness.h"
 
-#include <deal.II/fe/fe_system.h>
-#include <deal.II/fe/mapping_q1.h>
+#include <deal.II/distributed/shared_tria.h>
 
+#include <memory>
 #include <optional>
 
 namespace sprag
 {
   struct Scene;
 
-  struct FactorSettings
+  /// Factors of the stiffness of a body or of a part of it, by which all ranks solve together.
+  class BodyFactors
   {
-    std::optional<bool> single = {}; ///< whether in single precision; without it those of large bodies without inertia are
-    std::string folder         = {}; ///< for files with the factors of the whole body; empty: they stay in memory
+  public:
+    /// The first rank calls the others to `task` for each solve. What the source refers to must outlive this, and so must
+    /// `number_in_part`, see assemble_stiffness(), and the calls.
+    BodyFactors(const StiffnessSource &source, const std::vector<int> &number_in_part, SharedTask task, const BodyCalls &calls);
+
+    /// Factorises, with connectors of the whole body, which the first rank gives. With a folder the factors are kept in files
+    /// there, else in memory. To be called by all ranks. Throws AnalysisError.
+    void factorise(const std::vector<Connector> &connectors, const std::string &folder);
+
+    /// Solves with some columns, one after another, in place. Throws AnalysisError. To be called by the first rank.
+    void solve(std::vector<double> &columns) const;
+
+    /// Returns the solutions for sparse columns, one after another, likewise.
+    std::vector<double> solve(const SparseColumns &columns) const;
+
+    /// Takes part in a solve of the first rank.
+    void take_part() const;
+
+    /// Gives the factors back. To be called by all ranks.
+    void release();
+
+    /// Number of displacements in a column.
+    unsigned int size() const
+    {
+      return n;
+    }
+
+  private:
+    const StiffnessSource source;
+    const std::vector<int> &number_in_part;
+    const SharedTask task;
+    const BodyCalls &call_others;
+    unsigned int n = 0;
+    std::unique_ptr<SharedFactors> factors;
   };
+
+  /// A mesh of three dimensions, which every rank knows whole and shares the work on.
+  using SolidMesh = dealii::parallel::shared::Triangulation<3>;
+
+  /// Extrudes the plane mesh of the scene's lever over its width, or over a half of it where it is symmetric; zeta counts from
+  /// the middle. A web is as wide as the scene has it, in the middle: planes across hold its sides, and its cells beyond them are
+  /// left out. Materials and boundaries keep their ids, the ends are free, that in the middle boundary_id::symmetry. A plane mesh
+  /// without cells stands for a Mesh/File of three dimensions, which is read as it is. Returns whether the mesh is a half. To be
+  /// called by the first rank, while the others receive_solid_mesh(). All throw InputError for a file that cannot serve, see
+  /// read_solid_file().
+  bool make_solid_mesh(const Scene &scene, const Mesh &plane, SolidMesh &mesh);
+
+  /// Receives what the first rank makes.
+  bool receive_solid_mesh(SolidMesh &mesh);
 
   /// What all ranks must know of a body in three dimensions besides its mesh.
   struct SolidProperties
@@ -30,67 +78,38 @@ namespace sprag
     std::string folder;           ///< for files with factors of the whole body; empty: they stay in memory
   };
 
-  /// The linear elastic lever in three dimensions, in axes in which its hub does not move. The ranks at hand hold the mesh and
-  /// the numbers of its displacements, each for itself; they share stiffness and factors. The first asks the others for it, see
-  /// help_first_rank(): what responds, factorises or releases is for the first.
-  class SolidBody
+  /// The mesh of a body in three dimensions, which the ranks at hand build together before there is a body on it.
+  struct SharedSolid
+  {
+    /// The first rank builds from the scene's plane mesh, see make_solid_mesh(), the others without a scene help.
+    SharedSolid(const BodyCalls &calls, SolidProperties of_first, const Scene *scene, const Mesh *plane);
+
+    const BodyCalls call_others;
+    const SolidProperties given;
+    SolidMesh mesh;
+    bool half; ///< whether it is a half, which is the same on both sides of the middle
+  };
+
+  /// The lever in three dimensions. The ranks at hand hold the mesh and the numbers of its displacements, each for itself; they
+  /// share stiffness without load and its factors. The first asks the others for it, see help_first_rank(): what responds,
+  /// factorises or releases is for the first.
+  class SolidBody : private SharedSolid, public ElasticBody<3>
   {
   public:
-    /// Builds and factorises it from the scene's plane mesh, see make_solid_mesh(). Throws AnalysisError where the factorisation
+    /// Builds and factorises it from the scene's plane mesh, see make_solid_mesh(); the factors of the whole body are kept in
+    /// files in a folder, or without one in memory. Throws AnalysisError where the factorisation
     /// fails, InputError for a Mesh/File that cannot serve.
-    SolidBody(const Scene &scene, const Mesh &plane, const FactorSettings &settings = {});
+    SolidBody(const Scene &scene, const Mesh &plane, const std::string &folder = {});
 
     /// Helps the first rank to build one.
     explicit SolidBody(MPI_Comm ranks);
     SolidBody &operator=(SolidBody &&) = delete;
     ~SolidBody();
 
-    unsigned int n_dofs() const
-    {
-      return dof_handler.n_dofs();
-    }
-
-    const dealii::DoFHandler<3> &dofs() const
-    {
-      return dof_handler;
-    }
-
-    const dealii::Mapping<3> &cell_mapping() const
-    {
-      return mapping;
-    }
-
-    const BodyProperties &body_properties() const
-    {
-      return properties;
-    }
-
-    /// Those that hold the hub, and the middle of a half.
-    const dealii::AffineConstraints<double> &held() const
-    {
-      return constraints;
-    }
-
-    bool is_held(const unsigned int dof) const
-    {
-      return constraints.is_constrained(dof);
-    }
-
     /// Whether it is a half, which is the same on both sides of the middle.
     bool is_half() const
     {
-      return properties.width == 2.;
-    }
-
-    /// Those of the friction plate, see find_connectors().
-    const std::vector<Connector> &connectors() const
-    {
-      return springs;
-    }
-
-    const FrictionFace<3> &friction_face() const
-    {
-      return face;
+      return half;
     }
 
     /// How far the skin reaches from the friction face [mm]: beyond the layer as far as the pressure of a contact is more than
@@ -112,9 +131,6 @@ namespace sprag
     /// Returns the number of a degree of freedom for loads of respond_near(), -1 where it has none: with a skin of those of the
     /// skin off its bond, else the degree of freedom itself where it is free.
     int number_near(unsigned int dof) const;
-
-    /// Returns mass [t] and moment of inertia about the pivot [t mm^2] at the given density [t/mm^3], hub included.
-    std::array<double, 2> mass_and_inertia(double density) const;
 
     /// Turns forces on the degrees of freedom [N] into displacements [mm].
     void respond(std::vector<double> &loads) const;
@@ -141,31 +157,17 @@ namespace sprag
     }
 
   private:
-    SolidBody(const BodyCalls &calls, SolidProperties of_first);
-    void number_displacements(bool is_half);
-    void factorise(bool single);
-    void do_factorise(bool single);
+    SolidBody(const BodyCalls &calls, SolidProperties of_first, const Scene *scene, const Mesh *plane);
+    StiffnessSource stiffness_source() const;
+    void factorise();
     void release();
-    bool factors_serve();
-    SparseColumns loads_on_face(bool near) const;
-    void hold_hub();
+    void find_ends();
     void find_skin();
     bool number_skin();
-    void order_face_nodes();
 
-    const BodyCalls call_others;
-    const SolidProperties given;
-    double depth_of_skin; ///< [mm]
-    BodyProperties properties;
-    SolidMesh mesh;
-    const dealii::FESystem<3> fe;
-    const dealii::MappingQ1<3> mapping;
-    dealii::DoFHandler<3> dof_handler;
-    dealii::AffineConstraints<double> constraints;
-    FrictionFace<3> face;
+    double depth_of_skin;   ///< [mm]
     double face_begin = 0.; ///< along xi [mm]
     double face_end   = 0.;
-    std::vector<Connector> springs;
     std::vector<int> number_in_skin;
     const std::vector<int> all; ///< no numbers
     BodyFactors factors;

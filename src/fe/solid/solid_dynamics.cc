@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-only
 #include "fe/solid/solid_dynamics.h"
 
+#include "base/errors.h"
+#include "base/text.h"
+#include "fe/body/friction_face.h"
 #include "fe/dynamics/condensed_basis.h"
 #include "fe/dynamics/lever_constants.h"
-#include "fe/solid/face_window.h"
-#include "fe/solid/solid_dynamic_lever.h"
+#include "fe/solid/surface_observation.h"
 #include "fe/statics/contact_penalties.h"
 #include "fe/statics/lever_properties.h"
+#include "model/dynamic_lever.h"
 #include "model/mirrored_contact.h"
+#include "model/mirrored_ports.h"
 #include "model/mirrored_structure.h"
 #include "scene/across.h"
 #include "scene/analysis_use.h"
@@ -16,12 +20,344 @@
 #include "scene/mirrored_pair.h"
 #include "scene/scene.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace sprag
 {
   using namespace dealii;
+  using dealii::Vector;
+
+  /// A condensed lever in three dimensions, or a pair of them, which tells shapes of modes along an edge of the whole face, by
+  /// the modes of the free lever. What these leave out is the dent of the layer under the cylinder. Structure and Contact: see
+  /// DynamicLever.
+  template <class Structure, class Contact>
+  class SolidDynamicLever : public DynamicLever<Structure, Contact>
+  {
+    using Base = DynamicLever<Structure, Contact>;
+
+  public:
+    /// `lever` must outlive this.
+    SolidDynamicLever(std::unique_ptr<Structure> structure, std::unique_ptr<Contact> contact, LeverFrame frame,
+                      const SolidInTime &lever_)
+        : Base(std::move(structure), std::move(contact), std::move(frame))
+        , lever(lever_)
+        , structures(modes_of_structures(lever, Structure::levers))
+    {
+    }
+
+    ModeShape mode_shape(const Eigenmode &mode) const override
+    {
+      const auto nodes = nodes_of_edge();
+      ModeShape result = Base::mode_shape(mode);
+      result.xi.clear();
+      for (const auto *node : nodes)
+        result.xi.push_back(node->position[0]);
+      for (unsigned int index = 0; index < Structure::levers; ++index)
+        for (unsigned int i = 0; i < 2; ++i)
+        {
+          const auto moved = [&](const unsigned int d)
+          {
+            std::vector<double> values;
+            for (const auto *node : nodes)
+              values.push_back(moved_by(mode.mode.coordinates[i], index, node->dofs[d]));
+            return values;
+          };
+          auto &shape       = result.levers.at(index);
+          shape.along[i]    = moved(0);
+          shape.across[i]   = moved(1);
+          shape.sideways[i] = moved(2);
+        }
+      return result;
+    }
+
+  private:
+    using Node = FaceNode<3>;
+
+    const SolidInTime &lever;
+    const std::vector<const SolidModes *> structures;
+
+    std::vector<const Node *> nodes_of_edge() const
+    {
+      const auto &nodes     = lever.body->friction_face().nodes;
+      const auto is_farther = [](const Node &a, const Node &b) { return a.position[2] < b.position[2]; };
+      const double edge     = std::max_element(nodes.begin(), nodes.end(), is_farther)->position[2];
+      std::vector<const Node *> result;
+      for (const auto &node : nodes)
+        if (node.position[2] > edge - 1e-6)
+          result.push_back(&node);
+      return result;
+    }
+
+    /// Of a lever, see MirroredStructure.
+    double moved_by(const dealii::Vector<double> &coordinates, const unsigned int index, const unsigned int dof) const
+    {
+      const auto n  = static_cast<unsigned int>(coordinates.size() / structures.size());
+      double result = 0.;
+      for (unsigned int part = 0; part < structures.size(); ++part)
+      {
+        const auto &displacements = structures[part]->displacements;
+        const double sign         = part == 1 && index == 1 ? -1. : 1.;
+        for (unsigned int j = 0; j < std::min<std::size_t>(n, displacements.size()); ++j)
+          result += sign * coordinates[part * n + j] * displacements[j][dof];
+      }
+      return structures.size() == 2 ? MirroredPorts::share() * result : result;
+    }
+  };
+
+  /// The contact of a lever in three dimensions in time and in held slides, see DynamicLever, on a face of its own.
+  class SolidContact
+  {
+  public:
+    static constexpr bool uses_rates       = false;
+    static constexpr bool stands_for_layer = false;
+    static constexpr bool keeps_tangent    = true;
+    static constexpr unsigned int levers   = 1;
+
+    using Evaluation = SurfaceEvaluation;
+
+    /// `layer_thickness` [mm]; `half`: the face is half of one which is the same on both sides of the middle.
+    SolidContact(FrictionFace<3> face, SurfaceContactProperties properties, FrictionLaw friction, double layer_thickness,
+                 bool half);
+
+    void evaluate(const PortStep &step, SurfaceEvaluation &found);
+    void complete(SurfaceEvaluation &found);
+    void evaluate_sliding(const SlidingState &state, SurfaceEvaluation &found);
+    PortPerturbation linearise(const SlidingState &state, SurfaceEvaluation &found);
+    std::vector<SurfaceMemory> touch(const dealii::Vector<double> &ports, const DrivePoint &drive, SurfaceEvaluation &found);
+
+    const PortSelection &reachable_ports(double x, const OfLevers &theta);
+
+    void widen_reach()
+    {
+      contact.widen_reach();
+    }
+
+    const ContactPenalties &penalties() const
+    {
+      return contact.penalties();
+    }
+
+    /// Where the pressure is largest, or where the gap is smallest.
+    double gap_change(const SurfaceEvaluation &found, const dealii::Vector<double> &change_of_ports,
+                      unsigned int lever = 0) const;
+
+    /// Mean slip round the cylinder of the points in contact, weighted with their pressure, from one configuration to another.
+    double mean_slip(const SurfaceEvaluation &found, const dealii::Vector<double> &from, double from_x,
+                     const dealii::Vector<double> &to, double to_x) const;
+
+    void observe(const SurfaceEvaluation &found, Row &row, unsigned int lever = 0) const;
+
+    /// Returns Q at the end of the step [N].
+    double drive_force(const SurfaceEvaluation &found) const;
+
+    /// Displacements of the nodes at the middle of the width.
+    SurfaceShape surface_shape(const dealii::Vector<double> &displacements, unsigned int lever = 0) const;
+
+    FacePoints face_points() const
+    {
+      return view.points();
+    }
+
+    FaceState face_state(const SurfaceEvaluation &found, const DrivePoint &drive) const
+    {
+      return view.state(found, drive);
+    }
+
+    void visit_history(Archive &archive)
+    {
+      contact.visit_history(archive);
+    }
+
+  private:
+    double indentation(const SurfaceEvaluation &found, const Row &row) const;
+    std::vector<unsigned int> line_at(double zeta) const;
+
+    const FrictionFace<3> face;
+    const FrictionLaw friction;
+    const double layer_thickness;
+    SurfaceContact contact;
+    const SurfaceView view;
+  };
+
+  SolidContact::SolidContact(FrictionFace<3> face_, SurfaceContactProperties properties, FrictionLaw friction_,
+                             const double layer_thickness_, const bool half)
+      : face(std::move(face_))
+      , friction(std::move(friction_))
+      , layer_thickness(layer_thickness_)
+      , contact(face, std::move(properties))
+      , view(face, contact, half)
+  {
+  }
+
+  void SolidContact::evaluate(const PortStep &step, SurfaceEvaluation &found)
+  {
+    contact.evaluate(step, friction, found);
+  }
+
+  void SolidContact::complete(SurfaceEvaluation &found)
+  {
+    contact.complete(found);
+  }
+
+  void SolidContact::evaluate_sliding(const SlidingState &state, SurfaceEvaluation &found)
+  {
+    contact.slide(state, friction, found);
+  }
+
+  PortPerturbation SolidContact::linearise(const SlidingState &state, SurfaceEvaluation &found)
+  {
+    return contact.linearise(state, friction, found);
+  }
+
+  std::vector<SurfaceMemory> SolidContact::touch(const Vector<double> &ports, const DrivePoint &drive, SurfaceEvaluation &found)
+  {
+    contact.touch({ ports, drive.x }, found);
+    return {};
+  }
+
+  const PortSelection &SolidContact::reachable_ports(const double x, const OfLevers &theta)
+  {
+    return contact.reachable_ports(x, theta);
+  }
+
+  double SolidContact::gap_change(const SurfaceEvaluation &found, const Vector<double> &change_of_ports, unsigned int) const
+  {
+    const auto deepest =
+        std::min_element(found.points.begin(), found.points.end(), [](const auto &a, const auto &b) { return a.gap < b.gap; });
+    return contact.change_at(*deepest, found, change_of_ports)[0];
+  }
+
+  double SolidContact::mean_slip(const SurfaceEvaluation &found, const Vector<double> &from, const double from_x,
+                                 const Vector<double> &to, const double to_x) const
+  {
+    double weighted = 0., weights = 0.;
+    for (const auto &point : found.points)
+      if (point.pressure > 0.)
+      {
+        const double weight = face.points[point.index].weight * point.pressure;
+        weighted += weight * (contact.slip_at(point, { to, to_x }) - contact.slip_at(point, { from, from_x }));
+        weights += weight;
+      }
+    return weights > 0. ? weighted / weights : 0.;
+  }
+
+  void SolidContact::observe(const SurfaceEvaluation &found, Row &row, unsigned int) const
+  {
+    view.observe(found, row);
+    row[Column::Q]           = drive_force(found);
+    row[Column::indentation] = indentation(found, row);
+  }
+
+  double SolidContact::drive_force(const SurfaceEvaluation &found) const
+  {
+    double sum = 0.;
+    for (const auto &point : found.points)
+      sum -= face.points[point.index].weight * point.end_force[4];
+    return sum;
+  }
+
+  std::vector<unsigned int> SolidContact::line_at(const double zeta) const
+  {
+    double closest = std::numeric_limits<double>::max();
+    for (const auto &node : face.nodes)
+      closest = std::min(closest, std::abs(node.position[2] - zeta));
+    std::vector<unsigned int> result;
+    for (unsigned int i = 0; i < face.nodes.size(); ++i)
+      if (std::abs(face.nodes[i].position[2] - zeta) < closest + 1e-6)
+        result.push_back(i);
+    return result;
+  }
+
+  /// Deflection under the contact beyond that on both sides of it, between the nodes closest to these places.
+  double SolidContact::indentation(const SurfaceEvaluation &found, const Row &row) const
+  {
+    if (layer_thickness == 0. || !(row[Column::normal_resultant] > 0.))
+      return 0.;
+    const auto line       = line_at(row.across[4]);
+    const double s        = row[Column::s];
+    const double aside    = 0.5 * row[Column::contact_width] + 4. * layer_thickness;
+    const auto deflection = [&](const double xi)
+    {
+      const auto is_closer = [&](const unsigned int a, const unsigned int b)
+      { return std::abs(face.nodes[a].position[0] - xi) < std::abs(face.nodes[b].position[0] - xi); };
+      return found.displacement[3 * *std::min_element(line.begin(), line.end(), is_closer) + 1];
+    };
+    return deflection(s) - 0.5 * (deflection(s - aside) + deflection(s + aside));
+  }
+
+  SurfaceShape SolidContact::surface_shape(const Vector<double> &displacements, unsigned int) const
+  {
+    SurfaceShape shape;
+    for (const unsigned int node : line_at(0.))
+    {
+      shape.xi.push_back(face.nodes[node].position[0]);
+      shape.along.push_back(displacements[3 * node]);
+      shape.across.push_back(displacements[3 * node + 1]);
+    }
+    return shape;
+  }
 
   namespace
   {
+    /// A part of a friction face in three dimensions as a face of its own.
+    struct FaceWindow
+    {
+      FrictionFace<3> face;
+      unsigned int first_node; ///< number of its first node in the whole face; the others follow
+    };
+
+    bool reaches_into(const FaceEdge<3> &edge, const double begin, const double end)
+    {
+      const auto is_before = [](const auto &a, const auto &b) { return a.position[0] < b.position[0]; };
+      const auto ends      = std::minmax_element(edge.nodes.begin(), edge.nodes.end(), is_before);
+      return ends.second->position[0] > begin && ends.first->position[0] < end;
+    }
+
+    /// Returns the part whose patches reach into `begin` ... `end` along xi [mm]. The face's nodes increase along xi. Throws
+    /// AnalysisError where there is no such patch.
+    FaceWindow window_of(const FrictionFace<3> &face, const double begin, const double end)
+    {
+      std::vector<std::size_t> chosen;
+      auto first = static_cast<unsigned int>(face.nodes.size()), last = 0u;
+      for (std::size_t i = 0; i < face.edges.size(); ++i)
+        if (reaches_into(face.edges[i], begin, end))
+        {
+          chosen.push_back(i);
+          for (const auto &node : face.edges[i].nodes)
+            if (node.index != FaceEdge<3>::held)
+            {
+              first = std::min(first, node.index);
+              last  = std::max(last, node.index + 1);
+            }
+        }
+      if (first >= last)
+        throw AnalysisError("the friction face ends before the contact at xi = " + mm(0.5 * (begin + end)));
+
+      FaceWindow result{ {}, first };
+      auto &part         = result.face;
+      part.young_modulus = face.young_modulus;
+      part.depth         = face.depth;
+      part.nodes.assign(face.nodes.begin() + first, face.nodes.begin() + last);
+      for (const std::size_t i : chosen)
+      {
+        const auto &patch = face.patches[i];
+        const auto from   = static_cast<unsigned int>(part.points.size());
+        for (unsigned int q = patch.begin; q < patch.end; ++q)
+        {
+          auto &point = part.points.emplace_back(face.points[q]);
+          for (auto &node : point.nodes)
+            node.first -= first;
+        }
+        part.patches.push_back({ from, static_cast<unsigned int>(part.points.size()), patch.length });
+        auto &edge = part.edges.emplace_back(face.edges[i]);
+        for (auto &node : edge.nodes)
+          if (node.index != FaceEdge<3>::held)
+            node.index -= first;
+      }
+      return result;
+    }
+
     FaceWindow window_of_scene(const Scene &scene, const FrictionFace<3> &face)
     {
       const auto [begin, end] = reachable_contact(scene);

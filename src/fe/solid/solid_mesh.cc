@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-only
-#include "fe/solid/solid_mesh.h"
+#include "fe/solid/solid_body.h"
 
 #include "base/errors.h"
+#include "base/messages.h"
 #include "fe/body/body_properties.h"
 #include "fe/mesh/solid_file.h"
 #include "scene/across.h"
 #include "scene/scene.h"
 
-#include <deal.II/base/mpi.h>
 #include <deal.II/grid/grid_tools.h>
-
-#include <boost/serialization/string.hpp>
-#include <boost/serialization/vector.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -21,6 +18,12 @@
 namespace sprag
 {
   using namespace dealii;
+
+  template <int dim>
+  void visit(Archive &archive, CellData<dim> &cell)
+  {
+    archive(cell.vertices, cell.material_id, cell.manifold_id);
+  }
 
   namespace
   {
@@ -142,13 +145,13 @@ namespace sprag
       Description description;
       bool is_half = false;
       std::vector<std::string> mistakes;
-
-      template <class Archive>
-      void serialize(Archive &archive, const unsigned int /*version*/)
-      {
-        archive &std::get<0>(description) & std::get<1>(description) & std::get<2>(description) & is_half &mistakes;
-      }
     };
+
+    void visit(Archive &archive, Handed &handed)
+    {
+      auto &[vertices, cells, sides] = handed.description;
+      archive(vertices, cells, sides, handed.is_half, handed.mistakes);
+    }
 
     Handed made(const Scene &scene, const Mesh &plane)
     {
@@ -165,9 +168,9 @@ namespace sprag
     }
 
     /// What counts is that of the first rank. Returns whether it is a half.
-    bool create(const Handed &of_first, SolidMesh &mesh)
+    bool create(Handed of_first, SolidMesh &mesh)
     {
-      auto handed = Utilities::MPI::broadcast(mesh.get_communicator(), of_first);
+      auto handed = broadcast(mesh.get_communicator(), std::move(of_first));
       if (!handed.mistakes.empty())
         throw InputError(handed.mistakes);
       auto &[vertices, cells, sides] = handed.description;

@@ -2,11 +2,13 @@
 #include "fe/solid/static_lever.h"
 
 #include "base/text.h"
+#include "fe/contact/face_contact.h"
 #include "fe/statics/contact_penalties.h"
-#include "fe/statics/static_terms.h"
+#include "laws/friction_of_step.h"
 #include "model/joined_memory.h"
 #include "model/joined_ports.h"
 #include "scene/across.h"
+#include "scene/closed_form.h"
 #include "scene/lever_shape.h"
 #include "scene/mirrored_pair.h"
 #include "scene/scene.h"
@@ -17,6 +19,33 @@
 namespace sprag
 {
   using namespace dealii;
+
+  /// The terms that a step without inertia adds to the contact. With the damper's `geometry` friction takes the speeds of sliding
+  /// of a rigid lever at the end of the step, see FaceStep, without it their means over the step. In the cone mode nothing has
+  /// been rubbed yet where no time has passed.
+  StaticTerms static_terms(const FrictionLaw &friction, const std::optional<Geometry> &geometry, const DrivePoint &begin,
+                           const DrivePoint &end, const FrictionMode mode)
+  {
+    constexpr double least_ratio = 1e-6;
+    const double duration        = end.time - begin.time;
+    StaticTerms result{ friction_of_step(friction, end.v), duration, mode };
+    if (duration == 0.)
+    {
+      if (mode == FrictionMode::cone)
+        result.friction = { CoulombFriction{ 0. } };
+      result.duration = 1.;
+      return result;
+    }
+    if (!geometry || end.x == begin.x)
+      return result;
+    const auto from    = kinematics(*geometry, begin.x);
+    const auto to      = kinematics(*geometry, end.x);
+    result.travel      = to.s - from.s;
+    const double slid  = -result.travel - geometry->cylinder_radius * (to.theta - from.theta);
+    result.speed_ratio = std::max(least_ratio, sliding_speed(*geometry, end.x, end.v) * duration / slid);
+    result.duration /= result.speed_ratio;
+    return result;
+  }
 
   namespace
   {
@@ -471,16 +500,13 @@ namespace sprag
     row[Column::Q_support]            = ports.sprung ? support * u : row[Column::Q];
     row[Column::support_energy]       = 0.5 * support * u * u;
     const bool is_linear              = properties.body.material == MaterialModel::linear;
-    if constexpr (dim == 2)
-      row[Column::elastic_energy] = is_linear ? row[Column::elastic_energy] + cylinder_energy(lever, state)
-                                              : own_body.energy(body_displacements(state.coordinates, state.forces)[lever]);
-    else
-    {
-      const auto &solid           = std::get<SolidStructure>(own_structure);
-      const double of_lever       = is_linear ? row[Column::elastic_energy] : solid.energy(lever, state.coordinates);
-      row[Column::elastic_energy] = of_lever + cylinder_energy(lever, state);
-      row[Column::indentation]    = solid.indentation(lever, properties.layer_thickness, state.coordinates, state.forces, row);
-    }
+    if (!is_linear)
+      row[Column::elastic_energy] = own_body.energy(body_displacements(state.coordinates, state.forces)[lever]);
+    if (is_linear || dim == 3) // a body in a plane has its elastic cylinder
+      row[Column::elastic_energy] += cylinder_energy(lever, state);
+    if constexpr (dim == 3)
+      row[Column::indentation] = std::get<SolidStructure>(own_structure)
+                                     .indentation(lever, properties.layer_thickness, state.coordinates, state.forces, row);
     std::visit([&](const auto &s) { s.tell_sensors(lever, state.coordinates, state.forces, row); }, own_structure);
   }
 

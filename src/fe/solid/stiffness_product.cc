@@ -27,8 +27,7 @@ namespace sprag
       }
   }
 
-  template <class Number>
-  void StiffnessProduct::subtract(const std::vector<Number> &displacements, std::vector<double> &forces) const
+  void StiffnessProduct::subtract(const std::vector<double> &displacements, std::vector<double> &forces) const
   {
     if (cells.empty())
       return;
@@ -57,7 +56,4 @@ namespace sprag
           forces[begin + dof] -= force * weight;
       }
   }
-
-  template void StiffnessProduct::subtract(const std::vector<float> &, std::vector<double> &) const;
-  template void StiffnessProduct::subtract(const std::vector<double> &, std::vector<double> &) const;
 } // namespace sprag

@@ -15,8 +15,7 @@ namespace sprag
     StiffnessProduct(const StiffnessSource &source, const std::vector<int> &number_in_part, std::vector<Connector> connectors);
 
     /// Subtracts the product with some columns, one after another, from others. Held displacements must be 0.
-    template <class Number>
-    void subtract(const std::vector<Number> &displacements, std::vector<double> &forces) const;
+    void subtract(const std::vector<double> &displacements, std::vector<double> &forces) const;
 
   private:
     struct Cell

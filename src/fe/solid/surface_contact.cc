@@ -173,7 +173,7 @@ namespace sprag
     if (terms.augmented) // multipliers spread over the cells
       add_points(found);
     else
-      add_points_in_contact(found);
+      add_points_in_contact(most_pressed, found);
   }
 
   void SurfaceContact::evaluate(const SurfacePlace &end, const std::vector<SurfaceMemory> &memory, const double surface_run,
@@ -347,14 +347,18 @@ namespace sprag
   void SurfaceContact::press_patches(const Vector<double> &end, SurfaceEvaluation &found)
   {
     pressed.clear();
+    most_pressed.reset();
     Patches::Indices touched;
     for (const unsigned int patch : looked_at)
     {
-      auto &forces = pressed.emplace_back();
+      auto &forces        = pressed.emplace_back();
+      const double before = found.compression;
       if (in_lanes.press(patch, Patches::nodal(patches.patches[patch], end), forces, found.compression))
         touched.push_back(patch);
       else
         pressed.pop_back();
+      if (found.compression > before)
+        most_pressed = patch;
     }
     find_summed(std::move(touched));
   }
@@ -508,11 +512,18 @@ namespace sprag
     return std::find_first_of(a.begin(), a.end(), b.begin(), b.end()) != a.end();
   }
 
-  /// Returns the sums over the patches that are looked at.
-  StepInLanes::Sums SurfaceContact::add_points_in_contact(SurfaceEvaluation &found) const
+  /// `peak`: patch where the pressure is largest, if there is any.
+  void SurfaceContact::add_points_in_contact(const std::optional<unsigned int> &peak, SurfaceEvaluation &found) const
+  {
+    found.points.clear();
+    for (const unsigned int patch : looked_at)
+      in_lanes.add_points(patch, !peak || share_line(patch, *peak), found.points);
+  }
+
+  void SurfaceContact::complete(SurfaceEvaluation &found) const
   {
     StepInLanes::Sums sums;
-    std::optional<unsigned int> peak; // patch where the pressure is largest
+    std::optional<unsigned int> peak;
     for (const unsigned int patch : looked_at)
     {
       const double before = sums.pressure;
@@ -520,15 +531,7 @@ namespace sprag
       if (sums.pressure > before)
         peak = patch;
     }
-    found.points.clear();
-    for (const unsigned int patch : looked_at)
-      in_lanes.add_points(patch, !peak || share_line(patch, *peak), found.points);
-    return sums;
-  }
-
-  void SurfaceContact::complete(SurfaceEvaluation &found) const
-  {
-    const auto sums         = add_points_in_contact(found);
+    add_points_in_contact(peak, found);
     found.stored            = sums.stored;
     found.beyond_face       = reaches_end(found);
     found.works             = StepWork();

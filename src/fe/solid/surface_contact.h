@@ -152,7 +152,7 @@ namespace sprag
     void find_lines();
     void find_ends();
     bool share_line(unsigned int patch, unsigned int other) const;
-    StepInLanes::Sums add_points_in_contact(SurfaceEvaluation &found) const;
+    void add_points_in_contact(const std::optional<unsigned int> &peak, SurfaceEvaluation &found) const;
     RigidCylinder::Pose pose_of(const SurfacePlace &place) const;
     AxisSlopes turned_by(const dealii::Vector<double> &ports) const;
     Patches::Indices near(const SurfacePlace &place, const RigidCylinder::Pose &pose) const;
@@ -201,6 +201,7 @@ namespace sprag
     Patches::Indices looked_at_first;         ///< patches near where a step in time begins, and where it remembers a contact
     Patches::Indices looked_at;               ///< by the last evaluation
     std::vector<StepInLanes::Forces> pressed; ///< of the patches that are summed
+    std::optional<unsigned int> most_pressed; ///< the one whose springs are compressed most
     Summed summed;
 
     std::vector<unsigned int> place_of_port; ///< among those summed

@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: GPL-3.0-only
+"""The device of a result to scale as SVG, from its parameters alone; device.py draws a lever as it is meshed."""
+
+import numpy as np
+
+from apparatus import Geometry
+from study import slug
+
+FILLS = {"cylinder": "#ececec", "lever": "#d7e3ee", "layer": "#c98f4a", "hub": "#c3ccd6"}
+HUB = 10.0  # depth of the hub beyond the pivot [mm]
+
+
+def device_svg(result, parameters):
+    """Of the largest x, where x is known the worst one; of a design its best lever. None where the circle and the face do not touch."""
+
+    def number(name):
+        found = result.summary.get(slug(name))
+        return float(found) if isinstance(found, float) else parameters[name].number
+
+    try:
+        radius, offset, distance, height = (number(f"Geometry/{name}") for name in ("Cylinder radius", "Interface offset", "Pivot distance", "Pivot height"))
+        length, depth, layer = number("Lever/Length"), number("Lever/Depth"), number("Friction layer/Thickness")
+        x = next((float(v) for v in (result.summary.get(n) for n in ("largest_pressure_x", "x")) if isinstance(v, float) and np.isfinite(v)), number("Drive/Stroke"))
+    except (KeyError, TypeError):
+        return None
+    geometry = Geometry(radius, offset, np.array((distance, height)), x, height)
+    if not all(np.isfinite((radius, offset, distance, height, length, depth, layer, x, geometry.theta))):
+        return None
+    return drawn(geometry, length, depth, layer)
+
+
+def drawn(geometry, length, depth, layer):
+    back = geometry.offset + layer + depth
+    parts = [
+        circle("cylinder", (geometry.x, 0), geometry.radius, FILLS["cylinder"]),
+        circle("rest", (0, 0), geometry.radius, "none", 'stroke-dasharray="2 2" '),
+        box(geometry, "hub", -HUB, 0, 0, back),
+        box(geometry, "lever", 0, length, geometry.offset + layer, back),
+        box(geometry, "layer", 0, length, geometry.offset, geometry.offset + layer) if layer > 0 else "",
+        circle("pivot", geometry.pivot, 2.5, "white"),
+        circle("contact", geometry.contact, 1.2, "black"),
+    ]
+    corners = np.array([geometry.place(np.array(corner)) for corner in ((-HUB, 0.0), (-HUB, back), (length, geometry.offset), (length, back))])
+    low = np.minimum(corners.min(axis=0), (-geometry.radius, -geometry.radius)) - 12
+    high = np.maximum(corners.max(axis=0), (geometry.x + geometry.radius, geometry.radius)) + 12
+    size = 0.02 * (high[0] - low[0])
+    above = f"depth {depth:.4g} mm, layer {layer:.4g} mm, e = {geometry.offset:.4g} mm, \N{GREEK SMALL LETTER THETA} = {np.degrees(geometry.theta):.3g}\N{DEGREE SIGN}"
+    below = f"R = {geometry.radius:.4g} mm, l = {geometry.pivot[0]:.4g} mm, h = {geometry.pivot[1]:.4g} mm, x = {geometry.x:.4g} mm"
+    words = ((high[1] - size, above), (low[1] + 0.3 * size, below))
+    middle = 0.5 * (low[0] + high[0])
+    path = f'<line x1="{low[0]:.1f}" x2="{high[0]:.1f}" y1="0" y2="0" stroke="#888" stroke-width="0.4" stroke-dasharray="8 2 1.5 2"/>'
+    texts = "".join(f'<text x="{middle:.1f}" y="{-up:.1f}" text-anchor="middle" font-size="{size:.1f}">{text}</text>' for up, text in words)
+    view = f"{low[0]:.1f} {-high[1]:.1f} {high[0] - low[0]:.1f} {high[1] - low[1]:.1f}"
+    return f'<svg class="device" xmlns="http://www.w3.org/2000/svg" viewBox="{view}" role="img">{path}{"".join(parts)}{texts}</svg>'
+
+
+def circle(name, centre, radius, fill, more=""):
+    return f'<circle class="{name}" cx="{centre[0]:.3f}" cy="{-centre[1]:.3f}" r="{radius:.3f}" fill="{fill}" {more}stroke="#333" stroke-width="0.5"/>'
+
+
+def box(geometry, name, begin, end, low, high):
+    """A rectangle in lever axes."""
+    corners = geometry.place(np.array(((begin, low), (end, low), (end, high), (begin, high))))
+    points = " ".join(f"{x:.3f},{-y:.3f}" for x, y in corners)
+    return f'<polygon class="{name}" points="{points}" fill="{FILLS[name]}" stroke="#333" stroke-width="0.5"/>'

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: GPL-3.0-only
+#include "estimate/choice.h"
+
+#include "analysis/accuracy/sample_changes.h"
+#include "analysis/accuracy/slide_samples.h"
+#include "analysis/stability/stability.h"
+#include "base/errors.h"
+#include "fe/mesh/mesh.h"
+#include "fe/solid/static_lever.h"
+#include "report/percent.h"
+#include "scene/accuracy.h"
+#include "scene/contact_reference.h"
+#include "scene/contact_width.h"
+#include "scene/held_slide.h"
+#include "scene/lever_shape.h"
+#include "scene/scene.h"
+
+#include <boost/algorithm/string/join.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sprag
+{
+  namespace
+  {
+    constexpr double default_target = 0.01;
+    constexpr double faces_of_probe = 1.5; ///< across the contact where P is largest: both probes have the same
+    constexpr double most_faces     = 40.; ///< along the way of the contact
+    constexpr unsigned int across   = 6;   ///< elements of a probe
+    constexpr const char *pressure  = "largest_pressure";
+
+    /// How far the plane is off in a quantity.
+    struct Off
+    {
+      std::string quantity;
+      double error;
+    };
+
+    Scene with_mesh_of_probe(Scene scene)
+    {
+      const auto [from, to]       = swept_contact(scene);
+      const double width          = estimated_contact_width(scene, contact_reference(scene).P);
+      scene.mesh.face_size        = std::max({ scene.mesh.face_size, width / faces_of_probe, (to - from) / most_faces });
+      scene.mesh.faces_in_contact = 0.;
+      scene.mesh.elements_across  = std::min(scene.mesh.elements_across, across);
+      scene.analysis.dimension    = 3;
+      return scene;
+    }
+
+    std::vector<Off> off_along_drive(const Scene &scene)
+    {
+      const Scene solid = with_mesh_of_probe(scene);
+      const Scene plane = plane_of(solid);
+      const QuasiStaticSettings settings{ scene.analysis.step, scene.analysis.minimum_step, scene.contact };
+      const auto places  = places_of(scene.drive);
+      const double start = scene.drive.at(0.).x;
+      Mesh mesh;
+      make_mesh(plane, mesh);
+      const SolidBody body(solid, mesh);
+      StaticLever<3> in_space(body, solid);
+      StaticLever<2> in_plane(mesh, plane);
+      const auto rows       = repeated(in_space, places, start, settings);
+      const auto plane_rows = repeated(in_plane, places, start, settings);
+      auto quantities       = scene.accuracy.quantities;
+      if (std::find(quantities.begin(), quantities.end(), pressure) == quantities.end())
+        quantities.push_back(pressure); // is told, too
+      std::vector<Off> result;
+      for (const auto &quantity : quantities)
+        result.push_back({ quantity, relative_change(quantity, rows, plane_rows) });
+      return result;
+    }
+
+    SlideStability slide_of(Scene scene)
+    {
+      scene.analysis.type  = AnalysisType::stability; // of which a whole lever is taken
+      scene.analysis.model = ModelType::condensed;
+      DynamicsMaker maker(true, 1);
+      return judge(held_scene(scene), maker);
+    }
+
+    std::vector<Off> off_in_slide(const Scene &scene)
+    {
+      const Scene solid   = with_mesh_of_probe(scene);
+      const auto in_space = slide_of(solid);
+      const auto in_plane = slide_of(plane_of(solid));
+      std::vector<Off> result{ { "frequency", std::abs(in_plane.frequency() / in_space.frequency() - 1.) } };
+      if (scene.analysis.type == AnalysisType::stability)
+        result.push_back({ "growth_rate", std::abs(in_plane.growth_rate() / in_space.growth_rate() - 1.) });
+      if (!std::isfinite(result.front().error))
+        throw AnalysisError("Analysis/Dimension: the slide of a probe has no vibration to choose by. Give 2 or 3 instead");
+      return result;
+    }
+
+    bool is_wanted(const Scene &scene, const std::string &quantity)
+    {
+      const auto &wanted = scene.accuracy.quantities;
+      return scene.analysis.type == AnalysisType::transient || // P rings with the slide's frequency
+             std::find(wanted.begin(), wanted.end(), quantity) != wanted.end();
+    }
+  } // namespace
+
+  ChosenSetting choose_dimension(const Scene &scene)
+  {
+    const double target = scene.accuracy.target > 0. ? scene.accuracy.target : default_target;
+    const auto off      = scene.analysis.type == AnalysisType::quasi_static ? off_along_drive(scene) : off_in_slide(scene);
+    bool suffices       = true;
+    std::vector<std::string> texts;
+    for (const auto &[quantity, error] : off)
+    {
+      const bool wanted = is_wanted(scene, quantity);
+      suffices          = suffices && (!wanted || error <= target);
+      texts.push_back(percent(error) + " in " + quantity + (wanted ? "" : " (not asked for)"));
+    }
+    return { "Analysis/Dimension", suffices ? "2" : "3",
+             "the plane is off by " + boost::algorithm::join(texts, ", ") + " on the same coarse mesh, for " + percent(target) +
+                 " asked for" };
+  }
+} // namespace sprag

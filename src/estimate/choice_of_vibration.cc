@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: GPL-3.0-only
+#include "estimate/choice.h"
+
+#include "analysis/accuracy/dilation.h"
+#include "analysis/stability/stability.h"
+#include "analysis/transient/transient_settings.h"
+#include "analytic/error_estimate.h"
+#include "base/errors.h"
+#include "base/text.h"
+#include "estimate/coarser_scene.h"
+#include "report/percent.h"
+#include "results/row_statistics.h"
+#include "scene/accuracy.h"
+#include "scene/check_parts.h"
+#include "scene/contact_reference.h"
+#include "scene/contact_width.h"
+#include "scene/held_slide.h"
+#include "scene/scene.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sprag
+{
+  namespace
+  {
+    // Shares of the target that the causes of an error may use up.
+    constexpr double share_of_mesh    = 0.3;
+    constexpr double share_of_penalty = 0.2;
+    constexpr double share_of_modes   = 0.1;
+    constexpr double share_of_steps   = 0.4;
+    constexpr double share_of_model   = 0.8;
+
+    constexpr double stiffest       = 0.5; ///< penalty over the stiffest that a mesh takes
+    constexpr double faces_of_probe = 3.;  ///< across the contact where P is largest
+    constexpr double finest         = 8.;  ///< Mesh/Face size of the probe over that of a run
+
+    double difference(const SlideStability &found, const SlideStability &other, const std::vector<std::string> &quantities)
+    {
+      double result = 0.;
+      for (const auto &quantity : quantities)
+      {
+        const auto value = [&](const SlideStability &slide)
+        { return quantity == "growth_rate" ? slide.growth_rate() : slide.frequency(); };
+        result = std::max(result, std::abs(value(other) / value(found) - 1.));
+      }
+      if (!std::isfinite(result))
+        throw AnalysisError("Accuracy/Target: the slide at x = " + mm(found.slide ? found.slide->drive.x : 0.) +
+                            " has no vibration by which settings could be chosen. Give them instead");
+      return result;
+    }
+
+    std::vector<std::string> probed_quantities(const Scene &scene)
+    {
+      if (scene.analysis.type == AnalysisType::transient)
+        return { "frequency" };
+      return scene.accuracy.quantities;
+    }
+
+    /// Error of the worst quantity wanted over that of the frequency with which P rings.
+    double error_over_frequency(const Scene &scene)
+    {
+      const auto wants = [&](const std::string &quantity)
+      {
+        const auto &wanted = scene.accuracy.quantities;
+        return std::find(wanted.begin(), wanted.end(), quantity) != wanted.end();
+      };
+      const double least = wants("overshoot") ? 2. : 1.; // it goes with the square of the frequency
+      if (scene.analysis.type != AnalysisType::transient || scene.drive.reversals().empty() || !wants("P"))
+        return least;
+      const auto rows   = beam_run(scene);
+      const double turn = scene.drive.reversals().front();
+      return std::max(least, change_by_frequency(rows, turn, rows.back()[Column::time]) / largest(rows, Column::P));
+    }
+
+    Scene with_modes(Scene scene, const unsigned int modes)
+    {
+      scene.condensed.modes = modes;
+      return scene;
+    }
+  } // namespace
+
+  VibrationChoice::VibrationChoice(const Scene &given)
+      : scene(given)
+  {
+    if (!is_meshed(scene.analysis.model))
+      return;
+    const auto quantities = probed_quantities(scene);
+    const double factor   = error_over_frequency(scene);
+    DynamicsMaker maker(true, 2);
+    Scene fine          = held_scene(scene);
+    fine.analysis.model = ModelType::condensed;
+    face_size           = estimated_contact_width(scene, contact_reference(scene).P) / faces_of_probe;
+    fine.mesh.face_size = face_size;
+    const auto found    = judge(fine, maker);
+    const auto change   = [&](const Scene &other) { return factor * difference(found, judge(other, maker), quantities); };
+    penalties           = maker.make(fine).meshed.penalties;
+    penalty_error       = change(with_penalties(fine, penalties, 1. / softer)) * share_of_finer(softer, 1.);
+    for (unsigned int modes = 5; modes < fine.condensed.modes; modes *= 2)
+      mode_errors.emplace_back(modes, change(with_modes(fine, modes)));
+    mesh_error = change(with_coarser_mesh(with_penalties(fine, penalties, 1.))) * share_of_finer(coarser, order_of_forces(scene));
+    if (scene.accuracy.is_model_open)
+    {
+      Scene beam          = fine;
+      beam.analysis.model = ModelType::beam;
+      beam_error          = change(beam);
+    }
+  }
+
+  bool VibrationChoice::takes_beam(const double target) const
+  {
+    return scene.accuracy.is_model_open && beam_error <= share_of_model * target;
+  }
+
+  double VibrationChoice::add_mesh(const double target, Choice &choice) const
+  {
+    const double order = order_of_forces(scene);
+    const double ideal = face_size * std::pow(share_of_mesh * target / std::max(mesh_error, 1e-12), 1. / order);
+    const double size  = std::clamp(ideal, face_size / finest, coarser * face_size);
+    choice.error += mesh_error * std::pow(size / face_size, order);
+    choice.settings.push_back({ "Mesh/Face size", rounded_text(size),
+                                "a probe with " + rounded_text(face_size) + " mm is " + percent(mesh_error) + " off" });
+    if (ideal < size)
+      choice.limit = "Faces of " + mm(size) + " are the shortest that a probe tells of.";
+    return size;
+  }
+
+  void VibrationChoice::add_penalty(const double target, const double size, Choice &choice) const
+  {
+    Scene sized          = scene;
+    sized.mesh.face_size = size;
+    const double most    = std::max(1., stiffest * largest_penalty(sized) / penalties.normal);
+    const double wanted  = std::max(1., penalty_error / (share_of_penalty * target));
+    const double factor  = std::min(wanted, most);
+    if (factor < wanted)
+      choice.limit = "A stiffer Contact/Penalty is too stiff for this mesh.";
+    choice.error += penalty_error / factor;
+    if (factor > 1.)
+      choice.settings.push_back({ "Contact/Penalty", rounded_text(factor * penalties.normal),
+                                  "with " + rounded_text(penalties.normal) + " N/mm3 it is " + percent(penalty_error) + " off" });
+  }
+
+  void VibrationChoice::add_modes(const double target, Choice &choice) const
+  {
+    for (const auto &[modes, error] : mode_errors)
+      if (error <= share_of_modes * target)
+      {
+        choice.error += error;
+        choice.settings.push_back({ "Condensed/Modes", std::to_string(modes), percent(error) + " off a probe with more" });
+        return;
+      }
+  }
+
+  Choice VibrationChoice::meeting(const double target) const
+  {
+    Choice choice;
+    const bool beam = takes_beam(target);
+    if (scene.accuracy.is_model_open)
+      choice.settings.push_back(
+          { "Analysis/Model", beam ? "beam" : "condensed", "the beam is " + percent(beam_error) + " off a condensed probe" });
+    const bool meshed = !beam && is_meshed(scene.analysis.model);
+    if (beam)
+      choice.error = beam_error;
+    double size = scene.mesh.face_size;
+    if (meshed && is_open(scene, "Mesh/Face size") && scene.mesh.file.empty())
+      size = add_mesh(target, choice);
+    if (meshed && is_open(scene, "Contact/Penalty") && scene.mesh.file.empty())
+      add_penalty(target, size, choice);
+    if (meshed && scene.analysis.model == ModelType::condensed && is_open(scene, "Condensed/Modes"))
+      add_modes(target, choice);
+    if (scene.analysis.type == AnalysisType::transient && is_open(scene, "Time/Tolerance") && is_open(scene, "Time/Step"))
+    {
+      choice.error += share_of_steps * target;
+      choice.settings.push_back({ "Time/Tolerance", rounded_text(share_of_steps * target), "errors of P are about as large" });
+    }
+    return choice;
+  }
+} // namespace sprag

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: GPL-3.0-only
+#include "estimate/choice.h"
+
+#include "analysis/accuracy/row_spacing.h"
+#include "analysis/accuracy/sample_changes.h"
+#include "analysis/accuracy/slide_samples.h"
+#include "analytic/error_estimate.h"
+#include "base/phase_timer.h"
+#include "base/text.h"
+#include "estimate/coarser_scene.h"
+#include "estimate/expected_cost.h"
+#include "fe/mesh/mesh.h"
+#include "fe/solid/static_lever.h"
+#include "program/memory.h"
+#include "report/percent.h"
+#include "report/report.h"
+#include "scene/accuracy.h"
+#include "scene/contact_reference.h"
+#include "scene/contact_width.h"
+#include "scene/lever_shape.h"
+#include "scene/scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace sprag
+{
+  namespace
+  {
+    // Shares of the target that the causes of an error may use up.
+    constexpr double share_of_mesh            = 0.35;
+    constexpr double share_of_mesh_in_contact = 0.6; ///< of pressure and width, which rows hardly change
+    constexpr double share_of_rows            = 0.3;
+    constexpr double share_of_model           = 0.8;
+
+    constexpr double faces_of_probe         = 4.;    ///< across the contact where P is largest
+    constexpr double least_faces            = 3.;    ///< likewise, where pressure or width are wanted
+    constexpr double most_faces_of_probe    = 300.;  ///< along the way of the contact
+    constexpr double error_of_reversal      = 0.025; ///< of P and Q behind a reversal, times the square of the faces in contact
+    constexpr double share_of_reversal      = 0.6;
+    constexpr double extrapolated           = 0.8; ///< face size over a probe's, below which another probe is solved
+    constexpr unsigned int most_refinements = 2;
+    constexpr double finest                 = 16.; ///< Mesh/Face size of the probe over that of a run
+
+    double order_of(const Scene &scene, const std::string &quantity)
+    {
+      return quantity == "largest_pressure" ? order_of_pressure(scene) : order_of_forces(scene);
+    }
+
+    bool is_of_forces(const std::string &quantity)
+    {
+      return quantity == "P" || quantity == "Q" || quantity == "loop_area";
+    }
+
+    double share_for(const std::string &quantity)
+    {
+      return is_of_forces(quantity) ? share_of_mesh : share_of_mesh_in_contact;
+    }
+
+    constexpr double rows_of_probe = 30.; ///< steps of a run that cost as much as the probe and the coarser one
+
+    std::string announcement(Scene fine)
+    {
+      fine.analysis.step = (fine.drive.maximum() - fine.drive.minimum()) / rows_of_probe;
+      const auto cost    = expected_cost(fine);
+      return "Probe:        faces of " + mm(fine.mesh.face_size) + ", about " + formatted("%.2g", cost.cpu_seconds) +
+             " s of CPU time, " + formatted("%.2g", cost.bytes / 1e9) + " GB";
+    }
+
+    constexpr double largest_on_cylinder = 0.05; ///< Cylinder/Face size over its radius; a probe has twice that
+
+    std::vector<Row> probe(const Scene &scene, const std::vector<Row> &places)
+    {
+      Mesh mesh;
+      make_mesh(scene, mesh);
+      StaticLever<2> levers(mesh, scene);
+      return repeated(levers, places, scene.drive.at(0.).x, { scene.analysis.step, scene.analysis.minimum_step, scene.contact });
+    }
+
+    std::vector<Row> of_closed_form(const Scene &scene, std::vector<Row> rows)
+    {
+      for (Row &row : rows)
+      {
+        add_closed_form(scene, row);
+        row[Column::P] = row[Column::P_closed_form];
+        row[Column::Q] = row[Column::Q_closed_form];
+      }
+      return rows;
+    }
+
+    Scene with_face_size(Scene scene, const double size)
+    {
+      scene.mesh.face_size = size;
+      if (is_open(scene, "Cylinder/Face size"))
+        scene.cylinder.face_size = std::min(size, largest_on_cylinder * scene.geometry.cylinder_radius);
+      return scene;
+    }
+  } // namespace
+
+  StaticChoice::StaticChoice(const Scene &given, const Announce &announce)
+      : scene(given)
+      , enforcement_is_open(scene.contact.enforcement == Enforcement::penalty && is_open(scene, "Contact/Enforcement") &&
+                            is_open(scene, "Contact/Penalty"))
+  {
+    const double since = PhaseTimer::cpu_seconds();
+    if (enforcement_is_open)
+      scene.contact.enforcement = Enforcement::augmented_lagrangian;
+    const auto [from, to] = swept_contact(scene);
+    width                 = estimated_contact_width(scene, contact_reference(scene).P);
+    solve_probes(std::max(width / faces_of_probe, (to - from) / most_faces_of_probe));
+    const double target   = scene.accuracy.target;
+    const auto is_too_far = [&]
+    { return longest_face(target) < extrapolated * face_size && is_paid(with_budget_left(scene, since), meeting(target)); };
+    for (unsigned int i = 0; i < most_refinements && target > 0. && is_too_far(); ++i)
+    {
+      const Scene fine = with_face_size(scene, longest_face(target));
+      require_memory(fine);
+      announce(announcement(fine));
+      solve_probes(fine.mesh.face_size);
+      is_refined = true;
+    }
+  }
+
+  void StaticChoice::solve_probes(const double size)
+  {
+    face_size         = size;
+    const Scene fine  = with_face_size(scene, size);
+    const auto places = places_of(scene.drive);
+    const auto rows   = probe(fine, places);
+    const auto coarse = probe(with_coarser_mesh(fine), places);
+    const auto closed = of_closed_form(scene, rows);
+    errors.clear();
+    closed_form_errors.clear();
+    for (const auto &quantity : scene.accuracy.quantities)
+    {
+      errors.push_back(relative_change(quantity, rows, coarse) * share_of_finer(coarser, order_of(scene, quantity)));
+      closed_form_errors.push_back(is_of_forces(quantity) ? relative_change(quantity, rows, closed)
+                                                          : std::numeric_limits<double>::infinity());
+    }
+  }
+
+  double StaticChoice::longest_face(const double target) const
+  {
+    // Beyond the coarser of the first probes the contact may be narrower than a face; what a refined one found holds for itself.
+    double result = is_refined ? face_size : coarser * face_size;
+    for (std::size_t i = 0; i < errors.size(); ++i)
+    {
+      const auto &quantity = scene.accuracy.quantities[i];
+      const double share   = share_for(quantity) * target / std::max(errors[i], 1e-12);
+      if (!is_of_forces(quantity))
+        result = std::min(result, face_size * faces_of_probe / least_faces);
+      result = std::min(result, face_size * std::pow(share, 1. / order_of(scene, quantity)));
+    }
+    return std::max(result, face_size / finest);
+  }
+
+  void StaticChoice::add_mesh(const double target, Choice &choice) const
+  {
+    const auto &wanted      = scene.accuracy.quantities;
+    const bool wants_peaks  = std::count(wanted.begin(), wanted.end(), "P") + std::count(wanted.begin(), wanted.end(), "Q") > 0;
+    const bool has_reversal = wants_peaks && !scene.drive.reversals().empty();
+    const double of_probe   = longest_face(target);
+    const double longest    = std::max(face_size / finest, width * std::sqrt(share_of_reversal * target / error_of_reversal));
+    const bool is_shorter   = has_reversal && longest < of_probe;
+    const double size       = is_shorter ? longest : of_probe;
+    bool is_short_enough    = true;
+    if (has_reversal)
+      choice.error = error_of_reversal * std::pow(size / width, 2);
+    for (std::size_t i = 0; i < errors.size(); ++i)
+    {
+      const double error = errors[i] * std::pow(size / face_size, order_of(scene, wanted[i]));
+      choice.error       = std::max(choice.error, error);
+      is_short_enough    = is_short_enough && error <= 1.01 * share_for(wanted[i]) * target;
+    }
+    choice.settings.push_back(
+        { "Mesh/Face size", rounded_text(size),
+          is_shorter ? "the largest P and Q behind a reversal need " + rounded_text(width / size) + " faces in contact"
+                     : "a probe with " + rounded_text(face_size) + " mm is " +
+                           percent(*std::max_element(errors.begin(), errors.end())) + " off" });
+    if (scene.cylinder.type != CylinderType::rigid && is_open(scene, "Cylinder/Face size"))
+      choice.settings.push_back(
+          { "Cylinder/Face size", rounded_text(with_face_size(scene, size).cylinder.face_size), "as on the lever" });
+    if (!is_short_enough)
+      choice.limit = "Faces of " + mm(size) + " are the shortest that a probe tells of.";
+  }
+
+  Choice StaticChoice::meeting(const double target) const
+  {
+    const auto &wanted     = scene.accuracy.quantities;
+    const bool wants_loop  = std::count(wanted.begin(), wanted.end(), "loop_area") > 0;
+    const bool forces_only = std::all_of(wanted.begin(), wanted.end(), is_of_forces);
+    const double of_closed = *std::max_element(closed_form_errors.begin(), closed_form_errors.end());
+    const bool closed_form = scene.accuracy.is_model_open && of_closed <= share_of_model * target;
+    Choice choice;
+    if (scene.accuracy.is_model_open)
+      choice.settings.push_back({ "Analysis/Model", closed_form ? "closed form" : "finite element",
+                                  std::isfinite(of_closed) ? "the closed form is " + percent(of_closed) + " off a probe"
+                                                           : "the closed form does not tell what is wanted" });
+    if (closed_form)
+      choice.error = of_closed;
+    else if (is_open(scene, "Mesh/Face size") && scene.mesh.file.empty())
+      add_mesh(target, choice);
+    if (enforcement_is_open && !closed_form)
+      choice.settings.push_back({ "Contact/Enforcement", "augmented Lagrangian", "it leaves no error of a penalty" });
+    if (forces_only && !closed_form && is_open(scene, "Mesh/Faces in contact"))
+      choice.settings.push_back({ "Mesh/Faces in contact", "0", "no pressure is wanted" });
+    if (is_open(scene, "Analysis/Step"))
+    {
+      const double step = largest_row_spacing(scene, share_of_rows * target, wants_loop);
+      choice.settings.push_back({ "Analysis/Step", rounded_text(step), "lines between rows follow the closed form" });
+      choice.error += share_of_rows * target;
+    }
+    return choice;
+  }
+} // namespace sprag

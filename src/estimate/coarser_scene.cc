@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-only
+#include "estimate/coarser_scene.h"
+
+#include "base/errors.h"
+#include "scene/analysis_use.h"
+#include "scene/scene.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sprag
+{
+  std::vector<ErrorEstimate> estimates_or_reason(const Scene &scene, const std::vector<std::string> &quantities,
+                                                 const std::function<std::vector<ErrorEstimate>()> &estimate)
+  {
+    std::string reason;
+    try
+    {
+      if (!scene.mesh.file.empty() && needs_mesh(scene))
+        throw NoEstimate{ "a mesh from a file has no coarser one to compare with. Run a finer mesh beside it." };
+      return estimate();
+    }
+    catch (const NoEstimate &none)
+    {
+      reason = none.reason;
+    }
+    catch (const AnalysisError &error)
+    {
+      reason = "in the comparison " + std::string(error.what()) + '.';
+    }
+    catch (const InputError &error)
+    {
+      reason = "the coarser mesh cannot serve: " + std::string(error.what()) + '.';
+    }
+    std::vector<ErrorEstimate> result;
+    for (const auto &quantity : quantities)
+      result.push_back({ quantity, "", {}, "No estimate: " + reason });
+    return result;
+  }
+
+  Scene with_penalties(Scene scene, const ContactPenalties &penalties, const double share)
+  {
+    scene.contact.penalty            = share * penalties.normal;
+    scene.contact.tangential_penalty = share * penalties.tangential;
+    return scene;
+  }
+
+  Scene with_coarser_mesh(Scene scene)
+  {
+    scene.mesh.face_size *= coarser;
+    scene.mesh.faces_in_contact /= coarser;
+    scene.cylinder.face_size *= coarser;
+    const double across        = scene.mesh.elements_across / coarser;
+    scene.mesh.elements_across = std::max(1u, static_cast<unsigned int>(std::lround(across)));
+    scene.mesh.growth_across   = std::pow(scene.mesh.growth_across, coarser);
+    return scene;
+  }
+
+  double order_of_forces(const Scene &scene)
+  {
+    return scene.mesh.degree == 1 ? 1.6 : 2.;
+  }
+
+  double order_of_pressure(const Scene &scene)
+  {
+    return scene.contact.enforcement == Enforcement::augmented_lagrangian ? 2. : 3.;
+  }
+
+  ErrorPart mesh_part(const Scene &scene, const double change, const double order)
+  {
+    return { "mesh", share_of_finer(coarser, order) * change,
+             scene.mesh.degree == 1 ? "Try Mesh/Degree = 2 or a smaller Mesh/Face size."
+                                    : "Try a Mesh/Face size 0.7 times as large." };
+  }
+
+  ErrorPart penalty_part(const Scene &scene, const double change)
+  {
+    const bool has_inertia = scene.analysis.type != AnalysisType::quasi_static;
+    return { "penalty", share_of_finer(softer, 1.) * change,
+             has_inertia ? "Try twice the Contact/Penalty."
+                         : "Try twice the Contact/Penalty or Contact/Enforcement = augmented Lagrangian." };
+  }
+} // namespace sprag

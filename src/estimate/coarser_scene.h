@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-only
+#pragma once
+
+#include "analytic/error_estimate.h"
+#include "fe/contact/face_contact_point.h"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace sprag
+{
+  struct Scene;
+
+  // Scenes whose results tell the error of another's, and the parts of that error.
+
+  constexpr double softer  = 3.; ///< penalty of a run over that of its probe
+  constexpr double coarser = 2.; ///< face size of a probe over that of its run
+
+  /// Says why no error can be estimated, the end of a sentence.
+  struct NoEstimate
+  {
+    std::string reason;
+  };
+
+  /// Returns what `estimate` finds, or of all these quantities the reason why it finds none: a NoEstimate, a failure of a probe
+  /// or a coarser mesh that is refused. A mesh from a file has no coarser one.
+  std::vector<ErrorEstimate> estimates_or_reason(const Scene &scene, const std::vector<std::string> &quantities,
+                                                 const std::function<std::vector<ErrorEstimate>()> &estimate);
+
+  /// Returns the scene with `share` > 0 of given penalties in place of automatic ones.
+  Scene with_penalties(Scene scene, const ContactPenalties &penalties, double share);
+
+  /// Returns the scene on a built-in mesh with larger faces of lever and cylinder, and fewer elements across.
+  Scene with_coarser_mesh(Scene scene);
+
+  /// Returns the order in which forces and frequencies converge with the face size: 2, and 1.6 with displacements of degree 1, as
+  /// measured.
+  double order_of_forces(const Scene &scene);
+
+  /// Returns the order in which pressures do: 3, and 2 of the augmented Lagrangian, whose averaged tractions follow a narrow
+  /// contact less closely, as measured.
+  double order_of_pressure(const Scene &scene);
+
+  /// Returns the part of the mesh, from the change on with_coarser_mesh() and the order of convergence.
+  ErrorPart mesh_part(const Scene &scene, double change, double order);
+
+  /// Returns the part of the penalty, from the change with the softer one. Only runs without inertia can do without a penalty.
+  ErrorPart penalty_part(const Scene &scene, double change);
+} // namespace sprag

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: GPL-3.0-only
+#include "estimate/expected_cost.h"
+
+#include "analysis/stability/sweep.h"
+#include "analysis/study/study_points.h"
+#include "analysis/transient/transient_settings.h"
+#include "base/errors.h"
+#include "program/memory.h"
+#include "program/recorder.h"
+#include "scene/analysis_use.h"
+#include "scene/contact_reference.h"
+#include "scene/contact_width.h"
+#include "scene/held_slide.h"
+#include "scene/mirrored_pair.h"
+#include "scene/read.h"
+#include "scene/scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <optional>
+
+namespace sprag
+{
+  namespace
+  {
+    // CPU times are those measured where slowness() = 1 [s].
+    constexpr double start             = 0.2;
+    constexpr double of_static_step    = 9.;    ///< Newton iterations
+    constexpr double of_step_in_time   = 2.5;   ///< Newton iterations
+    constexpr double steps_of_reversal = 20.;   ///< without inertia, through stick
+    constexpr double usual_tolerance   = 5e-3;  ///< Time/Tolerance at which meshed levers take twice a beam's steps
+    constexpr double table_steps       = 6000.; ///< of levers under a table in a second of motion at that tolerance
+    constexpr double elastic_cylinder  = 2.;    ///< a step with one over a step without
+    constexpr double second_lever      = 2.2;   ///< the same
+
+    double parts(const Scene &scene)
+    {
+      return (scene.cylinder.type == CylinderType::rigid ? 1. : elastic_cylinder) *
+             (number_of_levers(scene) == 2 && scene.pair.type == PairType::full ? second_lever : 1.);
+    }
+
+    /// Steps that a run took; none before it.
+    using StepsTaken = std::optional<double>;
+
+    double static_steps(const Scene &scene, const StepsTaken &taken)
+    {
+      const double turns = 1. + static_cast<double>(scene.drive.reversals().size());
+      return taken.value_or(expected_rows(scene) + steps_of_reversal * turns);
+    }
+
+    /// CPU times that a run takes once and for each of its steps or slides, where slowness() = 1 [s].
+    struct Times
+    {
+      double once, each;
+    };
+
+    /// Without inertia. What a run takes once are model, stresses and told errors, in space the basis of the face and its checks.
+    Times times_without_inertia(const Scene &scene)
+    {
+      const double N       = expected_size(scene).displacements;
+      const bool is_linear = scene.lever.material == MaterialModel::linear;
+      if (scene.analysis.dimension == 3)
+        return { 2.2e-7 * std::pow(N, 1.45), is_linear ? 8e-10 * std::pow(N, 1.4) : 4e-6 * std::pow(N, 1.1) };
+      const bool is_factorised_once = is_linear && scene.analysis.solution == Solution::automatic;
+      return { 1.35e-5 * N, is_factorised_once ? 1.3e-3 + 3.5e-10 * std::pow(N, 1.45) : 2.3e-5 * N };
+    }
+
+    /// In time, or of both levers under a table. What a run takes once are the basis and, in time, fields.
+    Times times_with_inertia(const Scene &scene)
+    {
+      const bool is_table             = scene.analysis.type == AnalysisType::isolation;
+      const auto [N, n_face_unknowns] = expected_size(scene);
+      if (scene.analysis.dimension == 3)
+        return { 6.5e-7 * std::pow(N, 1.45), (is_table ? 0.2 : 1.) * 1.1e-8 * std::pow(n_face_unknowns, 1.55) };
+      if (!is_meshed(scene.analysis.model))
+        return { 0., 2e-5 };
+      const double once  = 5.5e-7 * std::pow(N, 1.5) + (is_table ? 0. : 1.2e-5 * N);
+      const double faces = estimated_contact_width(scene, contact_reference(scene).P) / scene.mesh.face_size;
+      if (scene.analysis.model == ModelType::condensed)
+        return { once, is_table ? 5e-5 + 5e-7 * faces * faces : 2.5e-4 + 7.5e-6 * faces * faces };
+      return { once, (is_table ? 2. : 1.) * 4.5e-7 * N };
+    }
+
+    /// Of held slides. What a run takes once are the basis, or in space modes and one slide, and fields.
+    Times times_of_slides(const Scene &scene)
+    {
+      const double N        = expected_size(scene).displacements;
+      const bool has_fields = scene.output.fields != FieldOutput::none;
+      if (scene.analysis.dimension == 3)
+        return { 6.5e-7 * std::pow(N, 1.45) + (has_fields ? 1.4e-5 * N : 0.), 0.03 };
+      if (!is_meshed(scene.analysis.model))
+        return { 0., 1e-3 };
+      const bool is_condensed = scene.analysis.model == ModelType::condensed;
+      const double basis      = !is_condensed ? 8.25e-7 : scene.analysis.type == AnalysisType::modal ? 2.2e-7 : 4.4e-7;
+      return { basis * std::pow(N, 1.5) + (has_fields ? 1.2 : 0.), is_condensed ? 0.03 : 6e-5 * N };
+    }
+
+    /// As many as a beam takes. The ripple of elements that pass shortens large steps most.
+    double steps_in_time(const Scene &scene)
+    {
+      constexpr double most_steps = 2e5; // that are taken by a beam to count them
+      const bool is_counted       = scene.time.tolerance > 0. && expected_rows(scene) <= most_steps;
+      const double steps = is_counted ? static_cast<double>(beam_run(scene).size()) : scene.drive.duration() / scene.time.step;
+      const bool ripples = is_meshed(scene.analysis.model) && scene.analysis.dimension == 2;
+      return steps * (ripples ? 1. + std::min(1., scene.time.tolerance / usual_tolerance) : 1.);
+    }
+
+    double steps_of_table(const Scene &scene)
+    {
+      const double tolerance = scene.time.tolerance;
+      return scene.isolation.duration *
+             (tolerance > 0. ? table_steps * std::pow(usual_tolerance / tolerance, 0.45) : 1. / scene.time.step);
+    }
+
+    /// Slides and, of meshed levers, meshes that an analysis of held ones takes.
+    struct HeldWork
+    {
+      double slides = 1., meshes = 1.;
+    };
+
+    HeldWork held_work(const Scene &scene)
+    {
+      HeldWork work;
+      if (scene.analysis.type != AnalysisType::stability)
+        return work;
+      constexpr double values_of_damping = 10., limits_of_stick = 2., between = 8.; // of a critical value
+      const double verdict = least_slides(scene);
+      work.slides          = verdict;
+      if (scene.stability.ranges == "none" && scene.stability.damping)
+        work.slides += (values_of_damping + limits_of_stick) * verdict;
+      if (scene.stability.roles)
+        work.slides += 6.;
+      for (const auto &range : critical_searches(scene).value_or(std::vector<ParameterRange>()))
+      {
+        const double values = range.points + between;
+        work.slides += values * (range.name == "Stability/Position" ? 1. : verdict);
+        if (is_meshed(scene.analysis.model) && changes_mesh(scene, range))
+          work.meshes += values;
+      }
+      return work;
+    }
+
+    void add_run(const std::function<Scene()> &scene_of_run, ExpectedCost &sum)
+    {
+      try
+      {
+        const auto run = expected_cost(scene_of_run());
+        sum.cpu_seconds += std::max(0., run.cpu_seconds - start);
+        sum.bytes   = std::max(sum.bytes, run.bytes);
+        sum.unknown = sum.unknown.empty() ? run.unknown : sum.unknown;
+      }
+      catch (const InputError &)
+      {
+        return; // a row that says so
+      }
+    }
+
+    constexpr std::size_t most_estimates = 100; ///< of a study's runs; they stand for the others
+
+    ExpectedCost of_study(const Scene &study)
+    {
+      ExpectedCost sum{ start, 0., {} };
+      const auto points        = points_of(study.study);
+      const std::size_t stride = 1 + points.size() / most_estimates;
+      for (std::size_t i = 0; i < points.size(); i += stride)
+        add_run([&] { return scene_at(study, points[i]); }, sum);
+      sum.cpu_seconds = start + static_cast<double>(stride) * (sum.cpu_seconds - start);
+      if (!study.study.reference_values.empty())
+        add_run([&] { return scene_of_reference(study); }, sum);
+      return sum;
+    }
+
+    double seconds_of(const Scene &scene, const StepsTaken &taken = {})
+    {
+      const auto sum = [&](const Times &times, const double number)
+      { return start + times.once + number * times.each * parts(scene); };
+      switch (scene.analysis.type)
+      {
+      case AnalysisType::quasi_static:
+        return sum(times_without_inertia(scene), static_steps(scene, taken));
+      case AnalysisType::transient:
+        return sum(times_with_inertia(scene), taken ? *taken : steps_in_time(scene));
+      case AnalysisType::isolation:
+        return sum(times_with_inertia(scene), steps_of_table(scene));
+      case AnalysisType::modal:
+      case AnalysisType::stability:
+      {
+        const auto times = times_of_slides(scene);
+        const auto work  = held_work(scene);
+        return sum({ work.meshes * times.once, times.each }, work.slides);
+      }
+      case AnalysisType::map: // both ways, in models that are kept from cell to cell
+        return sum({ 0., 0.2 * times_of_slides(scene).each * std::max(2., static_cast<double>(least_slides(scene))) },
+                   scene.map.first.points * scene.map.second.points);
+      default:
+        return std::numeric_limits<double>::quiet_NaN();
+      }
+    }
+  } // namespace
+
+  ExpectedCost expected_cost(const Scene &scene)
+  {
+    if (follows_formulas(scene))
+      return cost_of_formulas(scene);
+    if (scene.analysis.type == AnalysisType::study)
+      return of_study(scene);
+    ExpectedCost cost{ 0., expected_memory(scene), {} };
+    if (needs_mesh(scene) && !scene.mesh.file.empty())
+      cost.unknown = "the mesh is from a file.";
+    try
+    {
+      cost.cpu_seconds = slowness() * seconds_of(scene);
+    }
+    catch (const AnalysisError &error)
+    {
+      cost.unknown = error.what();
+    }
+    if (std::isnan(cost.cpu_seconds) && cost.unknown.empty())
+      cost.unknown = "it depends on what the run finds.";
+    return cost;
+  }
+
+  double counted_work(const Scene &scene, const std::vector<Entry> &summary)
+  {
+    const auto found =
+        std::find_if(summary.begin(), summary.end(), [](const Entry &entry) { return entry.name == "iterations"; });
+    const bool is_file = needs_mesh(scene) && !scene.mesh.file.empty();
+    if (follows_formulas(scene) || is_file)
+      return std::numeric_limits<double>::quiet_NaN();
+    const bool in_time = scene.analysis.type == AnalysisType::transient;
+    StepsTaken taken;
+    if (found != summary.end())
+      taken = std::get<double>(found->value) / (in_time ? of_step_in_time : of_static_step);
+    return seconds_of(scene, taken);
+  }
+} // namespace sprag

@@ -1,0 +1,377 @@
+// SPDX-License-Identifier: GPL-3.0-only
+#include "estimate/quasi_static_accuracy.h"
+
+#include "analysis/accuracy/sample_changes.h"
+#include "analysis/accuracy/slide_samples.h"
+#include "base/append.h"
+#include "base/errors.h"
+#include "base/text.h"
+#include "estimate/coarser_scene.h"
+#include "estimate/quasi_static_accuracy.h"
+#include "fe/mesh/mesh.h"
+#include "report/peak_report.h"
+#include "results/row_statistics.h"
+#include "scene/closed_form.h"
+#include "scene/contact_reference.h"
+#include "scene/scene.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sprag
+{
+  namespace
+  {
+    constexpr double way_of_difference = 1e-3; ///< to both sides, over the cylinder's radius
+
+    /// Angular acceleration of the ideal lever [rad/s^2]; 0 where the drive turns near by, or begins or ends.
+    double angular_acceleration(const Scene &scene, const double time)
+    {
+      const auto &drive = scene.drive;
+      const auto at     = drive.at(time);
+      const double span = way_of_difference * scene.geometry.cylinder_radius / std::abs(at.v);
+      if (time < span || time + span > drive.duration())
+        return 0.;
+      const auto before = drive.at(time - span), after = drive.at(time + span);
+      const bool turns = direction_of(before.v) != direction_of(at.v) || direction_of(after.v) != direction_of(at.v);
+      if (turns || std::max({ before.x, at.x, after.x }) >= pivot_contact(scene.geometry))
+        return 0.;
+      const auto theta = [&](const DrivePoint &point) { return kinematics(scene.geometry, point.x).theta; };
+      return (theta(before) - 2. * theta(at) + theta(after)) / (span * span);
+    }
+  } // namespace
+
+  double left_out_inertia(const Scene &scene, const std::vector<Row> &rows)
+  {
+    const double J = moment_of_inertia(scene);
+    double change  = 0.;
+    for (const Row &row : rows)
+      if (row[Column::v] != 0. && row[Column::P] > 0.)
+      {
+        const auto ideal = closed_form(scene, row[Column::x], row[Column::v]);
+        const double moment =
+            ideal.P * (ideal.contact.s + direction_of(row[Column::v]) * ideal.mu * scene.geometry.interface_offset);
+        change = std::max(change, std::abs(J * angular_acceleration(scene, row[Column::time]) / moment) * row[Column::P]);
+      }
+    return change / largest(rows, Column::P);
+  }
+
+  namespace
+  {
+    constexpr double near_peak = 0.5;  ///< stress of the states that count, over the largest
+    constexpr double near_edge = 0.85; ///< stress at the contact's edge over the largest, from which a finer mesh finds it there
+  }                                    // namespace
+
+  StressComparison::StressComparison(const StaticLever<2> &other, const std::vector<StressSample> &run)
+      : model(other)
+      , samples(run)
+      , fields(model.body())
+  {
+  }
+
+  void StressComparison::look_at(const State &state, const Row &row)
+  {
+    const auto of_run =
+        std::find_if(samples.begin(), samples.end(), [&](const StressSample &sample) { return sample.time == state.drive.time; });
+    if (of_run == samples.end())
+      return;
+    StressSample found;
+    for (const auto &displacement : model.body_displacements(state.coordinates, state.forces))
+      sprag::look_at(fields, fields.at(displacement), row, found);
+    pairs.push_back({ *of_run, found });
+  }
+
+  std::optional<StressChanges> StressComparison::changes() const
+  {
+    const auto change = [&](double StressSample::*const part)
+    {
+      const double peak = largest(pairs, [&](const Pair &pair) { return pair.run.*part; });
+      double result     = 0.;
+      for (const auto &[run, other] : pairs)
+        if (run.*part >= near_peak * peak)
+          result = std::max(result, std::abs(other.*part - run.*part));
+      return peak > 0. ? result / peak : 0.;
+    };
+    if (pairs.empty())
+      return {};
+    const auto peak =
+        std::max_element(pairs.begin(), pairs.end(), [](const Pair &a, const Pair &b) { return a.run.layer < b.run.layer; });
+    return StressChanges{ change(&StressSample::lever), change(&StressSample::layer),
+                          peak->run.layer_edge > near_edge * peak->run.layer };
+  }
+
+  std::vector<double> times_of(const std::vector<StressSample> &samples)
+  {
+    std::vector<double> times;
+    for (const auto &sample : samples)
+      times.push_back(sample.time);
+    return times;
+  }
+
+  namespace
+  {
+    constexpr unsigned int samples_of_stroke = 6, samples_in_space = 3;
+
+    std::vector<Row> rows_at(const std::vector<double> &times, const std::vector<Row> &rows)
+    {
+      std::vector<Row> result;
+      for (const Row &row : rows)
+        if (std::find(times.begin(), times.end(), row[Column::time]) != times.end())
+          result.push_back(row);
+      return result;
+    }
+
+    std::vector<double> times_of(const std::vector<Row> &rows)
+    {
+      std::vector<double> result;
+      for (const Row &row : rows)
+        result.push_back(row[Column::time]);
+      return result;
+    }
+
+    /// Sets the samples of a run, and returns them with the rows of its passage through stick between.
+    std::vector<Row> choose_rows(const std::vector<Row> &rows, const unsigned int of_stroke, const std::vector<double> &times,
+                                 Probes &probes)
+    {
+      probes.run     = slide_samples(rows, of_stroke, times);
+      probes.passage = passage_rows(rows);
+      auto chosen    = times_of(probes.run);
+      append(chosen, times_of(probes.passage));
+      return rows_at(chosen, rows);
+    }
+
+    void set_coarse(const std::vector<Row> &rows, Probes &probes)
+    {
+      probes.coarse         = rows_at(times_of(probes.run), rows);
+      probes.coarse_passage = rows_at(times_of(probes.passage), rows);
+    }
+
+    void set_soft(const std::vector<Row> &rows, Probes &probes)
+    {
+      probes.soft         = rows_at(times_of(probes.run), rows);
+      probes.soft_passage = rows_at(times_of(probes.passage), rows);
+    }
+
+    /// Gives a model its own penalties back.
+    template <class Levers>
+    struct OwnPenalties
+    {
+      Levers &levers;
+      const ContactPenalties penalties = levers.penalties();
+
+      ~OwnPenalties()
+      {
+        levers.use_penalties(penalties);
+      }
+    };
+
+    /// The samples in the run's own model with a softer penalty, where that says anything.
+    template <class Levers>
+    std::vector<Row> with_softer_penalty(const Scene &scene, Levers &levers, const std::vector<Row> &samples, const double start,
+                                         const QuasiStaticSettings &settings)
+    {
+      const bool augments = scene.contact.enforcement == Enforcement::augmented_lagrangian;
+      if (augments && !scene.contact.tangential_penalty)
+        return {};
+      const OwnPenalties<Levers> own{ levers };
+      const auto &penalties = own.penalties;
+      levers.use_penalties({ augments ? penalties.normal : penalties.normal / softer, penalties.tangential / softer });
+      return repeated(levers, samples, start, settings);
+    }
+  } // namespace
+
+  Probes plane_probes(const Scene &scene, StaticLever<2> &levers, const std::vector<Row> &rows,
+                      const QuasiStaticSettings &settings, const std::vector<StressSample> &stresses)
+  {
+    Probes result;
+    const auto times   = times_of(stresses);
+    const double start = rows.front()[Column::x];
+    const auto chosen  = choose_rows(rows, samples_of_stroke, times, result);
+    Mesh mesh;
+    const Scene coarse = with_coarser_mesh(with_penalties(scene, levers.penalties(), 1.));
+    make_mesh(coarse, mesh);
+    StaticLever<2> on_coarse(mesh, coarse);
+    StressComparison stress(on_coarse, stresses);
+    set_coarse(repeated(on_coarse, chosen, start, settings,
+                        [&](const State &state, const Row &row, const Evaluation &) { stress.look_at(state, row); }),
+               result);
+    result.stress = stress.changes();
+    result.pressure_with_stress =
+        result.stress ? relative_change("largest_pressure", rows_at(times, result.run), rows_at(times, result.coarse)) : 0.;
+    set_soft(with_softer_penalty(scene, levers, chosen, start, settings), result);
+    return result;
+  }
+
+  Probes solid_probes(const Scene &scene, SolidBody &body, StaticLever<3> &lever, const std::vector<Row> &rows,
+                      const QuasiStaticSettings &settings)
+  {
+    Probes result;
+    const double start = rows.front()[Column::x];
+    const auto chosen  = choose_rows(rows, samples_in_space, {}, result);
+    set_soft(with_softer_penalty(scene, lever, chosen, start, settings), result);
+    body.release_factors(); // before there are others
+    Mesh mesh;
+    const Scene coarse = with_coarser_mesh(with_penalties(scene, lever.penalties(), 1.));
+    make_mesh(coarse, mesh);
+    const SolidBody coarse_body(coarse, mesh);
+    StaticLever<3> on_coarse(coarse_body, coarse);
+    set_coarse(repeated(on_coarse, chosen, start, settings), result);
+    return result;
+  }
+
+  namespace
+  {
+    bool augments(const Scene &scene)
+    {
+      return scene.contact.enforcement == Enforcement::augmented_lagrangian;
+    }
+
+    constexpr double least_faces_of_reversal = 4.;
+
+    /// Width of the contact where its pressure is largest, in faces.
+    double faces_in_contact(const Scene &scene, const std::vector<Row> &samples)
+    {
+      const auto *const row = row_of_largest(samples, [](const Row &sample) { return sample[Column::largest_pressure]; });
+      return row == nullptr ? 0. : (*row)[Column::contact_width] / scene.mesh.face_size;
+    }
+
+    /// Adds what the largest P or Q, which may lie in the passage through stick behind a reversal, are off beyond the parts in
+    /// full sliding.
+    void add_reversal(const Scene &scene, const Probes &probes, ErrorEstimate &estimate)
+    {
+      // A narrower contact does not converge with the order of forces yet.
+      const bool is_narrow = faces_in_contact(scene, probes.run) < least_faces_of_reversal;
+      const double order   = is_narrow ? 1. : order_of_forces(scene);
+      const auto change    = [&](const std::vector<Row> &other)
+      { return other.empty() ? 0. : change_of_peak(estimate.quantity, probes.passage, other); };
+      auto part  = mesh_part(scene, change(probes.coarse_passage), order);
+      part.value = part.value + penalty_part(scene, change(probes.soft_passage)).value - total_error(estimate);
+      part.name  = "reversal";
+      if (part.value > 0.)
+        estimate.parts.push_back(part);
+    }
+
+    ErrorEstimate estimate(const Scene &scene, const Probes &probes, const std::string &quantity, const std::string &relative_to)
+    {
+      const auto change  = [&](const std::vector<Row> &other) { return relative_change(quantity, probes.run, other); };
+      const double order = quantity == "largest_pressure" ? order_of_pressure(scene) : order_of_forces(scene);
+      ErrorEstimate result{ quantity, relative_to, { mesh_part(scene, change(probes.coarse), order) }, {} };
+      if (!probes.soft.empty())
+        result.parts.push_back(penalty_part(scene, change(probes.soft)));
+      if (!probes.soft.empty() && augments(scene))
+        result.parts.back().remedy = "Try twice the Contact/Tangential penalty, or leave it at auto.";
+      add_reversal(scene, probes, result);
+      return result;
+    }
+
+    /// Of strokes that are one step: as of a parabola that is level at one of its ends.
+    double error_of_lone_steps(const std::vector<Row> &rows)
+    {
+      const auto turns_at = [&](const std::size_t i)
+      { return i == 0 || i + 1 == rows.size() || direction_of(rows[i][Column::v]) != direction_of(rows[i + 1][Column::v]); };
+      double error = 0.;
+      for (std::size_t i = 1; i < rows.size(); ++i)
+        if (turns_at(i - 1) && turns_at(i))
+          error +=
+              std::abs((rows[i].drive_force() - rows[i - 1].drive_force()) * (rows[i][Column::x] - rows[i - 1][Column::x])) / 6.;
+      return error;
+    }
+
+    /// What the trapezoidal rule adds to the work, by Richardson from steps taken two at a time.
+    double error_of_trapezoids(const std::vector<Row> &rows)
+    {
+      double error = error_of_lone_steps(rows);
+      for (std::size_t i = 2; i < rows.size(); i += 2)
+      {
+        const std::vector<Row> both = { rows[i - 2], rows[i - 1], rows[i] };
+        if (direction_of(both[0][Column::v]) == direction_of(both[2][Column::v]))
+          error += (work_of_drive({ both[0], both[2] }) - work_of_drive(both)) / 3.;
+      }
+      return error;
+    }
+
+    constexpr double least_loop = 1e-3; ///< over the largest work on the way; less is left of it without friction
+
+    ErrorEstimate loop_area(const Scene &scene, const Probes &probes, const std::vector<Row> &rows)
+    {
+      if (std::abs(rows.back()[Column::drive_work]) < least_loop * largest(rows, Column::drive_work))
+        return { "loop_area", "", {}, "No estimate: what is left of the drive's work is a difference of much larger ones." };
+      auto result = estimate(scene, probes, "loop_area", "it");
+      result.parts.push_back({ "step", std::abs(error_of_trapezoids(rows) / rows.back()[Column::drive_work]),
+                               "Try an Analysis/Step 0.7 times as large." });
+      return result;
+    }
+
+    ErrorEstimate largest_stress(const Scene &scene, const Probes &probes)
+    {
+      if (!probes.stress)
+        return { "largest_stress", "", {}, "No estimate: no stress was found in a state in which the whole contact slides." };
+      if (probes.stress->is_at_edge)
+        return { "largest_stress",
+                 "",
+                 {},
+                 "No estimate: in the layer the stress rises to a cusp where the contact ends; a finer mesh finds more of it." };
+      auto lever  = mesh_part(scene, probes.stress->lever, order_of_forces(scene));
+      auto layer  = mesh_part(scene, probes.stress->layer, scene.mesh.degree);
+      layer.value = std::max(layer.value, mesh_part(scene, probes.pressure_with_stress, order_of_pressure(scene)).value);
+      lever.name  = "mesh_of_lever";
+      layer.name  = "mesh_of_layer";
+      ErrorEstimate result{ "largest_stress", "that of the lever or of the layer", { lever, layer }, {} };
+      if (!probes.soft.empty())
+        result.parts.push_back(penalty_part(scene, relative_change("largest_pressure", probes.run, probes.soft)));
+      return result;
+    }
+
+    /// Adds the scatter of the rows, where it is more than what the mesh is told to change.
+    ErrorEstimate with_scatter(ErrorEstimate estimate, const double scatter)
+    {
+      estimate.parts.front().value = std::max(estimate.parts.front().value, scatter);
+      return estimate;
+    }
+
+    constexpr double follows_pressure = 0.05; ///< error of the largest pressure to which a mesh follows it, see peak_report.h
+
+    ErrorEstimate unless_narrow(ErrorEstimate estimate, const double faces, const bool is_followed)
+    {
+      if (is_followed)
+        return estimate;
+      return { estimate.quantity,
+               "",
+               {},
+               "No estimate: the contact is only " + rounded_text(faces) + " faces wide. Try a smaller Mesh/Face size." };
+    }
+  } // namespace
+
+  std::vector<ErrorEstimate> quasi_static_accuracy(const Scene &scene, const std::vector<Row> &rows,
+                                                   const std::function<Probes()> &probe)
+  {
+    const auto estimate_all = [&]
+    {
+      const Probes probes = probe();
+      if (probes.run.size() < 2)
+        throw NoEstimate{ "there are no two states in which the whole contact slides." };
+      const double faces       = faces_in_contact(scene, probes.run);
+      const bool forces_follow = faces > 1.;
+      const bool all_follows   = expected_pressure_error(faces, scene.mesh.degree) <= follows_pressure;
+      const double scatter     = smoothed_largest_pressure(rows, scene.mesh.face_size).scatter;
+      const auto told          = [&](const std::string &quantity, const std::string &relative_to, const bool is_followed)
+      {
+        const double least = quantity == "largest_pressure" ? scatter : 0.;
+        return unless_narrow(with_scatter(estimate(scene, probes, quantity, relative_to), least), faces, is_followed);
+      };
+      std::vector<ErrorEstimate> result = { told("P", "its peak", forces_follow),
+                                            told("Q", "its peak", forces_follow),
+                                            unless_narrow(loop_area(scene, probes, rows), faces, forces_follow),
+                                            told("largest_pressure", "it", all_follows),
+                                            told("contact_width", "the largest one", all_follows),
+                                            unless_narrow(largest_stress(scene, probes), faces, all_follows) };
+      const double inertia              = left_out_inertia(scene, rows);
+      for (auto &estimate : result)
+        if (estimate.quantity == "P" && !estimate.parts.empty())
+          estimate.left_out = { { "inertia", inertia, "Analysis/Type = transient has it." } };
+      return result;
+    };
+    return estimates_or_reason(scene, { "P", "Q", "loop_area", "largest_pressure", "contact_width", "largest_stress" },
+                               estimate_all);
+  }
+} // namespace sprag

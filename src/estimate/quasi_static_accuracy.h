@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-only
+#pragma once
+
+#include "analysis/statics/quasi_static.h"
+#include "analytic/error_estimate.h"
+#include "estimate/stress_sample.h"
+#include "fe/solid/static_lever.h"
+#include "results/columns.h"
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace sprag
+{
+  struct Scene;
+
+  /// Returns how far the inertia of the levers changes P while they follow the drive, over the largest P of the rows: by the
+  /// closed form J d^2(th)/dt^2 over the spring's moment (eq. 5 of the paper). The vibrations behind sudden reversals and at the
+  /// start are none of it.
+  double left_out_inertia(const Scene &scene, const std::vector<Row> &rows);
+
+  /// Relative changes of the largest stress in lever and layer between two models.
+  struct StressChanges
+  {
+    double lever;
+    double layer;
+    bool is_at_edge; ///< whether the layer's is all but reached where the contact ends, see StressSample
+  };
+
+  /// Compares the largest stresses that a run found with those of another model in the same states.
+  class StressComparison
+  {
+  public:
+    /// The model must outlive the object.
+    StressComparison(const StaticLever<2> &other, const std::vector<StressSample> &run);
+
+    /// Looks at a state of the other model.
+    void look_at(const State &state, const Row &row);
+
+    /// Returns the largest changes over the states with at least half the largest stress, over that one: a single place may lie
+    /// well by chance. None where no state of the run was looked at.
+    std::optional<StressChanges> changes() const;
+
+  private:
+    struct Pair
+    {
+      StressSample run;
+      StressSample other;
+    };
+
+    const StaticLever<2> &model;
+    const std::vector<StressSample> samples;
+    const BodyFields fields;
+    std::vector<Pair> pairs;
+  };
+
+  /// Returns the times of states [s].
+  std::vector<double> times_of(const std::vector<StressSample> &samples);
+
+  /// Some states of a run in full sliding, and what other models make of them in single steps from one to the next.
+  struct Probes
+  {
+    std::vector<Row> run;
+    std::vector<Row> coarse;  ///< on a mesh of twice the Mesh/Face size with the same penalty, in space of twice the width too
+    std::vector<Row> soft;    ///< on the run's mesh with a third of the penalty; empty where the run augments and has the
+                              ///< automatic tangential one
+    std::vector<Row> passage; ///< passage_rows() of the run
+    std::vector<Row> coarse_passage;       ///< the same rows on the coarser mesh
+    std::vector<Row> soft_passage;         ///< and with the softer penalty
+    std::optional<StressChanges> stress{}; ///< on the coarser mesh
+    double pressure_with_stress = 0.;      ///< change of the pressure there in the states whose stress is known
+  };
+
+  /// `levers` is the run's model; it is left with its own penalties. `stresses` are those of the run.
+  Probes plane_probes(const Scene &scene, StaticLever<2> &levers, const std::vector<Row> &rows,
+                      const QuasiStaticSettings &settings, const std::vector<StressSample> &stresses);
+
+  /// The same of a lever in three dimensions, without stresses. The first rank makes the coarser one alone, when the body's own
+  /// factors are given back.
+  Probes solid_probes(const Scene &scene, SolidBody &body, StaticLever<3> &lever, const std::vector<Row> &rows,
+                      const QuasiStaticSettings &settings);
+
+  /// Estimates the errors of a finished run without inertia, of P, Q, loop_area, largest_pressure, contact_width and
+  /// largest_stress.
+  ///
+  /// A few states of the run in full sliding are solved again by other models, which `probe` makes. What changes tells the run's
+  /// own error by Richardson: forces converge with the second power of the size, degree 1 with the power 1.6, pressures with the
+  /// third, all with the first power of 1/penalty. The loop area's part of the step is that of the trapezoidal rule, from every
+  /// other row. Stresses are compared in the states whose fields were found and converge with the power of the size that the
+  /// degree is; those of the layer are told to be no better than the pressure on it is there. The largest P and Q behind a
+  /// reversal are compared over the rows of the passage through stick, and the largest pressure is told to be no better than the
+  /// rows scatter. The lever's inertia, which such a
+  /// run leaves out, is told apart, by the closed form: J d^2(th)/dt^2 over the spring's moment.
+  std::vector<ErrorEstimate> quasi_static_accuracy(const Scene &scene, const std::vector<Row> &rows,
+                                                   const std::function<Probes()> &probe);
+} // namespace sprag

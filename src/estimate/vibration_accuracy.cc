@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-only
+#include "estimate/vibration_accuracy.h"
+
+#include "estimate/coarser_scene.h"
+#include "estimate/vibration_accuracy.h"
+#include "scene/held_slide.h"
+#include "scene/scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace sprag
+{
+  namespace
+  {
+    /// By how much of a face the slide is moved to see how far its place between the nodes changes it.
+    constexpr double shares_of_face[] = { 0.25, 0.5, 0.75 };
+
+    /// Modes that a lever with one alone is compared with.
+    constexpr unsigned int several_modes = 4;
+  } // namespace
+
+  SlideProbes probe_slide(const Scene &scene, const ContactPenalties &penalties, DynamicsMaker &maker)
+  {
+    SlideProbes result;
+    result.soft = judge(with_penalties(scene, penalties, 1. / softer), maker);
+    {
+      const Scene held    = held_scene(scene);
+      const auto dynamics = maker.make(held);
+      for (const double share : shares_of_face)
+      {
+        DrivePoint drive  = held_drive(scene);
+        const double away = share * scene.mesh.face_size;
+        drive.x += drive.x - away > scene.drive.minimum() ? -away : away;
+        if (auto slide = judge(dynamics.model(), drive, held.stability.modes); slide.slide)
+          result.elsewhere.push_back(std::move(slide));
+      }
+    }
+    Scene coarse = with_coarser_mesh(with_penalties(scene, penalties, 1.));
+    if (scene.analysis.model == ModelType::condensed && scene.condensed.modes > 1)
+    {
+      coarse.condensed.modes = scene.condensed.modes / 2;
+      const auto dynamics    = maker.make_with_modes(scene, coarse.condensed.modes);
+      result.other_modes     = judge(dynamics.model(), held_drive(scene), scene.stability.modes);
+    }
+    else if (scene.analysis.model == ModelType::condensed)
+    {
+      coarse.condensed.modes = several_modes;
+      Scene more             = scene;
+      more.condensed.modes   = several_modes;
+      DynamicsMaker of_more;
+      result.other_modes = judge(more, of_more);
+    }
+    DynamicsMaker of_coarse;
+    result.coarse = judge(coarse, of_coarse);
+    return result;
+  }
+
+  std::vector<ErrorPart> parts_of_slide(const Scene &scene, const SlideStability &found, const SlideProbes &probes,
+                                        const std::function<double(const SlideStability &)> &value)
+  {
+    const auto difference = [&](const SlideStability &a, const SlideStability &b)
+    { return std::abs((value(a) - value(b)) / value(found)); };
+    const auto &on_mesh = probes.other_modes ? *probes.other_modes : found;
+    ErrorPart mesh      = mesh_part(scene, difference(probes.coarse, on_mesh), order_of_forces(scene));
+    double least = value(found), most = value(found);
+    for (const auto &slide : probes.elsewhere)
+    {
+      least = std::fmin(least, value(slide)); // passes over places without a slide
+      most  = std::fmax(most, value(slide));
+    }
+    mesh.value                   = std::max(mesh.value, (most - least) / std::abs(value(found)));
+    std::vector<ErrorPart> parts = { mesh, penalty_part(scene, difference(probes.soft, found)) };
+    if (probes.other_modes)
+      parts.push_back({ "modes", difference(*probes.other_modes, found), "Try twice the Condensed/Modes." });
+    return parts;
+  }
+
+  std::vector<ErrorEstimate> vibration_accuracy(const Scene &scene, const SlideStability &found, const MeshedDynamics &dynamics,
+                                                DynamicsMaker &maker)
+  {
+    if (!is_meshed(scene.analysis.model))
+      return {};
+    const auto estimate = [&]
+    {
+      if (!(found.frequency() > 0.))
+        throw NoEstimate{ "the mode that grows most does not oscillate." };
+      const auto probes = probe_slide(scene, dynamics.penalties, maker);
+      if (!(probes.coarse.frequency() > 0.) || !(probes.soft.frequency() > 0.))
+        throw NoEstimate{ "on a coarser mesh or with a softer penalty the mode that grows most does not oscillate." };
+      const auto parts = [&](const auto &value) { return parts_of_slide(scene, found, probes, value); };
+      return std::vector<ErrorEstimate>{
+        { "growth_rate",
+          "it, and beyond 100 % the verdict may flip",
+          parts([](const SlideStability &slide) { return slide.growth_rate(); }),
+          {} },
+        { "frequency", "it", parts([](const SlideStability &slide) { return slide.frequency(); }), {} }
+      };
+    };
+    return estimates_or_reason(scene, { "growth_rate", "frequency" }, estimate);
+  }
+} // namespace sprag

@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: GPL-3.0-only
+"""The Python package runs scenes, reads results and tells errors; run with /usr/bin/python3."""
+
+import gc
+import importlib.util
+import os
+import sys
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+
+from pictures import SOURCE, FolderTest  # noqa: E402
+from test_plot import make_run  # noqa: E402
+import sprag  # noqa: E402
+
+SCENES = Path(os.environ.get("SPRAG_SOURCE", SOURCE)) / "params"
+COARSE = {"Mesh/Face size": 2, "Analysis/Step": 4}
+
+
+class PackageTest(FolderTest):
+    def test_a_run_with_changes(self):
+        result = sprag.run(SCENES / "closed-form-a.prm", {"Drive/Stroke": 40})
+        x, Q = result.table["x"], result.table["Q"]
+        self.assertEqual((x.max(), x.unit, Q.unit, result.summary["slope_forward"].unit), (40, "mm", "N", "N/mm"))
+        self.assertIn("x-force", Q.description)
+        # The slope at x = 0 is that of the column there.
+        self.assertAlmostEqual(Q[1] / x[1] / result.summary["slope_forward"], 1, delta=0.02)
+        self.assertEqual(type(Q * x), np.ndarray)
+        self.assertEqual(Q[3:5].unit, "N")
+
+    def test_a_temporary_folder_goes_with_its_result(self):
+        result = sprag.run(SCENES / "closed-form-a.prm")
+        folder = result.folder
+        self.assertTrue(folder.is_dir())
+        del result
+        gc.collect()
+        self.assertFalse(folder.exists())
+
+    def test_face_and_fields(self):
+        result = sprag.run(SCENES / "model-a.prm", COARSE, output=self.folder / "a")
+        for way, sign in (("forward", 1), ("backward", -1)):
+            face = result.face(40, way)
+            row = np.abs(result.table["time"] - face.time).argmin()
+            self.assertLess(abs(face.x - 40), 4)
+            self.assertEqual(result.ways[row], sign)
+            # The pressure carries P over the width of the lever.
+            force = np.sum(face.pressure * result.friction_face.weight)
+            self.assertAlmostEqual(force, result.table["normal_resultant"][row], delta=1e-3 * force)
+            self.assertEqual(np.sign(face.traction.sum()), sign)
+        self.assertEqual((face.pressure.unit, face.xi.unit), ("MPa", "mm"))
+        fields = result.fields(len(result.frames) - 1)
+        self.assertEqual(len(fields["nodes"]), len(fields["von_mises_stress"]))
+        self.assertEqual((fields["nodes"].unit, fields["von_mises_stress"].unit), ("mm", "MPa"))
+        with self.assertRaisesRegex(sprag.NotAResult, "no number 99"):
+            result.fields(99)
+
+    def test_a_sweep(self):
+        result = sprag.sweep(SCENES / "closed-form-a.prm", {"Geometry/Interface offset": [20, 30], "Friction/Factor": [0.9, 1]})
+        self.assertEqual(len(result.table["run"]), 4)
+        one = sprag.run(SCENES / "closed-form-a.prm", {"Geometry/Interface offset": 30, "Friction/Factor": 0.9})
+        chosen = (result.table["geometry_interface_offset"] == 30) & (result.table["friction_factor"] == 0.9)
+        self.assertAlmostEqual(result.table["loop_area"][chosen][0], one.summary["loop_area"], delta=1e-9 * one.summary["loop_area"])
+
+    def test_errors_of_the_program(self):
+        with self.assertRaises(sprag.Refused) as caught:
+            sprag.run(SCENES / "closed-form-a.prm", {"Drive/Stroek": 40})
+        self.assertIn("Stroke", str(caught.exception))
+        # The stroke goes beyond the pivot: the analysis itself refuses or fails, and says why.
+        with self.assertRaisesRegex(sprag.RunFailed, "Drive/Stroke"):
+            sprag.run(SCENES / "closed-form-a.prm", {"Drive/Stroke": 1000})
+        with self.assertRaisesRegex(sprag.NotAResult, "no result.h5"):
+            sprag.read(self.folder)
+
+    def test_no_face(self):
+        result = sprag.run(SCENES / "closed-form-a.prm")
+        with self.assertRaisesRegex(sprag.NotAResult, "no friction face"):
+            result.face(10)
+
+    @unittest.skipUnless(importlib.util.find_spec("pandas"), "pandas is not installed")
+    def test_pandas(self):
+        make_run(self.folder / "a")
+        frame = sprag.read(self.folder / "a").to_pandas()
+        self.assertEqual((len(frame), frame.attrs["units"]["Q"], frame["x"].max()), (22, "N", 10))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,122 @@
+# SPDX-License-Identifier: GPL-3.0-only
+"""Reports: what stands in them, that they load nothing and run nothing of a stranger's file; run with /usr/bin/python3."""
+
+import base64
+import re
+import sys
+import unittest
+from html.parser import HTMLParser
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+
+from pictures import PictureTest  # noqa: E402
+import sketch  # noqa: E402
+from apparatus import Geometry  # noqa: E402
+from sprag import parameters  # noqa: E402
+from test_plot import fill_run, finish, make_run, new_file, put  # noqa: E402
+
+HOSTILE = "<script>alert(1)</script><img src=http://example.org/x onerror=alert(1)>"
+LISTING = """subsection Analysis
+  set Type = quasi-static
+end
+subsection Lever
+  # Of the metal [mm]: a number > 0.
+  set Depth = 12  # default: 20
+  set Width = 40.0  # default: 40
+end
+"""
+
+
+class Page(HTMLParser):
+    """Tags with their attributes, and the text."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.tags, self.words = [], []
+        self.feed(text)
+
+    def handle_starttag(self, tag, attributes):
+        self.tags.append((tag, dict(attributes)))
+
+    def handle_data(self, data):
+        self.words.append(data)
+
+
+class ReportTest(PictureTest):
+    def result(self, name, listing=LISTING, warning=None):
+        file = new_file(self.folder / name)
+        del file["parameters"]
+        file["parameters"] = listing
+        fill_run(file, np.concatenate((np.arange(0.0, 11), np.arange(10.0, -1, -1))))
+        put(file.require_group("accuracy"), "P", 0.0123, "1")
+        if warning:
+            put(file.require_group("warnings"), "hostile", warning, "")
+            file["warnings/hostile"].attrs["remedy"] = f"remedy {warning}"
+        put(file.require_group("summary"), "status", "completed", "")
+        put(file.require_group("meta"), "version", "0.1.0 (abc)", "")
+        finish(file, peak_P_forward=14.624, peak_P_backward=25.417, loop_area=661.28)
+        return self.folder / name
+
+    def report(self, *folders):
+        done = self.plot("--report", *folders)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        path = self.pictures / "report.html"
+        self.assertEqual(done.stdout.splitlines()[-1], str(path))
+        text = path.read_text(encoding="utf-8")
+        return Page(text), " ".join(re.sub(r"<[^>]*>", " ", text).split())
+
+    def test_of_one_run(self):
+        page, words = self.report(self.result("a"))
+        for said in ("reaches 14.62 N/mm forward", "25.42", "\N{PLUS-MINUS SIGN} 1.2 %", "Completed, no warnings.", "0.1.0 (abc)", "Lever/Depth 12 mm 20"):
+            self.assertIn(said, words)
+        self.assertNotIn("Lever/Width", words)
+        scene = next(data for data in page.words if "subsection" in data)
+        self.assertEqual({name: value.text for name, value in parameters.parse(scene).items()}, {"Lever/Depth": "12"})
+        pictures = [attributes["src"] for tag, attributes in page.tags if tag == "img"]
+        self.assertEqual(len(pictures), 2)  # forces and contact
+        for source in pictures:
+            self.assertTrue(base64.b64decode(source.removeprefix("data:image/png;base64,")).startswith(b"\x89PNG"))
+
+    def test_of_several(self):
+        page, words = self.report(self.result("a"), self.result("b", LISTING.replace("12", "16")))
+        self.assertIn("Comparison of 2 results", words)
+        self.assertIn("Lever/Depth 12 mm 16 mm", words)
+
+    def test_nothing_is_loaded_or_run(self):
+        hostile = LISTING.replace("= 12 ", f"= {HOSTILE} ") + "subsection Friction\n  set Law = </pre><script>alert(2)</script>  # default: Coulomb\nend\n"
+        page, words = self.report(self.result("a", hostile, HOSTILE))
+        self.assertIn("alert(1)", " ".join(page.words))  # it is shown
+        self.assertFalse({"script", "iframe", "object", "link", "a"} & {tag for tag, _ in page.tags})
+        for tag, attributes in page.tags:
+            self.assertFalse([name for name in attributes if name.startswith("on")])
+            self.assertTrue(attributes.get("src", "data:").startswith("data:"), attributes)
+        policy = [attributes["content"] for tag, attributes in page.tags if attributes.get("http-equiv") == "Content-Security-Policy"]
+        self.assertEqual(len(policy), 1)
+        self.assertIn("default-src 'none'", policy[0])
+
+    def test_device_to_scale(self):
+        """The lever's face touches the cylinder in the picture."""
+        geometry = Geometry(56.0, 45.6, np.array((185.5, 0.0)), 65.0, 0.0)
+        drawing = sketch.drawn(geometry, 210.0, 20.0, 1.0)
+        circle = re.search(r'class="cylinder" cx="([\d.-]+)" cy="([\d.-]+)" r="([\d.]+)"', drawing)
+        centre, radius = np.array((float(circle[1]), float(circle[2]))), float(circle[3])
+        begin, end = np.array([pair.split(",") for pair in re.search(r'class="layer" points="([^"]+)"', drawing)[1].split()], dtype=float)[:2]
+        along = (end - begin) / np.linalg.norm(end - begin)
+        away = centre - begin
+        self.assertAlmostEqual(abs(along[0] * away[1] - along[1] * away[0]), radius, delta=2e-3)
+        self.assertAlmostEqual(np.linalg.norm(end - begin), 210, delta=2e-3)
+
+    def test_a_run_that_goes_on(self):
+        make_run(self.folder / "a")
+        with h5py.File(self.folder / "a/result.h5", "r+") as file:
+            del file["summary"], file["meta"]
+        _, words = self.report(self.folder / "a")
+        self.assertIn("goes on, or was killed", words)
+
+
+if __name__ == "__main__":
+    unittest.main()
