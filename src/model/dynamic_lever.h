@@ -18,7 +18,31 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
+
+/// An equilibrium on the way from no friction to the scene's.
+struct BranchPoint
+{
+  double share;   ///< of the friction
+  double overlap; ///< [mm]
+};
+
+/// Returns the share of friction from the last of these points to a fold, at which the branch turns back: there the share's
+/// slope over the overlap, a straight line near the fold, falls to 0. Infinite where it does not fall.
+inline double distance_to_fold(const std::vector<BranchPoint> &branch)
+{
+  constexpr double none = std::numeric_limits<double>::infinity();
+  if (branch.size() < 3)
+    return none;
+  const auto p      = branch.end() - 3;
+  const auto slope  = [&](const unsigned int i) { return (p[i + 1].share - p[i].share) / (p[i + 1].overlap - p[i].overlap); };
+  const double bend = (slope(0) - slope(1)) / (0.5 * (p[2].overlap - p[0].overlap));
+  const double slope_at_end = slope(1) - 0.5 * bend * (p[2].overlap - p[1].overlap);
+  if (!(bend > 0.))
+    return none;
+  return slope_at_end > 0. ? 0.5 * slope_at_end * slope_at_end / bend : 0.;
+}
 
 namespace sprag
 {
@@ -128,62 +152,24 @@ namespace sprag
 
     std::optional<HeldSlide> hold(const DrivePoint &drive, const ContactFriction friction) override
     {
-      const bool with_friction      = friction == ContactFriction::sliding;
-      const auto P_without_friction = [&]
-      { return slides.solve(drive, 1., ContactFriction::none) == nullptr ? 0. : observed_forces().P; };
-      const double P_free     = with_friction ? P_without_friction() : 0.;
-      const auto law          = with_friction ? friction : ContactFriction::none;
-      double ratio            = 1.;
-      const PortForces *force = nullptr;
-      const auto seek         = [&]
-      {
-        ratio = with_friction ? slides.speed_ratio(drive, 1e-3 * frame.geometries.front().cylinder_radius) : 1.;
-        force = slides.solve(drive, ratio, law);
-      };
-      seek();
-      if (force == nullptr && with_friction)
+      if (friction != ContactFriction::sliding)
+        return slide_at(drive, friction, 1.);
+      const auto frictionless = slides.solve(drive, 1., ContactFriction::none);
+      const double P_free     = frictionless == nullptr ? 0. : observed_forces().P;
+      const double nearby     = 1e-3 * frame.geometries.front().cylinder_radius;
+      auto slide              = slide_at(drive, friction, slides.speed_ratio(drive, nearby));
+      if (!slide || !(slide->uniqueness > 0.))
       {
         if (!grow_friction(drive))
-          return {};
-        const auto grown = slides.last_equilibrium();
-        ratio            = slides.speed_ratio(drive, 1e-3 * frame.geometries.front().cylinder_radius);
+          return slide;
+        const auto grown   = slides.last_equilibrium();
+        const double ratio = slides.speed_ratio(drive, nearby);
         slides.start_from(grown);
-        force = slides.solve(drive, ratio, law);
-        if (force == nullptr)
+        slide = slide_at(drive, friction, ratio);
+        if (!slide)
           throw no_equilibrium(drive, 1.);
       }
-      // Where the structure answers otherwise than its compliance, by round-off, that is put right.
-      constexpr unsigned int most_corrections = 2;
-      dealii::Vector<double> round_off(frame.ports.size());
-      for (unsigned int i = 0; i < most_corrections && force != nullptr; ++i)
-      {
-        auto change = structure->port_positions(structure->deform(*force));
-        change -= slides.last_equilibrium().ports;
-        const auto counts = [&](const unsigned int port)
-        { return std::abs(frame.lengths[port] * change[port]) > 1e-10 * found.overlap(); };
-        if (std::none_of(force->ports.begin(), force->ports.end(), counts))
-          break;
-        round_off += change;
-        force = slides.solve(drive, ratio, law, &round_off);
-      }
-      if (force == nullptr)
-        return {};
-      HeldSlide slide;
-      slide.drive    = drive;
-      slide.motion   = completed(structure->deform(*force), { drive.time, drive.x, 0., 0. }, *force);
-      slide.ports    = slides.last_equilibrium().ports;
-      slide.friction = friction;
-      slide.speed    = ratio * sliding_speed(frame.geometries.front(), drive.x, drive.v);
-      slide.overlap  = found.overlap();
-      Row row;
-      contact->observe(found, row, 0);
-      slide.indentation = row[Column::indentation];
-      if (with_friction && slide.indentation > frame.largest_indentation)
-        return {};
-      slide.mu         = with_friction ? row[Column::mu] : 0.;
-      slide.forces     = { row[Column::P], row[Column::Q] };
-      slide.margin     = with_friction ? P_free / slide.forces.P : 1.;
-      slide.uniqueness = uniqueness(sliding_state(slide));
+      slide->margin = P_free / slide->forces.P;
       return slide;
     }
 
@@ -400,38 +386,86 @@ namespace sprag
              port_determinant(structure->compliance(), forces.ports, forces.pressure);
     }
 
+    /// Finds the slide at a ratio of speeds, see SteadySlides::speed_ratio(), from the last equilibrium; none where none is
+    /// found, or with a layer pressed too far. Its margin is 1.
+    std::optional<HeldSlide> slide_at(const DrivePoint &drive, const ContactFriction friction, const double ratio)
+    {
+      const bool with_friction = friction == ContactFriction::sliding;
+      const auto law           = with_friction ? friction : ContactFriction::none;
+      const auto *force        = slides.solve(drive, ratio, law);
+      // Where the structure answers otherwise than its compliance, by round-off, that is put right.
+      constexpr unsigned int most_corrections = 2;
+      dealii::Vector<double> round_off(frame.ports.size());
+      for (unsigned int i = 0; i < most_corrections && force != nullptr; ++i)
+      {
+        auto change = structure->port_positions(structure->deform(*force));
+        change -= slides.last_equilibrium().ports;
+        const auto counts = [&](const unsigned int port)
+        { return std::abs(frame.lengths[port] * change[port]) > 1e-10 * found.overlap(); };
+        if (std::none_of(force->ports.begin(), force->ports.end(), counts))
+          break;
+        round_off += change;
+        force = slides.solve(drive, ratio, law, &round_off);
+      }
+      if (force == nullptr)
+        return {};
+      HeldSlide slide;
+      slide.drive    = drive;
+      slide.motion   = completed(structure->deform(*force), { drive.time, drive.x, 0., 0. }, *force);
+      slide.ports    = slides.last_equilibrium().ports;
+      slide.friction = friction;
+      slide.speed    = ratio * sliding_speed(frame.geometries.front(), drive.x, drive.v);
+      slide.overlap  = found.overlap();
+      Row row;
+      contact->observe(found, row, 0);
+      slide.indentation = row[Column::indentation];
+      if (with_friction && slide.indentation > frame.largest_indentation)
+        return {};
+      slide.margin     = 1.;
+      slide.mu         = with_friction ? row[Column::mu] : 0.;
+      slide.forces     = { row[Column::P], row[Column::Q] };
+      slide.uniqueness = uniqueness(sliding_state(slide));
+      return slide;
+    }
+
     /// The failure of the method, beyond a share of friction at which there is an equilibrium.
     static AnalysisError no_equilibrium(const DrivePoint &drive, const double share)
     {
       return AnalysisError("no equilibrium found at x = " + std::to_string(drive.x) + " mm beyond " + std::to_string(share) +
-                           " times the friction, where the lever does not jam. Try a smaller Mesh/Face size.");
+                           " times the friction, where the lever does not jam. Try another mesh or Stability/Position.");
+    }
+
+    /// Physical compression of the layer in the last equilibrium [mm].
+    double indentation() const
+    {
+      Row row;
+      contact->observe(found, row, 0);
+      return row[Column::indentation];
     }
 
     /// Follows the equilibrium from no friction to the scene's, in steps that are halved where Newton's method fails or has left
-    /// the branch. Returns whether it gets there; false where the branch ends at a fold, towards which the square of the
-    /// uniqueness falls to 0, or with a layer pressed too far. Throws AnalysisError where it ends elsewhere: that is the method's
-    /// failure and no property of the lever.
+    /// the branch. Returns whether it gets there; false where the branch ends at a fold, or with a layer pressed too far. Throws
+    /// AnalysisError where it ends elsewhere: that is the method's failure and no property of the lever.
     bool grow_friction(const DrivePoint &drive)
     {
-      constexpr double smallest_step = 1e-4, near = 1e-2; // shares of the friction
+      constexpr double smallest_step = 1e-4, near_fold = 1e-2; // shares of the friction
       slides.solve(drive, 1., ContactFriction::none);
-      const double speed       = sliding_speed(frame.geometries.front(), drive.x, drive.v);
-      const auto uniqueness_at = [&](const double share)
+      const double speed   = sliding_speed(frame.geometries.front(), drive.x, drive.v);
+      const auto is_unique = [&](const double share)
       {
         const auto ports = slides.last_equilibrium().ports;
-        return uniqueness({ ports, drive, speed, nullptr, ContactFriction::sliding, Wanted::with_tangent, share });
+        return uniqueness({ ports, drive, speed, nullptr, ContactFriction::sliding, Wanted::with_tangent, share }) > 0.;
       };
-      double share = 0., unique = 1., overlap = 0.;
-      double to_fold = 1.; // from the share, by the last two
-      for (double step = 0.25; share < 1. && step > smallest_step;)
+      std::vector<BranchPoint> branch = { { 0., found.overlap() } };
+      for (double step = 0.25; branch.back().share < 1. && step > smallest_step;)
       {
-        const double next = std::min(1., share + step);
+        const double next = std::min(1., branch.back().share + step);
         const auto before = slides.last_equilibrium();
-        const double u    = slides.solve_with_share(drive, next) != nullptr ? uniqueness_at(next) : 0.;
-        if (u > 0.)
+        if (slides.solve_with_share(drive, next) != nullptr && is_unique(next))
         {
-          to_fold = u < unique ? u * u * (next - share) / (unique * unique - u * u) : 1.;
-          share = next, unique = u, overlap = found.overlap();
+          if (indentation() > frame.largest_indentation)
+            return false;
+          branch.push_back({ next, found.overlap() });
           step *= 1.5;
         }
         else
@@ -440,9 +474,10 @@ namespace sprag
           step *= 0.5;
         }
       }
-      if (share < 1. && to_fold > near && !(overlap > frame.largest_indentation))
-        throw no_equilibrium(drive, share);
-      return share == 1.;
+      const double reached = branch.back().share;
+      if (reached < 1. && distance_to_fold(branch) > near_fold)
+        throw no_equilibrium(drive, reached);
+      return reached == 1.;
     }
 
     std::optional<Motion> sliding(const DrivePoint &drive, const double ratio)

@@ -349,10 +349,10 @@ namespace sprag
 
   std::vector<Entry> sweep_entries(const SweptSlides &swept)
   {
-    const auto &x              = swept.ways.front().along.range;
+    const auto &x             = swept.ways.front().along.range;
     std::vector<Entry> result = { { "looked_from", std::min(x.from, x.to) },
-                                   { "looked_to", std::max(x.from, x.to) },
-                                   { "slides_looked_at", static_cast<double>(swept.slides()) } };
+                                  { "looked_to", std::max(x.from, x.to) },
+                                  { "slides_looked_at", static_cast<double>(swept.slides()) } };
     if (const auto &constants = swept.worst().constants; !constants.empty())
       result.push_back({ "worst_constants", boost::algorithm::join(constants, ", ") });
     for (const auto &[direction, way] :
@@ -373,9 +373,9 @@ namespace sprag
         }
       }
       if (is_looked_at)
-        append<Entry>(result, { { "largest_growth_rate_" + way, growth },
-                                { "unstable_" + way + "_from", from },
-                                { "unstable_" + way + "_to", to } });
+        result.push_back({ "largest_growth_rate_" + way, growth });
+      if (is_looked_at && x.points > 1)
+        append<Entry>(result, { { "unstable_" + way + "_from", from }, { "unstable_" + way + "_to", to } });
     }
     return result;
   }
@@ -416,7 +416,7 @@ namespace sprag
     std::vector<Entry> result;
     for (const auto &role : roles)
     {
-      append<Entry>(result, { { role.name + "_verdict", kind_name(role.kind), "", role.meaning },
+      append<Entry>(result, { { role.name + "_verdict", role.kind ? kind_name(*role.kind) : "not found", "", role.meaning },
                               { role.name + "_growth_rate", role.growth_rate },
                               { role.name + "_frequency", role.frequency } });
       if (!role.motion.empty())

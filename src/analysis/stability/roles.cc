@@ -21,7 +21,7 @@ namespace sprag
       }
       catch (const AnalysisError &error)
       {
-        return { name, meaning + "; " + error.what(), SlideKind::jammed };
+        return { name, meaning + "; " + error.what() };
       }
     }
 
