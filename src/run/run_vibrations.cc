@@ -81,35 +81,45 @@ namespace sprag
       return result;
     }
 
-    /// Finds over which Contact/Damping the verdict stays what it is: where a search from the scene's own to none and to a large
+    /// Finds over which Contact/Damping the verdict stays what it is, where a search from the scene's own to none and to a large
     /// one first meets another kind, or a value that cannot be judged. That damping is seldom measured, and more of it can make a
-    /// slide grow as well as die out.
-    DampingRange damping_range(const Scene &scene, DynamicsMaker &maker)
+    /// slide grow as well as die out. `verdict`: that with the scene's own.
+    DampingRange damping_range(const Scene &scene, const JudgedSlide &verdict, DynamicsMaker &maker)
     {
       constexpr double largest      = 0.2;
       constexpr double accuracy     = 1e-3; ///< of an end, over the range
-      constexpr unsigned int points = 4;
-      const double own              = scene.contact.damping;
-      const double end              = std::max(largest, own);
+      constexpr unsigned int points = 4, island_steps = 5;
+      const double own = scene.contact.damping;
+      const double end = std::max(largest, own);
       DampingRange result{ 0., end, std::nan("") };
+      const auto judge_at = [&](const double damping)
+      {
+        if (damping == own)
+          return verdict;
+        Scene damped           = scene;
+        damped.contact.damping = damping;
+        auto slide             = sweep(damped, maker).worst();
+        if (damping == 0.)
+          result.growth_rate_at_none = slide.growth_rate;
+        return slide;
+      };
       const auto ends_of = [&](const double from, const double to)
       {
         std::vector<double> ends;
-        if (!(from < to))
-          return ends;
-        const auto search = critical_values(scene, { "Contact/Damping", from, to, points }, accuracy, maker);
+        const auto search = search_kinds({ "Contact/Damping", from, to, points }, { accuracy, island_steps }, judge_at);
         for (const auto &change : search.changes)
           ends.push_back(change.value);
         ends.insert(ends.end(), search.not_judged.begin(), search.not_judged.end());
         return ends;
       };
-      for (const double value : ends_of(0., own))
-        result.low = std::max(result.low, value);
-      for (const double value : ends_of(own, end))
-        result.high = std::min(result.high, value);
-      Scene undamped             = scene;
-      undamped.contact.damping   = 0.;
-      result.growth_rate_at_none = growth_of(undamped, maker);
+      if (own > 0.)
+        for (const double value : ends_of(0., own))
+          result.low = std::max(result.low, value);
+      else
+        result.growth_rate_at_none = verdict.growth_rate;
+      if (own < end)
+        for (const double value : ends_of(own, end))
+          result.high = std::min(result.high, value);
       return result;
     }
 
@@ -258,7 +268,7 @@ namespace sprag
       append(result.summary, sweep_entries(swept));
       if (found.slide && scene.stability.damping && whole.stability.ranges == "none" && options.in_memory == nullptr)
       {
-        const auto range  = timed(maker, [&] { return damping_range(whole, maker); });
+        const auto range  = timed(maker, [&] { return damping_range(whole, swept.worst(), maker); });
         const auto limits = timed(maker, [&] { return stick_limits(whole, maker); });
         append(result.summary, damping_entries(range));
         append(result.summary, stick_entries(limits));
