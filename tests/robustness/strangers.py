@@ -255,6 +255,21 @@ class Inputs(StrangerTest):
                     make(file)
                 self.refused(self.run_scene(), "own.h5", "dataset 'x'")
 
+    def test_units_of_datasets_count_or_are_refused(self):
+        times = np.linspace(0, 1, 21)
+        self.scene(CLOSED_FORM + "subsection Drive\n  set Profile = table\n  set Table = own.h5\nend\n")
+        for attribute, unit, says in (("UNIT", "m", ""), ("Units", b"m", ""), ("unit", 5.0, "must be a text"), ("Unit", "N", "must be in mm")):
+            with self.subTest(attribute=attribute, unit=unit):
+                with h5py.File(self.folder / "own.h5", "w") as file:
+                    file["time"], file["x"] = times, 0.02 * times
+                    file["x"].attrs[attribute] = unit
+                if says:
+                    self.refused(self.run_scene("--validate"), "own.h5", "'x'", says)
+                else:
+                    self.assertEqual(self.run_scene("--quiet", "--overwrite").returncode, 0)
+                    with h5py.File(self.output / "result.h5") as file:
+                        self.assertAlmostEqual(file["table/x"][-1], 20.0)
+
     def test_without_an_end(self):
         os.mkfifo(self.folder / "scene.prm")
         self.refused(self.run_scene(), "scene.prm", "no pipe or device")
