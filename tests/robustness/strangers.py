@@ -27,6 +27,8 @@ ACTS = {
     "prints into a file": 'Printf("x") > "MARK";\n' + SCRIPT,
     "saves": SCRIPT + 'Mesh 2;\nSave "MARK.msh";\n',
     "adds to a file": 'Printf("x") >> "MARK";\n' + SCRIPT,
+    "makes a folder": 'CreateDir "MARK";\n' + SCRIPT,
+    "starts a solver": 'OnelabRun("x", "touch MARK");\n' + SCRIPT,
 }
 CLOSED_FORM = "subsection Analysis\n  set Model = closed form\nend\n"
 
@@ -90,6 +92,11 @@ class Meshes(StrangerTest):
         for text, says in (("Exit;", "gmsh ends on it"), (CALL, "--trust-scripts"), ('Merge "/etc/hostname";', "--trust-scripts")):
             self.write("own.geo", text)
             self.refused(self.validate("own.geo"), "own.geo", says)
+
+    def test_scripts_without_an_end_are_ended(self):
+        self.write("own.geo", "For i In {1:1e9}\n  Sleep 0.01;\nEndFor\n")
+        done = self.validate("own.geo", env={**os.environ, "SPRAG_SCRIPT_SECONDS": "1"}, timeout=60)
+        self.refused(done, "own.geo", "does not come to an end", "--trust-scripts")
 
     def test_a_mesh_is_no_script(self):
         self.write("own.msh", CALL + SCRIPT)
